@@ -7,6 +7,7 @@ import pytest
 import scipy.interpolate
 import xarray as xr
 
+import stereodel.xarray
 from stereodel.interpolation import LinearInterpolator, griddata
 from tests.interpolation.known import KINDS
 
@@ -156,6 +157,10 @@ def test_places_of_the_plane_and_weights(lonlat):
     assert linear.weights((x, y)).shape == (3, 5)
     with pytest.raises(ValueError, match=r"cannot align|conflict|join"):
         linear((xr.DataArray(LON, {"p": LON}, "p"), xr.DataArray(LON, {"p": LON + 1}, "p")))
+
+
+def test_the_accessor_is_there_by_one_import():
+    assert isinstance(xr.DataArray(1).stereodel, stereodel.xarray.StereodelAccessor)
 
 
 @pytest.mark.parametrize("method", ["linear", "nearest"])

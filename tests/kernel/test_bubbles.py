@@ -10,7 +10,7 @@ from stereodel import _kernel
 from stereodel._spaces import space_of
 from stereodel.interpolation import LinearInterpolator, NaturalNeighborInterpolator
 from tests import sets, spaces
-from tests.exact import cross, minus
+from tests.exact import cross, dot, minus
 
 DIGITS = 400
 """Binary ones behind the point, of unit vectors."""
@@ -26,14 +26,10 @@ def axis_minima(square, linear, low, high):
     return [min(s * (square * s + g) for s in (low[k], high[k])) for k, g in enumerate(linear)]
 
 
-def inner(p, q):
-    return sum(x * y for x, y in zip(p, q, strict=True))
-
-
 def form(normal, b, c):
     """D and G of differences from the pivot."""
-    bb, cc, nb, nc = inner(b, b), inner(c, c), cross(normal, b), cross(normal, c)
-    return inner(normal, cross(b, c)), [bb * x - cc * y for x, y in zip(nc, nb, strict=True)]
+    bb, cc, nb, nc = dot(b, b), dot(c, c), cross(normal, b), cross(normal, c)
+    return dot(normal, cross(b, c)), [bb * x - cc * y for x, y in zip(nc, nb, strict=True)]
 
 
 def touches_in_plane(a, b, c, low, high):
@@ -49,7 +45,7 @@ def fixed(x):
 
 def unit(point):
     v = [Fraction(float(x)) for x in point]
-    scale = Fraction(4**DIGITS) / inner(v, v)
+    scale = Fraction(4**DIGITS) / dot(v, v)
     return [(1 if x > 0 else -1) * isqrt(int(x * x * scale)) for x in v]
 
 
@@ -192,7 +188,7 @@ def test_boxes_beside_discs_of_the_sphere(size):
         nearest = [
             max(a, 0) + min(b, 0) for a, b in zip(minus(map(fixed, low), q), minus(map(fixed, high), q), strict=True)
         ]
-        truth.append(inner(nearest, nearest) - inner(minus(p, q), minus(p, q)) <= 1 << (2 * DIGITS - ZERO))
+        truth.append(dot(nearest, nearest) - dot(minus(p, q), minus(p, q)) <= 1 << (2 * DIGITS - ZERO))
     assert found == truth
     assert 0.1 < np.mean(truth) < 0.9
 

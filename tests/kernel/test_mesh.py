@@ -2,7 +2,6 @@
 
 import threading
 from collections import Counter
-from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
@@ -13,7 +12,7 @@ from stereodel import _kernel, check_delaunay
 from stereodel.triangulation.topology import canonical, neighbors_of
 from tests import sets
 from tests.examples import examples
-from tests.spaces import BOTH, PLANE, SPHERE, readable, space_of
+from tests.spaces import BOTH, SPHERE, readable, space_of
 
 
 def start(points, by_readable=False):
@@ -244,13 +243,3 @@ def test_a_change_is_refused_to_others_and_so_is_what_they_ask():
     assert vertices - len(sides) + len(simplices) == 1
     assert (neighbors < 0).sum() == (sides == 1).sum()
     assert len(np.unique(simplices)) == vertices
-
-
-def test_reads_wait_for_each_other():
-    mesh = start(PLANE.random(np.random.default_rng(20), 50_000))
-    expected = mesh.arrays()
-    with ThreadPoolExecutor(8) as pool:
-        for arrays in pool.map(lambda _: mesh.arrays(), range(32)):
-            assert np.array_equal(arrays[0], expected[0])
-            assert np.array_equal(arrays[1], expected[1])
-    assert mesh.changes == 0

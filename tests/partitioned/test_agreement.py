@@ -44,9 +44,11 @@ def answers():
 def check(folder, columns, rows, truth, parts, files=5, **options):
     write_points(folder / "points", columns, rows, files)
     size = max(1, -(-len(rows) // parts))
-    run = serially(
-        folder / "points", folder / "out", columns=columns, surface=surface_of(columns), partition=size, **options
-    )
+    options |= {"columns": columns, "surface": surface_of(columns), "partition": size}
+    try:
+        run = serially(folder / "points", folder / "out", **options)
+    except RuntimeError as error:
+        pytest.fail(f"the run notices itself: {error}")
     assert differences(run, truth) == []
     assert not (folder / "out" / "scratch").exists()
     return run
