@@ -100,6 +100,13 @@ def test_any_split_gives_the_same(tmp_path_factory, one, cuts, partition, block,
         )
 
 
+def test_a_circle_through_the_corner_of_a_block_is_open(tmp_path, monkeypatch):
+    """Its tie is decided with the point there, though nothing else had that block read."""
+    monkeypatch.setattr(rounds, "REACH", -1.0)
+    rows = sets.plane("lattice").rows(250)
+    check(tmp_path, XY, rows, in_memory(XY, rows), 40)
+
+
 def test_compact_files_are_the_partitions(tmp_path):
     """Points by octants, in files: nothing is spread, and fewer points are read than by files at random."""
     columns, rows = rows_of("random", 4000)
