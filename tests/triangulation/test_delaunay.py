@@ -286,6 +286,8 @@ def test_contract_of_the_arrays(space):
     assert len(triangulation.edges) == 40 + len(triangulation) - (1 if space is PLANE else 2)  # Euler
     assert (triangulation.edges[:, 0] < triangulation.edges[:, 1]).all()
     assert sorted(triangulation.convex_hull[:, 0]) == sorted(triangulation.convex_hull[:, 1])
+    for edges in (triangulation.edges, triangulation.convex_hull):
+        assert edges.tolist() == sorted(edges.tolist())
     points[:] = 1
     assert len(np.unique(triangulation.points)) > 1
     assert "40 points" in repr(triangulation)
