@@ -78,10 +78,12 @@ def pytest_runtest_logreport(report):
 
 
 def keep_times(terminalreporter):
-    """Write what each test took, the slowest first, and name those that have outgrown their tier."""
+    """Write what each test took when it last ran, the slowest first, and name those that have outgrown their tier."""
     kept = ROOT / "build" / "test-times.tsv"
     kept.parent.mkdir(exist_ok=True)
-    kept.write_text("".join(f"{seconds:.2f}\t{test}\n" for test, seconds in times.most_common()))
+    before = [line.split("\t", 1) for line in kept.read_text().splitlines()] if kept.is_file() else []
+    known = Counter({test: float(seconds) for seconds, test in before} | times)
+    kept.write_text("".join(f"{seconds:.2f}\t{test}\n" for test, seconds in known.most_common()))
     outgrown = [
         f"{seconds:5.1f} s  {test}"
         for test, seconds in times.most_common()

@@ -37,10 +37,6 @@ def test_names_are_listed_once_and_in_order():
     assert shown == set(stereodel.__all__) | stereodel._MODULES  # nothing that was imported for the package itself
 
 
-def test_version_is_a_release_number():
-    assert re.fullmatch(r"\d+\.\d+\.\d+", stereodel.__version__)
-
-
 def reference(module):
     """Names that the API reference lists under a module."""
     text = (DOCS / "api" / "index.rst").read_text(encoding="utf-8")

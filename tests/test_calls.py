@@ -1,7 +1,5 @@
 """Calls that a newcomer writes first: the message says what to write instead."""
 
-import inspect
-
 import numpy as np
 import pytest
 
@@ -16,7 +14,6 @@ from stereodel import (
     solid_angle,
     xyz_to_lonlat,
 )
-from stereodel._calls import by_name
 from stereodel.interpolation import LinearInterpolator
 
 LONLAT = np.array([[0.0, 0.0], [90.0, 10.0], [40.0, 60.0], [-50.0, 20.0]])
@@ -65,14 +62,3 @@ def test_what_it_says_works():
     assert np.allclose(xyz_to_lonlat(great_circle_points(*lonlat_to_xyz([(10, 50), (10, 60)]), 3))[1], (10, 55))
     assert solid_angle(*lonlat_to_xyz([(0, 0), (90, 0), (0, 90)])) == pytest.approx(np.pi / 2)
     assert np.allclose(Gnomonic((10, 50)).forward(lonlat_to_xyz((10, 50))), 0)
-
-
-def test_what_is_decorated_keeps_its_name_and_signature():
-    def lens(focus, *, size=1):
-        """Text."""
-        return focus, size
-
-    decorated = by_name("size= is a keyword")(lens)
-    assert decorated.__doc__ == "Text."
-    assert inspect.signature(decorated) == inspect.signature(lens)
-    assert decorated(1, size=2) == (1, 2)

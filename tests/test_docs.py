@@ -3,12 +3,16 @@
 import ast
 import doctest
 import importlib
+import os
 import re
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
 
 from stereodel._extras import EXTRAS
+from tools.page_commands import sessions, tables, words, written
 
 ROOT = Path(__file__).resolve().parent.parent
 LEDGER = (ROOT / "docs" / "paper.md").read_text(encoding="utf-8")
@@ -156,3 +160,44 @@ def test_the_gallery_runs_every_script():
     scripts = [path.as_posix() for path in (ROOT / "figures").glob("[!_]*.py")]
     assert len(scripts) >= 20
     assert [script for script in scripts if not re.search(pattern, script)] == []
+
+
+# Commands that pages show run, and print what is said.
+
+PAGES = ["docs/command_line.md", "docs/start.md", "README.md"]
+BY_DAY = ["stereodel voronoi cities.csv -o -"]
+"""The others draw pictures, or ask of one command more what tests/cli asks of it."""
+
+SHELL = f"stereodel() {{ '{sys.executable}' -c 'from stereodel.cli import app; app()' \"$@\"; }}\n"
+
+
+def pages():
+    for page in PAGES:
+        for command, printed in sessions((ROOT / page).read_text(encoding="utf-8")):
+            day = command in BY_DAY and page == "README.md"
+            yield pytest.param(page, command, printed, id=command, marks=[] if day else pytest.mark.thorough)
+
+
+@pytest.mark.parametrize(("page", "command", "printed"), list(pages()))
+def test_commands_print_what_the_page_says(tmp_path, page, command, printed):
+    for name, content in tables((ROOT / page).read_text(encoding="utf-8")).items():
+        (tmp_path / name).write_text(content, encoding="utf-8")
+    ran = subprocess.run(
+        ["bash", "-c", SHELL + command],
+        cwd=tmp_path,
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        check=False,
+    )
+    assert words(ran.stdout) == words(printed)
+    out = written(command)
+    assert "error:" in printed or out is None or (tmp_path / out).stat().st_size > 0
+
+
+def test_the_page_shows_every_command():
+    from stereodel.cli import app
+
+    text = (ROOT / "docs" / "command_line.md").read_text(encoding="utf-8")
+    assert [command.name for command in app.registered_commands] == re.findall(r"^\| `(\w+)` \|", text, re.MULTILINE)

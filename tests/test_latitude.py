@@ -13,12 +13,13 @@ from stereodel.cli import partitions, progress
 from stereodel.cli.application import app
 from stereodel.sphere.latitudes import KINDS, Latitude
 from tests.test_api import PACKAGES
+from tools import names
 
 
 def doors():
     """Public functions, classes and methods that take a latitude's kind."""
-    for package in PACKAGES:
-        for name in package.__all__:
+    for package in PACKAGES.values():
+        for name in names.public_names(package):
             value = getattr(package, name)
             methods = [] if not inspect.isclass(value) else [each for each in vars(value) if each[0] != "_"]
             for thing in (value, *(getattr(value, each) for each in methods)):

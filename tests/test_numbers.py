@@ -11,12 +11,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from stereodel import PlanarDelaunay, PlanarVoronoi, SphericalDelaunay, SphericalVoronoi, lonlat_to_xyz, xyz_to_lonlat
+from stereodel import PlanarDelaunay, PlanarVoronoi, SphericalDelaunay, lonlat_to_xyz, xyz_to_lonlat
 from stereodel._arrays import as_floats
 from stereodel._numbers import as_doubles
 from stereodel._threads import thread_count
 from stereodel.conformal import fisheye
-from stereodel.graphs import gabriel_graph, relative_neighborhood_graph, urquhart_graph
+from stereodel.graphs import gabriel_graph
 from stereodel.interpolation import LinearInterpolator, NaturalNeighborInterpolator, SmoothInterpolator
 
 ODD = 2**53 + 1  # the least whole number that is no double
@@ -49,13 +49,8 @@ NO_NUMBERS = {
     "nothing": objects([None, 1.0]),
 }
 ROUNDED = {
-    "integers": (np.array([[0, 1], [2, ODD]]), "9007199254740993"),
     "negative": (np.array([[0, 1], [2, -ODD]]), "-9007199254740993"),
     "the largest": (np.array([[0, 1], [2, 2**64 - 1]], dtype=np.uint64), "18446744073709551615"),
-    "nearly the smallest": (np.array([[0, 1], [2, -(2**63) + 1]]), "-9223372036854775807"),
-    "a list": ([[0, 1], [2, ODD]], "9007199254740993"),
-    "a list with fractions": ([[0, 0.5], [2, ODD]], "9007199254740993"),
-    "of both signs": ([[0, -1], [2, 2**63 + 1]], "9223372036854775809"),
     "arrays without dimensions": ([[0.5, 1.0], [np.array(2), np.array(ODD)]], "9007199254740993"),
     "beyond 64 bits": ([[0, 1], [2, 2**70 + 1]], "1180591620717411303425"),
     "beyond all doubles": ([[0, 1], [2, 10**309]], "1000"),
@@ -130,16 +125,12 @@ def test_fractions_and_decimals_are_rounded_to_nearest():
 PLANE, SPHERE = np.random.default_rng(0).random((3000, 2)), np.random.default_rng(1).normal(size=(3000, 3))
 CALLS = {
     "PlanarDelaunay": lambda w: PlanarDelaunay(PLANE, workers=w).simplices,
-    "SphericalDelaunay": lambda w: SphericalDelaunay(SPHERE, workers=w).simplices,
     "circumcenters": lambda w: SphericalDelaunay(SPHERE, workers=w).circumcenters,
     "find_simplex": lambda w: PlanarDelaunay(PLANE).find_simplex(PLANE, workers=w),
     "nearest": lambda w: SphericalDelaunay(SPHERE).nearest(SPHERE, workers=w),
     "k nearest": lambda w: PlanarDelaunay(PLANE).nearest(PLANE, k=3, workers=w),
     "PlanarVoronoi": lambda w: PlanarVoronoi(PLANE, workers=w).areas(),
-    "SphericalVoronoi": lambda w: SphericalVoronoi(SPHERE, workers=w).areas(),
     "gabriel_graph": lambda w: gabriel_graph(PLANE, workers=w),
-    "urquhart_graph": lambda w: urquhart_graph(SPHERE, workers=w),
-    "relative_neighborhood_graph": lambda w: relative_neighborhood_graph(PLANE, workers=w),
     "lonlat_to_xyz": lambda w: lonlat_to_xyz(PLANE, workers=w),
     "xyz_to_lonlat": lambda w: xyz_to_lonlat(SPHERE, workers=w),
     "images": lambda w: fisheye((0, 0), magnification=3.0)(SPHERE, workers=w),

@@ -5,6 +5,8 @@ from pathlib import Path
 
 import pytest
 
+from tools import tracked_text as tracked
+
 ROOT = Path(__file__).resolve().parent.parent
 PACKAGE = ROOT / "stereodel"
 TREES = {
@@ -43,17 +45,6 @@ def test_tolerances_stand_in_one_file():
     assert {file: small_numbers(TREES[file]) for file in wrong} == {}
 
 
-@pytest.mark.parametrize(
-    ("lines", "codes"),
-    [
-        ([1], ["x < 1e-9", "x + 1e-12", "max(x, 2.0**-50)", "f(t=-1e-4)", "E = 1e-5", "2**-60.0 * x"]),
-        ([], ["x < 0.001", "x == 0.0", "2.0**52", "10**-2", "'1e-9'", "x**-9.0"]),
-    ],
-)
-def test_a_small_number_is_seen_and_others_are_not(lines, codes):
-    assert [small_numbers(ast.parse(code)) for code in codes] == [lines] * 6
-
-
 def taken(tree):
     """Names that a module takes from the file of tolerances, or reads."""
     for node in ast.walk(tree):
@@ -81,14 +72,6 @@ def array_names(tree):
 
 def test_types_of_arrays_have_their_names_in_one_file():
     assert {file for file, tree in TREES.items() if array_names(tree)} == {"_arrays.py"}
-
-
-def test_one_name_a_type():
-    """But for what is meant by it: pixels and bytes are the same to NumPy, geometries and their binary, too."""
-    body = [node for node in TREES["_arrays.py"].body if isinstance(node, ast.Assign)]
-    types = [name for node in body if (name := ast.unparse(node.value)).startswith("npt.NDArray")]
-    assert len(types) == len(set(types)) + 2
-    assert types.count("npt.NDArray[np.uint8]") == types.count("npt.NDArray[np.object_]") == 2
 
 
 def part(file):
@@ -136,10 +119,30 @@ def test_private_names_stay_in_their_package():
     assert foreign_names(TREES) == set()
 
 
-def test_a_private_name_of_another_package_is_seen():
-    home = ast.parse("class A:\n    def _inner(self): self._x = 1\ndef _f(): ...")
-    for code in ("from stereodel.home.a import _f", "a._inner()", "print(a._x)"):
-        assert foreign_names({"home/a.py": home, "guest/b.py": ast.parse(code)})
-        assert not foreign_names({"home/a.py": home, "home/b.py": ast.parse(code)})
-    for code in ("self._x", "row._replace(a=1)", "from stereodel.home.a import f"):
-        assert not foreign_names({"home/a.py": home, "guest/b.py": ast.parse(code)})
+# The text checks of `make check`: what they see.
+
+
+@pytest.mark.parametrize("line", ["x" * 121, "\tx", "x "])
+def test_lines_of_cpp_are_seen(line):
+    (found,) = tracked.problems("k.cpp", "x" * 120 + "\n" + line)
+    assert found.startswith("k.cpp:2: ")
+    assert tracked.problems("k.md", line) == []
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "what"),
+    [
+        ("a.md", "see /ho" + "me/me/file", "absolute path"),
+        ("a.toml", "index = 'https://py" + "pi.org/simple'", "package index"),
+        ("a.py", "x = 1  # TO" + "DO later", "unfinished"),
+        ("constraints.txt", "numpy>=2", "name==version"),
+    ],
+)
+def test_text_checks_see(name, text, what):
+    (found,) = tracked.problems(name, text)
+    assert what in found
+
+
+def test_text_checks_let_pass():
+    assert tracked.problems("constraints.txt", "numpy==2.4.6\nruff==0.17.5") == []
+    assert tracked.problems("a.py", "#!/usr/bin/env bash\nPath('/usr/lib')\n'out/home/x'") == []

@@ -28,19 +28,8 @@ def test_the_exact_circle_is_one():
     assert len(np.unique(points, axis=0)) == len(points) == 20_000
 
 
-def test_the_circle_of_the_sphere_is_a_parallel():
-    assert len(np.unique(make("sphere", "circle", 1000)[:, 2])) == 1
-
-
 def test_the_graticule_repeats_its_poles_and_its_date_line():
     points = make("sphere", "graticule", 2000)
     k = 32
     assert len(points) == (2 * k + 1) * (k + 1)
     assert len(np.unique(points, axis=0)) == 2 * k * (k - 1) + 2
-
-
-def test_the_cube_has_every_point_of_its_surface_once():
-    points = make("sphere", "integer cube", 2000)
-    half = int(np.abs(points).max())
-    assert len(np.unique(points, axis=0)) == len(points) == (2 * half + 1) ** 3 - (2 * half - 1) ** 3
-    assert (np.abs(points).max(axis=1) == half).all()

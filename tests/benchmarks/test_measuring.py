@@ -75,18 +75,6 @@ def test_stereodel_takes_part(tmp_path, space, dimension):
             assert (answer.points, len(answer.seconds)) == (points, 1)
 
 
-def test_table_and_blocks_of_a_page(monkeypatch, tmp_path):
-    monkeypatch.setattr(pages, "DOCS", tmp_path)
-    page = tmp_path / "page.md"
-    page.write_text("a\n<!-- measured: x -->\nold\n<!-- end -->\nb\n", encoding="utf-8")
-    pages.fill("page.md", {"x": pages.table(["n", "time"], [["1", r"2\3"]], "lr")})
-    assert page.read_text(encoding="utf-8") == (
-        "a\n<!-- measured: x -->\n\n| n | time |\n| :-- | --: |\n| 1 | 2\\3 |\n\n<!-- end -->\nb\n"
-    )
-    with pytest.raises(ValueError, match="no place for 'y'"):
-        pages.fill("page.md", {"y": ""})
-
-
 def test_figures_know_whether_they_are_reached():
     fast = benchmark_asked.Figure("speed", 2.0, [1.5, 2.5, 3.0], "×", at_least=True)
     small = benchmark_asked.Figure("memory", 200, [201.0], " bytes")

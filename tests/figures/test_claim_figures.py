@@ -61,19 +61,6 @@ def test_no_pair_lies_beyond_the_curves_and_sides_end_on_them():
         assert constant == pytest.approx(2 * np.arcsin(share) / (np.pi * share), rel=1e-12)
 
 
-def test_the_chart_of_separation_has_both_scales():
-    """On the right 1/2, 3/4 and 1 stand at the constants by which the length R·angle is that share of d."""
-    module = script("claim_separation")
-    radius = module["lift"]().sphere.radius / module["lift"]().diagonal
-    for share, constant in ((0.5, 2 / np.pi), (1.0, 4 / np.pi)):
-        assert radius * constant * np.pi == pytest.approx(share)
-    heights = {
-        label.text: label.anchor[1] for label in page("claim_separation").labels if label.text in ("$2/\\pi$", "$3/4$")
-    }
-    (half,) = [x.anchor[1] for x in page("claim_separation").labels if x.text == "$1/2$" and x.align == "left"]
-    assert half == pytest.approx(heights["$2/\\pi$"])
-
-
 # P12 and P17: claim_scales.
 
 
@@ -195,12 +182,27 @@ def within_a_line(g, first):
     return ~np.isin(first + 1, np.cumsum(g["sizes"]))
 
 
-def test_facets_are_cut_where_the_sea_begins():
-    cut = script("claim_planet")["cut_at_sea"]
-    corners = np.array([[0.0, 0.0], [4.0, 0.0], [0.0, 4.0]])
-    (land, above), (sea, below) = cut(corners, np.array([3.0, -1.0, -1.0]))
-    assert land.tolist() == corners.tolist()  # the sea is painted over it
-    assert sea.tolist() == [[3, 0], [4, 0], [0, 4], [0, 3]]
-    assert (above, below) == (1.0, -0.5)
-    ((whole, _),) = cut(corners, np.array([3.0, 0.0, 1.0]))
-    assert whole.tolist() == corners.tolist()
+# The partitions: what their two rounds find is what all airports have together.
+
+
+def turned(triangles):
+    """Triangles with their lowest corner first, in order."""
+    first = np.argmin(triangles, axis=1)[:, None]
+    rows = np.take_along_axis(triangles, (np.arange(3) + first) % 3, axis=1)
+    return np.unique(rows, axis=0).tolist()
+
+
+def test_triangles_are_those_of_all_airports_about_its_own():
+    g = geometry("earth_partitions")
+    whole = SphericalDelaunay(g["points"]).simplices
+    assert turned(g["triangles"]) == turned(whole[np.isin(whole, g["own"]).any(axis=1)])
+
+
+def test_every_bubble_drawn_meets_a_box_and_every_box_a_bubble():
+    """By points of the boxes' parts of the sphere, close together: a bubble that the boxes' balls let by has none."""
+    g = geometry("earth_partitions")
+    meet = script("earth_partitions")["meet"](g["planes"], g["boxes"])
+    assert meet.any(axis=1).all()
+    assert meet.any(axis=0).all()
+    inside = g["points"][g["new"]] @ g["planes"][:, :3].T >= g["planes"][:, 3]
+    assert 0 < inside.any(axis=0).sum() < len(g["planes"])  # that a box is met does not say that a point is

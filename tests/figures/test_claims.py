@@ -1,7 +1,6 @@
 """What each figure shows is what the paper says of it: statements about the drawn geometry, figure by figure."""
 
 import sys
-from colorsys import rgb_to_hsv
 
 import numpy as np
 import pytest
@@ -20,7 +19,6 @@ from stereodel.sphere import angular_distance
 from stereodel.triangulation import check_delaunay
 from tests.figures.scripts import FIGURES, ROWS, arc_points, geometry, page, path_points, script
 from tests.tiers import by_day
-from tools.image import ink_boxes
 
 
 def test_figure_1_shows_dual_graphs():
@@ -47,25 +45,6 @@ def test_figure_1_marks_a_triangle_whose_bubble_is_empty():
     (dot,) = [item for item in drawn.items if item.name == "points"]
     ends = np.vstack([item.path[[0, -1], [0, -1]] for item in drawn.items if item.name == "voronoi"])
     assert np.count_nonzero(np.linalg.norm(ends - dot.centers, axis=1) < 1e-9) == 3
-    (bubble,) = [item for item in drawn.items if item.name == "bubble"]
-    rim = path_points(bubble.path)
-    corners = module["VIEW"].project(g["sites"][g["triangle"]])
-    assert np.linalg.norm(rim[:, None] - corners, axis=-1).min(axis=0).max() < 1e-2
-
-
-@pytest.mark.parametrize("name", ["fig01_sphere", "fig02_plane", "fig07_rectangle"])
-def test_legends_name_what_is_drawn(name):
-    drawn = page(name)
-    legend = [item for item in drawn.items if item.name.startswith("legend")]
-    samples = {tuple(item.path[0, 0]): item for item in legend if isinstance(item, Stroke)}
-    words = {item.text: samples.get(item.anchor) for item in legend if isinstance(item, Label)}
-    for text, kind in (("Delaunay triangulation", "delaunay"), ("Voronoi diagram", "voronoi")):
-        lines = [item for item in drawn.items if item.name == kind]
-        assert {(item.color, item.width, item.dash) for item in lines} == {
-            (words[text].color, words[text].width, words[text].dash)
-        }
-    picture = [item for item in drawn.items if isinstance(item, Stroke) and not item.name.startswith("legend")]
-    assert max(anchor[1] for anchor in samples) < min(item.path[..., 1].min() for item in picture)
 
 
 def test_figure_2_ridges_are_perpendicular_bisectors_inside_the_frame():
@@ -93,40 +72,17 @@ def test_figure_3_section_is_the_ball_seen_along_its_plane():
     assert np.allclose(items["sites"].centers - center, small[[0, -1]])
     assert (small[1:-1] @ normal > g["offset"]).all()
     assert (large[1:-1] @ normal < g["offset"]).all()
-    # The tints, those of the ball, lie along the outer side of the arcs and meet where the plane is.
-    fills = {item.name: item for item in drawn.items if isinstance(item, Fill) and item.ball is None}
-    on_ball = {item.name: item.color for item in drawn.items if isinstance(item, Fill) and item.ball is not None}
-    for name, sign in (("small_bubble", 1), ("large_bubble", -1)):
-        assert fills[name].color == on_ball[name]
-        rim = path_points(*fills[name].paths) - center
-        distances = np.linalg.norm(rim, axis=1)
-        assert (distances.min(), distances.max()) == pytest.approx((1, 1 + module["BAND"]), abs=1e-6)
-        assert (sign * (rim @ normal - g["offset"])).min() == pytest.approx(0, abs=1e-6)
-        assert np.isclose(rim @ normal, g["offset"], rtol=0, atol=1e-9).sum() >= 2 * 65
-    # It points as the axis of the circle on the left does, whose label is in the middle of the ellipse.
+    # It points as the axis of the circle on the left does.
     axis = module["VIEW"].project(g["normal"])
     assert np.allclose(axis / np.linalg.norm(axis), normal)
-    (label,) = [item for item in drawn.labels if item.text == "small bubble" and item.anchor[0] < 1.03]
-    (ellipse,) = [item for item in drawn.items if item.name == "circle"]
-    middle = (path_points(ellipse.path).min(axis=0) + path_points(ellipse.path).max(axis=0)) / 2
-    assert np.allclose(label.anchor, middle, atol=1e-3)
 
 
-def test_figure_4_hatches_the_plane_triangle_and_joins_its_corners_to_the_centre():
+def test_figure_4_joins_the_corners_to_the_centre():
     module, g, drawn = script("fig04_triangles"), geometry("fig04_triangles"), page("fig04_triangles")
     corners = module["VIEW"].project(g["vertices"])
-    hatch = np.array([item.path[0, [0, 3]] for item in drawn.items if item.name == "hatch"])
-    assert len(hatch) == module["LINES_OF_HATCH"]
-    for ends, (start, stop) in zip(np.moveaxis(hatch, 1, 0), corners[[[0, 2], [1, 2]]], strict=True):
-        along = (ends - start) @ (stop - start) / np.sum((stop - start) ** 2)
-        assert np.allclose(ends, start + along[:, None] * (stop - start))
-        assert np.allclose(along, np.arange(1, len(hatch) + 1) / (len(hatch) + 1))
     radii = np.array([item.path[0, [0, 3]] for item in drawn.items if item.name == "radius"])
     assert np.allclose(radii[:, 0], 0)
     assert np.allclose(radii[:, 1], corners)
-    # Parallels and meridians are seen through the ball, fainter.
-    shades = {item.color[0] for item in drawn.items if item.name == "graticule"}
-    assert len(shades) == 2
 
 
 def test_figure_5_points_images_and_centre_of_projection_are_on_one_line():
@@ -139,20 +95,6 @@ def test_figure_5_points_images_and_centre_of_projection_are_on_one_line():
         center, u, v = g[f"{name}_image_circle"]
         assert np.allclose(np.linalg.norm(images - center, axis=1), np.linalg.norm(u))
         assert np.isclose(u @ v, 0, atol=1e-12)
-
-
-def test_figure_5_marks_right_angles_between_planes_and_diameters():
-    module, g = script("fig05_projections"), geometry("fig05_projections")
-    for name in ("normal", "oblique"):
-        tangent, plane = g[f"{name}_tangent"], g[f"{name}_plane"]
-        assert np.allclose((plane - tangent) @ tangent, 0, atol=1e-12)
-        first, second = module["right_angle"](tangent, plane[module["SIDE"][name]] - plane[0])
-        on_plane, corner, on_diameter = first.sample(0.0), first.sample(1.0), second.sample(1.0)
-        assert np.allclose(second.sample(0.0), corner)
-        assert (on_plane - tangent) @ tangent == pytest.approx(0, abs=1e-15)
-        assert np.allclose(np.cross(on_diameter, tangent), 0, atol=1e-15)
-        assert np.linalg.norm(on_diameter) < 1
-        assert np.allclose(corner - on_plane, on_diameter - tangent)
 
 
 @pytest.mark.parametrize("name", by_day(FIGURES, "fig05_projections", "fig09_scale"))
@@ -174,25 +116,15 @@ def test_nothing_leaves_the_page(name):
         reach /= drawn.points_per_unit
         assert (points >= [left + reach, bottom + reach]).all(), item.name
         assert (points <= [right - reach, top - reach]).all(), item.name
-    ink = ink_boxes(drawn)
-    assert (ink[:, :2] > 0).all()
-    assert (ink[:, 2:] < [drawn.width, drawn.height]).all()
 
 
 def test_figure_6_writes_radius_and_extent_into_each_circle():
     module, g, drawn = script("fig06_sphere_size"), geometry("fig06_sphere_size"), page("fig06_sphere_size")
     assert np.allclose(g["extents"], 4 * np.degrees(np.arctan(module["HALF_LENGTH"] / (2 * np.array(module["RADII"])))))
     names, extents = drawn.labels[:-1:2], drawn.labels[1:-1:2]
-    arcs = [item for item in drawn.items if item.name.startswith("covered")]
-    for radius, extent, name, written, arc in zip(module["RADII"], g["extents"], names, extents, arcs, strict=True):
+    for radius, extent, name, written in zip(module["RADII"], g["extents"], names, extents, strict=True):
         assert float(written.text.strip("$°")) == pytest.approx(extent, abs=0.05)
         assert {"2": 2.0, "1": 1.0, "½": 0.5}[name.text.strip("$R= ")] == radius
-        # In the hue of its arc, and as dark or darker.
-        hues, _, values = zip(*(rgb_to_hsv(*color[:3]) for color in (arc.color, name.color)), strict=True)
-        assert name.color == written.color
-        assert hues[1] == pytest.approx(hues[0], abs=1 / 360)
-        assert values[1] <= values[0]
-        assert np.allclose(np.linalg.norm(path_points(arc.path) - [0, radius], axis=1), radius, atol=1e-6)
         # Inside its own circle, and outside the next.
         inside = [abs(name.anchor[1] - r) < r for r in module["RADII"]]
         assert sum(inside) == module["RADII"].index(radius) + 1
@@ -226,28 +158,6 @@ def test_figures_7_and_8_share_sites_and_the_corners_land_on_the_equator():
     spherical = SphericalDelaunay(ball["lifted"])
     planar = {tuple(sorted(row)) for row in PlanarDelaunay(plane["sites"]).simplices.tolist()}
     assert planar <= {tuple(sorted(row)) for row in spherical.simplices.tolist()}
-
-
-def test_figure_8_shows_the_equator_and_the_corners_on_it():
-    g, drawn = geometry("fig08_hemisphere"), page("fig08_hemisphere")
-    radius, view = float(g["radius"]), script("fig08_hemisphere")["VIEW"]
-    axis, offset = g["equator"][:3], g["equator"][3]
-    assert offset == 0
-    assert np.allclose(np.cross(axis, [0, 0, 1]), 0)
-    assert np.allclose(g["corners"] @ axis, offset, atol=1e-15)
-    # What is drawn lies on the ellipse as which the equator is seen, and covers its near half.
-    strokes = [item for item in drawn.items if item.name == "equator"]
-    assert all(item.dash for item in strokes)
-    points = np.vstack([path_points(item.path) for item in strokes]) / radius
-    semiminor = np.sin(np.radians(-view.lat))
-    assert np.allclose(points[:, 0] ** 2 + (points[:, 1] / semiminor) ** 2, 1, atol=1e-6)
-    assert (points[:, 1] >= -1e-9).all()
-    assert np.ptp(points[:, 0]) == pytest.approx(2, abs=1e-4)
-    # The two corners on the near side are dots, and the red arcs end in them.
-    (dots,) = [item for item in drawn.items if item.name == "points"]
-    near = g["corners"][view.depth(g["corners"]) > 0]
-    assert len(near) == 2
-    assert np.allclose(np.sort(dots.centers, axis=0), np.sort(radius * view.project(near), axis=0))
 
 
 def test_figure_8_shows_a_ray_from_a_lifted_corner_to_its_corner():
@@ -321,6 +231,7 @@ def test_the_numbers_of_figures_10_to_12(name, magnification, coarse, fine, half
     lon, lat = np.moveaxis(xyz_to_lonlat(back(arc_points(fine_rows))), -1, 0)
     assert (lon.min(), lon.max()) == pytest.approx((-half_width, half_width))
     assert (lat.min(), lat.max()) == pytest.approx((40 - half_width, 40 + half_width))
+    assert {f"$S = {magnification}$", "40° N"} <= {label.text for label in page(name).labels}
 
 
 def straightened(back, rows):

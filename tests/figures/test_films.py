@@ -63,20 +63,6 @@ def same_arcs(some, others):
     return np.array_equal(*(array[np.lexsort(array.T)] for array in (rows, expected)))
 
 
-def test_the_scale_tells_the_magnification():
-    module = script("anim_fisheye")
-    lines = dict.fromkeys(module["grids"](), ())  # the scale alone
-
-    def page(size):
-        return module["frame"]((size, (1.0, 4.0)), lines)
-
-    ends = [centers(page(size), "points")[0, 0] for size in (1.0, np.sqrt(20.0), 20.0)]
-    assert np.diff(ends)[0] == pytest.approx(np.diff(ends)[1])
-    ticks = {label.text: label.anchor[0] for label in labels(page(4.0)) if label.text.isdigit()}
-    for size in (1, 2, 4, 10, 20):
-        assert centers(page(float(size)), "points")[0, 0] == pytest.approx(ticks[str(size)])
-
-
 # The hull
 
 
@@ -94,24 +80,6 @@ def test_each_step_of_the_hull_has_the_facets_that_it_says():
     whole = SphericalDelaunay(sites).simplices
     for final in (moments[0], moments[-1]):
         assert {tuple(sorted(row)) for row in final.facets.tolist()} == {tuple(sorted(row)) for row in whole.tolist()}
-
-
-def test_no_vertex_of_the_hull_is_shown_that_the_hull_hides():
-    """Seen from one side, every point is a vertex of the near side or of the far side, those on the outline of both."""
-    module = script("anim_hull")
-    sites = module["on_sphere"](module["SITES"], module["SEED"])
-    (moment, _), *_ = module["moments"]()
-    corners = sites[moment.facets]
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    for view in module["VIEWS"].values():
-        shown = [
-            centers
-            for scene in module["hull"](moment, sites, view)
-            for centers in (item.centers for item in scene.layout(view) if isinstance(item, Dots))
-        ]
-        near = np.unique(moment.facets[normals @ view.matrix[2] > 0])
-        assert 0 < len(near) < len(sites)
-        assert np.allclose(np.vstack(shown), view.project(sites[near]))
 
 
 # The lift

@@ -11,7 +11,7 @@ from scipy.spatial import SphericalVoronoi, cKDTree
 
 from stereodel import data, earth, fisheye
 from stereodel.sphere import lonlat_to_xyz
-from tests.figures.scripts import arc_points, geometry, page, script
+from tests.figures.scripts import geometry, page, script
 from tests.tiers import by_day
 
 NUMBERS = ("one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve")
@@ -193,18 +193,6 @@ def test_circles_and_bar_have_the_lengths_that_they_say():
 
 
 # Claims and figures of the paper.
-
-
-@pytest.mark.parametrize("name", ["fig10_earth", "fig11_fisheye4", "fig12_fisheye20"])
-def test_figures_10_to_12_name_their_magnification_and_their_view(name):
-    """S by how far the ends of the fine grid's middle line are from the middle of the fourth globe."""
-    (size,), (lat,) = said(name, r"\$S = (\d+)\$"), said(name, r"(\d+)° N")
-    points = arc_points(geometry(name)["fine_3"]).reshape(-1, 3)
-    line = points[np.abs(points[:, 1]) < 1e-9]
-    ends = np.degrees(np.unwrap(np.arctan2(line[:, 2], line[:, 0])))
-    half = np.radians(script(name)["PANELS"].half_width)
-    reach = np.degrees(2 * np.arctan(float(size) * np.tan(half / 2)))
-    assert [ends.min(), ends.max()] == pytest.approx([float(lat) - reach, float(lat) + reach])
 
 
 def test_curves_of_equal_ratio_say_their_ratio():

@@ -1,11 +1,8 @@
 """Tolerances and stored arrays."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
-from stereodel.drawing.page import Dots, Page
 from tools.image import PIXEL_LEVELS, array_differences, compare, load_arrays, save_arrays, summarised
 
 
@@ -83,12 +80,6 @@ def test_arrays_come_back_as_they_were(tmp_path):
     assert array_differences(STORED, read, tolerance=0.0) == {}
 
 
-def test_the_same_arrays_give_the_same_bytes(tmp_path):
-    first, second = (save_arrays(STORED, tmp_path / name).read_bytes() for name in ("a.npz.xz", "b.npz.xz"))
-    assert first == second
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["a.npz.xz", "b.npz.xz"]
-
-
 @pytest.mark.parametrize(
     ("name", "change", "says"),
     [
@@ -106,21 +97,6 @@ def test_each_kind_of_change_is_named(name, change, says):
     assert list(found) == [name]
     assert says in found[name]
     assert array_differences({"a": np.ones(1)}, {"b": np.ones(1)}) == {"a": "missing", "b": "not expected"}
-
-
-@pytest.mark.parametrize(
-    ("change", "told"),
-    [
-        ({"radius": 4.0}, "radius is 4, expected 3"),
-        ({"rim": (0.8, 0.1, 0.0, 1.0)}, "rim red is 0.8, expected 0; rim green is 0.1, expected 0.2"),
-        ({"centers": np.eye(3, 2) + [[0, 0], [0, 0], [1, 0]]}, "first in x of dot 2: 0.0 expected, 1.0 found"),
-    ],
-)
-def test_a_number_of_a_page_has_its_name(change, told):
-    dots = Dots(np.eye(3, 2), 3.0, (0.8, 0.1, 0.0, 1.0), (0.0, 0.2, 0.9, 0.5), 0.5, "sites")
-    before, after = (Page((0.0, 4.0, 0.0, 2.0), (each,)).arrays() for each in (dots, replace(dots, **change)))
-    (message,) = array_differences(before, after).values()
-    assert told in message
 
 
 def test_floats_may_differ_by_rounding_relative_to_the_largest():

@@ -3,7 +3,6 @@
 import importlib
 import pkgutil
 import re
-from types import SimpleNamespace
 
 import pytest
 
@@ -38,16 +37,3 @@ def test_members_are_those_of_our_classes():
     assert names.members(stereodel.HullInsertion) == sorted(names.members(stereodel.HullInsertion))
     assert "start" in names.members(stereodel.HullInsertion)  # described, made by the constructor
     assert names.members(len) == []
-
-
-def test_a_change_is_seen(monkeypatch):
-    """A parameter more, another first line, a name less."""
-    graphs = importlib.import_module("stereodel.graphs")
-    for name, value in (
-        ("hull", lambda points, depth=1: None),
-        ("gabriel_graph", SimpleNamespace(__doc__="Something else altogether.")),
-        ("__all__", graphs.__all__[1:]),
-    ):
-        with monkeypatch.context() as patch:
-            patch.setattr(graphs, name, value)
-            assert names.filled(PAGE) != PAGE

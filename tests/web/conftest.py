@@ -69,8 +69,8 @@ def page_file(tmp_path_factory):
 def room(visit, page_file):
     """Open a room of the page and wait until it rests: `room(name, **what Visit takes)`, or what a link says."""
 
-    def opened(link, **how):
-        page = visit(f"{page_file.as_uri()}#{link}", **how)
+    def opened(link, *, file=page_file, **how):
+        page = visit(f"{file.as_uri()}#{link}", **how)
         page.until("document.documentElement.dataset.ready")
         page.rest()
         return page

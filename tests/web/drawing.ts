@@ -304,6 +304,7 @@ export function grabbed(count: number): Record<string, number> {
   };
   for (let k = 0; k < count; ++k) {
     const [from, to] = [disc(0.98), disc(0.98)];
+    note("free", pointUnder(DISC, [DISC.x + DISC.r * from[0], DISC.y - DISC.r * from[1]]), from);
     const start = view();
     note("free", start.dragged(from, to).seen(start.onBall(from)), to);
     // With north up: a hand that goes there in small steps, where the place can go.

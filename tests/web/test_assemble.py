@@ -97,20 +97,6 @@ def test_a_page_runs_by_itself(built, visit, tmp_path):
     assert page.requests == [file.as_uri()]
 
 
-@pytest.mark.thorough
-def test_no_other_script_or_style_comes_in(built, visit, tmp_path):
-    """Were there a way in for text from a file or a link, the policy would still stop it."""
-    built["page.html"] = TEMPLATE.replace(
-        "<body>",
-        """<body><script>window.came_in = 1;</script><img src="x" onerror="window.came_in = 2">
-        <style>#said { color: red; }</style><script src="other.js"></script>""",
-    )
-    (tmp_path / "other.js").write_text("window.came_in = 3;")
-    page = visit(web(tmp_path / "page.html"), complaints=REFUSED)
-    page.until("window.report")
-    assert page.page.evaluate("[window.came_in ?? 0, report.colour]") == [0, "rgb(1, 2, 3)"]
-
-
 def test_the_same_page_every_time(built):
     assert assemble.html("110m") == assemble.html("110m")
     given = contents.Given(np.array([(1.0, 2.0)]), "one")

@@ -8,42 +8,9 @@ import subprocess
 import sys
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 from tools.browser import serving
-
-BALL = """<!doctype html><meta charset="utf-8"><title>Ball</title>
-<style>canvas { display: block; width: 200px; height: 200px; border-radius: 50%; }</style>
-<canvas width="200" height="200"></canvas>
-<script>
-  const canvas = document.querySelector("canvas"), pen = canvas.getContext("2d");
-  let moves = 0;
-  const draw = () => { pen.fillRect(0, 0, 100, 100 + moves); };
-  requestAnimationFrame(draw);
-  canvas.onpointermove = () => { moves += 1; requestAnimationFrame(draw); };
-  const wait = () => { const end = performance.now() + 200; while (performance.now() < end); };
-</script>
-"""
-
-
-def test_what_is_drawn_is_counted(visit, tmp_path):
-    file = tmp_path / "ball.html"
-    file.write_text(BALL)
-    page = visit(file)
-    page.rest()
-    assert page.requests == [file.as_uri()]
-    assert page.ink("canvas") == pytest.approx(np.pi / 16, abs=0.005)  # a square, cut by the round canvas
-    assert page.frames(0.2) == 0
-    before, drawn, busy = page.digest("canvas"), page.page.evaluate("framesDrawn"), page.busy()
-    page.drag((50, 50), (150, 150), steps=5)
-    page.rest()
-    assert page.page.evaluate("framesDrawn") > drawn
-    assert page.digest("canvas") != before
-    page.page.evaluate("wait()")
-    assert page.busy() - busy > 0.15
-    with pytest.raises(TimeoutError, match=r"not true after 0\.1 s: false"):
-        page.until("false", seconds=0.1)
 
 
 def test_there_is_no_network_and_complaints_are_kept(visit, tmp_path):

@@ -9,7 +9,7 @@ from stereodel import data
 from stereodel.curves.ragged import Ragged
 from stereodel.data import land
 from stereodel.web.contents import MOST_POINTS, Given, land_rings, scattered, sites
-from stereodel.web.packing import packed, packed_doubles, packed_places, varints
+from stereodel.web.packing import packed, packed_doubles, packed_places
 
 from .conftest import SCRIPT
 
@@ -48,22 +48,10 @@ def test_doubles_come_back_to_the_bit(node, rng):
     assert bytes(found[1]) == degrees.astype("<f8").tobytes()
 
 
-def test_bytes_come_back(node, rng):
-    content = rng.bytes(300)
-    assert bytes(read(node, {"kernel": packed(content)}, "contents.kernel().then((bytes) => [...bytes])")) == content
-
-
 def test_what_a_page_has_not(node):
     nothing = "Promise.all([contents.land('50m'), contents.set('stars').then((s) => s.length), contents.given()])"
     assert read(node, {}, nothing) == [None, 0, None]
     assert read(node, {}, "contents.kernel().catch((error) => error.message)") == "the page has no kernel"
-
-
-@pytest.mark.parametrize(
-    ("number", "written"), [(0, [0]), (127, [127]), (128, [128, 1]), (2**40, [128, 128, 128, 128, 128, 32])]
-)
-def test_varints(number, written):
-    assert varints(np.array([number, 1])).tolist() == [*written, 1]
 
 
 def area(rings):

@@ -174,14 +174,3 @@ def test_cells_of_sites_that_others_stumble_over(both, sites):
     assert len(cells) == len({tuple(site) for site in sites})
     assert np.isclose(sum(cells), 4 * np.pi, rtol=1e-6)
     assert min(cells) > 0
-
-
-def test_clusters_within_a_city(both):
-    """A kilometre of the Earth with sites a millimetre apart: twice as many triangles as sites, less four."""
-    rng = np.random.default_rng(3)
-    sites = [*([13.4, 52.5] + 1e-8 * rng.normal(size=(300, 2))).tolist(), [0, 0], [120, 0], [-120, 0], [0, 90]]
-    (count, found), _ = both(
-        "(() => { const d = d3.geoDelaunay(given); return [d.triangles.length, d.find(...given[7])]; })()", sites
-    )
-    assert count == 2 * len(sites) - 4
-    assert found == 7

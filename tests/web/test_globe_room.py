@@ -259,7 +259,7 @@ def test_the_readers_places_stand_in_a_table(globe, tmp_path):
 
 
 @pytest.mark.parametrize("kind", ["authalic", "geodetic", "spherical"])
-def test_a_page_and_the_command_agree_about_the_cells_of_a_table(visit, tmp_path, kind):
+def test_a_page_and_the_command_agree_about_the_cells_of_a_table(room, tmp_path, kind):
     rng = np.random.default_rng(8)
     lonlat = np.round(rng.uniform((-180, -90), (180, 90), (40, 2)), 2)
     table, cells = tmp_path / "towns.csv", tmp_path / "cells.geojson"
@@ -267,9 +267,7 @@ def test_a_page_and_the_command_agree_about_the_cells_of_a_table(visit, tmp_path
     asked = [] if kind == "authalic" else ["--latitude", kind]
     for command in (["web", table, "-o", tmp_path / "towns.html"], ["voronoi", table, "-o", cells]):
         subprocess.run([sys.executable, "-m", "stereodel", *command, *asked], check=True)
-    page = visit((tmp_path / "towns.html").as_uri() + "#globe", height=1400)
-    page.until("document.documentElement.dataset.ready")
-    page.rest()
+    page = room("globe", file=tmp_path / "towns.html", height=1400)
     page.until("document.querySelectorAll('#room-globe .sites tbody tr[data-site]').length > 10")
     rows = page.page.locator("#room-globe .sites tbody tr[data-site]").all_inner_texts()
     shown = [int("".join(c for c in row.split("\t")[3] if c.isdigit())) for row in rows]
@@ -336,10 +334,9 @@ def test_a_panorama_is_taken_along_and_named_by_the_link(room, tmp_path):
 
 
 @pytest.mark.parametrize("name", ["globe-plate", "globe-after"])
-def test_a_failure_amid_a_movement_leaves_the_last_picture(visit, page_file, name):
+def test_a_failure_amid_a_movement_leaves_the_last_picture(room, name):
     lens = "bubble" if name == "globe-after" else "fisheye"
-    page = visit(f"{page_file.as_uri()}#v=1&room=globe&lens={lens}", complaints=["no memory"])
-    page.until("document.documentElement.dataset.ready")
+    page = room(f"v=1&room=globe&lens={lens}", complaints=["no memory"])
     x, y = page.middle(f"#{name}")
     page.page.mouse.move(x + 150, y)
     page.rest(still=0.4)
@@ -358,26 +355,9 @@ def test_a_failure_amid_a_movement_leaves_the_last_picture(visit, page_file, nam
     page.page.mouse.up()
 
 
-def test_the_circle_follows_the_pointer_on_both_bubbles(room):
-    page = room("v=1&room=globe&lens=bubble&fromlon=10&fromlat=42&tolon=10&tolat=42")
-    x, y = page.middle("#globe-before")
-    pixels = "['before', 'after'].map((name) => document.querySelector(`#globe-${name}`).toDataURL())"
-    before = page.page.evaluate(pixels)
-    page.page.mouse.move(x + 5, y - 3)
-    page.rest(still=0.4)
-    assert not set(page.page.evaluate(pixels)) & set(before)
-
-
 def test_a_picture_of_another_shape_is_refused(globe, tmp_path):
     file = tmp_path / "square.png"
     Image.new("RGB", (100, 100)).save(file)
     globe.page.page.set_input_files("#room-globe input[type=file]", str(file))
     globe.page.until("document.querySelector('[role=alert]')")
     assert "100 × 100" in globe.page.page.inner_text("[role=alert]")
-
-
-def test_no_motion_where_none_is_wanted(room):
-    page = room("globe", reduced_motion=True)
-    page.page.click(".views li:nth-child(2) button")
-    page.page.wait_for_timeout(100)
-    assert page.frames(0.5) <= 1

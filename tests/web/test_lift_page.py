@@ -19,22 +19,6 @@ def output(page, name):
     return said(page, "lift", name)
 
 
-def test_the_slider_bends_the_sheet(room):
-    page = room("lift")
-    pictures = {page.digest(PLATE)}
-    for angle, words in ((60, "radius 0.433 of the diagonal, scale 1 to 0.75"), (0, "flat: an infinite radius")):
-        page.page.locator("#bend").fill(str(angle))
-        page.rest()
-        assert output(page, "bend") == words
-        pictures.add(page.digest(PLATE))
-    assert len(pictures) == 3
-    assert "Bend it for an angle." in output(page, "separation")
-    assert not page.page.locator(f"{ROOM} .needle").is_visible()
-    assert link(page)["bend"] == "0"
-    page.page.locator("#bend").press("ArrowRight")
-    assert output(page, "bend").startswith("radius 28.6")
-
-
 def test_the_numbers_are_those_of_the_library(room):
     page = room("lift")
     places = {}
@@ -104,13 +88,6 @@ def test_tables_of_a_plane_are_opened_and_asked_about(room, tmp_path):
     message.filter(has_text="four").wait_for()
     assert message.inner_text().startswith("plane.csv, row 2: the y 'four' is not a number. Nothing has changed.")
     assert output(page, "sum").startswith("6 facets")
-
-    # Lengths have four digits of the sheet.
-    file.write_text("x,y\n4500000.1,5300000\n4500100,5299999.96\n-4500.25,5400000\n")
-    opened(page, "lift", file)
-    cells = page.page.locator(f"{ROOM} .sites tr[data-site] td").all_inner_texts()
-    assert [cells[k].replace("\u202f", " ") for k in (0, 1, 6)] == ["4 500 000", "5 300 000", "\u22124500"]
-    assert "In the sheet 4 505 610, which is 1.000" in output(page, "separation").replace("\u202f", " ")
 
     file.write_text("x,y\n1,2\n")
     opened(page, "lift", file)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from stereodel import PlanarDelaunay, RectangleLift, SphericalDelaunay, Stereographic, angular_distance, incircle
+from stereodel import PlanarDelaunay, RectangleLift, SphericalDelaunay, Stereographic, angular_distance
 from stereodel.web.contents import scattered
 
 from .conftest import LOADED, SCRIPT
@@ -120,16 +120,3 @@ def test_sets_of_the_sheet(node):
     for _, flat, closing in sets:
         places = np.reshape(flat, (-1, 2))
         assert len(PlanarDelaunay(places).simplices) + closing == 2 * len(places) - 4
-
-
-def test_the_plain_test_fails_on_the_sheet_that_is_nearly_flat(node):
-    """Signs of the usual determinant of coordinates in doubles, against the exact ones."""
-    places = np.reshape(ask(node, f"[...{SETS}[2].make()]", SHEET.tolist()), (-1, 2))
-    delaunay = PlanarDelaunay(places)
-    wrong = 0
-    for row, beside in zip(delaunay.simplices, delaunay.neighbors, strict=True):
-        for other in delaunay.simplices[beside[beside >= 0]]:
-            point = places[np.setdiff1d(other, row)[0]]
-            rows = np.array([[x, y, x * x + y * y, 1] for x, y in [*places[row], point]])
-            wrong += np.sign(np.linalg.det(rows)) != incircle(*places[row], point)
-    assert wrong > 20

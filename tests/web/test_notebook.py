@@ -10,7 +10,6 @@ import time
 import urllib.error
 import urllib.request
 
-import nbformat
 import pytest
 
 from stereodel import fisheye
@@ -43,6 +42,8 @@ READY = """(() => {
   return panel?.context?.isReady && panel.sessionContext.session?.kernel?.status === "idle";
 })()"""
 
+RUN = "(code) => jupyterapp.shell.currentWidget.sessionContext.session.kernel.requestExecute({ code }).done"
+
 PIXELS = "document.querySelector('.stereodel-globe canvas').toDataURL()"
 
 DRAWN = "document.querySelectorAll('.stereodel-globe[data-frames]').length"
@@ -57,6 +58,8 @@ COMPILED = """(() => {
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     """The folder of the notebook, where the widgets' state is saved with it."""
+    import nbformat  # takes a second
+
     folder = tmp_path_factory.mktemp("lab")
     settings = folder / "settings" / "@jupyter-widgets" / "jupyterlab-manager"
     settings.mkdir(parents=True)
@@ -190,7 +193,7 @@ def test_a_notebook_from_the_first_run_to_the_next_time(notebook, folder, lab, b
     # Set from Python: the picture follows.
     before = page.evaluate(PIXELS)
     page.evaluate("jupyterapp.shell.currentWidget.content.activeCellIndex = 1")
-    run_in_kernel(page, SET)
+    page.evaluate(RUN, SET)
     page.wait_for_timeout(500)
     notebook.rest()
     assert page.evaluate(PIXELS) != before
@@ -227,12 +230,6 @@ def reopened(browser, lab, patience):
             break
         visit.close()
     return visit
-
-
-def run_in_kernel(page, code):
-    page.evaluate(
-        "(code) => jupyterapp.shell.currentWidget.sessionContext.session.kernel.requestExecute({ code }).done", code
-    )
 
 
 # The Python side
