@@ -1,4 +1,4 @@
-"""Vectors in eighty digits and cells in fractions: what rounded results are measured against."""
+"""Vectors in eighty digits or as many as `mp` has, cells in fractions: what rounded results are measured against."""
 
 from fractions import Fraction
 
@@ -20,9 +20,38 @@ def cross(a, b):
     return [a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3] for k in range(3)]
 
 
+def minus(a, b):
+    return [x - y for x, y in zip(a, b, strict=True)]
+
+
+def times(factor, a):
+    return [factor * x for x in a]
+
+
+def norm(a):
+    return mpmath.sqrt(dot(a, a))
+
+
 def normalized(v):
-    length = mpmath.sqrt(dot(v, v))
+    length = norm(v)
     return [x / length for x in v]
+
+
+def unit(a):
+    """Of length one; doubles, fractions and integers are taken as they stand."""
+    return normalized(
+        [mpmath.mpf(x.numerator) / x.denominator if hasattr(x, "numerator") else mpmath.mpf(x) for x in a]
+    )
+
+
+def normal_of(a, b, c):
+    """Of the plane through three directions, outward where they are counterclockwise."""
+    a, b, c = unit(a), unit(b), unit(c)
+    return unit(cross(minus(b, a), minus(c, a)))
+
+
+def doubles(a):
+    return [float(x) for x in a]
 
 
 def distance(a, b):

@@ -85,7 +85,7 @@ def test_the_examples_of_a_page_run(page):
     exec(compile(code, f"docs/{page}.md", "exec"), {})
 
 
-@pytest.mark.parametrize("page", by_day(["start", "tour", "files", "partitioned"], "start"))
+@pytest.mark.parametrize("page", by_day(["start", "graphs", "tour", "files", "partitioned"], "start", "graphs"))
 def test_a_page_runs_cell_by_cell(page, tmp_path, monkeypatch, capsys):
     """As a notebook does: one namespace, one folder, and after each cell what the page says that it prints."""
     monkeypatch.chdir(tmp_path)

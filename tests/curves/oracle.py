@@ -7,12 +7,7 @@ from stereodel.curves import clip
 from stereodel.curves.borders import Cap
 from stereodel.curves.ragged import Ragged, offsets_of
 from stereodel.curves.trace import exact, great
-
-
-def units(vectors):
-    """Directions (..., 3) as unit vectors."""
-    vectors = np.asarray(vectors, dtype=float)
-    return vectors / np.linalg.norm(vectors, axis=-1, keepdims=True)
+from tests.sets import unit as units
 
 
 def winding(loops, places):

@@ -11,7 +11,7 @@ from stereodel import orient2d
 from stereodel.graphs import hull
 from stereodel.predicates.rays import ray, turn_ray
 from tests import sets
-from tests.digits import cross
+from tests.exact import cross
 from tests.examples import examples
 from tests.spaces import BOTH, PLANE, SPHERE, dot
 

@@ -1,7 +1,5 @@
 """Area and perimeter of hulls, and neighbours of all points, against SciPy and known bodies."""
 
-import itertools
-
 import numpy as np
 import pytest
 import scipy.spatial
@@ -81,12 +79,3 @@ def test_neighbours_of_points_are_the_ends_of_edges(dimension, rng):
     assert not indices.flags.writeable
     triangulation.remove([0])
     assert len(triangulation.vertex_neighbor_vertices[0]) == 80
-
-
-def test_neighbours_are_those_of_scipy(rng):
-    points = rng.random((300, 2))
-    starts, theirs = scipy.spatial.Delaunay(points).vertex_neighbor_vertices
-    indptr, indices = PlanarDelaunay(points).vertex_neighbor_vertices
-    assert np.array_equal(indptr, starts)
-    assert all(np.array_equal(np.sort(theirs[a:b]), indices[a:b]) for a, b in itertools.pairwise(indptr))
-    assert [part.tolist() for part in PlanarDelaunay([]).vertex_neighbor_vertices] == [[0], []]

@@ -25,7 +25,6 @@ from tests.strategies import GRID_DIRECTIONS
 
 INNER_METHODS = [LinearInterpolator, SmoothInterpolator, NaturalNeighborInterpolator]  # defined within the hull
 METHODS = [NearestInterpolator, *INNER_METHODS]
-GRID_POINT = st.tuples(st.integers(-4, 4), st.integers(-4, 4))
 
 
 def rms(x):
@@ -285,18 +284,6 @@ def test_weights_in_thin_triangles(aspect, make_points, rng):
             held += 1
             assert np.allclose(function(query), exact_weights(corners, query), rtol=0, atol=1e-10)
     assert held > 10
-
-
-@given(st.lists(GRID_POINT, min_size=3, max_size=12), st.lists(GRID_POINT, min_size=1, max_size=6), st.randoms())
-def test_linear_stays_between_the_values_of_the_corners(points, queries, random):
-    values = np.array([random.uniform(-5, 5) for _ in points])
-    function = LinearInterpolator(points, values)
-    queries = np.array(queries) / 1.5
-    triangles = function.triangulation.find_simplex(queries)
-    corners = function.values[function.triangulation.simplices[triangles]] if len(function.triangulation) else None
-    for k in np.flatnonzero(triangles >= 0):
-        assert corners[k].min() - 1e-12 <= function(queries[k]) <= corners[k].max() + 1e-12
-    assert np.isnan(function(queries[triangles < 0])).all()
 
 
 @given(st.lists(GRID_DIRECTIONS, min_size=1, max_size=12), st.lists(GRID_DIRECTIONS, min_size=1, max_size=6))

@@ -72,16 +72,6 @@ def test_linear_on_the_hull_of_the_plane():
     assert np.isnan(function([3, -1e-300]))
 
 
-def test_flips_do_not_matter(rng):
-    """A grid's squares are tied: values do not depend on the diagonals, and are those of a shaken grid."""
-    grid = np.stack(np.meshgrid(np.arange(8.0), np.arange(8.0)), axis=-1).reshape(-1, 2)
-    values, queries = rng.random(64), rng.uniform(1, 6, size=(100, 2))
-    exact = NaturalNeighborInterpolator(grid, values)(queries)
-    assert np.allclose(NaturalNeighborInterpolator(-grid, values)(-queries), exact, rtol=0, atol=1e-13)
-    shaken = NaturalNeighborInterpolator(grid + 1e-9 * rng.random((64, 2)), values)
-    assert np.allclose(shaken(queries), exact, rtol=0, atol=1e-6)
-
-
 def test_thin_hulls(rng):
     """Circles a million times as large as the set, at its nearly straight sides."""
     x = np.sort(rng.random(60))

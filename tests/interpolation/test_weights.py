@@ -8,7 +8,6 @@ from stereodel.interpolation import (
     LinearInterpolator,
     NaturalNeighborInterpolator,
     NearestInterpolator,
-    SmoothInterpolator,
     Weights,
 )
 
@@ -117,7 +116,3 @@ def test_one_place_and_none(rng):
     assert linear.weights(np.zeros((0, 2))).apply(values).shape == (0, 2, 3)
     assert linear.weights([0, 0]).apply(np.zeros((24, 200)), axis=1).shape == (24,)
     assert np.isnan(NearestInterpolator(np.zeros((0, 2)), []).weights([[1, 2], [3, 4]]) @ []).all()
-
-
-def test_gradients_that_are_fitted_have_no_weights():
-    assert not hasattr(SmoothInterpolator, "weights")

@@ -58,14 +58,6 @@ def test_signs_of_zeros_are_those_of_the_standard():
     assert np.array_equal(np.signbit(ours), np.signbit(theirs))
 
 
-def test_mirrored_vectors_have_mirrored_angles():
-    x, y = np.abs(np.random.default_rng(1).normal(size=(2, 500)))
-    angles = _kernel.vector_angles(y, x)
-    assert np.array_equal(_kernel.vector_angles(-y, x), -angles)
-    assert np.array_equal(_kernel.vector_angles(-y, -x), -_kernel.vector_angles(y, -x))
-    assert np.isnan(_kernel.vector_angles(np.array([np.nan, 1.0]), np.array([1.0, np.nan]))).all()
-
-
 def test_lengths_must_agree():
     with pytest.raises(ValueError, match="one length"):
         _kernel.vector_angles(np.zeros(2), np.zeros(3))

@@ -10,7 +10,7 @@ from stereodel import _kernel
 from stereodel._spaces import space_of
 from stereodel.interpolation import LinearInterpolator, NaturalNeighborInterpolator
 from tests import sets, spaces
-from tests.digits import cross, minus
+from tests.exact import cross, dot, minus
 
 DIGITS = 400
 """Binary ones behind the point, of unit vectors."""
@@ -26,14 +26,10 @@ def axis_minima(square, linear, low, high):
     return [min(s * (square * s + g) for s in (low[k], high[k])) for k, g in enumerate(linear)]
 
 
-def inner(p, q):
-    return sum(x * y for x, y in zip(p, q, strict=True))
-
-
 def form(normal, b, c):
     """D and G of differences from the pivot."""
-    bb, cc, nb, nc = inner(b, b), inner(c, c), cross(normal, b), cross(normal, c)
-    return inner(normal, cross(b, c)), [bb * x - cc * y for x, y in zip(nc, nb, strict=True)]
+    bb, cc, nb, nc = dot(b, b), dot(c, c), cross(normal, b), cross(normal, c)
+    return dot(normal, cross(b, c)), [bb * x - cc * y for x, y in zip(nc, nb, strict=True)]
 
 
 def touches_in_plane(a, b, c, low, high):
@@ -49,7 +45,7 @@ def fixed(x):
 
 def unit(point):
     v = [Fraction(float(x)) for x in point]
-    scale = Fraction(4**DIGITS) / inner(v, v)
+    scale = Fraction(4**DIGITS) / dot(v, v)
     return [(1 if x > 0 else -1) * isqrt(int(x * x * scale)) for x in v]
 
 
@@ -192,7 +188,7 @@ def test_boxes_beside_discs_of_the_sphere(size):
         nearest = [
             max(a, 0) + min(b, 0) for a, b in zip(minus(map(fixed, low), q), minus(map(fixed, high), q), strict=True)
         ]
-        truth.append(inner(nearest, nearest) - inner(minus(p, q), minus(p, q)) <= 1 << (2 * DIGITS - ZERO))
+        truth.append(dot(nearest, nearest) - dot(minus(p, q), minus(p, q)) <= 1 << (2 * DIGITS - ZERO))
     assert found == truth
     assert 0.1 < np.mean(truth) < 0.9
 
@@ -204,16 +200,6 @@ def test_discs_are_closed():
             box = np.sort([np.array(low) * turned, np.array([9.0, 9.0]) * turned], axis=0)
             tree = space_of(center).box_tree(box[:1].copy(), box[1:].copy())
             assert space_of(center).open_discs(center, rim, *tree, np.ones(1, np.int32))[0].tolist() == touched
-
-
-def test_a_corner_lies_in_its_bubble():
-    """A block that holds a copy of a corner, of any length, is touched: copies are read with the point."""
-    rng = np.random.default_rng(4)
-    for size in (1.0, 1e-6, 1e-14):
-        for corners in triangles_on_sphere(rng, 30, size)[:, ::-1].copy():
-            for copy in corners * np.array([1.0, 3.0, 2.0**-700])[:, None]:
-                _, _, low, high = space_of(corners).blocks(copy[None].copy(), 1)
-                assert ask(corners, [[0, 1, 2]], low[0], high[0]).all()
 
 
 def test_faces_of_points_that_do_not_matter_are_not_looked_at():

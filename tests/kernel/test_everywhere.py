@@ -1,12 +1,9 @@
 """What is the same wherever the kernel was compiled and whatever runs it: stored answers, eight threads at once."""
 
-import re
 import threading
-from pathlib import Path
 
 import pytest
 
-import stereodel
 from stereodel import _threads
 from tools import answers, free_threads
 
@@ -18,16 +15,6 @@ def test_the_kernel_answers_as_is_stored():
 def test_eight_threads_have_equal_answers_and_no_wrong_change(capsys):
     assert free_threads.main(rounds=3) == 0
     assert " 0 wrong answers" in capsys.readouterr().out
-
-
-def test_threads_and_locks_of_the_kernel_stand_in_one_file():
-    """So that what holds without threads holds for all of it."""
-    asks = re.compile(
-        r"std::(?:jthread|thread|async|\w*mutex|\w+_lock|lock_guard|condition_variable)\b|<(?:mutex|thread|future)>"
-    )
-    kernel = Path(stereodel.__file__).parent / "kernel"
-    files = {path.name for path in kernel.rglob("*.[ch]pp") if asks.search(path.read_text(encoding="utf-8"))}
-    assert files == {"threads.hpp"}
 
 
 @pytest.mark.parametrize("started", [0, 1])

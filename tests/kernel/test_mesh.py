@@ -2,7 +2,6 @@
 
 import threading
 from collections import Counter
-from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
@@ -13,7 +12,7 @@ from stereodel import _kernel, check_delaunay
 from stereodel.triangulation.topology import canonical, neighbors_of
 from tests import sets
 from tests.examples import examples
-from tests.spaces import BOTH, PLANE, SPHERE, readable, space_of
+from tests.spaces import BOTH, SPHERE, readable, space_of
 
 
 def start(points, by_readable=False):
@@ -97,27 +96,6 @@ def test_every_set_comes_and_goes(one):
 
 
 @BOTH
-@pytest.mark.parametrize("spread", [1e-3, 1e-6, 1e-9, 1e-12, 1e-15])
-def test_clusters(space, spread):
-    rng = np.random.default_rng(8)
-    points = np.vstack([space.cluster(rng, spread, 40), space.random(rng, 4)])
-    mesh = start(points, by_readable=True)
-    points = insert(mesh, points, space.cluster(rng, spread, 30))
-    prove_equal(mesh, points)
-    prove_equal(mesh, remove(mesh, points, rng.permutation(len(points))[:45]))
-
-
-@BOTH
-@pytest.mark.parametrize("size", [5e-324, 1e-300, 1e-150, 1e150, 1e300])
-def test_coordinates_of_any_size(space, size):
-    points = space.lattice(np.random.default_rng(9), 9, 40) * size
-    mesh = start(points[:20], by_readable=True)
-    points = insert(mesh, points[:20], points[20:])
-    prove_equal(mesh, points)
-    prove_equal(mesh, remove(mesh, points, range(5, len(points), 2)))
-
-
-@BOTH
 def test_a_pole_with_thousands_of_neighbors(space):
     ring = 3000
     angle = np.sort(np.random.default_rng(7).random(ring)) * 2 * np.pi
@@ -184,14 +162,6 @@ def test_duplicates_of_one_batch_keep_the_lowest(space):
     assert np.array_equal(mesh.duplicates, space.kernel.triangulate(both)[2])
 
 
-def test_equal_points_of_the_plane():
-    mesh = start(np.array([[0.0, 0], [4, 0], [0, 4], [-0.0, 0.0]]))
-    assert mesh.insert(np.array([[1.0, 1], [0, -0.0], [1, 1]])).tolist() == [[5, 0], [6, 4]]
-    assert mesh.remove(np.array([0, 3], dtype=np.int32)).tolist() == [-1, 0, 1, -1, 2, 3, 4]
-    assert mesh.duplicates.tolist() == [[4, 2]]
-    assert canonical(mesh.arrays()[0]).tolist() == [[0, 1, 2], [0, 2, 3], [1, 3, 2]]
-
-
 def test_equal_directions_of_different_length():
     """A third of 3 v is not v in doubles; the directions are still the same."""
     rng = np.random.default_rng(12)
@@ -201,16 +171,6 @@ def test_equal_directions_of_different_length():
     prove_equal(mesh, both)
     prove_equal(mesh, remove(mesh, both, list(range(12))))
     assert len(mesh.duplicates) == 45 - 12
-
-
-@BOTH
-def test_heirs_inherit_in_the_order_of_their_numbers(space):
-    rng = np.random.default_rng(13)
-    points = np.repeat(space.random(rng, 12), 4, axis=0)[rng.permutation(48)]
-    mesh = start(points)
-    while len(points) > 6 and not mesh.is_flat:
-        points = remove(mesh, points, rng.permutation(len(points))[:5])
-        prove_equal(mesh, points)
 
 
 # As Python holds them ------------------------------------------------------------------------------------------------
@@ -283,13 +243,3 @@ def test_a_change_is_refused_to_others_and_so_is_what_they_ask():
     assert vertices - len(sides) + len(simplices) == 1
     assert (neighbors < 0).sum() == (sides == 1).sum()
     assert len(np.unique(simplices)) == vertices
-
-
-def test_reads_wait_for_each_other():
-    mesh = start(PLANE.random(np.random.default_rng(20), 50_000))
-    expected = mesh.arrays()
-    with ThreadPoolExecutor(8) as pool:
-        for arrays in pool.map(lambda _: mesh.arrays(), range(32)):
-            assert np.array_equal(arrays[0], expected[0])
-            assert np.array_equal(arrays[1], expected[1])
-    assert mesh.changes == 0

@@ -288,16 +288,6 @@ def pythagorean():
     return np.concatenate([vectors * s for s in ([1, 1, 1], [-1, 1, 1], [1, -1, 1], [1, 1, -1], [-1, -1, 1])])
 
 
-@pytest.mark.parametrize("vectors", [pythagorean(), normalised(pythagorean())], ids=["integers", "rounded"])
-def test_mirrored_points(vectors):
-    rng = np.random.default_rng(13)
-    chosen = vectors[rng.integers(len(vectors), size=(4, 600))]
-    chosen[2:] = chosen[:2] * rng.choice([[-1, 1, 1], [1, -1, 1], [1, 1, -1]], size=600)
-    for name in PREDICATES:
-        _, truth = check(name, chosen)
-        assert (truth == 0).any() or name == "turn"
-
-
 def test_by_number_and_the_tally():
     rng = np.random.default_rng(14)
     vectors = np.concatenate([normalised(pythagorean()), on_a_circle(1e-3, 20).reshape(-1, 3)])

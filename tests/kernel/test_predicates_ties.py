@@ -29,6 +29,14 @@ def distinct(vectors):
     return list(kept.values())
 
 
+PLANES = {
+    "x = 0": lambda x, y: (0.0, x, y),
+    "y = 0": lambda x, y: (x, 0.0, y),
+    "x = y": lambda x, y: (x, x, y),
+    "y = -z": lambda x, y: (y, x, -x),
+}
+
+
 def tied_sets():
     """Sets full of exact ties: axes, cube, circles of latitude, a great circle in each kind of plane."""
     great = [(1, 0), (1, 1), (0, 1), (-1, 2), (-1, 0), (2, -1), (1, -3)]
@@ -39,6 +47,7 @@ def tied_sets():
         "great circle through the pole": [(x, 0, z) for x, z in great],
         "great circle x = y": [(x, x, z) for x, z in great],
         "tilted great circle": [(x + y, x - 2 * y, x + y - 3 * y) for x, y in great],
+        **{f"unit vectors, {name}": sets.unit([plane(x, y) for x, y in great]) for name, plane in PLANES.items()},
         "small numbers": [v for v in itertools.product(range(-1, 2), range(-1, 2), range(2)) if any(v)],
     }
 
@@ -66,28 +75,6 @@ def test_small_integers(vectors):
     for four in itertools.islice(itertools.permutations(vectors, 4), 30):
         rays = [ray(v) for v in four]
         assert in_bubble(*four) == ((bubble_ray(*rays) or bubble_tie(*rays)) > 0)
-
-
-GREAT = [(1, 0), (1, 1), (1, 3), (0, 1), (-1, 2), (-1, 0), (-3, -1), (2, -1), (1, -3)]
-PLANES = {
-    "x = 0": lambda x, y: (0, x, y),
-    "y = 0": lambda x, y: (x, 0, y),
-    "z = 0": lambda x, y: (x, y, 0),
-    "x = y": lambda x, y: (x, x, y),
-    "y = -z": lambda x, y: (y, x, -x),
-    "x = z": lambda x, y: (x, y, x),
-}
-
-
-@pytest.mark.parametrize("plane", PLANES)
-def test_unit_vectors_of_a_great_circle(plane):
-    vectors = np.array([PLANES[plane](x, y) for x, y in GREAT], dtype=float)
-    vectors /= np.linalg.norm(vectors, axis=1)[:, None]
-    numbers = np.array(list(itertools.permutations(range(len(vectors)), 4)), dtype=np.int32)[::7]
-    signs, tally = probe.bubble_numbered(vectors, numbers, True)
-    rays = [ray(v) for v in vectors]
-    assert signs.astype(bool).tolist() == [bubble_tie(*(rays[k] for k in row)) > 0 for row in numbers]
-    assert tally[3] == len(numbers)
 
 
 REFLECTIONS = [np.diag(signs) for signs in ([-1, 1, 1], [1, -1, 1], [1, 1, -1])]

@@ -43,9 +43,11 @@ def answers():
 def check(folder, columns, rows, truth, parts, files=5, **options):
     write_points(folder / "points", columns, rows, files)
     size = max(1, -(-len(rows) // parts))
-    run = serially(
-        folder / "points", folder / "out", columns=columns, surface=surface_of(columns), partition=size, **options
-    )
+    options |= {"columns": columns, "surface": surface_of(columns), "partition": size}
+    try:
+        run = serially(folder / "points", folder / "out", **options)
+    except RuntimeError as error:
+        pytest.fail(f"the run notices itself: {error}")
     assert differences(run, truth) == []
     assert not (folder / "out" / "scratch").exists()
     return run
@@ -95,6 +97,13 @@ def test_any_split_gives_the_same(tmp_path_factory, one, cuts, partition, block,
             -(-len(rows) // partition),
             sorted(min(cut, len(rows)) for cut in cuts),
         )
+
+
+def test_a_circle_through_the_corner_of_a_block_is_open(tmp_path, monkeypatch):
+    """Its tie is decided with the point there, though nothing else had that block read."""
+    monkeypatch.setattr(rounds, "REACH", -1.0)
+    rows = sets.plane("lattice").rows(250)
+    check(tmp_path, XY, rows, in_memory(XY, rows), 40)
 
 
 def test_compact_files_are_the_partitions(tmp_path):

@@ -68,13 +68,6 @@ def test_incircle_near_a_circle_and_on_it(scale):
         assert incircle(b, a, c, d + nudges).tolist() == [-s for s in expected]
 
 
-def test_orient3d_near_a_plane():
-    rng = np.random.default_rng(1)
-    a, b, c = rng.integers(-50, 50, size=(3, 200, 3)) * 0.1
-    d = a + (b - a) * 0.3 + (c - a) * 0.4
-    assert orient3d(a, b, c, d).tolist() == [sign(orient3d_oracle(*q)) for q in zip(a, b, c, d, strict=True)]
-
-
 @pytest.mark.parametrize("spread", [1.0, 1e-4, 1e-8, 1e-12, 1e-15])
 def test_the_filters_keep_their_bounds(spread):
     """The bound itself, not only the sign: errors that luck hides show here."""

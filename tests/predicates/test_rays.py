@@ -18,7 +18,7 @@ from stereodel.predicates.rays import (
 )
 from stereodel.predicates.staged import columns
 from tests import sets
-from tests.digits import cross, dot, minus, unit
+from tests.exact import cross, dot, minus, unit
 from tests.spaces import SPHERE
 
 SPREADS = [1.0, 1e-3, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14, 1e-15]

@@ -86,40 +86,6 @@ def test_threads_do_not_matter(name):
     assert (kernel(*points) == kernel(*points, workers=3)).all()
 
 
-@EACH
-@pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
-def test_the_kernel_refuses_numbers_that_are_not_finite(name, bad):
-    _, kernel, width, names = PREDICATES[name]
-    points = points_for(name, 7)
-    for k, letter in enumerate(names):
-        wrong = points.copy()
-        wrong[k, 3, width - 1] = bad
-        with pytest.raises(ValueError, match=rf"^{letter}\[3, {width - 1}\] is .*finite"):
-            kernel(*wrong)
-
-
-@EACH
-def test_the_kernel_refuses_lengths_that_do_not_fit(name):
-    _, kernel, _, names = PREDICATES[name]
-    points = list(points_for(name, 7))
-    for k in range(1, len(points)):
-        wrong = [p[:4] if place == k else p for place, p in enumerate(points)]
-        with pytest.raises(ValueError, match=rf"^{names[k]} has 4 rows, but a has 7"):
-            kernel(*wrong)
-    with pytest.raises(ValueError, match=r"^c has 7 rows, but b has 0"):
-        kernel(points[0][:1], points[1][:0], *points[2:])
-    assert kernel(points[0][:1], *(p[:0] for p in points[1:])).shape == (0,)
-
-
-def test_the_kernel_refuses_vectors_without_a_direction():
-    for k, letter in enumerate("abcp"):
-        vectors = np.ones((4, 3, 3))
-        vectors[k, 2] = [0.0, -0.0, 0.0]
-        with pytest.raises(ValueError, match=rf"^{letter}\[2\] is the zero vector"):
-            _kernel.sphere.in_circle(*vectors)
-    assert _kernel.orient3d(*np.zeros((4, 1, 3))).tolist() == [0]
-
-
 # The stages of orient3d ----------------------------------------------------------------------------------------------
 
 

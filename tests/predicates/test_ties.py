@@ -11,7 +11,7 @@ from stereodel.predicates.integers import sign
 from stereodel.predicates.rays import bubble_ray, ray
 from stereodel.predicates.ties import bubble_tie, incircle_tie
 from tests import sets
-from tests.digits import cross, dot, minus, unit
+from tests.exact import cross, dot, minus, unit
 
 CIRCLE = [(3, 4), (5, 0), (-4, 3), (0, -5), (-3, -4)]
 

@@ -1,6 +1,7 @@
 """Lloyd relaxation against exact polygons, known states, and what must never happen."""
 
 from fractions import Fraction
+from math import factorial
 
 import numpy as np
 import pytest
@@ -9,6 +10,7 @@ from hypothesis import strategies as st
 
 from stereodel import PlanarDelaunay, Rotation, SphericalDelaunay, check_delaunay
 from stereodel.relaxation import lloyd
+from stereodel.relaxation.quadrature import MIDPOINTS, RADON, flat_nodes
 from tests.exact import fractions, nearer
 from tests.examples import examples
 from tests.strategies import GRID_DIRECTIONS
@@ -276,3 +278,16 @@ def test_quality_within_bounds():
 def test_quality_without_cells_and_with_equal_points():
     assert lloyd(np.zeros((0, 3)), steps=1).quality().area_ratio == 1
     assert lloyd([[1, 0, 0], [1, 0, 0]], steps=0).quality().area_ratio == 1
+
+
+@pytest.mark.parametrize(("rule", "degree"), [(MIDPOINTS, 2), (RADON, 5)])
+def test_degree_of_rules(rule, degree):
+    """∫ xⁱyʲ over the triangle (0, 0), (1, 0), (0, 1) is i! j!/(i + j + 2)!."""
+
+    def error(i, j):
+        nodes, weights = flat_nodes(np.array([[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]]), rule)
+        exact = factorial(i) * factorial(j) / factorial(i + j + 2)
+        return (weights * nodes[..., 0] ** i * nodes[..., 1] ** j).sum() / exact - 1
+
+    assert max(abs(error(i, k - i)) for k in range(degree + 1) for i in range(k + 1)) < 1e-14
+    assert max(abs(error(i, degree + 1 - i)) for i in range(degree + 2)) > 1e-4

@@ -105,12 +105,6 @@ def test_brute_force_asks_every_triangle_at_the_hull():
     assert coordinates(tri, found[found >= 0], queries[found >= 0]).min() > -3e-14
 
 
-def test_centroid_of_the_hull():
-    corners = [[0, 0], [3, 0], [3, 1], [0, 1]]
-    tri = Delaunay(np.concatenate([corners, [2.9, 0.9] + 0.05 * random_points()]))
-    np.testing.assert_allclose(tri._near_misses._centroid, [1.5, 0.5], rtol=1e-14)
-
-
 @pytest.mark.parametrize("corners", [5, 40, 200])
 def test_a_larger_tolerance_loses_nothing(corners):
     turn = np.linspace(0, 2 * np.pi, corners, endpoint=False)

@@ -75,21 +75,6 @@ def test_one_point_and_none():
     assert (none.regions, none.vertices.shape, none.calculate_areas().shape) == ([], (0, 3), (0,))
 
 
-@pytest.mark.parametrize("distance", [1e-7, 1e-12, 3e-16])
-def test_points_closer_than_the_threshold(distance):
-    cluster = [0, 0, 1.0] + distance * np.column_stack([np.random.default_rng(1).random((10, 2)), np.zeros(10)])
-    points = np.concatenate([sphere(50), cluster])
-    with pytest.raises(ValueError, match="Duplicate"):
-        scipy.spatial.SphericalVoronoi(points)
-    sv = SphericalVoronoi(points)
-    distinct = len(np.unique(points, axis=0))
-    assert len(sv.vertices) == 2 * distinct - 4
-    areas = sv.calculate_areas()
-    assert areas.sum() == pytest.approx(4 * np.pi, rel=1e-12)
-    assert (areas > 0).sum() == distinct
-    check_delaunay(points, sv._simplices)
-
-
 @given(st.lists(st.tuples(*[st.integers(-2, 2)] * 3).filter(any), max_size=12), st.integers(1, 9))
 def test_areas_fill_the_sphere(vectors, radius):
     points = np.reshape(vectors, (-1, 3)).astype(float)

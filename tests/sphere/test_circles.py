@@ -79,9 +79,3 @@ def test_points_of_a_great_circle_count_as_inside():
         True,
         False,
     ]
-
-
-@given(BETWEEN_POLES, RADII)
-def test_storing_twice_changes_nothing(center, radius):
-    circle = SphereCircle.around(center, radius)
-    assert SphereCircle(circle.normal, circle.offset, circle.radius) == circle

@@ -1,4 +1,4 @@
-"""Triangulations to be judged: hulls and planar ones of SciPy, grids, cubes, icosahedra."""
+"""Triangulations to be judged: hulls and planar ones of SciPy, grids, icosahedra."""
 
 import numpy as np
 from scipy.spatial import ConvexHull, Delaunay
@@ -49,21 +49,6 @@ def lifted_grid(n):
 
 
 ICOSAHEDRON = np.array([np.roll([0, a, b * GOLDEN], k) for k in range(3) for a in (1, -1) for b in (1, -1)])
-
-
-CUBE = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], dtype=float)
-
-
-def cube_simplices(seed=0):
-    rng = np.random.default_rng(seed)
-    triangles = []
-    for axis in range(3):
-        for sign in (-1, 1):
-            face = np.flatnonzero(CUBE[:, axis] == sign)
-            u, v = CUBE[face][:, (axis + 1) % 3], CUBE[face][:, (axis + 2) % 3] * sign
-            ring = np.roll(face[np.argsort(np.arctan2(v, u))], rng.integers(4))
-            triangles += [ring[[0, 1, 2]], ring[[0, 2, 3]]]
-    return np.array(triangles)
 
 
 def flipped(s, t=0, k=0):

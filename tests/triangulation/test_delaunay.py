@@ -7,7 +7,6 @@ import os
 import pickle
 import subprocess
 import sys
-from concurrent.futures import ThreadPoolExecutor
 from fractions import Fraction
 from pathlib import Path
 
@@ -287,6 +286,8 @@ def test_contract_of_the_arrays(space):
     assert len(triangulation.edges) == 40 + len(triangulation) - (1 if space is PLANE else 2)  # Euler
     assert (triangulation.edges[:, 0] < triangulation.edges[:, 1]).all()
     assert sorted(triangulation.convex_hull[:, 0]) == sorted(triangulation.convex_hull[:, 1])
+    for edges in (triangulation.edges, triangulation.convex_hull):
+        assert edges.tolist() == sorted(edges.tolist())
     points[:] = 1
     assert len(np.unique(triangulation.points)) > 1
     assert "40 points" in repr(triangulation)
@@ -329,16 +330,6 @@ def test_workers():
         PlanarDelaunay(GRID, workers=1.5)
 
 
-def test_many_threads_may_ask_at_the_same_time():
-    triangulation = SphericalDelaunay(sets.sphere("random").drawn(20_000))
-    queries = np.random.default_rng(1).normal(size=(4000, 3))
-    alone = triangulation.find_simplex(queries), triangulation.nearest(queries)
-    with ThreadPoolExecutor(8) as pool:
-        asked = [pool.submit(lambda: (triangulation.find_simplex(queries), triangulation.nearest(queries)))] * 16
-        for answer in asked:
-            assert all(np.array_equal(a, b) for a, b in zip(answer.result(), alone, strict=True))
-
-
 @pytest.mark.parametrize(
     "convert",
     [
@@ -362,19 +353,15 @@ def test_accepted_input(convert):
     ("make", "bad", "error", "message"),
     [
         (PlanarDelaunay, [[0, 0], [1, np.nan]], ValueError, r"points\[1, 1\] is nan"),
-        (PlanarDelaunay, [[0, np.inf]], ValueError, r"points\[0, 1\] is inf"),
         (PlanarDelaunay, [[1j, 0]], TypeError, "points must hold real numbers, not complex128"),
         (PlanarDelaunay, ["ab"], TypeError, "points must hold real numbers"),
         (PlanarDelaunay, [[1, 2, 3]], ValueError, r"points must have shape \(n, 2\), got \(1, 3\)"),
         (PlanarDelaunay, [1, 2], ValueError, r"points must have shape \(n, 2\), got \(2,\)"),
         (PlanarDelaunay, np.ma.masked_equal([[1.0, 2.0]], 2), ValueError, r"points\[0, 1\] is masked"),
         (SphericalDelaunay, [[0, 0, 0]], ValueError, r"points\[0\] is the zero vector"),
-        (SphericalDelaunay, [[0, 0, np.nan]], ValueError, r"points\[0, 2\] is nan"),
         (SphericalDelaunay, [[0, 1]], ValueError, r"points must have shape \(n, 3\), got \(1, 2\)"),
-        (SphericalDelaunay, [["a", "b", "c"]], TypeError, "points must hold real numbers"),
         (SphericalDelaunay.from_lonlat, [[0, 91]], ValueError, r"lonlat\[0, 1\] is latitude 91"),
         (SphericalDelaunay.from_lonlat, [[0, 0, 1]], ValueError, r"lonlat must have shape \(n, 2\)"),
-        (SphericalDelaunay.from_lonlat, [[np.inf, 0]], ValueError, r"lonlat\[0, 0\] is inf"),
     ],
 )
 def test_refused_input(make, bad, error, message):
@@ -382,9 +369,34 @@ def test_refused_input(make, bad, error, message):
         make(bad)
 
 
+def in_lexicographic_order(triangulation):
+    """The arrays that follow the rows of `simplices`, with these in lexicographic order."""
+    order = np.lexsort(triangulation.simplices.T[::-1])
+    number = np.append(np.argsort(order), -1)  # the last one for no neighbour
+    arrays = {
+        "simplices": triangulation.simplices[order],
+        "neighbors": number[triangulation.neighbors[order]],
+        "circumcenters": triangulation.circumcenters[order],
+    }
+    if hasattr(triangulation, "closing"):
+        arrays["closing"] = triangulation.closing[order]
+    return arrays
+
+
+def assert_same(first, second):
+    """Two triangulations are the same but for the order of their rows, and valid."""
+    check_delaunay(first)
+    for name in ("points", "duplicates", "edges", "convex_hull"):
+        assert np.array_equal(getattr(first, name), getattr(second, name)), name
+    assert first.dimension == second.dimension
+    ones, others = in_lexicographic_order(first), in_lexicographic_order(second)
+    for name, array in ones.items():
+        assert np.array_equal(array, others[name]), name
+
+
 @BOTH
 @given(data=st.data())
-def test_insert_and_remove_equal_a_fresh_build(space, assert_same, data):
+def test_insert_and_remove_equal_a_fresh_build(space, data):
     old, new = (data.draw(space.points(3, max_size=n)) for n in (10, 6))
     triangulation = space.delaunay(old)
     before = triangulation.simplices
@@ -401,7 +413,7 @@ def test_insert_and_remove_equal_a_fresh_build(space, assert_same, data):
 
 
 @BOTH
-def test_nothing_of_the_old_state_outlives_a_change(space, assert_same):
+def test_nothing_of_the_old_state_outlives_a_change(space):
     points = space.on_grid(GRID)
     triangulation = space.delaunay(points[:20])
     names = ("neighbors", "edges", "convex_hull", "circumcenters")
@@ -448,7 +460,7 @@ def test_copies_are_the_same_and_independent(space, duplicate):
     check_delaunay(triangulation)
 
 
-def test_simplices_known_from_elsewhere(assert_same):
+def test_simplices_known_from_elsewhere():
     """What the Voronoi diagram's way back uses."""
     direct = PlanarDelaunay(GRID)
     known = PlanarDelaunay._from_simplices(direct.points, direct.simplices[::-1].copy(), direct.duplicates)

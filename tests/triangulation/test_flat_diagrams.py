@@ -13,7 +13,7 @@ from stereodel import PlanarVoronoi, SphericalVoronoi, _kernel
 from stereodel.graphs import gabriel_graph, hull
 from stereodel.triangulation.diagram import polygons
 from tests import sets
-from tests.digits import cross, dot, doubles, minus, unit
+from tests.exact import cross, dot, doubles, minus, unit
 from tests.spaces import PLANE, SPHERE
 
 
@@ -145,20 +145,6 @@ def test_none_and_one():
     assert one.point_region.tolist() == [0, 0]
     assert one.ridge_points.shape == one.ridge_vertices.shape == (0, 2)
     assert one.ridge_arcs() == []
-
-
-def test_order_of_input_does_not_matter():
-    rng = np.random.default_rng(0)
-    points = rng.integers(-9, 10, size=(40, 2)) @ np.array([[1, 2, 2], [2, 1, -2]])
-    points = points[points.any(axis=1)].astype(float)
-    areas = {}
-    for _ in range(5):
-        shuffled = rng.permutation(points)
-        check_circle(shuffled)
-        rays = [SPHERE.place(p) for p in shuffled.tolist()]
-        found = {ray: a for ray, a in zip(rays, SphericalVoronoi(shuffled).areas().tolist(), strict=True) if a}
-        areas = areas or found
-        assert found == pytest.approx(areas, rel=1e-15)
 
 
 def test_points_off_the_line_or_circle_are_refused():

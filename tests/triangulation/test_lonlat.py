@@ -78,14 +78,6 @@ def test_queries_are_those_of_the_same_latitude(latitude):
     assert triangulation.nearest(lonlat=lonlat[7]) == 7
 
 
-def test_another_latitude_would_find_other_points():
-    """What remembering is for: a mix of latitudes is off by up to 21 km."""
-    lonlat, queries = places(20_000), places(2000, seed=1)
-    geodetic = SphericalDelaunay.from_lonlat(lonlat, latitude="geodetic")
-    right = geodetic.nearest(lonlat=queries)
-    assert (geodetic.nearest(lonlat_to_xyz(queries)) != right).mean() > 0.03
-
-
 def test_changes_speak_it_too():
     lonlat, more = places(60), places(30, seed=2)
     triangulation = SphericalDelaunay.from_lonlat(lonlat, latitude="geodetic")
@@ -137,14 +129,6 @@ def test_interpolators(kind, latitude):
     np.testing.assert_array_equal(function.gradient(lonlat=queries), plain.gradient(xyz))
     again = pickle.loads(pickle.dumps(function))
     np.testing.assert_array_equal(again(lonlat=queries), plain(xyz))
-
-
-def test_options_of_interpolators_go_through():
-    lonlat = [(0, 0), (10, 0), (0, 10)]
-    assert np.isnan(LinearInterpolator.from_lonlat(lonlat, [1, 2, 3])(lonlat=(40, 1)))
-    assert LinearInterpolator.from_lonlat(lonlat, [1, 2, 3], extrapolate="nearest")(lonlat=(40, 1)) == 2
-    flat = SmoothInterpolator.from_lonlat(lonlat, [1, 2, 3], gradients=np.zeros((3, 3)))
-    assert not flat.gradients.any()
 
 
 @pytest.mark.parametrize("latitude", KINDS)

@@ -108,16 +108,6 @@ def test_the_octahedron_seen_from_one_of_its_corners():
     assert len(part) == 4
 
 
-def test_pole_as_a_point_and_minus_its_star():
-    """The same with the pole triangulated along: the planar part is what is left without its star."""
-    points = random_points(60, seed=4)
-    with_pole = SphericalDelaunay(np.vstack([exact_lift(points), PROJECTION_POLE]))
-    rest = planar_part(with_pole, PROJECTION_POLE)
-    assert not (rest == 60).any()
-    assert (with_pole.simplices == 60).any(axis=1).sum() + len(rest) == len(with_pole.simplices)
-    assert merged_polygons(with_pole, rest) == merged_polygons(PlanarDelaunay(points))
-
-
 def test_any_pole():
     """Seen from any point of the sphere the planar part has the points it sees as its convex hull: V - E + F = 1."""
     points = np.random.default_rng(0).normal(size=(50, 3))
@@ -136,7 +126,3 @@ def test_merged_polygons_do_not_depend_on_the_tie_rule():
     }
     assert {frozenset(p) for p in merged_polygons(triangulation)} == {frozenset(p) for p in merged_polygons(mirrored)}
     assert all(len(p) == 4 for p in merged_polygons(triangulation))
-
-
-def test_merged_polygons_of_nothing():
-    assert merged_polygons(PlanarDelaunay([[0, 0], [1, 1]])) == frozenset()

@@ -10,7 +10,7 @@ from mpmath import mpf, workdps
 
 from stereodel.triangulation.validate_signs import PlaneSigns, SphereSigns, _nearly_unit, ray_integers
 from tests import sets
-from tests.digits import cross, dot, minus, unit
+from tests.exact import cross, dot, minus, unit
 from tests.spaces import SPHERE
 
 ULP = 2.0**-52
