@@ -45,8 +45,8 @@ SCRIPT = re.compile(r"[\[-]((?:fig\d\d|claim|globe|earth|sky|anim)_\w+)")
 QUICK_SECONDS = 6.0
 """A quick test that takes longer is named: three times the two seconds of the rule, as machines are busy."""
 
-THOROUGH_SECONDS = 60.0
-"""A test with the marker `thorough` that takes longer is named, too."""
+THOROUGH_SECONDS = 90.0
+"""A test with the marker `thorough`, or a property on 500 examples, that takes longer is named, too."""
 
 
 def pytest_xdist_make_scheduler(config, log):
@@ -84,10 +84,11 @@ def keep_times(terminalreporter):
     before = [line.split("\t", 1) for line in kept.read_text().splitlines()] if kept.is_file() else []
     known = Counter({test: float(seconds) for seconds, test in before} | times)
     kept.write_text("".join(f"{seconds:.2f}\t{test}\n" for test, seconds in known.most_common()))
+    many = terminalreporter.config.getoption("hypothesis_profile") == "thorough"
     outgrown = [
         f"{seconds:5.1f} s  {test}"
         for test, seconds in times.most_common()
-        if seconds > (THOROUGH_SECONDS if test in thorough else QUICK_SECONDS)
+        if seconds > (THOROUGH_SECONDS if many or test in thorough else QUICK_SECONDS)
     ]
     if outgrown:
         terminalreporter.section("too slow for their tier: mark them thorough, or make them quicker (CONTRIBUTING.md)")

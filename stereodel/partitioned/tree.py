@@ -50,7 +50,7 @@ class Splits:
         for node in range(inner):
             points = rows.pop(node)
             if len(points):
-                axis[node] = np.argmax(np.ptp(points, axis=0))
+                axis[node] = np.argmax(0.5 * points.max(axis=0) - 0.5 * points.min(axis=0))  # halves do not overflow
                 column = points[:, axis[node]]
                 last = max(0, len(points) * int(below[2 * node + 1]) // int(below[node]) - 1)
                 value[node] = np.partition(column, last)[last]

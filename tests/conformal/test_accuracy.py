@@ -152,8 +152,7 @@ def test_composition_of_any_magnification(first, second, side, nearness, offset)
             v = normalized(mp(near_point(focus, side, nearness, offset)))
             # As stored: the kernel's own roundings next to the focus are tested above.
             gap = distance(exact_map(both, v), exact_map(second, exact_map(first, v)))
-            c, s = rotate(both.right.quaternion, v)[2], mpmath.mpf(both.magnification)
-            assert gap <= ACCURACY * (1 + 2 * s / ((1 + c) + s * s * (1 - c)))
+            assert gap <= ACCURACY * (1 + largest_scale(both, v))
 
 
 @given(ROTATIONS, ROTATIONS, st.floats(0, 80), st.floats(0, 1))

@@ -207,9 +207,12 @@ def test_a_full_disk_is_an_error(tmp_path, ending):
     ],
 )
 def test_a_film_of_any_length_needs_the_memory_of_some_frames(tmp_path, ending, most, megabytes):
-    """What FFmpeg holds is seen from outside only: peaks of processes that write many more frames, of 0.12 MB each."""
-    code = """
-import resource, sys
+    """What FFmpeg holds is seen from outside only: peaks of processes that write many more frames, of 0.12 MB each.
+
+    Not by getrusage, which counts the memory of the process that started them.
+    """
+    code = r"""
+import re, sys
 import numpy as np
 from pathlib import Path
 from stereodel.film import Film
@@ -218,7 +221,7 @@ class Noise:
     def __len__(self): return self.count
     def __getitem__(self, k): return np.random.default_rng(k).integers(0, 256, (200, 200, 3), dtype=np.uint8) // 64 * 64
 Film.of_pictures(Noise(int(sys.argv[2]))).save(Path(sys.argv[1]), progress=False)
-print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)
+print(int(re.search(r"VmHWM:\s*(\d+)", open("/proc/self/status").read())[1]) / 1024)
 """
     peaks = []
     for count in (most // 10, most):

@@ -86,6 +86,6 @@ def disagreements(page, ours, theirs, limits=FIGURES):
 def tiled(picture, reduce):
     """What becomes of the tiles of a picture (h, w, k), (rows, columns, k); what is left at two edges falls away."""
     rows, columns = (side // TILE for side in picture.shape[:2])
-    whole = picture[: rows * TILE, : columns * TILE].astype(np.int32)
-    strips = reduce(whole.reshape(rows, TILE, columns * TILE, -1), axis=1)
-    return reduce(strips.reshape(rows, columns, TILE, -1), axis=2)
+    strips = picture[: rows * TILE, : columns * TILE].reshape(rows, TILE, columns, TILE, -1)
+    # Strip by strip: a poster has gigabytes of pixels as integers that sums fit into.
+    return np.stack([reduce(reduce(strip.astype(np.int32), axis=2), axis=0) for strip in strips])

@@ -31,7 +31,7 @@ def test_there_is_no_network_and_complaints_are_kept(visit, tmp_path):
     ("switch", "code", "said"),
     [
         ("on", 1, ["there is no browser here, none of chromium", "get one with: make system"]),
-        ("off", 0, ["passed", "The tests of the interactive page were left out, because STEREODEL_TEST_WEB=off."]),
+        ("off", 0, ["passed", "Tests that need a browser or Node were left out, because STEREODEL_TEST_WEB=off."]),
     ],
 )
 def test_without_a_browser_the_page_is_left_out_by_name_alone(switch, code, said):
