@@ -49,6 +49,7 @@ THOROUGH_SECONDS = 90.0
 """A test with the marker `thorough`, or a property on 500 examples, that takes longer is named, too."""
 
 
+@pytest.hookimpl(optionalhook=True)  # there may be no pytest-xdist
 def pytest_xdist_make_scheduler(config, log):
     """The tests of a file run in one process, which makes once what they share; so do all tests of a figure, and all of
     the page.
