@@ -1,10 +1,14 @@
 """Sphinx configuration. The gallery runs the figure scripts through the library's own rendering; nothing is fetched."""
 
 import sys
+import warnings
 from pathlib import Path
 
 import stereodel
 from stereodel.web import web
+
+# Of joblib, which starts a process of the gallery anew where one has grown.
+warnings.filterwarnings("ignore", message="A worker stopped while some jobs were given")
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))  # for figure_gallery
 

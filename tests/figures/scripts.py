@@ -2,7 +2,7 @@
 
 import runpy
 import sys
-from functools import cache
+from functools import cache, lru_cache
 from pathlib import Path
 
 import numpy as np
@@ -23,12 +23,12 @@ def script(name):
         sys.path.remove(str(FOLDER))
 
 
-@cache
+@lru_cache(maxsize=8)  # the tests of one figure follow each other, and pages of all would fill gigabytes
 def geometry(name):
     return script(name)["FIGURE"].geometry()
 
 
-@cache
+@lru_cache(maxsize=8)
 def page(name):
     return script(name)["FIGURE"]._page(geometry(name))
 

@@ -1,6 +1,6 @@
 """The scripts whose pictures are tested, what they draw, and what was stored."""
 
-from functools import cache
+from functools import lru_cache
 from pathlib import Path
 
 import pytest
@@ -24,9 +24,9 @@ def thorough_but_for(*names):
     )
 
 
-@cache
+@lru_cache(maxsize=2)
 def cases(script):
-    """The cases of a script, drawn once a process; figures are those that `tests.figures` asks about, too."""
+    """The cases of a script, drawn once a process, as its tests follow each other; figures are those that `tests.figures` asks about, too."""
     name = script.stem
     if "FIGURE" not in scripts.script(name):
         return cases_of(script)
