@@ -26,7 +26,7 @@ def thorough_but_for(*names):
 
 @lru_cache(maxsize=2)
 def cases(script):
-    """The cases of a script, drawn once a process, as its tests follow each other; figures are those that `tests.figures` asks about, too."""
+    """The cases of a script, drawn once, as its tests follow each other; figures are those that `tests.figures` has."""
     name = script.stem
     if "FIGURE" not in scripts.script(name):
         return cases_of(script)
