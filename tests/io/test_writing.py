@@ -10,7 +10,6 @@ import pytest
 import pyvista
 import shapely
 import trimesh
-import uxarray
 import xarray as xr
 
 from stereodel import (
@@ -138,6 +137,8 @@ def test_ugrid_of_the_plane_and_without_cartesian_nodes_counted_from_one():
     ("points", "what"), [(SPHERE, "triangles"), (SPHERE, "cells"), (SPHERE[:2], "cells"), (GREAT_CIRCLE, "cells")]
 )
 def test_uxarray_opens_the_grid(tmp_path, points, what):
+    import uxarray  # which brings 300 MB along: only into the process of this test
+
     diagram = SphericalVoronoi(points)
     write(tmp_path / "mesh.nc", diagram, what=what)
     grid = uxarray.open_grid(tmp_path / "mesh.nc")
