@@ -89,7 +89,7 @@ def test_textures(folder, run):
     assert west[0] > 150 > 50 > west[1]
     assert east.max() < 50
     run("globe", "-o", "box.png", "--size", 60, "--texture", "red.png", "--texture-box=-10,-10,10,10")
-    run("globe", "-o", "marble.svg", "--texture", "blue-marble", "--land")
+    run("globe", "-o", "marble.svg", "--size", 200, "--texture", "blue-marble", "--land")
     assert 'id="land' in (folder / "marble.svg").read_text(encoding="utf-8")
 
 
