@@ -42,6 +42,9 @@ def no_other_fonts(monkeypatch):
 SCRIPT = re.compile(r"[\[-]((?:fig\d\d|claim|globe|earth|sky|anim)_\w+)")
 """The name of a figure's script among the parameters of a test."""
 
+ALONE = re.compile("test_soak|test_ten_thousand")
+"""Tests of which each case takes a minute and shares nothing: whichever process is free takes the next."""
+
 QUICK_SECONDS = 6.0
 """A quick test that takes longer is named: three times the two seconds of the rule, as machines are busy."""
 
@@ -59,6 +62,8 @@ def pytest_xdist_make_scheduler(config, log):
     class Together(LoadScopeScheduling):
         def _split_scope(self, nodeid):
             file, _, test = nodeid.partition("::")
+            if ALONE.match(test):
+                return nodeid
             script = SCRIPT.search(test)
             return script[1] if script else "browser" if file.startswith("tests/web/") else file
 
