@@ -161,9 +161,10 @@ def _parts(geometry: Any, where: str) -> Iterator[tuple[str, Any]]:
     coordinates = geometry.get("coordinates")
     if coordinates is None:
         raise ValueError(f"{where}: has a {kind} without coordinates")
+    coordinates = _listed(coordinates, kind, where)
     if kind == "Point":
-        coordinates = [coordinates] if len(_listed(coordinates, kind, where)) else []
-    for part in _listed(coordinates, kind, where) if kind in ("MultiLineString", "MultiPolygon") else [coordinates]:
+        coordinates = [coordinates] if len(coordinates) else []
+    for part in coordinates if kind in ("MultiLineString", "MultiPolygon") else [coordinates]:
         if len(_listed(part, kind, where)):
             yield kind, part
 

@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 from tests.figures import scripts
+from tests.tiers import by_day
 from tools.baselines import Case, Store, cases_of
 from tools.build import find_scripts
 
@@ -18,10 +19,8 @@ by_script = pytest.mark.parametrize("script", SCRIPTS, ids=lambda script: script
 
 def thorough_but_for(*names):
     """Each script, of which only those are drawn by day."""
-    return pytest.mark.parametrize(
-        "script",
-        [pytest.param(s, id=s.stem, marks=[pytest.mark.thorough] * (s.stem not in names)) for s in SCRIPTS],
-    )
+    some = [script for script in SCRIPTS if script.stem in names]
+    return pytest.mark.parametrize("script", by_day(SCRIPTS, *some), ids=lambda script: script.stem)
 
 
 @lru_cache(maxsize=2)
