@@ -1,10 +1,8 @@
-"""Threads of a call, what `workers=` means everywhere; and processes that end with the one that started them."""
+"""Threads of a call, and what `workers=` means everywhere."""
 
 from __future__ import annotations
 
 import os
-import signal
-import threading
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
@@ -60,21 +58,3 @@ def _begun(pool: ThreadPoolExecutor, job: Callable[[Task], Result], task: Task) 
         done: Future[Result] = Future()
         done.set_result(job(task))
         return done
-
-
-def end_with_parent() -> None:
-    """In a process that works for another one: end when that ends, even if killed, and leave interruptions to it.
-
-    An executor's processes would wait for tasks forever, and hold the pipes that their parent wrote to.
-    """
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    threading.Thread(target=_end, daemon=True).start()
-
-
-def _end() -> None:
-    from multiprocessing import parent_process
-
-    parent = parent_process()
-    if parent is not None:
-        parent.join()
-        os._exit(1)

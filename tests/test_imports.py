@@ -35,6 +35,7 @@ MAY_IMPORT = {
     "_numbers": BASE,
     "_double_double": BASE,
     "_threads": BASE,
+    "_tasks": {"_threads"},
     "data": BASE,
     "sphere": KERNEL,
     "projections": BASE | {"sphere"},
@@ -48,7 +49,8 @@ MAY_IMPORT = {
     "graphs": KERNEL | {"sphere", "triangulation"},
     "relaxation": KERNEL | {"curves", "sphere", "triangulation"},
     "io": BASE | {"_files", "conformal", "curves", "data", "interpolation", "sphere", "triangulation"},
-    "partitioned": KERNEL | {"__init__", "_files", "curves", "interpolation", "io", "sphere", "triangulation"},
+    "partitioned": KERNEL
+    | {"__init__", "_files", "curves", "interpolation", "io", "sphere", "_tasks", "triangulation"},
     "__init__": MATHEMATICS,
     "_doctor": {"__init__", "_extras", "_interrupts", "render"},
     "__main__": {"__init__", "_doctor", "_extras", "_interrupts", "cli"},
@@ -57,7 +59,7 @@ MAY_IMPORT = {
     "mpl": MATHEMATICS | {"curves", "data", "drawing", "io"},
     "globe": MATHEMATICS | {"_files", "_kernel", "curves", "data", "drawing", "io", "render"},
     "web": BASE | {"_files", "curves", "data", "sphere", "triangulation"},
-    "film": MATHEMATICS | {"_files", "_progress", "drawing", "globe", "render"},
+    "film": MATHEMATICS | {"_files", "_progress", "drawing", "globe", "render", "_tasks"},
     "cli": MATHEMATICS
     | {"__init__", "_files", "curves", "data", "drawing", "earth", "film", "globe", "interpolation", "io"}
     | {"_doctor", "_interrupts", "_progress", "partitioned", "web"},

@@ -25,10 +25,10 @@ from pathlib import Path
 from typing import Any
 
 from stereodel._files import replacing
+from stereodel._tasks.crew import Crew
 from stereodel._threads import thread_count
 from stereodel.drawing.page_styles import STYLES
 from stereodel.film import Film
-from stereodel.film.pool import in_processes
 from stereodel.render.figure import style_names, styled_folder
 from stereodel.render.gl import OpenGLError, describe
 from stereodel.render.provenance import library_digest, library_versions
@@ -173,9 +173,10 @@ def _digest(data: bytes) -> str:
 
 def _run_all(scripts: list[Path], out: Path, styles: tuple[str, ...], jobs: int) -> Iterator[Outcome]:
     """Outcomes as they come."""
-    for number, done in in_processes(partial(run_script, out=out, styles=styles), scripts, jobs=jobs):
-        # Without a result the process died: most likely inside a graphics library.
-        yield done.result or Outcome(scripts[number], {}, f"{done.error}, without a Python error")
+    with Crew(jobs) as crew:
+        for number, done in crew.each(partial(run_script, out=out, styles=styles), scripts):
+            # Without a result the process died: most likely inside a graphics library.
+            yield done.result or Outcome(scripts[number], {}, f"{done.message}, without a Python error")
 
 
 def run_script(script: Path, out: Path, styles: tuple[str, ...] = ()) -> Outcome:

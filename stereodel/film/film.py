@@ -6,7 +6,7 @@ import inspect
 import os
 import time
 import warnings
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import KW_ONLY, dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -18,7 +18,7 @@ from stereodel._arrays import FloatArray, Pixels, as_count, as_frame, as_scalar
 from stereodel._extras import of_extra
 from stereodel._files import replacing
 from stereodel._progress import counting
-from stereodel._threads import thread_count
+from stereodel._tasks.crew import Crew, main_script_here
 from stereodel.constants import MOST_FRAME_PIXELS, MOST_FRAMES
 from stereodel.drawing.colors import ColorLike, as_color
 from stereodel.drawing.fonts import MissingCharactersWarning, missing_characters, warn_of_missing
@@ -26,7 +26,6 @@ from stereodel.drawing.page import Page
 from stereodel.drawing.page_styles import StyledDraw
 from stereodel.drawing.style import WHITE
 from stereodel.film.frames import KeptFrames, frame_names, store_frame
-from stereodel.film.pool import Done, attempt, in_processes, main_script_here, refuse_in_import
 from stereodel.film.shots import GlobePages, Motion, Samples, Shot
 from stereodel.film.writers import Reel, format_of, frame_seconds
 from stereodel.globe.globe import Globe
@@ -49,7 +48,7 @@ def as_frame_size(width: int, height: int) -> None:
 
 
 class FrameError(RuntimeError):
-    """A frame could not be drawn; the message gives its number, and a note the traceback from the drawing process."""
+    """A frame could not be drawn; the message gives its number, and the cause is the error itself."""
 
 
 @dataclass(frozen=True)
@@ -283,7 +282,6 @@ class Film(Generic[T]):
         possible. An APNG is lossless; WebP and MP4 are not. An MP4 has an even number of rows and columns: the last one
         is repeated if a picture's number is odd.
         """
-        refuse_in_import()
         target, times = Path(path), self.times
         kind = format_of(target)
         if self.draw is _as_it_is:  # existing pictures are neither drawn nor stored
@@ -293,16 +291,16 @@ class Film(Generic[T]):
             return target
         sides = (self.draw.width, self.draw.height) if isinstance(self.draw, GlobePages) else (self.size,)
         kind.check(target.name, sides, times)
-        processes = thread_count(-1, 0) if jobs is None else as_count(jobs, "jobs")
+        crew = Crew(None if jobs is None else as_count(jobs, "jobs"), lifetime=LIFETIME)
         kept = KeptFrames.beside(target, frame_names(self._camera, self.shots))
-        missing, unwritten = kept.missing(), set()
-        with counting("drawing", len(missing), shown=progress) as count:
-            for number, done in self._drawn(_Tasks(self.shots, kept, missing), processes):
-                if done.error:
-                    error = FrameError(f"frame {missing[number]}: {done.error}; what was finished is kept")
-                    error.add_note(done.trace)
-                    raise error
-                unwritten |= done.result
+        missing = kept.missing()
+        unwritten: set[str] = set()
+        with crew, counting("drawing", len(missing), shown=progress) as count:
+            for number, outcome in crew.each(self._camera, _Tasks(self.shots, kept, missing)):
+                if outcome.error is not None:
+                    message = f"frame {missing[number]}: {outcome.message}; what was finished is kept"
+                    raise FrameError(message) from outcome.error
+                unwritten |= outcome.value()
                 count()
         warn_of_missing(unwritten)
         whole = kept.folder / target.name
@@ -311,12 +309,6 @@ class Film(Generic[T]):
         os.replace(whole, target)
         kept.remove()
         return target
-
-    def _drawn(self, tasks: Sequence[tuple[T, Path]], processes: int) -> Iterator[tuple[int, Done]]:
-        """Store the frames of shots; yields the number and outcome of each task as it finishes."""
-        if min(processes, len(tasks)) <= 1:
-            return ((number, attempt(self._camera, task)) for number, task in enumerate(tasks))
-        return in_processes(self._camera, tasks, jobs=processes, lifetime=LIFETIME)
 
     def main(self, argv: Sequence[str] | None = None) -> None:
         """Run as a script: write a GIF named after the script and report its path; errors become messages.

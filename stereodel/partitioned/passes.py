@@ -18,9 +18,9 @@ import numpy as np
 from stereodel._arrays import as_count
 from stereodel._extras import optional
 from stereodel._files import ENDING
+from stereodel._tasks.crew import Crew
 from stereodel.partitioned import rows as rows_of
 from stereodel.partitioned import spread
-from stereodel.partitioned.executors import ATTEMPTS, Crew
 from stereodel.partitioned.lock import locked
 from stereodel.partitioned.plan import NAME, Plan
 from stereodel.partitioned.shards import load_json, save, save_json
@@ -42,6 +42,9 @@ REPORT: Final = "run.json"
 
 FILES: Final = "files.parquet"
 """Name of the file that maps rows to files."""
+
+ATTEMPTS: Final = 4
+"""How often tasks of a pass are begun whose files are deleted by someone else while the run works."""
 
 NONE: Final = {"part": 0, "triangles": 0}
 """The partition of a run without points."""
@@ -113,12 +116,13 @@ class Means:
 
     out: folder of results.
     limit: points that a worker may read at once.
-    executor, scratch, resume, progress: as in `triangulate`.
+    executor, jobs, scratch, resume, progress: as in `triangulate`.
     """
 
     out: str | os.PathLike[str]
     limit: int
     executor: Executor | None
+    jobs: int | None
     scratch: str | os.PathLike[str] | None
     resume: bool
     progress: Progress | None
@@ -126,13 +130,14 @@ class Means:
     def run(self, kind: type[Passes], source: Source, plan: Plan) -> Path:
         """Do what a plan says, or what is left of it; the folder of results."""
         folder, limit = Path(self.out).absolute(), as_count(self.limit, "limit")
+        jobs = None if self.jobs is None else as_count(self.jobs, "jobs")
         _refuse_within(folder, source)
         folder.mkdir(parents=True, exist_ok=True)
         store = Store.of(folder, None if self.scratch is None else Path(self.scratch).absolute(), plan)
         with locked(folder):
             _begin(store, self.resume)
             if not (folder / REPORT).exists():
-                with Crew(self.executor, max(len(plan.parts), len(plan.shares))) as crew:
+                with Crew(jobs, executor=self.executor) as crew:
                     kind(store, crew, limit, self.progress).run(source)
                 _publish(store)
             else:
@@ -253,7 +258,7 @@ class Passes(ABC):
         note = self.store.scratch / "done" / f"{name}.json"
         if note.exists():
             return list(load_json(note)["told"])
-        for attempt in range(ATTEMPTS + 1):
+        for attempt in range(ATTEMPTS):
             told = {task: self.store.done(name, task) for task in tasks}
             left = [task for task in tasks if told[task] is None]
             done = len(tasks) - len(left)
@@ -261,7 +266,8 @@ class Passes(ABC):
                 self.tell(name, done, len(tasks))
             if not left:
                 break
-            for _ in self.crew.results(function, left):
+            for _, outcome in self.crew.each(function, left):
+                outcome.value()
                 done += 1
                 self.tell(name, done, len(tasks))
         else:

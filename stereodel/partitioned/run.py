@@ -85,6 +85,7 @@ class Run(Results):
         partition: int = PARTITION,
         limit: int = LIMIT,
         executor: Executor | None = None,
+        jobs: int | None = None,
         scratch: str | os.PathLike[str] | None = None,
         resume: bool = True,
         progress: Progress | None = None,
@@ -121,7 +122,7 @@ class Run(Results):
         ...     print(found.rows().to_table()["nearest"].to_pylist())
         [[4, 0, 1]]
         """
-        means = Means(out, limit, executor, scratch, resume, progress)
+        means = Means(out, limit, executor, jobs, scratch, resume, progress)
         wanted = targets_of.Targets(targets, columns, kind, keep, partition)
         return targets_of.nearest(self.folder, wanted, k, means)
 
@@ -139,6 +140,7 @@ class Run(Results):
         partition: int = PARTITION,
         limit: int = LIMIT,
         executor: Executor | None = None,
+        jobs: int | None = None,
         scratch: str | os.PathLike[str] | None = None,
         resume: bool = True,
         progress: Progress | None = None,
@@ -184,7 +186,7 @@ class Run(Results):
         ...     print(found.rows().to_table()["height"].to_pylist())
         [5.0, nan]
         """
-        means = Means(out, limit, executor, scratch, resume, progress)
+        means = Means(out, limit, executor, jobs, scratch, resume, progress)
         wanted = targets_of.Targets(targets, columns, kind, keep, partition)
         return targets_of.interpolate(self.folder, wanted, values, method, means)
 
@@ -205,6 +207,7 @@ def triangulate(
     partition: int = PARTITION,
     limit: int = LIMIT,
     executor: Executor | None = None,
+    jobs: int | None = None,
     scratch: str | os.PathLike[str] | None = None,
     resume: bool = True,
     progress: Progress | None = None,
@@ -250,8 +253,9 @@ def triangulate(
         Points that a worker may triangulate at once; some 500 bytes each.
     executor : concurrent.futures.Executor, optional
         Who computes, such as ``client.get_executor(pure=False)`` of a client of Dask or an ``MPIPoolExecutor`` of
-        mpi4py. Its workers see `out` and `scratch`. By default processes of this machine, one for each processor: then
-        a script needs ``if __name__ == "__main__":`` around what it does.
+        mpi4py. Its workers see `out` and `scratch`. By default processes of this machine.
+    jobs : int, optional
+        Number of these processes, by default one for each processor; with 1 all is done in the process that calls.
     scratch : path-like, optional
         A folder for what passes hand on, at most 80 bytes a point, deleted when it is used; by default in `out`.
     resume : bool
@@ -329,7 +333,7 @@ def triangulate(
         cells=bool(cells),
         index=bool(index),
     )
-    means = Means(out, limit, executor, scratch, resume, progress)
+    means = Means(out, limit, executor, jobs, scratch, resume, progress)
     return Run(means.run(_Triangulating, found, plan))
 
 

@@ -34,7 +34,7 @@ FAMILY: Final = {
         columns : sequence of str, optional
             Names of the columns that say where targets are, as in `triangulate`. Surface and kind of latitude are those
             of the points.
-        kind, keep, partition, executor, scratch, resume, progress
+        kind, keep, partition, executor, jobs, scratch, resume, progress
             As in `triangulate`, of the targets.
         limit : int
             Points that a worker may triangulate at once.

@@ -352,6 +352,10 @@ class _Context:
             raise
         except Exception as error:  # pyrender and PyOpenGL raise anything here too
             raise OpenGLError(f"{self.platform} gives an OpenGL context but cannot draw ({_told(error)})") from error
+        finally:
+            # pyrender would keep what it drew, here and in OpenGL, until it draws something else.
+            with suppress(Exception):
+                self._offscreen._renderer._update_context(self.pyrender.Scene(), flags)
 
     def trial_problem(self) -> str:
         """A description of errors in a test picture with known pixels; empty if there are none."""

@@ -1,6 +1,7 @@
 """`stereodel voronoi` into a folder: points in partitions; and signs of progress, on a terminal alone."""
 
 import io
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pyarrow as pa
@@ -94,9 +95,7 @@ def test_a_scheduler_of_dask(folder, points, run, monkeypatch):
 
         def get_executor(self, **options):
             assert options == {"pure": False, "retries": 0}
-            from stereodel.partitioned.executors import Here
-
-            return Here()
+            return ThreadPoolExecutor(1)
 
     monkeypatch.setattr(partitions, "distributed", lambda: type("distributed", (), {"Client": Client}))
     run("voronoi", *FILES, "-o", "cells/", "--scheduler", "tcp://here:1")

@@ -23,12 +23,12 @@ def script(name):
         sys.path.remove(str(FOLDER))
 
 
-@lru_cache(maxsize=8)  # the tests of one figure follow each other, and pages of all would fill gigabytes
+@lru_cache(maxsize=3)  # the tests of one figure follow each other, and pages of all would fill gigabytes
 def geometry(name):
     return script(name)["FIGURE"].geometry()
 
 
-@lru_cache(maxsize=8)
+@lru_cache(maxsize=3)
 def page(name):
     return script(name)["FIGURE"]._page(geometry(name))
 

@@ -2,7 +2,7 @@
 
 from collections import defaultdict
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import lru_cache
 from itertools import combinations
 
 import numpy as np
@@ -148,7 +148,7 @@ def test_what_colour_says_is_said_to_everybody(name):
     assert list(lost(signs(page(name)))) == []
 
 
-@cache
+@lru_cache(maxsize=3)
 def ground(name):
     """The page without lines, dots and type, in pixels, and where a page point is on it."""
     shown = page(name)

@@ -7,7 +7,7 @@ import imageio.v3 as iio
 import pytest
 from PIL import Image
 
-from tests.film.processes import importable
+from tests.tasks.processes import importable
 
 SCRIPT = """
 from functools import partial

@@ -15,10 +15,9 @@ from stereodel import (
     lonlat_to_xyz,
 )
 from stereodel.partitioned import triangulate
-from stereodel.partitioned.executors import Here
 from tests import sets
 
-serially = partial(triangulate, executor=Here())
+serially = partial(triangulate, jobs=1)
 """In this process, which is fastest for few points."""
 
 

@@ -13,8 +13,7 @@ from pathlib import Path
 import pytest
 
 import stereodel
-from stereodel.partitioned import Run, executors, triangulate
-from stereodel.partitioned.executors import ATTEMPTS, Crew
+from stereodel.partitioned import Run
 from tests.partitioned.answers import differences, in_memory, rows_of, write_points
 
 SECONDS = 10
@@ -62,16 +61,24 @@ def driver(folder, points, out, **options):
 
 
 def processes(session):
-    """Processes of a session that have not ended, with their parents."""
-    found = {}
+    """Processes of a session that have not ended."""
+    found = set()
     for path in Path("/proc").glob("[0-9]*"):
         try:
             fields = (path / "stat").read_text().rpartition(")")[2].split()
         except OSError:  # it has ended meanwhile
             continue
         if int(fields[3]) == session and fields[0] not in "ZX":
-            found[int(path.name)] = int(fields[1])
+            found.add(int(path.name))
     return found
+
+
+def is_helper(pid):
+    """Whether a process does no tasks: it frees what those that end leave in the system."""
+    try:
+        return b"resource_tracker" in (Path("/proc") / str(pid) / "cmdline").read_bytes()
+    except OSError:  # it has ended meanwhile
+        return False
 
 
 def left(session):
@@ -110,8 +117,8 @@ def test_a_driver_that_is_killed(tmp_path, points, name, number):
         said = second.communicate(timeout=120)[0]
     assert second.returncode == 0, said
     process.communicate(timeout=SECONDS)
-    assert left(process.pid) == {}
-    assert left(second.pid) == {}
+    assert left(process.pid) == set()
+    assert left(second.pid) == set()
     assert differences(Run(tmp_path / "out"), truth) == []
     assert clean(tmp_path / "out")
 
@@ -120,28 +127,6 @@ def clean(out):
     """Whether a folder has results alone, and no file of a process that was killed."""
     names = {path.name for path in out.iterdir()} - {"triangles"}
     return names == {".lock", "files.parquet", "plan.json", "rows", "run.json"} and not list(out.rglob("*.tmp"))
-
-
-@pytest.mark.parametrize("error", [ConnectionRefusedError(111, "Connection refused"), EOFError("unexpected EOF")])
-def test_a_server_of_processes_that_is_killed(tmp_path, points, monkeypatch, error):
-    """It is started again; if that fails again and again, a sentence says what to do."""
-    folder, truth = points
-    failures, once = [], Crew._once
-
-    def failing(self, function, tasks):
-        if len(failures) < count:
-            failures.append(function)
-            raise error
-        return once(self, function, tasks)
-
-    monkeypatch.setattr(executors, "PAUSE", 0)
-    monkeypatch.setattr(Crew, "_once", failing)
-    count = ATTEMPTS
-    with pytest.raises(RuntimeError, match="what starts processes has ended; call again, and the run goes on"):
-        triangulate(folder, tmp_path / "out", partition=500)
-    failures, count = [], ATTEMPTS - 1
-    assert differences(triangulate(folder, tmp_path / "out", partition=500), truth) == []
-    assert len(failures) == count
 
 
 @pytest.mark.thorough
@@ -169,8 +154,8 @@ def soak(tmp_path, folder, truth, kills, seed):
         runs.append(process)
         time.sleep(chance.uniform(0, usual))
         victims = {"driver": [process.pid], "worker": [], "helper": []}
-        for pid, parent in sorted(processes(process.pid).items()):
-            victims["helper" if parent == process.pid else "worker"] += [pid] * (pid != process.pid)
+        for pid in sorted(processes(process.pid) - {process.pid}):
+            victims["helper" if is_helper(pid) else "worker"].append(pid)
         there = [name for name in ("driver", "driver", "driver", "worker", "worker", "helper") if victims[name]]
         name, number = chance.choice(there), chance.choice(SIGNALS)
         if process.poll() is None:
@@ -188,7 +173,7 @@ def soak(tmp_path, folder, truth, kills, seed):
     assert process.returncode == 0
     assert differences(Run(out), truth) == []
     assert clean(out)
-    assert [left(process.pid) for process in runs] == [{}] * len(runs)
+    assert [left(process.pid) for process in runs] == [set()] * len(runs)
     for process in runs:
         process.communicate(timeout=SECONDS)
     assert {path: (path.read_bytes(), path.stat().st_mtime_ns) for path in folder.iterdir()} == before

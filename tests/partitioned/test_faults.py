@@ -4,7 +4,6 @@ import errno
 import os
 import shutil
 import signal
-from concurrent.futures.process import BrokenProcessPool
 from functools import partial
 from pathlib import Path
 
@@ -13,8 +12,8 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
+from stereodel._tasks.crew import Crew
 from stereodel.partitioned import triangulate
-from stereodel.partitioned.executors import ATTEMPTS, Crew
 from stereodel.partitioned.lock import locked
 from stereodel.partitioned.run import PASSES
 from tests.disks import small_disk
@@ -45,26 +44,13 @@ def test_a_worker_that_is_killed(tmp_path, points, name, monkeypatch):
     """The processes of our own are replaced, and what the dead one did is done again."""
     folder, truth = points
     marker = tmp_path / "killed"
-    once = Crew._once
+    each = Crew.each
     monkeypatch.setattr(
-        Crew,
-        "_once",
-        lambda self, function, tasks: once(self, partial(killed_once, marker, name, function), tasks),
+        Crew, "each", lambda self, work, tasks: each(self, partial(killed_once, marker, name, work), tasks)
     )
     run = triangulate(folder, tmp_path / "out", partition=100)
     assert marker.exists()
     assert differences(run, truth) == []
-
-
-def killed(task):
-    os.kill(os.getpid(), signal.SIGKILL)
-
-
-@pytest.mark.thorough
-def test_processes_that_die_again_and_again():
-    with Crew(None, 2) as crew, pytest.raises(BrokenProcessPool):
-        list(crew.results(killed, range(2)))
-    assert ATTEMPTS == 3
 
 
 def test_two_runs_on_one_folder(tmp_path, points):

@@ -13,7 +13,6 @@ import pytest
 from stereodel import SphericalVoronoi
 from stereodel.interpolation import NaturalNeighborInterpolator
 from stereodel.partitioned import triangulate
-from stereodel.partitioned.executors import Here
 from stereodel.partitioned.hats import Catalogue, Pixel, hats_source, is_catalogue
 from stereodel.partitioned.sources import read
 from stereodel.sphere import lonlat_to_xyz
@@ -119,7 +118,7 @@ def run(collection, tmp_path_factory):
     """From the folder to the second catalogue: pixels of the first are the partitions."""
     told = []
     out = tmp_path_factory.mktemp("out")
-    run = triangulate(collection, out, keep=["source_id"], executor=Here(), progress=lambda name, *_: told.append(name))
+    run = triangulate(collection, out, keep=["source_id"], jobs=1, progress=lambda name, *_: told.append(name))
     assert run.statistics["compact"]
     assert "spread" not in told
     return run
@@ -154,7 +153,7 @@ def test_the_second_catalogue_is_one_for_hats(collection, run, tmp_path):
         assert is_valid_catalog(rows, strict=True)
     assert (rows / "skymap.fits").read_bytes() == (collection / "sky" / "skymap.fits").read_bytes()
     assert source_of(rows).catalogue.pixels == source_of(collection).catalogue.pixels
-    triangulate(collection, tmp_path / "out", executor=Here())
+    triangulate(collection, tmp_path / "out", jobs=1)
     assert not (tmp_path / "out" / "sky_voronoi.properties").exists()  # nothing identifies rows
 
 
@@ -174,7 +173,7 @@ def test_pixels_that_are_folders_of_files(copied, opened, run, tmp_path):
     source = source_of(copied)
     assert len(source.files) == 2 * len(whole.files)
     assert source.files[1].name == whole.files[0].name.removesuffix(".parquet") + "/part1.parquet"
-    triangulate(copied, tmp_path / "out", keep=["source_id"], executor=Here())
+    triangulate(copied, tmp_path / "out", keep=["source_id"], jobs=1)
     found, expected = (
         computed(opened(out / "rows")).set_index("source_id")["area"] for out in (tmp_path / "out", run.folder)
     )
@@ -241,7 +240,7 @@ def test_a_catalogue_of_targets(collection, opened, tmp_path, table):
     heights = lonlat[:, 1] ** 2
     columns = {"lon": lonlat[:, 0], "lat": lonlat[:, 1], "height": heights}
     pq.write_table(pa.table(columns), tmp_path / "points.parquet")
-    same = {"executor": Here(), "partition": 200}
+    same = {"jobs": 1, "partition": 200}
     run = triangulate(tmp_path / "points.parquet", tmp_path / "out", index=True, **same)
     found = run.interpolate(collection, tmp_path / "heights", "height", method="natural", keep=["source_id"], **same)
     with quiet():

@@ -11,7 +11,6 @@ import pyarrow.parquet as pq
 import pytest
 
 from stereodel import lonlat_to_xyz
-from stereodel.partitioned.executors import Here
 from stereodel.partitioned.kinds import source_of
 from stereodel.partitioned.places import Places, find_places, wkb_places
 from stereodel.partitioned.sources import paths_of, read, some
@@ -150,14 +149,14 @@ def test_values_and_targets_are_numbers_too(tmp_path, cell):
     run = serially(tmp_path / "points", tmp_path / "out", index=True)
     error = ValueError if cell == 2**53 + 1 else TypeError
     with pytest.raises(error, match=r"targets\.parquet: "):
-        run.nearest(tmp_path / "targets.parquet", tmp_path / "nearest", executor=Here())
+        run.nearest(tmp_path / "targets.parquet", tmp_path / "nearest", jobs=1)
     if cell is None:
-        found = run.interpolate(tmp_path / "points", tmp_path / "values", "value", executor=Here())
+        found = run.interpolate(tmp_path / "points", tmp_path / "values", "value", jobs=1)
         assert np.isnan(found.rows().to_table()["value"].to_numpy()).all()
         return
     message = "row 1: the value 9007199254740993 is" if error is ValueError else "the column 'value' holds"
     with pytest.raises(error, match=rf"a\.parquet: {message}"):
-        run.interpolate(tmp_path / "points", tmp_path / "values", "value", executor=Here())
+        run.interpolate(tmp_path / "points", tmp_path / "values", "value", jobs=1)
 
 
 def test_points_of_structures_and_lists(tmp_path):

@@ -11,7 +11,6 @@ from stereodel import angular_distance, lonlat_to_xyz
 from stereodel._spaces import space_of
 from stereodel.interpolation import LinearInterpolator, NaturalNeighborInterpolator
 from stereodel.partitioned import Answers
-from stereodel.partitioned.executors import Here
 from tests import sets
 from tests.examples import examples
 from tests.partitioned.answers import mesh_of, rows_of, serially, surface_of, write_points
@@ -74,7 +73,7 @@ def asked(run, targets, folder, parts=3, **options):
     """Answers at targets, nearest and by both methods, from one folder of files."""
     columns = XY if targets.shape[1] == 2 else XYZ
     write_points(folder / "targets", columns, targets, 3)
-    same = {"executor": Here(), "partition": max(1, len(targets) // parts), **options}
+    same = {"jobs": 1, "partition": max(1, len(targets) // parts), **options}
     k = min(7, run.statistics["points"])
     return {
         "nearest": run.nearest(folder / "targets", folder / "nearest", k=k, **same),
@@ -166,7 +165,7 @@ def test_the_nearest_point_alone_with_columns_that_are_kept(tmp_path, octahedron
     table = pa.table({"lon": [1.0, 91.0], "lat": [2.0, -3.0], "name": ["a", "b"]})
     pq.write_table(table.slice(0, 0), folder / "a.parquet")
     pq.write_table(table, folder / "deep" / "b.parquet")
-    found = octahedron.nearest(folder, tmp_path / "out", keep=["name"], executor=Here())
+    found = octahedron.nearest(folder, tmp_path / "out", keep=["name"], jobs=1)
     told = found.rows().to_table()
     assert told.column_names == ["name", "nearest", "distance"]
     assert told["name"].to_pylist() == ["a", "b"]
@@ -211,7 +210,7 @@ def test_what_cannot_be_asked(tmp_path, octahedron, question, targets, options, 
     rows = np.array([[1.0, 2, 3], [np.nan, 1, 1]][: 1 + (targets == "wrong")])
     folder = write_points(tmp_path / "targets", XYZ, rows, 1)
     with pytest.raises(error, match=message):
-        getattr(octahedron, question)(folder, tmp_path / "out", executor=Here(), **options)
+        getattr(octahedron, question)(folder, tmp_path / "out", jobs=1, **options)
 
 
 def test_points_that_changed_and_runs_without_an_index(tmp_path, octahedron):
