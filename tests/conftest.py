@@ -54,6 +54,15 @@ THOROUGH_SECONDS = 90.0
 """A test with the marker `thorough`, or a property on 500 examples, that takes longer is named, too."""
 
 
+def scope(nodeid):
+    """The name of those tests that run in one process with a test."""
+    file, _, test = nodeid.partition("::")
+    if ALONE.match(test):
+        return nodeid
+    script = SCRIPT.search(test)
+    return script[1] if script else "browser" if file.startswith("tests/web/") else file
+
+
 @pytest.hookimpl(optionalhook=True)  # there may be no pytest-xdist
 def pytest_xdist_make_scheduler(config, log):
     """The tests of a file run in one process, which makes once what they share; so do all tests of a figure, and all of
@@ -63,19 +72,19 @@ def pytest_xdist_make_scheduler(config, log):
 
     class Together(LoadScopeScheduling):
         def _split_scope(self, nodeid):
-            file, _, test = nodeid.partition("::")
-            if ALONE.match(test):
-                return nodeid
-            script = SCRIPT.search(test)
-            return script[1] if script else "browser" if file.startswith("tests/web/") else file
+            return scope(nodeid)
 
     return Together(config, log)
 
 
 def pytest_runtest_teardown(item, nextitem):
-    """After the last test of a figure, give back the memory that C's allocator keeps: a quarter of a gigabyte."""
-    script = SCRIPT.search(item.nodeid)
-    if script and (nextitem is None or script[1] not in nextitem.nodeid):
+    """After the last test of a file or figure, give back what the library keeps of the Earth's coasts in 1:10 million,
+    and what C's allocator keeps: half a gigabyte.
+    """
+    if nextitem is None or scope(item.nodeid) != scope(nextitem.nodeid):
+        if features := sys.modules.get("stereodel.globe.features"):
+            for kept in vars(features).values():
+                getattr(kept, "cache_clear", list)()
         with suppress(AttributeError, OSError, TypeError):  # where it is not glibc's
             ctypes.CDLL(None).malloc_trim(0)
 
