@@ -15,13 +15,13 @@ from functools import partial
 import numpy as np
 from _film import WIDTH, add_gauge, timed, whole
 
+from stereodel.curves.chart import Chart
 from stereodel.drawing import LineStyle, Page, Sketch
 from stereodel.drawing.page import Item, Label
 from stereodel.drawing.style import HALO, with_opacity
 from stereodel.film import Film, Flight, Stop
 from stereodel.film.shots import Shot, eased
 from stereodel.globe import Globe
-from stereodel.globe.chart import Chart
 from stereodel.sphere import lonlat_to_xyz
 
 CITIES = {"Paris": (2.35, 48.86), "New York": (-74.01, 40.71), "Tokyo": (139.69, 35.69)}

@@ -18,10 +18,10 @@ import numpy.typing as npt
 from stereodel._arrays import BoolArray, FloatArray, Indices, as_scalar, as_steps
 from stereodel.conformal import MoebiusMap
 from stereodel.constants import GRID_SAMPLES, MOST_GRID_LINES, REACH_MARGIN, UNIT_ROUNDOFF
+from stereodel.curves.chart import Chart, ChartView
 from stereodel.curves.trace import Arcs, exact, joined, numbered
 from stereodel.drawing.space_curves import CircleArc
-from stereodel.drawing.view import MapView
-from stereodel.sphere import SphereCircle, graticule_patch, lonlat_to_xyz, xyz_to_lonlat
+from stereodel.sphere import graticule_patch, lonlat_to_xyz, xyz_to_lonlat
 from stereodel.sphere.latitudes import Latitude
 from stereodel.sphere.vectors import crossed, turned
 
@@ -70,7 +70,7 @@ class Graticule:
     >>> grid = Graticule.regular(10)
     >>> len(grid.arcs), len(grid.drawn(MoebiusMap.identity(), View(0, 90), 0.02))
     (53, 53)
-    >>> ends = grid.thinned(MoebiusMap.identity(), View(0, 90), 0.02).end[:2]
+    >>> ends = grid.thinned(Chart(MoebiusMap.identity(), View(0, 90)), 0.02).end[:2]
     >>> np.degrees(np.arcsin(ends[:, 2])).round(2).tolist()  # the meridians 180° W and 170° W
     [90.0, 83.42]
     """
@@ -88,9 +88,7 @@ class Graticule:
         return cls._numbered(np.arange(-steps, steps), np.arange(-half, half + 1), steps, latitude)
 
     @classmethod
-    def shown(
-        cls, spacing: float, lens: MoebiusMap, view: MapView, least: float, *, latitude: Latitude = "spherical"
-    ) -> Graticule:
+    def shown(cls, spacing: float, chart: Chart, least: float, *, latitude: Latitude = "spherical") -> Graticule:
         """The lines of `regular` that may be visible in a picture thinned to `least`: some thousands.
 
         However fine the grid, the cost depends only on its visible part. Parameters are those of `regular` and
@@ -105,14 +103,14 @@ class Graticule:
         --------
         >>> from stereodel import fisheye
         >>> from stereodel.drawing import View
-        >>> lens = fisheye((2.35, 48.86), magnification=1e9)
-        >>> grid = Graticule.shown(2e-8, lens, View(2.35, 48.86), 0.003)  # of 27 billion lines
+        >>> chart = Chart(fisheye((2.35, 48.86), magnification=1e9), View(2.35, 48.86))
+        >>> grid = Graticule.shown(2e-8, chart, 0.003)  # of 27 billion lines
         >>> 20 < len(grid.arcs) < 100
         True
         """
         steps = as_steps(180.0, spacing, "spacing")
         half, quarter = (steps - 1) // 2, _quarter(steps)
-        window = _Window(lens, view, latitude)
+        window = _Window(chart, latitude)
         need = as_scalar(least, "least", low=0.0, open_low=True)
         meridians, parallels = [np.zeros(0, dtype=np.intp)], [np.zeros(0, dtype=np.intp)]
         for stride in _chain(quarter):
@@ -144,9 +142,9 @@ class Graticule:
         strides = _strides(np.arange(count), _quarter(steps))
         return cls(arcs, count, float(np.radians(2 * half_width)) / steps, np.tile(strides, 2))
 
-    def drawn(self, lens: MoebiusMap, view: MapView, least: float) -> list[CircleArc]:
+    def drawn(self, lens: MoebiusMap, view: ChartView, least: float) -> list[CircleArc]:
         """The visible lines: the images of `thinned` lines under the lens."""
-        thin = self.thinned(lens, view, least)
+        thin = self.thinned(Chart(lens, view), least)
         parts = replace(thin, edge=np.arange(len(thin))).through(lens)
         # An image is cut at the apsides of its circle, between which it is an arc.
         first = np.flatnonzero(np.diff(parts.edge, prepend=-1))
@@ -157,13 +155,12 @@ class Graticule:
         rows = zip(centers, u, crossed(parts.axis, u), sweeps.tolist(), strict=True)
         return [CircleArc(center, u, v, 0.0, sweep) for center, u, v, sweep in rows]
 
-    def thinned(self, lens: MoebiusMap, view: MapView, least: float) -> Arcs:
+    def thinned(self, chart: Chart, least: float) -> Arcs:
         """The parts of the lines that a picture shows, before the lens.
 
         Parameters
         ----------
-        lens : MoebiusMap
-        view : MapView
+        chart : Chart
             Near and far sides are treated alike, for glass balls.
         least : float
             Least distance between neighbours on the page, in radii of the disc; closer lines are left out.
@@ -175,7 +172,7 @@ class Graticule:
             too close; lines that always remain are whole.
         """
         need = as_scalar(least, "least", low=0.0)
-        lines = _Lines(self, lens, view)
+        lines = _Lines(self, chart)
         t = lines.parameters()
         row = np.broadcast_to(np.arange(len(t))[:, None], t.shape)
         # Lines that always remain are drawn regardless of their neighbours.
@@ -218,8 +215,7 @@ class _Lines:
     """The lines of a grid on a page."""
 
     grid: Graticule
-    lens: MoebiusMap
-    view: MapView
+    chart: Chart
 
     def parameters(self) -> FloatArray:
         """Ascending parameters (n, k) at which each line's spacing is evaluated: even steps before and after the lens.
@@ -232,14 +228,14 @@ class _Lines:
         even = begin + np.linspace(0.0, 1.0, GRID_SAMPLES) * (stop - begin)
         # A lens takes a circle to a circle, and tan(t/2) about its nearest point to the focus to a multiple of itself:
         # the factor is the root of the ratio of the scales there and opposite.
-        _, _, nearest = arcs.waves(self.lens.focus)
+        _, _, nearest = arcs.waves(self.chart.lens.focus)
         every = np.arange(len(arcs))
-        near, far = (self.lens.scale_factor(arcs.points(every, nearest + turn)) for turn in (0.0, np.pi))
+        near, far = (self.chart.lens.scale_factor(arcs.points(every, nearest + turn)) for turn in (0.0, np.pi))
         half = np.linspace(-np.pi / 2, np.pi / 2, GRID_SAMPLES)[1:-1]
         bent = nearest[:, None] + 2 * np.arctan(np.tan(half) / np.sqrt(near / far)[:, None])
-        limb = self.lens.inverse().image_of(SphereCircle(self.view.matrix[2], 0.0))
+        limb = self.chart.limb
         middle, size, phase = arcs.waves(limb.normal)
-        cosine = np.divide(limb.offset - middle, size, out=np.ones_like(size), where=size > 0)
+        cosine = np.divide(limb.cosine - middle, size, out=np.ones_like(size), where=size > 0)
         away = np.arccos(np.clip(cosine, -1.0, 1.0))
         there = np.concatenate([bent, phase[:, None] + np.stack([away, -away], axis=1)], axis=1)
         there = begin + np.mod(there - begin, 2 * np.pi)
@@ -254,10 +250,11 @@ class _Lines:
         across = crossed(place, cos * v - sin * u)
         across /= np.sqrt(np.sum(across**2, axis=-1, keepdims=True))
         gap = np.where(row < self.grid.meridians, np.hypot(place[..., 0], place[..., 1]), 1.0) * self.grid.step
-        image, matrix = self.lens(place), self.view.matrix
+        lens, matrix = self.chart.lens, self.chart.matrix
+        image = lens(place)
         turn = self._turned(place, across, image)
-        breadth = self.view.breadth(turned(image, matrix), turned(turn, matrix))
-        found: FloatArray = gap * self.lens.scale_factor(place) * breadth
+        breadth = self.chart.view.breadth(turned(image, matrix), turned(turn, matrix))
+        found: FloatArray = gap * lens.scale_factor(place) * breadth
         return found
 
     def ends(self, t: FloatArray, enough: BoolArray, wanted: FloatArray) -> tuple[Indices, FloatArray, BoolArray]:
@@ -278,7 +275,7 @@ class _Lines:
         A fisheye moves places along great circles through its focus and keeps azimuths: the component of a vector along
         the great circle stays along it, the component across stays across.
         """
-        right, left = self.lens.right.matrix, self.lens.left.matrix
+        right, left = self.chart.lens.right.matrix, self.chart.lens.left.matrix
         p, d, q = turned(place, right), turned(direction, right), turned(image, left.T)
         aside = np.hypot(p[..., 0], p[..., 1])
         at_focus = aside == 0
@@ -296,8 +293,7 @@ class _Lines:
 class _Window:
     """The part of the sphere that a picture shows, and where the lines of a grid have room in it."""
 
-    lens: MoebiusMap
-    view: MapView
+    chart: Chart
     latitude: Latitude
 
     def meridians(self, stride: int, steps: int, apart: float) -> Indices:
@@ -342,7 +338,7 @@ class _Window:
 
     def _reach(self, scale: float) -> float | None:
         """Distance in radians from the peak where the lens has this scale: L / (cos² + L² sin²) of half of it."""
-        size = self.lens.magnification
+        size = self.chart.lens.magnification
         larger = max(size, 1 / size)
         if scale > larger * (1 + REACH_MARGIN):
             return None
@@ -352,28 +348,29 @@ class _Window:
 
     @cached_property
     def _seen(self) -> _Box:
-        cap = _visible(self.lens, self.view)
-        return _box_around(cap.normal, float(np.radians(cap.angular_radius)))
+        cap = self.chart.source
+        return _box_around(cap.normal, cap.radius)
 
     @cached_property
     def _away(self) -> float:
         """Distance in radians of the visible part from the peak, near which a box would reach round the sphere."""
-        cap = _visible(self.lens, self.view)
+        cap = self.chart.source
         chord = float(np.sqrt(np.sum((cap.normal - self._peak) ** 2)))
-        apart = 2 * np.arcsin(min(1.0, chord / 2)) - np.radians(cap.angular_radius)
+        apart = 2 * np.arcsin(min(1.0, chord / 2)) - cap.radius
         return float(apart) * (1 - REACH_MARGIN) - 8 * UNIT_ROUNDOFF
 
     @property
     def _widest(self) -> float:
         """The largest scale of the view, reached at its edge."""
-        edge = np.array([np.sin(np.radians(self.view.angular_radius)), 0.0, self.view.edge])
-        return float(self.view.breadth(edge, np.array([0.0, 1.0, 0.0])))
+        view, radius = self.chart.view, np.radians(self.chart.view.angular_radius)
+        edge = np.array([np.sin(radius), 0.0, np.cos(radius)])
+        return float(view.breadth(edge, np.array([0.0, 1.0, 0.0])))
 
     @property
     def _peak(self) -> FloatArray:
         """The place where the scale is largest."""
-        focus: FloatArray = self.lens.right.matrix[2]
-        return focus if self.lens.magnification >= 1 else -focus
+        focus: FloatArray = self.chart.lens.right.matrix[2]
+        return focus if self.chart.lens.magnification >= 1 else -focus
 
 
 def _meridians(lons: FloatArray) -> Arcs:
@@ -405,22 +402,17 @@ def _box_around(center: FloatArray, radius: float) -> _Box:
     return (south, north, lon - side, lon + side)
 
 
-def _visible(lens: MoebiusMap, view: MapView) -> SphereCircle:
-    """The circle before the lens whose interior a view shows."""
-    return lens.inverse().image_of(SphereCircle.around(view.matrix[2], view.angular_radius))
-
-
-def usual_spacing(lens: MoebiusMap, view: MapView) -> float:
+def usual_spacing(chart: Chart) -> float:
     """The spacing of `SPACINGS`, in degrees, that gives about `LINES_ACROSS` lines across a picture.
 
     Examples
     --------
     >>> from stereodel import fisheye
     >>> from stereodel.drawing import View
-    >>> [usual_spacing(fisheye((2, 48), magnification=size), View(2, 48)) for size in (1, 20, 1e6)]
+    >>> [usual_spacing(Chart(fisheye((2, 48), magnification=size), View(2, 48))) for size in (1, 20, 1e6)]
     [15.0, 1.0, 2e-05]
     """
-    across = max(2 * _visible(lens, view).angular_radius, SPACINGS[-1])
+    across = max(2 * float(np.degrees(chart.source.radius)), SPACINGS[-1])
     return min(SPACINGS, key=lambda spacing: abs(np.log(across / LINES_ACROSS / spacing)))
 
 

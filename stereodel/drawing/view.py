@@ -209,9 +209,7 @@ MapView = View | StereographicView
 
 def _frame(lon: float, lat: float, roll: float) -> FloatArray:
     """Right, up and toward the viewer above a point, as rows."""
-    toward = lonlat_to_xyz((lon, lat))
-    right = lonlat_to_xyz((lon + 90.0, 0.0))
-    up = lonlat_to_xyz((lon + 180.0, 90.0 - lat) if lat >= 0 else (lon, 90.0 + lat))
-    cos, sin, _ = lonlat_to_xyz((roll, 0.0))
+    above = (lon + 180.0, 90.0 - lat) if lat >= 0 else (lon, 90.0 + lat)
+    toward, right, up, (cos, sin, _) = lonlat_to_xyz([(lon, lat), (lon + 90.0, 0.0), above, (roll, 0.0)])
     # + 0.0 turns −0 into 0, so that symmetric views give identical files.
     return np.array([cos * right - sin * up, sin * right + cos * up, toward]) + 0.0

@@ -24,6 +24,7 @@ from stereodel._arrays import (
 )
 from stereodel._extras import of_extra
 from stereodel.conformal import MoebiusMap
+from stereodel.curves.chart import Chart
 from stereodel.drawing.colors import ColorLike, as_color, as_colors
 from stereodel.drawing.fonts import FontLike, as_font
 from stereodel.drawing.label import placed_label
@@ -47,7 +48,6 @@ from stereodel.drawing.style import (
 from stereodel.drawing.title import with_title
 from stereodel.drawing.view import MapView
 from stereodel.globe import features
-from stereodel.globe.chart import Chart
 from stereodel.globe.layers import Areas, GridLines, Ground, Image, Lines, MapLayer, Names, Points, Rim
 from stereodel.globe.lines import SphereLines
 from stereodel.globe.pages import Panel, default_view, panels

@@ -9,17 +9,29 @@ from typing import Protocol
 import numpy as np
 
 from stereodel._arrays import FloatArray
+from stereodel.curves.chart import Chart
 from stereodel.drawing.colors import Color
 from stereodel.drawing.graticule import LEAST_APART, WIDTHS_APART, Graticule, usual_spacing
 from stereodel.drawing.label import within_disc
 from stereodel.drawing.label_placement import placed_apart
-from stereodel.drawing.page import Dots, Fill, Item, Label, Picture, Polygons, Polylines, Stroke
+from stereodel.drawing.page import Ball, Beziers, Dots, Fill, Item, Label, Picture, Polygons, Polylines, Stroke
+from stereodel.drawing.space_curves import page_path
 from stereodel.drawing.style import DotStyle, LineStyle
-from stereodel.globe.chart import Chart
+from stereodel.drawing.visibility import limb
 from stereodel.globe.lines import SphereLines
 from stereodel.globe.raster import Raster, RasterOnDisc
 from stereodel.globe.regions import SphereRegions
 from stereodel.sphere.latitudes import Latitude
+
+
+def outline(chart: Chart) -> Beziers:
+    """The edge of a disc, counterclockwise."""
+    return page_path([limb(1.0)], chart.at, chart.scale)
+
+
+def ball(chart: Chart) -> Ball | None:
+    """The shading of a disc, if it is a ball."""
+    return Ball(chart.at, chart.scale) if chart.view.round else None
 
 
 class MapLayer(Protocol):
@@ -38,7 +50,7 @@ class Ground:
 
     def lay(self, chart: Chart) -> Iterator[Item]:
         """The whole disc, shaded if it is a ball."""
-        yield Fill(chart.outline, self.color, self.name, chart.ball)
+        yield Fill((outline(chart),), self.color, self.name, ball(chart))
 
 
 @dataclass(frozen=True)
@@ -50,7 +62,7 @@ class Rim:
 
     def lay(self, chart: Chart) -> Iterator[Item]:
         """A circle."""
-        yield Stroke(chart.outline[0], self.style.color, self.style.width, closed=True, name=self.name)
+        yield Stroke(outline(chart), self.style.color, self.style.width, closed=True, name=self.name)
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,7 +75,7 @@ class Lines:
 
     def lay(self, chart: Chart) -> Iterator[Item]:
         """All visible parts, as one item."""
-        seen = chart.lines(self.lines)
+        seen = self.lines.on(chart)
         if len(seen):
             yield Polylines(seen.values, seen.offsets, self.style.color, self.style.width, self.name)
 
@@ -82,11 +94,10 @@ class GridLines:
 
     def lay(self, chart: Chart) -> Iterator[Item]:
         """As for `Lines`; some lines end where they are less than `WIDTHS_APART` line widths apart."""
-        lens, view = chart.lens, chart.view
-        spacing = usual_spacing(lens, view) if self.spacing is None else self.spacing
+        spacing = usual_spacing(chart) if self.spacing is None else self.spacing
         least = max(WIDTHS_APART * self.style.width, LEAST_APART) / (chart.unit * chart.scale)
-        grid = Graticule.shown(spacing, lens, view, least, latitude=self.latitude)
-        shown = SphereLines.alone(grid.thinned(lens, view, least))
+        grid = Graticule.shown(spacing, chart, least, latitude=self.latitude)
+        shown = SphereLines.alone(grid.thinned(chart, least))
         yield from Lines(shown, self.style, self.name).lay(chart)
 
 
@@ -103,10 +114,10 @@ class Areas:
 
         With few colours, regions of different colours may overlap; later colours cover earlier ones.
         """
-        loops, owner = chart.regions(self.regions)
+        loops, owner = self.regions.on(chart)
         if len(loops) == 0:
             return
-        whole = Polygons(loops.values, loops.offsets, owner, self.colors, chart.ball, self.name)
+        whole = Polygons(loops.values, loops.offsets, owner, self.colors, ball(chart), self.name)
         if whole.pictured:
             yield whole
             return
@@ -127,7 +138,7 @@ class Image:
     def lay(self, chart: Chart) -> Iterator[Item]:
         """The whole disc as one image, warped when it is drawn."""
         painter = RasterOnDisc(self.raster, chart.lens, chart.view, chart.at, chart.scale, self.opacity)
-        yield Picture(chart.outline, painter, self.name)
+        yield Picture((outline(chart),), painter, self.name)
 
 
 @dataclass(frozen=True, eq=False)

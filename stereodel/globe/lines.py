@@ -12,7 +12,8 @@ from stereodel._arrays import FloatArray, Indices, as_lonlat
 from stereodel.conformal import MoebiusMap
 from stereodel.curves import clip, trace
 from stereodel.curves.borders import Pieces
-from stereodel.curves.ragged import Ragged
+from stereodel.curves.chart import Chart
+from stereodel.curves.ragged import Ragged, thinned
 from stereodel.sphere.latitudes import Latitude
 
 
@@ -55,6 +56,10 @@ class SphereLines:
     def alone(cls, arcs: trace.Arcs) -> SphereLines:
         """Prepared arcs, each of them a line."""
         return cls(trace.Edges.of(trace.numbered(arcs)), Ragged(np.arange(len(arcs)), np.arange(len(arcs) + 1)))
+
+    def on(self, chart: Chart) -> Ragged:
+        """The visible parts, on the page."""
+        return thinned(chart.lines(self.edges, self.sides), chart.tolerance)
 
     def through(self, lens: MoebiusMap, *, tolerance: float) -> tuple[FloatArray, Indices]:
         """Polylines (unit vectors, offsets) whose chords are within `tolerance` radii of the images."""

@@ -8,13 +8,13 @@ from typing import Protocol
 
 from stereodel._arrays import as_count, as_scalar
 from stereodel.conformal import MoebiusMap
+from stereodel.curves.chart import Chart
 from stereodel.drawing.fonts import FontLike, as_font, in_font
 from stereodel.drawing.ground import haloed
 from stereodel.drawing.label import with_room
 from stereodel.drawing.page import Item, Label, Page
 from stereodel.drawing.style import BLACK, PRINT_WIDTH
 from stereodel.drawing.view import MapView, StereographicView, View
-from stereodel.globe.chart import Chart
 from stereodel.sphere import xyz_to_lonlat
 
 MARGIN = 0.03
@@ -123,8 +123,9 @@ def panels(
         lens = MoebiusMap.identity() if panel.lens is None else panel.lens
         view = default_view(lens) if panel.view is None else panel.view
         around = (at[0] - pitch / 2, at[0] + pitch / 2, at[1] - pitch / 2, at[1] + pitch / 2)
-        items += with_room(panel.globe.items(Chart(lens, view, at, 1.0, fine / unit, unit)), around, unit)
-        views.append(view.matrix)
+        chart = Chart(lens, view, at, 1.0, fine / unit, unit)
+        items += with_room(panel.globe.items(chart), around, unit)
+        views.append(chart.matrix)
         if panel.title:
             items.append(Label(panel.title, (at[0], at[1] + pitch / 2), (0.0, 3.0), "center", "baseline", color=BLACK))
     extent = (0.0, across * pitch, 0.0, rows * (pitch + head))

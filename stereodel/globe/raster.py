@@ -27,6 +27,7 @@ from stereodel._arrays import (
 from stereodel._threads import thread_count
 from stereodel.conformal import MoebiusMap
 from stereodel.constants import MOST_PIXELS_ACROSS, MOST_TEXELS
+from stereodel.curves.chart import ChartView
 from stereodel.drawing.view import MapView, View
 from stereodel.globe.images import read_image
 from stereodel.sphere import lonlat_to_xyz, xyz_to_lonlat
@@ -212,7 +213,7 @@ class Raster:
     def painted(
         self,
         lens: MoebiusMap,
-        view: MapView,
+        view: ChartView,
         place: tuple[float, float, float, float],
         pixels: tuple[int, int],
         *,
@@ -413,7 +414,7 @@ class RasterOnDisc:
 
     raster: Raster
     lens: MoebiusMap
-    view: MapView
+    view: ChartView
     at: tuple[float, float] = (0.0, 0.0)
     scale: float = 1.0
     opacity: float = 1.0

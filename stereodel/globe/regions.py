@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from stereodel._arrays import BoolArray, FloatArray, Indices, as_lonlat
 from stereodel.curves import trace
+from stereodel.curves.chart import Chart
 from stereodel.curves.clip import signed_areas
 from stereodel.curves.ragged import Ragged
 from stereodel.curves.seams import stitched
@@ -140,6 +141,15 @@ class SphereRegions:
     def outlines(self) -> SphereLines:
         """The rings as lines, without the seams of map files."""
         return SphereLines(self.edges, self.rings)
+
+    def on(self, chart: Chart) -> tuple[Ragged, Indices]:
+        """The visible parts, as closed loops on the page, interior on the left, and the region of each."""
+
+        def around(shown: BoolArray) -> BoolArray:
+            asked = ~shown & self.may_hold(chart.source.normal)
+            return self.everywhere | chart.surrounded(self.edges, self.rings, self.owner, self.left, asked)
+
+        return chart.regions(self.edges, self.rings, self.owner, self.left, self.count, around)
 
     def may_hold(self, place: FloatArray) -> BoolArray:
         """Which regions may contain a place far from their rings, (n,): all that are not certainly elsewhere."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import pairwise
 from typing import Any, Final, Literal, cast
 
@@ -12,15 +13,15 @@ from matplotlib.transforms import Transform
 
 from stereodel._arrays import BoolArray, FloatArray, Indices
 from stereodel.conformal import MoebiusMap
-from stereodel.constants import DEGREE_ROUNDING, ON_BALL, PAGE_TOLERANCE, STORED_ERROR, WHOLE_TURNS
-from stereodel.curves import clip, trace
-from stereodel.curves.borders import Cap, Pieces
+from stereodel.constants import DEGREE_ROUNDING, PAGE_TOLERANCE, WHOLE_TURNS
+from stereodel.curves import trace
+from stereodel.curves.chart import Chart
 from stereodel.curves.ragged import Ragged
 from stereodel.curves.seams import stitched
 from stereodel.curves.trace import sides_of, unwrapped
 from stereodel.drawing.view import MapView
 from stereodel.mpl.insides import on_the_left
-from stereodel.sphere import SphereCircle, lonlat_to_xyz, xyz_to_lonlat
+from stereodel.sphere import lonlat_to_xyz, xyz_to_lonlat
 from stereodel.sphere.vectors import turned
 
 Edges = Literal["great circle", "straight"]
@@ -48,23 +49,20 @@ class LonLatToPage(Transform):
     def __init__(self, lens: MoebiusMap, view: MapView, edges: Edges = "great circle") -> None:
         super().__init__()
         self.lens, self.view, self.edges = lens, view, edges
-        self.back, self.matrix = lens.inverse(), view.matrix
-        self._tolerance = PAGE_TOLERANCE
-        toward = self.matrix[2]
-        self._middle = xyz_to_lonlat(self.back(toward))
-        # The preimage of the visible cap under the lens is also a cap; slightly enlarged.
-        self._shown = self.back.image_of(SphereCircle.around(toward, view.angular_radius + np.degrees(ON_BALL)))
-        self._reach = float(np.arctan2(self._shown.radius, self._shown.offset)) + STORED_ERROR
+        # Great circles are arcs themselves, so their chords have the whole tolerance.
+        share = 0.5 if edges == "straight" else 1.0
+        self._chart = Chart(lens, view, tolerance=PAGE_TOLERANCE, share=share, fineness=1.0)
+        self._middle = xyz_to_lonlat(lens.inverse()(self._chart.matrix[2]))
 
     @property
     def tolerance(self) -> float:
         """Largest deviation of line segments from the exact lines, in page units; reduce it for closer zoom."""
-        return self._tolerance
+        return self._chart.tolerance
 
     @tolerance.setter
     def tolerance(self, value: float) -> None:
-        if value != self._tolerance:
-            self._tolerance = value
+        if value != self.tolerance:
+            self._chart = replace(self._chart, tolerance=value)
             self.invalidate()
 
     def transform_non_affine(self, values: npt.ArrayLike) -> FloatArray:
@@ -73,9 +71,8 @@ class LonLatToPage(Transform):
         rows = lonlat.reshape(-1, 2)
         page = np.full(rows.shape, np.nan)
         place = np.flatnonzero(_is_place(rows))
-        axes = turned(self.lens(lonlat_to_xyz(rows[place])), self.matrix)
-        seen = self._border.holds(axes)
-        page[place[seen]] = self.view.flattened(axes[seen])
+        found, seen = self._chart.points(lonlat_to_xyz(rows[place]))
+        page[place[seen]] = found[seen]
         return page.reshape(lonlat.shape)
 
     def transform_path_non_affine(self, path: Path) -> Path:
@@ -93,9 +90,8 @@ class LonLatToPage(Transform):
         lines = unwrapped(lines) if self.edges == "straight" else self._led(lines)
         first, sides = sides_of(lines)
         xyz = lonlat_to_xyz(lines.values)
-        edges, near = self._edges(lines.values[first], lines.values[first + 1], xyz[first], xyz[first + 1])
-        pieces, samples = self._traced(edges.take(near))
-        return clip.lines(clip.among(sides, near), pieces, samples, self._border)[0]
+        edges = self._edges(lines.values[first], lines.values[first + 1], xyz[first], xyz[first + 1])
+        return self._chart.lines(edges, sides)
 
     def regions(self, rings: Ragged, owner: Indices, count: int) -> tuple[Ragged, Indices]:
         """The visible parts of regions, as closed loops on the page along the edge of the view, and the region of each.
@@ -122,16 +118,8 @@ class LonLatToPage(Transform):
         # On the sphere an edge ends where the next one of its ring starts, whatever the longitudes of the two.
         p, q = lonlat_to_xyz(start), np.empty((len(start), 3))
         q[sides.values] = p[sides.values[sides.following]]
-        edges, near = self._edges(start, end, p, q)
-        if not near.any():
-            return clip.bordered(Ragged.of([], rings.values), owner[:0], middle, self._border)
-        pieces, samples = self._traced(edges.take(near))
-        rows, left = clip.among(sides, near), edges.left(sides)
-        return clip.regions(rows, owner, count, pieces, samples, self._border, middle, left)
-
-    @property
-    def _border(self) -> Cap:
-        return Cap(self.view, self.tolerance, fineness=1.0)
+        edges = self._edges(start, end, p, q)
+        return self._chart.regions(edges, sides, owner, edges.left(sides), count, lambda shown: middle & ~shown)
 
     def _led(self, lines: Ragged) -> Ragged:
         """The lines, with great circles between antipodal places led over the north; from a pole, down its meridian."""
@@ -145,18 +133,10 @@ class LonLatToPage(Transform):
         between = np.stack([lon[at], np.where(np.abs(lat[at]) == 90.0, 0.0, 90.0)], axis=1)
         return lines.inserted(at + 1, between)
 
-    def _edges(self, start: FloatArray, end: FloatArray, p: FloatArray, q: FloatArray) -> tuple[trace.Edges, BoolArray]:
-        """Edges from start to end in degrees, p to q on the sphere, and which of them may be visible."""
+    def _edges(self, start: FloatArray, end: FloatArray, p: FloatArray, q: FloatArray) -> trace.Edges:
+        """Edges from start to end in degrees, p to q on the sphere."""
         straight = self.edges == "straight"
-        edges = trace.Edges.straight(start, end, ends=(p, q)) if straight else trace.Edges.of(trace.great(p, q))
-        return edges, edges.within(self._shown.normal, self._reach)
-
-    def _traced(self, edges: trace.Edges) -> tuple[Pieces, Ragged]:
-        """Edges in view axes, cut at the edge of the view, and points of the pieces."""
-        # Tolerance for chords in space; if arcs are approximate too, half is for arcs and half for chords.
-        slack = self.tolerance / self.view.stretch / (2 if self.edges == "straight" else 1)
-        pieces = self._border.cut(edges.arcs_under(self.lens, slack).through(self.lens).turned(self.matrix))
-        return pieces, pieces.arcs.sampled(slack, pieces.seen)
+        return trace.Edges.straight(start, end, ends=(p, q)) if straight else trace.Edges.of(trace.great(p, q))
 
     def inverted(self) -> Transform:
         """From the page to longitude and latitude."""
@@ -179,7 +159,8 @@ class PageToLonLat(Transform):
         axes = self._forward.view.raised(page.reshape(-1, 2))
         lonlat = np.full((len(axes), 2), np.nan)
         inside = np.isfinite(axes).all(axis=1)
-        lonlat[inside] = xyz_to_lonlat(self._forward.back(turned(axes[inside], self._forward.matrix.T)))
+        xyz = turned(axes[inside], self._forward.view.matrix.T)
+        lonlat[inside] = xyz_to_lonlat(self._forward.lens.inverse()(xyz))
         return lonlat.reshape(page.shape)
 
     def inverted(self) -> Transform:

@@ -7,9 +7,9 @@ import pytest
 
 from stereodel import MoebiusMap, fisheye, lonlat_to_xyz, xyz_to_lonlat
 from stereodel.constants import MOST_GRID_LINES
+from stereodel.curves.chart import Chart
 from stereodel.drawing import StereographicView, View
 from stereodel.drawing.graticule import Graticule, usual_spacing
-from stereodel.globe.chart import Chart
 from stereodel.globe.lines import SphereLines
 from stereodel.sphere import graticule, graticule_patch
 from tests.tiers import by_day
@@ -42,7 +42,7 @@ def test_where_there_is_room_all_is_drawn(spacing):
 )
 def test_lines_that_always_stay(spacing, whole, strides):
     grid = Graticule.regular(spacing)
-    kept = grid.thinned(NONE, View(0, 0), 100.0)
+    kept = grid.thinned(Chart(NONE, View(0, 0)), 100.0)
     lons = xyz_to_lonlat(kept.points(np.arange(len(kept)), (kept.begin + kept.stop) / 2))[:-1, 0]
     assert sorted((lons + 180 + 1e-9) % 360 - 180 - 1e-9) == pytest.approx(whole)
     assert (kept.axis[-1] == [0, 0, 1]).all()
@@ -57,7 +57,7 @@ def test_lines_that_always_stay(spacing, whole, strides):
 def test_lines_end_where_their_neighbours_come_too_near_on_the_page(lens, view, grid):
     """By an oracle of its own: differences on the page."""
     least, checked = 0.03, 0
-    shown = grid.thinned(lens, view, least)
+    shown = grid.thinned(Chart(lens, view), least)
     for k, line in enumerate(shown.edge):
         stride, whole = grid.strides[line], (grid.arcs.start[line], grid.arcs.end[line])
         for place in (shown.start[k], shown.end[k]):
@@ -73,7 +73,7 @@ def test_lines_end_where_their_neighbours_come_too_near_on_the_page(lens, view, 
 @pytest.mark.parametrize("view", VIEWS)
 def test_what_is_drawn_is_all_that_has_room(lens, view):
     grid, least = Graticule.regular(10), 0.03
-    shown = grid.thinned(lens, view, least)
+    shown = grid.thinned(Chart(lens, view), least)
     for line in range(len(grid.arcs)):
         t = grid.arcs.begin[line] + np.linspace(0.001, 0.999, 40) * (grid.arcs.stop - grid.arcs.begin)[line]
         parts = np.flatnonzero(shown.edge == line)
@@ -110,8 +110,9 @@ def test_no_line_is_lost_where_room_is_scarce(focus, size):
 
 def assert_same_lines(whole, lens, view, least, degrees, **options):
     """Bit for bit."""
-    some, chart = Graticule.shown(degrees, lens, view, least, **options), Chart(lens, view)
-    seen, expected = (chart.lines(SphereLines.alone(grid.thinned(lens, view, least))) for grid in (some, whole))
+    chart = Chart(lens, view)
+    some = Graticule.shown(degrees, chart, least, **options)
+    seen, expected = (SphereLines.alone(grid.thinned(chart, least)).on(chart) for grid in (some, whole))
     assert np.array_equal(seen.values, expected.values)
     assert np.array_equal(seen.offsets, expected.offsets)
 
@@ -123,19 +124,20 @@ def test_however_fine_a_grid_is_a_picture_has_some_thousand_lines(degrees, focus
     for size in (1, 1e3, 1e6, 1e9, 1e12, 1e-6):
         lens = fisheye(focus, magnification=size)
         for view in (View(*focus), View(focus[0] + 100, -focus[1]), StereographicView(*focus, angular_radius=150)):
-            assert len(Graticule.shown(degrees, lens, view, 0.0032).arcs) < 10_000
+            assert len(Graticule.shown(degrees, Chart(lens, view), 0.0032).arcs) < 10_000
 
 
 @pytest.mark.parametrize("size", [1, 3, 20, 1e3, 1e6, 1e9, 1e11])
 @pytest.mark.parametrize("focus", [(2.35, 48.86), (-70, -12)])
 def test_usual_spacings_suit_the_picture(size, focus):
     lens, view = fisheye(focus, magnification=size), View(*focus)
-    degrees = usual_spacing(lens, view)
+    chart = Chart(lens, view)
+    degrees = usual_spacing(chart)
     across = 4 * np.degrees(np.arctan(1 / size))
     assert across / degrees == pytest.approx(12, rel=0.6)
-    crossed = Chart(lens, view).lines(SphereLines.alone(Graticule.shown(degrees, lens, view, 0.0032).arcs))
+    crossed = SphereLines.alone(Graticule.shown(degrees, chart, 0.0032).arcs).on(chart)
     assert 12 <= len(crossed) <= 60
-    assert usual_spacing(lens, View(focus[0] + 180, -focus[1])) == 15.0
+    assert usual_spacing(Chart(lens, View(focus[0] + 180, -focus[1]))) == 15.0
 
 
 def spacing(end, lens, view, step, *, meridian):
@@ -159,8 +161,8 @@ def asked(rng):
     flat = StereographicView(*place, angular_radius=min(170.0, 10 ** rng.uniform(-7, 2.26)))
     view = View(*place) if rng.random() < 0.2 else flat
     lens = fisheye(focus, magnification=10 ** rng.uniform(-3, 6))
-    spacing = usual_spacing(lens, view) if rng.random() < 0.5 else float(rng.choice([15, 1, 0.1, 1e-3, 1e-6]))
-    return len(Graticule.shown(spacing, lens, view, 0.0032).arcs), (spacing, lens, view)
+    spacing = usual_spacing(Chart(lens, view)) if rng.random() < 0.5 else float(rng.choice([15, 1, 0.1, 1e-3, 1e-6]))
+    return len(Graticule.shown(spacing, Chart(lens, view), 0.0032).arcs), (spacing, lens, view)
 
 
 @pytest.mark.parametrize("seed", by_day(range(13), 0))
@@ -170,24 +172,25 @@ def test_no_picture_asks_for_lines_without_number(seed):
     count, picture = max((asked(rng) for _ in range(300)), key=lambda found: found[0])
     assert count < MOST_GRID_LINES / 2, picture
     lens = fisheye((-37.9, 0), magnification=0.005)
-    assert len(Graticule.shown(1e-6, lens, StereographicView(-37.9, 0, angular_radius=0.0036), 0.003).arcs) < 10_000
+    chart = Chart(lens, StereographicView(-37.9, 0, angular_radius=0.0036))
+    assert len(Graticule.shown(1e-6, chart, 0.003).arcs) < 10_000
 
 
 def test_lines_without_number_are_refused_before_they_are_made():
     tracemalloc.start()
     with pytest.raises(ValueError, match="over 65536 lines"):
-        Graticule.shown(1e-9, fisheye((0, 0), magnification=1e-3), View(0, 0), 1e-8)
+        Graticule.shown(1e-9, Chart(fisheye((0, 0), magnification=1e-3), View(0, 0)), 1e-8)
     assert tracemalloc.get_traced_memory()[1] < 10e6
     tracemalloc.stop()
 
 
 def test_many_lines_take_little_memory():
     """The most that have room at a usual width, around the pole."""
-    lens, view, least = fisheye((0, -90), magnification=790), View(0, -30), 0.0032
-    grid = Graticule.shown(0.05, lens, view, least)
+    chart, least = Chart(fisheye((0, -90), magnification=790), View(0, -30)), 0.0032
+    grid = Graticule.shown(0.05, chart, least)
     assert len(grid.arcs) > 1500
     tracemalloc.start()
-    grid.thinned(lens, view, least)
+    grid.thinned(chart, least)
     assert tracemalloc.get_traced_memory()[1] < 60e6
     tracemalloc.stop()
 
@@ -196,10 +199,11 @@ def test_many_lines_take_little_memory():
 def test_a_tiny_view_under_a_lens_asks_for_little(radius):
     """The cap is known by its angle: its cosine is 1, or 15 % off. Hidden parts of lines have no points between."""
     lens, view = fisheye((10.0, 40.0), magnification=1e3), StereographicView(10, 40, angular_radius=radius)
-    assert Chart(lens, view).source.angular_radius == pytest.approx(radius / 1e3, rel=1e-9)
-    spacing = usual_spacing(lens, view)
+    chart = Chart(lens, view)
+    assert np.degrees(chart.source.radius) == pytest.approx(radius / 1e3, rel=1e-9)
+    spacing = usual_spacing(chart)
     assert radius / 1e3 / 10 < spacing < radius / 1e3 / 4
-    grid = Graticule.shown(spacing, lens, view, 0.003)
+    grid = Graticule.shown(spacing, chart, 0.003)
     assert len(grid.arcs) < 200
-    lines = Chart(lens, view).lines(SphereLines.alone(grid.thinned(lens, view, 0.003)))
+    lines = SphereLines.alone(grid.thinned(chart, 0.003)).on(chart)
     assert 0 < len(lines.values) < 1e5

@@ -6,9 +6,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from stereodel import MoebiusMap, fisheye, lonlat_to_xyz, xyz_to_lonlat
+from stereodel.curves.chart import Chart
 from stereodel.curves.ragged import Ragged, thinned
 from stereodel.drawing.view import StereographicView, View
-from stereodel.globe.chart import Chart
 from stereodel.globe.lines import SphereLines
 from stereodel.sphere import SphereArc
 from stereodel.sphere.vectors import turned
@@ -35,7 +35,7 @@ def test_what_is_seen_of_an_arc_is_on_its_exact_image(start, end, focus, size, v
         return
     lens = fisheye(focus, magnification=size)
     chart = Chart(lens, view, tolerance=1e-3)
-    seen = chart.lines(SphereLines.great(a[None], b[None]))
+    seen = SphereLines.great(a[None], b[None]).on(chart)
     axes = turned(lens.image_of(SphereArc.great(a, b)).sample(4000), view.matrix)
     truth = view.flattened(axes[axes[:, 2] > view.edge])
     if not len(seen):
@@ -55,10 +55,10 @@ def test_what_is_seen_of_an_arc_is_on_its_exact_image(start, end, focus, size, v
 def test_lines_out_of_sight_leave_nothing():
     lines = SphereLines.straight_in_lonlat([[(170, -10), (175, -20), (180, -30)]])
     for view in (View(0, 0), StereographicView(0, 0, angular_radius=100)):
-        seen = Chart(NONE, view).lines(lines)
+        seen = lines.on(Chart(NONE, view))
         assert seen.values.shape == (0, 2)
         assert len(seen) == 0
-    assert len(Chart(NONE, View(0, 0)).lines(SphereLines.straight_in_lonlat([]))) == 0
+    assert len(SphereLines.straight_in_lonlat([]).on(Chart(NONE, View(0, 0)))) == 0
 
 
 @given(st.integers(0, 1000), st.floats(0.01, 1.0))

@@ -10,10 +10,10 @@ import pytest
 from PIL import Image as Pillow
 
 from stereodel import MoebiusMap, fisheye
+from stereodel.curves.chart import Chart
 from stereodel.drawing.page import Fill, Page, Picture
 from stereodel.drawing.view import StereographicView, View
 from stereodel.globe import Globe, Raster
-from stereodel.globe.chart import Chart
 from stereodel.globe.layers import Image
 from stereodel.globe.raster import RasterOnDisc
 from stereodel.render.rows import SUPERSAMPLING

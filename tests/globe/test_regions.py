@@ -6,10 +6,10 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from stereodel import MoebiusMap, SphericalVoronoi, fisheye, lonlat_to_xyz, xyz_to_lonlat
+from stereodel.curves.chart import Chart
 from stereodel.curves.clip import signed_areas
 from stereodel.curves.trace import Edges
 from stereodel.drawing.view import StereographicView, View
-from stereodel.globe.chart import Chart
 from stereodel.globe.regions import SphereRegions
 from stereodel.sphere import SphereCircle
 from tests.examples import examples
@@ -63,7 +63,7 @@ def test_boxes_hold_what_they_should_under_every_lens(focus, size, view, name):
     """Winding numbers of the loops on the page against the box itself, at places all over the disc."""
     ring, box = BOXES[name]
     lens = fisheye(focus, magnification=size)
-    loops, owner = Chart(lens, view).regions(SphereRegions.of_lonlat([[ring]]))
+    loops, owner = SphereRegions.of_lonlat([[ring]]).on(Chart(lens, view))
     assert (owner == 0).all()
     xy, xyz = seen_places(lens, view)
     clear = near_to(loops, xy) > 3e-4
@@ -87,7 +87,7 @@ def test_outlines_have_no_seam(name):
 def test_a_region_of_repeated_points_is_nothing():
     regions = SphereRegions.of_lonlat([[[(10, 10), (20, 10), (10, 10), (20, 10)]]])
     for view in (View(15, 10), View(-165, -10)):
-        loops, _ = Chart(NONE, view).regions(regions)
+        loops, _ = regions.on(Chart(NONE, view))
         assert np.abs(signed_areas(loops)[0].sum()) < 1e-9
 
 
@@ -97,7 +97,7 @@ def test_cells_tile_the_disc(size, view):
     """The cells together are the disc, and each is where its site is the nearest."""
     voronoi = SphericalVoronoi(np.random.default_rng(3).normal(size=(300, 3)))
     chart = Chart(fisheye((2.35, 48.86), magnification=size), view, tolerance=1e-4)
-    loops, owner = chart.regions(SphereRegions.cells(voronoi))
+    loops, owner = SphereRegions.cells(voronoi).on(chart)
     assert signed_areas(loops)[0].sum() == pytest.approx(np.pi, rel=1e-4)
     xy, xyz = seen_places(chart.lens, view, n=200)
     clear = near_to(loops, xy) > 3e-4
@@ -112,9 +112,8 @@ def test_a_cell_may_hold_all_that_is_seen():
     points = np.random.default_rng(3).normal(size=(200, 3))
     points /= np.linalg.norm(points, axis=1, keepdims=True)
     lens = fisheye(points[17], magnification=1e6)
-    loops, owner = Chart(lens, View(*xyz_to_lonlat(lens(points[17])))).regions(
-        SphereRegions.cells(SphericalVoronoi(points))
-    )
+    chart = Chart(lens, View(*xyz_to_lonlat(lens(points[17]))))
+    loops, owner = SphereRegions.cells(SphericalVoronoi(points)).on(chart)
     assert owner.tolist() == [17]
     assert signed_areas(loops)[0] == pytest.approx([np.pi], rel=1e-5)
 
@@ -126,7 +125,7 @@ def test_a_cell_may_hold_all_that_is_seen():
 def test_the_insides_of_circles(focus, size, view, radius, at):
     circle = SphereCircle.around(at, radius)
     lens = fisheye(focus, magnification=size)
-    loops, _ = Chart(lens, view).regions(SphereRegions.circles([circle]))
+    loops, _ = SphereRegions.circles([circle]).on(Chart(lens, view))
     xy, xyz = seen_places(lens, view)
     clear = near_to(loops, xy) > 3e-4
     np.testing.assert_array_equal(winding(loops, xy)[clear] > 0, circle.contains(xyz)[clear])
@@ -136,12 +135,12 @@ def test_the_insides_of_circles(focus, size, view, radius, at):
 def test_edges_that_are_left_out_are_out_of_sight(focus, size, view, name):
     chart = Chart(fisheye(focus, magnification=size), view)
     regions = SphereRegions.of_lonlat([[BOXES[name][0]]])
-    some, _ = chart.regions(regions)
-    lines = chart.lines(regions.outlines)
+    some, _ = regions.on(chart)
+    lines = regions.outlines.on(chart)
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(Edges, "within", lambda self, center, reach: np.ones(len(self), dtype=bool))
-        whole, _ = chart.regions(regions)
-        np.testing.assert_array_equal(lines.values, chart.lines(regions.outlines).values)
+        whole, _ = regions.on(chart)
+        np.testing.assert_array_equal(lines.values, regions.outlines.on(chart).values)
     np.testing.assert_array_equal(some.values, whole.values)
 
 
@@ -158,8 +157,7 @@ def test_tiny_regions_at_huge_magnification_are_smooth():
     t = np.arange(8) * np.pi / 4
     ring = np.stack([2.0 + 1e-5 * np.cos(t), 48.0 + 1e-5 * np.sin(t)], axis=1)
     lens = fisheye((2.0, 48.0), magnification=1e7)
-    loops, _ = Chart(lens, View(*xyz_to_lonlat(lens(lonlat_to_xyz((2.0, 48.0)))))).regions(
-        SphereRegions.of_lonlat([[ring]])
-    )
+    chart = Chart(lens, View(*xyz_to_lonlat(lens(lonlat_to_xyz((2.0, 48.0))))))
+    loops, _ = SphereRegions.of_lonlat([[ring]]).on(chart)
     (loop,) = loops
     assert np.linalg.norm(np.diff(loop, axis=0), axis=1).max() < 0.25

@@ -10,13 +10,13 @@ import numpy as np
 import pytest
 
 from stereodel import MoebiusMap, data, fisheye
+from stereodel.curves.chart import Chart
 from stereodel.curves.clip import signed_areas
 from stereodel.curves.fill import triangles
 from stereodel.curves.ragged import Ragged
 from stereodel.drawing import LineStyle, StereographicView, View
 from stereodel.drawing.page import Polygons
 from stereodel.globe import Globe
-from stereodel.globe.chart import Chart
 from stereodel.globe.lines import SphereLines
 from stereodel.globe.regions import SphereRegions
 from stereodel.mpl.transforms import LonLatToPage
@@ -153,8 +153,8 @@ def assert_slivers_are_thin(rings, lens, view):
     rest = SphereRegions(regions.edges, sides, regions.owner[::-1], regions.everywhere)
     closed = Ragged.of([np.concatenate([ring, ring[:1]]) for ring in rings])
     chart = Chart(lens, view)
-    drawn = [chart.regions(regions), LonLatToPage(lens, view, "straight").regions(closed, owner, count)]
-    for (loops, region), wanted in [*((found, 0.0) for found in drawn), (chart.regions(rest), np.pi)]:
+    drawn = [regions.on(chart), LonLatToPage(lens, view, "straight").regions(closed, owner, count)]
+    for (loops, region), wanted in [*((found, 0.0) for found in drawn), (rest.on(chart), np.pi)]:
         area = np.bincount(region, signed_areas(loops)[0], minlength=count)
         assert np.flatnonzero(np.abs(area - wanted) > 0.5).tolist() == [], (lens.magnification, view)
 
@@ -208,12 +208,12 @@ def test_tiny_caps_show_what_lies_in_them(radius, magnification, seed):
     np.testing.assert_allclose(found, xy, atol=off)
     np.testing.assert_array_equal(seen[np.abs(far - 1) > off], far[np.abs(far - 1) > off] < 1)
     for start, end, third in rng.uniform(-2, 2, (30, 3, 2)):
-        lines = chart.lines(SphereLines.great(places(start[None]), places(end[None])))
+        lines = SphereLines.great(places(start[None]), places(end[None])).on(chart)
         assert np.hypot(*lines.values.T).max(initial=0) < 1 + off
         length = sum(np.hypot(*np.diff(line, axis=0).T).sum() for line in lines)
         assert length == pytest.approx(chord(start, end), abs=2 * np.sqrt(2 * off))
         corners = np.array([start, end, third])
-        loops, _ = chart.regions(SphereRegions.of_lonlat([[truth.degrees(places(corners))]]))
+        loops, _ = SphereRegions.of_lonlat([[truth.degrees(places(corners))]]).on(chart)
         assert np.hypot(*loops.values.T).max(initial=0) < 1 + off
         inner = xy[far < 1 - 10 * off]
         near = [inner + 10 * off * np.array(step) for step in ((0, 0), (1, 0), (-1, 0), (0, 1), (0, -1))]
