@@ -23,7 +23,7 @@ from stereodel.constants import MOST_FRAME_PIXELS, MOST_FRAMES
 from stereodel.drawing.colors import ColorLike, as_color
 from stereodel.drawing.fonts import MissingCharactersWarning, missing_characters, warn_of_missing
 from stereodel.drawing.page import Page
-from stereodel.drawing.page_styles import StyledDraw
+from stereodel.drawing.sheets import Style, StyledDraw
 from stereodel.drawing.style import WHITE
 from stereodel.film.frames import KeptFrames, frame_names, store_frame
 from stereodel.film.shots import GlobePages, Motion, Samples, Shot
@@ -218,13 +218,13 @@ class Film(Generic[T]):
         """Total duration in seconds."""
         return float(self.times.sum())
 
-    def styled(self, *styles: str) -> Film[T]:
+    def styled(self, *styles: Style) -> Film[T]:
         """The same film in other styles, see `stereodel.drawing.styled`; `draw` must return pages.
 
         Raises
         ------
         ValueError
-            If a style does not exist, or column and slide are combined.
+            If a style is unknown.
         """
         return replace(self, draw=StyledDraw(self.draw, styles))
 
@@ -373,7 +373,7 @@ class _Script(Generic[T]):
     film: Film[T]
     name: str
 
-    def styled(self, *styles: str) -> _Script[T]:
+    def styled(self, *styles: Style) -> _Script[T]:
         """The same script with the film in other styles."""
         return replace(self, film=self.film.styled(*styles))
 
