@@ -115,7 +115,6 @@ def test_films(folder, run, name, options, frames):
     assert len(pictures) == frames
     assert all((one != other).any() for one, other in pairwise(pictures))
     assert sorted(path.name for path in folder.iterdir()) == sorted(["cities.csv", name])
-    assert (b"Earth" in (folder / name).read_bytes()) == ("--title=Earth" in options)
 
 
 def test_what_moves():
