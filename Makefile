@@ -51,7 +51,7 @@ browser: # what shows the interactive page to its tests
 librsvg: # what shows vector files to their tests
 	@tools/system_packages.sh librsvg
 
-figures: $(VENV)/installed-figures opengl ## draw every figure that is out of date into out/; STYLE=dark, slide or column: into a folder of it
+figures: $(VENV)/installed-figures opengl ## draw every figure that is out of date into out/; STYLE=dark or a style file: into a folder of it
 	@$(BUILD) fig claim globe earth sky
 
 poster: $(VENV)/installed-figures opengl ## draw figures/globe_poster.py 16384 pixels across into out/poster: a minute, and 0.8 GB of memory

@@ -48,8 +48,8 @@ def examples():
     yield from (CIRCLE, LENS, PATH, hull, next(iter(hull)), sphere, sd.SphericalVoronoi(sphere), plane)
     yield from (sd.PlaneCircle([1, 2], 3.0), sd.PlaneLine([0, 1], 2.0), sd.Rotation.about((0, 90), 30.0))
     yield from (sd.PlanarVoronoi(PLANE), sd.SphereArc.great((0, 0), (90, 0)), sd.Orthographic((0, 30)).image_of(CIRCLE))
-    yield from (sd.check_delaunay(PLANE, plane.simplices), conformal.FocusBlend(LONLAT[:2], magnification=4.0))
-    yield from (conformal.distortion(LENS, CIRCLE), data.airports(), data.borders(), data.cities(), data.stars())
+    yield from (sd.check_delaunay(PLANE, plane.simplices), conformal.distortion(LENS, CIRCLE))
+    yield from (data.airports(), data.borders(), data.cities(), data.stars())
     of_land = (data.coastlines, data.countries, data.lakes, data.land, data.rivers)
     yield from (load("110m") for load in of_land)
     yield from (drawing.Ball((0.0, 0.0), 1.0), drawing.CircleArc.great([1, 0, 0], [0, 1, 0]), scene, sketch)
@@ -128,7 +128,6 @@ def test_what_is_read_only_stays_so():
 VALUES = {
     "MoebiusMap": lambda x: sd.fisheye((0, 40), magnification=x),
     "GroupPath": lambda x: conformal.GroupPath(LENS, sd.fisheye((0, 40), magnification=x)),
-    "FocusBlend": lambda x: conformal.FocusBlend([(0, 0), (50, 0)], magnification=[x, x]),
     "SphereCircle": lambda x: sd.SphereCircle((0, 0, 1), x / 4),
     "SphereArc": lambda x: sd.SphereArc.whole(sd.SphereCircle((0, 0, 1), x / 4)),
     "Rotation": lambda x: sd.Rotation.about((0, 90), x),

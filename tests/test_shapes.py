@@ -75,8 +75,6 @@ AXES = {  # (..., width)
     "RectangleLift.scale_factor": (2, LINE.scale_factor),
     "MoebiusMap": (3, s.MoebiusMap.identity()),
     "MoebiusMap.scale_factor": (3, s.MoebiusMap.identity().scale_factor),
-    "FocusBlend": (3, conformal.FocusBlend([(0, 0), (90, 0)], magnification=4.0)),
-    "FocusBlend.angular_distortion": (3, conformal.FocusBlend([(0, 0)], magnification=4.0).angular_distortion),
     "Rotation": (3, s.Rotation.identity()),
     "SphereCircle.contains": (3, s.SphereCircle([0, 0, 1], 0.5).contains),
 }

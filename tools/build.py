@@ -27,9 +27,8 @@ from typing import Any
 from stereodel._files import replacing
 from stereodel._tasks.crew import Crew
 from stereodel._threads import thread_count
-from stereodel.drawing.page_styles import STYLES
 from stereodel.film import Film
-from stereodel.render.figure import style_names, styled_folder
+from stereodel.render.figure import STYLE_HELP, style_names, styled_folder
 from stereodel.render.gl import OpenGLError, describe
 from stereodel.render.provenance import library_digest, library_versions
 
@@ -237,9 +236,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("names", nargs="*", help="beginnings of script names, e.g. fig03 or anim; all by default")
     parser.add_argument("--scripts", type=Path, default=Path("figures"), help="folder of the scripts")
     parser.add_argument("--out", type=Path, default=Path("out"), help="folder to write to")
-    parser.add_argument(
-        "--style", type=style_names, default=(), help=f"{', '.join(STYLES)}, or several with commas; goes into a folder"
-    )
+    parser.add_argument("--style", type=style_names, default=(), help=f"{STYLE_HELP}; goes into a folder")
     parser.add_argument("--jobs", type=int, default=None, help="scripts that run at once; the cores by default")
     parser.add_argument("--force", action="store_true", help="draw also what is up to date")
     options = parser.parse_args(arguments)

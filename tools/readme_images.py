@@ -25,9 +25,8 @@ WIDTHS = {
 
 SOLID = {"fig05_projections": 1200}
 """The same of those that are shown in space."""
-STYLED = "fig09_scale"
-STYLE_WIDTHS = {"column": 496, "slide": 800, "dark": 800}
-"""Pixels across by style, of one figure."""
+DARK = {"fig09_scale": 800}
+"""The same of those that are shown on a dark background."""
 
 
 def globe_of_the_readme() -> str:
@@ -49,10 +48,9 @@ def main(folder: Path) -> None:
     for name, width in SOLID.items():
         figure = load_drawing(ROOT / "figures" / f"{name}.py")
         print(figure.solid().save(folder / f"{name}_solid.png", size=width))
-    for style, width in STYLE_WIDTHS.items():
-        figure = load_drawing(ROOT / "figures" / f"{STYLED}.py").styled(style)
-        path = figure.page().save(folder / f"style_{style}.png", size=width, renderer=figure.renderer)
-        print(path)
+    for name, width in DARK.items():
+        figure = load_drawing(ROOT / "figures" / f"{name}.py").styled("dark")
+        print(figure.page().save(folder / f"{name}_dark.png", size=width, renderer=figure.renderer))
 
 
 if __name__ == "__main__":

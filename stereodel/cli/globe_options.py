@@ -70,7 +70,7 @@ Title = Annotated[str, typer.Option(metavar="TEXT", help="Title above the pictur
 Legend = Annotated[bool, typer.Option("--legend", help="Explain points and layers below the picture.")]
 Styles = Annotated[
     list[str] | None,
-    typer.Option("--style", metavar="STYLE", help="column, slide, dark, or a .toml file of styles; repeatable."),
+    typer.Option("--style", metavar="STYLE", help="dark, or a .toml file of styles; repeatable."),
 ]
 Width = Annotated[str, typer.Option(metavar="LENGTH", help="Width of the page: 17cm, 120mm, 6.5in, 480pt.")]
 Dpi = Annotated[float | None, typer.Option(metavar="NUMBER", help="Pixels per inch of a PNG, instead of --size.")]

@@ -3,14 +3,12 @@
 from stereodel.conformal.bubbles import bubble_to_bubble
 from stereodel.conformal.distortions import Distortion, distortion
 from stereodel.conformal.fisheyes import fisheye
-from stereodel.conformal.focus_blend import FocusBlend
 from stereodel.conformal.moebius import MoebiusMap
 from stereodel.conformal.paths import GroupPath, flight, path_between
 from stereodel.conformal.triples import three_points
 
 __all__ = [
     "Distortion",
-    "FocusBlend",
     "GroupPath",
     "MoebiusMap",
     "bubble_to_bubble",

@@ -6,10 +6,10 @@ from stereodel.drawing.fonts import MissingCharactersWarning
 from stereodel.drawing.graticule import Graticule
 from stereodel.drawing.legend import with_legend
 from stereodel.drawing.page import Ball, Dots, Fill, Label, Page, Polygons, Polylines, Stroke
-from stereodel.drawing.page_styles import styled
 from stereodel.drawing.scales import ColorScale
 from stereodel.drawing.scene import Scene
 from stereodel.drawing.scene_items import Layer
+from stereodel.drawing.sheets import styled
 from stereodel.drawing.sketch import Sketch
 from stereodel.drawing.solid import PlacedScene, Solid
 from stereodel.drawing.space_curves import CircleArc, Segment

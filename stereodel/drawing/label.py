@@ -63,11 +63,6 @@ def with_room(items: Iterable[Item], extent: tuple[float, float, float, float], 
     return kept
 
 
-def halo_reach(label: Label) -> FloatArray:
-    """Offsets in points, (2, 1), by which a halo extends the corners of a label's box."""
-    return np.array([[-label.halo], [label.halo]])
-
-
 def meets(box: FloatArray, boxes: FloatArray) -> bool:
     """Whether a box (2, 2) is nearer than `GAP` to one of others (n, 2, 2), in points."""
     # Boxes overlap if they do so in both directions.

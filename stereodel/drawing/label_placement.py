@@ -14,7 +14,7 @@ from typing import Final
 import numpy as np
 
 from stereodel._arrays import FloatArray
-from stereodel.drawing.label import halo_reach, in_disc, label_box, meets, placed_label
+from stereodel.drawing.label import in_disc, label_box, meets, placed_label
 from stereodel.drawing.page import Label
 
 SIDES: Final = ((1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (1, -1), (-1, 1), (-1, -1))
@@ -88,7 +88,8 @@ def placed_apart(
 def claimed(label: Label, points_per_unit: float) -> FloatArray:
     """The box reserved for a label, in points, (2, 2), so that its halo never covers earlier type."""
     rise = RISE * label.size * np.array([[0.0, -1.0], [0.0, 1.0]])
-    return label_box(label, points_per_unit) + halo_reach(label) + rise
+    halo = label.halo * np.array([[-1.0], [1.0]])
+    return label_box(label, points_per_unit) + halo + rise
 
 
 def on_its_sides(label: Label, distance: float) -> Iterator[Label]:

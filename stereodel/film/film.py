@@ -23,13 +23,13 @@ from stereodel.constants import MOST_FRAME_PIXELS, MOST_FRAMES
 from stereodel.drawing.colors import ColorLike, as_color
 from stereodel.drawing.fonts import MissingCharactersWarning, missing_characters, warn_of_missing
 from stereodel.drawing.page import Page
-from stereodel.drawing.page_styles import StyledDraw
+from stereodel.drawing.sheets import Style, StyledDraw
 from stereodel.drawing.style import WHITE
 from stereodel.film.frames import KeptFrames, frame_names, store_frame
 from stereodel.film.shots import GlobePages, Motion, Samples, Shot
 from stereodel.film.writers import Reel, format_of, frame_seconds
 from stereodel.globe.globe import Globe
-from stereodel.render.figure import caption_of, run_script, script_of
+from stereodel.render.figure import run_script
 from stereodel.render.sizes import LARGEST_SIZE, pixel_height
 
 T = TypeVar("T")
@@ -73,8 +73,6 @@ class Film(Generic[T]):
         Whether to draw labels.
     platform : {"osmesa", "egl"}, optional
         See `stereodel.render.gl`.
-    title : str
-        Title in one line, stored in the file for players and search.
 
     Raises
     ------
@@ -101,7 +99,6 @@ class Film(Generic[T]):
     size: int = 1280
     text: bool = True
     platform: str | None = None
-    title: str = ""
 
     def __post_init__(self) -> None:
         if len(self.shots) == 0:
@@ -123,7 +120,6 @@ class Film(Generic[T]):
         fps: float = FPS,
         text: bool = True,
         background: ColorLike = WHITE,
-        title: str = "",
     ) -> Film[Shot]:
         """A film of a globe along a motion; ``Film.of_globe(...).save("flight.mp4")`` draws it.
 
@@ -141,8 +137,6 @@ class Film(Generic[T]):
             Whether to draw labels.
         background : color
             Colour behind the globe.
-        title : str
-            As for `Film`; by default that of the globe, which is written above it.
 
         Returns
         -------
@@ -168,7 +162,7 @@ class Film(Generic[T]):
         as_frame_size(width, height)
         rate = as_scalar(fps, "fps", low=0.0, open_low=True)
         pages = GlobePages(globe, width, height, as_color(background, "background"))
-        return Film(pages, Samples(motion, rate), fps=rate, size=width, text=text, title=title or globe.title)
+        return Film(pages, Samples(motion, rate), fps=rate, size=width, text=text)
 
     @classmethod
     def of_pictures(
@@ -177,7 +171,6 @@ class Film(Generic[T]):
         *,
         fps: float | None = None,
         seconds: float | Sequence[float] | None = None,
-        title: str = "",
     ) -> Film[Pixels]:
         """A film of existing pictures.
 
@@ -186,7 +179,7 @@ class Film(Generic[T]):
         pictures : sequence of (h, w, 3) uint8 arrays
             sRGB, rows from the top, all of one size. Any object with a length and indexing will do: pictures are read
             in order (for a GIF, some of them twice), and none is kept.
-        fps, seconds, title
+        fps, seconds
             As for `Film`.
 
         Examples
@@ -199,7 +192,7 @@ class Film(Generic[T]):
         grays.gif b'GIF89a'
         """
         width = as_frame(pictures[0], "pictures[0]").shape[1] if len(pictures) else 1
-        return Film(_as_it_is, cast(Sequence[Pixels], pictures), fps=fps, seconds=seconds, size=width, title=title)
+        return Film(_as_it_is, cast(Sequence[Pixels], pictures), fps=fps, seconds=seconds, size=width)
 
     def __len__(self) -> int:
         """The number of frames."""
@@ -218,13 +211,13 @@ class Film(Generic[T]):
         """Total duration in seconds."""
         return float(self.times.sum())
 
-    def styled(self, *styles: str) -> Film[T]:
+    def styled(self, *styles: Style) -> Film[T]:
         """The same film in other styles, see `stereodel.drawing.styled`; `draw` must return pages.
 
         Raises
         ------
         ValueError
-            If a style does not exist, or column and slide are combined.
+            If a style is unknown.
         """
         return replace(self, draw=StyledDraw(self.draw, styles))
 
@@ -287,7 +280,7 @@ class Film(Generic[T]):
         if self.draw is _as_it_is:  # existing pictures are neither drawn nor stored
             kind.check(target.name, self.picture(0).shape[:2], times)
             with replacing(target) as temporary, counting("writing", len(self), shown=progress) as count:
-                kind.write(_Counted(cast(Reel, self.shots), count), temporary, times, self.title)
+                kind.write(_Counted(cast(Reel, self.shots), count), temporary, times)
             return target
         sides = (self.draw.width, self.draw.height) if isinstance(self.draw, GlobePages) else (self.size,)
         kind.check(target.name, sides, times)
@@ -305,7 +298,7 @@ class Film(Generic[T]):
         warn_of_missing(unwritten)
         whole = kept.folder / target.name
         with counting("writing", len(self), shown=progress) as count:
-            kind.write(_Counted(kept, count), whole, times, self.title)
+            kind.write(_Counted(kept, count), whole, times)
         os.replace(whole, target)
         kept.remove()
         return target
@@ -373,7 +366,7 @@ class _Script(Generic[T]):
     film: Film[T]
     name: str
 
-    def styled(self, *styles: str) -> _Script[T]:
+    def styled(self, *styles: Style) -> _Script[T]:
         """The same script with the film in other styles."""
         return replace(self, film=self.film.styled(*styles))
 
@@ -382,9 +375,7 @@ class _Script(Generic[T]):
         begun = time.perf_counter()
         folder = Path(out)
         folder.mkdir(parents=True, exist_ok=True)
-        script = script_of(self.film.draw, self.name)
-        title = self.film.title or (caption_of(script)[0] if script else "")
-        film = replace(self.film, size=self.film.size if size is None else size, text=text, title=title)
+        film = replace(self.film, size=self.film.size if size is None else size, text=text)
         jobs = None if main_script_here() else 1  # the documentation runs scripts as text
         file = film.save(folder / f"{self.name}.gif", jobs=jobs, progress=False)
         return {"files": [file.name], "seconds": time.perf_counter() - begun}

@@ -6,7 +6,7 @@ and gives all frames the same duration; ``ffmpeg``, which starts the program, ig
 yields half a film and no error. The program also takes 165 MB, PyAV 104 MB.
 
 WebP is written by Pillow, which holds the encoded data and one frame: FFmpeg's encoder gives files of the same size but
-loses the duration of the last frame. Pillow's GIF writer would hold all frames.
+loses the duration of the last frame. Pillow's writers of GIF and APNG would hold all frames.
 
 The palette of a GIF is FFmpeg's. Pillow's best, median cut refined by k-means, loses 3 to 5 dB of signal-to-noise ratio
 on a softly lit globe (50.5 dB against 54.0, 62.4 against 65.9), in files 1 to 4 % larger.
@@ -15,7 +15,6 @@ on a softly lit globe (50.5 dB against 54.0, 62.4 against 65.9), in files 1 to 4
 from __future__ import annotations
 
 import os
-import shutil
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
@@ -27,10 +26,7 @@ import numpy as np
 
 from stereodel._arrays import FloatArray, Pixels, as_floats, as_frame
 from stereodel._extras import of_extra, optional
-from stereodel._files import replacing
 from stereodel.constants import FRAME_ROUNDING
-from stereodel.render.png import text_chunk
-from stereodel.render.xmp import xmp_title
 
 
 class Reel(Protocol):
@@ -43,14 +39,14 @@ class Reel(Protocol):
         """The frame of this number."""
 
 
-Writer = Callable[[Reel, Path, FloatArray, str], None]
+Writer = Callable[[Reel, Path, FloatArray], None]
 
 
 @dataclass(frozen=True)
 class Format:
     """A file format: its writer and its limits.
 
-    write: called as ``write(reel, path, seconds, title)``.
+    write: called as ``write(reel, path, seconds)``.
     largest: largest width or height in pixels.
     shortest: shortest duration of a frame in seconds.
     library: module of the extra ``film`` that encodes.
@@ -123,9 +119,6 @@ def whole_ticks(seconds: FloatArray, per_second: int) -> list[int]:
 
 # By FFmpeg's libraries
 
-PNG_HEAD: Final = 33
-"""Length of the head of a PNG in bytes: signature and IHDR."""
-
 SAMPLED: Final = 24
 """Number of moments from which the palette of a GIF is computed."""
 
@@ -157,14 +150,11 @@ class _Encoder:
         *,
         muxing: dict[str, str] | None = None,
         palette: Any = None,
-        title: str = "",
     ) -> None:
-        """Write frames shown for `ticks` ticks of a clock each; only MP4 can store the title."""
+        """Write frames shown for `ticks` ticks of a clock each."""
         av = optional("av", "film")
         try:
             with av.open(str(path), "w", self.container, container_options=self.muxing | (muxing or {})) as file:
-                if title:
-                    file.metadata["title"] = title
                 # The mean rate: how many bits the MP4 encoder spends on a frame depends on its duration.
                 stream = file.add_stream(self.codec, len(ticks) / (sum(ticks) * tick), self.options)
                 # Frame threading: slice threading, PyAV's default, makes files up to 7 % larger.
@@ -264,36 +254,13 @@ _MP4_ENCODER = _Encoder(
 )
 
 
-def write_gif(reel: Reel, path: Path, seconds: FloatArray, title: str = "") -> None:
+def write_gif(reel: Reel, path: Path, seconds: FloatArray) -> None:
     """Write frames as a GIF of 255 colours that loops forever; durations are rounded to hundredths of a second."""
     ticks = whole_ticks(seconds, 100)
     last = {"final_delay": str(ticks[-1])}
     _GIF_ENCODER.write(
         frames_of(reel), path, ticks, Fraction(1, 100), muxing=last, palette=_shared_palette(reel, seconds)
     )
-    if title:
-        _insert(path, _gif_head(path), _gif_comment(title))
-
-
-def _gif_comment(text: str) -> bytes:
-    """A comment block of a GIF, in pieces of at most 255 bytes."""
-    data = text.encode()
-    pieces = (data[first : first + 255] for first in range(0, len(data), 255))
-    return b"\x21\xfe" + b"".join(bytes([len(piece)]) + piece for piece in pieces) + b"\0"
-
-
-def _gif_head(path: Path) -> int:
-    """Length of the head of a GIF in bytes: size and global colour table."""
-    with path.open("rb") as file:
-        flags = file.read(11)[10]
-    return 13 + (3 * 2 ** ((flags & 7) + 1) if flags & 128 else 0)
-
-
-def _insert(path: Path, place: int, data: bytes) -> None:
-    """Insert bytes into a file."""
-    with path.open("rb") as file, replacing(path) as temporary, temporary.open("wb") as longer:
-        longer.write(file.read(place) + data)
-        shutil.copyfileobj(file, longer)
 
 
 def _shared_palette(reel: Reel, seconds: FloatArray) -> Any:
@@ -323,25 +290,23 @@ def _sampled_frames(seconds: FloatArray) -> list[int]:
     return [int(number) for number in np.unique(np.searchsorted(ends, middles))]
 
 
-def write_apng(reel: Reel, path: Path, seconds: FloatArray, title: str = "") -> None:
+def write_apng(reel: Reel, path: Path, seconds: FloatArray) -> None:
     """Write frames losslessly as an APNG that loops forever; durations are rounded to milliseconds."""
     ticks = whole_ticks(seconds, 1000)
     last = {"final_delay": f"{ticks[-1]}/1000"}
     _APNG_ENCODER.write(frames_of(reel), path, ticks, Fraction(1, 1000), muxing=last)
-    if title:
-        _insert(path, PNG_HEAD, text_chunk("Title", title))
 
 
-def write_mp4(reel: Reel, path: Path, seconds: FloatArray, title: str = "") -> None:
+def write_mp4(reel: Reel, path: Path, seconds: FloatArray) -> None:
     """Write frames as H.264 in an MP4, which plays in every browser; odd widths and heights are made even."""
     even = (_even(picture) for picture in frames_of(reel))
     if np.ptp(seconds):
         # With B-frames the film would end before the last frame has been shown for its full duration.
         encoder = replace(_MP4_ENCODER, options=_MP4_ENCODER.options | {"bf": "0"})
-        encoder.write(even, path, whole_ticks(seconds, 1000), Fraction(1, 1000), title=title)
+        encoder.write(even, path, whole_ticks(seconds, 1000), Fraction(1, 1000))
     else:
         rate = Fraction(1 / float(seconds[0])).limit_denominator(1001)
-        _MP4_ENCODER.write(even, path, [1] * len(reel), 1 / rate, title=title)
+        _MP4_ENCODER.write(even, path, [1] * len(reel), 1 / rate)
 
 
 def _even(picture: Pixels) -> Pixels:
@@ -356,19 +321,20 @@ WEBP_QUALITY: Final = 90
 """WebP quality, of 100: high enough for thin coloured lines to keep their colour."""
 
 
-def write_webp(reel: Reel, path: Path, seconds: FloatArray, title: str = "") -> None:
+def write_webp(reel: Reel, path: Path, seconds: FloatArray) -> None:
     """Write frames as an animated WebP that loops forever; durations are rounded to milliseconds."""
     with of_extra("film"):
-        from PIL import Image
+        pass
 
-    told = {"xmp": xmp_title(title)} if title else {}
     with path.open("wb") as file:
-        if len(reel) == 1:
-            Image.fromarray(reel[0]).save(file, format="webp", quality=WEBP_QUALITY, **told)
-            return
-        ticks = whole_ticks(seconds, 1000)
         _one_at_a_time(reel).save(
-            file, format="webp", save_all=True, duration=ticks, loop=0, quality=WEBP_QUALITY, method=4, **told
+            file,
+            format="webp",
+            save_all=True,
+            duration=whole_ticks(seconds, 1000),
+            loop=0,
+            quality=WEBP_QUALITY,
+            method=4,
         )
 
 
@@ -390,14 +356,6 @@ def _one_at_a_time(reel: Reel) -> Any:
             if frame > self._number:
                 shown = Image.fromarray(next(self._frames))
                 self.im, self._mode, self._size, self._number = shown.im, shown.mode, shown.size, frame
-
-        def tell(self) -> int:
-            """Index of the current frame."""
-            return self._number
-
-        def load(self) -> Any:
-            """The pixels, which are already in memory."""
-            return self.im.pixel_access(self.readonly)
 
     return Frames()
 

@@ -31,8 +31,8 @@ from stereodel.drawing.label import placed_label
 from stereodel.drawing.legend import LegendEntry, with_legend
 from stereodel.drawing.lengths import LengthLike, as_length
 from stereodel.drawing.page import Item, Label, Page, picture_extra
-from stereodel.drawing.page_styles import Style, styled
 from stereodel.drawing.scales import ColorScale, category_colors, usual_scale
+from stereodel.drawing.sheets import Style, styled
 from stereodel.drawing.style import (
     BLACK,
     HALO,
@@ -450,7 +450,7 @@ class Globe:
         tolerance : float
             Largest deviation of the drawing from the exact image, in points.
         style : str, path-like, or sequence of them
-            Styles for `stereodel.drawing.styled`: "column", "slide", "dark", or TOML files.
+            Styles for `stereodel.drawing.styled`: "dark", or TOML files.
         legend : bool
             Whether to draw `Globe.legend` below the picture.
 
@@ -504,12 +504,14 @@ class Globe:
         """
         if size is not None and dpi is not None:
             raise ValueError("size and dpi both say how many pixels a picture has; give one of them")
-        pixels, wide = as_count(SIZE if size is None else size, "size", high=LARGEST_SIZE), as_length(width, "width")
-        pixel = wide / pixels if dpi is None else 72 / as_scalar(dpi, "dpi", low=0.0, open_low=True)
+        wide = as_length(width, "width")
+        if dpi is None:
+            pixels = as_count(SIZE if size is None else size, "size", high=LARGEST_SIZE)
+        else:
+            pixels = max(1, round(wide / 72 * as_scalar(dpi, "dpi", low=0.0, open_low=True)))
+        tolerance = min(0.02, 0.2 * wide / pixels)
         with of_extra(picture_extra(Path(path).suffix)):
-            page = self.page(lens, view, width=wide, tolerance=min(0.02, 0.2 * pixel), style=style, legend=legend)
-            if dpi is not None:
-                pixels = max(1, round(page.width / 72 * dpi))
+            page = self.page(lens, view, width=wide, tolerance=tolerance, style=style, legend=legend)
             return page.save(path, size=pixels, transparent=transparent)
 
     def _xyz(self, places: npt.ArrayLike, name: str) -> FloatArray:

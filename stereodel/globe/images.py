@@ -6,7 +6,6 @@ import os
 import struct
 import warnings
 from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
@@ -23,69 +22,30 @@ SIXTEEN_BITS: Final = ("I", "I;16", "I;16B", "I;16L", "I;16N")
 FORMATS: Final = ("PNG", "JPEG", "TIFF", "WEBP", "GIF", "BMP", "PPM", "TGA", "JPEG2000")
 """Formats that are opened: those that Pillow decodes itself. For others it starts programs such as Ghostscript."""
 
-WRITTEN: Final[Mapping[str, tuple[str, int]]] = {
-    ".jpg": ("JPEG", 65_500),
-    ".jpeg": ("JPEG", 65_500),
-    ".png": ("PNG", 2**31 - 1),
-    ".webp": ("WEBP", 16_383),
-}
-"""Extensions of files that are written, with Pillow's name of the format and its longest side in pixels."""
-
-SETTINGS: Final[Mapping[str, Mapping[str, Any]]] = {
+WRITTEN: Final[Mapping[str, Mapping[str, Any]]] = {
     "JPEG": {"quality": 95, "subsampling": 0},
     # For photographs, level 6 of zlib takes three times as long for files 2 % smaller.
     "PNG": {"compress_level": 3},
     "WEBP": {"quality": 92, "method": 4},
 }
+"""Formats that are written, without visible loss, by Pillow's names of them and of its settings."""
 
-LONGEST_XMP: Final = 65_502
-"""Largest block of EXIF or XMP data in a JPEG, in bytes; longer data are left out."""
-
-ORIENTATION: Final = 0x0112
-
-KEPT_TAGS: Final = frozenset({0x010E, 0x010F, 0x0110, 0x0131, 0x0132, 0x013B, 0x8298})
-"""EXIF tags: description, maker and model of the camera, software, date, author, rights."""
-
-KEPT_PARTS: Final = (0x8769, 0x8825)
-"""EXIF blocks: how and where the picture was taken."""
-
-SIZES: Final = frozenset({0xA002, 0xA003, 0xA005})
-"""Tags of the first of these blocks: columns and rows, and the position of the next block."""
+WEBP_SIDE: Final = 16_383
+"""Longest side of a WebP in pixels; the sides of the other formats are longer than `MOST_TEXELS` allows."""
 
 DAMAGED: Final = (OSError, SyntaxError, ValueError, EOFError, struct.error, IndexError, TypeError)
 """Exceptions that Pillow's decoders raise on truncated or corrupt files."""
 
 
-@dataclass(frozen=True, eq=False)
-class Photo:
-    """An image and its metadata.
+def read_photo(path: str | os.PathLike[str]) -> tuple[Pixels, bytes]:
+    """The first image of a file, rotated upright according to its EXIF data, and its colour profile.
 
-    Parameters
-    ----------
+    Returns
+    -------
     pixels : (h, w, 4) uint8 array
-        Colour, in sRGB or in the colour space of the profile, and opacity, not premultiplied; upright.
+        Colour, in sRGB or in the colour space of the profile, and opacity, not premultiplied.
     profile : bytes
         ICC profile of the colours; empty for sRGB.
-    exif : bytes
-        Encoded EXIF data of the camera, place and rights; empty if there are none. Without sizes or orientation, as the
-        pixels are upright.
-    xmp : bytes
-        Encoded XMP data.
-    """
-
-    pixels: Pixels
-    profile: bytes = b""
-    exif: bytes = b""
-    xmp: bytes = b""
-
-
-def read_image(path: str | os.PathLike[str]) -> Pixels:
-    """The first image of a file, (h, w, 4): sRGB and opacity, not premultiplied; errors as for `read_photo`."""
-    return read_photo(path).pixels
-
-
-def read_photo(path: str | os.PathLike[str]) -> Photo:
-    """The first image of a file, rotated upright according to its EXIF data.
 
     Raises
     ------
@@ -118,45 +78,40 @@ def read_photo(path: str | os.PathLike[str]) -> Photo:
             return _photo(name, image)
 
 
-def check_photo(name: str, size: tuple[int, int], *, opaque: bool) -> None:
-    """Raise ValueError if the format given by a file name cannot hold an image of `size`, columns and rows."""
-    kind, largest = _kind_of(name)
-    if max(size) > largest:
-        raise ValueError(f"{name} would have {size[0]} × {size[1]} pixels, but {kind} has at most {largest} a side")
+def check_photo(name: str, size: tuple[int, int], *, opaque: bool) -> str:
+    """Pillow's name of the format given by a file name; ValueError if it cannot hold an image of `size`, (w, h)."""
+    with of_extra("draw"):
+        from PIL import Image
+
+    kind = Image.registered_extensions().get(Path(name).suffix.lower(), "")
+    if kind not in WRITTEN:
+        raise ValueError(f"path must end in .jpg, .png or .webp, got {name!r}")
+    if kind == "WEBP" and max(size) > WEBP_SIDE:
+        raise ValueError(f"{name} would have {size[0]} × {size[1]} pixels, but WebP has at most {WEBP_SIDE} a side")
     if kind == "JPEG" and not opaque:
         raise ValueError(f"{name}: JPEG has no opacity, and the picture is transparent in parts; write .png or .webp")
+    return kind
 
 
-def write_photo(path: str | os.PathLike[str], photo: Photo) -> Path:
-    """Write an image and its metadata as JPEG, PNG or WebP, by the extension; errors as for `check_photo`.
+def write_photo(path: str | os.PathLike[str], pixels: Pixels, profile: bytes = b"", xmp: str = "") -> Path:
+    """Write an image with an ICC profile and XMP data as JPEG, PNG or WebP, by the extension.
 
-    JPEG and WebP are written without visible loss. An existing file is replaced once the new one is complete.
+    An existing file is replaced once the new one is complete. Errors as for `check_photo`.
     """
     with of_extra("draw"):
         from PIL import Image, PngImagePlugin
 
-    target, pixels = Path(path), photo.pixels
-    opaque = bool((pixels[..., 3] == 255).all())
-    check_photo(target.name, (pixels.shape[1], pixels.shape[0]), opaque=opaque)
-    kind, _ = _kind_of(target.name)
-    said: dict[str, Any] = {"icc_profile": photo.profile or None, "exif": photo.exif or None}
-    if kind == "PNG" and photo.xmp:
-        said["pnginfo"] = PngImagePlugin.PngInfo()
-        said["pnginfo"].add_itxt("XML:com.adobe.xmp", photo.xmp.decode("utf-8", "replace"))
-    elif len(photo.xmp) <= LONGEST_XMP:
-        said["xmp"] = photo.xmp or None
+    target, opaque = Path(path), bool((pixels[..., 3] == 255).all())
+    kind = check_photo(target.name, (pixels.shape[1], pixels.shape[0]), opaque=opaque)
+    told: dict[str, Any] = {"icc_profile": profile} if profile else {}
+    if xmp and kind == "PNG":  # for which Pillow has no argument `xmp`
+        told["pnginfo"] = PngImagePlugin.PngInfo()
+        told["pnginfo"].add_itxt("XML:com.adobe.xmp", xmp)
+    elif xmp:
+        told["xmp"] = xmp.encode()
     with replacing(target) as temporary:
-        image = Image.fromarray(pixels[..., :3] if opaque else pixels)
-        image.save(temporary, format=kind, **SETTINGS[kind], **{key: value for key, value in said.items() if value})
+        Image.fromarray(pixels[..., :3] if opaque else pixels).save(temporary, format=kind, **WRITTEN[kind], **told)
     return target
-
-
-def _kind_of(name: str) -> tuple[str, int]:
-    """Pillow's name of a format, and its longest side."""
-    ending = Path(name).suffix.lower()
-    if ending not in WRITTEN:
-        raise ValueError(f"path must end in {', '.join(WRITTEN)}, got {name!r}")
-    return WRITTEN[ending]
 
 
 def _check_size(name: str, size: tuple[int, int]) -> None:
@@ -167,36 +122,18 @@ def _check_size(name: str, size: tuple[int, int]) -> None:
         )
 
 
-def _photo(name: str, image: Any) -> Photo:
+def _photo(name: str, image: Any) -> tuple[Pixels, bytes]:
     with of_extra("draw"):
         from PIL import ImageOps
 
     try:
         image.load()
-        said = image.getexif()
-        upright = ImageOps.exif_transpose(image) if said.get(ORIENTATION, 1) != 1 else image
-        exif = _kept_exif(said)
+        ImageOps.exif_transpose(image, in_place=True)
     except DAMAGED as error:
         raise ValueError(f"{name} is damaged or cut off: {error}") from error
     # Profiles for gray or printing inks do not apply to the converted pixels.
     profile = image.info.get("icc_profile") if image.mode in ("RGB", "RGBA", "P") else None
-    xmp = image.info.get("xmp") or image.info.get("XML:com.adobe.xmp") or b""
-    return Photo(_converted(name, upright), profile or b"", exif, xmp.encode() if isinstance(xmp, str) else bytes(xmp))
-
-
-def _kept_exif(said: Any) -> bytes:
-    """The EXIF data that do not concern the storage of the pixels."""
-    with of_extra("draw"):
-        from PIL import Image
-
-    kept = Image.Exif()
-    for tag in set(said) & KEPT_TAGS:
-        kept[tag] = said[tag]
-    for number in KEPT_PARTS:
-        part = {tag: value for tag, value in said.get_ifd(number).items() if tag not in SIZES}
-        if part:
-            kept.get_ifd(number).update(part)
-    return kept.tobytes() if len(kept) or any(kept.get_ifd(number) for number in KEPT_PARTS) else b""
+    return _converted(name, image), profile or b""
 
 
 def _converted(name: str, image: Any) -> Pixels:

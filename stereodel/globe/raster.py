@@ -29,7 +29,7 @@ from stereodel.conformal import MoebiusMap
 from stereodel.constants import MOST_PIXELS_ACROSS, MOST_TEXELS
 from stereodel.curves.chart import ChartView
 from stereodel.drawing.view import MapView, View
-from stereodel.globe.images import read_image
+from stereodel.globe.images import read_photo
 from stereodel.sphere import lonlat_to_xyz, xyz_to_lonlat
 from stereodel.sphere.latitudes import KINDS, Latitude
 from stereodel.sphere.vectors import turned
@@ -163,7 +163,7 @@ class Raster:
             If it is not an image, is damaged, has more than `MOST_TEXELS` pixels (checked before decoding), or is not
             2:1 without `bounds`.
         """
-        pixels = read_image(path)
+        pixels, _ = read_photo(path)
         try:
             return cls(pixels, bounds, latitude=latitude)
         except ValueError as error:

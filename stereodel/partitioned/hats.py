@@ -4,8 +4,7 @@
     partition_info.csv            its pixels
     dataset/Norder=k/Dir=d/Npix=n.parquet    the rows of pixel n of order k; a folder of files where so said
 
-A collection is a folder of several catalogues; its primary one is read. Files of rows become a second catalogue with
-the pixels and the rows of the first, so that LSDB joins the two pixel by pixel.
+A collection is a folder of several catalogues; its primary one is read. Its pixels are the partitions.
 """
 
 from __future__ import annotations
@@ -13,14 +12,11 @@ from __future__ import annotations
 import csv
 import os
 import re
-import shutil
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Final, Self
+from typing import Final, Self
 
-from stereodel._extras import optional
-from stereodel._files import replacing
 from stereodel.partitioned.places import Places, Surface, find_places
 from stereodel.partitioned.sources import Given, PointFile, Source, opened
 from stereodel.sphere.latitudes import Latitude
@@ -39,24 +35,6 @@ KINDS: Final = ("object", "source")
 
 FOLDER_SIZE: Final = 10_000
 """Pixels that share a folder ``Dir``."""
-
-PASSED_ON: Final = (
-    "hats_col_ra",
-    "hats_col_dec",
-    "hats_col_healpix",
-    "hats_col_healpix_order",
-    "hats_npix_suffix",
-    "hats_nrows",
-    "hats_order",
-    "hats_max_rows",
-    "hats_skymap_order",
-    "hats_skymap_alt_orders",
-    "moc_sky_fraction",
-)
-"""Properties that are true of any catalogue with the same rows in the same pixels."""
-
-MAPS: Final = ("point_map.fits", "skymap.fits", "skymap.*.fits")
-"""Files that tell where on the sky how many rows are: as true of the second catalogue."""
 
 
 @dataclass(frozen=True, order=True)
@@ -122,11 +100,6 @@ class Catalogue:
         return cls(folder, properties, tuple(_pixels(folder)))
 
     @property
-    def name(self) -> str:
-        """What the catalogue calls itself."""
-        return self.properties.get("obs_collection") or self.folder.name
-
-    @property
     def columns(self) -> tuple[str, str]:
         """The columns of right ascension and declination, degrees."""
         return self.properties["hats_col_ra"], self.properties["hats_col_dec"]
@@ -135,12 +108,6 @@ class Catalogue:
     def suffix(self) -> str:
         """The ending of pixels' names; "/" where each is a folder of files."""
         return self.properties.get("hats_npix_suffix") or ".parquet"
-
-    @property
-    def needed(self) -> tuple[str, ...]:
-        """Columns that a second catalogue must have too: the spatial index, if there is one, and the coordinates."""
-        index = self.properties.get("hats_col_healpix")
-        return (*([index] if index else []), *self.columns)
 
     def files(self) -> list[Path]:
         """The files of all pixels, those of a pixel by name: from the catalogue's folder.
@@ -162,77 +129,7 @@ class Catalogue:
         return found
 
 
-@dataclass(frozen=True, kw_only=True)
-class HatsSource(Source):
-    """The points of a HATS catalogue; its pixels are the partitions, and the rows a second catalogue.
-
-    catalogue: where they come from. Columns that are carried along beyond those that a catalogue must have are the
-    caller's; the first of them identifies rows.
-    """
-
-    catalogue: Catalogue
-
-    @property
-    def key(self) -> str | None:
-        """The column that identifies rows, by which LSDB can join the two catalogues."""
-        kept = [name for name in self.carried if name not in self.catalogue.needed]
-        return kept[0] if kept else None
-
-    @property
-    def name(self) -> str:
-        """Name of the second catalogue."""
-        return f"{self.catalogue.name}_voronoi"
-
-    def finish(self, folder: Path) -> None:
-        """Make the files of rows a catalogue: say which pixels and columns there are, and where on the sky rows are.
-
-        If rows are identified, ``<name>.properties`` is written beside the folder too, by which LSDB adds the columns
-        to those of the first catalogue: ``catalog.load_extension(path)``.
-        """
-        names = [file.name for file in self.files]
-        if not names:
-            return
-        parquet = optional("pyarrow.parquet", "partitioned")
-        footers = [parquet.read_metadata(folder / name) for name in names]
-        for footer, name in zip(footers, names, strict=True):
-            footer.set_file_path(Path(name).relative_to(DATASET).as_posix())
-        schema = parquet.read_schema(folder / names[0]).remove_metadata()
-        _write_metadata(folder / DATASET / "_common_metadata", schema)
-        _write_metadata(folder / DATASET / "_metadata", schema, footers)
-        with replacing(folder / PIXELS) as temporary, temporary.open("w", encoding="utf-8", newline="") as file:
-            pixels = ((pixel.order, pixel.number) for pixel in self.catalogue.pixels)
-            csv.writer(file, lineterminator="\n").writerows([("Norder", "Npix"), *pixels])
-        for path in sorted(path for pattern in MAPS for path in self.catalogue.folder.glob(pattern)):
-            with replacing(folder / path.name) as temporary:
-                shutil.copyfile(path, temporary)
-        if self.key is not None:
-            _write_properties(folder.with_name(f"{self.name}.properties"), self._extension(folder, schema.names))
-        _write_properties(folder / PROPERTIES[0], self._properties())  # last: a folder that has it is whole
-
-    def _properties(self) -> dict[str, str]:
-        """What describes the second catalogue."""
-        told = self.catalogue.properties
-        own = {"obs_collection": self.name, "dataproduct_type": "object"}
-        own |= {name: told[name] for name in PASSED_ON if name in told}
-        made = {"hats_builder": "stereodel", "hats_version": "v1.0"}
-        return own | made | {"prov_progenitor": self.catalogue.name}
-
-    def _extension(self, folder: Path, columns: Iterable[str]) -> dict[str, str]:
-        """What LSDB needs to know to add the columns of the second catalogue to those of the first."""
-        return {
-            "obs_collection": self.name,
-            "dataproduct_type": "extension",
-            "hats_primary_table_url": str(self.catalogue.folder.resolve()),
-            "hats_col_assn_primary": str(self.key),
-            "hats_assn_join_table_url": folder.name,
-            "hats_col_assn_join": str(self.key),
-            "hats_ext_cols": " ".join(name for name in columns if name not in self.carried),
-            "hats_ext_join_style": "inner",
-            "hats_ext_shares_primary_coords": "true",
-        }
-
-
-def hats_source(given: Given, columns: Sequence[str] | None, surface: Surface, latitude: Latitude) -> HatsSource:
+def hats_source(given: Given, columns: Sequence[str] | None, surface: Surface, latitude: Latitude) -> Source:
     """A HATS catalogue or collection: its pixels in the order of ``partition_info.csv``.
 
     Raises ValueError if the folder is not a catalogue of points, has another number of rows than it states, or is for
@@ -250,9 +147,9 @@ def hats_source(given: Given, columns: Sequence[str] | None, surface: Surface, l
         raise ValueError(f"{given}: hats_nrows is {told}, but its files hold {count} rows; the catalogue is incomplete")
     names = catalogue.columns if columns is None else tuple(columns)
     if not files:
-        return HatsSource((), Places("lonlat", names, surface, latitude), catalogue=catalogue)
+        return Source((), Places("lonlat", names, surface, latitude))
     places = find_places(opened(files[0].path).schema_arrow, names, surface, latitude)
-    return HatsSource(files, places, compact=True, carried=catalogue.needed, catalogue=catalogue)
+    return Source(files, places, compact=True)
 
 
 def is_catalogue(given: Given) -> bool:
@@ -301,14 +198,3 @@ def _properties(path: Path) -> dict[str, str]:
 
 def _plain(text: str) -> str:
     return re.sub(r"\\(.)", r"\1", text)
-
-
-def _write_properties(path: Path, properties: Mapping[str, str]) -> None:
-    with replacing(path) as temporary:
-        lines = [f"{name}={value}\n" for name, value in properties.items()]
-        temporary.write_text("".join(["#HATS catalog\n", *lines]), encoding="utf-8")
-
-
-def _write_metadata(path: Path, schema: Any, footers: Sequence[Any] | None = None) -> None:
-    with replacing(path) as temporary:
-        optional("pyarrow.parquet", "partitioned").write_metadata(schema, temporary, footers)

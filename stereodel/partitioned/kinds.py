@@ -43,7 +43,7 @@ def source_of(
         if other is not file:
             twice = f"a file twice, as {other.path} and {file.path}"
             raise ValueError(f"source names {twice}; its points would be duplicates of themselves")
-    carried = tuple(dict.fromkeys([*found.carried, *(names_of(keep) or ())]))
+    carried = tuple(dict.fromkeys(names_of(keep) or ()))
     first: Any = None
     for file in found.files if carried else ():
         schema = opened(file.path).schema_arrow

@@ -138,7 +138,7 @@ class Means:
             _begin(store, self.resume)
             if not (folder / REPORT).exists():
                 with Crew(jobs, executor=self.executor) as crew:
-                    kind(store, crew, limit, self.progress).run(source)
+                    kind(store, crew, limit, self.progress).run()
                 _publish(store)
             else:
                 check_results(folder, plan, load_json(folder / REPORT)["partitions"])
@@ -228,7 +228,7 @@ class Passes(ABC):
     limit: int
     progress: Progress | None
 
-    def run(self, source: Source) -> None:
+    def run(self) -> None:
         """All of them, and the report, when all files are as they should be."""
         store, plan = self.store, self.store.plan
         if (store.made / REPORT).exists():
@@ -237,7 +237,6 @@ class Passes(ABC):
         report, told = self.results(parts)
         if plan.rows:
             self._aligned()
-            source.finish(store.made / "rows")
         _write_files(store)
         partitions = [_shown(each) for each in told]
         for file in plan.files:

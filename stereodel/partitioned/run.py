@@ -237,8 +237,8 @@ def triangulate(
         its distance (radians on the sphere), and the point that is kept in its place: itself, or for duplicates the
         lowest number of equal points. Areas and degrees of other duplicates are 0.
     keep : sequence of str
-        Columns of the input that stand before those of the rows, such as one that identifies points. Rows of a HATS
-        catalogue keep its spatial index and its coordinates in any case.
+        Columns of the input that stand before those of the rows, such as one that identifies points, by which rows and
+        input are joined.
     triangles : bool
         Whether triangles are written.
     cells : bool
@@ -271,8 +271,7 @@ def triangulate(
         ``triangles/`` one for each partition, whose columns a, b, c are numbers of points, the lowest first,
         counterclockwise, and ``closing`` as in `stereodel.SphericalDelaunay`; ``cells/`` one, too, with the ``point``
         and ``area`` of each polygon; ``files.parquet`` says which numbers the points of each file have, and what it
-        was like. Of a HATS catalogue, ``rows/`` is a second one with the same pixels, which LSDB joins with it; if
-        columns are kept, a file ``…_voronoi.properties`` beside it is for ``catalog.load_extension``, by the first.
+        was like.
 
     Raises
     ------

@@ -59,8 +59,7 @@ class PointFile:
 class Source:
     """Files of points in the order that numbers their rows: what `triangulate` reads, whatever their kind.
 
-    A kind of its own, such as a catalogue of HATS, is a function that makes one of these of a path, in `KINDS`, and a
-    subclass where it has something to say in `finish`.
+    A kind of its own, such as a catalogue of HATS, is a function that makes one of these of a path, in `KINDS`.
 
     files: in order: the number of a point is that of its row in all of them, from 0.
     places: which columns say where points are, the same ones in all files.
@@ -72,9 +71,6 @@ class Source:
     places: Places
     compact: bool | None = None
     carried: tuple[str, ...] = ()
-
-    def finish(self, folder: Path) -> None:
-        """Write what belongs beside the files of rows, when all of them are in their `folder`."""
 
 
 def opened(path: str | os.PathLike[str]) -> Any:

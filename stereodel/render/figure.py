@@ -22,7 +22,7 @@ from stereodel._arrays import Pixels, as_choice
 from stereodel._extras import of_extra
 from stereodel.drawing.label import label_box
 from stereodel.drawing.page import Fill, Label, Page, picture_extra
-from stereodel.drawing.page_styles import STYLES, StyledDraw, as_styles
+from stereodel.drawing.sheets import Style, StyledDraw, as_styles
 from stereodel.drawing.solid import Solid
 from stereodel.drawing.style import BLACK, LABEL_SIZE, WHITE
 from stereodel.render.sizes import LARGEST_SIZE
@@ -35,6 +35,9 @@ LEADING: Final = 1.3
 
 MARGIN: Final = 12.0
 """Margin around a caption in points."""
+
+STYLE_HELP: Final = "dark, a .toml file of styles, or several with commas"
+"""Help of the option --style of scripts."""
 
 DARK: Final = 0.5
 """Luma of the background below which type on it is white."""
@@ -168,13 +171,13 @@ class Figure:
         title, description = caption_of(script) if script else ("", "")
         return replace(page, title=page.title or title, description=page.description or description)
 
-    def styled(self, *styles: str) -> Figure:
+    def styled(self, *styles: Style) -> Figure:
         """The same figure in other styles, see `stereodel.drawing.styled`.
 
         Raises
         ------
         ValueError
-            If a style is unknown, or column and slide are combined.
+            If a style is unknown.
         """
         return replace(self, draw=StyledDraw(self.draw, styles))
 
@@ -277,7 +280,7 @@ class Drawing(Protocol):
     def save(self) -> Callable[..., dict[str, Any]]:
         """Write the files into a folder, with the options of the script; a record with "files" and "seconds"."""
 
-    def styled(self, *styles: str) -> Drawing:
+    def styled(self, *styles: Style) -> Drawing:
         """The same in other styles."""
 
 
@@ -303,7 +306,7 @@ def run_script(
     parser.add_argument("--text", action=argparse.BooleanOptionalAction, default=True, help="draw the labels")
     for flag, told in flags.items():
         parser.add_argument(f"--{flag}", action="store_true", help=told)
-    parser.add_argument("--style", type=style_names, default=(), help=f"{', '.join(STYLES)}, or several with commas")
+    parser.add_argument("--style", type=style_names, default=(), help=STYLE_HELP)
     options = parser.parse_args(sys.argv[1:] if argv is None else argv)
     folder = styled_folder(out, options.style) if options.out is None else options.out
     try:

@@ -68,7 +68,7 @@ def png_chunks(
     yield SIGNATURE
     yield _chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, KINDS[channels], 0, 0, 0))
     yield _chunk(b"pHYs", struct.pack(">IIB", density, density, 1))
-    yield from (text_chunk(keyword, text) for keyword, text in (texts or {}).items() if text)
+    yield from (_text_chunk(keyword, text) for keyword, text in (texts or {}).items() if text)
     packer, above, missing = zlib.compressobj(LEVEL, memLevel=9), np.zeros((1, width, channels), dtype=np.uint8), height
     for part in rows:
         if part.shape[1:] != (width, channels) or part.dtype != np.uint8 or len(part) > missing:
@@ -93,7 +93,7 @@ def _chunk(kind: bytes, data: bytes) -> bytes:
     return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
 
 
-def text_chunk(keyword: str, text: str) -> bytes:
+def _text_chunk(keyword: str, text: str) -> bytes:
     """A text chunk: Latin-1 if possible, which every program reads, otherwise UTF-8."""
     key = keyword.encode("latin-1")
     try:

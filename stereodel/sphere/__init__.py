@@ -4,7 +4,6 @@ from stereodel.sphere.arcs import SphereArc
 from stereodel.sphere.circles import SphereCircle
 from stereodel.sphere.coordinates import as_direction, lonlat_to_xyz, xyz_to_lonlat
 from stereodel.sphere.graticules import graticule, graticule_patch, meridian, parallel
-from stereodel.sphere.healpix import healpix_centers
 from stereodel.sphere.measures import angular_distance, great_circle_points, solid_angle
 from stereodel.sphere.rotations import Rotation
 
@@ -17,7 +16,6 @@ __all__ = [
     "graticule",
     "graticule_patch",
     "great_circle_points",
-    "healpix_centers",
     "lonlat_to_xyz",
     "meridian",
     "parallel",

@@ -115,7 +115,6 @@ def test_films(folder, run, name, options, frames):
     assert len(pictures) == frames
     assert all((one != other).any() for one, other in pairwise(pictures))
     assert sorted(path.name for path in folder.iterdir()) == sorted(["cities.csv", name])
-    assert (b"Earth" in (folder / name).read_bytes()) == ("--title=Earth" in options)
 
 
 def test_what_moves():
@@ -231,5 +230,9 @@ def test_styles_pixels_and_paper(folder, run):
     assert picture[25, 20, 0] > 150 > 30 > picture[25, 20, 1]
     run("globe", "-o", "b.png", "--transparent", "--size=40", *BARE)
     assert iio.imread(folder / "b.png")[0, 0].tolist() == [0, 0, 0, 0]
-    run("globe", "-o", "c.png", "--style=slide", "--style=dark", "--dpi=10", *BARE)
-    assert iio.imread(folder / "c.png").shape == (75, 133, 3)
+    (folder / "red.toml").write_text('[fills]\nball = "red"\n', encoding="utf-8")
+    run("globe", "-o", "c.png", "--style=red.toml", "--style=dark", "--dpi=10", *BARE)
+    picture = iio.imread(folder / "c.png")
+    assert picture.shape == (67, 67, 3)
+    assert picture[0, 0].tolist() == [18, 18, 18]
+    assert picture[33, 27, 0] > 150 > 30 > picture[33, 27, 1]

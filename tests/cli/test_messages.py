@@ -134,8 +134,7 @@ globe cities.csv --point-size=2ell → --point-size is '2ell'; give a length wit
 globe --width=wide → --width is 'wide'; give a length with a unit, pt, mm, cm, in, such as 17cm
 globe --dpi=0 → --dpi is 0
 globe --dpi=10 --size=10 → size and dpi both say how many pixels
-globe --style=bright → --style is 'bright'; give column, slide, dark or a file .toml
-globe --style=slide --style=column → both set the size of the page
+globe --style=bright → --style is 'bright'; give dark or a file .toml
 globe --layer=a.geojson,colour=red → --layer a.geojson,colour=red: colour is unknown; the keys are color, width
 globe --seconds=3 → --seconds is for films
 globe --lon=x --skip-missing → --lon and --skip-missing are for POINTS

@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from stereodel.conformal import FocusBlend, MoebiusMap, bubble_to_bubble, distortion, fisheye, flight, three_points
+from stereodel.conformal import MoebiusMap, bubble_to_bubble, distortion, fisheye, flight, three_points
 from stereodel.sphere import SphereCircle
 
 IDENTITY, LENS, CAP = MoebiusMap.identity(), fisheye((10, 20), magnification=3), SphereCircle.around((20, 50), 10)
 TINY = SphereCircle.around((3.0, 4.0), 1e-30)
-XYZ, CITIES = np.eye(3), [(-74.0, 40.7), (2.35, 48.86), (139.7, 35.7)]
+XYZ = np.eye(3)
 MANY = np.ones((300, 3))
 
 
@@ -33,14 +33,6 @@ MANY = np.ones((300, 3))
         (lambda: flight((0, 0), (1, 1), magnification=2.0, arrival=np.inf), "inf"),
         (lambda: distortion(LENS, []), "region is empty"),
         (lambda: distortion(LENS, np.zeros((2, 4))), "region must have shape"),
-        (lambda: FocusBlend([], magnification=2.0), "foci is empty"),
-        (lambda: FocusBlend(CITIES, magnification=0.5), r"magnification is 0.5, outside \[1, 1e\+100\]"),
-        (lambda: FocusBlend(CITIES, magnification=[2.0, 3.0]), "one number or 3, one for each focus"),
-        (lambda: FocusBlend(CITIES, magnification=2.0, width=30), r"foci\[0\] and foci\[1\] overlap beyond 26.2"),
-        (lambda: FocusBlend(CITIES, magnification=2.0, width=-1), "width is -1"),
-        (lambda: FocusBlend([(1, 2), (1, 2)], magnification=2.0), r"foci\[0\] and foci\[1\] are the same"),
-        (lambda: FocusBlend(CITIES, magnification=2.0, limit=180), "limit is 180"),
-        (lambda: FocusBlend(CITIES, magnification=2.0)([0, 0, 0]), "zero vector"),
         (
             lambda: bubble_to_bubble(CAP, CAP, source_point=(20.0, 60.1)),
             "source_point must lie strictly inside",

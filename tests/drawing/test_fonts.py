@@ -195,8 +195,8 @@ def test_where_a_font_is_said():
     drawing = sketch.page((-2, 2, -2, 2))
     assert [label.font for label in drawing.labels] == [(SHIPPED,), ("DejaVu Serif",)]
     plain = Sketch().add_label((0, 0), "a").page((-2, 2, -2, 2))
-    assert styled(plain, "slide", font=SHIPPED).labels[0].font == (SHIPPED,)
-    assert styled(plain, "slide").labels[0].font == ()
+    assert styled(plain, "dark", font=SHIPPED).labels[0].font == (SHIPPED,)
+    assert styled(plain, "dark").labels[0].font == ()
 
 
 def test_figures_need_no_font_of_the_machine():

@@ -105,7 +105,7 @@ def test_samples_follow_what_they_explain_in_every_style(page, tmp_path):
         "[lines]\ncoast = {color = 'lime', width = 3.0}\nroads = {width = 0.1}\n"
         "[dots.sites]\ncolor = 'red'\nradius = 1.0\n[fills]\nland = 'gold'\nlakes = 'navy'\n"
     )
-    for styles in ((), ("dark",), ("slide",), ("column", "dark"), (file,), ("slide", "dark", file)):
+    for styles in ((), ("dark",), (file,), ("dark", file)):
         items = {item.name: item for item in styled(told, *styles).items if not isinstance(item, Label)}
         for name in ("coast", "roads", "sites", "land", "lakes"):
             assert looks(items[f"legend-{name}"]) == looks(items[name]), (styles, name)

@@ -8,15 +8,12 @@ from itertools import combinations
 import numpy as np
 import pytest
 
-from stereodel.drawing import styled
 from stereodel.drawing.colorimetry import contrast, encoded, linear, luminance, to_oklab
 from stereodel.drawing.colors import color_map
 from stereodel.drawing.label import label_box
 from stereodel.drawing.page import Dots, Fill, Picture, Polygons, Polylines, Stroke
-from stereodel.drawing.page_styles import COLUMN, SLIDE
 from stereodel.drawing.scales import usual_scale
 from stereodel.drawing.style import DOTS, LINES, MAP_LINES, fainter
-from tests.drawing.test_page_styles import overlapping
 from tests.figures.scripts import FIGURES, FOLDER, page, path_points, script
 from tests.tiers import by_day
 
@@ -241,27 +238,3 @@ def test_scales_are_told_by_lightness_and_have_two_ends_in_print():
         steps = np.diff(lightness(name))
         assert (steps > 0).all() or (steps < 0).all(), name
         assert abs(steps.sum()) > 0.55, name
-
-
-# In other styles.
-
-
-def words(shown):
-    """All that is written, without the breaks of lines."""
-    return sorted(" ".join(label.text for label in shown.labels).split())
-
-
-@pytest.mark.parametrize("name", by_day([*FIGURES, *MAPS], "fig03_bubbles", "globe_tissot"))
-@pytest.mark.parametrize(("style", "medium"), [("column", COLUMN), ("slide", SLIDE)])
-def test_in_a_column_and_on_a_slide_type_can_be_read_and_none_is_lost(name, style, medium):
-    before = page(name)
-    shown = styled(before, style)
-    assert shown.width == pytest.approx(medium.width)
-    assert medium.height is None or shown.height == pytest.approx(medium.height)
-    assert all(label.size >= medium.least_type for label in shown.labels)
-    assert overlapping(shown) == []
-    # On maps labels that have no room are left out, but not more than a quarter of them.
-    if name in MAPS:
-        assert len(words(shown)) >= 0.75 * len(words(before))
-    else:
-        assert words(shown) == words(before)

@@ -10,7 +10,7 @@ from stereodel.drawing import Label, View, styled
 from stereodel.drawing.colorimetry import contrast
 from stereodel.drawing.ground import VEIL, legible, painted
 from stereodel.drawing.label import label_box, within_disc
-from stereodel.drawing.page_styles import GROUND, dark_color
+from stereodel.drawing.sheets import GROUND, dark_color
 from stereodel.drawing.style import HALO_OPACITY, MAP_FILLS
 from stereodel.globe import Globe, Raster
 
@@ -46,7 +46,7 @@ def test_what_is_painted_is_what_is_drawn(layers):
 
 @pytest.mark.parametrize("explicit", [False, True])
 def test_a_halo_is_tinted_as_the_ground_of_the_style(tmp_path, explicit):
-    """Whether the style is given with the page, or applied to it later, or comes with another."""
+    """Whether the style is given with the page or applied to it later."""
     file = tmp_path / "mine.toml"
     file.write_text("[fills]\nball = '#ffe0a0'" + ("\n[labels]\nhalo_color = 'lime'" if explicit else ""))
     globe = Globe()
@@ -54,7 +54,7 @@ def test_a_halo_is_tinted_as_the_ground_of_the_style(tmp_path, explicit):
     globe.add_labels([(0.0, -40.0)], ["own"], halo_color=(0.0, 0.0, 1.0, 0.5))
     view = View(0, 0)
     plain = globe.page(view=view)
-    for page in (globe.page(view=view, style=file), styled(plain, file), styled(plain, "slide", file)):
+    for page in (globe.page(view=view, style=file), styled(plain, file)):
         assert len(page.labels) == 3
         for label in page.labels:
             own = label.text == "own"
@@ -95,11 +95,10 @@ def test_a_halo_is_tinted_as_the_ground_under_the_words(place, offset, expected,
     globe = Globe(ocean=MAP_FILLS["ocean"] if ink == "black" else tuple(0.2 * c for c in MAP_FILLS["ocean"][:3]))
     globe.add_polygons(WEST, color=(1.0, 0.9, 0.6) if ink == "black" else (0.2, 0.18, 0.12), outline=None)
     globe.add_labels([place], ["some words"], offset=offset, color=ink)
-    for page in (globe.page(view=View(0, 0)), globe.page(view=View(0, 0), style="slide")):
-        (label,) = page.labels
-        factor = 1.0 if ink == "black" else 0.2
-        wanted = (veil, veil, veil, VEIL) if expected is None else (*(factor * c for c in expected[:3]), HALO_OPACITY)
-        assert label.halo_color == pytest.approx(wanted, abs=1e-3)
+    (label,) = globe.page(view=View(0, 0)).labels
+    factor = 1.0 if ink == "black" else 0.2
+    wanted = (veil, veil, veil, VEIL) if expected is None else (*(factor * c for c in expected[:3]), HALO_OPACITY)
+    assert label.halo_color == pytest.approx(wanted, abs=1e-3)
 
 
 def test_a_halo_of_a_label_that_moved_is_tinted_as_the_ground_where_it_went():

@@ -1,9 +1,10 @@
-"""HATS: catalogues that LSDB writes are read pixel by pixel, and LSDB reads and joins the second one."""
+"""HATS: catalogues as the hats library lays them out are read pixel by pixel; rows are aligned with their files."""
 
 import shutil
 import warnings
 from contextlib import contextmanager
 
+import duckdb
 import numpy as np
 import pandas as pd
 import pyarrow as pa
@@ -22,20 +23,10 @@ ROWS = 3000
 
 @contextmanager
 def quiet():
-    """LSDB and its libraries warn of one another."""
+    """The hats library and those it uses warn of one another."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         yield
-
-
-@pytest.fixture(scope="module")
-def lsdb():
-    """Imported where it is needed: it takes seconds."""
-    with quiet():
-        import dask
-        import lsdb
-    with dask.config.set(scheduler="synchronous"):
-        yield lsdb
 
 
 @pytest.fixture(scope="module")
@@ -49,22 +40,42 @@ def table():
 
 
 @pytest.fixture(scope="module")
-def collection(lsdb, table, tmp_path_factory):
-    """A collection as LSDB writes it: the catalogue and its margin."""
-    folder = tmp_path_factory.mktemp("hats") / "sky"
+def hats():
+    """Imported where it is needed: it takes seconds."""
     with quiet():
-        catalogue = lsdb.from_dataframe(
-            table,
-            ra_column="ra",
-            dec_column="dec",
-            catalog_name="sky",
-            lowest_order=0,
-            highest_order=4,
-            partition_rows=700,
-            moc_max_order=4,
-            margin_threshold=3600.0,
-        )
-        catalogue.write_catalog(folder, catalog_name="sky")
+        import hats
+    return hats
+
+
+@pytest.fixture(scope="module")
+def collection(hats, table, tmp_path_factory):
+    """A collection by the writers of the hats library: the catalogue, and a margin that is described alone."""
+    folder = tmp_path_factory.mktemp("hats") / "sky"
+    from hats.catalog import PartitionInfo, TableProperties
+    from hats.catalog.dataset.collection_properties import CollectionProperties
+    from hats.io.paths import pixel_catalog_file
+    from hats.pixel_math import HealpixPixel, generate_alignment, generate_histogram
+    from hats.pixel_math.healpix_pixel_function import sort_pixels
+    from hats.pixel_math.healpix_shim import radec2pix
+
+    aligned = generate_alignment(generate_histogram(table, 4), highest_order=4, threshold=700)
+    found = [HealpixPixel(*place[:2]) for place in aligned[radec2pix(4, table["ra"], table["dec"])]]
+    pixels = list(sort_pixels(list(set(found))))
+    for pixel in pixels:
+        path = pixel_catalog_file(folder / "sky", pixel)
+        path.parent.mkdir(parents=True, exist_ok=True)
+        table[[each == pixel for each in found]].to_parquet(path, index=False)
+    PartitionInfo.from_healpix(pixels).write_to_file(catalog_path=folder / "sky")
+    told = {"ra_column": "ra", "dec_column": "dec", "total_rows": ROWS}
+    TableProperties(catalog_name="sky", catalog_type="object", **told).to_properties_file(folder / "sky")
+    margin = TableProperties(
+        catalog_name="sky_3600arcs", catalog_type="margin", primary_catalog="sky", margin_threshold=3600.0, **told
+    )
+    (folder / margin.catalog_name).mkdir()
+    margin.to_properties_file(folder / margin.catalog_name)
+    CollectionProperties(
+        name="sky", hats_primary_table_url="sky", all_margins=[margin.catalog_name], default_margin=margin.catalog_name
+    ).to_properties_file(folder)
     return folder
 
 
@@ -78,33 +89,19 @@ def source_of(folder):
     return hats_source(folder, None, "sphere", "spherical")
 
 
-@pytest.fixture
-def opened(lsdb):
-    """A function: what LSDB makes of a folder."""
-
-    def opened(folder):
-        with quiet():
-            return lsdb.open_catalog(folder)
-
-    return opened
-
-
-def computed(catalogue):
-    with quiet():
-        return pd.DataFrame(catalogue.compute(progress_bar=False))
-
-
 @pytest.mark.thorough
-def test_points_are_those_of_the_table_in_the_order_of_pixels(collection, opened, table):
+def test_points_are_those_of_the_table_in_the_order_of_pixels(hats, collection, table):
     source = source_of(collection)
     assert source.compact
     assert all("sky/dataset" in file.path for file in source.files)  # not the margin
     assert source.places.names == ("ra", "dec")
-    assert len({pixel.order for pixel in source.catalogue.pixels}) > 2
-    pixels = opened(collection).get_healpix_pixels()
-    assert [(pixel.order, pixel.number) for pixel in source.catalogue.pixels] == [(p.order, p.pixel) for p in pixels]
+    catalogue = Catalogue.read(collection)
+    assert len({pixel.order for pixel in catalogue.pixels}) > 2
+    with quiet():
+        pixels = hats.read_hats(collection / "sky").get_healpix_pixels()
+    assert [(pixel.order, pixel.number) for pixel in catalogue.pixels] == [(p.order, p.pixel) for p in pixels]
     found, expected = [], []
-    for file, pixel in zip(source.files, source.catalogue.pixels, strict=True):
+    for file, pixel in zip(source.files, catalogue.pixels, strict=True):
         assert file.name == pixel.path(".parquet").as_posix()
         found += read(file, source.places, 0, file.rows)
         expected.append(pq.ParquetFile(file.path).read(columns=["source_id"])["source_id"].to_numpy())
@@ -115,7 +112,7 @@ def test_points_are_those_of_the_table_in_the_order_of_pixels(collection, opened
 
 @pytest.fixture(scope="module")
 def run(collection, tmp_path_factory):
-    """From the folder to the second catalogue: pixels of the first are the partitions."""
+    """Pixels are the partitions."""
     told = []
     out = tmp_path_factory.mktemp("out")
     run = triangulate(collection, out, keep=["source_id"], jobs=1, progress=lambda name, *_: told.append(name))
@@ -125,40 +122,24 @@ def run(collection, tmp_path_factory):
 
 
 @pytest.mark.thorough
-def test_lsdb_joins_the_second_catalogue_pixel_by_pixel(collection, opened, table, run):
-    """And finds each star's own cell, which is that of all points at once."""
-    first, second = opened(collection), opened(run.folder / "rows")
-    assert second.get_healpix_pixels() == first.get_healpix_pixels()
-    assert second.name == "sky_voronoi"
-    with quiet():
-        joined = first.join(second, "source_id", "source_id", suffixes=("", "_2"), suffix_method="overlapping_columns")
-        extended = first.load_extension(run.folder / "sky_voronoi.properties")
-    assert joined.get_healpix_pixels() == first.get_healpix_pixels()
-    assert list(extended.columns) == ["source_id", "ra", "dec", "area", "degree", "nearest", "distance", "kept"]
+def test_rows_are_joined_by_the_column_that_is_kept(collection, table, run):
+    """Each star has its own cell, that of all points at once; a file has the rows of its pixel, in order."""
+    stars, cells = (f"'{folder}/dataset/*/*/*.parquet'" for folder in (collection / "sky", run.folder / "rows"))
+    joined = f"SELECT source_id, ra, area, degree FROM {stars} JOIN {cells} USING (source_id)"
+    with duckdb.connect() as base:
+        found = base.sql(joined).df().set_index("source_id").loc[table["source_id"]]
     diagram = SphericalVoronoi.from_lonlat(table[["ra", "dec"]].to_numpy())
-    for found in (computed(joined), computed(extended)):
-        assert len(found) == ROWS
-        found = found.set_index("source_id").loc[table["source_id"]]
-        assert found["area"].tolist() == pytest.approx(diagram.areas().tolist(), rel=1e-11)
-        assert found["degree"].tolist() == np.diff(diagram.region_offsets).tolist()
+    assert found["ra"].tolist() == table["ra"].tolist()
+    assert found["area"].tolist() == pytest.approx(diagram.areas().tolist(), rel=1e-11)
+    assert found["degree"].tolist() == np.diff(diagram.region_offsets).tolist()
+    for file in source_of(collection).files:
+        told = pq.ParquetFile(run.folder / "rows" / file.name).read()
+        assert told.column_names == ["source_id", "area", "degree", "nearest", "distance", "kept"]
+        assert told["source_id"] == pq.ParquetFile(file.path).read()["source_id"]
 
 
 @pytest.mark.thorough
-def test_the_second_catalogue_is_one_for_hats(collection, run, tmp_path):
-    """Its own check of files against each other, and the sky map of the first."""
-    from hats.io.validation import is_valid_catalog
-
-    rows = run.folder / "rows"
-    with quiet():
-        assert is_valid_catalog(rows, strict=True)
-    assert (rows / "skymap.fits").read_bytes() == (collection / "sky" / "skymap.fits").read_bytes()
-    assert source_of(rows).catalogue.pixels == source_of(collection).catalogue.pixels
-    triangulate(collection, tmp_path / "out", jobs=1)
-    assert not (tmp_path / "out" / "sky_voronoi.properties").exists()  # nothing identifies rows
-
-
-@pytest.mark.thorough
-def test_pixels_that_are_folders_of_files(copied, opened, run, tmp_path):
+def test_pixels_that_are_folders_of_files(copied, run, tmp_path):
     whole = source_of(copied)
     for file in whole.files:
         table, path = pq.ParquetFile(file.path).read(), copied / file.name
@@ -173,11 +154,8 @@ def test_pixels_that_are_folders_of_files(copied, opened, run, tmp_path):
     source = source_of(copied)
     assert len(source.files) == 2 * len(whole.files)
     assert source.files[1].name == whole.files[0].name.removesuffix(".parquet") + "/part1.parquet"
-    triangulate(copied, tmp_path / "out", keep=["source_id"], jobs=1)
-    found, expected = (
-        computed(opened(out / "rows")).set_index("source_id")["area"] for out in (tmp_path / "out", run.folder)
-    )
-    assert found.loc[expected.index].tolist() == pytest.approx(expected.tolist(), rel=1e-11)
+    again = triangulate(copied, tmp_path / "out", keep=["source_id"], jobs=1)
+    assert again.rows().to_table() == run.rows().to_table()
 
 
 @pytest.mark.parametrize(
@@ -200,17 +178,26 @@ def test_properties_as_java_writes_them(tmp_path, text, expected):
 
 
 def test_a_catalogue_that_is_made_by_hand(tmp_path):
-    """By day, as to import LSDB takes seconds."""
-    (tmp_path / "hats.properties").write_text("hats_col_ra=ra\nhats_col_dec=dec\n")
+    """By day, as to import hats takes seconds; rows are those of plain Parquet."""
+    sky, out = tmp_path / "sky", tmp_path / "out"
+    sky.mkdir()
+    (sky / "hats.properties").write_text("hats_col_ra=ra\nhats_col_dec=dec\n")
     lonlat = np.array([[[350.0, 5], [340, 10]], [[80, 15], [90, 20]]])
     for number, places in enumerate(lonlat):
-        path = tmp_path / Pixel(1, number).path(".parquet")
+        path = sky / Pixel(1, number).path(".parquet")
         path.parent.mkdir(parents=True, exist_ok=True)
-        pq.write_table(pa.table({"ra": places[:, 0], "dec": places[:, 1]}), path)
-    source = source_of(tmp_path)
-    assert source.catalogue.pixels == (Pixel(1, 0), Pixel(1, 1))
+        names = [f"{number}a", f"{number}b"]
+        pq.write_table(pa.table({"ra": places[:, 0], "dec": places[:, 1], "star": names}), path)
+    source = source_of(sky)
+    assert Catalogue.read(sky).pixels == (Pixel(1, 0), Pixel(1, 1))
     found = [np.concatenate(list(read(file, source.places, 0, file.rows))) for file in source.files]
     assert np.array_equal(found, lonlat_to_xyz(lonlat))
+    run = triangulate(sky, out, rows=["area"], keep=["star"], jobs=1)
+    plain = triangulate(sky, tmp_path / "plain", kind="parquet", columns=["ra", "dec"], rows=["area"], jobs=1)
+    expected = {"star": ["0a", "0b", "1a", "1b"], "area": plain.rows().to_table()["area"].to_pylist()}
+    assert run.rows().to_table().to_pydict() == expected
+    rows = sorted(path.relative_to(out / "rows") for path in (out / "rows").rglob("*") if path.is_file())
+    assert rows == [Pixel(1, number).path(".parquet") for number in (0, 1)]
 
 
 def test_pixels_share_folders_of_ten_thousand():
@@ -222,11 +209,10 @@ def test_pixels_share_folders_of_ten_thousand():
 @pytest.mark.thorough
 def test_what_is_a_catalogue(collection, copied, tmp_path):
     """With the older name of its properties, and without its list of pixels, too."""
-    expected = source_of(copied)
+    expected = source_of(copied).files
     (copied / "hats.properties").unlink()
     (copied / "partition_info.csv").unlink()
-    found = source_of(copied)
-    assert (found.catalogue.pixels, found.files) == (expected.catalogue.pixels, expected.files)
+    assert source_of(copied).files == expected
     assert is_catalogue(str(collection))
     assert is_catalogue(collection / "sky")
     assert not is_catalogue(tmp_path)
@@ -234,8 +220,7 @@ def test_what_is_a_catalogue(collection, copied, tmp_path):
 
 
 @pytest.mark.thorough
-def test_a_catalogue_of_targets(collection, opened, tmp_path, table):
-    """Answers are a second catalogue, row by row, that LSDB reads."""
+def test_a_catalogue_of_targets(collection, tmp_path, table):
     lonlat = np.random.default_rng(3).uniform([-180, -90], [180, 90], (500, 2))
     heights = lonlat[:, 1] ** 2
     columns = {"lon": lonlat[:, 0], "lat": lonlat[:, 1], "height": heights}
@@ -243,8 +228,7 @@ def test_a_catalogue_of_targets(collection, opened, tmp_path, table):
     same = {"jobs": 1, "partition": 200}
     run = triangulate(tmp_path / "points.parquet", tmp_path / "out", index=True, **same)
     found = run.interpolate(collection, tmp_path / "heights", "height", method="natural", keep=["source_id"], **same)
-    with quiet():
-        told = opened(tmp_path / "heights" / "rows").compute().set_index("source_id")["height"]
+    told = found.rows().to_table().to_pandas().set_index("source_id")["height"]
     function = NaturalNeighborInterpolator.from_lonlat(lonlat, heights)
     expected = function(lonlat=table[["ra", "dec"]].to_numpy())
     assert np.array_equal(told.loc[table["source_id"]].to_numpy(), expected)

@@ -11,7 +11,6 @@ from stereodel.sphere import (
     graticule,
     graticule_patch,
     great_circle_points,
-    healpix_centers,
     lonlat_to_xyz,
     xyz_to_lonlat,
 )
@@ -51,8 +50,6 @@ from stereodel.sphere import (
         (lambda: Rotation.from_matrix(np.eye(4)), r"shape \(3, 3\)"),
         (lambda: Rotation.about((0, 0, 0), 3), "axis is the zero vector"),
         (lambda: Rotation.about((0, 0), np.inf), "angle"),
-        (lambda: healpix_centers(3, nested=True), "nside is 3, but nested pixels need a power of two"),
-        (lambda: healpix_centers(0), "nside is 0"),
     ],
 )
 def test_bad_input(call, message):
@@ -61,7 +58,5 @@ def test_bad_input(call, message):
 
 
 def test_what_is_of_another_type():
-    with pytest.raises(TypeError, match="nside must be one integer"):
-        healpix_centers(2.0)
     with pytest.raises(TypeError):
         Rotation.identity() @ 3.0

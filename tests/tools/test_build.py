@@ -123,9 +123,10 @@ def film():
 @pytest.mark.thorough
 def test_a_style_goes_into_a_folder_of_its_own(scripts, tmp_path):
     (scripts / "anim_two.py").write_text(FILM)
-    line = ("--scripts", scripts, "--out", "out", "--style", "slide,dark", "anim_two")
-    assert "out/slide-dark: 1 drawn, 0 failed" in command(*line, cwd=tmp_path).stdout
-    made = {path.name for path in (tmp_path / "out" / "slide-dark").iterdir()}
+    (tmp_path / "gold.toml").write_text('background = "gold"\n')
+    line = ("--scripts", scripts, "--out", "out", "--style", "gold.toml,dark", "anim_two")
+    assert "out/dark-gold: 1 drawn, 0 failed" in command(*line, cwd=tmp_path).stdout
+    made = {path.name for path in (tmp_path / "out" / "dark-gold").iterdir()}
     assert made == {"anim_two.gif", "manifest.json"}
     assert "up to date" in command(*line, cwd=tmp_path).stdout
 

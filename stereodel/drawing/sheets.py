@@ -1,0 +1,296 @@
+"""Style sheets: a page on a dark background, or in the colours, widths and sizes of a TOML file.
+
+On a dark background colours keep their hue and the contrast that they have on white. A luminance Y becomes Y' with
+(Y' + 0.05)(Y + 0.05) = (G + 0.05)(1 + 0.05), where G is the luminance of the background. White becomes the background,
+black becomes white, and the contrast of any two colours, a quotient of such sums, is unchanged. The picture is not
+inverted: hues are kept, and the shading of a ball, which is not a colour of the page, still comes from above.
+
+A file identifies the parts of a page by their names, which are ids in SVG: "ball", "land", "coast", "graticule",
+"voronoi" ….
+"""
+
+from __future__ import annotations
+
+import os
+import tomllib
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, fields, replace
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+
+from stereodel._arrays import FloatArray, as_scalar
+from stereodel.drawing.colorimetry import FLARE, contrast, luminance, with_luminance
+from stereodel.drawing.colors import Color, as_color
+from stereodel.drawing.fonts import FontLike, as_font, in_font
+from stereodel.drawing.ground import haloed
+from stereodel.drawing.legend import PREFIX
+from stereodel.drawing.lengths import as_length
+from stereodel.drawing.page import Dots, Fill, Item, Label, Page, Picture, Polygons, Polylines, Stroke
+from stereodel.drawing.style import BLACK, WHITE
+
+DARK: Final = "dark"
+"""The style that has a name; all others are files."""
+
+Style = str | os.PathLike[str]
+"""The name of a style, or a style file."""
+
+
+def styled(page: Page, *styles: Style, font: FontLike | None = None) -> Page:
+    """The same picture in another style, or in several.
+
+    Parameters
+    ----------
+    page : Page
+    *styles : "dark" or path-like
+        "dark": on a dark background, where each colour keeps its hue and its contrast; a page that is dark already is
+        unchanged, and so are images made of pixels, such as rasters on a globe.
+        A TOML file sets colours, widths and sizes by the names of what is drawn; files are applied after "dark", in
+        order.
+    font : str, path-like, or sequence of them, optional
+        Font families or font files, see `stereodel.drawing.fonts.as_font`, for labels without a font of their own.
+
+    Returns
+    -------
+    Page
+
+    Raises
+    ------
+    FileNotFoundError
+        If a font file does not exist.
+    ValueError
+        If a style is unknown, a file is not a style, or a font family is not installed.
+
+    Notes
+    -----
+    Halos of a globe's labels without a colour of their own have that of the ground in the new style.
+
+    Examples
+    --------
+    >>> from stereodel.drawing import Sketch
+    >>> page = Sketch().add_circle((0, 0), 1, name="circle").page((-2, 2, -1, 1))
+    >>> [round(part, 2) for part in styled(page, "dark").background]
+    [0.07, 0.07, 0.07, 1.0]
+    """
+    page = in_font(page, as_font(font))
+    return haloed(_in_styles(page, styles)) if styles else page
+
+
+def as_styles(styles: Sequence[Style]) -> tuple[str, ...]:
+    """Styles without repeats, in the order of application; ValueError as for `styled`."""
+    given = dict.fromkeys(os.fspath(style) for style in styles)
+    for name in given:
+        if name != DARK and not name.lower().endswith(".toml"):
+            raise ValueError(f"style is {name!r}; give {DARK} or a file .toml")
+    return tuple(sorted(given, key=lambda name: name != DARK))
+
+
+def _in_styles(page: Page, styles: Sequence[Style]) -> Page:
+    for style in as_styles(styles):
+        page = dark_page(page) if style == DARK else StyleSheet.of_file(style)(page)
+    return page
+
+
+@dataclass(frozen=True)
+class StyledDraw:
+    """A picklable function that draws pages with the same arguments as `draw`, in other styles."""
+
+    draw: Callable[..., Any]
+    styles: tuple[Style, ...]
+
+    def __post_init__(self) -> None:
+        as_styles(self.styles)
+
+    def __call__(self, *arguments: Any) -> Page:
+        """The page returned by `draw`, in the styles; TypeError if it returns pixels."""
+        page = self.draw(*arguments)
+        if not isinstance(page, Page):
+            raise TypeError(f"draw gives {type(page).__name__}, which cannot be styled; let it return a Page")
+        return styled(page, *self.styles)
+
+
+GROUND: Final[Color] = (0.07, 0.07, 0.07, 1.0)
+"""The dark background. White has contrast 18.7 on it, against 21 of black on white; lower contrasts are kept."""
+
+
+def dark_page(page: Page) -> Page:
+    """A page on a dark background; a page that is already dark is unchanged.
+
+    Images, such as rasters on a globe, keep their pixels.
+    """
+    ground = dark_color((*page.background[:3], 1.0))
+    if contrast(page.background[:3], WHITE[:3]) > contrast(page.background[:3], BLACK[:3]):
+        return page
+    return replace(page, background=ground, items=tuple(map(_dark_item, page.items)))
+
+
+def dark_color(color: Color) -> Color:
+    """The dark counterpart of a colour on white.
+
+    >>> [round(part, 2) for part in dark_color((1.0, 1.0, 1.0, 1.0))]
+    [0.07, 0.07, 0.07, 1.0]
+    """
+    red, green, blue, opacity = dark_colors(np.array([color]))[0].tolist()
+    return (red, green, blue, opacity)
+
+
+def dark_colors(colors: FloatArray) -> FloatArray:
+    """The dark counterparts (n, 4) of colours (n, 4) on white; opacity is unchanged.
+
+    A transparent colour composited on the dark background equals the counterpart of its composite on white, as far as
+    such a colour exists.
+    """
+    several, which = np.unique(colors, axis=0, return_inverse=True)
+    opacity = several[:, 3:]
+    over_white = 1 - opacity * (1 - several[:, :3])
+    ground = luminance(GROUND[:3]) + FLARE
+    target = ground * (1 + FLARE) / (luminance(over_white) + FLARE) - FLARE
+    seen = with_luminance(over_white, np.clip(target, 0.0, 1.0))
+    own = (seen - (1 - opacity) * np.array(GROUND[:3])) / np.where(opacity > 0, opacity, 1.0)
+    found = np.concatenate([np.clip(own, 0.0, 1.0), opacity], axis=1)
+    return np.asarray(found[which.ravel()])
+
+
+def _dark_item(item: Item) -> Item:
+    match item:
+        case Dots():
+            return replace(item, color=dark_color(item.color), rim=dark_color(item.rim))
+        case Label():
+            return replace(item, color=dark_color(item.color), halo_color=dark_color(item.halo_color))
+        case Polygons():
+            return replace(item, colors=dark_colors(item.colors))
+        case Stroke() | Polylines() | Fill():
+            return replace(item, color=dark_color(item.color))
+        case Picture():
+            return item
+
+
+Changes = Mapping[str, Any]
+"""New values for fields of an item."""
+
+
+def _width(value: Any, name: str) -> float:
+    """A length that may be 0."""
+    return as_length(value, name) if isinstance(value, str) else as_scalar(value, name, low=0.0)
+
+
+READERS: Final[Mapping[str, Mapping[str, Callable[[Any, str], Any]]]] = {
+    "lines": {"color": as_color, "width": _width},
+    "dots": {"color": as_color, "radius": _width, "rim": as_color, "rim_width": _width},
+    "labels": {"color": as_color, "font": as_font, "size": as_length, "halo": _width, "halo_color": as_color},
+}
+"""Tables of a file with their keys, and the function that parses the value of each."""
+
+
+@dataclass(frozen=True)
+class StyleSheet:
+    """Colours, widths and sizes of the parts of a page, by name; other parts are unchanged.
+
+    Parameters
+    ----------
+    base : tuple of str
+        Styles applied first.
+    background : Color or None
+        Colour of the background; None leaves it.
+    fills : mapping of str to Color
+        Colours of regions by name; regions with several colours, such as cells, keep them.
+    lines, dots : mapping of str to mapping
+        "color" and "width" of lines by name; "color", "radius", "rim" and "rim_width" of dots by name.
+    labels : mapping
+        "color", "font", "size", "halo" and "halo_color" of all text.
+    """
+
+    base: tuple[str, ...]
+    background: Color | None
+    fills: Mapping[str, Color]
+    lines: Mapping[str, Changes]
+    dots: Mapping[str, Changes]
+    labels: Changes
+
+    @classmethod
+    def of_file(cls, path: str | os.PathLike[str]) -> StyleSheet:
+        """The style in a TOML file.
+
+        Raises
+        ------
+        OSError
+            If the file cannot be read.
+        ValueError
+            If the file is not TOML, or a key or value is invalid; the message names file and key.
+        """
+        source = Path(path)
+        try:
+            table = tomllib.loads(source.read_text(encoding="utf-8"))
+        except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+            raise ValueError(f"{source}: is not TOML: {error}") from error
+        try:
+            return cls._of_table(table)
+        except ValueError as error:
+            raise ValueError(f"{source}: {error}") from error
+
+    @classmethod
+    def _of_table(cls, table: Mapping[str, Any]) -> StyleSheet:
+        _known(table, [entry.name for entry in fields(cls)], "")
+        base = table.get("base", ())
+        return cls(
+            (base,) if isinstance(base, str) else tuple(base),
+            as_color(table["background"], "background") if "background" in table else None,
+            {name: as_color(value, f"fills.{name}") for name, value in _table(table, "fills").items()},
+            _parts(table, "lines"),
+            _parts(table, "dots"),
+            _read("labels", _table(table, "labels"), "labels."),
+        )
+
+    def __call__(self, page: Page) -> Page:
+        """A page in this style."""
+        page = _in_styles(page, self.base)
+        background = page.background if self.background is None else self.background
+        return replace(page, background=background, items=tuple(map(self._item, page.items)))
+
+    def _item(self, item: Item) -> Item:
+        name = item.name.removeprefix(PREFIX)
+        match item:
+            case Stroke() | Polylines():
+                return replace(item, **self.lines.get(name, {}))
+            case Dots():
+                return replace(item, **self.dots.get(name, {}))
+            case Label():
+                return replace(item, **self.labels, on_ground=item.on_ground and "halo_color" not in self.labels)
+            case Fill() if name in self.fills:
+                return replace(item, color=self.fills[name])
+            case Polygons() if name in self.fills and len(item.by_color[0]) == 1:
+                return replace(item, colors=np.tile(self.fills[name], (len(item.colors), 1)))
+            case _:
+                return item
+
+
+def _table(parts: Mapping[str, Any], name: str, within: str = "") -> Mapping[str, Any]:
+    found = parts.get(name, {})
+    if not isinstance(found, Mapping):
+        raise ValueError(f"{within}{name} is {found!r}, but must be a table, such as [{within}{name}]")
+    return found
+
+
+def _parts(table: Mapping[str, Any], kind: str) -> Mapping[str, Changes]:
+    """Tables of changes by the names of the parts."""
+    named = _table(table, kind)
+    return {name: _read(kind, _table(named, name, f"{kind}."), f"{kind}.{name}.") for name in named}
+
+
+def _known(given: Mapping[str, Any], keys: list[str], within: str) -> None:
+    for key in given:
+        if key not in keys:
+            raise ValueError(f"{within}{key} is not a key of styles; give {', '.join(keys)}")
+
+
+def _read(kind: str, given: Mapping[str, Any], within: str) -> Changes:
+    readers = READERS[kind]
+    _known(given, list(readers), within)
+    found = {}
+    for key, value in given.items():
+        try:
+            found[key] = readers[key](value, f"{within}{key}")
+        except TypeError as error:
+            raise ValueError(str(error)) from error
+    return found
