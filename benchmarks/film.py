@@ -10,12 +10,11 @@ from __future__ import annotations
 
 import argparse
 import os
-import resource
 import sys
 import tempfile
-import time
 from pathlib import Path
 
+from benchmarks.processes import Watch, peak_memory
 from stereodel.film import Film, Flight, Stop
 from stereodel.globe import Globe
 
@@ -30,12 +29,6 @@ def flight(seconds: float) -> Flight:
         Stop(TOKYO, hold=0.0),
     ]
     return Flight(stops, pace=seconds / Flight(stops).seconds)
-
-
-def processor_seconds() -> float:
-    """Of this process and of all that it started and saw the end of."""
-    kinds = (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)
-    return sum(usage.ru_utime + usage.ru_stime for usage in map(resource.getrusage, kinds))
 
 
 def main() -> int:
@@ -53,13 +46,13 @@ def main() -> int:
     clip = Film.of_globe(globe, flight(options.frames / 25), size=(1280, 720))
     with tempfile.TemporaryDirectory() as folder:
         path = options.out or Path(folder, "film.mp4")
-        wall, used = time.perf_counter(), processor_seconds()
-        clip.save(path, jobs=options.jobs)
-        wall, used = time.perf_counter() - wall, processor_seconds() - used
-        size = path.stat().st_size
-    peak = [resource.getrusage(who).ru_maxrss / 1024 for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
-    print(f"{len(clip)} frames in {wall:.0f} s, {used:.0f} processor seconds, {used / len(clip):.2f} a frame")
-    print(f"{size / 1e6:.1f} MB; this process {peak[0]:.0f} MB, largest other {peak[1]:.0f} MB")
+        with Watch(Path(folder)) as watch:
+            clip.save(path, jobs=options.jobs)
+        found, size = watch.told(), path.stat().st_size
+    here = peak_memory() / 2**20
+    print(f"{len(clip)} frames in {found['wall']:.0f} s, {found['cpu']:.0f} processor seconds", end=", ")
+    print(f"{found['cpu'] / len(clip):.2f} a frame")
+    print(f"{size / 1e6:.1f} MB; this process {here:.0f} MB, largest other {found['rss_mb']:.0f} MB")
     print(f"{os.cpu_count()} cores, load {os.getloadavg()[0]:.1f}")
     return 0
 

@@ -15,34 +15,28 @@ from __future__ import annotations
 import argparse
 import json
 import multiprocessing
-import os
-import resource
 import shutil
-import threading
 import time
 from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
-from contextlib import suppress
 from pathlib import Path
-from typing import Any, Self
+from typing import Any
 
 import numpy as np
-import psutil
 import pyarrow as pa
 import pyarrow.parquet as pq
 
 from benchmarks import pages
-from benchmarks.__main__ import machine, save
+from benchmarks.__main__ import machine
+from benchmarks.processes import Watch, peak_memory
 from stereodel import SphericalDelaunay, SphericalVoronoi, lonlat_to_xyz
 from stereodel.partitioned import triangulate
 
-RESULTS = Path(__file__).resolve().parent / "partitioned.json"
+RESULTS = pages.HERE / "partitioned.json"
 FILE = 1_000_000
 """Points of a file at most."""
 
 BILLION = 1e9
-LOOK = 0.1
-"""Seconds between two looks at memory and disk."""
 
 
 def uniform(rng: np.random.Generator, n: int, *_: int) -> np.ndarray:
@@ -91,62 +85,6 @@ def write_points(folder: Path, sky: str, size: int) -> list[Path]:
             table = pa.table({"lon": lonlat[:, 0].copy(), "lat": lonlat[:, 1].copy()})
             pq.write_table(table, path, compression="none", use_dictionary=False)
     return paths
-
-
-class Watch(threading.Thread):
-    """The peaks of the memory of child processes and of the bytes in a folder, and the seconds of processors."""
-
-    def __init__(self, folder: Path) -> None:
-        super().__init__(daemon=True)
-        self._folder, self._ended = folder, threading.Event()
-        self._whole: dict[int, int] = {}
-        self._own: dict[int, int] = {}
-        self._cpu: dict[int, float] = {}
-        self._disk = 0
-
-    def __enter__(self) -> Self:
-        self._began, self._cpu_before = time.perf_counter(), time.process_time()
-        self.start()
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self.wall = time.perf_counter() - self._began
-        self._ended.set()
-        self.join()
-        self.driver = time.process_time() - self._cpu_before
-
-    def run(self) -> None:
-        """Look again and again."""
-        while not self._ended.wait(LOOK):
-            for child in psutil.Process().children(recursive=True):
-                try:
-                    memory, cpu = child.memory_info(), child.cpu_times()
-                except psutil.Error:
-                    continue
-                self._whole[child.pid] = max(self._whole.get(child.pid, 0), memory.rss)
-                self._own[child.pid] = max(self._own.get(child.pid, 0), memory.rss - memory.shared)
-                self._cpu[child.pid] = cpu.user + cpu.system
-            self._disk = max(self._disk, size_of(self._folder))
-
-    def told(self) -> dict[str, float]:
-        """Seconds of wall and processors, megabytes of the largest process with and without pages of files, disk."""
-        return {
-            "wall": self.wall,
-            "cpu": self.driver + sum(self._cpu.values()),
-            "rss_mb": max(self._whole.values(), default=0) / 2**20,
-            "own_mb": max(self._own.values(), default=0) / 2**20,
-            "scratch_bytes": self._disk,
-        }
-
-
-def size_of(folder: Path) -> int:
-    """Bytes of the files of a folder; files and folders may vanish meanwhile."""
-    total = 0
-    for place, _, names in os.walk(folder):
-        for name in names:
-            with suppress(FileNotFoundError):
-                total += (Path(place) / name).stat().st_size
-    return total
 
 
 def in_partitions(points: Path, folder: Path, size: int, partition: int, workers: int) -> dict[str, Any]:
@@ -198,11 +136,10 @@ def _in_memory(points: Path, folder: Path, workers: int) -> dict[str, float]:
     corners = dict(zip("abc", mesh.simplices.T.astype(np.int64), strict=True)) | {"closing": mesh.closing}
     for name, columns in (("rows", told), ("triangles", corners)):
         pq.write_table(pa.table(columns), folder / f"{name}.parquet", compression="none", use_dictionary=False)
-    used = resource.getrusage(resource.RUSAGE_SELF)
     return {
         "wall": time.perf_counter() - began,
-        "cpu": used.ru_utime + used.ru_stime,
-        "rss_mb": used.ru_maxrss / 1024,
+        "cpu": time.process_time(),
+        "rss_mb": peak_memory() / 2**20,
         "triangles": len(mesh.simplices),
     }
 
@@ -235,40 +172,6 @@ def extrapolated(rows: list[dict[str, Any]], size: float = BILLION) -> dict[str,
     return {"size": size, "cpu": float(slope * size + start), "misses": float(misses)}
 
 
-def table(rows: list[dict[str, Any]]) -> str:
-    """A row for each set of points."""
-    head = ["points", "sky", "seconds", "processor: µs a point", "of that in memory", "MB a worker"]
-    head += ["scratch: bytes a point", "read beyond the own"]
-    body = []
-    for row in sorted(rows, key=lambda each: (each["size"], each["sky"])):
-        found, ratio = row["partitions"], row.get("cpu_ratio")
-        body.append(
-            [
-                f"{row['size']:,}".replace(",", " "),
-                row["sky"],
-                f"{found['wall']:.0f}",
-                f"{found['cpu_us_a_point']:.1f}",
-                "–" if ratio is None else f"{100 * ratio:.0f} %",
-                f"{found['own_mb']:.0f}",
-                f"{found['scratch_a_point']:.0f}",
-                f"{100 * found['beyond']:.1f} %",
-            ]
-        )
-    return pages.table(head, body, "rlrrrrrr")
-
-
-def billion(results: dict[str, Any]) -> str:
-    """The sentence on the points that nobody waited for."""
-    found = results["billion"]
-    if found is None:
-        return ""
-    minutes, misses = found["cpu"] / 60 / 2, 100 * found["misses"]
-    return (
-        f"A straight line through the largest three sets of uniform points, which misses them by {misses:.0f} % at "
-        f"most, leads to {minutes:.0f} minutes for 10⁹ points on two processors. That was not run."
-    )
-
-
 def main() -> int:
     """Measure, and save after each set."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.partitioned")
@@ -296,9 +199,9 @@ def main() -> int:
             others = [other for other in results["rows"] if (other["sky"], other["size"]) != (sky, size)]
             results["rows"] = sorted([*others, row], key=lambda each: (each["sky"], each["size"]))
             results["billion"] = extrapolated(results["rows"])
-            save(results, options.results)
+            pages.save(results, options.results)
             if options.results == RESULTS:
-                pages.fill("partitioned.md", {"partitions": table(results["rows"]), "billion": billion(results)})
+                pages.write("partitioned")
             print(json.dumps(row), flush=True)
             shutil.rmtree(folder)
     return 0

@@ -8,17 +8,13 @@ Memory is the largest resident set above that of the process which has the page 
 from __future__ import annotations
 
 import argparse
-import resource
 import subprocess
 import sys
 import tempfile
 import time
 from pathlib import Path
 
-
-def largest_memory() -> float:
-    """Largest resident set of this process so far, MB."""
-    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+from benchmarks.processes import peak_memory
 
 
 def measured(script: Path, size: int) -> str:
@@ -28,11 +24,11 @@ def measured(script: Path, size: int) -> str:
     page = load_drawing(script).page()
     with tempfile.TemporaryDirectory() as folder:
         path = page.save(Path(folder, "small.png"), size=64)
-        base, begin, work = largest_memory(), time.perf_counter(), time.process_time()
+        base, begin, work = peak_memory() / 2**20, time.perf_counter(), time.process_time()
         path = page.save(Path(folder, "large.png"), size=size)
         seconds, work = time.perf_counter() - begin, time.process_time() - work
         height = round(size * page.height / page.width)
-        memory, file = largest_memory() - base, path.stat().st_size / 1e6
+        memory, file = peak_memory() / 2**20 - base, path.stat().st_size / 1e6
     return (
         f"{size:>6} x {height:<6} {seconds:7.1f} s {work:7.1f} s of processors, "
         f"{memory:6.0f} MB above {base:.0f}, file {file:.1f} MB"
