@@ -3,8 +3,7 @@
     python -m benchmarks.partitioned FOLDER [--sizes 1e6 1e7] [--partition 6.5e5] [--workers 2]
 
 FOLDER takes the points, the results and the scratch: 100 bytes a point beside the triangles. Of each size uniform
-points, points like those of Gaia, and uniform ones whose files are patches of the sky, so that they are the partitions,
-as longitude and latitude in Parquet; up to --in-memory points the same is done in
+points and points like those of Gaia, as longitude and latitude in Parquet; up to --in-memory points the same is done in
 memory: read, triangulated, diagram, nearest points, written. From three sizes or more the seconds of 1e9 points are
 extrapolated: by a straight line through the largest three, with what it misses of them. Writes
 benchmarks/partitioned.json, and the tables of docs/partitioned.md.
@@ -39,20 +38,12 @@ FILE = 1_000_000
 BILLION = 1e9
 
 
-def uniform(rng: np.random.Generator, n: int, *_: int) -> np.ndarray:
+def uniform(rng: np.random.Generator, n: int) -> np.ndarray:
     """Longitude and latitude all over the sphere."""
     return np.column_stack([rng.uniform(-180, 180, n), np.degrees(np.arcsin(rng.uniform(-1, 1, n)))])
 
 
-def patches(rng: np.random.Generator, n: int, number: int, count: int) -> np.ndarray:
-    """Uniform in one of so many patches of equal area, in rows and columns of longitude and latitude."""
-    rows = max(k for k in range(1, count + 1) if count % k == 0 and 2 * k * k <= count)
-    row, column = divmod(number, count // rows)
-    z = (row + rng.uniform(size=n)) * 2 / rows - 1
-    return np.column_stack([(column + rng.uniform(size=n)) * 360 * rows / count - 180, np.degrees(np.arcsin(z))])
-
-
-def gaia_like(rng: np.random.Generator, n: int, *_: int) -> np.ndarray:
+def gaia_like(rng: np.random.Generator, n: int) -> np.ndarray:
     """Six of ten in a disc of five degrees, three in 300 clusters of 1e-1 to 1e-5 rad, the rest uniform."""
     lonlat = uniform(rng, n)
     disc, cluster = 6 * n // 10, 3 * n // 10
@@ -66,22 +57,21 @@ def gaia_like(rng: np.random.Generator, n: int, *_: int) -> np.ndarray:
     return lonlat
 
 
-SKIES: dict[str, Callable[[np.random.Generator, int, int, int], np.ndarray]] = {
+SKIES: dict[str, Callable[[np.random.Generator, int], np.ndarray]] = {
     "uniform": uniform,
     "gaia-like": gaia_like,
-    "in patches": patches,
 }
 
 
 def write_points(folder: Path, sky: str, size: int) -> list[Path]:
-    """Points in files, each a sample of the whole sky or one of its patches; kept from an earlier call."""
+    """Points in files, each a sample of the whole sky; kept from an earlier call."""
     count = max(8, -(-size // FILE))
     paths = [folder / f"{k:04}.parquet" for k in range(count)]
     folder.mkdir(parents=True, exist_ok=True)
     for k, path in enumerate(paths):
         if not path.exists():
             rows = size * (k + 1) // count - size * k // count
-            lonlat = SKIES[sky](np.random.default_rng([7, k]), rows, k, count)
+            lonlat = SKIES[sky](np.random.default_rng([7, k]), rows)
             table = pa.table({"lon": lonlat[:, 0].copy(), "lat": lonlat[:, 1].copy()})
             pq.write_table(table, path, compression="none", use_dictionary=False)
     return paths
@@ -186,7 +176,7 @@ def main() -> int:
     results = json.loads(options.results.read_text(encoding="utf-8")) if options.results.exists() else {"rows": []}
     for size in map(int, options.sizes):
         for sky in options.skies:
-            folder = options.folder / f"{sky.replace(' ', '-')}-{size}"
+            folder = options.folder / f"{sky}-{size}"
             write_points(folder / "points", sky, size)
             row: dict[str, Any] = {"sky": sky, "size": size, "partition": int(options.partition)}
             row["workers"], row["machine"] = options.workers, machine()
