@@ -87,12 +87,12 @@ def test_ratios_pair_the_rounds():
 
 def test_memory_is_that_of_each_process_alone(tmp_path):
     """Not of the one that started it, whose memory `getrusage` counts."""
-    held = np.ones(30_000_000)
+    held = np.ones(50_000_000)
     with Watch(tmp_path) as watch:
         (tmp_path / "file").write_bytes(b"x" * 1000)
         subprocess.run([sys.executable, "-c", "import time; x = b'x' * 20_000_000; time.sleep(0.5)"], check=True)
     found = watch.told()
-    assert 20 < found["own_mb"] <= found["rss_mb"] < 150
+    assert 20 < found["own_mb"] <= found["rss_mb"] < 300
     assert found["cpu"] > 0
     assert found["scratch_bytes"] == 1000
     assert processes.peak_memory() > held.nbytes
