@@ -121,7 +121,7 @@ dist: $(VENV)/installed-wheels opengl ## source archive, wheel and npm archive i
 	tools/dist.sh $(VENV)
 
 dist-again: $(VENV)/installed-wheels ## those of dist/ once more, the wheel in another folder: the same sources must give the same bytes
-	tools/dist_again.sh $(VENV)
+	tools/dist.sh $(VENV) again
 
 source: $(VENV)/installed-wheels ## the source archive into dist/
 	@tools/source_archive.sh $(VENV) dist
@@ -129,9 +129,12 @@ source: $(VENV)/installed-wheels ## the source archive into dist/
 check-archives: $(VENV)/installed-wheels ## check the archives in dist/: their texts, and the interface of wheels for several Pythons
 	tools/check_archives.sh $(VENV)
 
-MACHINES := x86_64 aarch64
-wheels: $(VENV)/installed-wheels ## source archive and wheels for Linux on MACHINES into dist/, by zig, checked and tried on each Python found
-	tools/wheels.sh $(VENV) $(MACHINES)
+wheels: $(VENV)/installed-wheels ## source archive and wheels for Linux into dist/, built and tried by cibuildwheel in containers, and checked
+	@rm -rf dist
+	@tools/source_archive.sh $(VENV) dist
+	$(BIN)/python -m pip --disable-pip-version-check -q install cibuildwheel --constraint constraints.txt
+	source tools/source_date.sh && $(BIN)/python -m cibuildwheel --platform linux --output-dir dist
+	tools/check_archives.sh $(VENV)
 
 cross: $(VENV)/installed-wheels ## compile and link the kernel for macOS, Windows and musl by zig; what this machine can run, is run
 	tools/cross.sh $(VENV)
@@ -143,17 +146,16 @@ names: $(VENV)/installed-test ## write the tables of docs/names.md from the libr
 	$(BIN)/python -m tools.names
 
 readme-images: $(VENV)/installed-figures opengl ## draw the small pictures of the README anew
-	$(BIN)/python -m tools.readme_images
+	$(BIN)/python -m tools.pictures readme
 
 web-images: $(VENV)/installed-test browser ## draw the screenshots of the interactive page in README and documentation anew
-	$(BIN)/python -m tools.web_images
+	$(BIN)/python -m tools.pictures web
 
 # Always from nothing: the gallery looks at the scripts alone, and pictures depend on the library too.
 docs: $(VENV)/installed-docs opengl ## build the documentation into docs/_build/html; warnings are errors
 	@rm -rf docs/_build docs/gallery docs/api/generated
 	$(BIN)/python -m sphinx -W --keep-going -q -j auto -d docs/_build/doctrees -b html docs docs/_build/html
 	$(BIN)/python tools/offline_pages.py docs/_build/html
-	$(BIN)/python tools/searches.py docs/_build/html
 	@echo "Open docs/_build/html/index.html"
 
 test-pythons: system ## run the tests on the other Python versions found here

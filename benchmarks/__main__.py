@@ -16,10 +16,9 @@ import platform
 import sys
 import time
 from pathlib import Path
-from typing import Any
 
+from benchmarks import pages
 from benchmarks.experiments import EXPERIMENTS, RESULTS
-from stereodel._files import replacing
 
 
 def machine() -> dict[str, str]:
@@ -42,12 +41,6 @@ def _lines(path: str) -> list[str]:
     return Path(path).read_text(encoding="utf-8").splitlines() if Path(path).exists() else []
 
 
-def save(results: dict[str, Any], path: Path) -> None:
-    """Write the results, whole or not at all."""
-    with replacing(path) as temporary:
-        temporary.write_text(json.dumps(results, indent=1) + "\n", encoding="utf-8")
-
-
 def main() -> int:
     """Measure, save after each experiment, write the page."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks", description="Compare stereodel with its peers.")
@@ -61,12 +54,10 @@ def main() -> int:
         measured = EXPERIMENTS[name](int(options.largest))
         results[name] = measured
         results.setdefault("machine", {})[name] = machine()
-        save(results, options.results)
+        pages.save(results, options.results)
         print(f"{name}: {time.perf_counter() - begin:.0f} s", flush=True)
     if options.results == RESULTS and options.largest >= 1e6:
-        from benchmarks import benchmark_page
-
-        benchmark_page.write(results)
+        pages.write("results")
     return 0
 
 

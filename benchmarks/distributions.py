@@ -7,17 +7,13 @@ real data) return the size next to n that fits them. Points of the sphere are un
 from __future__ import annotations
 
 from collections.abc import Callable
-from pathlib import Path
 
 import numpy as np
 
-from stereodel import lonlat_to_xyz
+from stereodel import data, lonlat_to_xyz
 from stereodel._arrays import FloatArray
 
 Distribution = Callable[[int, np.random.Generator], FloatArray]
-
-REAL_SETS = Path(__file__).resolve().parent / ".peers" / "data"
-"""Where `install_peers.sh` puts the real sets."""
 
 CLUSTERS = 100
 GOLDEN_ANGLE = np.pi * (3.0 - 5.0**0.5)
@@ -150,22 +146,19 @@ def sphere_circle(n: int, generator: np.random.Generator) -> FloatArray:
     return lonlat_to_xyz(np.stack([lon, np.full(n, CIRCLE_LATITUDE)], axis=1))
 
 
-def real_map(name: str) -> Distribution:
-    """Longitudes and latitudes of a real set as points of the plane, whatever n; repetitions included."""
-
-    def points(n: int, generator: np.random.Generator) -> FloatArray:
-        return np.load(REAL_SETS / f"{name}.npy")
-
-    return points
+def airports(n: int, generator: np.random.Generator) -> FloatArray:
+    """Longitudes and latitudes of airports, whatever n; repetitions included."""
+    return data.airports().lonlat
 
 
-def real_sphere(name: str) -> Distribution:
+def stars(n: int, generator: np.random.Generator) -> FloatArray:
+    """Right ascensions and declinations of the stars of Hipparcos, whatever n."""
+    return data.stars().lonlat
+
+
+def directions(places: Distribution) -> Distribution:
     """The same as points of the sphere."""
-
-    def points(n: int, generator: np.random.Generator) -> FloatArray:
-        return lonlat_to_xyz(np.load(REAL_SETS / f"{name}.npy"))
-
-    return points
+    return lambda n, generator: lonlat_to_xyz(places(n, generator))
 
 
 PLANE: dict[str, Distribution] = {
@@ -177,8 +170,8 @@ PLANE: dict[str, Distribution] = {
     "Fibonacci": sunflower,
     "circle": plane_circle,
     "exact circle": exact_circle,
-    "airports": real_map("airports"),
-    "stars": real_map("stars"),
+    "airports": airports,
+    "stars": stars,
 }
 
 SPHERE: dict[str, Distribution] = {
@@ -190,8 +183,8 @@ SPHERE: dict[str, Distribution] = {
     "graticule": graticule,
     "Fibonacci": lattice,
     "circle": sphere_circle,
-    "airports": real_sphere("airports"),
-    "stars": real_sphere("stars"),
+    "airports": directions(airports),
+    "stars": directions(stars),
 }
 
 REAL = ("airports", "stars")

@@ -68,11 +68,18 @@ def _node(name: str) -> Callable[[str], list[str]]:
     return lambda file: [shutil.which("node") or "node", "--max-old-space-size=8192", script, name, file]
 
 
-_OURS = "triangles and neighbours as arrays, checked input, duplicates listed"
+def _ours(space: str) -> tuple[Contender, Contender]:
+    done = "triangles and neighbours as arrays, checked input, duplicates listed"
+    threads = ((1, "one thread", BLUE), (2, "two threads", SKY))
+    one, two = (
+        Contender(f"ours {n}", f"stereodel, {words}", "stereodel", stereodel(space, n), done, color, "yes")
+        for n, words, color in threads
+    )
+    return one, two
+
 
 PLANE = (
-    Contender("ours 1", "stereodel, one thread", "stereodel", stereodel("plane", 1), _OURS, BLUE, "yes"),
-    Contender("ours 2", "stereodel, two threads", "stereodel", stereodel("plane", 2), _OURS, SKY, "yes"),
+    *_ours("plane"),
     Contender(
         "cgal", "CGAL", "cgal", _compiled("cgal_plane"), "linked triangles, exact predicates (EPICK)", VERMILION, "yes"
     ),
@@ -87,8 +94,7 @@ PLANE = (
 )
 
 SPHERE = (
-    Contender("ours 1", "stereodel, one thread", "stereodel", stereodel("sphere", 1), _OURS, BLUE, "yes"),
-    Contender("ours 2", "stereodel, two threads", "stereodel", stereodel("sphere", 2), _OURS, SKY, "yes"),
+    *_ours("sphere"),
     Contender(
         "cgal",
         "CGAL on sphere",

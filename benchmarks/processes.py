@@ -12,7 +12,10 @@ import re
 import select
 import subprocess
 import tempfile
+import threading
 import time
+from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Self
@@ -29,7 +32,8 @@ STARTUP = 180.0
 COUNTING = 30.0
 """Seconds beside the calls, for counting what came out and giving memory back."""
 
-_LOOK = 0.2
+LOOK = 0.1
+"""Seconds between two looks at memory and disk."""
 
 
 class StoppedError(Exception):
@@ -93,7 +97,7 @@ class Engine:
     def _line(self, end: float) -> str:
         # Not `readline`: a line that Python has read ahead would not wake `select`.
         while b"\n" not in self._heard:
-            if select.select([self._process.stdout], [], [], _LOOK)[0]:
+            if select.select([self._process.stdout], [], [], LOOK)[0]:
                 heard = os.read(self._process.stdout.fileno(), 1 << 16)
                 if not heard:
                     raise StoppedError(self._last_words())
@@ -134,8 +138,82 @@ class Engine:
 
 def resident(pid: int) -> int:
     """Resident memory of a process, bytes; 0 when it is gone."""
+    return _status(pid, "VmRSS")
+
+
+def peak_memory() -> int:
+    """The most that was ever resident of this process, bytes; `getrusage` counts what started it, too."""
+    return _status("self", "VmHWM")
+
+
+def _status(process: int | str, what: str) -> int:
     try:
-        status = Path(f"/proc/{pid}/status").read_text(encoding="utf-8")
+        status = Path(f"/proc/{process}/status").read_text(encoding="utf-8")
     except OSError:
         return 0
-    return sum(1024 * int(line.split()[1]) for line in status.splitlines() if line.startswith("VmRSS:"))
+    return sum(1024 * int(line.split()[1]) for line in status.splitlines() if line.startswith(f"{what}:"))
+
+
+class Watch(threading.Thread):
+    """The peaks of the memory of child processes and of the bytes in a folder, and the seconds of processors."""
+
+    def __init__(self, folder: Path) -> None:
+        super().__init__(daemon=True)
+        self._folder, self._ended = folder, threading.Event()
+        self._whole: dict[int, int] = {}
+        self._own: dict[int, int] = {}
+        self._cpu: dict[int, float] = {}
+        self._disk = 0
+
+    def __enter__(self) -> Self:
+        self._began, self._cpu_before = time.perf_counter(), time.process_time()
+        self.start()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.wall = time.perf_counter() - self._began
+        self._ended.set()
+        self.join()
+        self.driver = time.process_time() - self._cpu_before
+
+    def run(self) -> None:
+        """Look again and again."""
+        while not self._ended.wait(LOOK):
+            for child in _children(os.getpid()):
+                with suppress(OSError):  # it has ended
+                    clock = Path(f"/proc/{child}/stat").read_text(encoding="utf-8").rpartition(")")[2].split()
+                    _, whole, shared = Path(f"/proc/{child}/statm").read_text(encoding="ascii").split()[:3]
+                    self._whole[child] = max(self._whole.get(child, 0), int(whole))
+                    self._own[child] = max(self._own.get(child, 0), int(whole) - int(shared))
+                    self._cpu[child] = (int(clock[11]) + int(clock[12])) / os.sysconf("SC_CLK_TCK")
+            self._disk = max(self._disk, size_of(self._folder))
+
+    def told(self) -> dict[str, float]:
+        """Seconds of wall and processors, megabytes of the largest process with and without pages of files, disk."""
+        page_mb = os.sysconf("SC_PAGESIZE") / 2**20
+        return {
+            "wall": self.wall,
+            "cpu": self.driver + sum(self._cpu.values()),
+            "rss_mb": page_mb * max(self._whole.values(), default=0),
+            "own_mb": page_mb * max(self._own.values(), default=0),
+            "scratch_bytes": self._disk,
+        }
+
+
+def _children(pid: int) -> Iterator[int]:
+    """The processes that a process has started, and those that they have."""
+    for file in Path(f"/proc/{pid}/task").glob("*/children"):
+        with suppress(OSError):
+            for child in map(int, file.read_text(encoding="ascii").split()):
+                yield child
+                yield from _children(child)
+
+
+def size_of(folder: Path) -> int:
+    """Bytes of the files of a folder; files and folders may vanish meanwhile."""
+    total = 0
+    for place, _, names in os.walk(folder):
+        for name in names:
+            with suppress(FileNotFoundError):
+                total += (Path(place) / name).stat().st_size
+    return total

@@ -28,13 +28,11 @@ from scipy import ndimage
 from benchmarks import pages
 from stereodel import MoebiusMap, fisheye
 from stereodel._arrays import FloatArray
-from stereodel._files import replacing
 from stereodel.drawing import View
 from stereodel.globe import Raster
 from tests.globe.supersampling import checkerboard, psnr, reference, zone_plate
 
 HERE = Path(__file__).resolve().parent
-RESULTS = HERE / "rasters.json"
 HEIGHT, SIZE, SIDE = 2048, 2048, 12
 CHANNELS = ("rings", "squares", "clouds")
 VIEW = View(20.0, 40.0)
@@ -157,23 +155,11 @@ def measure(name: str, raster: Pixels) -> Iterator[Row]:
         yield {"lens": name, "library": library, **times, **dict(zip(CHANNELS, ratios, strict=True))}
 
 
-def table(rows: list[Row]) -> str:
-    """Seconds on the wall and of processors, and decibels."""
-    head = ["", "", "seconds", "processor seconds", *(f"{name}, dB" for name in CHANNELS)]
-    body = [
-        [r["lens"], r["library"], f"{r['seconds']:.2f}", f"{r['busy']:.2f}", *(f"{r[name]:.0f}" for name in CHANNELS)]
-        for r in rows
-    ]
-    return pages.table(head, body, "ll" + "r" * 5)
-
-
 def main() -> None:
     """Measure, save, write the page."""
     raster = sample_raster()
     rows = [row for name in LENSES for row in measure(name, raster)]
-    with replacing(RESULTS) as temporary:
-        temporary.write_text(json.dumps(rows, indent=1) + "\n", encoding="utf-8")
-    pages.fill("rasters.md", {"times": table(rows)})
+    pages.record("rasters", rows)
 
 
 if __name__ == "__main__":

@@ -171,10 +171,3 @@ def paired(slower: Sequence[float], faster: Sequence[float]) -> list[float]:
     if min(len(slower), len(faster)) < PAIRS:
         return [statistics.median(slower) / statistics.median(faster)]
     return [a / b for a, b in zip(slower, faster, strict=False)]
-
-
-def ratios(slower: Result | None, faster: Result | None) -> list[float]:
-    """How many times faster the second was, round by round."""
-    if slower is None or faster is None or slower.stopped or faster.stopped:
-        return []
-    return paired(slower.seconds, faster.seconds)

@@ -10,7 +10,6 @@ benchmarks/web.json and the tables of docs/web.md.
 from __future__ import annotations
 
 import gzip
-import json
 import os
 import statistics
 import tempfile
@@ -22,13 +21,10 @@ from playwright.sync_api import Browser
 
 from benchmarks import pages
 from stereodel._arrays import FloatArray
-from stereodel._files import replacing
 from stereodel.web import web
 from stereodel.web.contents import built
 from tools.browser import Visit, chromium
 
-HERE: Final = Path(__file__).resolve().parent
-RESULTS: Final = HERE / "web.json"
 SCENES: Final = ((1_000, "50m"), (10_000, "110m"))
 """Sites and land."""
 
@@ -143,32 +139,10 @@ def speed() -> Row:
         return {"ready, seconds": seconds_until_ready(browser, plain), "scenes": rows, "drag": dragged}
 
 
-def tables(results: Row) -> dict[str, str]:
-    """The blocks of the page."""
-    sent = [[row["what"], f"{row['kB']:.0f}", f"{row['gzip kB']:.0f}"] for row in results["sizes"]]
-    scenes = [
-        [f"{row['sites']}", f"1 : {row['land'][:-1]} million", f"{row['frames a second']:.0f}", f"{row['ms']:.0f}"]
-        for row in results["scenes"]
-    ]
-    head = ["sites with cells", "land", "frames a second", "ms of the processor a frame"]
-    dragged = results["drag"]
-    words = [
-        f"Ready {1000 * results['ready, seconds']:.0f} ms after it is opened from the disk.",
-        f"A site that is dragged among {dragged['sites']}, all of them triangulated anew and drawn in every step: "
-        f"{dragged['frames a second']:.0f} frames a second.",
-    ]
-    return {
-        "sizes": pages.table(["", "kB", "packed by gzip"], sent, "lrr"),
-        "frames": "\n\n".join([pages.table(head, scenes, "rlrr"), *words]),
-    }
-
-
 def main() -> None:
     """Measure, save, write the page."""
     results = {"load": os.getloadavg()[0], "sizes": sizes(), **speed()}
-    with replacing(RESULTS) as temporary:
-        temporary.write_text(json.dumps(results, indent=1) + "\n", encoding="utf-8")
-    pages.fill("web.md", tables(results))
+    pages.record("web", results)
 
 
 if __name__ == "__main__":

@@ -27,11 +27,9 @@ import numpy as np
 
 from benchmarks import pages
 from stereodel import PlanarDelaunay, SphericalDelaunay, SphericalVoronoi
-from stereodel._files import replacing
 
 HERE = Path(__file__).resolve().parent
 WEB = HERE.parent / "stereodel" / "web"
-RESULTS = HERE / "web_kernel.json"
 SIZES = (1_000, 10_000, 100_000)
 ROUNDS = 7
 Row = dict[str, Any]
@@ -81,24 +79,6 @@ def measure(sizes: tuple[int, ...] = SIZES, rounds: int = ROUNDS) -> dict[str, A
     return {"rows": rows, "compiled": web["compiled"], "sizes": sizes_of()}
 
 
-def times(rows: list[Row]) -> str:
-    """Milliseconds by the number of points."""
-    columns = {
-        "sphere: native": "native sphere",
-        "web": "sphere",
-        "cells: native": "native cells",
-        "web ": "cells",
-        "`geoDelaunay`: web": "d3, ours",
-        "d3-geo-voronoi": "d3, theirs",
-        "plane: native": "native plane",
-        "web  ": "plane",
-        "delaunator": "delaunator",
-    }
-    head = ["points", *(name.strip() for name in columns)]
-    body = [[f"{row['size']:,}".replace(",", " "), *(f"{row[key]:.3g}" for key in columns.values())] for row in rows]
-    return pages.table(head, body, "r" * len(head))
-
-
 def ratios(rows: list[Row]) -> Row:
     """How much longer others take, and how much longer the web takes than Python, for the largest set."""
     last = rows[-1]
@@ -118,14 +98,7 @@ def main() -> None:
     """Measure, save, write the page."""
     found = measure()
     found["ratios"] = ratios(found["rows"])
-    with replacing(RESULTS) as temporary:
-        temporary.write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
-    shown = [[name, f"{value:.1f}"] for name, value in found["ratios"].items()]
-    last = f"{found['rows'][-1]['size']:,} points".replace(",", " ")
-    blocks = {"times": times(found["rows"]), "ratios": pages.table([last, "ratio"], shown, "lr")}
-    pages.fill("javascript.md", blocks)
-    for line in (*blocks.values(), found["sizes"]):
-        print(line)
+    pages.record("web_kernel", found)
 
 
 if __name__ == "__main__":

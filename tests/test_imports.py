@@ -260,7 +260,7 @@ def test_help_loads_nothing_heavy():
 
 
 def test_import_adds_few_modules_to_numpy():
-    """A cheap stand-in for the import time, which benchmarks/import_time.py measures."""
+    """A cheap stand-in for the import time."""
     assert len(loaded_by("import stereodel") - loaded_by("import numpy")) < 60
 
 

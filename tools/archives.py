@@ -4,7 +4,6 @@ The archive: every tracked file but stored pictures, without which its tests do.
 its compiled kernel, what was built for the interactive page and the licences, and no source of either.
 
     python tools/archives.py ARCHIVE WHEEL
-    python tools/archives.py --sizes WHEEL…    say how large the parts of wheels are
 """
 
 from __future__ import annotations
@@ -46,28 +45,6 @@ def wheel_problems(names: set[str], tracked: set[str]) -> list[str]:
     return found if len(kernels) == 1 else [*found, f"one compiled kernel wanted, not {sorted(kernels)}"]
 
 
-def sizes(members: dict[str, int]) -> dict[str, int]:
-    """Bytes of the parts of a wheel, the largest first: the kernel, the folders of the package, the rest."""
-    parts: dict[str, int] = {}
-    for name, size in members.items():
-        package, _, inside = name.partition("/")
-        part = inside.partition("/")[0] if package == "stereodel" and "/" in inside else "modules"
-        part = "kernel" if name.startswith("stereodel/_kernel.") else part
-        part = part if package == "stereodel" else "metadata"
-        parts[part] = parts.get(part, 0) + size
-    return dict(sorted(parts.items(), key=lambda item: -item[1]))
-
-
-def report_sizes(wheels: list[str]) -> int:
-    """Print megabytes of each wheel and of its parts, as they are packed."""
-    for wheel in wheels:
-        with zipfile.ZipFile(wheel) as packed:
-            parts = sizes({member.filename: member.compress_size for member in packed.infolist()})
-        largest = ", ".join(f"{name} {size / 1e6:.2f}" for name, size in parts.items() if size > 5e4)
-        print(f"{Path(wheel).name}: {Path(wheel).stat().st_size / 1e6:.2f} MB; {largest}")
-    return 0
-
-
 def main(archive: str, wheel: str) -> int:
     """Report and return the exit code."""
     listing = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, capture_output=True, text=True, check=True)
@@ -82,4 +59,4 @@ def main(archive: str, wheel: str) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(report_sizes(sys.argv[2:]) if sys.argv[1] == "--sizes" else main(*sys.argv[1:]))
+    sys.exit(main(*sys.argv[1:]))

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Usage: tools/build_web.sh VENV [compare]
-# Build the files of stereodel/web/built with the tools of VENV, unless they are up to date; with `compare` build them in
-# any case, and fail if they are not the tracked ones to the last byte.
+# Build the files of stereodel/web/built with the tools of VENV; with `compare` fail if they are not the tracked ones to the
+# last byte.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -11,7 +11,6 @@ PATH=$venv/bin:$PATH # its cmake, ninja, node and npm come first
 script=stereodel/web/script
 built=stereodel/web/built
 work=build/web
-if [[ -z $compare ]] && python -m tools.web_hashes 2>/dev/null; then exit 0; fi
 mkdir -p "$work" "$built"
 quietly() { "$@" >"$work/log" 2>&1 || { cat "$work/log" >&2; exit 1; }; }
 
@@ -31,7 +30,6 @@ chmod 644 "$work/stage/stereodel.wasm"
 tools/node_modules.sh "$venv"
 quietly node tools/bundle_web.mjs "$work/stage"
 
-python -m tools.web_hashes "$work/stage"
 if [[ -n $compare ]]; then
     diff -rq "$work/stage" "$built" >&2 || { echo "tools/build_web.sh: run make web and commit $built" >&2; exit 1; }
 else

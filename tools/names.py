@@ -1,20 +1,17 @@
 """The tables of docs/names.md: every public name with its signature, the first line of its docstring, and its members.
 
-    python -m tools.names [--check]
+    python -m tools.names
 
 Between the markers `<!-- names: PACKAGE -->` and `<!-- end -->` the page holds what this writes from the package
-itself; around them stands by hand what is promised beyond it. With --check nothing is written, and a page that is out
-of date is an error.
+itself; around them stands by hand what is promised beyond it. A test compares.
 """
 
 from __future__ import annotations
 
-import argparse
 import ast
 import importlib
 import inspect
 import re
-import sys
 from collections.abc import Iterator
 from itertools import pairwise
 from pathlib import Path
@@ -147,21 +144,6 @@ def filled(text: str) -> str:
     return _BLOCK.sub(lambda block: f"<!-- names: {block[1]} -->\n\n{table(block[1])}\n\n<!-- end -->", text)
 
 
-def main() -> int:
-    """Write the tables, or say that they are out of date."""
-    parser = argparse.ArgumentParser(description="The tables of docs/names.md.")
-    parser.add_argument("--check", action="store_true", help="write nothing; fail where the page is out of date")
-    check = parser.parse_args().check
-    text = PAGE.read_text(encoding="utf-8")
-    if filled(text) == text:
-        return 0
-    if check:
-        print("docs/names.md is out of date: run make names", file=sys.stderr)
-        return 1
-    with replacing(PAGE) as temporary:
-        temporary.write_text(filled(text), encoding="utf-8")
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    with replacing(PAGE) as temporary:
+        temporary.write_text(filled(PAGE.read_text(encoding="utf-8")), encoding="utf-8")

@@ -12,12 +12,11 @@ from __future__ import annotations
 
 import json
 import sys
-import time
 from collections.abc import Callable
 from functools import cached_property
 
 import numpy as np
-from python_peer import high_water, lower_high_water
+from python_peer import timed
 
 import stereodel
 from stereodel import PlanarDelaunay, PlanarVoronoi, SphericalDelaunay, SphericalVoronoi
@@ -85,20 +84,13 @@ class Worker:
         alone = word in ("run", "bare", "voronoi", "lists")
         if not alone:
             _ = self.built
-        lower_high_water()
-        before = high_water()
-        seconds = []
-        for _ in range(repetitions):
-            step = self.step(word)
-            begin = time.perf_counter()
-            step()
-            seconds.append(time.perf_counter() - begin)
+        seconds, _, peak = timed(lambda: self.step(word), repetitions)
         last = self._last if alone else self.built
         return {
             "seconds": seconds,
             "points": len(last.points) - len(last.duplicates),
             "triangles": len(last.simplices),
-            "peak": high_water() - before,
+            "peak": peak,
             "inconclusive": dict(last.inconclusive),
         }
 

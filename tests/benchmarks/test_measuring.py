@@ -1,7 +1,7 @@
 """The machinery of the benchmarks: engines and their limits, rounds, tables; with engines made for the test."""
 
-import json
 import re
+import subprocess
 import sys
 from pathlib import Path
 
@@ -9,11 +9,12 @@ import numpy as np
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-from benchmarks import benchmark_asked, benchmark_page, pages, processes, rounds  # noqa: E402
+from benchmarks import pages, processes, rounds  # noqa: E402
 from benchmarks.engines import stereodel  # noqa: E402
-from benchmarks.processes import Engine, StoppedError  # noqa: E402
+from benchmarks.processes import Engine, StoppedError, Watch  # noqa: E402
 from benchmarks.rounds import Entry, take_turns  # noqa: E402
 
+MEASURED = re.compile(r"(<!-- measured: [^>]*-->\n).*?(<!-- end)", re.DOTALL)
 ANSWERS = """
 import json, sys, time
 print("a library greets")
@@ -55,8 +56,6 @@ def test_rounds_repeat_short_calls_and_keep_what_stopped(monkeypatch):
     results = take_turns([Entry("a", ENGINE), Entry("b", ENGINE, "fail"), Entry("c", ENGINE)], 3)
     assert results["a"].seconds == [0.02] * 3
     assert results["b"].record() == {"stopped": "no such luck in file", "version": "7"}
-    assert rounds.ratios(results["a"], results["c"]) == [1.0] * 3
-    assert rounds.ratios(results["a"], results["b"]) == []
     for limit, calls in {"LONG": 3, "SLOW": 1}.items():  # in seconds: those that take longer are called less often
         monkeypatch.setattr(rounds, limit, 0.01)
         assert len(take_turns([Entry("a", ENGINE)], 5)["a"].seconds) == calls
@@ -75,40 +74,43 @@ def test_stereodel_takes_part(tmp_path, space, dimension):
             assert (answer.points, len(answer.seconds)) == (points, 1)
 
 
-def test_figures_know_whether_they_are_reached():
-    fast = benchmark_asked.Figure("speed", 2.0, [1.5, 2.5, 3.0], "×", at_least=True)
-    small = benchmark_asked.Figure("memory", 200, [201.0], " bytes")
-    assert fast.row() == ["speed", "≥ 2×", "2.5× (1.5–3)", "yes"]
-    assert small.row() == ["memory", "≤ 200 bytes", "201 bytes", "**no**"]
-    assert benchmark_asked.Figure("speed", 2.0, [], "×").row()[2] == "not measured"
-
-
 def test_ratios_pair_the_rounds():
     record = {
         "cgal": {"rounds": [2.0, 6.0, 1.5]},
         "ours 1": {"rounds": [1.0, 2.0, 1.5, 9.0]},
         "scipy": {"rounds": [35.0]},
     }
-    assert benchmark_asked.faster(record, "cgal", "ours 1") == [2.0, 3.0, 1.0]
-    assert benchmark_asked.faster(record, "scipy", "ours 1") == [20.0]
-    assert benchmark_asked.faster(record | {"cgal": {"stopped": "over 60 s"}}, "cgal", "ours 1") == []
+    assert pages.faster(record, "cgal", "ours 1") == "2×"
+    assert pages.faster(record, "scipy", "ours 1") == "20×"
+    assert pages.faster(record | {"cgal": {"stopped": "over 60 s"}}, "cgal", "ours 1") == "–"
 
 
-def test_the_page_is_written_from_the_results(monkeypatch, tmp_path):
+def test_memory_is_that_of_each_process_alone(tmp_path):
+    """Not of the one that started it, whose memory `getrusage` counts."""
+    held = np.ones(50_000_000)
+    with Watch(tmp_path) as watch:
+        (tmp_path / "file").write_bytes(b"x" * 1000)
+        subprocess.run([sys.executable, "-c", "import time; x = b'x' * 20_000_000; time.sleep(0.5)"], check=True)
+    found = watch.told()
+    assert 20 < found["own_mb"] <= found["rss_mb"] < 300
+    assert found["cpu"] > 0
+    assert found["scratch_bytes"] == 1000
+    assert processes.peak_memory() > held.nbytes
+
+
+def test_the_pages_are_written_from_the_results(monkeypatch, tmp_path):
+    """Each is what is tracked, and the plots are those that the pages show."""
     docs = tmp_path / "docs"
     (docs / "images").mkdir(parents=True)
-    page = docs / "benchmarks.md"
-    paper = tmp_path / "paper" / "paper.md"
-    paper.parent.mkdir()
-    paper.write_bytes((ROOT / "paper" / "paper.md").read_bytes())
-    text = (ROOT / "docs" / "benchmarks.md").read_text(encoding="utf-8")
-    page.write_text(
-        re.sub(r"(<!-- measured: [^>]*-->\n).*?(<!-- end)", r"\1\2", text, flags=re.DOTALL), encoding="utf-8"
-    )
+    shown = {"../paper/paper.md", *(page for page, _ in pages.PAGES.values())}
+    (tmp_path / "paper").mkdir()
+    for page in shown:
+        text = (ROOT / "docs" / page).read_text(encoding="utf-8")
+        (docs / page).write_text(re.sub(MEASURED, r"\1\2", text), encoding="utf-8")
     monkeypatch.setattr(pages, "DOCS", docs)
-    benchmark_page.write(json.loads((ROOT / "benchmarks" / "results.json").read_text(encoding="utf-8")))
-    written = page.read_text(encoding="utf-8")
-    assert not re.search(r"<!-- measured: [^>]*-->\n<!-- end", written)
-    assert "| stereodel, one thread |" in written
-    assert paper.read_bytes() == (ROOT / "paper" / "paper.md").read_bytes()
-    assert {path.name for path in (docs / "images").iterdir()} == set(re.findall(r"\{image\} images/(\S+)", text))
+    for name in pages.PAGES:
+        pages.write(name)
+    for page in shown:
+        assert (docs / page).read_text(encoding="utf-8") == (ROOT / "docs" / page).read_text(encoding="utf-8")
+    for plot in (docs / "images").iterdir():
+        assert f"images/{plot.name}" in (docs / "benchmarks.md").read_text(encoding="utf-8")

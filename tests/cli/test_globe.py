@@ -22,7 +22,7 @@ from stereodel.drawing import StereographicView, View
 from stereodel.drawing.page import Dots
 from stereodel.film import Film, FrameError
 from stereodel.globe import Globe
-from tools.image import read_picture
+from tools.baselines import read_picture
 
 SVG = "{http://www.w3.org/2000/svg}"
 BARE = ["--no-land", "--no-coastlines"]

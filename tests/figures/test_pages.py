@@ -8,8 +8,8 @@ import pytest
 
 from stereodel.drawing.page import Dots, Fill, Label
 from tests.figures.scripts import FOLDER
-from tools.image import read_picture
-from tools.readme_images import globe_of_the_readme
+from tools.baselines import read_picture
+from tools.pictures import globe_of_the_readme
 
 DOCS = FOLDER.parent / "docs"
 

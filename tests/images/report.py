@@ -13,8 +13,7 @@ import numpy as np
 
 from stereodel._files import replacing
 from stereodel.render.rows import LabelLayer
-from tools.baselines import SIZE
-from tools.image import PIXEL_LEVELS, compare, levels_apart, read_picture
+from tools.baselines import PIXEL_LEVELS, SIZE, compare, levels_apart, read_picture
 
 SHOWN = 8
 """Messages that stand in the open; the others are folded away, in the terminal counted."""

@@ -14,7 +14,7 @@ from stereodel.render.gl import Door, OpenGLError, choose, describe, draw
 from stereodel.render.mends import mend_offscreen
 from stereodel.render.pieces import Triangles
 from stereodel.render.trial import trial_triangles
-from tools.image import PIXEL_SHARE_ANY, levels_apart
+from tools.baselines import PIXEL_SHARE_ANY, levels_apart
 
 VARIABLES = ("STEREODEL_GL", "PYOPENGL_PLATFORM")
 SQUARE = [[-9, -9], [30, -9], [-9, 30]]

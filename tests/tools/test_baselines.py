@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tools.image import PIXEL_LEVELS, array_differences, compare, load_arrays, save_arrays, summarised
+from tools.baselines import PIXEL_LEVELS, array_differences, compare, load_arrays, save_arrays, summarised
 
 
 @pytest.fixture
