@@ -1,120 +1,365 @@
-"""`stereodel globe`: pictures and films of globes under conformal maps."""
+"""`stereodel globe`: pictures and films of globes under conformal maps.
+
+What people rarely type is in style files (`--style`), in the table itself, or in Python (`stereodel.globe`).
+"""
 
 from __future__ import annotations
 
-from typing import Any
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, Final
 
-from stereodel.cli import globe_options as globe
+import typer
+
 from stereodel.cli import options
+
+if TYPE_CHECKING:
+    from stereodel._arrays import FloatArray
+    from stereodel.cli.sources import Table
+    from stereodel.conformal import MoebiusMap
+    from stereodel.drawing.view import MapView
+    from stereodel.film.shots import Motion
+    from stereodel.globe import Globe
 
 EXAMPLE = "stereodel globe --focus=2.35,48.86 --magnify 20 -o paris.png"
 
 PICTURES = ("png", "svg", "pdf")
 FILMS = ("gif", "webp", "apng", "mp4")
-USUAL_WIDTH = "17cm"
-SECONDS, FPS = 10.0, 25.0
+WIDTH = "17cm"
+"""Of a page."""
+SECONDS: Final = 10.0
+"""Duration of a film that flies nowhere."""
+FPS: Final = 25.0
+GIF_FPS: Final = 12.5
+"""Frames per second; of a GIF, whose frames are large."""
+FILM_SPACING: Final = 15.0
+"""Of the graticule of films, in degrees: a spacing adapted to each frame would flicker."""
+KEPT = "interrupted; the same command draws the missing frames"
+CLOSE: Final = 5.0
+"""Magnification above which coastlines at 1 : 50 million show their corners."""
+CROWDED: Final = 500
+"""Number of points above which lines and dots become finer, so that cells stay visible."""
+FINEST: Final = 0.2
+"""The smallest factor for the usual widths."""
+OWN_TEXTURE = "blue-marble"
+MAPS = ("land", "lakes", "graticule", "rivers", "coastlines", "borders")
+"""What `--show` may name of the Earth, from the bottom up."""
+OF_POINTS = ("triangles", "cells", "points")
+"""What it may name of the points."""
+USUAL = "land,graticule,coastlines,cells,points"
+LAYER_KEYS = ("color", "width", "outline", "size", "column")
+"""Of `--layer FILE,key=…`."""
+
+
+class Projection(StrEnum):
+    """Projections of the sphere to the page."""
+
+    globe = "globe"
+    stereographic = "stereographic"
+    hemispheres = "hemispheres"
 
 
 def command(
     out: options.Out,
-    points: globe.Points = None,
-    show: globe.Shows = None,
-    focus: globe.Focus = None,
-    magnify: globe.Magnify = 1.0,
-    view: globe.View = None,
-    projection: globe.Flattened = globe.Projection.globe,
-    angular_radius: globe.AngularRadius = 90.0,
-    labels: globe.Labels = None,
-    rank: globe.Rank = None,
-    color: globe.PointColor = None,
-    point_size: globe.PointSize = None,
-    layer: globe.Layers = None,
-    texture: globe.Texture = None,
-    texture_box: globe.TextureBox = None,
-    land: globe.Land = None,
-    coastlines: globe.Coastlines = True,
-    borders: globe.Borders = False,
-    rivers: globe.Rivers = False,
-    lakes: globe.Lakes = False,
-    graticule: globe.Graticule = None,
-    spin: globe.Spin = False,
-    fly: globe.Fly = None,
-    seconds: globe.Seconds = SECONDS,
-    fps: globe.Fps = FPS,
-    title: globe.Title = "",
-    legend: globe.Legend = False,
-    style: globe.Styles = None,
-    width: globe.Width = USUAL_WIDTH,
-    size: globe.Size = None,
-    dpi: globe.Dpi = None,
-    transparent: globe.Transparent = False,
+    points: Annotated[
+        str | None,
+        typer.Argument(metavar="[POINTS]", help="Table of points: .csv, .geojson, .parquet, .gpkg; - for stdin."),
+    ] = None,
+    show: Annotated[
+        str | None,
+        typer.Option(
+            metavar="NAMES",
+            help=f"Of {', '.join(MAPS + OF_POINTS)}; or none. By default {USUAL}, without land over a texture.",
+        ),
+    ] = None,
+    focus: Annotated[
+        str | None,
+        typer.Option(metavar="LON,LAT", help="Focus of the fisheye; by default the centre of the picture."),
+    ] = None,
+    magnify: options.Magnify = 1.0,
+    view: Annotated[
+        str | None,
+        typer.Option(
+            metavar="LON,LAT", help="Centre of the picture; by default the focus, else the centre of the points."
+        ),
+    ] = None,
+    projection: Annotated[
+        Projection, typer.Option("--projection", help="A globe, or flat stereographic maps of half or all of it.")
+    ] = Projection.globe,
+    texture: Annotated[
+        str | None,
+        typer.Option(
+            metavar="IMAGE", help="Image of the Earth in longitude and latitude, or the built-in blue-marble."
+        ),
+    ] = None,
+    layer: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--layer",
+            metavar="FILE[,color=…,width=…]",
+            help="Points, lines or polygons to draw: .geojson, .gpkg …, with color, width, outline, size or column; "
+            "repeatable.",
+        ),
+    ] = None,
+    labels: Annotated[
+        str | None,
+        typer.Option(metavar="COLUMN", help="Labels of the points, as many as fit, in the order of the rows."),
+    ] = None,
+    title: Annotated[str, typer.Option(metavar="TEXT", help="Title above the picture.")] = "",
+    legend: Annotated[bool, typer.Option("--legend", help="Explain points and layers below the picture.")] = False,
+    style: Annotated[
+        list[str] | None,
+        typer.Option("--style", metavar="STYLE", help="dark, or a .toml file of styles; repeatable."),
+    ] = None,
+    fly: Annotated[
+        list[str] | None,
+        typer.Option(metavar="LON,LAT", help="For films: fly from the focus to this place; repeatable."),
+    ] = None,
+    size: Annotated[
+        int | None, typer.Option(min=1, max=65_535, help="Width in pixels; by default 1600, and 720 for films.")
+    ] = None,
     lon: options.Lon = None,
     lat: options.Lat = None,
     layer_name: options.LayerName = None,
     crs: options.Crs = None,
     skip_missing: options.SkipMissing = False,
-    latitude: options.LatitudeKind = options.Latitude.authalic,
-    format: globe.Format = None,
     overwrite: options.Overwrite = False,
-    font: globe.Font = None,
 ) -> None:
     """Draw a globe under a conformal fisheye, with maps, points and their cells, and layers from files.
 
-    A film (.gif, .webp, .apng or .mp4) makes one turn with --spin and flies to places with --fly; otherwise the focus
-    grows and shrinks again.
+    A film (.gif, .webp, .apng or .mp4) flies to places with --fly; otherwise the focus grows and shrinks again, or the
+    globe makes one turn if nothing is magnified.
     """
     from stereodel.cli.destinations import Destination
-    from stereodel.cli.globe_aim import Aim, place
-    from stereodel.cli.globe_films import FILM_SPACING, motion_of, save_film
-    from stereodel.cli.globe_layers import (
-        Features,
-        LayerChoice,
-        PointLooks,
-        add_files,
-        add_points,
-        new_globe,
-        texture_of,
-    )
     from stereodel.cli.progress import stage
     from stereodel.cli.sources import read
+    from stereodel.io.reading import naming
 
     layers = [LayerChoice.of(text) for text in layer or ()]
     read_from = (points, texture, *(str(each.path) for each in layers), *(style or ()))
-    destination = Destination.of(out, format, PICTURES + FILMS, *read_from, overwrite=overwrite)
+    destination = Destination.of(out, None, PICTURES + FILMS, *read_from, overwrite=overwrite)
     filming = destination.kind in FILMS
-    looks = PointLooks(frozenset(show or ("points", "cells")), labels, rank, color, point_size)
     if points is None:
-        looked = {"--labels": labels, "--color": color, "--point-size": point_size, "--show": show}
-        options.refuse(looked, "POINTS; give a table, or --layer FILE,color=…")
-        found = {"--lon": lon, "--lat": lat, "--layer-name": layer_name, "--crs": crs, "--skip-missing": skip_missing}
+        columns = {"--labels": labels, "--lon": lon, "--lat": lat, "--layer-name": layer_name, "--crs": crs}
+        found: dict[str, object] = {**columns, "--skip-missing": skip_missing}
         options.refuse(found, "POINTS; give a table")
     if filming:
-        printed = {"--legend": legend, "--style": style, "--dpi": dpi, "--transparent": transparent}
-        options.refuse(printed | {"--width": width != USUAL_WIDTH}, "pictures, not for films")
+        options.refuse({"--legend": legend, "--style": style}, "pictures, not for films")
     else:
-        moving = {"--spin": spin, "--fly": fly, "--seconds": seconds != SECONDS, "--fps": fps != FPS}
-        options.refuse(moving, f"films, but {out} is none; the endings are .{', .'.join(FILMS)}")
-    aim = Aim(place(focus, "--focus"), magnify, place(view, "--view"), projection, angular_radius)
-    table = None
+        options.refuse({"--fly": fly}, f"films, but {out} is none; the endings are .{', .'.join(FILMS)}")
+    aim = Aim(options.place(focus, "--focus"), magnify, options.place(view, "--view"), projection)
+    shown, table = shown_of(show, texture), None
     if points is not None:
         table = read(points, lon=lon, lat=lat, layer=layer_name, crs=crs, skip_missing=skip_missing)
     with stage("reading maps"):
-        spacing = FILM_SPACING if graticule is None and filming else graticule
-        features = Features(land, coastlines, borders, rivers, lakes, spacing, "50m" if filming else aim.resolution)
-        drawing = new_globe(features, latitude, texture_of(texture, texture_box, latitude), title, font)
-        add_files(drawing, layers)
+        resolution, spacing = ("50m", FILM_SPACING) if filming else (aim.resolution, None)
+        drawing = new_globe(shown, resolution, spacing, texture)
+        drawing.title = title
+        for each in layers:
+            with naming(str(each.path)):
+                drawing.add_layer(each.path, **each.arguments())
         if table is not None:
-            aim = aim.with_middle_of(table.points(latitude))
-            add_points(drawing, table, looks)
+            aim = aim.with_middle_of(table.points(options.Latitude.authalic))
+            add_points(drawing, table, shown, labels)
     if filming:
-        motion = motion_of(
-            aim, spin=spin, stops=[options.pair(text, "--fly", "LON,LAT") for text in fly or ()], seconds=seconds
-        )
-        destination.write(lambda path: save_film(drawing, motion, path, size=size or 720, fps=fps, kept=out != "-"))
+        motion = motion_of(aim, [options.pair(text, "--fly", "LON,LAT") for text in fly or ()])
+        fps = GIF_FPS if destination.kind == "gif" else FPS
+        destination.write(lambda path: save_film(drawing, motion, path, size=size or 720, fps=fps))
         return
-    pixels = size or (1600 if dpi is None else None)
-    paper: dict[str, Any] = {"width": width, "size": pixels, "dpi": dpi, "transparent": transparent}
     with stage("drawing"):
         destination.write(
-            lambda path: drawing.save(path, aim.lens, aim.views, style=style or (), legend=legend, **paper)
+            lambda path: drawing.save(
+                path, aim.lens, aim.views, style=style or (), legend=legend, width=WIDTH, size=size or 1600
+            )
         )
+
+
+@dataclass(frozen=True)
+class Aim:
+    """Focus, magnification, centre of the view and projection, with defaults for missing options."""
+
+    focus: options.Place | None
+    magnification: float
+    middle: options.Place | None
+    projection: Projection
+
+    def __post_init__(self) -> None:
+        options.as_magnification(self.magnification)
+
+    def with_middle_of(self, points: FloatArray) -> Aim:
+        """The aim centred on unit vectors (n, 3), unless a centre or focus was given."""
+        return self if self.middle or self.focus else replace(self, middle=middle_of(points))
+
+    @property
+    def place(self) -> options.Place:
+        """The focus, which is also the default centre of the view."""
+        return self.focus or self.middle or (0.0, 0.0)
+
+    @property
+    def resolution(self) -> str:
+        """Resolution of the maps of the Earth: the finest for strong magnification."""
+        return "10m" if self.magnification >= CLOSE else "50m"
+
+    @property
+    def lens(self) -> MoebiusMap:
+        """The fisheye; the identity for magnification 1, whatever the focus."""
+        from stereodel import MoebiusMap, fisheye
+
+        if self.magnification == 1:
+            return MoebiusMap.identity()
+        return fisheye(self.place, magnification=self.magnification)
+
+    @property
+    def views(self) -> tuple[MapView, ...]:
+        """One view, or two side by side."""
+        from stereodel.drawing import StereographicView, View
+        from stereodel.globe import hemispheres
+
+        lon, lat = self.middle or self.place
+        if self.projection == Projection.hemispheres:
+            return hemispheres(lon, lat, flat=True)
+        return (View(lon, lat) if self.projection == Projection.globe else StereographicView(lon, lat),)
+
+
+def middle_of(points: FloatArray) -> options.Place:
+    """Longitude and latitude of the mean of unit vectors (n, 3); (0, 0) if they have none."""
+    import numpy as np
+
+    from stereodel import xyz_to_lonlat
+    from stereodel.constants import NO_MIDDLE
+
+    mean = points.sum(axis=0)
+    if np.sqrt(np.sum(mean**2)) <= NO_MIDDLE * len(points):
+        return (0.0, 0.0)
+    lon, lat = xyz_to_lonlat(mean)
+    return (float(lon), float(lat))
+
+
+def shown_of(text: str | None, texture: str | None) -> frozenset[str]:
+    """What `--show` names."""
+    names = (USUAL if text is None else text).split(",") if text != "none" else []
+    for name in names:
+        if name not in MAPS + OF_POINTS:
+            known = ", ".join(MAPS + OF_POINTS)
+            raise ValueError(f"--show has {name!r}; the names are {known}, separated by commas, or none")
+    return frozenset(names) - ({"land"} if text is None and texture else set())
+
+
+def new_globe(shown: frozenset[str], resolution: str, spacing: float | None, texture: str | None) -> Globe:
+    """A globe with an image and maps of the Earth, drawn from the bottom up; the spacing None suits the picture."""
+    from stereodel.data import blue_marble
+    from stereodel.globe import Globe, Raster
+
+    globe = Globe(latitude="authalic")
+    if texture is not None:
+        kind = globe.latitude
+        image = Raster(blue_marble(), latitude=kind) if texture == OWN_TEXTURE else Raster.open(texture, latitude=kind)
+        globe.add_raster(image)
+    for name in MAPS:
+        if name == "graticule" and name in shown:
+            globe.add_graticule(spacing)
+        elif name in shown:
+            getattr(globe, f"add_{name}")(resolution=resolution)
+    return globe
+
+
+@dataclass(frozen=True)
+class LayerChoice:
+    """A file to draw and its style, as given by `--layer`: ``FILE,color=…,width=…``."""
+
+    path: Path
+    looks: Mapping[str, str]
+
+    @classmethod
+    def of(cls, text: str) -> LayerChoice:
+        """Parse an option; an existing file whose name contains commas and equals signs is taken literally."""
+        if Path(text).exists():
+            return cls(Path(text), {})
+        path, *given = re.split(r",(?=\w+=)", text)
+        looks = dict(part.split("=", 1) for part in given)
+        for key in looks:
+            if key not in LAYER_KEYS:
+                raise ValueError(f"--layer {text}: {key} is unknown; the keys are {', '.join(LAYER_KEYS)}")
+        return cls(Path(path), looks)
+
+    def arguments(self) -> dict[str, Any]:
+        """Arguments for `Globe.add_layer`."""
+        from stereodel.drawing.colors import as_color
+        from stereodel.drawing.lengths import as_length
+        from stereodel.drawing.style import MAP_DOT, MAP_LINES, DotStyle, LineStyle
+
+        looks, line, rim = self.looks, MAP_LINES["line"], MAP_LINES["outline"]
+        color = as_color(looks["color"], "--layer: color") if "color" in looks else None
+        width = as_length(looks["width"], "--layer: width") if "width" in looks else None
+        edge = as_color(looks["outline"], "--layer: outline") if looks.get("outline", "none") != "none" else rim.color
+        outline = None if looks.get("outline") == "none" else LineStyle(edge, rim.width if width is None else width)
+        radius = as_length(looks["size"], "--layer: size") / 2 if "size" in looks else MAP_DOT.radius
+        found = {
+            "outline": outline,
+            "style": LineStyle(color or line.color, line.width if width is None else width),
+            "dot_style": DotStyle(color or MAP_DOT.color, radius, MAP_DOT.rim, min(MAP_DOT.rim_width, radius / 3)),
+            "column": looks.get("column"),
+            "legend": self.path.stem,
+        }
+        return found if color is None else found | {"color": color}
+
+
+def add_points(globe: Globe, table: Table, shown: frozenset[str], labels: str | None) -> None:
+    """Draw points, the ridges of their cells, the edges of their triangles, and labels; finer where there are many."""
+    import numpy as np
+
+    from stereodel import SphericalDelaunay, SphericalVoronoi
+    from stereodel.drawing.style import DOTS, LINES
+
+    places = table.points(options.Latitude.authalic)
+    weight = max(FINEST, min(1.0, float(np.sqrt(CROWDED / max(1, len(places))))))
+    triangulation = SphericalDelaunay(places)
+    if "triangles" in shown:
+        style = LINES["delaunay"].scaled(weight)
+        globe.add_triangulation(triangulation, style=style, name="delaunay")
+        globe.legend["triangles"] = style
+    if "cells" in shown:
+        style = LINES["voronoi"].scaled(weight)
+        globe.add_cells(SphericalVoronoi(triangulation), style=style, name="voronoi")
+        globe.legend["cells"] = style
+    if "points" in shown:
+        dots = DOTS["sites"].scaled(weight)
+        globe.add_points(table.places, style=dots, name="sites")
+        globe.legend[Path(table.name).stem] = dots
+    if labels is not None:
+        texts = ["" if value is None else str(value).strip() for value in table.column(labels).tolist()]
+        named = np.array([text not in ("", "nan") for text in texts], dtype=np.bool_)
+        globe.add_labels(table.places[named], [text for text in texts if text not in ("", "nan")], movable=True)
+
+
+def motion_of(aim: Aim, stops: Sequence[options.Place]) -> Motion:
+    """A flight if there are stops, a turn if nothing is magnified, otherwise a growing lens."""
+    from stereodel import MoebiusMap
+    from stereodel.conformal import path_between
+    from stereodel.film import Flight, Morph, Spin, Stop
+
+    if aim.projection == Projection.hemispheres or (aim.projection != Projection.globe and stops):
+        raise ValueError(f"--projection {aim.projection.value} cannot move; films are of the globe")
+    if stops:
+        return Flight([Stop(place, aim.magnification) for place in (aim.place, *stops)])
+    if aim.magnification == 1:
+        lon, lat = aim.middle or aim.place
+        return Spin(aim.lens, seconds=SECONDS, lon=lon, lat=lat)
+    return Morph(path_between(MoebiusMap.identity(), aim.lens), aim.views[0], seconds=SECONDS, back=True)
+
+
+def save_film(globe: Globe, motion: Motion, path: Path, *, size: int, fps: float) -> None:
+    """Draw the frames and write the file; after an interruption, finished frames are kept next to it."""
+    import sys
+
+    from stereodel.film import Film, FrameError
+
+    try:
+        Film.of_globe(globe, motion, size=(size, size), fps=fps).save(path, progress=sys.stderr.isatty())
+    except FrameError as error:
+        raise OSError(str(error)) from error
+    except KeyboardInterrupt:
+        raise KeyboardInterrupt(KEPT) from None

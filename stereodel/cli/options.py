@@ -18,6 +18,9 @@ class Latitude(StrEnum):
     authalic = "authalic"
 
 
+Place = tuple[float, float]
+"""Longitude and latitude in degrees."""
+
 Points = Annotated[
     str, typer.Argument(metavar="POINTS", help="Table of points: .csv, .geojson, .gpkg, .shp, .xlsx …; - is stdin.")
 ]
@@ -59,6 +62,7 @@ LatitudeKind = Annotated[
         "(authalic), or a sphere.",
     ),
 ]
+Magnify = Annotated[float, typer.Option(metavar="S", help="Magnification at the focus.")]
 Plane = Annotated[
     tuple[str, str] | None,
     typer.Option(
@@ -75,7 +79,19 @@ def refuse(given: Mapping[str, object], purpose: str) -> None:
         raise ValueError(f"{several} for {purpose}")
 
 
-def pair(text: str, option: str, meaning: str) -> tuple[float, float]:
+def as_magnification(value: float) -> float:
+    """The value of --magnify, checked."""
+    if not 0 < value < float("inf"):
+        raise ValueError(f"--magnify is {value:g}, but a magnification is positive and finite")
+    return value
+
+
+def place(text: str | None, option: str) -> Place | None:
+    """Longitude and latitude from the text of an option."""
+    return None if text is None else pair(text, option, "LON,LAT")
+
+
+def pair(text: str, option: str, meaning: str) -> Place:
     """Longitude and latitude separated by a comma, such as ``10.5,48``."""
     try:
         lon, lat = (float(part) for part in text.split(","))

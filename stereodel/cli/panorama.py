@@ -7,7 +7,6 @@ from typing import Annotated
 
 import typer
 
-from stereodel.cli import globe_options as globe
 from stereodel.cli import options
 
 EXAMPLE = "stereodel panorama room.jpg --focus=90,-10 --magnify 3 -o desk.jpg"
@@ -31,7 +30,7 @@ def command(
     focus: Annotated[
         str | None, typer.Option(metavar="LON,LAT", help="Focus of the fisheye; by default the centre of the picture.")
     ] = None,
-    magnify: globe.Magnify = 1.0,
+    magnify: options.Magnify = 1.0,
     to: Annotated[
         Form, typer.Option("--to", help="Another panorama, the six faces of a cube, or a little planet.")
     ] = Form.equirectangular,
@@ -60,7 +59,6 @@ def command(
 
     from stereodel import fisheye
     from stereodel.cli.destinations import Destination
-    from stereodel.cli.globe_aim import place
     from stereodel.cli.progress import stage
     from stereodel.drawing import View
     from stereodel.globe.panoramas import face_paths, save_panorama
@@ -73,12 +71,11 @@ def command(
     destination = Destination.of(out, format, PICTURES, picture, overwrite=overwrite and not faces)
     for name in face_paths(Path(out)) if faces else ():
         Destination.of(str(name), None, PICTURES, picture, overwrite=overwrite)
-    if not 0 < magnify < float("inf"):
-        raise ValueError(f"--magnify is {magnify:g}, but a magnification is positive and finite")
+    options.as_magnification(magnify)
     if width is not None:
         panorama_size(width, to.value, "--width")
     planet_radius(angular_radius, "--angular-radius")
-    seen, at = place(view, "--view"), place(focus, "--focus")
+    seen, at = options.place(view, "--view"), options.place(focus, "--focus")
     if at is None and magnify != 1:
         at = seen or (0.0, -90.0 if to == Form.planet else 0.0)
     lens = fisheye(at, magnification=magnify) if at else None

@@ -101,50 +101,31 @@ contour PEOPLE --levels=1,x → --levels is '1,x', but must be numbers, e.g. --l
 contour PEOPLE --interval=0 → --interval is 0.0, outside (0, inf]
 contour PEOPLE → give either --levels
 contour PEOPLE --interval 1e-3 → --interval is 0.001, which makes
+globe --show=land,moon → --show has 'moon'; the names are land, lakes, graticule, rivers, coastlines, borders,
+globe --fly=1,2 -o a.png → --fly is for films, but a.png is none
 globe --focus=1 → --focus is '1', but must be LON,LAT, e.g. --focus=10.5,48
 globe --focus=1,95 → --focus is '1,95', but its latitude is outside [-90, 90]; the longitude comes
 globe --view=inf,9 → --view is 'inf,9', but its longitude must be finite
 globe --magnify=-1 → --magnify is -1, but a magnification is positive and finite
-globe --graticule=7 → --graticule is 7, but 180 must be a whole multiple of it
-globe --projection stereographic --angular-radius=190 → --angular-radius is 190.0, outside (0, 170]
-globe --texture x.png --texture-box=1,2 → --texture-box is '1,2', but must be W,S,E,N in
-globe --seconds=0 -o out.gif → --seconds is 0.0, outside (0, inf]
-globe --fps=0 -o out.gif → --fps is 0.0, outside (0, inf]
-globe --spin -o a.png → --spin is for films, but a.png is none
-globe --spin --fly=1,2 -o out.gif → choose one
 globe --fly=1 -o out.gif → --fly is '1', but must be LON,LAT
 globe --focus=0,0 --fly=180,0 -o out.gif → opposite
 globe --projection hemispheres -o out.gif → --projection hemispheres cannot move
-globe --fps 200 -o out.gif → at most 50 frames a second
-globe --no-land --no-coastlines --magnify 1e200 → --magnify is 1e+200, outside the range
+globe --show none --magnify 1e200 → --magnify is 1e+200, outside the range
 globe --texture missing.png → missing.png: No such file or directory
 globe --texture broken.gpkg → broken.gpkg is not a picture
 globe --texture cut.png → cut.png is damaged or cut off
 globe --texture huge.png → huge.png has too many pixels: at most 134217728 are read
 globe --texture square.png → square.png: pixels is 9 wide and 9 high
-globe --texture-box 1,2,3,4 → --texture-box is for a --texture, and there is none
 globe --layer broken.geojson → broken.geojson: the file is not JSON
 globe --layer far.geojson → far.geojson: row 1: latitude 100.0 is outside [-90, 90]
 globe --layer broken.gpkg → broken.gpkg
 globe --labels=name → --labels is for POINTS
 globe cities.csv --labels=town → there is no column 'town'
-globe cities.csv --rank=name → --rank is for --labels
-globe cities.csv --color=reddish → --color is 'reddish', which is not a colour
-globe cities.csv --point-size=2ell → --point-size is '2ell'; give a length with a unit
-globe --width=wide → --width is 'wide'; give a length with a unit, pt, mm, cm, in, such as 17cm
-globe --dpi=0 → --dpi is 0
-globe --dpi=10 --size=10 → size and dpi both say how many pixels
 globe --style=bright → --style is 'bright'; give dark or a file .toml
 globe --layer=a.geojson,colour=red → --layer a.geojson,colour=red: colour is unknown; the keys are color, width
-globe --seconds=3 → --seconds is for films
 globe --lon=x --skip-missing → --lon and --skip-missing are for POINTS
-globe --show=cells → --show is for POINTS
-globe --texture=blue-marble --texture-box=0,0,9,9 → --texture-box is for files of a part
 globe cities.csv --layer-name=x → --layer-name is 'x', but a file of the kind csv has no layers
-globe cities.csv -o a.svg --format svg → --format is for stdout
-globe --spin --legend -o out.gif → is for pictures, not for films
-globe --dpi=9 --width=9cm -o out.gif → are for pictures, not for films
-globe cities.csv --font Nowhere → --font is 'Nowhere', which this machine does not have
+globe --legend -o out.gif → is for pictures, not for films
 panorama room.png -o room.png --overwrite → room.png: is an input, so it cannot be overwritten
 panorama room.png -o out.gif → out.gif: cannot write gif
 panorama room.png -o out.png --width 33 → --width is 33, but

@@ -31,7 +31,7 @@ EVERY = {
     "triangulate": ["triangulate", "cities.csv"],
     "grid": ["interpolate", "cities.csv", "--value", "people", "--grid", "10"],
     "contour": ["contour", "cities.csv", "--value", "people", "--levels", "2e6"],
-    "globe": ["globe", "cities.csv", "--size", "60", "--no-land", "--no-coastlines"],
+    "globe": ["globe", "cities.csv", "--size", "60", "--show=graticule"],
 }
 PAIRS = {
     "voronoi": ("gpkg", "shp", "vtp"),
