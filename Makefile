@@ -129,12 +129,9 @@ source: $(VENV)/installed-wheels ## the source archive into dist/
 check-archives: $(VENV)/installed-wheels ## check the archives in dist/: their texts, and the interface of wheels for several Pythons
 	tools/check_archives.sh $(VENV)
 
-wheels: $(VENV)/installed-wheels ## source archive and wheels for Linux into dist/, built and tried by cibuildwheel in containers, and checked
-	@rm -rf dist
-	@tools/source_archive.sh $(VENV) dist
-	$(BIN)/python -m pip --disable-pip-version-check -q install cibuildwheel --constraint constraints.txt
-	source tools/source_date.sh && $(BIN)/python -m cibuildwheel --platform linux --output-dir dist
-	tools/check_archives.sh $(VENV)
+MACHINES := x86_64 aarch64
+wheels: $(VENV)/installed-wheels ## source archive and wheels for Linux on MACHINES into dist/, by zig, checked and tried on each Python found
+	tools/wheels.sh $(VENV) $(MACHINES)
 
 cross: $(VENV)/installed-wheels ## compile and link the kernel for macOS, Windows and musl by zig; what this machine can run, is run
 	tools/cross.sh $(VENV)

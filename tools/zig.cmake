@@ -1,6 +1,6 @@
 # Toolchain: the clang, the linker and the C++ library of zig, which come with the Python package `ziglang`. Set ZIG to
-# its program and ZIG_TARGET to what it builds for: wasm32-wasi, or aarch64-macos.11.0, whose last part is the oldest
-# system that the result runs on.
+# its program and ZIG_TARGET to what it builds for: wasm32-wasi, or x86_64-linux-gnu.2.17, whose last part is the oldest
+# C library that the result runs on.
 string(REGEX MATCH "^([a-z0-9_]+)-([a-z]+)" ignored "${ZIG_TARGET}")
 set(CMAKE_SYSTEM_PROCESSOR "${CMAKE_MATCH_1}")
 set(zig_systems wasi WASI linux Linux macos Darwin windows Windows)
