@@ -63,6 +63,7 @@ def command(
     A film (.gif, .webp, .apng or .mp4) makes one turn with --spin and flies to places with --fly; otherwise the focus
     grows and shrinks again.
     """
+    from stereodel.cli.application import reporting
     from stereodel.cli.destinations import Destination
     from stereodel.cli.globe_aim import Aim, place
     from stereodel.cli.globe_films import FILM_SPACING, motion_of, save_film
@@ -75,7 +76,6 @@ def command(
         new_globe,
         texture_of,
     )
-    from stereodel.cli.progress import stage
     from stereodel.cli.sources import read
 
     layers = [LayerChoice.of(text) for text in layer or ()]
@@ -98,7 +98,7 @@ def command(
     table = None
     if points is not None:
         table = read(points, lon=lon, lat=lat, layer=layer_name, crs=crs, skip_missing=skip_missing)
-    with stage("reading maps"):
+    with reporting("reading maps"):
         spacing = FILM_SPACING if graticule is None and filming else graticule
         features = Features(land, coastlines, borders, rivers, lakes, spacing, "50m" if filming else aim.resolution)
         drawing = new_globe(features, latitude, texture_of(texture, texture_box, latitude), title, font)
@@ -114,7 +114,7 @@ def command(
         return
     pixels = size or (1600 if dpi is None else None)
     paper: dict[str, Any] = {"width": width, "size": pixels, "dpi": dpi, "transparent": transparent}
-    with stage("drawing"):
+    with reporting("drawing"):
         destination.write(
             lambda path: drawing.save(path, aim.lens, aim.views, style=style or (), legend=legend, **paper)
         )

@@ -17,8 +17,8 @@ import numpy as np
 from stereodel._arrays import FloatArray, Pixels, as_count, as_frame, as_scalar
 from stereodel._extras import of_extra
 from stereodel._files import replacing
-from stereodel._progress import counting
 from stereodel._tasks.crew import Crew, main_script_here
+from stereodel._tasks.progress import Progress, reporting
 from stereodel.constants import MOST_FRAME_PIXELS, MOST_FRAMES
 from stereodel.drawing.colors import ColorLike, as_color
 from stereodel.drawing.fonts import MissingCharactersWarning, missing_characters, warn_of_missing
@@ -286,8 +286,8 @@ class Film(Generic[T]):
         kind = format_of(target)
         if self.draw is _as_it_is:  # existing pictures are neither drawn nor stored
             kind.check(target.name, self.picture(0).shape[:2], times)
-            with replacing(target) as temporary, counting("writing", len(self), shown=progress) as count:
-                kind.write(_Counted(cast(Reel, self.shots), count), temporary, times, self.title)
+            with replacing(target) as temporary, reporting(shown=progress, lines=True) as told:
+                kind.write(_Counted(cast(Reel, self.shots), told), temporary, times, self.title)
             return target
         sides = (self.draw.width, self.draw.height) if isinstance(self.draw, GlobePages) else (self.size,)
         kind.check(target.name, sides, times)
@@ -295,17 +295,18 @@ class Film(Generic[T]):
         kept = KeptFrames.beside(target, frame_names(self._camera, self.shots))
         missing = kept.missing()
         unwritten: set[str] = set()
-        with crew, counting("drawing", len(missing), shown=progress) as count:
-            for number, outcome in crew.each(self._camera, _Tasks(self.shots, kept, missing)):
+        with crew, reporting(shown=progress, lines=True) as told:
+            drawn = crew.each(self._camera, _Tasks(self.shots, kept, missing))
+            for done, (number, outcome) in enumerate(drawn, 1):
                 if outcome.error is not None:
                     message = f"frame {missing[number]}: {outcome.message}; what was finished is kept"
                     raise FrameError(message) from outcome.error
                 unwritten |= outcome.value()
-                count()
+                told("drawing", done, len(missing))
         warn_of_missing(unwritten)
         whole = kept.folder / target.name
-        with counting("writing", len(self), shown=progress) as count:
-            kind.write(_Counted(kept, count), whole, times, self.title)
+        with reporting(shown=progress, lines=True) as told:
+            kind.write(_Counted(kept, told), whole, times, self.title)
         os.replace(whole, target)
         kept.remove()
         return target
@@ -393,8 +394,8 @@ class _Script(Generic[T]):
 class _Counted:
     """A reel that counts its frames as they are read in order."""
 
-    def __init__(self, reel: Reel, count: Callable[[], Any]) -> None:
-        self._reel, self._count, self._next = reel, count, 0
+    def __init__(self, reel: Reel, told: Progress) -> None:
+        self._reel, self._told, self._next = reel, told, 0
 
     def __len__(self) -> int:
         return len(self._reel)
@@ -402,7 +403,7 @@ class _Counted:
     def __getitem__(self, number: int) -> Pixels:
         if number == self._next:
             self._next += 1
-            self._count()
+            self._told("writing", self._next, len(self))
         return self._reel[number]
 
 

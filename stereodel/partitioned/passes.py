@@ -19,6 +19,7 @@ from stereodel._arrays import as_count
 from stereodel._extras import optional
 from stereodel._files import ENDING
 from stereodel._tasks.crew import Crew
+from stereodel._tasks.progress import Progress
 from stereodel.partitioned import rows as rows_of
 from stereodel.partitioned import spread
 from stereodel.partitioned.lock import locked
@@ -28,8 +29,6 @@ from stereodel.partitioned.solve import write_table
 from stereodel.partitioned.sources import Source, opened
 from stereodel.partitioned.store import DIGITS, KEPT, RESULTS, SCRATCH, Store
 from stereodel.partitioned.tree import Splits, is_compact
-
-Progress = Callable[[str, int, int], None]
 
 PARTITION: Final = 650_000
 """Points of a partition by default: some 0.3 GB for each worker."""

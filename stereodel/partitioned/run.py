@@ -15,13 +15,14 @@ import stereodel
 from stereodel._arrays import as_choice, as_count
 from stereodel._docs import shared
 from stereodel._extras import optional
+from stereodel._tasks.progress import Progress
 from stereodel.constants import AREA_SUM_ERROR
 from stereodel.partitioned import rows as rows_of
 from stereodel.partitioned import targets as targets_of
 from stereodel.partitioned.flat import is_flat
 from stereodel.partitioned.index import Index
 from stereodel.partitioned.kinds import names_of, source_of
-from stereodel.partitioned.passes import LIMIT, NONE, PARTITION, Means, Passes, Progress, Results
+from stereodel.partitioned.passes import LIMIT, NONE, PARTITION, Means, Passes, Results
 from stereodel.partitioned.places import SURFACES, Surface
 from stereodel.partitioned.plan import Plan
 from stereodel.partitioned.shards import load_json, save_json
