@@ -34,7 +34,7 @@ MAY_IMPORT = {
     "_numbers": BASE,
     "_double_double": BASE,
     "_threads": BASE,
-    "_tasks": {"_extras", "_threads"},
+    "_tasks": {"_extras", "_files", "_threads"},
     "data": BASE,
     "sphere": KERNEL,
     "projections": BASE | {"sphere"},
