@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import inspect
 import os
-import time
 import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import KW_ONLY, dataclass, replace
@@ -318,8 +317,17 @@ class Film(Generic[T]):
         script's folder, the width, and whether to draw labels.
         """
         draw = self.draw.func if isinstance(self.draw, partial) else self.draw
-        script = _Script(self, Path(inspect.getfile(draw)).stem)
-        run_script(script, argv, source=draw, kind="a looping GIF", usual_size=f"{self.size}")
+        name = Path(inspect.getfile(draw)).stem
+
+        def save(film: Film[T], out: Path, *, size: int | None, text: bool) -> list[str]:
+            out.mkdir(parents=True, exist_ok=True)
+            script = script_of(draw, name)
+            title = film.title or (caption_of(script)[0] if script else "")
+            film = replace(film, size=film.size if size is None else size, text=text, title=title)
+            jobs = None if main_script_here() else 1  # the documentation runs scripts as text
+            return [film.save(out / f"{name}.gif", jobs=jobs, progress=False).name]
+
+        run_script(self, save, argv, name=name, source=draw, kind="a looping GIF", usual_size=f"{self.size}")
 
 
 @dataclass(frozen=True)
@@ -365,30 +373,6 @@ class _Tasks(Sequence[Any]):
     def __getitem__(self, task: Any) -> Any:
         number = self.numbers[task]
         return self.shots[number], self.kept.path(number)
-
-
-@dataclass(frozen=True)
-class _Script(Generic[T]):
-    """A film as the output of a script."""
-
-    film: Film[T]
-    name: str
-
-    def styled(self, *styles: str) -> _Script[T]:
-        """The same script with the film in other styles."""
-        return replace(self, film=self.film.styled(*styles))
-
-    def save(self, out: str | os.PathLike[str], *, size: int | None = None, text: bool = True) -> dict[str, Any]:
-        """Write NAME.gif into a folder, which is created if it does not exist."""
-        begun = time.perf_counter()
-        folder = Path(out)
-        folder.mkdir(parents=True, exist_ok=True)
-        script = script_of(self.film.draw, self.name)
-        title = self.film.title or (caption_of(script)[0] if script else "")
-        film = replace(self.film, size=self.film.size if size is None else size, text=text, title=title)
-        jobs = None if main_script_here() else 1  # the documentation runs scripts as text
-        file = film.save(folder / f"{self.name}.gif", jobs=jobs, progress=False)
-        return {"files": [file.name], "seconds": time.perf_counter() - begun}
 
 
 class _Counted:
