@@ -48,15 +48,13 @@ def reporting(*, shown: bool = True, lines: bool = False) -> Iterator[Progress]:
 
 
 class _Lines:
-    """Prints a line now and then, and one at the end of each stage."""
+    """Prints a line now and then, and one at the end of each stage, with the seconds since the beginning."""
 
     def __init__(self) -> None:
-        self.stage, self.begin, self.said = "", 0.0, 0.0
+        self.begin = self.said = time.monotonic()
 
     def __call__(self, stage: str, done: int, of: int) -> None:
         now = time.monotonic()
-        if stage != self.stage:
-            self.stage, self.begin, self.said = stage, now, now
         if done == of or now - self.said >= PAUSE:
             self.said = now
             print(f"{stage} {done}/{of} ({now - self.begin:.0f} s)", file=sys.stderr, flush=True)

@@ -12,7 +12,7 @@ def test_lines_are_said_now_and_then_and_at_the_end_of_each_stage(monkeypatch, c
         for stage, count in (("drawing", 7), ("writing", 2)):
             for done in range(1, count + 1):
                 told(stage, done, count)
-    assert capsys.readouterr().err.splitlines() == ["drawing 5/7 (12 s)", "drawing 7/7 (18 s)", "writing 2/2 (3 s)"]
+    assert capsys.readouterr().err.splitlines() == ["drawing 4/7 (12 s)", "drawing 7/7 (21 s)", "writing 2/2 (27 s)"]
 
 
 @pytest.mark.parametrize("wanted", [{}, {"shown": False}, {"shown": False, "lines": True}])
