@@ -28,14 +28,13 @@ MAY_IMPORT = {
     "_extras": set(),
     "_interrupts": set(),
     "_values": set(),
-    "_progress": {"_extras"},
     "_kernel": set(),
     "_spaces": {"_arrays", "_kernel"},
     "_arrays": BASE,
     "_numbers": BASE,
     "_double_double": BASE,
     "_threads": BASE,
-    "_tasks": {"_threads"},
+    "_tasks": {"_extras", "_files", "_threads"},
     "data": BASE,
     "sphere": KERNEL,
     "projections": BASE | {"sphere"},
@@ -48,7 +47,7 @@ MAY_IMPORT = {
     "spatial": BASE | {"triangulation"},
     "graphs": KERNEL | {"sphere", "triangulation"},
     "relaxation": KERNEL | {"curves", "sphere", "triangulation"},
-    "io": BASE | {"_files", "conformal", "curves", "data", "interpolation", "sphere", "triangulation"},
+    "io": BASE | {"_files", "_tasks", "conformal", "curves", "data", "interpolation", "sphere", "triangulation"},
     "partitioned": KERNEL
     | {"__init__", "_files", "curves", "interpolation", "io", "sphere", "_tasks", "triangulation"},
     "__init__": MATHEMATICS,
@@ -59,10 +58,10 @@ MAY_IMPORT = {
     "mpl": MATHEMATICS | {"curves", "data", "drawing", "io"},
     "globe": MATHEMATICS | {"_files", "_kernel", "curves", "data", "drawing", "io", "render"},
     "web": BASE | {"_files", "curves", "data", "sphere", "triangulation"},
-    "film": MATHEMATICS | {"_files", "_progress", "drawing", "globe", "render", "_tasks"},
+    "film": MATHEMATICS | {"_files", "_tasks", "drawing", "globe", "render"},
     "cli": MATHEMATICS
     | {"__init__", "_files", "curves", "data", "drawing", "earth", "film", "globe", "interpolation", "io"}
-    | {"_doctor", "_interrupts", "_progress", "partitioned", "web"},
+    | {"_doctor", "_interrupts", "_tasks", "partitioned", "web"},
 }
 # Whatever the table above says some day: data know nothing of pictures, and drawing is without OpenGL.
 NEVER = {("io", "render"), ("io", "globe"), ("io", "film"), ("io", "mpl"), ("drawing", "render"), ("render", "globe")}

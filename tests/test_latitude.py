@@ -9,7 +9,7 @@ import pytest
 import typer.main
 from typer.testing import CliRunner
 
-from stereodel.cli import partitions, progress
+from stereodel.cli import application, partitions
 from stereodel.cli.application import app
 from stereodel.sphere.latitudes import KINDS, Latitude
 from tests.test_api import PACKAGES
@@ -69,7 +69,7 @@ def test_where_areas_are_written_the_command_says_of_which_latitudes(tmp_path, m
     lon, lat = [1.0, 20.0, 50.0, 9.0], [3.0, 4.0, -50.0, 70.0]
     pq.write_table(pa.table({"lon": lon, "lat": lat}), tmp_path / "points.parquet")
     said = []
-    for module in (progress, partitions):
+    for module in (application, partitions):
         monkeypatch.setattr(module, "say", said.append)
     command = ["web", "points.parquet", "-o", out] if out.endswith("html") else ["voronoi", "points.parquet", "-o", out]
     monkeypatch.chdir(tmp_path)

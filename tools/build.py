@@ -1,9 +1,9 @@
-"""Draw what is out of date: the figure scripts run in parallel, and `manifest.json` says what was drawn with what.
+"""Draw what is out of date: the figure scripts run in parallel, and `notes` says of each what was drawn with what.
 
 Each script defines `FIGURE`, or `film()` if its name begins with `anim_`, which becomes a GIF. Whether a
-script must run again is decided by the contents of everything that its picture depends on and of the files that it
-wrote, before a script is started: when there is nothing to do, that takes a fraction of a second. Rules of `make` would
-look at times, and know nothing of versions.
+script must run again is decided by the contents of everything that its picture depends on, and by whether the files
+that it wrote are there, before a script is started: when there is nothing to do, that takes a fraction of a second.
+Rules of `make` would look at times, and know nothing of versions.
 
     python -m tools.build --scripts figures --out out [--style STYLE] [NAME…]
 """
@@ -13,7 +13,6 @@ from __future__ import annotations
 import argparse
 import hashlib
 import importlib.util
-import json
 import sys
 import tempfile
 import time
@@ -24,8 +23,8 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from stereodel._files import replacing
 from stereodel._tasks.crew import Crew
+from stereodel._tasks.kept import Kept
 from stereodel._threads import thread_count
 from stereodel.film import Film
 from stereodel.render.figure import STYLE_HELP, style_names, styled_folder
@@ -35,6 +34,9 @@ from stereodel.render.provenance import library_digest, library_versions
 SCRIPTS = ("fig", "claim_", "globe_", "earth_", "sky_", "anim_")
 """Beginnings of the names of scripts: the paper's figures, claims that it does not draw, globes through lenses,
 pictures of real data, animations."""
+
+NOTES = "notes"
+"""Folder of what there is to say of each figure, in the folder of the figures."""
 
 LARGEST_FILM = 3_000_000
 """Bytes that a film of the gallery may have."""
@@ -64,7 +66,7 @@ def build(
     jobs: int | None = None,
     force: bool = False,
 ) -> list[Outcome]:
-    """Run every script in `scripts` that is out of date, say so in a line for each, and write the manifest.
+    """Run every script in `scripts` that is out of date, say so in a line for each, and note what was drawn.
 
     Parameters
     ----------
@@ -93,12 +95,12 @@ def build(
     """
     chosen = find_scripts(scripts, names)
     _require_writable(out)
-    manifest = read_manifest(out)
-    shared = shared_digest(scripts)
+    kept, shared = Kept(out), shared_digest(scripts)
     inputs = {script.stem: _digest(shared.encode() + script.read_bytes()) for script in chosen}
-    late = [s for s in chosen if force or not _is_current(manifest.get(s.stem, {}), inputs[s.stem], out)]
+    notes = {script.stem: kept.note(f"{NOTES}/{script.stem}") or {} for script in chosen}
+    late = [script for script in chosen if force or notes[script.stem].get("inputs") != inputs[script.stem]]
     # The longest first, so that none of them is waited for at the end.
-    late.sort(key=lambda script: -manifest.get(script.stem, {}).get("seconds", 0.0))
+    late.sort(key=lambda script: -notes[script.stem].get("seconds", 0.0))
     outcomes: list[Outcome] = []
     for outcome in _run_all(late, out, styles, jobs or thread_count(-1, len(late))):
         outcomes.append(outcome)
@@ -106,11 +108,9 @@ def build(
         took = "failed" if outcome.error else f"{record['seconds']:.1f} s"
         print(f"{len(outcomes):>3}/{len(late)} {name}  {took}", flush=True)
         if not outcome.error:
-            manifest[name] = {**record, "inputs": inputs[name]}
             # After each, so that what was finished is kept whatever comes.
-            kept = {name: manifest[name] for name in sorted(manifest) if (scripts / f"{name}.py").is_file()}
-            with replacing(out / "manifest.json") as temporary:
-                temporary.write_text(json.dumps(kept, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+            files = sorted(path.name for path in out.glob(f"{name}.*"))
+            kept.keep(f"{NOTES}/{name}", {**record, "inputs": inputs[name]}, files)
     return outcomes
 
 
@@ -141,26 +141,10 @@ def _require_writable(out: Path) -> None:
 # What a picture depends on
 
 
-def read_manifest(out: Path) -> dict[str, Record]:
-    """The record of each figure by name; empty when there is none or it cannot be read."""
-    try:
-        records = json.loads((out / "manifest.json").read_text(encoding="utf-8"))
-    except (OSError, ValueError):
-        return {}
-    return records if isinstance(records, dict) else {}
-
-
 def shared_digest(scripts: Path) -> str:
     """Of all that every script depends on: shared modules, library, kernel, versions, the renderer asked for."""
     shared = [path.name.encode() + b"\0" + path.read_bytes() + b"\0" for path in sorted(scripts.glob("_*.py"))]
     return _digest(library_digest() + b"".join(shared))
-
-
-def _is_current(record: Record, inputs: str, out: Path) -> bool:
-    """Whether a script ran on these inputs, and its files are still as it wrote them."""
-    files: dict[str, str] = record.get("files", {})
-    same = ((out / name).is_file() and _digest((out / name).read_bytes()) == digest for name, digest in files.items())
-    return record.get("inputs") == inputs and bool(files) and all(same)
 
 
 def _digest(data: bytes) -> str:
@@ -199,7 +183,6 @@ def run_script(script: Path, out: Path, styles: tuple[str, ...] = ()) -> Outcome
         "script": script.name,
         "seconds": round(seconds, 3),
         "versions": library_versions(),
-        "files": {path.name: _digest(path.read_bytes()) for path in sorted(out.glob(f"{script.stem}.*"))},
     }
     return Outcome(script, record)
 

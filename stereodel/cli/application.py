@@ -1,13 +1,19 @@
-"""The application in which the commands are registered."""
+"""The application in which the commands are registered, and what they say while they work."""
 
 from __future__ import annotations
 
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Annotated, Any
 
 import typer
 from typer.core import TyperCommand, TyperGroup
 
 import stereodel
+from stereodel._interrupts import stop_if_interrupted
+from stereodel._tasks.progress import Progress
+from stereodel._tasks.progress import reporting as on_terminal
 from stereodel.cli.failures import told_plainly
 
 
@@ -64,3 +70,28 @@ def _options(
     ] = False,
 ) -> None:
     """Delaunay triangulations and Voronoi diagrams of points on the Earth and in the plane."""
+
+
+@contextmanager
+def reporting(what: str = "") -> Iterator[Progress]:
+    """Show on a terminal how far the work is, as one stage of this name or as the stages that the library names.
+
+    Scripts and logs contain none of it. It is where a command stops whose interruption was lost on the way.
+    """
+    stop_if_interrupted()
+    with on_terminal() as shown:
+
+        def told(stage: str, done: int, of: int) -> None:
+            stop_if_interrupted()
+            shown(what or stage, done, of)
+
+        if what:
+            told(what, 0, 0)
+        yield told
+    stop_if_interrupted()
+
+
+def say(what: str) -> None:
+    """Report what was done, on terminals only."""
+    if sys.stderr.isatty():
+        typer.echo(what, err=True)

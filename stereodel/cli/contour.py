@@ -43,9 +43,9 @@ def command(
     Give either --levels or --interval. Higher values lie to the left of a line; lines are cut at ±180°.
     """
     from stereodel import PlanarDelaunay, SphericalDelaunay
+    from stereodel.cli.application import reporting, say
     from stereodel.cli.destinations import Destination
     from stereodel.cli.failures import NothingToDoError
-    from stereodel.cli.progress import bar, say, stage
     from stereodel.cli.sources import read
     from stereodel.interpolation import contours
     from stereodel.io import write
@@ -56,12 +56,12 @@ def command(
     table = read(points, lon=lon, lat=lat, plane=plane, layer=layer_name, crs=crs, skip_missing=skip_missing)
     values, table = table.values([value], skip_missing=skip_missing)
     wanted = _values_of(levels) if levels is not None else _multiples(values[:, 0], interval or 0.0)
-    with stage(f"lines between {len(table)} points"):
+    with reporting(f"lines between {len(table)} points"):
         kind = PlanarDelaunay if table.planar else SphericalDelaunay
         found = contours(kind(table.points(latitude)), values[:, 0], wanted)
     if not found:
         raise NothingToDoError(f"{table.name}: no lines: no level lies between the values")
-    with bar(f"writing {out}") as shown:
+    with reporting(f"writing {out}") as shown:
         destination.write(
             lambda path: write(
                 path, found, max_segment=max_segment, latitude=latitude.value, crs=table.crs, progress=shown

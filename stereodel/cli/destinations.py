@@ -14,8 +14,8 @@ from stereodel import PlanarDelaunay, PlanarVoronoi, SphericalDelaunay, Spherica
 from stereodel._extras import optional
 from stereodel._files import replacing, said_of
 from stereodel._interrupts import stop_if_interrupted
+from stereodel.cli.application import reporting
 from stereodel.cli.options import Latitude
-from stereodel.cli.progress import bar, stage
 from stereodel.cli.sources import Columns
 from stereodel.io import write
 from stereodel.io.csv_text import write_csv
@@ -102,7 +102,7 @@ def save_table(path: Path, table: Table, columns: Columns) -> None:
 
 def save_layer(path: Path, layer: Layer) -> None:
     """Write the rows of a map in the format of the extension."""
-    with bar(f"writing {len(layer)} rows") as shown:
+    with reporting(f"writing {len(layer)} rows") as shown:
         write(path, layer, progress=shown)
 
 
@@ -118,7 +118,7 @@ def save_mesh(
     """Write cells or triangles as a mesh or picture."""
     kind = path.suffix.lower().removeprefix(".")
     if kind not in PICTURES:
-        with stage(f"writing {path.name}"):
+        with reporting(f"writing {path.name}"):
             if kind == "nc":
                 write(path, mesh, latitude=latitude.value)
             else:

@@ -133,8 +133,8 @@ def command(
     A film (.gif, .webp, .apng or .mp4) flies to places with --fly; otherwise the focus grows and shrinks again, or the
     globe makes one turn if nothing is magnified.
     """
+    from stereodel.cli.application import reporting
     from stereodel.cli.destinations import Destination
-    from stereodel.cli.progress import stage
     from stereodel.cli.sources import read
     from stereodel.io.reading import naming
 
@@ -154,7 +154,7 @@ def command(
     shown, table = shown_of(show, texture), None
     if points is not None:
         table = read(points, lon=lon, lat=lat, layer=layer_name, crs=crs, skip_missing=skip_missing)
-    with stage("reading maps"):
+    with reporting("reading maps"):
         resolution, spacing = ("50m", FILM_SPACING) if filming else (aim.resolution, None)
         drawing = new_globe(shown, resolution, spacing, texture)
         drawing.title = title
@@ -169,7 +169,7 @@ def command(
         fps = GIF_FPS if destination.kind == "gif" else FPS
         destination.write(lambda path: save_film(drawing, motion, path, size=size or 720, fps=fps))
         return
-    with stage("drawing"):
+    with reporting("drawing"):
         destination.write(
             lambda path: drawing.save(
                 path, aim.lens, aim.views, style=style or (), legend=legend, width=WIDTH, size=size or 1600

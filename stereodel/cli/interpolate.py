@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from stereodel.io import Grid
 
 GRIDS = ("csv", "nc", "tif", "tiff")
+PIECE = 100_000  # rows between two signs of progress
 EXAMPLE = "stereodel interpolate stations.csv --value temperature --grid 5 -o temperature.csv"
 
 
@@ -125,16 +126,21 @@ def _interpolator(
     """A function from points to values, (n, number of columns), that reports its progress."""
     import numpy as np
 
-    from stereodel.cli.progress import in_pieces, stage
+    from stereodel.cli.application import reporting
     from stereodel.interpolation.methods import METHODS
 
     values, table = table.values(names, skip_missing=skip_missing)
-    with stage("triangulating"):
+    with reporting("triangulating"):
         interpolator = METHODS[method.value](table.points(latitude), values)
 
     def interpolated(queries: FloatArray) -> FloatArray:
-        pieces = in_pieces(len(queries), "interpolating")
-        return np.concatenate([np.zeros((0, len(names))), *(interpolator(queries[piece]) for piece in pieces)])
+        found = np.empty((len(queries), len(names)))
+        with reporting("interpolating") as shown:
+            for start in range(0, len(queries), PIECE):
+                piece = slice(start, min(start + PIECE, len(queries)))
+                found[piece] = interpolator(queries[piece])
+                shown("interpolating", piece.stop, len(queries))
+        return found
 
     return interpolated
 

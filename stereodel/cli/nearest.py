@@ -61,8 +61,8 @@ def command(
     Writes the columns of the query points, then the row number of each site in its table, the columns kept from it, and
     the distance. A query point with several sites has several rows, ranked from 1; a query point with no site has none.
     """
+    from stereodel.cli.application import say
     from stereodel.cli.destinations import TABLES, Destination, save_table
-    from stereodel.cli.progress import say
     from stereodel.cli.sources import read, read_second
 
     destination = Destination.of(out, format, TABLES, sites, queries, overwrite=overwrite)

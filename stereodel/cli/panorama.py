@@ -58,8 +58,8 @@ def command(
     from pathlib import Path
 
     from stereodel import fisheye
+    from stereodel.cli.application import reporting
     from stereodel.cli.destinations import Destination
-    from stereodel.cli.progress import stage
     from stereodel.drawing import View
     from stereodel.globe.panoramas import face_paths, save_panorama
     from stereodel.globe.raster import panorama_size, planet_radius
@@ -79,7 +79,7 @@ def command(
     if at is None and magnify != 1:
         at = seen or (0.0, -90.0 if to == Form.planet else 0.0)
     lens = fisheye(at, magnification=magnify) if at else None
-    with stage("drawing"):
+    with reporting("drawing"):
         destination.write(
             lambda path: save_panorama(
                 picture,

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any
 
 from stereodel._extras import optional
 from stereodel._interrupts import stop_if_interrupted
+from stereodel.cli.application import reporting, say
 from stereodel.cli.failures import NothingToDoError, naming_options
-from stereodel.cli.progress import counts, say
 
 if TYPE_CHECKING:
     from stereodel.sphere.latitudes import Latitude
@@ -62,7 +62,7 @@ class Work:
 
         columns = self.plane or (self.lon and self.lat and (self.lon, self.lat)) or None
         names = {"columns": "--plane" if self.plane else "--lon", "keep": "--keep", "resume": "--overwrite"}
-        with counts() as told, workers(scheduler) as executor, naming_options(**names):
+        with reporting() as told, workers(scheduler) as executor, naming_options(**names):
             try:
                 run = triangulate(
                     self.points[0] if len(self.points) == 1 else self.points,

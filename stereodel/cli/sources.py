@@ -11,9 +11,9 @@ import numpy as np
 
 from stereodel import lonlat_to_xyz
 from stereodel._arrays import BoolArray, Column, FloatArray, Indices
+from stereodel.cli.application import reporting
 from stereodel.cli.failures import NothingToDoError, naming_options
 from stereodel.cli.options import Latitude
-from stereodel.cli.progress import bar
 from stereodel.io import read_points
 from stereodel.io.columns import beside
 from stereodel.io.reading import naming, read_plane_points
@@ -120,7 +120,7 @@ def read(
     """The table in a file, or on stdin if `name` is "-"; raises NothingToDoError for a table without points."""
     shown = "stdin" if name == "-" else name
     source = sys.stdin.buffer if name == "-" else name
-    with bar(f"reading {shown}") as told, naming(shown if name == "-" else None):
+    with reporting(f"reading {shown}") as told, naming(shown if name == "-" else None):
         if plane is not None:
             places, columns, rows = read_plane_points(
                 source, *plane, layer=layer, skip_missing=skip_missing, progress=told

@@ -39,14 +39,14 @@ def command(
     shape. If all points lie in one hemisphere, the triangles that close the far side are left out.
     """
     from stereodel import PlanarDelaunay, SphericalDelaunay
+    from stereodel.cli.application import reporting, say
     from stereodel.cli.destinations import MESHES, TABLES, Destination
     from stereodel.cli.failures import NothingToDoError
-    from stereodel.cli.progress import say, stage
     from stereodel.cli.sources import read
 
     destination = Destination.of(out, format, TABLES + MESHES, points, overwrite=overwrite)
     table = read(points, lon=lon, lat=lat, plane=plane, layer=layer_name, crs=crs, skip_missing=skip_missing)
-    with stage(f"triangulating {len(table)} points"):
+    with reporting(f"triangulating {len(table)} points"):
         kind = PlanarDelaunay if table.planar else SphericalDelaunay
         triangulation = kind(table.points(latitude))
     count = len(_corner_rows(triangulation, "triangles", table)["a"])
@@ -66,8 +66,8 @@ def _save(
     latitude: options.Latitude,
 ) -> None:
     """Write the row numbers of each triangle's corners, or of each edge's endpoints."""
+    from stereodel.cli.application import reporting
     from stereodel.cli.destinations import MESHES, TABLES, save_csv, save_layer, save_mesh
-    from stereodel.cli.progress import bar
     from stereodel.io.frames import layer_of
 
     kind = path.suffix.lower().removeprefix(".")
@@ -78,7 +78,7 @@ def _save(
     elif kind in MESHES:
         save_mesh(path, triangulation, latitude)
     else:
-        with bar(f"drawing {what}") as shown:
+        with reporting(f"drawing {what}") as shown:
             layer = layer_of(
                 triangulation,
                 what=what,

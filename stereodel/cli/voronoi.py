@@ -99,8 +99,8 @@ def command(
     if len(points) > 1:
         raise ValueError(f"results of {len(points)} files need a folder, such as --out cells/, not {out}")
     from stereodel import PlanarVoronoi, SphericalVoronoi
+    from stereodel.cli.application import reporting, say
     from stereodel.cli.destinations import MESHES, TABLES, Destination
-    from stereodel.cli.progress import say, stage
     from stereodel.cli.sources import read
 
     name = points[0]
@@ -110,7 +110,7 @@ def command(
     if plane is not None:
         options.refuse({"--clip": clip}, "cells of the sphere, not of a plane")
     table = read(name, lon=lon, lat=lat, plane=plane, layer=layer_name, crs=crs, skip_missing=skip_missing)
-    with stage(f"cells of {len(table)} points"):
+    with reporting(f"cells of {len(table)} points"):
         places = table.points(latitude)
         diagram = PlanarVoronoi(places) if table.planar else SphericalVoronoi(places)
     destination.write(lambda path: _save(path, diagram, table, area_unit or AreaUnit.km2, clip, max_segment, latitude))
@@ -129,8 +129,8 @@ def _save(
     """Write the cells of a table's points with the table's columns and their areas."""
     import numpy as np
 
+    from stereodel.cli.application import reporting
     from stereodel.cli.destinations import MESHES, save_csv, save_layer, save_mesh
-    from stereodel.cli.progress import bar
     from stereodel.earth import AUTHALIC_RADIUS_KM
     from stereodel.io.frames import layer_of
     from stereodel.io.reading import naming
@@ -144,7 +144,7 @@ def _save(
     if kind == "csv" and clip is None:
         save_csv(path, table.beside({name: diagram.areas(radius=radius)}))
         return
-    with bar(f"drawing {len(table)} cells") as shown, naming(clip) if clip else nullcontext():
+    with reporting(f"drawing {len(table)} cells") as shown, naming(clip) if clip else nullcontext():
         cells = layer_of(
             diagram,
             latitude=latitude.value,

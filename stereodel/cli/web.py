@@ -51,8 +51,8 @@ def command(
     from functools import partial
     from pathlib import Path
 
+    from stereodel.cli.application import reporting, say
     from stereodel.cli.destinations import Destination
-    from stereodel.cli.progress import say, stage
     from stereodel.cli.sources import read
     from stereodel.web import web
 
@@ -66,7 +66,7 @@ def command(
         lonlat, name = table.places, Path(table.name).name
         names = next((column.tolist() for key, column in table.columns.items() if key.strip().lower() == "name"), None)
     given = partial(web, lonlat=lonlat, names=names, name=name)
-    with stage(f"writing {target}"):
+    with reporting(f"writing {target}"):
         destination.write(lambda path: given(path, resolution=resolution.value, latitude=latitude.value))
     say(f"{target}: the page" + ("" if lonlat is None else f" with {len(lonlat)} points, {latitude.value} latitudes"))
     if open_it:

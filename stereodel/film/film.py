@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import inspect
 import os
-import time
 import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import KW_ONLY, dataclass, replace
@@ -17,8 +16,8 @@ import numpy as np
 from stereodel._arrays import FloatArray, Pixels, as_count, as_frame, as_scalar
 from stereodel._extras import of_extra
 from stereodel._files import replacing
-from stereodel._progress import counting
 from stereodel._tasks.crew import Crew, main_script_here
+from stereodel._tasks.progress import Progress, reporting
 from stereodel.constants import MOST_FRAME_PIXELS, MOST_FRAMES
 from stereodel.drawing.colors import ColorLike, as_color
 from stereodel.drawing.fonts import MissingCharactersWarning, missing_characters, warn_of_missing
@@ -279,8 +278,8 @@ class Film(Generic[T]):
         kind = format_of(target)
         if self.draw is _as_it_is:  # existing pictures are neither drawn nor stored
             kind.check(target.name, self.picture(0).shape[:2], times)
-            with replacing(target) as temporary, counting("writing", len(self), shown=progress) as count:
-                kind.write(_Counted(cast(Reel, self.shots), count), temporary, times)
+            with replacing(target) as temporary, reporting(shown=progress, lines=True) as told:
+                kind.write(_Counted(cast(Reel, self.shots), told), temporary, times)
             return target
         sides = (self.draw.width, self.draw.height) if isinstance(self.draw, GlobePages) else (self.size,)
         kind.check(target.name, sides, times)
@@ -288,17 +287,18 @@ class Film(Generic[T]):
         kept = KeptFrames.beside(target, frame_names(self._camera, self.shots))
         missing = kept.missing()
         unwritten: set[str] = set()
-        with crew, counting("drawing", len(missing), shown=progress) as count:
-            for number, outcome in crew.each(self._camera, _Tasks(self.shots, kept, missing)):
+        with crew, reporting(shown=progress, lines=True) as told:
+            drawn = crew.each(self._camera, _Tasks(self.shots, kept, missing))
+            for done, (number, outcome) in enumerate(drawn, 1):
                 if outcome.error is not None:
                     message = f"frame {missing[number]}: {outcome.message}; what was finished is kept"
                     raise FrameError(message) from outcome.error
                 unwritten |= outcome.value()
-                count()
+                told("drawing", done, len(missing))
         warn_of_missing(unwritten)
         whole = kept.folder / target.name
-        with counting("writing", len(self), shown=progress) as count:
-            kind.write(_Counted(kept, count), whole, times)
+        with reporting(shown=progress, lines=True) as told:
+            kind.write(_Counted(kept, told), whole, times)
         os.replace(whole, target)
         kept.remove()
         return target
@@ -310,8 +310,15 @@ class Film(Generic[T]):
         script's folder, the width, and whether to draw labels.
         """
         draw = self.draw.func if isinstance(self.draw, partial) else self.draw
-        script = _Script(self, Path(inspect.getfile(draw)).stem)
-        run_script(script, argv, source=draw, kind="a looping GIF", usual_size=f"{self.size}")
+        name = Path(inspect.getfile(draw)).stem
+
+        def save(film: Film[T], out: Path, *, size: int | None, text: bool) -> list[str]:
+            out.mkdir(parents=True, exist_ok=True)
+            film = replace(film, size=film.size if size is None else size, text=text)
+            jobs = None if main_script_here() else 1  # the documentation runs scripts as text
+            return [film.save(out / f"{name}.gif", jobs=jobs, progress=False).name]
+
+        run_script(self, save, argv, name=name, source=draw, kind="a looping GIF", usual_size=f"{self.size}")
 
 
 @dataclass(frozen=True)
@@ -359,33 +366,11 @@ class _Tasks(Sequence[Any]):
         return self.shots[number], self.kept.path(number)
 
 
-@dataclass(frozen=True)
-class _Script(Generic[T]):
-    """A film as the output of a script."""
-
-    film: Film[T]
-    name: str
-
-    def styled(self, *styles: Style) -> _Script[T]:
-        """The same script with the film in other styles."""
-        return replace(self, film=self.film.styled(*styles))
-
-    def save(self, out: str | os.PathLike[str], *, size: int | None = None, text: bool = True) -> dict[str, Any]:
-        """Write NAME.gif into a folder, which is created if it does not exist."""
-        begun = time.perf_counter()
-        folder = Path(out)
-        folder.mkdir(parents=True, exist_ok=True)
-        film = replace(self.film, size=self.film.size if size is None else size, text=text)
-        jobs = None if main_script_here() else 1  # the documentation runs scripts as text
-        file = film.save(folder / f"{self.name}.gif", jobs=jobs, progress=False)
-        return {"files": [file.name], "seconds": time.perf_counter() - begun}
-
-
 class _Counted:
     """A reel that counts its frames as they are read in order."""
 
-    def __init__(self, reel: Reel, count: Callable[[], Any]) -> None:
-        self._reel, self._count, self._next = reel, count, 0
+    def __init__(self, reel: Reel, told: Progress) -> None:
+        self._reel, self._told, self._next = reel, told, 0
 
     def __len__(self) -> int:
         return len(self._reel)
@@ -393,7 +378,7 @@ class _Counted:
     def __getitem__(self, number: int) -> Pixels:
         if number == self._next:
             self._next += 1
-            self._count()
+            self._told("writing", self._next, len(self))
         return self._reel[number]
 
 

@@ -15,10 +15,10 @@ from typing import Any, TextIO
 import numpy as np
 
 from stereodel._arrays import Column, Indices
+from stereodel._tasks.progress import Progress
 from stereodel.constants import MOST_COLUMNS, MOST_LINE
 from stereodel.io.cells import as_text, check_held, plain_cells
 from stereodel.io.columns import DataWarning, has_lonlat, listed
-from stereodel.io.layers import Progress
 from stereodel.io.text import EXACT_INTEGERS, NUMBER, decimal_mark, objects, texts, typed, why_not
 
 SEPARATORS = ",;\t|"
@@ -85,7 +85,7 @@ def split_columns(text: str, wanted: Collection[str] = (), progress: Progress | 
         blocks.append(_columns(block, len(names), before))
         before += len(block)
         if progress is not None:
-            progress(stream.tell() / len(text))
+            progress("reading", stream.tell(), len(text))
     columns = [np.concatenate(parts) for parts in zip(*blocks, strict=True)]
     # Spreadsheets write columns without a name or a value.
     named = {

@@ -9,11 +9,12 @@ import numpy.typing as npt
 
 from stereodel._arrays import as_choice, as_scalar
 from stereodel._extras import optional
+from stereodel._tasks.progress import Progress
 from stereodel.curves.borders import frame_of
 from stereodel.interpolation import Contour
 from stereodel.io.columns import beside
 from stereodel.io.diagrams import Mesh, is_spherical, point_columns, usual_kind
-from stereodel.io.layers import Layer, Progress, is_there, packed
+from stereodel.io.layers import Layer, is_there, packed
 from stereodel.sphere.latitudes import KINDS, Latitude
 
 What = Literal["cells", "triangles", "edges", "ridges", "sites"]

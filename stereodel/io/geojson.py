@@ -15,10 +15,11 @@ import numpy as np
 
 from stereodel._arrays import Column, as_count
 from stereodel._extras import optional
+from stereodel._tasks.progress import Progress
 from stereodel.constants import EMPTY_RATIO, FEW_CELLS
 from stereodel.io.cells import check_held, plain_cells
 from stereodel.io.columns import DataWarning, beside, listed
-from stereodel.io.layers import Layer, Progress
+from stereodel.io.layers import Layer
 from stereodel.io.self_contained import check_crs
 from stereodel.io.text import column, objects
 

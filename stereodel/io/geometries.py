@@ -11,10 +11,11 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import FloatArray, Packed
+from stereodel._tasks.progress import Progress
 from stereodel.curves.borders import Box
 from stereodel.io.diagrams import Columns, Mesh, diagram_of, triangulation_of
 from stereodel.io.faces import triangle_sides, voronoi_sides
-from stereodel.io.layers import Progress, packed
+from stereodel.io.layers import packed
 from stereodel.io.on_map import shapely
 from stereodel.io.plane import plane_cells
 from stereodel.io.tiles import Net, sphere_lines, sphere_polygons

@@ -9,8 +9,9 @@ from pathlib import Path
 from typing import Any, Final
 
 from stereodel._extras import optional
+from stereodel._tasks.progress import Progress
 from stereodel.io.cells import check_held
-from stereodel.io.layers import Layer, Progress
+from stereodel.io.layers import Layer
 from stereodel.io.packed import check_size
 from stereodel.io.vector_files import in_degrees, told
 

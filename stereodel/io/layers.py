@@ -6,7 +6,7 @@ passes it on as it is.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, Final
@@ -15,11 +15,9 @@ import numpy as np
 
 from stereodel._arrays import BoolArray, Geometries, Indices, Packed
 from stereodel._extras import optional
+from stereodel._tasks.progress import Progress
 from stereodel.io.cells import as_text, plain_cells
 from stereodel.io.columns import beside, index_columns
-
-Progress = Callable[[float], object]
-"""Called with the fraction of the work that is done, from 0 to 1."""
 
 ROWS: Final = 65_536
 """Rows in a block."""
@@ -89,7 +87,7 @@ class Layer:
         for begin in range(0, len(self), ROWS):
             yield self.take(slice(begin, begin + ROWS))
             if progress is not None:
-                progress(min(1.0, (begin + ROWS) / len(self)))
+                progress("writing", min(begin + ROWS, len(self)), len(self))
 
     def frame(self) -> Any:
         """The rows as a GeoDataFrame."""

@@ -16,11 +16,11 @@ import numpy as np
 
 from stereodel._arrays import Column, FloatArray, Indices, as_choice
 from stereodel._extras import optional
+from stereodel._tasks.progress import Progress
 from stereodel.io.columns import beside, find_lonlat, index_columns, listed
 from stereodel.io.csv_text import split_columns
 from stereodel.io.geojson import Features, kind_of
 from stereodel.io.geoparquet import read_parquet
-from stereodel.io.layers import Progress
 from stereodel.io.packed import unpacked
 from stereodel.io.shapes import MULTIPOINT, POINT, Shapes, of_features, of_geometries, of_items
 from stereodel.io.tables import PointTable, located, table_of
@@ -100,7 +100,7 @@ def read_points(
     skip_missing : bool
         Whether to leave out rows without a place, which are an error by default.
     progress : callable, optional
-        Called repeatedly with the fraction of a text table that has been read, from 0 to 1.
+        Called repeatedly with the name of the stage, and how many characters of a text table are read, of how many.
 
     Returns
     -------

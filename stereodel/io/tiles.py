@@ -16,13 +16,14 @@ import numpy as np
 
 from stereodel._arrays import BoolArray, FloatArray, Geometries, Indices, Packed
 from stereodel._extras import optional
+from stereodel._tasks.progress import Progress
 from stereodel._threads import in_order, thread_count
 from stereodel.constants import AT_POLE, BORDER_STEPS, CHORD_CLEARANCE, DEGREE_ROUNDING, THIN_CELL
 from stereodel.curves import clip
 from stereodel.curves.borders import Antimeridian, Pieces
 from stereodel.curves.ragged import Ragged, offsets_of, spans
 from stereodel.curves.trace import Arcs, great, great_axes
-from stereodel.io.layers import Progress, is_there, packed, unpacked
+from stereodel.io.layers import is_there, packed, unpacked
 from stereodel.io.on_map import close_in_longitude, lines_on_map, polygons_on_map, refined, repaired, steps_of, unit
 from stereodel.io.star_rings import packed_rings, star_shaped
 from stereodel.sphere import xyz_to_lonlat
@@ -131,7 +132,7 @@ class _Told:
         """Count one more step as done."""
         self._done += 1
         if self._progress is not None:
-            self._progress(self._done / self._steps)
+            self._progress("drawing", self._done, self._steps)
 
 
 def _blocks(size: int) -> Iterator[slice]:

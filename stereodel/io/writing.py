@@ -16,6 +16,7 @@ import numpy.typing as npt
 from stereodel._arrays import as_choice
 from stereodel._extras import optional
 from stereodel._files import replacing, said_of
+from stereodel._tasks.progress import Progress
 from stereodel.interpolation import Contour
 from stereodel.io.columns import beside
 from stereodel.io.csv_text import write_csv
@@ -24,7 +25,7 @@ from stereodel.io.frames import layer_of
 from stereodel.io.geojson import write_geojson
 from stereodel.io.geoparquet import write_parquet
 from stereodel.io.grids import Grid, write_geotiff, write_grid_table
-from stereodel.io.layers import Layer, Progress, packed
+from stereodel.io.layers import Layer, packed
 from stereodel.io.meshes import to_polydata, to_trimesh
 from stereodel.io.reading import from_geodataframe
 from stereodel.io.tables import PointTable
@@ -75,7 +76,8 @@ def write(
     format : str, optional
         By default the extension of the path. Required for a stream.
     progress : callable, optional
-        Called repeatedly with the fraction of the rows that have been written, from 0 to 1.
+        Called repeatedly with the name of the stage, how much of it is done, and how much there is: rows, where they
+        are written.
     **options
         Options of the function that makes the contents: `to_geodataframe` for csv, geojson and geojsonl (and
         ``decimals`` of `to_geojson`), parquet, gpkg, fgb, shp and kml; `to_ugrid` for nc; `to_trimesh` for glb and ply;

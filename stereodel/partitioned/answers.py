@@ -63,7 +63,7 @@ def take_values(store: Store, share: int) -> None:
     question = _question(store)
     plan = points_of(question).plan
     found = [_values(plan, piece.file, piece.first, piece.last, question.values) for piece in plan.shares[share]]
-    store.keep("values", share, {}, store.save("values", share, {"values": np.concatenate(found)}))
+    store.notes.keep("values", {}, store.save("values", share, {"values": np.concatenate(found)}), task=share)
 
 
 def _values(plan: Plan, number: int, first: int, last: int, names: tuple[str, ...]) -> FloatArray:
@@ -104,7 +104,7 @@ def answer(store: Store, part: int, limit: int) -> None:
     starts = starts_of(np.searchsorted(number[order], plan.share_firsts), cells)
     files = store.save("stars", part, {"rows": cells, "starts": starts})
     seconds = {"seconds": time.perf_counter() - began, "cpu": time.process_time() - cpu}
-    store.keep("answer", part, {"points": len(number)} | asdict(reading) | seconds, files)
+    store.notes.keep("answer", {"points": len(number)} | asdict(reading) | seconds, files, task=part)
 
 
 def _question(store: Store) -> Question:

@@ -19,17 +19,16 @@ from stereodel._arrays import as_count
 from stereodel._extras import optional
 from stereodel._files import ENDING
 from stereodel._tasks.crew import Crew
+from stereodel._tasks.kept import Note, locked, save_json
+from stereodel._tasks.progress import Progress
 from stereodel.partitioned import rows as rows_of
 from stereodel.partitioned import spread
-from stereodel.partitioned.lock import locked
 from stereodel.partitioned.plan import NAME, Plan
-from stereodel.partitioned.shards import load_json, save, save_json
+from stereodel.partitioned.shards import load_json, save
 from stereodel.partitioned.solve import write_table
 from stereodel.partitioned.sources import Source, opened
 from stereodel.partitioned.store import DIGITS, KEPT, RESULTS, SCRATCH, Store
 from stereodel.partitioned.tree import Splits, is_compact
-
-Progress = Callable[[str, int, int], None]
 
 PARTITION: Final = 650_000
 """Points of a partition by default: some 0.3 GB for each worker."""
@@ -254,25 +253,21 @@ class Passes(ABC):
 
         What counts is what they left on the disk: a task whose files are gone is done again.
         """
-        note = self.store.scratch / "done" / f"{name}.json"
-        if note.exists():
-            return list(load_json(note)["told"])
+        return list(self.store.notes.once(name, lambda: {"told": self._done(name, function, tasks)})["told"])
+
+    def _done(self, name: str, function: Callable[[int], None], tasks: Sequence[int]) -> list[Note]:
+        notes = self.store.notes
         for attempt in range(ATTEMPTS):
-            told = {task: self.store.done(name, task) for task in tasks}
-            left = [task for task in tasks if told[task] is None]
-            done = len(tasks) - len(left)
+            told = {task: note for task in tasks if (note := notes.note(name, task)) is not None}
+            left = [task for task in tasks if task not in told]
             if left or not attempt:
-                self.tell(name, done, len(tasks))
+                self.tell(name, len(told), len(tasks))
             if not left:
-                break
-            for _, outcome in self.crew.each(function, left):
+                return list(told.values())
+            for done, (_, outcome) in enumerate(self.crew.each(function, left), len(told) + 1):
                 outcome.value()
-                done += 1
                 self.tell(name, done, len(tasks))
-        else:
-            raise ValueError(f"{self.store.marker(name, left[0])} or files in it are deleted while the run works there")
-        save_json(note, {"told": list(told.values())})
-        return [each for each in told.values() if each is not None]
+        raise ValueError(f"{notes.path(name, left[0])} or files in it are deleted while the run works there")
 
     def tell(self, name: str, done: int, of: int) -> None:
         """Say how many tasks of a pass are done."""
@@ -282,15 +277,12 @@ class Passes(ABC):
     def _collected(self) -> tuple[bool, list[int]]:
         """Points in partitions: whether those are files, and which of them have points."""
         store, plan = self.store, self.store.plan
-        layout = store.scratch / "layout.json"
-        if not layout.exists():
-            save_json(layout, {"compact": self._laid_out()})
+        compact = bool(store.notes.once("layout", lambda: {"compact": self._laid_out()})["compact"])
         store.drop("sample")
-        compact = bool(load_json(layout)["compact"])
         if compact:
             told = self.do("collect", partial(spread.take, store), range(len(plan.parts)))
         else:
-            if not store.noted("collect"):
+            if store.notes.note("collect") is None:
                 self.do("spread", partial(spread.spread, store), range(len(plan.shares)))
                 spread.gather(store)
             told = self.do("collect", partial(spread.collect, store), range(spread.splits_of(store).leaves))

@@ -14,8 +14,9 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from stereodel._tasks.kept import save_json
 from stereodel.partitioned.places import Places
-from stereodel.partitioned.shards import load_json, save_json
+from stereodel.partitioned.shards import load_json
 from stereodel.partitioned.sources import PointFile, Source
 
 NAME: Final = "plan.json"

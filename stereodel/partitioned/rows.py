@@ -39,7 +39,7 @@ def align(store: Store, output: int) -> None:
             first = rows.stop
             lot = piece, {name: column[rows] for name, column in columns.items()}
             paths.append(write_file(store, piece.file, [lot]))
-    store.keep("align", output, {}, paths)
+    store.notes.keep("align", {}, paths, task=output)
 
 
 def _columns(store: Store, share: int) -> dict[str, npt.NDArray[Any]]:

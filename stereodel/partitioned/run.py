@@ -15,16 +15,16 @@ import stereodel
 from stereodel._arrays import as_choice, as_count
 from stereodel._docs import shared
 from stereodel._extras import optional
+from stereodel._tasks.progress import Progress
 from stereodel.constants import AREA_SUM_ERROR
 from stereodel.partitioned import rows as rows_of
 from stereodel.partitioned import targets as targets_of
 from stereodel.partitioned.flat import is_flat
 from stereodel.partitioned.index import Index
 from stereodel.partitioned.kinds import names_of, source_of
-from stereodel.partitioned.passes import LIMIT, NONE, PARTITION, Means, Passes, Progress, Results
+from stereodel.partitioned.passes import LIMIT, NONE, PARTITION, Means, Passes, Results
 from stereodel.partitioned.places import SURFACES, Surface
 from stereodel.partitioned.plan import Plan
-from stereodel.partitioned.shards import load_json, save_json
 from stereodel.partitioned.solve import ROWS, solve, solve_flat, write_table
 from stereodel.partitioned.sources import Given
 from stereodel.partitioned.store import Store
@@ -353,29 +353,26 @@ class _Triangulating(Passes):
     def _solved(self, parts: list[int]) -> list[dict[str, Any]]:
         """What there is to say of each partition."""
         store = self.store
-        note = store.scratch / "done" / "solve.json"
-        if note.exists():
-            told = list(load_json(note)["told"])
-        elif self._is_flat(parts):
-            self.tell("solve", 0, 1)
-            told = [solve_flat(store, self.limit, parts)]
-            self.tell("solve", 1, 1)
-            save_json(note, {"told": told})
+        if store.notes.once("index", partial(self._indexed, parts))["flat"]:
+            told = list(store.notes.once("solve", partial(self._flat, parts))["told"])
         else:
             told = self.do("solve", partial(solve, store, limit=self.limit), parts)
-        if store.plan.rows and not store.noted("align"):
+        if store.plan.rows and store.notes.note("align") is None:
             rows_of.gather(store, [each["task"] for each in told])
         if not store.plan.index:
             store.drop("points", "blocks")
         return told
 
-    def _is_flat(self, parts: list[int]) -> bool:
+    def _indexed(self, parts: list[int]) -> dict[str, Any]:
         """Whether all points lie on one line or great circle; the index is written."""
-        store = self.store
-        if not (store.scratch / "done" / "index.json").exists():
-            Index.build(store, parts)
-            save_json(store.scratch / "done" / "index.json", {"flat": is_flat(_lots(store, parts))})
-        return bool(load_json(store.scratch / "done" / "index.json")["flat"])
+        Index.build(self.store, parts)
+        return {"flat": is_flat(_lots(self.store, parts))}
+
+    def _flat(self, parts: list[int]) -> dict[str, Any]:
+        self.tell("solve", 0, 1)
+        told = [solve_flat(self.store, self.limit, parts)]
+        self.tell("solve", 1, 1)
+        return {"told": told}
 
 
 def _lots(store: Store, parts: Sequence[int]) -> Any:

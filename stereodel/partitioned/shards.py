@@ -7,7 +7,6 @@ parser is not safe in several threads of CPython 3.11.
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
 from functools import lru_cache
 from itertools import pairwise
 from pathlib import Path
@@ -87,13 +86,6 @@ def _mapped(path: Path) -> tuple[npt.NDArray[Any], int]:
 
 def _damaged(path: Path, what: str) -> str:
     return f"{path} was {what} after it was written; begin anew with resume=False"
-
-
-def save_json(path: Path, value: Mapping[str, Any]) -> None:
-    """A document, which appears when it is complete."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    with replacing(path) as temporary:
-        temporary.write_text(json.dumps(value), encoding="utf-8")
 
 
 def load_json(path: Path) -> dict[str, Any]:

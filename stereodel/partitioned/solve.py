@@ -51,7 +51,7 @@ def solve(store: Store, part: int, limit: int) -> None:
             shapes.append(cells_of(stars, index, store.plan.places))
     told, files = write(store, part, found, shapes)
     seconds = {"seconds": time.perf_counter() - began, "cpu": time.process_time() - cpu}
-    store.keep("solve", part, told | asdict(rounds.reading) | seconds, files)
+    store.notes.keep("solve", told | asdict(rounds.reading) | seconds, files, task=part)
 
 
 Columns = dict[str, npt.NDArray[Any]]

@@ -49,7 +49,7 @@ def sample(store: Store, part: int) -> None:
         ]
     )
     files = store.save("sample", part, {"points": points if plan.places.width == 2 else units(points)})
-    store.keep("sample", part, {"points": len(points), "rows": rows}, files)
+    store.notes.keep("sample", {"points": len(points), "rows": rows}, files, task=part)
 
 
 def points_of(plan: Plan, pieces: tuple[Piece, ...]) -> FloatArray:
@@ -81,7 +81,7 @@ def spread(store: Store, share: int) -> None:
     files = store.save(
         "spread", share, {"points": points, "numbers": numbers, "starts": starts_of(starts, points, numbers)}
     )
-    store.keep("spread", share, {"points": len(points)}, files)
+    store.notes.keep("spread", {"points": len(points)}, files, task=share)
 
 
 def starts_of(starts: LongArray, *arrays: Any) -> LongArray:
@@ -132,4 +132,4 @@ def _keep(store: Store, part: int, points: FloatArray, numbers: LongArray) -> No
     blocks["point"], blocks["number"] = points[starts[:-1]], numbers[starts[:-1]]
     blocks["sum"] = sums(starts, points, numbers)
     arrays = {"points": points, "numbers": numbers, "blocks": blocks}
-    store.keep("collect", part, {"points": len(points)}, store.save("points", part, arrays))
+    store.notes.keep("collect", {"points": len(points)}, store.save("points", part, arrays), task=part)

@@ -8,15 +8,14 @@ scratch:   splits.*                         the k-d tree
            blocks/*                         boxes of all blocks, one point of each
            stars/<part>.*                   results for the points of a partition, in the order of numbers
            values/<share>.values            columns of the points that are interpolated, in the order of numbers
-           done/<pass>/<task>.json          what a task said when it was done, and the files that it wrote
+           done/<pass>/<task>.json, <pass>.json    notes of tasks, and of passes when all of their tasks are done
 """
 
 from __future__ import annotations
 
 import hashlib
-import os
 import shutil
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
@@ -24,8 +23,9 @@ from typing import Any, Final
 import numpy as np
 import numpy.typing as npt
 
+from stereodel._tasks.kept import Kept
 from stereodel.partitioned.plan import Plan
-from stereodel.partitioned.shards import check, load, load_json, save, save_json, sums
+from stereodel.partitioned.shards import check, load, save, sums
 
 SCRATCH: Final = "scratch"
 """Folder of results in which runs work, each in a folder of its own."""
@@ -67,6 +67,11 @@ class Store:
         """Folders of a run that ended."""
         return cls(folder, folder, folder, Plan.load(folder))
 
+    @property
+    def notes(self) -> Kept:
+        """What the tasks said when they were done, and the files that they wrote."""
+        return Kept(self.scratch / "done")
+
     def room(self, name: str) -> Path:
         """The folder of what one pass hands on."""
         if name in RESULTS:
@@ -96,28 +101,3 @@ class Store:
         """Delete what was handed on and is used."""
         for room in rooms:
             shutil.rmtree(self.room(room), ignore_errors=True)
-
-    def done(self, name: str, task: int) -> dict[str, Any] | None:
-        """What a task of a pass said; None if it was not done, or what it wrote is not there as it was."""
-        path = self.marker(name, task)
-        if not path.exists():
-            return None
-        told = load_json(path)
-        return told if all(_size(file) == size for file, size in told["files"].items()) else None
-
-    def keep(self, name: str, task: int, told: dict[str, Any], files: Iterable[Path]) -> None:
-        """Note that a task is done: what there is to say of it, and the files, with their sizes, that it wrote."""
-        sizes = {str(path): path.stat().st_size for path in files}
-        save_json(self.marker(name, task), told | {"task": task, "files": sizes})
-
-    def noted(self, name: str) -> bool:
-        """Whether a whole pass is done."""
-        return (self.scratch / "done" / f"{name}.json").exists()
-
-    def marker(self, name: str, task: int) -> Path:
-        """The file that says that a task is done."""
-        return self.scratch / "done" / name / f"{task}.json"
-
-
-def _size(path: str) -> int:
-    return os.path.getsize(path) if os.path.exists(path) else -1

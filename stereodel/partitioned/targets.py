@@ -193,10 +193,10 @@ class _Answering(Passes):
         """What there is to say of each partition."""
         store, question = self.store, self.store.plan.question
         assert question is not None
-        if question.values and not question.flat and not store.noted("answer"):
+        if question.values and not question.flat and store.notes.note("answer") is None:
             self.do("values", partial(take_values, store), range(len(points_of(question).plan.shares)))
         told = self.do("answer", partial(answer, store, limit=self.limit), parts)
-        if not store.noted("align"):
+        if store.notes.note("align") is None:
             rows_of.gather(store, parts)
         store.drop("points", "values")
         return told

@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, Final, Literal, Protocol
+from typing import Any, Final, Literal, Protocol, Self, TypeVar
 
 import numpy as np
 
@@ -266,28 +266,34 @@ class Figure:
         flags = {"caption": "set title and text of the script below the picture"}
         if self.in_space is not None:
             flags["solid"] = f"draw {self.name}_solid.png too, with light and shade"
-        run_script(self, argv, source=self.draw, kind=kind, usual_size="17 cm at 300 dpi", flags=flags)
+        run_script(
+            self,
+            lambda figure, out, **options: figure.save(out, **options)["files"],
+            argv,
+            name=self.name,
+            source=self.draw,
+            kind=kind,
+            usual_size="17 cm at 300 dpi",
+            flags=flags,
+        )
 
 
 class Drawing(Protocol):
-    """Interface of what a script draws."""
+    """What a script draws."""
 
-    @property
-    def name(self) -> str:
-        """Stem of the files."""
-
-    @property
-    def save(self) -> Callable[..., dict[str, Any]]:
-        """Write the files into a folder, with the options of the script; a record with "files" and "seconds"."""
-
-    def styled(self, *styles: Style) -> Drawing:
+    def styled(self, *styles: Style) -> Self:
         """The same in other styles."""
 
 
+D = TypeVar("D", bound=Drawing)
+
+
 def run_script(
-    drawing: Drawing,
+    drawing: D,
+    save: Callable[..., Sequence[str]],
     argv: Sequence[str] | None,
     *,
+    name: str,
     source: Callable[..., Any],
     kind: str,
     usual_size: str,
@@ -295,11 +301,13 @@ def run_script(
 ) -> None:
     """Write the files and report where; errors become a message and exit code 1.
 
+    save: writes the files of a drawing into a folder, with the options of the script; gives their names.
+    name: of the drawing, for messages.
     source: a function defined in the script; files go to `out` next to the script's folder by default.
     kind, usual_size: kind of files and default width, for the help.
-    flags: additional Boolean options of `Drawing.save`, with their help.
+    flags: additional Boolean options of `save`, with their help.
     """
-    parser = argparse.ArgumentParser(description=f"Draw {drawing.name} as {kind}.")
+    parser = argparse.ArgumentParser(description=f"Draw {name} as {kind}.")
     out = default_folder(source)
     parser.add_argument("--out", type=Path, help=f"folder to write to ({out}, and in it one for each style)")
     parser.add_argument("--size", type=pixel_count, help=f"width in pixels ({usual_size})")
@@ -309,13 +317,14 @@ def run_script(
     parser.add_argument("--style", type=style_names, default=(), help=STYLE_HELP)
     options = parser.parse_args(sys.argv[1:] if argv is None else argv)
     folder = styled_folder(out, options.style) if options.out is None else options.out
+    begun = time.perf_counter()
     try:
         shown = drawing.styled(*options.style) if options.style else drawing
         chosen = {flag: getattr(options, flag) for flag in flags}
-        record = shown.save(folder, size=options.size, text=options.text, **chosen)
+        files = save(shown, folder, size=options.size, text=options.text, **chosen)
     except (OSError, RuntimeError, ValueError) as error:
-        raise SystemExit(f"{drawing.name}: {error}") from None
-    print(f"{drawing.name}: {', '.join(record['files'])} in {folder} ({record['seconds']:.1f} s)")
+        raise SystemExit(f"{name}: {error}") from None
+    print(f"{name}: {', '.join(files)} in {folder} ({time.perf_counter() - begun:.1f} s)")
 
 
 def pixel_count(text: str) -> int:

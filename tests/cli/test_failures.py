@@ -9,7 +9,7 @@ from typer.testing import CliRunner
 
 from stereodel._interrupts import signals
 from stereodel.cli import app
-from stereodel.cli.application import Commands
+from stereodel.cli.application import Commands, reporting
 
 COMMANDS = [command.name for command in app.registered_commands]
 
@@ -75,6 +75,27 @@ def test_an_interruption_that_a_library_turned_into_another_exception(error):
         signals.clear()
         signal.signal(signal.SIGINT, own)
     assert (ran.exit_code, ran.stderr) == (130, "interrupted; nothing was written\n")
+
+
+@pytest.mark.parametrize("steps", [0, 1])
+def test_an_interruption_that_was_lost_stops_the_work_at_its_next_sign_of_progress(steps):
+    """Or at its end, if there is no other sign."""
+    done = []
+
+    def work():
+        with reporting("work") as told:
+            signals.append(signal.SIGINT)
+            done.append("begun")
+            for _ in range(steps):
+                told("work", 1, 2)
+                done.append("gone on")
+
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            work()
+    finally:
+        signals.clear()
+    assert done == ["begun"]
 
 
 @pytest.mark.parametrize("command", COMMANDS)

@@ -9,8 +9,10 @@ import pyarrow.parquet as pq
 import pytest
 
 from stereodel import SphericalVoronoi
-from stereodel.cli import partitions
-from stereodel.cli.progress import PIECE, bar, counts, in_pieces, say, stage
+from stereodel.cli import interpolate, partitions
+from stereodel.cli.application import reporting, say
+from stereodel.cli.options import Latitude
+from stereodel.cli.sources import Table
 from stereodel.partitioned import Run
 
 
@@ -106,7 +108,7 @@ def test_a_scheduler_of_dask(folder, points, run, monkeypatch):
 
 def test_passes_are_counted_on_a_terminal(monkeypatch):
     stream = terminal(monkeypatch)
-    with counts() as told:
+    with reporting() as told:
         told("solve", 0, 12)
         told("solve", 12, 12)
     assert "solve" in stream.getvalue()
@@ -131,28 +133,34 @@ def terminal(monkeypatch):
     return stream
 
 
-@pytest.mark.parametrize(("share", "said"), [(0.25, "25%"), (1.0, "100%")])
-def test_a_bar_tells_the_share(monkeypatch, share, said):
+@pytest.mark.parametrize(("done", "said"), [(100, "25%"), (400, "100%")])
+def test_a_bar_tells_the_share(monkeypatch, done, said):
     stream = terminal(monkeypatch)
-    with bar("drawing cells") as shown:
-        shown(share)
+    with reporting("drawing cells") as told:
+        told("drawing", done, 400)
     assert "drawing cells" in stream.getvalue()
     assert said in stream.getvalue()
 
 
-def test_pieces_make_up_the_whole(monkeypatch):
+@pytest.mark.parametrize("piece", [2, 5, 7])
+def test_values_come_in_pieces(monkeypatch, piece):
+    """Of the same values as all at once, the last piece shorter than the others."""
+    monkeypatch.setattr(interpolate, "PIECE", piece)
     stream = terminal(monkeypatch)
-    pieces = list(in_pieces(2 * PIECE + 5, "interpolating"))
-    assert [(piece.start, piece.stop) for piece in pieces] == [(0, PIECE), (PIECE, 2 * PIECE), (2 * PIECE, 3 * PIECE)]
+    table = Table("a", np.array([[0.0, 0], [1, 0], [0, 1]]), ("x", "y"), {"z": np.array([0.0, 1, 2])}, np.arange(3))
+    queries = np.linspace(0.0, 0.4, 10).reshape(5, 2)
+    values = interpolate._interpolator(table, ["z"], interpolate.Method.linear, Latitude.authalic, skip_missing=False)(
+        queries
+    )
+    assert values[:, 0] == pytest.approx(queries @ [1, 2])
     assert "100%" in stream.getvalue()
 
 
 def test_elsewhere_all_is_silent(monkeypatch):
     stream = io.StringIO()
     monkeypatch.setattr("sys.stderr", stream)
-    with bar("drawing") as shown, stage("reading"), counts() as told:
-        shown(0.5)
+    with reporting("reading") as shown, reporting() as told:
+        shown("reading", 1, 2)
         told("solve", 1, 12)
     say("done")
-    assert len(list(in_pieces(5, "interpolating"))) == 1
     assert stream.getvalue() == ""

@@ -13,8 +13,8 @@ import pyarrow.parquet as pq
 import pytest
 
 from stereodel._tasks.crew import Crew
+from stereodel._tasks.kept import locked
 from stereodel.partitioned import triangulate
-from stereodel.partitioned.lock import locked
 from stereodel.partitioned.run import PASSES
 from tests.disks import small_disk
 from tests.partitioned.answers import differences, in_memory, rows_of, serially, write_points

@@ -1,6 +1,5 @@
-"""The figure runner: what is drawn again and what is not, what the manifest says, and what happens on errors."""
+"""The figure runner: what is drawn again and what is not, what is noted of it, and what happens on errors."""
 
-import json
 import os
 import subprocess
 import sys
@@ -8,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from stereodel._tasks.kept import Kept
 from stereodel.render import provenance
 from tools import build
 
@@ -44,6 +44,13 @@ def command(*arguments, cwd):
     return subprocess.run(line, cwd=cwd, env=environment, capture_output=True, text=True, check=False)
 
 
+def noted(out):
+    """What is noted of each figure whose files are there, by its name."""
+    kept = Kept(out)
+    names = sorted(path.stem for path in (out / build.NOTES).iterdir())
+    return {name: note for name in names if (note := kept.note(f"{build.NOTES}/{name}"))}
+
+
 def drawn(outcomes):
     return sorted(outcome.script.stem for outcome in outcomes)
 
@@ -63,32 +70,30 @@ def test_only_what_is_out_of_date_runs(scripts, tmp_path):
     (out / "anim_two.txt").write_text("scribbled over")
     assert drawn(build.build(scripts, out)) == ["anim_two"]
 
-    (out / "manifest.json").write_text('{"half')
-    assert drawn(build.build(scripts, out)) == ["anim_two", "fig01_one"]
+    (out / "fig01_one.txt").unlink()
+    assert drawn(build.build(scripts, out)) == ["fig01_one"]
+
+    (out / "notes" / "anim_two.json").write_text('{"half')
+    assert drawn(build.build(scripts, out)) == ["anim_two"]
 
     (scripts / "_shared.py").write_text("INK = 'gray'\n")
     assert drawn(build.build(scripts, out)) == ["anim_two", "fig01_one"]
     assert (out / "fig01_one.txt").read_text().startswith("gray")
 
 
-def test_manifest_says_what_was_drawn_with_what(scripts, tmp_path):
+def test_notes_say_what_was_drawn_with_what(scripts, tmp_path):
     out = tmp_path / "out"
     build.build(scripts, out)
-    manifest = json.loads((out / "manifest.json").read_text(encoding="utf-8"))
-    assert list(manifest) == ["anim_two", "fig01_one"]
-    record = manifest["fig01_one"]
+    notes = noted(out)
+    assert list(notes) == ["anim_two", "fig01_one"]
+    record = notes["fig01_one"]
     assert record["figure"] == "fig01_one"
     assert record["script"] == "fig01_one.py"
     assert record["pixel_hash"] == "abc"
     assert record["renderer"] == "none"
     assert record["seconds"] >= 0
     assert set(record["versions"]) == {"python", *provenance.LIBRARIES}
-    assert list(record["files"]) == ["fig01_one.txt"]
-
-    (scripts / "anim_two.py").unlink()
-    (scripts / "fig01_one.py").write_text((scripts / "fig01_one.py").read_text() + "# changed\n")
-    build.build(scripts, out)
-    assert list(build.read_manifest(out)) == ["fig01_one"]  # no script, no record
+    assert record["files"] == {"fig01_one.txt": (out / "fig01_one.txt").stat().st_size}
 
 
 @pytest.mark.thorough
@@ -105,7 +110,7 @@ def test_failing_scripts_do_not_stop_the_others(scripts, tmp_path):
     assert "no such site" in ran.stderr
     assert "its process ended with code 3, without a Python error" in ran.stderr
     assert "defines neither FIGURE nor film()" in ran.stderr
-    assert sorted(build.read_manifest(tmp_path / "out")) == ["anim_two", "fig01_one"]
+    assert list(noted(tmp_path / "out")) == ["anim_two", "fig01_one"]
 
 
 FILM = """
@@ -127,7 +132,7 @@ def test_a_style_goes_into_a_folder_of_its_own(scripts, tmp_path):
     line = ("--scripts", scripts, "--out", "out", "--style", "gold.toml,dark", "anim_two")
     assert "out/dark-gold: 1 drawn, 0 failed" in command(*line, cwd=tmp_path).stdout
     made = {path.name for path in (tmp_path / "out" / "dark-gold").iterdir()}
-    assert made == {"anim_two.gif", "manifest.json"}
+    assert made == {"anim_two.gif", "notes"}
     assert "up to date" in command(*line, cwd=tmp_path).stdout
 
 
@@ -137,8 +142,8 @@ def test_a_film_becomes_a_gif(scripts, tmp_path, monkeypatch):
     out = tmp_path / "out"
     (outcome,) = build.build(scripts, out, ["anim"])
     assert outcome.error == ""
-    assert sorted(path.name for path in out.iterdir()) == ["anim_two.gif", "manifest.json"]
-    record = build.read_manifest(out)["anim_two"]
+    assert sorted(path.name for path in out.iterdir()) == ["anim_two.gif", "notes"]
+    record = noted(out)["anim_two"]
     assert (record["frames"], record["size"], list(record["files"])) == (3, 60, ["anim_two.gif"])
     monkeypatch.setattr(build, "LARGEST_FILM", 100)
     outcome = build.run_script(scripts / "anim_two.py", out)
