@@ -12,7 +12,7 @@ import numpy as np
 
 from benchmarks import pages
 from stereodel import earth, lonlat_to_xyz, xyz_to_lonlat
-from stereodel.drawing.style import BLUE, DARK_GRAY, VERMILION
+from stereodel.drawing.page.style import BLUE, DARK_GRAY, VERMILION
 from stereodel.sphere.latitudes import KINDS
 
 RESULTS = pages.DOCS.parent / "benchmarks" / "earth_nearest.json"

@@ -12,7 +12,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from benchmarks import pages
-from stereodel.drawing.style import BLUE, DARK_GRAY, LIGHT_GRAY, VERMILION
+from stereodel.drawing.page.style import BLUE, DARK_GRAY, LIGHT_GRAY, VERMILION
 
 Rows = list[dict[str, Any]]
 

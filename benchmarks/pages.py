@@ -11,7 +11,7 @@ import matplotlib as mpl
 from matplotlib.figure import Figure
 
 from stereodel._files import replacing
-from stereodel.drawing.style import DARK_GRAY, LIGHT_GRAY, PRINT_WIDTH, TYPE
+from stereodel.drawing.page.style import DARK_GRAY, LIGHT_GRAY, PRINT_WIDTH, TYPE
 
 DOCS = Path(__file__).resolve().parent.parent / "docs"
 

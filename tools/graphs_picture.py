@@ -11,7 +11,7 @@ import numpy as np
 
 from stereodel import SphericalDelaunay, SphericalVoronoi
 from stereodel.drawing import LineStyle, Page, Scene, View
-from stereodel.drawing.style import BLUE, LIGHT_GRAY
+from stereodel.drawing.page.style import BLUE, LIGHT_GRAY
 from stereodel.graphs import (
     gabriel_graph,
     minimum_spanning_tree,

@@ -12,7 +12,7 @@ import numpy as np
 from stereodel import SphericalDelaunay
 from stereodel._arrays import FloatArray
 from stereodel.drawing import LineStyle, Page, Scene, View
-from stereodel.drawing.style import BLUE, LIGHT_GRAY, VERMILION
+from stereodel.drawing.page.style import BLUE, LIGHT_GRAY, VERMILION
 from stereodel.interpolation import Contour, SmoothInterpolator, contours
 
 SITES, FINE, SEED = 500, 40_000, 6

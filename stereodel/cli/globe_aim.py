@@ -12,7 +12,7 @@ from stereodel.cli.globe_options import Projection
 from stereodel.cli.options import pair
 from stereodel.constants import NO_MIDDLE
 from stereodel.drawing import StereographicView, View
-from stereodel.drawing.view import MapView
+from stereodel.drawing.scene.view import MapView
 from stereodel.globe import hemispheres
 
 Place = tuple[float, float]

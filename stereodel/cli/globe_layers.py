@@ -14,10 +14,10 @@ from stereodel import SphericalDelaunay, SphericalVoronoi
 from stereodel.cli.options import Latitude, box_of, refuse
 from stereodel.cli.sources import Table
 from stereodel.data import blue_marble
-from stereodel.drawing.colors import as_color
-from stereodel.drawing.fonts import as_font
-from stereodel.drawing.lengths import as_length
-from stereodel.drawing.style import DOTS, LINES, MAP_DOT, MAP_LINES, DotStyle, LineStyle
+from stereodel.drawing.page.colors import as_color
+from stereodel.drawing.page.fonts import as_font
+from stereodel.drawing.page.lengths import as_length
+from stereodel.drawing.page.style import DOTS, LINES, MAP_DOT, MAP_LINES, DotStyle, LineStyle
 from stereodel.globe import Globe, Raster
 from stereodel.io.reading import naming
 
