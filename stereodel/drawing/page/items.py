@@ -132,10 +132,6 @@ class Ball:
     center: tuple[float, float]
     radius: float
 
-    def arrays(self) -> Arrays:
-        """Its place, for the regression tests."""
-        return {"ball": np.array([*self.center, self.radius])}
-
 
 @dataclass(frozen=True, eq=False)
 class Fill(Mark):
@@ -365,7 +361,7 @@ Item = Stroke | Polylines | Polygons | Fill | Dots | Picture | Label
 
 
 def _light(ball: Ball | None) -> Arrays:
-    return {} if ball is None else ball.arrays()
+    return {} if ball is None else {"ball": np.array([*ball.center, ball.radius])}
 
 
 def painted(items: Iterable[Item], places: FloatArray, background: Color = WHITE) -> FloatArray:

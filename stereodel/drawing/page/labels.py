@@ -205,19 +205,16 @@ def haloed(page: Page) -> Page:
     Labels are above everything else, so that all other items are the ground. Styles change its colours: halos are
     determined again when a page has been styled.
     """
-    if not any(label.on_ground and label.halo for label in page.labels):
-        return page
-    ground = [item for item in page.items if not isinstance(item, Label)]
-    return replace(page, items=tuple(_tinted(item, page, ground) for item in page.items))
+    return replace(page, items=tuple(_tinted(item, page) for item in page.items))
 
 
-def _tinted(label: Item, page: Page, ground: Sequence[Item]) -> Item:
+def _tinted(label: Item, page: Page) -> Item:
     if not (isinstance(label, Label) and label.on_ground and label.halo):
         return label
     unit = page.points_per_unit
     (left, bottom), (right, top) = label_box(label, unit) / unit
     places = np.stack(np.meshgrid(np.linspace(left, right, ACROSS), np.linspace(bottom, top, UP)), axis=-1)
-    found = painted(ground, places.reshape(-1, 2), page.background).round(3)
+    found = painted(page.items, places.reshape(-1, 2), page.background).round(3)
     colors, counts = np.unique(found, axis=0, return_counts=True)
     if counts.max() < MOST * len(found):
         return replace(label, halo_color=(*away_from(label.color), VEIL))
