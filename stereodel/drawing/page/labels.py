@@ -166,19 +166,21 @@ def placed_apart(
     scale = points_per_unit
     boxes = np.array([label_box(label, scale) for label in before]).reshape(-1, 2, 2)
     marks = np.zeros((0, 2)) if dots is None else scale * dots
+
+    def covered(label: Label) -> int:
+        low, high = label_box(label, scale)
+        return int(((marks > low) & (marks < high)).all(axis=1).sum())
+
     placed = []
     for label in labels:
-        found = [
-            (covered, side, candidate, box)
-            for side, candidate in enumerate(on_its_sides(label, distance))
-            for box in [label_box(candidate, scale)]
-            if in_disc(candidate, center, radius, scale) and not meets(claimed(candidate, scale), boxes)
-            for covered in [int(((marks > box[0]) & (marks < box[1])).all(axis=1).sum())]
+        free = [
+            side
+            for side in on_its_sides(label, distance)
+            if in_disc(side, center, radius, scale) and not meets(claimed(side, scale), boxes)
         ]
-        if found:
-            _, _, best, box = min(found, key=lambda choice: choice[:2])
-            placed.append(best)
-            boxes = np.concatenate([boxes, box[None]])
+        if free:
+            placed.append(min(free, key=covered))
+            boxes = np.concatenate([boxes, label_box(placed[-1], scale)[None]])
     return placed
 
 
