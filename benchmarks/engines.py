@@ -8,8 +8,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from stereodel.drawing.colors import Color
-from stereodel.drawing.style import BLACK, BLUE, GRAY, GREEN, ORANGE, SKY, VERMILION
+from stereodel.drawing.page.colors import Color
+from stereodel.drawing.page.style import BLACK, BLUE, GRAY, GREEN, ORANGE, SKY, VERMILION
 
 HERE = Path(__file__).resolve().parent
 PEERS = HERE / ".peers"

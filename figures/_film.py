@@ -6,7 +6,7 @@ from typing import TypeVar
 import numpy as np
 
 from stereodel.drawing import LineStyle, Page, Sketch
-from stereodel.drawing.style import BLACK, DARK_GRAY, with_opacity
+from stereodel.drawing.page.style import BLACK, DARK_GRAY, with_opacity
 from stereodel.film.shots import eased
 
 T = TypeVar("T")

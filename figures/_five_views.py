@@ -7,9 +7,9 @@ from _arcs import from_rows, to_rows
 
 from stereodel import fisheye
 from stereodel.drawing import CircleArc, Graticule, Label, LineStyle, Page, Scene, Solid, View
-from stereodel.drawing.graticule import WIDTHS_APART
 from stereodel.drawing.page import Item
-from stereodel.drawing.style import DARK_GRAY, LINES
+from stereodel.drawing.page.style import DARK_GRAY, LINES
+from stereodel.drawing.scene.graticule import WIDTHS_APART
 from stereodel.sphere import SphereArc, graticule, graticule_patch
 
 FOCUS = (0.0, 40.0)  # degrees

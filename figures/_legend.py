@@ -3,8 +3,8 @@
 from collections.abc import Mapping
 
 from stereodel.drawing import DotStyle, LineStyle, Page, with_legend
-from stereodel.drawing.colors import Color
-from stereodel.drawing.style import LINES
+from stereodel.drawing.page.colors import Color
+from stereodel.drawing.page.style import LINES
 
 PAGE_WIDTH = 340.0  # points
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from stereodel import PlanarDelaunay, SphericalDelaunay
 from stereodel.drawing import LineStyle, Sketch
-from stereodel.drawing.style import BLACK, with_opacity
+from stereodel.drawing.page.style import BLACK, with_opacity
 from stereodel.interpolation import LinearInterpolator
 
 Network = PlanarDelaunay | SphericalDelaunay

@@ -20,8 +20,8 @@ from fig12_fisheye20 import PANELS as FIGURE_12
 
 from stereodel import fisheye
 from stereodel.drawing import Graticule, LineStyle, Page, Scene, Sketch, View
-from stereodel.drawing.graticule import WIDTHS_APART
-from stereodel.drawing.style import line
+from stereodel.drawing.page.style import line
+from stereodel.drawing.scene.graticule import WIDTHS_APART
 from stereodel.film import Film
 from stereodel.film.shots import eased
 from stereodel.sphere import SphereArc, graticule_patch

@@ -18,7 +18,7 @@ from _film import WIDTH, add_gauge, timed, whole
 from stereodel.curves.chart import Chart
 from stereodel.drawing import LineStyle, Page, Sketch
 from stereodel.drawing.page import Item, Label
-from stereodel.drawing.style import HALO, with_opacity
+from stereodel.drawing.page.style import HALO, with_opacity
 from stereodel.film import Film, Flight, Stop
 from stereodel.film.shots import Shot, eased
 from stereodel.globe import Globe

@@ -17,7 +17,7 @@ from _sites import on_sphere
 
 from stereodel import HullInsertion
 from stereodel.drawing import Page, Scene, Sketch, View
-from stereodel.drawing.style import fainter, fill
+from stereodel.drawing.page.style import fainter, fill
 from stereodel.film import Film
 
 SITES, SEED = 28, 5

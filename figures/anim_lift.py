@@ -17,7 +17,7 @@ from _rectangle import CORNERS, lift, lifted_sides, sites
 from stereodel import PlanarDelaunay, Stereographic
 from stereodel.drawing import Page, Scene, Sketch, View
 from stereodel.drawing.page import Fill, Item
-from stereodel.drawing.style import with_opacity
+from stereodel.drawing.page.style import with_opacity
 from stereodel.film import Film
 
 VIEW = View(0, -52)

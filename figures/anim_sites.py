@@ -18,7 +18,7 @@ from _sites import on_sphere
 
 from stereodel import SphericalDelaunay, lonlat_to_xyz
 from stereodel.drawing import CircleArc, DotStyle, LineStyle, Page, Scene, Sketch, View
-from stereodel.drawing.style import BLACK, BLUE, DOTS, FILLS, SKY, VERMILION, fainter, line, with_opacity
+from stereodel.drawing.page.style import BLACK, BLUE, DOTS, FILLS, SKY, VERMILION, fainter, line, with_opacity
 from stereodel.film import Film
 from stereodel.sphere import SphereCircle
 

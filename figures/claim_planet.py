@@ -19,7 +19,7 @@ from _terrain import COAST, CONTOUR, EDGE, add_facets, brightness, cut_at_sea, k
 
 from stereodel import SphericalDelaunay
 from stereodel.drawing import CircleArc, Page, Scene, Sketch, View
-from stereodel.drawing.style import PRINT_WIDTH
+from stereodel.drawing.page.style import PRINT_WIDTH
 from stereodel.interpolation import contours
 from stereodel.render import Figure
 

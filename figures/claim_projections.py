@@ -19,7 +19,7 @@ from _sites import spread
 
 from stereodel import Gnomonic, Orthographic, PlanarDelaunay, SphereCircle, SphericalDelaunay, Stereographic
 from stereodel.drawing import LineStyle, Page, Polylines, Sketch
-from stereodel.drawing.style import BLACK, BLUE, GRAY, PRINT_WIDTH, VERMILION, DotStyle, with_opacity
+from stereodel.drawing.page.style import BLACK, BLUE, GRAY, PRINT_WIDTH, VERMILION, DotStyle, with_opacity
 from stereodel.render import Figure
 from stereodel.sphere import lonlat_to_xyz, xyz_to_lonlat
 

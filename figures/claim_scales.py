@@ -21,7 +21,7 @@ from _rectangle import HEIGHT, WIDTH, lift
 
 from stereodel import RectangleLift, SphereCircle, bubble_to_bubble
 from stereodel.drawing import LineStyle, Page, Sketch
-from stereodel.drawing.style import BLUE, DARK_GRAY, PRINT_WIDTH, VERMILION, DotStyle, with_opacity
+from stereodel.drawing.page.style import BLUE, DARK_GRAY, PRINT_WIDTH, VERMILION, DotStyle, with_opacity
 from stereodel.interpolation import contours
 from stereodel.render import Figure
 

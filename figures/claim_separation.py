@@ -21,7 +21,7 @@ from _rectangle import HEIGHT, WIDTH, lift
 
 from stereodel import RectangleLift
 from stereodel.drawing import LineStyle, Page, Sketch
-from stereodel.drawing.style import BLACK, BLUE, DARK_GRAY, PRINT_WIDTH, VERMILION, DotStyle, with_opacity
+from stereodel.drawing.page.style import BLACK, BLUE, DARK_GRAY, PRINT_WIDTH, VERMILION, DotStyle, with_opacity
 from stereodel.render import Figure
 from stereodel.sphere import angular_distance
 

@@ -19,7 +19,7 @@ from _terrain import COAST, CONTOUR, add_facets, brightness, keep_points, relief
 
 from stereodel import PlanarDelaunay
 from stereodel.drawing import LineStyle, Page, Sketch
-from stereodel.drawing.style import PRINT_WIDTH
+from stereodel.drawing.page.style import PRINT_WIDTH
 from stereodel.interpolation import contours
 from stereodel.render import Figure
 

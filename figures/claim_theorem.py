@@ -18,8 +18,8 @@ from _sites import in_rectangle
 
 from stereodel import PlanarDelaunay, SphereCircle, SphericalDelaunay, Stereographic
 from stereodel.drawing import Fill, LineStyle, Page, Scene, Sketch, View, with_legend
-from stereodel.drawing.sketch import arc_path
-from stereodel.drawing.style import BLUE, GRAY, PRINT_WIDTH, VERMILION, with_opacity
+from stereodel.drawing.page.style import BLUE, GRAY, PRINT_WIDTH, VERMILION, with_opacity
+from stereodel.drawing.scene.sketch import arc_path
 from stereodel.render import Figure
 from stereodel.triangulation import planar_part
 

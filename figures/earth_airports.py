@@ -13,7 +13,7 @@ from _poster import LATITUDE, captioned, even_ends, spaced, with_legend
 
 from stereodel import SphericalVoronoi, data, earth, lonlat_to_xyz
 from stereodel.drawing import ColorScale, Page, View
-from stereodel.drawing.style import BLACK, WHITE, DotStyle, LineStyle, with_opacity
+from stereodel.drawing.page.style import BLACK, WHITE, DotStyle, LineStyle, with_opacity
 from stereodel.globe import Globe
 from stereodel.render import Figure
 

@@ -14,7 +14,7 @@ from _poster import LATITUDE, captioned, spaced, with_legend
 
 from stereodel import SphericalVoronoi, data, earth
 from stereodel.drawing import ColorScale, Page, View
-from stereodel.drawing.style import LineStyle
+from stereodel.drawing.page.style import LineStyle
 from stereodel.globe import Globe
 from stereodel.render import Figure
 

@@ -21,7 +21,7 @@ import numpy as np
 
 from stereodel import SphereCircle, SphericalDelaunay, data, lonlat_to_xyz
 from stereodel.drawing import Page, View, with_legend
-from stereodel.drawing.style import BLUE, DARK_GRAY, ORANGE, VERMILION, DotStyle, LineStyle, with_opacity
+from stereodel.drawing.page.style import BLUE, DARK_GRAY, ORANGE, VERMILION, DotStyle, LineStyle, with_opacity
 from stereodel.globe import Globe, Panel, panels
 from stereodel.render import Figure
 from stereodel.sphere import SphereArc, xyz_to_lonlat

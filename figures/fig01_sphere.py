@@ -16,7 +16,7 @@ from _sites import on_sphere
 
 from stereodel import SphereCircle, SphericalDelaunay, SphericalVoronoi, lonlat_to_xyz
 from stereodel.drawing import LineStyle, Page, Scene, Solid, View
-from stereodel.drawing.style import DOTS, FILLS, GRAY, LINES
+from stereodel.drawing.page.style import DOTS, FILLS, GRAY, LINES
 from stereodel.render import Figure
 
 SITES, SEED = 60, 52

@@ -15,8 +15,8 @@ import numpy as np
 from stereodel import SphereCircle, lonlat_to_xyz
 from stereodel.drawing import Page, Scene, Sketch, Solid, View
 from stereodel.drawing.page import Beziers, Fill
-from stereodel.drawing.sketch import arc_path
-from stereodel.drawing.style import FILLS, LINES
+from stereodel.drawing.page.style import FILLS, LINES
+from stereodel.drawing.scene.sketch import arc_path
 from stereodel.render import Figure
 
 CENTER, RADIUS = (30.0, 32.0), 42.0  # degrees

@@ -13,7 +13,7 @@ import numpy as np
 
 from stereodel import lonlat_to_xyz
 from stereodel.drawing import Layer, LineStyle, Page, Scene, Sketch, Solid, View
-from stereodel.drawing.style import LINES, MAP_LINES, VERMILION
+from stereodel.drawing.page.style import LINES, MAP_LINES, VERMILION
 from stereodel.render import Figure
 from stereodel.sphere import graticule
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from stereodel import SphereCircle, Stereographic, lonlat_to_xyz
 from stereodel.drawing import CircleArc, Page, Scene, Segment, Sketch, Solid, View
-from stereodel.drawing.style import LINES
+from stereodel.drawing.page.style import LINES
 from stereodel.render import Figure
 
 PANELS = {  # tangent point; centre and angular radius of the circle; directions of its points, all in degrees

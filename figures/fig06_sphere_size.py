@@ -13,8 +13,8 @@ import numpy as np
 
 from stereodel import Stereographic
 from stereodel.drawing import Page, Sketch
-from stereodel.drawing.colors import as_color
-from stereodel.drawing.style import BLUE, VERMILION, line
+from stereodel.drawing.page.colors import as_color
+from stereodel.drawing.page.style import BLUE, VERMILION, line
 from stereodel.render import Figure
 from stereodel.sphere import angular_distance
 

@@ -17,7 +17,7 @@ from _rectangle import CORNERS, HEIGHT, WIDTH, lift, sites
 
 from stereodel import PlanarDelaunay, PlanarVoronoi
 from stereodel.drawing import Page, Sketch
-from stereodel.drawing.style import LINES, VERMILION
+from stereodel.drawing.page.style import LINES, VERMILION
 from stereodel.render import Figure
 
 MARGIN = 0.05

@@ -16,7 +16,7 @@ from _rectangle import CORNERS, lift, lifted_sides, sites
 
 from stereodel import PlanarDelaunay, SphericalVoronoi
 from stereodel.drawing import Page, Scene, Solid, View
-from stereodel.drawing.style import DOTS, LINES
+from stereodel.drawing.page.style import DOTS, LINES
 from stereodel.render import Figure
 from stereodel.sphere import SphereCircle
 

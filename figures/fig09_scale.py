@@ -14,7 +14,7 @@ from _chart import fraction
 
 from stereodel import RectangleLift, lonlat_to_xyz
 from stereodel.drawing import Page, Sketch
-from stereodel.drawing.style import line
+from stereodel.drawing.page.style import line
 from stereodel.render import Figure
 
 RADIUS = 1.0

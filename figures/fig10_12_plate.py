@@ -18,7 +18,7 @@ from fig12_fisheye20 import PANELS as TWENTY
 
 from stereodel import lonlat_to_xyz
 from stereodel.drawing import Dots, Page
-from stereodel.drawing.style import DOTS
+from stereodel.drawing.page.style import DOTS
 from stereodel.render import Figure
 
 ROWS = (EARTH, FOUR, TWENTY)

@@ -14,7 +14,7 @@ import numpy as np
 
 from stereodel import Stereographic
 from stereodel.drawing import Page, Sketch
-from stereodel.drawing.style import BLACK, BLUE, VERMILION, LineStyle, line
+from stereodel.drawing.page.style import BLACK, BLUE, VERMILION, LineStyle, line
 from stereodel.render import Figure
 from stereodel.sphere import angular_distance
 

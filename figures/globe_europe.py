@@ -13,7 +13,7 @@ from _poster import LATITUDE, captioned, in_words, on_scale, with_legend
 
 from stereodel import SphericalVoronoi, data, earth, fisheye
 from stereodel.drawing import ColorScale, Page
-from stereodel.drawing.style import BLACK, WHITE, DotStyle, LineStyle, with_opacity
+from stereodel.drawing.page.style import BLACK, WHITE, DotStyle, LineStyle, with_opacity
 from stereodel.globe import Globe
 from stereodel.render import Figure
 

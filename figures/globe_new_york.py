@@ -17,9 +17,9 @@ from _poster import captioned
 
 from stereodel import MoebiusMap, SphereCircle, bubble_to_bubble, data, earth, lonlat_to_xyz
 from stereodel.drawing import Dots, Label, Page, Stroke, View
-from stereodel.drawing.ground import haloed
 from stereodel.drawing.page import Item
-from stereodel.drawing.style import BLACK, DARK_GRAY, VERMILION, WHITE, DotStyle
+from stereodel.drawing.page.labels import haloed
+from stereodel.drawing.page.style import BLACK, DARK_GRAY, VERMILION, WHITE, DotStyle
 from stereodel.globe import Globe, Panel, hemispheres, panels
 from stereodel.render import Figure
 

@@ -14,7 +14,7 @@ from _poster import in_words
 
 from stereodel import MoebiusMap, earth, fisheye
 from stereodel.drawing import Label, Page, Stroke
-from stereodel.drawing.style import DotStyle, LineStyle, with_opacity
+from stereodel.drawing.page.style import DotStyle, LineStyle, with_opacity
 from stereodel.globe import Globe
 from stereodel.render import Figure
 

@@ -14,7 +14,7 @@ from _poster import captioned, in_words
 
 from stereodel import earth, fisheye
 from stereodel.drawing import Page, View
-from stereodel.drawing.style import BLACK
+from stereodel.drawing.page.style import BLACK
 from stereodel.globe import Globe, Panel, panels
 from stereodel.render import Figure
 

@@ -16,7 +16,7 @@ from _poster import captioned, spaced, with_legend
 
 from stereodel import SphericalVoronoi, data, lonlat_to_xyz
 from stereodel.drawing import ColorScale, Page, View
-from stereodel.drawing.style import DotStyle, LineStyle, with_opacity
+from stereodel.drawing.page.style import DotStyle, LineStyle, with_opacity
 from stereodel.globe import Globe
 from stereodel.render import Figure
 

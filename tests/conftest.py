@@ -31,7 +31,7 @@ def patience():
 @pytest.fixture
 def no_other_fonts(monkeypatch):
     """As if the machine had no fonts but those that matplotlib ships."""
-    from stereodel.drawing import fonts
+    from stereodel.drawing.page import fonts
 
     monkeypatch.setattr(fonts, "_others", list)
     for kept in (fonts._families, fonts._supplements):

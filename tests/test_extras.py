@@ -51,7 +51,7 @@ DOORS = {
     "import stereodel.spatial; stereodel.spatial.Delaunay(POINTS[:, :2])": ["scipy"],
     # Pictures
     "from stereodel.drawing import ColorScale; ColorScale('viridis', 0, 1)": ["draw"],
-    "from stereodel.drawing.label import label_box; label_box(picture().labels[0], 1.0)": ["draw"],
+    "from stereodel.drawing.page.labels import label_box; label_box(picture().labels[0], 1.0)": ["draw"],
     "picture().save('page.svg')": ["draw"],
     "picture().save('page.pdf')": ["draw"],
     "picture().save('page.png', size=100, renderer='agg')": ["draw"],

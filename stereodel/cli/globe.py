@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from stereodel._arrays import FloatArray
     from stereodel.cli.sources import Table
     from stereodel.conformal import MoebiusMap
-    from stereodel.drawing.view import MapView
+    from stereodel.drawing.scene.view import MapView
     from stereodel.film.shots import Motion
     from stereodel.globe import Globe
 
@@ -287,9 +287,9 @@ class LayerChoice:
 
     def arguments(self) -> dict[str, Any]:
         """Arguments for `Globe.add_layer`."""
-        from stereodel.drawing.colors import as_color
-        from stereodel.drawing.lengths import as_length
-        from stereodel.drawing.style import MAP_DOT, MAP_LINES, DotStyle, LineStyle
+        from stereodel.drawing.page.colors import as_color
+        from stereodel.drawing.page.lengths import as_length
+        from stereodel.drawing.page.style import MAP_DOT, MAP_LINES, DotStyle, LineStyle
 
         looks, line, rim = self.looks, MAP_LINES["line"], MAP_LINES["outline"]
         color = as_color(looks["color"], "--layer: color") if "color" in looks else None
@@ -312,7 +312,7 @@ def add_points(globe: Globe, table: Table, shown: frozenset[str], labels: str | 
     import numpy as np
 
     from stereodel import SphericalDelaunay, SphericalVoronoi
-    from stereodel.drawing.style import DOTS, LINES
+    from stereodel.drawing.page.style import DOTS, LINES
 
     places = table.points(options.Latitude.authalic)
     weight = max(FINEST, min(1.0, float(np.sqrt(CROWDED / max(1, len(places))))))

@@ -19,17 +19,17 @@ from stereodel._files import replacing
 from stereodel._tasks.crew import Crew, main_script_here
 from stereodel._tasks.progress import Progress, reporting
 from stereodel.constants import MOST_FRAME_PIXELS, MOST_FRAMES
-from stereodel.drawing.colors import ColorLike, as_color
-from stereodel.drawing.fonts import MissingCharactersWarning, missing_characters, warn_of_missing
 from stereodel.drawing.page import Page
-from stereodel.drawing.sheets import Style, StyledDraw
-from stereodel.drawing.style import WHITE
+from stereodel.drawing.page.colors import ColorLike, as_color
+from stereodel.drawing.page.fonts import MissingCharactersWarning, missing_characters, warn_of_missing
+from stereodel.drawing.page.lengths import LARGEST_SIZE, pixel_height
+from stereodel.drawing.page.sheets import Style, StyledDraw
+from stereodel.drawing.page.style import WHITE
 from stereodel.film.frames import KeptFrames, frame_names, store_frame
 from stereodel.film.shots import GlobePages, Motion, Samples, Shot
 from stereodel.film.writers import Reel, format_of, frame_seconds
 from stereodel.globe.globe import Globe
 from stereodel.render.figure import run_script
-from stereodel.render.sizes import LARGEST_SIZE, pixel_height
 
 T = TypeVar("T")
 

@@ -25,15 +25,14 @@ from stereodel._arrays import (
 from stereodel._extras import of_extra
 from stereodel.conformal import MoebiusMap
 from stereodel.curves.chart import Chart
-from stereodel.drawing.colors import ColorLike, as_color, as_colors
-from stereodel.drawing.fonts import FontLike, as_font
-from stereodel.drawing.label import placed_label
-from stereodel.drawing.legend import LegendEntry, with_legend
-from stereodel.drawing.lengths import LengthLike, as_length
 from stereodel.drawing.page import Item, Label, Page, picture_extra
-from stereodel.drawing.scales import ColorScale, category_colors, usual_scale
-from stereodel.drawing.sheets import Style, styled
-from stereodel.drawing.style import (
+from stereodel.drawing.page.colors import ColorLike, as_color, as_colors
+from stereodel.drawing.page.fonts import FontLike, as_font
+from stereodel.drawing.page.labels import placed_label, with_title
+from stereodel.drawing.page.lengths import LARGEST_SIZE, LengthLike, as_length
+from stereodel.drawing.page.scales import ColorScale, category_colors, usual_scale
+from stereodel.drawing.page.sheets import Style, styled
+from stereodel.drawing.page.style import (
     BLACK,
     HALO,
     LABEL_SIZE,
@@ -45,8 +44,8 @@ from stereodel.drawing.style import (
     DotStyle,
     LineStyle,
 )
-from stereodel.drawing.title import with_title
-from stereodel.drawing.view import MapView
+from stereodel.drawing.scene.legend import LegendEntry, with_legend
+from stereodel.drawing.scene.view import MapView
 from stereodel.globe import features
 from stereodel.globe.layers import Areas, GridLines, Ground, Image, Lines, MapLayer, Names, Points, Rim
 from stereodel.globe.lines import SphereLines
@@ -55,7 +54,6 @@ from stereodel.globe.raster import Raster
 from stereodel.globe.regions import Rings, SphereRegions
 from stereodel.io.reading import shapes_of
 from stereodel.io.shapes import Shapes
-from stereodel.render.sizes import LARGEST_SIZE
 from stereodel.sphere import SphereCircle, lonlat_to_xyz
 from stereodel.sphere.latitudes import KINDS, Latitude
 from stereodel.sphere.vectors import units
@@ -85,7 +83,7 @@ class Globe:
         Style of the edge of the globe.
     font : str, path-like, or sequence of them, optional
         Font families or font files; by default STIX, a serif. Fonts of the system supply characters that these lack;
-        see `stereodel.drawing.fonts.as_font`.
+        see `stereodel.drawing.page.fonts.as_font`.
     title : str
         Title above pictures, in matplotlib's mathtext.
 
@@ -271,7 +269,7 @@ class Globe:
         With `rank`, numbers (n,), labels with larger numbers have priority. A label that would overlap one of higher
         priority is left out, and so is one whose place is not visible; a label that would leave the disc moves to
         another side of its place with room. A `movable` label may be on any side of its place where there is room,
-        at the distance given by `offset`; see `stereodel.drawing.label_placement`. Without `halo_color`, halos have the
+        at the distance given by `offset`; see `stereodel.drawing.page.labels`. Without `halo_color`, halos have the
         colour of the ground below the words, at 80 % opacity; where it has several, they are a veil of white or black.
 
         Labels may be in any script, see `Globe` on fonts; `font` replaces the globe's. With `formulas`, text between

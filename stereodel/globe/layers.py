@@ -10,14 +10,13 @@ import numpy as np
 
 from stereodel._arrays import FloatArray
 from stereodel.curves.chart import Chart
-from stereodel.drawing.colors import Color
-from stereodel.drawing.graticule import LEAST_APART, WIDTHS_APART, Graticule, usual_spacing
-from stereodel.drawing.label import within_disc
-from stereodel.drawing.label_placement import placed_apart
 from stereodel.drawing.page import Ball, Beziers, Dots, Fill, Item, Label, Picture, Polygons, Polylines, Stroke
-from stereodel.drawing.space_curves import page_path
-from stereodel.drawing.style import DotStyle, LineStyle
-from stereodel.drawing.visibility import limb
+from stereodel.drawing.page.colors import Color
+from stereodel.drawing.page.labels import placed_apart, within_disc
+from stereodel.drawing.page.style import DotStyle, LineStyle
+from stereodel.drawing.scene.graticule import LEAST_APART, WIDTHS_APART, Graticule, usual_spacing
+from stereodel.drawing.scene.space_curves import page_path
+from stereodel.drawing.scene.visibility import limb
 from stereodel.globe.lines import SphereLines
 from stereodel.globe.raster import Raster, RasterOnDisc
 from stereodel.globe.regions import SphereRegions

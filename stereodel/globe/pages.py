@@ -9,12 +9,11 @@ from typing import Protocol
 from stereodel._arrays import as_count, as_scalar
 from stereodel.conformal import MoebiusMap
 from stereodel.curves.chart import Chart
-from stereodel.drawing.fonts import FontLike, as_font, in_font
-from stereodel.drawing.ground import haloed
-from stereodel.drawing.label import with_room
 from stereodel.drawing.page import Item, Label, Page
-from stereodel.drawing.style import BLACK, PRINT_WIDTH
-from stereodel.drawing.view import MapView, StereographicView, View
+from stereodel.drawing.page.fonts import FontLike, as_font, in_font
+from stereodel.drawing.page.labels import haloed, with_room
+from stereodel.drawing.page.style import BLACK, PRINT_WIDTH
+from stereodel.drawing.scene.view import MapView, StereographicView, View
 from stereodel.sphere import xyz_to_lonlat
 
 MARGIN = 0.03
@@ -97,7 +96,7 @@ def panels(
     tolerance : float
         Largest deviation of the drawing from the exact image, in points.
     font : str, path-like, or sequence of them, optional
-        Font of titles, and of labels of globes without a font of their own; see `stereodel.drawing.fonts.as_font`.
+        Font of titles, and of labels of globes without a font of their own; see `stereodel.drawing.page.fonts.as_font`.
 
     Raises
     ------

@@ -28,7 +28,7 @@ from stereodel._threads import thread_count
 from stereodel.conformal import MoebiusMap
 from stereodel.constants import MOST_PIXELS_ACROSS, MOST_TEXELS
 from stereodel.curves.chart import ChartView
-from stereodel.drawing.view import MapView, View
+from stereodel.drawing.scene.view import MapView, View
 from stereodel.globe.images import read_photo
 from stereodel.sphere import lonlat_to_xyz, xyz_to_lonlat
 from stereodel.sphere.latitudes import KINDS, Latitude

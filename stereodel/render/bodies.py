@@ -9,8 +9,8 @@ from typing import Final
 import numpy as np
 
 from stereodel._arrays import FloatArray
-from stereodel.drawing.colors import Color
-from stereodel.drawing.scene_items import (
+from stereodel.drawing.page.colors import Color
+from stereodel.drawing.scene.scene_items import (
     Layer,
     Layout,
     SceneBall,
@@ -21,8 +21,8 @@ from stereodel.drawing.scene_items import (
     SceneRegion,
     SceneSheet,
 )
-from stereodel.drawing.solid import PlacedScene
-from stereodel.drawing.visibility import lies_on_ball
+from stereodel.drawing.scene.solid import PlacedScene
+from stereodel.drawing.scene.visibility import lies_on_ball
 from stereodel.render.surfaces import (
     CURVE_ERROR,
     DOT_LEVEL,

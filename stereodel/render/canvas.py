@@ -12,11 +12,11 @@ import numpy as np
 from stereodel._arrays import FloatArray
 from stereodel._extras import of_extra
 from stereodel.constants import PIXEL_ROUNDING
-from stereodel.drawing.fonts import font_properties, quiet_fonts
 from stereodel.drawing.page import Beziers, Fill, Label, Page
-from stereodel.drawing.style import TYPE
+from stereodel.drawing.page.fonts import families_of, font_properties, quiet_fonts
+from stereodel.drawing.page.lengths import pixel_height
+from stereodel.drawing.page.style import TYPE
 from stereodel.render.shapes import Drawn, Filled, Outline, Shape, Shown, shapes
-from stereodel.render.sizes import pixel_height
 
 with of_extra("draw"):
     import matplotlib as mpl
@@ -125,7 +125,7 @@ def _draw_label(axes: Axes, label: Label) -> None:
         *label.anchor,
         label.text,
         transform=axes.transData + shift,
-        fontproperties=font_properties(label),
+        fontproperties=font_properties(families_of(label), label.size),
         parse_math=label.formulas,
         color=label.color,
         ha=label.align,

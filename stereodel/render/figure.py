@@ -20,12 +20,12 @@ import numpy as np
 
 from stereodel._arrays import Pixels, as_choice
 from stereodel._extras import of_extra
-from stereodel.drawing.label import label_box
 from stereodel.drawing.page import Fill, Label, Page, picture_extra
-from stereodel.drawing.sheets import Style, StyledDraw, as_styles
-from stereodel.drawing.solid import Solid
-from stereodel.drawing.style import BLACK, LABEL_SIZE, WHITE
-from stereodel.render.sizes import LARGEST_SIZE
+from stereodel.drawing.page.labels import label_box
+from stereodel.drawing.page.lengths import LARGEST_SIZE
+from stereodel.drawing.page.sheets import Style, StyledDraw, as_styles
+from stereodel.drawing.page.style import BLACK, LABEL_SIZE, WHITE
+from stereodel.drawing.scene.solid import Solid
 
 TITLE_SIZE: Final = 11.0
 """Type size of the title in points."""

@@ -34,7 +34,7 @@ import numpy as np
 
 from stereodel._arrays import FloatArray, IntArray, Pixels
 from stereodel._extras import MissingExtraError
-from stereodel.drawing.colors import Color
+from stereodel.drawing.page.colors import Color
 from stereodel.render import trial
 from stereodel.render.mends import import_pyrender, mend_offscreen
 from stereodel.render.pieces import Triangles, Window

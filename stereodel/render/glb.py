@@ -12,10 +12,10 @@ import numpy as np
 
 from stereodel._arrays import FloatArray
 from stereodel._extras import of_extra
-from stereodel.drawing import colorimetry
-from stereodel.drawing.colors import Color
-from stereodel.drawing.scene_items import Layer
-from stereodel.drawing.solid import PlacedScene, Solid
+from stereodel.drawing.page import colorimetry
+from stereodel.drawing.page.colors import Color
+from stereodel.drawing.scene.scene_items import Layer
+from stereodel.drawing.scene.solid import PlacedScene, Solid
 from stereodel.render.bodies import ROUGHNESS, Body, bodies_of, marks_of
 
 CAMERA: Final = "page"

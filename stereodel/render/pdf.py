@@ -16,9 +16,9 @@ from typing import Final
 import numpy as np
 
 from stereodel._arrays import FloatArray, Pixels
-from stereodel.drawing.colors import Color
 from stereodel.drawing.page import Ball, Label, Page
-from stereodel.drawing.style import PRINT_DPI
+from stereodel.drawing.page.colors import Color
+from stereodel.drawing.page.style import PRINT_DPI
 from stereodel.render.light import ball_gradient
 from stereodel.render.paper import Paper, commands, exact, number, numbers
 from stereodel.render.shapes import CLOSE, CURVE, LINE, MOVE, Drawn, Filled, Outline, Shape, Shown, shapes

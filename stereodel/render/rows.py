@@ -22,11 +22,11 @@ import numpy.typing as npt
 
 from stereodel._arrays import Pixels, as_choice
 from stereodel._extras import of_extra
-from stereodel.drawing.colors import Color
 from stereodel.drawing.page import Page
+from stereodel.drawing.page.colors import Color
+from stereodel.drawing.page.lengths import pixel_height
 from stereodel.render import gl
 from stereodel.render.canvas import drawn, matplotlib_settings, pixel_grid
-from stereodel.render.sizes import pixel_height
 from stereodel.render.triangles import triangulate
 
 with of_extra("draw"):

@@ -7,7 +7,7 @@ labelled and written a few rows at a time and memory does not grow with the squa
 from the page itself, except regions in very many colours, which they hold as images. They have the page's size and
 contain no date, version or random identifier: the same page always gives the same bytes.
 
-`stereodel.drawing.Page` imports this module when it is saved or drawn.
+`stereodel.drawing.Page` loads this module when it is saved or drawn, which enters its functions in `OUTPUTS`.
 """
 
 from __future__ import annotations
@@ -22,13 +22,14 @@ import numpy as np
 
 from stereodel._arrays import Pixels
 from stereodel._files import replacing
-from stereodel.drawing.fonts import missing_characters, warn_of_missing
 from stereodel.drawing.page import Page
+from stereodel.drawing.page.fonts import missing_characters, warn_of_missing
+from stereodel.drawing.page.lengths import as_width, pixel_height, print_pixels
+from stereodel.drawing.page.page import OUTPUTS
 from stereodel.render.gl import OpenGLError
 from stereodel.render.pdf import pdf
 from stereodel.render.png import png_chunks
 from stereodel.render.rows import PixelDigest, Renderer, bare_rows, labelled
-from stereodel.render.sizes import as_width, pixel_height, print_pixels
 from stereodel.render.svg import svg
 
 ENDINGS: Final = (".png", ".svg", ".pdf")
@@ -154,3 +155,6 @@ def save_vector(page: Page, path: str | os.PathLike[str], *, pictures: Sequence[
     with replacing(target) as temporary:
         temporary.write_bytes(data)
     return target
+
+
+OUTPUTS.update(save_page=save_page, draw_page=draw_page)

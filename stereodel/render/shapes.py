@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import groupby
-from typing import Any, Final, Literal
+from typing import Final, Literal, assert_never
 
 import numpy as np
 
@@ -17,8 +17,8 @@ from stereodel._arrays import Bytes, FloatArray, Pixels
 from stereodel.constants import FINEST_PLACE, FINEST_POINTS, PIXEL_ROUNDING
 from stereodel.curves.fill import union
 from stereodel.curves.ragged import Ragged, thinned
-from stereodel.drawing.colors import Color
-from stereodel.drawing.page import Ball, Beziers, Dots, Fill, Item, Page, Picture, Polygons, Polylines, Stroke
+from stereodel.drawing.page import Ball, Beziers, Dots, Fill, Label, Page, Picture, Polygons, Polylines, Stroke
+from stereodel.drawing.page.colors import Color
 
 CIRCLE_KAPPA: Final = 4 / 3 * np.tan(np.pi / 16)
 """Distance of the control points of a circle drawn as eight cubics, in radii."""
@@ -106,7 +106,7 @@ def shapes(page: Page, dpi: float, pictures: Sequence[Pixels] = ()) -> Iterator[
             f"pictures has {len(pictures)} entries, but {count} items of the page have too many colours; give each one"
         )
     rest, scale = iter(pictures), page.points_per_unit
-    for _, group in groupby(page.without_labels().items, key=_style):
+    for _, group in groupby(page.without_labels().items, key=lambda item: item.alike):
         items = list(group)
         match items[0]:
             case Stroke() as first:
@@ -135,13 +135,10 @@ def shapes(page: Page, dpi: float, pictures: Sequence[Pixels] = ()) -> Iterator[
                 yield _painted(picture, page, dpi)
             case Dots() as dots:
                 yield from _dots(dots, scale)
-
-
-def _style(item: Item) -> tuple[Any, ...]:
-    """Key of items that can be drawn as one; transparent strokes stay separate, as overlaps are darker."""
-    if isinstance(item, Stroke) and item.color[3] == 1:
-        return (Stroke, item.color, item.width, item.dash, item.cap, item.name)
-    return (id(item),)
+            case Label():
+                pass  # set over everything else
+            case other:
+                assert_never(other)
 
 
 def has_length(stroke: Stroke, points_per_unit: float) -> bool:

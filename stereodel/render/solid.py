@@ -16,15 +16,16 @@ import numpy as np
 
 from stereodel._arrays import FloatArray, Pixels
 from stereodel._files import replacing
-from stereodel.drawing.colors import Color
-from stereodel.drawing.scene_items import Layer
-from stereodel.drawing.solid import Solid
+from stereodel.drawing.page.colors import Color
+from stereodel.drawing.page.lengths import as_width, pixel_height
+from stereodel.drawing.page.page import OUTPUTS
+from stereodel.drawing.scene.scene_items import Layer
+from stereodel.drawing.scene.solid import Solid
 from stereodel.render import gl
 from stereodel.render.bodies import ROUGHNESS
 from stereodel.render.glb import depths, glb_bytes, to_trimesh
 from stereodel.render.rows import SUPERSAMPLING, averaged, labelled, over_white
 from stereodel.render.save import write_png
-from stereodel.render.sizes import as_width, pixel_height
 
 __all__ = ["draw_solid", "save_solid", "to_trimesh"]
 
@@ -150,3 +151,6 @@ def _glass(mesh: Any, pose: FloatArray, opacity: float) -> FloatArray:
     normals = mesh.vertex_normals @ pose[:3, :3].T
     facing = np.abs(normals[:, 2]) / np.sqrt(np.sum(normals**2, axis=1))
     return np.asarray(opacity + (1 - opacity) * (1 - facing) ** GLASS_RIM)
+
+
+OUTPUTS.update(save_solid=save_solid, draw_solid=draw_solid, to_trimesh=to_trimesh)

@@ -14,8 +14,8 @@ import numpy as np
 
 from stereodel._arrays import AnyIndices, BoolArray, FloatArray, Indices
 from stereodel._extras import of_extra
-from stereodel.drawing.space_curves import CircleArc, Curve, Segment
-from stereodel.drawing.visibility import SphereRegion
+from stereodel.drawing.scene.space_curves import CircleArc, Curve, Segment
+from stereodel.drawing.scene.visibility import SphereRegion
 from stereodel.sphere.vectors import units
 from stereodel.triangulation import SphericalDelaunay
 

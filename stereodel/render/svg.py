@@ -19,9 +19,9 @@ import numpy as np
 
 from stereodel._arrays import Pixels
 from stereodel._extras import of_extra
-from stereodel.drawing.colors import Color
 from stereodel.drawing.page import Ball, Label, Page
-from stereodel.drawing.style import PRINT_DPI
+from stereodel.drawing.page.colors import Color
+from stereodel.drawing.page.style import PRINT_DPI
 from stereodel.render.light import ball_gradient
 from stereodel.render.paper import Paper, exact, number, numbers, runs
 from stereodel.render.shapes import CLOSE, LINE, MOVE, Discs, Drawn, Filled, Outline, Shape, Shown, shapes

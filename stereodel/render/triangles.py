@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import assert_never
 
 import numpy as np
 
@@ -18,19 +19,20 @@ from stereodel._arrays import BoolArray, FloatArray, Indices, Pixels
 from stereodel.constants import FLATNESS
 from stereodel.curves.fill import triangles
 from stereodel.curves.ragged import Ragged, spans
-from stereodel.drawing.colors import Color
 from stereodel.drawing.page import (
     Ball,
     Beziers,
     Dots,
     Fill,
     Item,
+    Label,
     Page,
     Picture,
     Polygons,
     Polylines,
     Stroke,
 )
+from stereodel.drawing.page.colors import Color
 from stereodel.render.pieces import Corners, Disc, Piece, Pieces, Window
 from stereodel.render.shapes import has_length
 
@@ -67,7 +69,10 @@ class _Canvas:
                 return self._dots(item)
             case Picture():
                 return [self._picture(item)]
-        return []
+            case Label():
+                return []  # set over everything else
+            case _:
+                assert_never(item)
 
     def _place(self, points: FloatArray) -> FloatArray:
         placed: FloatArray = (points - self.origin) * self.scale

@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from stereodel.drawing import style
-from stereodel.drawing.page import Ball, Dots, Fill, Label, Page, Picture, Polygons, Polylines, Stroke
+from stereodel.drawing.page import Ball, Dots, Fill, Label, Page, Picture, Polygons, Polylines, Stroke, style
 
 RED, BALL = (1.0, 0.0, 0.0, 1.0), Ball((0.0, 0.0), 1.0)
 LOOP = np.array([[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 0.0]]])

@@ -8,8 +8,8 @@ from matplotlib import colormaps
 from matplotlib.colors import to_rgba
 
 from stereodel.drawing import ColorScale, DotStyle, LineStyle, Page
-from stereodel.drawing.colors import as_color, as_colors
 from stereodel.drawing.page import Fill, Label, Stroke
+from stereodel.drawing.page.colors import as_color, as_colors
 
 shares = st.floats(0, 1)
 

@@ -15,8 +15,8 @@ from fontTools.pens.boundsPen import BoundsPen
 from fontTools.ttLib import TTFont
 
 from stereodel.drawing import Label, Page, Sketch, styled
-from stereodel.drawing.fonts import MissingCharactersWarning, as_font, families_of
-from stereodel.drawing.label import label_box
+from stereodel.drawing.page.fonts import MissingCharactersWarning, as_font, families_of
+from stereodel.drawing.page.labels import label_box
 from stereodel.globe import Globe
 from stereodel.globe.pages import Panel, panels
 from stereodel.render.type import lines_of
@@ -58,7 +58,7 @@ def test_each_character_has_the_first_font_that_has_it(text, font, families):
 
 def test_the_fonts_of_the_machine_stand_in(monkeypatch, no_other_fonts):
     assert families_of(Label("東京", (0.0, 0.0))) == [STIX]
-    from stereodel.drawing import fonts
+    from stereodel.drawing.page import fonts
 
     monkeypatch.setattr(fonts, "_others", lambda: ["DejaVu Serif", CJK])
     fonts._families.cache_clear()

@@ -9,7 +9,7 @@ from stereodel import MoebiusMap, fisheye, lonlat_to_xyz, xyz_to_lonlat
 from stereodel.constants import MOST_GRID_LINES
 from stereodel.curves.chart import Chart
 from stereodel.drawing import StereographicView, View
-from stereodel.drawing.graticule import Graticule, usual_spacing
+from stereodel.drawing.scene.graticule import Graticule, usual_spacing
 from stereodel.globe.lines import SphereLines
 from stereodel.sphere import graticule, graticule_patch
 from tests.tiers import by_day

@@ -18,7 +18,7 @@ from stereodel.drawing import (
     styled,
     with_legend,
 )
-from stereodel.drawing.legend import GAP, ROW, SAMPLE
+from stereodel.drawing.scene.legend import GAP, ROW, SAMPLE
 
 LINE, DASHES, DOT = LineStyle("red", 0.7), LineStyle("blue", 1.0, (3.0, 2.0)), DotStyle("green", 2.0, "black", 0.5)
 ENTRIES = {"lines": LINE, "dashes": DASHES, "dots": DOT, "tint": "orange", "more": LINE}

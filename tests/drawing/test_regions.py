@@ -6,9 +6,9 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from matplotlib.path import Path as Polygon
 
-from stereodel.drawing.space_curves import CircleArc
-from stereodel.drawing.view import View
-from stereodel.drawing.visibility import SphereRegion, limb, page_area
+from stereodel.drawing.scene.space_curves import CircleArc
+from stereodel.drawing.scene.view import View
+from stereodel.drawing.scene.visibility import SphereRegion, limb, page_area
 from stereodel.sphere import SphereCircle
 
 lonlats = st.tuples(st.floats(-180, 180), st.floats(-90, 90))

@@ -10,10 +10,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from stereodel.drawing import style, styled
-from stereodel.drawing.colorimetry import contrast, luminance, to_oklab, with_luminance
-from stereodel.drawing.lengths import as_length
-from stereodel.drawing.sheets import GROUND, StyledDraw, StyleSheet, dark_color, dark_page
+from stereodel.drawing import styled
+from stereodel.drawing.page import style
+from stereodel.drawing.page.colorimetry import contrast, luminance, to_oklab, with_luminance
+from stereodel.drawing.page.lengths import as_length
+from stereodel.drawing.page.sheets import GROUND, StyledDraw, StyleSheet, dark_color, dark_page
 from tests.drawing.pages import RED, page
 
 PAGE = (Path(__file__).parents[2] / "docs" / "drawing.md").read_text(encoding="utf-8")

@@ -5,8 +5,8 @@ import pytest
 
 from stereodel.drawing import Scene, Sketch, View
 from stereodel.drawing.page import Stroke
-from stereodel.drawing.sketch import GAP, HEAD, TICK, arc_path
-from stereodel.drawing.style import line
+from stereodel.drawing.page.style import line
+from stereodel.drawing.scene.sketch import GAP, HEAD, TICK, arc_path
 from tests.figures.scripts import path_points
 
 

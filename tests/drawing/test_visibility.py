@@ -7,9 +7,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from stereodel.constants import LIMB_DEPTH
-from stereodel.drawing.space_curves import CircleArc, Segment
-from stereodel.drawing.view import View
-from stereodel.drawing.visibility import Place, lies_on_ball, place_of, split_by_ball
+from stereodel.drawing.scene.space_curves import CircleArc, Segment
+from stereodel.drawing.scene.view import View
+from stereodel.drawing.scene.visibility import Place, lies_on_ball, place_of, split_by_ball
 from stereodel.sphere import SphereArc, SphereCircle
 
 from .test_space_curves import arcs, vectors

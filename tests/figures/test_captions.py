@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from stereodel import data, earth, fisheye, lonlat_to_xyz
-from stereodel.drawing.graticule import WIDTHS_APART
+from stereodel.drawing.scene.graticule import WIDTHS_APART
 from stereodel.sphere import SphereCircle, graticule_patch, xyz_to_lonlat
 from tests.figures.scripts import FOLDER, ROWS, arc_points, geometry, page, script
 from tests.tiers import by_day

@@ -8,12 +8,12 @@ from itertools import combinations
 import numpy as np
 import pytest
 
-from stereodel.drawing.colorimetry import contrast, encoded, linear, luminance, to_oklab
-from stereodel.drawing.colors import color_map
-from stereodel.drawing.label import label_box
 from stereodel.drawing.page import Dots, Fill, Picture, Polygons, Polylines, Stroke
-from stereodel.drawing.scales import usual_scale
-from stereodel.drawing.style import DOTS, LINES, MAP_LINES, fainter
+from stereodel.drawing.page.colorimetry import contrast, encoded, linear, luminance, to_oklab
+from stereodel.drawing.page.colors import color_map
+from stereodel.drawing.page.labels import label_box
+from stereodel.drawing.page.scales import usual_scale
+from stereodel.drawing.page.style import DOTS, LINES, MAP_LINES, fainter
 from tests.figures.scripts import FIGURES, FOLDER, page, path_points, script
 from tests.tiers import by_day
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from stereodel.drawing import View
-from stereodel.drawing.fonts import MissingCharactersWarning
+from stereodel.drawing.page.fonts import MissingCharactersWarning
 from stereodel.film import Film, Spin
 from stereodel.globe import Globe
 

@@ -7,11 +7,12 @@ import pytest
 
 from stereodel import fisheye
 from stereodel.drawing import Label, View, styled
-from stereodel.drawing.colorimetry import contrast
-from stereodel.drawing.ground import VEIL, legible, painted
-from stereodel.drawing.label import label_box, within_disc
-from stereodel.drawing.sheets import GROUND, dark_color
-from stereodel.drawing.style import HALO_OPACITY, MAP_FILLS
+from stereodel.drawing.page.colorimetry import contrast
+from stereodel.drawing.page.ground import legible
+from stereodel.drawing.page.items import painted
+from stereodel.drawing.page.labels import VEIL, label_box, within_disc
+from stereodel.drawing.page.sheets import GROUND, dark_color
+from stereodel.drawing.page.style import HALO_OPACITY, MAP_FILLS
 from stereodel.globe import Globe, Raster
 
 LENS = fisheye((10.0, 50.0), magnification=3.0)

@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 
 from stereodel.drawing import View
-from stereodel.drawing.colorimetry import to_oklab
 from stereodel.drawing.page import Label
+from stereodel.drawing.page.colorimetry import to_oklab
 from stereodel.globe import Globe
 from stereodel.globe.layers import Areas
 

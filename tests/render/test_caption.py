@@ -10,7 +10,7 @@ import pypdf
 import pytest
 
 from stereodel.drawing.page import Fill, Label, Page, Stroke
-from stereodel.drawing.style import BLACK
+from stereodel.drawing.page.style import BLACK
 from stereodel.render.figure import Figure, caption_of, captioned, parted
 from stereodel.render.rows import LabelLayer
 from tests.images.scripts import SCRIPTS

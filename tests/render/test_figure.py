@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from stereodel.drawing.page import Dots, Label, Page
-from stereodel.drawing.style import BLACK
+from stereodel.drawing.page.style import BLACK
 from stereodel.render.figure import Figure, default_folder
 from stereodel.render.rows import pixel_hash
 

@@ -16,8 +16,8 @@ from scipy.spatial import cKDTree
 from stereodel.constants import ON_BALL
 from stereodel.drawing import CircleArc, LineStyle, Page, Scene, Segment, View
 from stereodel.drawing.page import Stroke
-from stereodel.drawing.scene_items import SceneBall, SceneLines
-from stereodel.drawing.solid import PlacedScene, Solid
+from stereodel.drawing.scene.scene_items import SceneBall, SceneLines
+from stereodel.drawing.scene.solid import PlacedScene, Solid
 from stereodel.render import gl
 from stereodel.render.glb import depths, to_trimesh
 from stereodel.sphere import SphereArc, SphereCircle

@@ -11,8 +11,8 @@ from PIL import Image
 
 from stereodel.drawing import Label, Page, Scene, View
 from stereodel.drawing.page import Dots, Fill, Polygons, Polylines, Stroke
-from stereodel.drawing.space_curves import CircleArc
-from stereodel.drawing.style import BLACK, BLUE, VERMILION, with_opacity
+from stereodel.drawing.page.style import BLACK, BLUE, VERMILION, with_opacity
+from stereodel.drawing.scene.space_curves import CircleArc
 from stereodel.render import canvas as canvases
 from stereodel.render import gl, rows
 from stereodel.render import save as saving

@@ -12,7 +12,7 @@ import pytest
 import trimesh
 
 from stereodel.drawing import CircleArc, Scene, Solid, View
-from stereodel.drawing.style import LINES, LineStyle
+from stereodel.drawing.page.style import LINES, LineStyle
 from stereodel.render import Figure, gl
 from stereodel.render.bodies import bodies_of
 from stereodel.render.glb import CAMERA, glb_bytes, linear

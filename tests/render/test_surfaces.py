@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from scipy.spatial import cKDTree
 
-from stereodel.drawing.space_curves import CircleArc, Segment
-from stereodel.drawing.visibility import SphereRegion
+from stereodel.drawing.scene.space_curves import CircleArc, Segment
+from stereodel.drawing.scene.visibility import SphereRegion
 from stereodel.render.surfaces import (
     BALL_LEVELS,
     CURVE_ERROR,

@@ -12,12 +12,12 @@ import pypdf
 import pytest
 
 from stereodel.drawing.page import Dots, Fill, Label, Page, Polygons, Polylines, Stroke
-from stereodel.drawing.scene import Scene
-from stereodel.drawing.style import BLACK
-from stereodel.drawing.view import View
+from stereodel.drawing.page.lengths import pixel_height
+from stereodel.drawing.page.style import BLACK
+from stereodel.drawing.scene.scene import Scene
+from stereodel.drawing.scene.view import View
 from stereodel.render.rows import LabelLayer, agg_rows
 from stereodel.render.save import save_vector
-from stereodel.render.sizes import pixel_height
 from stereodel.sphere import SphereCircle, graticule
 
 rasterize = partial(Page.pixels, renderer="agg")

@@ -20,8 +20,9 @@ from typing import Any, Final
 from warnings import catch_warnings, filterwarnings, warn
 
 from stereodel._extras import of_extra
-from stereodel.drawing.page import Label, Page
-from stereodel.drawing.style import TYPE
+from stereodel.drawing.page.items import Label
+from stereodel.drawing.page.page import Page
+from stereodel.drawing.page.style import TYPE
 
 FontLike = str | os.PathLike[str] | Sequence[str | os.PathLike[str]]
 """A family, the path of a font file, or several of them in order of preference."""
@@ -102,13 +103,13 @@ def set_text(label: Label) -> tuple[str, bool]:
     return (label.text if math else label.text.replace(r"\$", "$")), math
 
 
-def font_properties(label: Label) -> Any:
-    """Matplotlib's font properties of a label, independent of the user's settings."""
+def font_properties(families: Iterable[str], size: float) -> Any:
+    """Matplotlib's font properties of type of a size in points, independent of the user's settings."""
     with of_extra("draw"):
         from matplotlib.font_manager import FontProperties
 
     return FontProperties(
-        family=families_of(label), style="normal", variant="normal", weight="normal", stretch="normal", size=label.size
+        family=list(families), style="normal", variant="normal", weight="normal", stretch="normal", size=size
     )
 
 

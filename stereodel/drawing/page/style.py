@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from typing import Any, Final, TypeVar
 
 from stereodel._arrays import as_scalar
-from stereodel.drawing.colors import Color, ColorLike, as_color
+from stereodel.drawing.page.colors import Color, ColorLike, as_color
 
 T = TypeVar("T")
 

@@ -9,11 +9,12 @@ from typing import Final
 import numpy as np
 
 from stereodel._arrays import FloatArray, as_count
-from stereodel.drawing.colors import Color, ColorLike, as_color
-from stereodel.drawing.page import Dots, Fill, Item, Page, Polygons, Polylines, Stroke
-from stereodel.drawing.scales import ColorScale
-from stereodel.drawing.sketch import Sketch
-from stereodel.drawing.style import BLACK, LABEL_SIZE, DotStyle, LineStyle
+from stereodel.drawing.page import Page
+from stereodel.drawing.page.colors import ColorLike, as_color
+from stereodel.drawing.page.items import LEGEND, Look
+from stereodel.drawing.page.scales import ColorScale
+from stereodel.drawing.page.style import BLACK, LABEL_SIZE, DotStyle, LineStyle
+from stereodel.drawing.scene.sketch import Sketch
 
 SAMPLE: Final = (18.0, 7.0)
 """Length of a sample, and height of a tint sample, in points."""
@@ -29,9 +30,6 @@ BAR: Final = (0.4, 0.8)
 
 BAR_ROWS: Final = 3.2
 """Height of a scale with its title and numbers, in rows."""
-
-PREFIX: Final = "legend-"
-"""Beginning of the name of a sample, before the name of what it explains."""
 
 LegendEntry = LineStyle | DotStyle | ColorLike | ColorScale
 """Symbols of a legend."""
@@ -86,14 +84,14 @@ def with_legend(
     sketch = Sketch()
     scales = {text: style for text, style in entries.items() if isinstance(style, ColorScale)}
     samples = {text: style for text, style in entries.items() if not isinstance(style, ColorScale)}
-    parts = [(_look(item), item.name) for item in page.items]
+    parts = [(item.look, item.name) for item in page.items]
     for number, (text, style) in enumerate(samples.items()):
         down, across = divmod(number, count)
         place = np.array([left + indent * point + step * across, bottom - row * (down + 1)])
         look = style if isinstance(style, LineStyle | DotStyle) else as_color(style)
         alike = [part for other, part in parts if part and other == look]
         part = text if text in alike else next(iter(alike), "")
-        _add_sample(sketch, look, place, point, f"{PREFIX}{part}" if part else "legend")
+        _add_sample(sketch, look, place, point, f"{LEGEND}{part}" if part else "legend")
         sketch.add_label(place, text, (SAMPLE[0] + GAP, 0.0), align="left", size=size, color=color, name="legend")
     foot = bottom - row * -(-len(samples) // count)
     for text, scale in scales.items():
@@ -105,23 +103,7 @@ def with_legend(
     return replace(page, extent=extent, items=(*page.items, *sketch.page(extent, width=page.width).items))
 
 
-def _look(item: Item) -> LineStyle | DotStyle | Color | None:
-    """The entry of a legend that looks like an item, if there is one."""
-    match item:
-        case Stroke() | Polylines():
-            return LineStyle(item.color, item.width, item.dash if isinstance(item, Stroke) else None)
-        case Dots():
-            return DotStyle(item.color, item.radius, item.rim, item.rim_width)
-        case Fill():
-            return item.color
-        case Polygons() if len(item.by_color[0]) == 1:
-            return as_color(item.by_color[0][0].tolist())
-    return None
-
-
-def _add_sample(
-    sketch: Sketch, style: LineStyle | DotStyle | Color, place: FloatArray, point: float, name: str
-) -> None:
+def _add_sample(sketch: Sketch, style: Look, place: FloatArray, point: float, name: str) -> None:
     """A short line, a dot or a box, with the midpoint of its left side at `place`."""
     length, height = (point * size for size in SAMPLE)
     end = place + np.array([length, 0.0])

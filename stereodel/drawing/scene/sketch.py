@@ -16,15 +16,15 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import FloatArray, as_vectors
-from stereodel.drawing.colors import ColorLike, as_color
-from stereodel.drawing.fonts import FontLike, as_font, in_font
-from stereodel.drawing.lengths import LengthLike, as_length
 from stereodel.drawing.page import Beziers, Dots, Fill, Item, Label, Page, Stroke
-from stereodel.drawing.scene import Scene
-from stereodel.drawing.space_curves import CircleArc, Segment, page_path
-from stereodel.drawing.style import PRINT_WIDTH, WHITE, DotStyle, LineStyle, dot, fill, line
-from stereodel.drawing.title import with_title
-from stereodel.drawing.view import View
+from stereodel.drawing.page.colors import ColorLike, as_color
+from stereodel.drawing.page.fonts import FontLike, as_font, in_font
+from stereodel.drawing.page.labels import with_title
+from stereodel.drawing.page.lengths import LengthLike, as_length
+from stereodel.drawing.page.style import PRINT_WIDTH, WHITE, DotStyle, LineStyle, dot, fill, line
+from stereodel.drawing.scene.scene import Scene
+from stereodel.drawing.scene.space_curves import CircleArc, Segment, page_path
+from stereodel.drawing.scene.view import View
 
 Point = Sequence[float] | FloatArray
 
@@ -45,14 +45,14 @@ class Sketch:
     """A drawing under construction.
 
     Every `add_…` method appends to the picture and returns the sketch, so calls can be chained. `name` selects the
-    style of that name in `stereodel.drawing.style`, unless a `style` or `color` is given. It is also the id of the
+    style of that name in `stereodel.drawing.page.style`, unless a `style` or `color` is given. It is also the id of the
     group in vector files.
 
     Parameters
     ----------
     font : str, path-like, or sequence of them, optional
-        Font families or font files, see `stereodel.drawing.fonts.as_font`; by default STIX. Formulas, between dollar
-        signs, are always set in STIX.
+        Font families or font files, see `stereodel.drawing.page.fonts.as_font`; by default STIX. Formulas, between
+        dollar signs, are always set in STIX.
 
     Raises
     ------

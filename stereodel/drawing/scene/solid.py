@@ -18,7 +18,8 @@ import numpy as np
 from stereodel._arrays import FloatArray, Pixels
 from stereodel._extras import of_extra
 from stereodel.drawing.page import Item, Page
-from stereodel.drawing.scene_items import Layout, SceneItem, laid_out
+from stereodel.drawing.page.page import output
+from stereodel.drawing.scene.scene_items import Layout, SceneItem, laid_out
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,9 +93,7 @@ class Solid:
             If trimesh is missing (the extra ``render``).
         """
         with of_extra("render"):
-            from stereodel.render.solid import to_trimesh
-
-            return to_trimesh(self)
+            return output("to_trimesh")(self)
 
     def save(
         self, path: str | os.PathLike[str], *, size: int | None = None, text: bool = True, platform: str | None = None
@@ -126,9 +125,7 @@ class Solid:
         as metres.
         """
         with of_extra("render"):
-            from stereodel.render.solid import save_solid
-
-            save_solid(self, path, size=size, text=text, platform=platform)
+            output("save_solid")(self, path, size=size, text=text, platform=platform)
         return Path(path)
 
     def pixels(self, *, size: int | None = None, text: bool = True, platform: str | None = None) -> Pixels:
@@ -145,6 +142,5 @@ class Solid:
             sRGB, rows from the top.
         """
         with of_extra("render"):
-            from stereodel.render.solid import draw_solid
-
-            return draw_solid(self, size=size, text=text, platform=platform)
+            pixels: Pixels = output("draw_solid")(self, size=size, text=text, platform=platform)
+        return pixels

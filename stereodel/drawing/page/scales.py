@@ -10,9 +10,9 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import FloatArray, as_floats, as_scalar
-from stereodel.drawing.colors import Color, ColorLike, as_color, color_map
-from stereodel.drawing.page import Fill, Item, Label, Stroke
-from stereodel.drawing.style import BLACK, LABEL_SIZE
+from stereodel.drawing.page.colors import Color, ColorLike, as_color, color_map
+from stereodel.drawing.page.items import Fill, Item, Label, Stroke
+from stereodel.drawing.page.style import BLACK, LABEL_SIZE
 
 STEPS = 256
 """Number of steps of a legend."""

@@ -20,7 +20,7 @@ from stereodel.conformal import MoebiusMap
 from stereodel.constants import GRID_SAMPLES, MOST_GRID_LINES, REACH_MARGIN, UNIT_ROUNDOFF
 from stereodel.curves.chart import Chart, ChartView
 from stereodel.curves.trace import Arcs, exact, joined, numbered
-from stereodel.drawing.space_curves import CircleArc
+from stereodel.drawing.scene.space_curves import CircleArc
 from stereodel.sphere import graticule_patch, lonlat_to_xyz, xyz_to_lonlat
 from stereodel.sphere.latitudes import Latitude
 from stereodel.sphere.vectors import crossed, turned

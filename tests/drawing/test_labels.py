@@ -3,9 +3,8 @@
 import numpy as np
 import pytest
 
-from stereodel.drawing.label import in_disc, label_box, meets
-from stereodel.drawing.label_placement import SIDES, claimed, on_its_sides, placed_apart
 from stereodel.drawing.page import Label
+from stereodel.drawing.page.labels import SIDES, claimed, in_disc, label_box, meets, on_its_sides, placed_apart
 from tests.tiers import by_day
 
 UNIT = 200.0

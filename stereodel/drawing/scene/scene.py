@@ -13,11 +13,13 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import as_directions, as_indices, as_points, as_scalar, as_vectors
-from stereodel.drawing import style as styles
-from stereodel.drawing.colors import ColorLike, as_color
-from stereodel.drawing.lengths import LengthLike, as_length
 from stereodel.drawing.page import Item, Label, Page
-from stereodel.drawing.scene_items import (
+from stereodel.drawing.page import style as styles
+from stereodel.drawing.page.colors import ColorLike, as_color
+from stereodel.drawing.page.labels import with_title
+from stereodel.drawing.page.lengths import LengthLike, as_length
+from stereodel.drawing.page.style import DotStyle, LineStyle
+from stereodel.drawing.scene.scene_items import (
     BallStyle,
     Layer,
     Layout,
@@ -29,12 +31,10 @@ from stereodel.drawing.scene_items import (
     SceneRegion,
     SceneSheet,
 )
-from stereodel.drawing.solid import PlacedScene, Solid
-from stereodel.drawing.space_curves import CircleArc, Curve, Segment
-from stereodel.drawing.style import DotStyle, LineStyle
-from stereodel.drawing.title import with_title
-from stereodel.drawing.view import View
-from stereodel.drawing.visibility import SphereRegion
+from stereodel.drawing.scene.solid import PlacedScene, Solid
+from stereodel.drawing.scene.space_curves import CircleArc, Curve, Segment
+from stereodel.drawing.scene.view import View
+from stereodel.drawing.scene.visibility import SphereRegion
 from stereodel.sphere import SphereArc, SphereCircle
 from stereodel.sphere.vectors import units
 
@@ -48,7 +48,7 @@ class Scene:
     Coordinates are those of space, in one unit. Points and arcs *of the ball* are given on the unit sphere about the
     origin, as in the rest of the library, and are mapped onto the ball.
 
-    Every method takes the `name` of what is added. It selects the style of that name in `stereodel.drawing.style`,
+    Every method takes the `name` of what is added. It selects the style of that name in `stereodel.drawing.page.style`,
     unless a `style` or `color` is given, and is the id of the group in vector files.
 
     Parameters

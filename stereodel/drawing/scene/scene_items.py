@@ -11,12 +11,21 @@ import numpy as np
 
 from stereodel._arrays import FloatArray
 from stereodel.constants import ON_BALL
-from stereodel.drawing import style as styles
-from stereodel.drawing.colors import Color
 from stereodel.drawing.page import Ball, Beziers, Dots, Fill, Item, Label, Stroke
-from stereodel.drawing.space_curves import Curve, Segment, page_path
-from stereodel.drawing.style import DotStyle, LineStyle
-from stereodel.drawing.visibility import TOWARD, Place, SphereRegion, cut, lies_on_ball, limb, place_of, split_by_ball
+from stereodel.drawing.page import style as styles
+from stereodel.drawing.page.colors import Color
+from stereodel.drawing.page.style import DotStyle, LineStyle
+from stereodel.drawing.scene.space_curves import Curve, Segment, page_path
+from stereodel.drawing.scene.visibility import (
+    TOWARD,
+    Place,
+    SphereRegion,
+    cut,
+    lies_on_ball,
+    limb,
+    place_of,
+    split_by_ball,
+)
 from stereodel.sphere.vectors import turned
 
 BallStyle = Literal["solid", "glass", "none"]

@@ -24,8 +24,8 @@ from stereodel.curves.borders import Cap
 from stereodel.curves.clip import chains_of, followers
 from stereodel.curves.ragged import Ragged, cycles
 from stereodel.curves.trace import Arcs
-from stereodel.drawing.space_curves import CircleArc, Curve
-from stereodel.drawing.view import View
+from stereodel.drawing.scene.space_curves import CircleArc, Curve
+from stereodel.drawing.scene.view import View
 
 K = TypeVar("K")
 
@@ -136,7 +136,7 @@ def _joined(arcs: Arcs, lines: Ragged) -> Arcs:
 def split_by_ball(curves: Sequence[Curve], radius: float) -> list[list[tuple[Curve, Place]]]:
     """Curves cut into pieces of one `Place` each, in order; a closed curve that needs no cut stays closed.
 
-    >>> from stereodel.drawing.space_curves import Segment
+    >>> from stereodel.drawing.scene.space_curves import Segment
     >>> [pieces] = split_by_ball([Segment.between([0, 0, 2], [0, 0, -3])], 1.0)
     >>> [(piece.start, piece.stop, place.name) for piece, place in pieces]
     [(0.0, 0.2, 'FRONT'), (0.2, 0.6, 'INSIDE'), (0.6, 1.0, 'BEHIND')]

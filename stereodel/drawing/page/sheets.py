@@ -21,14 +21,14 @@ from typing import Any, Final
 import numpy as np
 
 from stereodel._arrays import FloatArray, as_scalar
-from stereodel.drawing.colorimetry import FLARE, contrast, luminance, with_luminance
-from stereodel.drawing.colors import Color, as_color
-from stereodel.drawing.fonts import FontLike, as_font, in_font
-from stereodel.drawing.ground import haloed
-from stereodel.drawing.legend import PREFIX
-from stereodel.drawing.lengths import as_length
-from stereodel.drawing.page import Dots, Fill, Item, Label, Page, Picture, Polygons, Polylines, Stroke
-from stereodel.drawing.style import BLACK, WHITE
+from stereodel.drawing.page.colorimetry import FLARE, contrast, luminance, with_luminance
+from stereodel.drawing.page.colors import Color, as_color
+from stereodel.drawing.page.fonts import FontLike, as_font, in_font
+from stereodel.drawing.page.items import LEGEND, Item
+from stereodel.drawing.page.labels import haloed
+from stereodel.drawing.page.lengths import as_length
+from stereodel.drawing.page.page import Page
+from stereodel.drawing.page.style import BLACK, WHITE
 
 DARK: Final = "dark"
 """The style that has a name; all others are files."""
@@ -49,7 +49,7 @@ def styled(page: Page, *styles: Style, font: FontLike | None = None) -> Page:
         A TOML file sets colours, widths and sizes by the names of what is drawn; files are applied after "dark", in
         order.
     font : str, path-like, or sequence of them, optional
-        Font families or font files, see `stereodel.drawing.fonts.as_font`, for labels without a font of their own.
+        Font families or font files, see `stereodel.drawing.page.fonts.as_font`, for labels without a font of their own.
 
     Returns
     -------
@@ -122,7 +122,7 @@ def dark_page(page: Page) -> Page:
     ground = dark_color((*page.background[:3], 1.0))
     if contrast(page.background[:3], WHITE[:3]) > contrast(page.background[:3], BLACK[:3]):
         return page
-    return replace(page, background=ground, items=tuple(map(_dark_item, page.items)))
+    return replace(page, background=ground, items=tuple(item.recoloured(dark_colors) for item in page.items))
 
 
 def dark_color(color: Color) -> Color:
@@ -152,20 +152,6 @@ def dark_colors(colors: FloatArray) -> FloatArray:
     return np.asarray(found[which.ravel()])
 
 
-def _dark_item(item: Item) -> Item:
-    match item:
-        case Dots():
-            return replace(item, color=dark_color(item.color), rim=dark_color(item.rim))
-        case Label():
-            return replace(item, color=dark_color(item.color), halo_color=dark_color(item.halo_color))
-        case Polygons():
-            return replace(item, colors=dark_colors(item.colors))
-        case Stroke() | Polylines() | Fill():
-            return replace(item, color=dark_color(item.color))
-        case Picture():
-            return item
-
-
 Changes = Mapping[str, Any]
 """New values for fields of an item."""
 
@@ -193,17 +179,16 @@ class StyleSheet:
         Styles applied first.
     background : Color or None
         Colour of the background; None leaves it.
-    fills : mapping of str to Color
-        Colours of regions by name; regions with several colours, such as cells, keep them.
-    lines, dots : mapping of str to mapping
-        "color" and "width" of lines by name; "color", "radius", "rim" and "rim_width" of dots by name.
+    fills, lines, dots : mapping of str to mapping
+        "color" of regions by name; regions with several colours, such as cells, keep them. "color" and "width" of lines
+        by name; "color", "radius", "rim" and "rim_width" of dots by name.
     labels : mapping
         "color", "font", "size", "halo" and "halo_color" of all text.
     """
 
     base: tuple[str, ...]
     background: Color | None
-    fills: Mapping[str, Color]
+    fills: Mapping[str, Changes]
     lines: Mapping[str, Changes]
     dots: Mapping[str, Changes]
     labels: Changes
@@ -236,7 +221,7 @@ class StyleSheet:
         return cls(
             (base,) if isinstance(base, str) else tuple(base),
             as_color(table["background"], "background") if "background" in table else None,
-            {name: as_color(value, f"fills.{name}") for name, value in _table(table, "fills").items()},
+            {name: {"color": as_color(value, f"fills.{name}")} for name, value in _table(table, "fills").items()},
             _parts(table, "lines"),
             _parts(table, "dots"),
             _read("labels", _table(table, "labels"), "labels."),
@@ -246,23 +231,16 @@ class StyleSheet:
         """A page in this style."""
         page = _in_styles(page, self.base)
         background = page.background if self.background is None else self.background
-        return replace(page, background=background, items=tuple(map(self._item, page.items)))
+        return replace(
+            page, background=background, items=tuple(item.restyled(self._looks(item)) for item in page.items)
+        )
 
-    def _item(self, item: Item) -> Item:
-        name = item.name.removeprefix(PREFIX)
-        match item:
-            case Stroke() | Polylines():
-                return replace(item, **self.lines.get(name, {}))
-            case Dots():
-                return replace(item, **self.dots.get(name, {}))
-            case Label():
-                return replace(item, **self.labels, on_ground=item.on_ground and "halo_color" not in self.labels)
-            case Fill() if name in self.fills:
-                return replace(item, color=self.fills[name])
-            case Polygons() if name in self.fills and len(item.by_color[0]) == 1:
-                return replace(item, colors=np.tile(self.fills[name], (len(item.colors), 1)))
-            case _:
-                return item
+    def _looks(self, item: Item) -> Changes:
+        """What this style changes of an item."""
+        if item.kind == "labels":
+            return self.labels
+        named = {"lines": self.lines, "dots": self.dots, "fills": self.fills}.get(item.kind, {})
+        return named.get(item.name.removeprefix(LEGEND), {})
 
 
 def _table(parts: Mapping[str, Any], name: str, within: str = "") -> Mapping[str, Any]:

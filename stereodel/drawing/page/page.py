@@ -1,0 +1,228 @@
+"""The content of a picture, before rendering: paths, dots, balls and labels in painter's order.
+
+A `Page` is flat. Hidden parts have been removed analytically (`stereodel.drawing.scene`), curves are exact up to their
+approximation by cubic Béziers, and every item carries its colour and its width in points. The vector backend writes SVG
+and PDF, the raster backend draws triangles with OpenGL; the regression tests store `Page.arrays()`. Page coordinates
+have x to the right and y up, in any unit; `width` is the width of the extent in points.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from importlib import import_module
+from pathlib import Path
+from typing import Any, Final, Literal
+
+import numpy as np
+
+from stereodel._arrays import FloatArray, Pixels, as_scalar
+from stereodel._extras import of_extra
+from stereodel.drawing.page.colors import Color
+from stereodel.drawing.page.items import Arrays, Item, Label, Polygons
+
+OUTPUTS: Final[dict[str, str | Callable[..., Any]]] = {
+    **dict.fromkeys(("save_page", "draw_page"), "stereodel.render.save"),
+    **dict.fromkeys(("save_solid", "draw_solid", "to_trimesh"), "stereodel.render.solid"),
+}
+"""What draws and writes pages and scenes in space: a function, or the module that enters it here when it is loaded.
+
+So nothing below rendering imports it, and it is loaded on use, as matplotlib does with its backends.
+"""
+
+
+def output(work: str) -> Callable[..., Any]:
+    """A function of the table `OUTPUTS`."""
+    found = OUTPUTS[work]
+    if isinstance(found, str):
+        import_module(found)
+        found = OUTPUTS[work]
+    assert not isinstance(found, str), f"{found} does not enter {work}"
+    return found
+
+
+@dataclass(frozen=True, eq=False)
+class Page:
+    """A picture.
+
+    Parameters
+    ----------
+    extent : tuple of float
+        (left, right, bottom, top) in page coordinates.
+    items : tuple of Item
+        In painter's order: later ones cover earlier ones. Labels come last, wherever they are in the tuple.
+    width : float
+        Width of the extent in points (1/72 inch); the height follows, page units being square. 17 cm are 481.89 points.
+    background : Color
+    views : tuple of (3, 3) arrays
+        View matrices from which the page was made (rows right, up, toward), kept for the regression tests.
+    title, description : str
+        Title in one line, and description in plain paragraphs. They are not drawn: files contain them for search and
+        for readers who cannot see the picture.
+
+    Raises
+    ------
+    ValueError
+        If the extent has no area, or the width is not positive.
+    """
+
+    extent: tuple[float, float, float, float]
+    items: tuple[Item, ...] = ()
+    width: float = 481.89
+    background: Color = (1.0, 1.0, 1.0, 1.0)
+    views: tuple[FloatArray, ...] = field(default=())
+    title: str = ""
+    description: str = ""
+
+    def __post_init__(self) -> None:
+        left, right, bottom, top = self.extent
+        as_scalar(right - left, "extent[1] - extent[0]", low=0.0, open_low=True)
+        as_scalar(top - bottom, "extent[3] - extent[2]", low=0.0, open_low=True)
+        as_scalar(self.width, "width", low=0.0, open_low=True)
+
+    @property
+    def points_per_unit(self) -> float:
+        """Scale of the page."""
+        return self.width / (self.extent[1] - self.extent[0])
+
+    @property
+    def height(self) -> float:
+        """In points."""
+        return (self.extent[3] - self.extent[2]) * self.points_per_unit
+
+    @property
+    def labels(self) -> tuple[Label, ...]:
+        """The text alone."""
+        return tuple(item for item in self.items if isinstance(item, Label))
+
+    @property
+    def pictured(self) -> tuple[Polygons, ...]:
+        """The items that vector files hold as images because they have too many colours."""
+        return tuple(item for item in self.items if isinstance(item, Polygons) and item.pictured)
+
+    def without_labels(self) -> Page:
+        """The picture without its text, which is what pixel tests compare."""
+        return replace(self, items=tuple(item for item in self.items if not isinstance(item, Label)))
+
+    def save(
+        self,
+        path: str | os.PathLike[str],
+        *,
+        size: int | None = None,
+        text: bool = True,
+        renderer: Literal["gl", "agg"] = "gl",
+        platform: str | None = None,
+        transparent: bool = False,
+    ) -> Path:
+        """Write the page as PNG, SVG or PDF, according to the extension of `path`.
+
+        SVG and PDF contain exact curves, within a thousandth of a point, text as text in embedded fonts, and the
+        shading of balls as gradients; the same page always gives the same bytes. All three formats contain title and
+        description. Lines, dots and text are measured in points: more pixels give a finer image of the same page. For a
+        poster with thinner lines, make the page wider: ``dataclasses.replace(page, width=...)``.
+
+        Parameters
+        ----------
+        path : path-like
+            File to write, first under a temporary name in the same folder; an existing file is replaced.
+        size : int, optional
+            Width of a PNG in pixels, at most 65 535; by default 300 dpi, which is 2008 for 17 cm.
+        text : bool
+            Whether to draw labels.
+        renderer : {"gl", "agg"}
+            Renderer of a PNG: OpenGL, or matplotlib, which needs no OpenGL but does not shade balls and rejects regions
+            in more than `FEW_COLORS` colours.
+        platform : {"osmesa", "egl"}, optional
+            See `stereodel.render.gl`.
+        transparent : bool
+            Whether to make the background transparent. A PNG is then drawn twice and held in memory.
+
+        Returns
+        -------
+        Path
+            The file.
+
+        Raises
+        ------
+        ValueError
+            If the extension or renderer is unknown, or `size` is out of range.
+        OSError
+            If the file cannot be written, or OpenGL, needed for PNG and for images in vector files, is missing.
+
+        Notes
+        -----
+        Browsers use the fonts embedded in an SVG. librsvg and Inkscape do not: they use the font of that name (STIX) if
+        it is installed, otherwise another serif font. For print and for documents, use PDF.
+
+        The shading in SVG and PDF is off by 0.8 levels of 255 on average and at most by 4, at the edge of a white ball.
+
+        A PNG of 16 384 × 16 384 pixels is drawn in less than a gigabyte of memory, which its pixels alone would take at
+        once.
+
+        Examples
+        --------
+        >>> import tempfile
+        >>> from stereodel.drawing import Scene, View
+        >>> page = Page((-1.1, 1.1, -1.1, 1.1), Scene().layout(View(0, 0)))
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     page.save(Path(folder, "ball.png"), size=50).stat().st_size > 1000
+        True
+        """
+        with of_extra(picture_extra(Path(path).suffix, renderer)):
+            output("save_page")(
+                self, path, size=size, text=text, renderer=renderer, platform=platform, transparent=transparent
+            )
+        return Path(path)
+
+    def pixels(
+        self,
+        *,
+        size: int | None = None,
+        text: bool = True,
+        renderer: Literal["gl", "agg"] = "gl",
+        platform: str | None = None,
+    ) -> Pixels:
+        """Draw the page: the pixels that `save` writes as PNG.
+
+        Parameters
+        ----------
+        size, text, renderer, platform
+            As for `save`.
+
+        Returns
+        -------
+        (height, width, 3) uint8 array
+            sRGB, rows from the top.
+
+        Raises
+        ------
+        ValueError
+            If the renderer is unknown, or `size` is out of range.
+        stereodel.render.gl.OpenGLError
+            If there is no usable OpenGL.
+
+        Examples
+        --------
+        >>> Page((0.0, 2.0, 0.0, 1.0), background=(1.0, 0.0, 0.0, 1.0)).pixels(size=40)[0, 0].tolist()
+        [255, 0, 0]
+        """
+        with of_extra(picture_extra(".png", renderer)):
+            pixels: Pixels = output("draw_page")(self, size=size, text=text, renderer=renderer, platform=platform)
+        return pixels
+
+    def arrays(self) -> Arrays:
+        """Everything drawn as named arrays, for the regression tests: every visible change alters a number."""
+        named: Arrays = {
+            "page": np.array([*self.extent, self.width, *self.background]),
+            "views": np.array(self.views).reshape(-1, 3, 3),
+        }
+        for number, item in enumerate(self.items):
+            prefix = f"{number:04d}_{type(item).__name__.lower()}_{item.name}"
+            named.update({f"{prefix}_{key}": value for key, value in item.arrays().items()})
+        return named
+
+
+def picture_extra(kind: str, renderer: str = "gl") -> str:
+    """The extra that brings all that draws a page into a file of that extension."""
+    return "render" if renderer == "gl" and kind.lower() == ".png" else "draw"

@@ -1,0 +1,1 @@
+"""Scenes in space and drawings in the plane, laid out on pages: views, curves, hidden parts, legends."""
