@@ -3,6 +3,7 @@
 import { arcThrough } from "../drawing/arcs.ts";
 import { circlePoints } from "../drawing/ball.ts";
 import { traceCap } from "../drawing/fill.ts";
+import { drawHandle } from "../drawing/pen.ts";
 import type { Pen } from "../drawing/pen.ts";
 import type { Reason } from "../drawing/plate.ts";
 import { MoebiusMap } from "../kernel/api.ts";
@@ -90,7 +91,7 @@ export class BubbleGlobe extends GlobePlate {
     const handle = this.#handle();
     if (handle === null) return;
     const [x, y] = placeOf(disc, handle);
-    pen.handle(x, y, "rim");
+    drawHandle(pen, x, y, "rim");
     const isRight = handle[0] < 0.55;
     // Near the lower limb the label stands above its handle: below there is no drawing.
     const isLow = handle[1] < -0.5 && handle[2] < 0.4;

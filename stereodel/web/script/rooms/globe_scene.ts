@@ -7,12 +7,12 @@ import {
   dotLayer,
   drawLayers,
   graticuleArcs,
-  regionLayer,
+  landLayer,
   ridgeArcs,
 } from "../drawing/ball.ts";
 import type { Layer } from "../drawing/ball.ts";
 import type { Disc, Pen } from "../drawing/pen.ts";
-import type { Contents, Rings } from "../contents.ts";
+import type { Contents } from "../contents.ts";
 import { lonlatToXyz, SphericalVoronoi } from "../kernel/api.ts";
 import type { Latitude, MoebiusMap } from "../kernel/api.ts";
 import { tableLatitude } from "../kernel/latitudes.ts";
@@ -29,9 +29,6 @@ const OF_EQUAL_AREA = 6371.007180918474;
 
 /** Degrees between the lines of the graticule, and between the circles. */
 export const STEP = 10;
-
-/** The place of the sea that is farthest from all land. */
-const AT_SEA = directionOf(-123.4, -48.9);
 
 /** Places beyond which their cells are left out while the globe moves. */
 const MANY_PLACES = 10_000;
@@ -134,10 +131,6 @@ export class GlobeScene {
     const diagram = this.#diagram();
     return diagram === null ? null : (this.#cells ??= arcLayer("voronoi", this.#drawn(ridgeArcs(diagram))));
   }
-}
-
-function landLayer({ lonlat, offsets }: Rings): Layer {
-  return regionLayer("land", "coast", lonlatToXyz(lonlat), offsets, AT_SEA, false);
 }
 
 /** Three points of each circle, about places some distance apart on parallels that are as far apart. */
