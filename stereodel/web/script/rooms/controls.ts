@@ -10,11 +10,20 @@ export class NumberField {
   readonly #input: HTMLInputElement;
   readonly #decimals: number;
 
-  /** @param typed gets each valid number; the browser keeps to `min` and `max`. */
-  constructor(root: ParentNode, name: string, decimals: number, typed: (value: number) => void) {
+  /**
+   * @param typed gets each valid number; the browser keeps to `min` and `max`.
+   * @param when Whether it does so while the reader types, or at the end.
+   */
+  constructor(
+    root: ParentNode,
+    name: string,
+    decimals: number,
+    typed: (value: number) => void,
+    when: "input" | "change" = "input",
+  ) {
     this.#input = field(root, name);
     this.#decimals = decimals;
-    this.#input.addEventListener("input", () => {
+    this.#input.addEventListener(when, () => {
       if (this.#input.value !== "" && this.#input.validity.valid) typed(this.#input.valueAsNumber);
     });
   }
@@ -34,13 +43,18 @@ export class PlaceFields {
   readonly #fields: readonly [NumberField, NumberField];
 
   /** @param name Of the fields, before `-lon` and `-lat`. @param typed gets each valid place. */
-  constructor(root: ParentNode, name: string, typed: (place: readonly [number, number]) => void) {
+  constructor(
+    root: ParentNode,
+    name: string,
+    typed: (place: readonly [number, number]) => void,
+    when: "input" | "change" = "input",
+  ) {
     const names = [`${name}-lon`, `${name}-lat`] as const;
     const act = (): void => {
       const [lon, lat] = names.map((part) => field(root, part).valueAsNumber);
       if (Number.isFinite(lon) && Number.isFinite(lat)) typed([lon, lat]);
     };
-    this.#fields = [new NumberField(root, names[0], 1, act), new NumberField(root, names[1], 1, act)];
+    this.#fields = [new NumberField(root, names[0], 1, act, when), new NumberField(root, names[1], 1, act, when)];
   }
 
   set value([lon, lat]: readonly [number, number]) {
@@ -74,10 +88,14 @@ export class Switches {
   readonly #root: ParentNode;
   readonly #names: readonly string[];
 
-  constructor(root: ParentNode, names: readonly string[], changed: () => void) {
+  constructor(root: ParentNode, names: readonly string[], changed: (name: string) => void) {
     this.#root = root;
     this.#names = names;
-    for (const name of names) field(root, name).addEventListener("change", changed);
+    for (const name of names) field(root, name).addEventListener("change", () => changed(name));
+  }
+
+  set(name: string, isOn: boolean): void {
+    field(this.#root, name).checked = isOn;
   }
 
   /** Whether something is drawn. */

@@ -10,7 +10,7 @@ import { MoebiusMap } from "../kernel/api.ts";
 import { arrowed, grabBall } from "../view/ball_hand.ts";
 import { distance } from "../view/hand.ts";
 import type { Gestures, Hold, Place } from "../view/hand.ts";
-import { betweenSights, capToCap, seenThrough } from "../view/lens.ts";
+import { capToCap, seenThrough } from "../view/lens.ts";
 import type { Cap } from "../view/lens.ts";
 import { between, pointUnder, turned } from "../view/view.ts";
 import type { View } from "../view/view.ts";
@@ -60,15 +60,6 @@ export class BubbleGlobe extends GlobePlate {
 
   turn(view: View, reason: Reason): void {
     this.host.set({ [this.#which]: view }, reason);
-  }
-
-  /** Goes to another view. */
-  fly(to: View): void {
-    const [from, lens] = [this.view, BEGINNING.sight.lens];
-    this.motion.fly((t) => {
-      const { view } = betweenSights({ lens, view: from }, { lens, view: to }, t, this.isNorthUp);
-      this.turn(view, t < 1 ? "flight" : "state");
-    });
   }
 
   get #cap(): Cap {

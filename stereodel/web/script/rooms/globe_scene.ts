@@ -33,13 +33,12 @@ export const STEP = 10;
 /** Places beyond which their cells are left out while the globe moves. */
 const MANY_PLACES = 10_000;
 
-/** What is drawn, as the reader has switched it. */
-export interface Drawn {
-  readonly land: boolean;
-  readonly graticule: boolean;
-  readonly tissot: boolean;
-  readonly cells: boolean;
-}
+/** What the reader switches: what is drawn, and whether north stays up. */
+export const GLOBE_SWITCHES = ["land", "graticule", "tissot", "cells", "north"] as const;
+export type GlobeSwitch = (typeof GLOBE_SWITCHES)[number];
+
+/** Whether one of them is on. */
+type IsOn = (name: GlobeSwitch) => boolean;
 
 /** The reader's own places. */
 export interface Places {
@@ -88,20 +87,20 @@ export class GlobeScene {
   }
 
   /** Draws a globe; `map` takes the Earth to the axes of the view. */
-  draw(pen: Pen, disc: Disc, map: MoebiusMap, drawn: Drawn, isMoving: boolean): void {
+  draw(pen: Pen, disc: Disc, map: MoebiusMap, isOn: IsOn, isMoving: boolean): void {
     pen.ball(disc, "ocean");
     if (this.picture !== null) this.picture.draw(pen, disc, map, isMoving);
-    drawLayers(pen, disc, map, this.#layers(drawn, isMoving));
+    drawLayers(pen, disc, map, this.#layers(isOn, isMoving));
     pen.shade(disc);
   }
 
-  #layers(drawn: Drawn, isMoving: boolean): Layer[] {
+  #layers(isOn: IsOn, isMoving: boolean): Layer[] {
     const layers: (Layer | null)[] = [];
-    if (drawn.land && this.picture === null) layers.push(isMoving ? this.#coarse : (this.#fine ?? this.#coarse));
-    if (drawn.graticule) layers.push(this.#graticule);
-    if (drawn.tissot) layers.push(this.#tissot);
+    if (isOn("land") && this.picture === null) layers.push(isMoving ? this.#coarse : (this.#fine ?? this.#coarse));
+    if (isOn("graticule")) layers.push(this.#graticule);
+    if (isOn("tissot")) layers.push(this.#tissot);
     const count = (this.places?.lonlat.length ?? 0) / 2;
-    if (drawn.cells && !(isMoving && count > MANY_PLACES)) layers.push(this.#ridges());
+    if (isOn("cells") && !(isMoving && count > MANY_PLACES)) layers.push(this.#ridges());
     layers.push(this.#dots);
     if (this.places !== null && this.lit !== null) {
       layers.push(dotLayer("held", lonlatToXyz(this.places.lonlat.subarray(2 * this.lit, 2 * this.lit + 2))));

@@ -51,7 +51,6 @@ class LiftRoom implements Room {
   #controls!: SiteControls;
   #viewFields!: { height: NumberField; side: NumberField };
   #pairFields!: { p: NumberField; q: NumberField };
-  #release = (): void => {};
 
   #sites = new LiftSites(new Float64Array(0));
   #corner = HEMISPHERE;
@@ -89,7 +88,7 @@ class LiftRoom implements Room {
     };
     const slider = field(section, "bend");
     slider.addEventListener("input", () => this.#host.guarded(() => this.#bend(slider.valueAsNumber)));
-    this.#release = follow(this.#plate, this.#gestures());
+    follow(this.#plate, this.#gestures());
   }
 
   // State
@@ -407,11 +406,6 @@ class LiftRoom implements Room {
       q: this.#q,
     };
     return exchange.liftPython(this.#sites, this.#bent, shown);
-  }
-
-  dispose(): void {
-    this.#release();
-    this.#plate.dispose();
   }
 }
 

@@ -2,7 +2,7 @@
 
 import { writeNumber } from "../link.ts";
 import { CIRCLE_RADIUS, STEP } from "./globe_scene.ts";
-import type { GlobeScene } from "./globe_scene.ts";
+import type { GlobeScene, GlobeSwitch } from "./globe_scene.ts";
 import type { GlobeState } from "./globe_state.ts";
 import type { Sheet } from "./lift_sheet.ts";
 import type { LiftSites } from "./lift_sites.ts";
@@ -96,9 +96,13 @@ export function liftPython(sites: LiftSites, sheet: Sheet, { sides, file, height
   );
 }
 
-export function globePython(state: GlobeState, { places, picture, latitude }: GlobeScene): string {
-  const { drawn, sight, from, to } = state;
-  const hasLand = drawn.land && picture === null;
+export function globePython(
+  state: GlobeState,
+  { places, picture, latitude }: GlobeScene,
+  isOn: (name: GlobeSwitch) => boolean,
+): string {
+  const { sight, from, to } = state;
+  const hasLand = isOn("land") && picture === null;
   const isBubble = state.lens === "bubble";
   const kind = latitude === "spherical" ? "" : `latitude="${latitude}"`;
   const names = [
@@ -124,12 +128,12 @@ export function globePython(state: GlobeState, { places, picture, latitude }: Gl
     `globe = Globe(${places === null ? "" : kind})`,
     picture !== null && `globe.add_raster(${quoted(picture.name)})`,
     hasLand && 'globe.add_land(resolution="50m")',
-    drawn.graticule && `globe.add_graticule(${float(STEP)})`,
+    isOn("graticule") && `globe.add_graticule(${float(STEP)})`,
     hasLand && 'globe.add_coastlines(resolution="50m")',
-    drawn.tissot && `globe.add_tissot(${float(STEP)}, ${CIRCLE_RADIUS.toFixed(4)})`,
+    isOn("tissot") && `globe.add_tissot(${float(STEP)}, ${CIRCLE_RADIUS.toFixed(4)})`,
     places !== null && `places = read_points(${quoted(places.name)}).lonlat`,
     places !== null &&
-      drawn.cells &&
+      isOn("cells") &&
       `globe.add_cells(SphericalVoronoi.from_lonlat(${["places", kind].filter(Boolean).join(", ")}))`,
     places !== null && "globe.add_points(places)",
     `globe.save("globe.svg", lens, View(${(isLevel ? angles.slice(0, 2) : angles).join(", ")}))`,
