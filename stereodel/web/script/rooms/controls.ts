@@ -1,9 +1,8 @@
 /** Native inputs of a room: numbers in fields, switches, sets. */
 
-import { field, find, make } from "../dom.ts";
+import { field } from "../dom.ts";
 import type { LinkValues } from "../link.ts";
 import type { Messages } from "../messages.ts";
-import type { SiteSet } from "../sets.ts";
 
 /** A field of numbers: what is typed and valid is told, and what the hand does is shown. */
 export class NumberField {
@@ -116,36 +115,6 @@ export class Switches {
     for (const name of this.#names)
       field(this.#root, name).checked = field(this.#root, name).defaultChecked !== turned.includes(name);
   }
-}
-
-/** Fills the list of sets; `chosen` gets the one that the reader picks. */
-export function listSets(
-  root: ParentNode,
-  sets: readonly SiteSet[],
-  chosen: (set: SiteSet) => void,
-): HTMLSelectElement {
-  const select = find<HTMLSelectElement>(root, "select[name=set]");
-  for (const set of sets) {
-    const option = make("option", "", set.words);
-    option.value = set.name;
-    select.append(option);
-  }
-  select.addEventListener("change", () => {
-    const set = sets.find(({ name }) => name === select.value);
-    if (set !== undefined) chosen(set);
-  });
-  return select;
-}
-
-/** Shows which set there is; sites of the reader's own have an entry while they are there. */
-export function showSet(select: HTMLSelectElement, name: string, words: string | null): void {
-  select.querySelector("option[value=own]")?.remove();
-  if (words !== null) {
-    const option = make("option", "", words);
-    option.value = "own";
-    select.prepend(option);
-  }
-  select.value = words === null ? name : "own";
 }
 
 /** What a link may name and does not hold: a file of sites, a picture. */

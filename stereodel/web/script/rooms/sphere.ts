@@ -14,7 +14,7 @@ import { arrowed, arrowStep } from "../view/ball_hand.ts";
 import { follow } from "../view/hand.ts";
 import { Motion } from "../view/motion.ts";
 import { View } from "../view/view.ts";
-import { counted, latitude, longitude, wrap } from "../words.ts";
+import { counted, latitude, longitude, ofFacets, wrap } from "../words.ts";
 import { Choice, PlaceFields } from "./controls.ts";
 import { withMoved, withoutSite, withSite } from "./edits.ts";
 import { PlaneFrame, reachAround } from "./plane_frame.ts";
@@ -41,7 +41,7 @@ import {
   viewPlace,
 } from "./sphere_state.ts";
 import type { Click, Place } from "./sphere_state.ts";
-import { ofBubble, ofDuplicates, ofFacets, ofStep, ofSite, withoutTriangles } from "./sphere_words.ts";
+import { ofBubble, ofDuplicates, ofStep, ofSite, withoutTriangles } from "./sphere_words.ts";
 import { StepControl } from "./step_control.ts";
 import { Twin } from "./twin.ts";
 
@@ -50,6 +50,9 @@ const SWITCHES = ["triangles", "cells", "bubble", "seeing", "closing"] as const;
 /** Sites from which on cells are left out while something moves, and from which on nothing but dots is drawn then. */
 const MANY = 3_000;
 const VERY_MANY = 100_000;
+
+/** What the sum of facets is made of. */
+const SUM = ["on the sphere", "in the plane", "\u00a0*P*"] as const;
 
 /** Changes by hand that can be undone. */
 const MOST_STEPS_BACK = 100;
@@ -262,7 +265,7 @@ class SphereRoom implements Room, SphereHost {
     const words = step === "done" ? [ofAll, ofDuplicates(sites)] : [ofStep(step.insertion, step.site)];
     const out = (name: string): HTMLElement => find(this.#section, `[data-out=${name}]`);
     say(out("sentence"), words.filter(Boolean).join(" "));
-    say(out("sum"), alone === null ? ofFacets(sites.facetCount, this.#seeingCount) : "");
+    say(out("sum"), alone === null ? ofFacets(sites.facetCount - this.#seeingCount, this.#seeingCount, SUM) : "");
     out("sum").hidden = step !== "done" || alone !== null;
     const side = dot(this.#twin.pole, directionAt(this.#view)) < 0 ? "behind" : "in front";
     say(out("pole-side"), `*P*, the pole of projection, lies ${side}.`);
