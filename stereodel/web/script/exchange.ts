@@ -5,9 +5,7 @@ import { copy, download } from "./export.ts";
 import { placesGeojson, sitesGeojson } from "./geojson.ts";
 import { openPoints } from "./opening.ts";
 import { openPanorama } from "./panorama.ts";
-import { globePython } from "./rooms/globe_python.ts";
-import { liftPython } from "./rooms/lift_python.ts";
-import { spherePython } from "./rooms/sphere_python.ts";
+import { globePython, liftPython, spherePython } from "./rooms/python.ts";
 
 const exchange = {
   copy,

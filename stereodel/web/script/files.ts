@@ -1,15 +1,13 @@
 /**
  * Files of points that the reader picks or drops: read here, sent nowhere.
  *
- * Tables of longitude and latitude follow `stereodel.io.read_points` in what they take and, word for word, in what they
- * refuse; tables of a plane follow `read_plane_points`.
+ * Delimited text and GeoJSON, in which `stereodel.io.read_points` finds the same places.
  */
 
-import { findLonLat } from "./tables/columns.ts";
-import { splitColumns } from "./tables/csv.ts";
+import { findLonLat, findXY, lonLatPlaces, planePlaces } from "./tables/coordinates.ts";
+import { readTable } from "./tables/delimited.ts";
 import { ColumnsError, TableError } from "./tables/error.ts";
 import { geojsonPoints } from "./tables/geojson.ts";
-import { lonLatPlaces, planePlaces } from "./tables/numbers.ts";
 import { counted } from "./words.ts";
 
 /** Points that the page takes. */
@@ -17,7 +15,6 @@ export const MOST_POINTS = 1_000_000;
 
 const TEXT = /\.(csv|tsv|txt)(\.gz)?$/i;
 const JSON_TEXT = /\.(geojson|json|geojsonl|geojsons)(\.gz)?$/i;
-const PICTURE = /\.(png|jpe?g|webp)$/i;
 
 /** Points of a file: (n, 2), longitude and latitude in degrees or x and y, with names if it has such a column. */
 export interface Points {
@@ -29,16 +26,11 @@ export interface Points {
 /** Which coordinates are wanted: of the Earth or of a plane. */
 export type Kind = "lonlat" | "plane";
 
-/** Whether a file is a picture by its name. */
-export function isPicture(name: string): boolean {
-  return PICTURE.test(name);
-}
-
 /**
  * Reads points from the bytes of a file.
  *
  * @param chosen names of the two columns, where the reader was asked.
- * @throws TableError in the words for the reader; ColumnsError where the columns must be chosen.
+ * @throws TableError in words for the reader; ColumnsError where the columns must be chosen.
  */
 export async function readPoints(
   file: string,
@@ -74,27 +66,17 @@ export class TooManyError extends TableError {
 
 function ofGeojson(text: string, kind: Kind): Omit<Points, "file"> {
   if (kind === "plane") throw new TableError("columns of a plane are those of tables, not of GeoJSON");
-  const { lonlat, names } = geojsonPoints(text);
-  return { places: lonlat, names };
+  return geojsonPoints(text);
 }
 
 function ofText(text: string, kind: Kind, chosen?: [string, string]): Omit<Points, "file"> {
-  const table = splitColumns(text, chosen);
-  const columns = table.columns;
-  const all = [...columns.keys()];
-  const [first, second] = chosen ?? (kind === "lonlat" ? findLonLat(all) : findXY(all));
-  const values = (name: string): string[] => columns.get(name) ?? [];
-  const found = kind === "lonlat" ? lonLatPlaces(values(first), values(second)) : planePlaces(table, first, second);
+  const table = readTable(text);
+  const all = [...table.keys()];
+  const pair = chosen ?? (kind === "lonlat" ? findLonLat(all) : findXY(all));
+  if (pair === null) throw new ColumnsError(all);
+  const places = kind === "lonlat" ? lonLatPlaces(table, ...pair) : planePlaces(table, ...pair);
   const named = all.find((name) => name.trim().toLowerCase() === "name");
-  return { places: found, names: named === undefined ? null : values(named) };
-}
-
-/** Columns of a plane: x and y in any case, or the only two. */
-function findXY(names: readonly string[]): [string, string] {
-  const found = ["x", "y"].map((letter) => names.filter((name) => name.trim().toLowerCase() === letter));
-  if (found[0].length === 1 && found[1].length === 1) return [found[0][0], found[1][0]];
-  if (names.length === 2) return [names[0], names[1]];
-  throw new ColumnsError("no two columns are x and y", names);
+  return { places, names: (named !== undefined && table.get(named)) || null };
 }
 
 function beginsAs(bytes: Uint8Array, mark: string): boolean {
@@ -116,8 +98,8 @@ async function unpacked(bytes: Uint8Array): Promise<Uint8Array> {
   try {
     const stream = new Blob([bytes.slice()]).stream().pipeThrough(new DecompressionStream("gzip"));
     return new Uint8Array(await new Response(stream).arrayBuffer());
-  } catch (error) {
-    throw new TableError(`the compressed file is damaged: ${error instanceof Error ? error.message : String(error)}`);
+  } catch {
+    throw new TableError("the compressed file is damaged");
   }
 }
 
@@ -126,23 +108,6 @@ function decoded(bytes: Uint8Array): string {
   try {
     return new TextDecoder("utf-8", { fatal: true }).decode(bytes);
   } catch {
-    throw new TableError(`line ${wrongLine(bytes)} is not text in UTF-8; save the file in that encoding`);
+    throw new TableError("the file is not text in UTF-8; save it in that encoding");
   }
-}
-
-/** Number of the first line that is not UTF-8. */
-function wrongLine(bytes: Uint8Array): number {
-  const decoder = new TextDecoder("utf-8", { fatal: true });
-  let line = 1;
-  for (let begin = 0; begin < bytes.length; ++line) {
-    const end = bytes.indexOf(10, begin);
-    const stop = end < 0 ? bytes.length : end + 1;
-    try {
-      decoder.decode(bytes.subarray(begin, stop));
-    } catch {
-      break;
-    }
-    begin = stop;
-  }
-  return line;
 }

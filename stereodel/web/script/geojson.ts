@@ -6,12 +6,10 @@
 import { SphericalVoronoi } from "./kernel/api.ts";
 import type { Latitude } from "./kernel/api.ts";
 import { tableLatitude } from "./kernel/latitudes.ts";
-import { cross, dot, lonLatOf, row, unit } from "./rooms/space.ts";
+import { along } from "./rooms/lines.ts";
+import { lonLatOf, row } from "./rooms/space.ts";
 import type { Vector } from "./rooms/space.ts";
 import type { SphereSites } from "./rooms/sphere_sites.ts";
-
-/** Longest chord, degrees. */
-const LONGEST = 1;
 
 /** Digits behind the point of a degree: a centimetre of the Earth. */
 const DECIMALS = 7;
@@ -101,7 +99,7 @@ export const WHOLE_SPHERE: Geometry = {
  */
 export function sphericalPolygon(corners: readonly Vector[], kind: Latitude = "spherical"): Geometry {
   const ring = unwrapped(
-    corners.flatMap((corner, k) => side(corner, corners[(k + 1) % corners.length])),
+    corners.flatMap((corner, k) => along(corner, corners[(k + 1) % corners.length])),
     kind,
   );
   const turn = Math.round((ring[ring.length - 1][0] - ring[0][0]) / 360);
@@ -114,19 +112,6 @@ export function sphericalPolygon(corners: readonly Vector[], kind: Latitude = "s
 
 function digits(degrees: number): number {
   return Number(degrees.toFixed(DECIMALS));
-}
-
-/** Points of a side from its first corner on, without its last. */
-function side(a: Vector, b: Vector): Vector[] {
-  const n = cross(a, b);
-  const sine = Math.hypot(n[0], n[1], n[2]);
-  const angle = Math.atan2(sine, dot(a, b));
-  const count = Math.max(1, Math.ceil((angle * 180) / Math.PI / LONGEST));
-  return Array.from({ length: count }, (_, k) => {
-    const t = (angle * k) / count;
-    const [s, u] = sine === 0 ? [1, 0] : [Math.sin(angle - t) / sine, Math.sin(t) / sine];
-    return unit([s * a[0] + u * b[0], s * a[1] + u * b[1], s * a[2] + u * b[2]]);
-  });
 }
 
 /** Longitudes and latitudes of a ring, closed, whose longitudes go on beyond ±180 instead of jumping. */

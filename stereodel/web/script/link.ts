@@ -75,6 +75,11 @@ export class LinkValues {
     return value;
   }
 
+  /** A longitude and a latitude, degrees, whose names begin alike. */
+  place(name: string, [lon, lat]: readonly [number, number]): [number, number] {
+    return [this.number(`${name}lon`, -360, 360, lon), this.number(`${name}lat`, -90, 90, lat)];
+  }
+
   /** Pairs of coordinates, (n, 2); null where the link holds none. */
   places(name: string): Float64Array | null {
     const text = this.#values.get(name);
@@ -144,6 +149,15 @@ export function writeNumber(value: number, decimals: number): string {
   const text = value.toFixed(decimals);
   const short = text.includes(".") ? text.replace(/\.?0+$/, "") : text;
   return short === "-0" ? "0" : short;
+}
+
+/** A longitude and a latitude as values of a link. */
+export function writePlace(
+  name: string,
+  [lon, lat]: readonly [number, number],
+  decimals: number,
+): Record<string, string> {
+  return { [`${name}lon`]: writeNumber(lon, decimals), [`${name}lat`]: writeNumber(lat, decimals) };
 }
 
 /**

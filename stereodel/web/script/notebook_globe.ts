@@ -2,14 +2,14 @@
 
 import type { Rings } from "./contents.ts";
 import { make } from "./dom.ts";
-import { arcLayer, dotLayer, drawLayers, graticuleArcs, regionLayer, ridgeArcs } from "./drawing/ball.ts";
+import { arcLayer, dotLayer, drawLayers, graticuleArcs, landLayer, ridgeArcs } from "./drawing/ball.ts";
 import type { Layer } from "./drawing/ball.ts";
 import { traceDisc } from "./drawing/pen.ts";
 import type { Pen } from "./drawing/pen.ts";
 import { Plate } from "./drawing/plate.ts";
 import { lonlatToXyz, MoebiusMap, SphericalDelaunay, SphericalVoronoi } from "./kernel/api.ts";
 import { placeOf } from "./rooms/lines.ts";
-import { directionOf, lonLatOf, row } from "./rooms/space.ts";
+import { lonLatOf, row } from "./rooms/space.ts";
 import type { Vector } from "./rooms/space.ts";
 import { arrowed, grabBall } from "./view/ball_hand.ts";
 import type { Turnable } from "./view/ball_hand.ts";
@@ -45,9 +45,6 @@ const STRONGEST = 1e6;
 /** Sites beyond which cells are left out while the globe moves. */
 const MANY_SITES = 10_000;
 
-/** A place of which it is known that it is no land: in the South Pacific, farther from any than all others. */
-const AT_SEA: Vector = directionOf(-123.4, -48.9);
-
 const KEYS = "arrows turn, + and − magnify, F sets the focus, comma and full stop walk the sites, Enter selects";
 
 export class NotebookGlobe {
@@ -71,10 +68,7 @@ export class NotebookGlobe {
 
   constructor(place: HTMLElement, land: Rings | null, changed: Changed) {
     this.#changed = changed;
-    this.#ground = [
-      ...(land === null ? [] : [regionLayer("land", "coast", lonlatToXyz(land.lonlat), land.offsets, AT_SEA, false)]),
-      arcLayer("graticule", graticuleArcs(10)),
-    ];
+    this.#ground = [...(land === null ? [] : [landLayer(land)]), arcLayer("graticule", graticuleArcs(10))];
     this.#canvas.tabIndex = 0;
     this.#canvas.setAttribute("role", "application");
     this.#canvas.setAttribute("aria-roledescription", "globe to turn");

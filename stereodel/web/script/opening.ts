@@ -52,7 +52,7 @@ function askColumns(
   messages.show(`Which columns of ${file}?`, "", open, inputs);
 }
 
-/** A message's beginning and its words: the file, the row where there is one, then the words of `read_points`. */
+/** A message's beginning and its words: the file, the row where there is one, then what is wrong. */
 export function complaint(file: string, error: unknown): [string, string] {
   if (error instanceof NoTableError) return ["", `${error.message} ${UNCHANGED}`];
   if (error instanceof TooManyError) return [file, `${error.message} ${UNCHANGED}`];

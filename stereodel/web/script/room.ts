@@ -40,6 +40,4 @@ export interface Room {
   geojson(exchange: Exchange): string | null;
   /** The Python lines that make the same picture. */
   python(exchange: Exchange): string;
-  /** Lets go of listeners and timers. */
-  dispose(): void;
 }

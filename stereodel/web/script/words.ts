@@ -39,3 +39,18 @@ export function wrap(degrees: number): number {
   const turned = degrees - 360 * Math.floor((degrees + 180) / 360);
   return turned === -180 ? 180 : turned;
 }
+
+/**
+ * Facets = triangles + facets that see the pole, as a sum in words.
+ *
+ * @param where the facets are, and the triangles, and the pole with the space before it.
+ */
+export function ofFacets(triangles: number, seeing: number, where: readonly [string, string, string]): string {
+  return [
+    `${several(triangles + seeing, "facet")} ${where[0]}`,
+    "=",
+    `${several(triangles, "triangle")} ${where[1]}`,
+    "+",
+    `${several(seeing, "facet")} that ${seeing === 1 ? "sees" : "see"}${where[2]}`,
+  ].join("\u2002");
+}

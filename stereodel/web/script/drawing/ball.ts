@@ -1,6 +1,7 @@
 /** What lies on a ball: layers whose directions stay in the kernel, each drawn as its images under a map are. */
 
-import { Directions } from "../kernel/api.ts";
+import type { Rings as Places } from "../contents.ts";
+import { Directions, lonlatToXyz } from "../kernel/api.ts";
 import type { MoebiusMap, SphericalDelaunay, SphericalVoronoi } from "../kernel/api.ts";
 import { angle, cross, directionOf, row, unit } from "../rooms/space.ts";
 import type { Vector } from "../rooms/space.ts";
@@ -16,6 +17,9 @@ import type { DotName, StyleName } from "./styles.ts";
 const LONGEST_ARC = (2 * Math.PI) / 3;
 
 const DEGREE = Math.PI / 180;
+
+/** The place of the sea that is farthest from all land. */
+const AT_SEA = directionOf(-123.4, -48.9);
 
 export interface Layer {
   readonly directions: Directions;
@@ -103,6 +107,11 @@ export function regionLayer(
       if (outline !== null) pen.draw(outline, (path) => traceOutlines(path, disc, rings));
     },
   };
+}
+
+/** Land with its coast. */
+export function landLayer({ lonlat, offsets }: Places): Layer {
+  return regionLayer("land", "coast", lonlatToXyz(lonlat), offsets, AT_SEA, false);
 }
 
 function traceOutlines(path: Path, disc: Disc, { points, offsets }: Rings): void {

@@ -2,7 +2,7 @@
 
 import type { Colours, Token } from "./colours.ts";
 import { textParts, traceDisc } from "./pen.ts";
-import type { Disc, Handle, Path, Pen, Picture, Trace } from "./pen.ts";
+import type { Disc, Path, Pen, Picture, Trace } from "./pen.ts";
 import * as styles from "./styles.ts";
 import type { DotName, LabelStyle, Style, StyleName } from "./styles.ts";
 
@@ -134,25 +134,6 @@ export class CanvasPen implements Pen {
     context.fillStyle = this.#colours[style.ink];
     each((words, at) => context.strokeText(words, at, y));
     each((words, at) => context.fillText(words, at, y));
-  }
-
-  handle(x: number, y: number, kind: Handle): void {
-    const context = this.#context;
-    context.beginPath();
-    traceDisc(context, { x, y, r: styles.HANDLE_RADIUS });
-    context.fillStyle = this.#colours.paper;
-    if (kind !== "behind") context.fill();
-    this.#line({ stroke: "accent", width: kind === "behind" ? 1.2 : 1.8 });
-    context.stroke();
-    if (kind !== "front") return;
-    const c = styles.HANDLE_CROSS;
-    this.#line({ stroke: "accent", width: 1 });
-    context.beginPath();
-    context.moveTo(x - c, y);
-    context.lineTo(x + c, y);
-    context.moveTo(x, y - c);
-    context.lineTo(x, y + c);
-    context.stroke();
   }
 
   picture(picture: Picture, x: number, y: number, width: number, height: number): void {

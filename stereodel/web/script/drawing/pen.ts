@@ -1,5 +1,6 @@
 /** The one interface through which rooms draw: the same trace becomes pixels or SVG. Pixels of the screen, y down. */
 
+import { HANDLE_CROSS, HANDLE_RADIUS } from "./styles.ts";
 import type { DotName, LabelStyle, StyleName } from "./styles.ts";
 
 /** What a trace is laid into: a part of the canvas's own interface. */
@@ -29,8 +30,6 @@ export interface Disc {
   readonly r: number;
 }
 
-export type Handle = "front" | "behind" | "rim";
-
 /** A picture that is laid into the drawing. */
 export type Picture = HTMLCanvasElement | OffscreenCanvas;
 
@@ -52,8 +51,6 @@ export interface Pen {
   dots(style: DotName, places: ArrayLike<number>): void;
   /** Text at a point of its baseline. */
   label(text: string, x: number, y: number, style: LabelStyle): void;
-  /** A ring to drag: filled and crossed in front, empty behind the ball, filled on a rim. */
-  handle(x: number, y: number, kind: Handle): void;
   /** A picture, fitted into a rectangle. */
   picture(picture: Picture, x: number, y: number, width: number, height: number): void;
 }
@@ -63,6 +60,29 @@ export function traceDisc(path: Path, { x, y, r }: Disc): void {
   path.moveTo(x + r, y);
   path.ellipse(x, y, r, r, 0, 0, 2 * Math.PI);
   path.closePath();
+}
+
+/** A straight line. */
+export function traceSegment(path: Path, a: readonly [number, number], b: readonly [number, number]): void {
+  path.moveTo(...a);
+  path.lineTo(...b);
+}
+
+/** A closed line of straight sides. */
+export function traceCorners(path: Path, corners: readonly (readonly [number, number])[]): void {
+  corners.forEach(([x, y], k) => (k === 0 ? path.moveTo(x, y) : path.lineTo(x, y)));
+  if (corners.length > 0) path.closePath();
+}
+
+/** A ring to drag: filled and crossed in front, empty behind the ball, filled on a rim. */
+export function drawHandle(pen: Pen, x: number, y: number, kind: "front" | "behind" | "rim"): void {
+  const c = HANDLE_CROSS;
+  pen.draw(kind === "behind" ? "handle-behind" : "handle", (path) => traceDisc(path, { x, y, r: HANDLE_RADIUS }));
+  if (kind !== "front") return;
+  pen.draw("handle-cross", (path) => {
+    traceSegment(path, [x - c, y], [x + c, y]);
+    traceSegment(path, [x, y - c], [x, y + c]);
+  });
 }
 
 /** Lines of text with italics between stars. */

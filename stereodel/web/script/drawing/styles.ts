@@ -42,6 +42,9 @@ export const STYLES = {
   touch: { stroke: "ink", width: 1 },
   tissot: { fill: "tissot", stroke: "coast", width: 0.6 },
   "patch-line": { stroke: "accent", width: 1 },
+  handle: { stroke: "accent", width: 1.8, fill: "paper" },
+  "handle-behind": { stroke: "accent", width: 1.2 },
+  "handle-cross": { stroke: "accent", width: 1 },
 } as const satisfies Record<string, Style>;
 
 export type StyleName = keyof typeof STYLES;

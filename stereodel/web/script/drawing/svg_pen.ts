@@ -1,20 +1,11 @@
 /** The pen of SVG: the same trace as on the screen, with true arcs of ellipses. */
 
+import { writeNumber } from "../link.ts";
 import { LIGHT, SHADE } from "./canvas_pen.ts";
 import type { Colours, Token } from "./colours.ts";
 import { textParts } from "./pen.ts";
-import type { Disc, Handle, Path, Pen, Picture, Trace } from "./pen.ts";
-import {
-  BEHIND,
-  DOTS,
-  HALO_WIDTH,
-  HANDLE_CROSS,
-  HANDLE_RADIUS,
-  HATCH_PITCH,
-  HATCH_WIDTH,
-  SERIF,
-  STYLES,
-} from "./styles.ts";
+import type { Disc, Path, Pen, Picture, Trace } from "./pen.ts";
+import { BEHIND, DOTS, HALO_WIDTH, HATCH_PITCH, HATCH_WIDTH, SERIF, STYLES } from "./styles.ts";
 import type { DotName, LabelStyle, Style, StyleName } from "./styles.ts";
 
 /** Decimals of a coordinate, pixels of the screen. */
@@ -111,16 +102,6 @@ export class SvgPen implements Pen {
     const halo = `paint-order="stroke" ${paint("stroke", this.#colours[style.halo])} stroke-width="${HALO_WIDTH}"`;
     const place = `x="${number(x)}" y="${number(y)}" font-size="${style.size}" text-anchor="${anchor}"`;
     this.#parts.push(`<text ${place} ${paint("fill", this.#colours[style.ink])} ${halo}>${words}</text>`);
-  }
-
-  handle(x: number, y: number, kind: Handle): void {
-    const ground = kind === "behind" ? 'fill="none"' : paint("fill", this.#colours.paper);
-    const line = this.#line({ stroke: "accent", width: kind === "behind" ? 1.2 : 1.8 });
-    this.#disc({ x, y, r: HANDLE_RADIUS }, `${ground} ${line}`);
-    if (kind !== "front") return;
-    const c = 2 * HANDLE_CROSS;
-    const d = `M${number(x - c / 2)} ${number(y)}h${c}m${-c / 2} ${-c / 2}v${c}`;
-    this.#parts.push(`<path ${this.#line({ stroke: "accent", width: 1 })} d="${d}"/>`);
   }
 
   picture(picture: Picture, x: number, y: number, width: number, height: number): void {
@@ -223,8 +204,7 @@ class SvgPath implements Path {
 
 /** A coordinate with few digits and no more zeros than it takes. */
 function number(value: number): string {
-  const text = value.toFixed(DECIMALS).replace(/\.?0+$/, "");
-  return text === "-0" ? "0" : text;
+  return writeNumber(value, DECIMALS);
 }
 
 /** A colour as attributes: those of CSS with an opacity of their own are not known to all readers of SVG. */

@@ -1,20 +1,28 @@
 /** Native inputs of a room: numbers in fields, switches, sets. */
 
-import { field, find, make } from "../dom.ts";
+import { field } from "../dom.ts";
 import type { LinkValues } from "../link.ts";
 import type { Messages } from "../messages.ts";
-import type { SiteSet } from "../sets.ts";
 
 /** A field of numbers: what is typed and valid is told, and what the hand does is shown. */
 export class NumberField {
   readonly #input: HTMLInputElement;
   readonly #decimals: number;
 
-  /** @param typed gets each valid number; the browser keeps to `min` and `max`. */
-  constructor(root: ParentNode, name: string, decimals: number, typed: (value: number) => void) {
+  /**
+   * @param typed gets each valid number; the browser keeps to `min` and `max`.
+   * @param when Whether it does so while the reader types, or at the end.
+   */
+  constructor(
+    root: ParentNode,
+    name: string,
+    decimals: number,
+    typed: (value: number) => void,
+    when: "input" | "change" = "input",
+  ) {
     this.#input = field(root, name);
     this.#decimals = decimals;
-    this.#input.addEventListener("input", () => {
+    this.#input.addEventListener(when, () => {
       if (this.#input.value !== "" && this.#input.validity.valid) typed(this.#input.valueAsNumber);
     });
   }
@@ -34,13 +42,18 @@ export class PlaceFields {
   readonly #fields: readonly [NumberField, NumberField];
 
   /** @param name Of the fields, before `-lon` and `-lat`. @param typed gets each valid place. */
-  constructor(root: ParentNode, name: string, typed: (place: readonly [number, number]) => void) {
+  constructor(
+    root: ParentNode,
+    name: string,
+    typed: (place: readonly [number, number]) => void,
+    when: "input" | "change" = "input",
+  ) {
     const names = [`${name}-lon`, `${name}-lat`] as const;
     const act = (): void => {
       const [lon, lat] = names.map((part) => field(root, part).valueAsNumber);
       if (Number.isFinite(lon) && Number.isFinite(lat)) typed([lon, lat]);
     };
-    this.#fields = [new NumberField(root, names[0], 1, act), new NumberField(root, names[1], 1, act)];
+    this.#fields = [new NumberField(root, names[0], 1, act, when), new NumberField(root, names[1], 1, act, when)];
   }
 
   set value([lon, lat]: readonly [number, number]) {
@@ -74,10 +87,14 @@ export class Switches {
   readonly #root: ParentNode;
   readonly #names: readonly string[];
 
-  constructor(root: ParentNode, names: readonly string[], changed: () => void) {
+  constructor(root: ParentNode, names: readonly string[], changed: (name: string) => void) {
     this.#root = root;
     this.#names = names;
-    for (const name of names) field(root, name).addEventListener("change", changed);
+    for (const name of names) field(root, name).addEventListener("change", () => changed(name));
+  }
+
+  set(name: string, isOn: boolean): void {
+    field(this.#root, name).checked = isOn;
   }
 
   /** Whether something is drawn. */
@@ -98,36 +115,6 @@ export class Switches {
     for (const name of this.#names)
       field(this.#root, name).checked = field(this.#root, name).defaultChecked !== turned.includes(name);
   }
-}
-
-/** Fills the list of sets; `chosen` gets the one that the reader picks. */
-export function listSets(
-  root: ParentNode,
-  sets: readonly SiteSet[],
-  chosen: (set: SiteSet) => void,
-): HTMLSelectElement {
-  const select = find<HTMLSelectElement>(root, "select[name=set]");
-  for (const set of sets) {
-    const option = make("option", "", set.words);
-    option.value = set.name;
-    select.append(option);
-  }
-  select.addEventListener("change", () => {
-    const set = sets.find(({ name }) => name === select.value);
-    if (set !== undefined) chosen(set);
-  });
-  return select;
-}
-
-/** Shows which set there is; sites of the reader's own have an entry while they are there. */
-export function showSet(select: HTMLSelectElement, name: string, words: string | null): void {
-  select.querySelector("option[value=own]")?.remove();
-  if (words !== null) {
-    const option = make("option", "", words);
-    option.value = "own";
-    select.prepend(option);
-  }
-  select.value = words === null ? name : "own";
 }
 
 /** What a link may name and does not hold: a file of sites, a picture. */

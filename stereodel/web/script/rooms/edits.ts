@@ -1,11 +1,8 @@
-/** Sites that the reader changes by hand, and the states before to go back to. */
+/** Sites that the reader changes by hand. */
 
 import { ownSites } from "./site_controls.ts";
 import type { NamedSites } from "./site_controls.ts";
 import type { Place } from "./sphere_state.ts";
-
-/** States that are kept. */
-const MOST = 100;
 
 /** The sites with one more at the end. */
 export function withSite({ places, names }: NamedSites, place: Place): NamedSites {
@@ -26,28 +23,4 @@ export function withMoved({ places, names }: NamedSites, site: number, place: Pl
 export function withoutSite({ places, names }: NamedSites, site: number): NamedSites {
   const left = places.filter((_, k) => k >> 1 !== site);
   return ownSites(left, names && names.filter((_, k) => k !== site));
-}
-
-/** Earlier states of the sites. */
-export class History {
-  readonly #states: NamedSites[] = [];
-
-  get isEmpty(): boolean {
-    return this.#states.length === 0;
-  }
-
-  /** Keeps a state; nobody writes to it afterwards. */
-  push(state: NamedSites): void {
-    this.#states.push(state);
-    if (this.#states.length > MOST) this.#states.shift();
-  }
-
-  /** The state before, or null. */
-  pop(): NamedSites | null {
-    return this.#states.pop() ?? null;
-  }
-
-  clear(): void {
-    this.#states.length = 0;
-  }
 }

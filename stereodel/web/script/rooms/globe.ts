@@ -13,12 +13,12 @@ import { SiteTable } from "../table.ts";
 import { capToCap, lensMap, MOST, scaleAt } from "../view/lens.ts";
 import { View } from "../view/view.ts";
 import { counted, latitude, longitude, scale } from "../words.ts";
-import { tellNamed } from "./controls.ts";
+import { Choice, NumberField, PlaceFields, Switches, tellNamed } from "./controls.ts";
 import { BubbleGlobe } from "./globe_bubbles.ts";
 import { FisheyeGlobe } from "./globe_fisheye.ts";
 import type { GlobeHost } from "./globe_plate.ts";
-import { GlobeScene } from "./globe_scene.ts";
-import type { Drawn, Places } from "./globe_scene.ts";
+import { GLOBE_SWITCHES, GlobeScene } from "./globe_scene.ts";
+import type { Places } from "./globe_scene.ts";
 import { BEGINNING, fromValues, LEAST_RADIUS, MOST_RADIUS, PRESETS, sideView, toValues } from "./globe_state.ts";
 import type { GlobeState } from "./globe_state.ts";
 import { FiveViews } from "./globe_views.ts";
@@ -31,8 +31,6 @@ const PICTURES = /\.(jpe?g|png|webp|avif)$/i;
 /** Steps of the slider for a magnification of ten times. */
 const SLIDER_TEN = 50;
 
-const SWITCHES = ["land", "graticule", "tissot", "cells"] as const;
-
 export function globeRoom(host: RoomHost): Room {
   return new GlobeRoom(host);
 }
@@ -43,12 +41,16 @@ interface Parts {
   readonly views: FiveViews;
   readonly bubbles: readonly BubbleGlobe[];
   readonly table: SiteTable;
+  readonly switches: Switches;
+  readonly lens: Choice<GlobeState["lens"]>;
+  /** The focus, or the middle of the bubble. */
+  readonly focus: PlaceFields;
+  readonly radii: { readonly from: NumberField; readonly to: NumberField };
 }
 
 class GlobeRoom implements Room {
   readonly #host: RoomHost;
   readonly #scene = new GlobeScene();
-  readonly #abort = new AbortController();
   #state: GlobeState = BEGINNING;
   #parts: Parts | null = null;
   /** The cells' voice: the places of a link stand until others are opened. */
@@ -67,9 +69,13 @@ class GlobeRoom implements Room {
       get state() {
         return room.#state;
       },
+      isOn: (name) => this.#parts!.switches.isOn(name),
       set: (change, reason, isStep) => this.#set(change, reason, isStep),
       run: (body) => this.#host.guarded(body),
     };
+    const { guarded } = this.#host;
+    const radius = (which: "from" | "to"): NumberField =>
+      new NumberField(section, `${which}-radius`, 1, (value) => guarded(() => this.#setRadius(which, value)), "change");
     const canvas = (id: string): HTMLCanvasElement => find(section, `#${id}`);
     this.#parts = {
       section,
@@ -80,12 +86,18 @@ class GlobeRoom implements Room {
         new BubbleGlobe(canvas("globe-after"), "after", host),
       ],
       table: new SiteTable(find(section, ".sites"), {
-        chosen: (place) => this.#host.guarded(() => this.#center(place)),
+        chosen: (place) => guarded(() => this.#centerPlace(place)),
         pointed: (place) => {
           this.#scene.lit = place;
           this.#redraw("state");
         },
       }),
+      switches: new Switches(section, GLOBE_SWITCHES, (name) => guarded(() => this.#switched(name))),
+      lens: new Choice(section, "lens", ["fisheye", "bubble"], () =>
+        guarded(() => this.#set({ lens: this.#parts!.lens.value }, "state", true)),
+      ),
+      focus: new PlaceFields(section, "focus", (place) => guarded(() => this.#center(directionOf(...place))), "change"),
+      radii: { from: radius("from"), to: radius("to") },
     };
     this.#listen(section);
     this.#write();
@@ -101,20 +113,28 @@ class GlobeRoom implements Room {
           ? { sites: packPlaces(places.lonlat), name: places.name }
           : { file: places.name };
     const picture = this.#scene.picture?.name;
-    return { ...toValues(this.#state), ...held, ...(picture === undefined ? {} : { picture }) };
+    const { turned } = this.#parts!.switches;
+    return {
+      ...toValues(this.#state),
+      ...held,
+      ...(turned === "" ? {} : { turned }),
+      ...(picture === undefined ? {} : { picture }),
+    };
   }
 
   restore(values: LinkValues): void {
     const state = fromValues(values);
     const lonlat = values.lonlat("sites");
     if (lonlat !== null) this.#show({ name: values.text("name", "sites"), lonlat }, false);
-    const drawn = { ...state.drawn, cells: state.drawn.cells && this.#scene.places !== null };
-    this.#parts?.globe.stop();
+    const { switches, globe } = this.#parts!;
+    switches.turned = values.text("turned", "");
+    if (this.#scene.places === null) switches.set("cells", false);
+    globe.stop();
     const { messages } = this.#host;
     if (this.#scene.places?.name !== values.text("file", "")) tellNamed(messages, values, "file");
     this.#scene.picture = values.text("picture", "") === this.#picture?.name ? this.#picture : null;
     if (this.#scene.picture === null) tellNamed(messages, values, "picture");
-    this.#set({ ...state, drawn }, "state");
+    this.#set(state, "state");
   }
 
   redraw(): void {
@@ -133,7 +153,8 @@ class GlobeRoom implements Room {
     return exchange.openPoints(file, "lonlat", messages, ({ places: lonlat, names }) => {
       guarded(() => {
         this.#show({ name: file.name, lonlat, names }, false);
-        this.#set({ drawn: { ...this.#state.drawn, cells: true } }, "state", true);
+        this.#parts!.switches.set("cells", true);
+        this.#set({}, "state", true);
       });
     });
   }
@@ -152,14 +173,7 @@ class GlobeRoom implements Room {
   }
 
   python(exchange: Exchange): string {
-    return exchange.globePython(this.#state, this.#scene);
-  }
-
-  dispose(): void {
-    this.#abort.abort();
-    this.#parts?.globe.dispose();
-    this.#parts?.views.dispose();
-    for (const globe of this.#parts?.bubbles ?? []) globe.dispose();
+    return exchange.globePython(this.#state, this.#scene, (name) => this.#parts!.switches.isOn(name));
   }
 
   /** Unpacks what the page carries; until then the globe is water. */
@@ -169,7 +183,8 @@ class GlobeRoom implements Room {
     const given = await this.#host.contents.given();
     if (given !== null && this.#scene.places === null) {
       this.#show(given, true);
-      this.#set({ drawn: { ...this.#state.drawn, cells: true } }, "state");
+      this.#parts!.switches.set("cells", true);
+      this.#set({}, "state");
     }
     this.#redraw("state");
   }
@@ -194,14 +209,15 @@ class GlobeRoom implements Room {
   }
 
   /** Brings a place to the middle, and the lens to it. */
-  #center(place: number): void {
+  #centerPlace(place: number): void {
     const [lon, lat] = this.#scene.places!.lonlat.subarray(2 * place);
-    const direction = directionOf(lon, lat);
+    this.#center(directionOf(lon, lat), View.above(lon, lat));
+  }
+
+  /** Brings the lens to a direction, or the bubble that is taken. */
+  #center(direction: Vector, view = this.#state.sight.view): void {
     if (this.#state.lens === "bubble") this.#set({ from: { ...this.#state.from, center: direction } }, "state");
-    else {
-      const lens = { ...this.#state.sight.lens, focus: direction };
-      this.#parts!.globe.fly({ lens, view: View.above(lon, lat) });
-    }
+    else this.#parts!.globe.fly({ lens: { ...this.#state.sight.lens, focus: direction }, view });
   }
 
   /** Another state: the drawings, the words, the controls and the link follow. */
@@ -228,28 +244,15 @@ class GlobeRoom implements Room {
   }
 
   #listen(section: HTMLElement): void {
-    const { signal } = this.#abort;
-    const on = (target: Element, act: () => void, type = "change"): void =>
-      target.addEventListener(type, () => this.#host.guarded(act), { signal });
-    for (const radio of section.querySelectorAll<HTMLInputElement>("input[name=lens]")) {
-      on(radio, () => this.#set({ lens: radio.value === "bubble" ? "bubble" : "fisheye" }, "state", true));
-    }
+    const on = (target: Element, act: () => void, type = "click"): void =>
+      target.addEventListener(type, () => this.#host.guarded(act));
     const slider = this.#input("mag");
     on(slider, () => this.#magnify(10 ** (slider.valueAsNumber / SLIDER_TEN)), "input");
-    for (const name of ["focus-lat", "focus-lon"]) on(this.#input(name), () => this.#focusByFields());
-    on(this.#input("from-radius"), () => this.#setRadius("from", "from-radius"));
-    on(this.#input("to-radius"), () => this.#setRadius("to", "to-radius"));
     for (const button of section.querySelectorAll<HTMLButtonElement>(".presets button")) {
-      on(button, () => this.#begin(PRESETS[button.value]), "click");
+      on(button, () => this.#begin(PRESETS[button.value]));
     }
-    for (const name of SWITCHES) {
-      const box = this.#input(name);
-      on(box, () => this.#set({ drawn: { ...this.#state.drawn, [name]: box.checked } as Drawn }, "state"));
-    }
-    const north = this.#input("north");
-    on(north, () => this.#setNorth(north.checked));
     for (const button of section.querySelectorAll<HTMLButtonElement>(".views button")) {
-      on(button, () => this.#flyToSide(button), "click");
+      on(button, () => this.#flyToSide(button));
     }
   }
 
@@ -260,24 +263,9 @@ class GlobeRoom implements Room {
     this.#set({ sight: { ...sight, lens: { ...sight.lens, magnification: kept } } }, "hand");
   }
 
-  #focusByFields(): void {
-    const [lat, lon] = [this.#input("focus-lat"), this.#input("focus-lon")];
-    if (!lat.validity.valid || !lon.validity.valid || lat.value === "" || lon.value === "") return;
-    const place = directionOf(lon.valueAsNumber, lat.valueAsNumber);
-    if (this.#state.lens === "bubble") this.#set({ from: { ...this.#state.from, center: place } }, "state");
-    else {
-      const { lens, view } = this.#state.sight;
-      this.#parts?.globe.fly({ lens: { ...lens, focus: place }, view });
-    }
-  }
-
-  #setRadius(which: "from" | "to", name: string): void {
-    const radius = this.#input(name).valueAsNumber;
-    if (!(radius >= LEAST_RADIUS && radius <= MOST_RADIUS)) {
-      this.#write();
-      return;
-    }
-    this.#set({ [which]: { ...this.#state[which], radius } }, "state");
+  #setRadius(which: "from" | "to", radius: number): void {
+    if (!(radius >= LEAST_RADIUS && radius <= MOST_RADIUS)) this.#write();
+    else this.#set({ [which]: { ...this.#state[which], radius } }, "state");
   }
 
   #begin(preset: Partial<GlobeState> | undefined): void {
@@ -287,12 +275,12 @@ class GlobeRoom implements Room {
     else this.#set(preset, "state", true);
   }
 
-  #setNorth(isNorthUp: boolean): void {
+  /** Something is drawn, or no longer; north is up again, or may turn. */
+  #switched(name: string): void {
     const { sight, before, after } = this.#state;
-    const level = isNorthUp
-      ? { sight: { ...sight, view: sight.view.northUp }, before: before.northUp, after: after.northUp }
-      : {};
-    this.#set({ ...level, isNorthUp }, "state");
+    const isLeveled = name === "north" && this.#parts!.switches.isOn(name);
+    const level = { sight: { ...sight, view: sight.view.northUp }, before: before.northUp, after: after.northUp };
+    this.#set(isLeveled ? level : {}, "state");
   }
 
   #flyToSide(button: HTMLButtonElement): void {
@@ -304,21 +292,14 @@ class GlobeRoom implements Room {
   /** Everything of the margin and the sentences. */
   #write(): void {
     if (this.#parts === null) return;
-    const { section } = this.#parts;
-    const { sight, drawn, isNorthUp, from, to } = this.#state;
-    const { magnification, focus } = sight.lens;
-    for (const radio of section.querySelectorAll<HTMLInputElement>("input[name=lens]")) {
-      radio.checked = radio.value === this.#state.lens;
-    }
-    put(this.#input("mag"), String(SLIDER_TEN * Math.log10(magnification)));
+    const { section, lens, focus, radii } = this.#parts;
+    const { sight, from, to } = this.#state;
+    const { magnification } = sight.lens;
+    lens.value = this.#state.lens;
+    this.#input("mag").value = String(SLIDER_TEN * Math.log10(magnification));
     find(section, "[data-out=mag]").textContent = scale(magnification);
-    const [lon, lat] = lonLatOf(this.#state.lens === "bubble" ? from.center : focus);
-    put(this.#input("focus-lat"), lat.toFixed(1));
-    put(this.#input("focus-lon"), lon.toFixed(1));
-    put(this.#input("from-radius"), from.radius.toFixed(1));
-    put(this.#input("to-radius"), to.radius.toFixed(1));
-    for (const name of SWITCHES) this.#input(name).checked = drawn[name];
-    this.#input("north").checked = isNorthUp;
+    focus.value = lonLatOf(this.#state.lens === "bubble" ? from.center : sight.lens.focus);
+    [radii.from.value, radii.to.value] = [from.radius, to.radius];
     if (this.#state.lens === "bubble") this.#writeBubbles(section);
     else this.#writeFisheye(section);
     find(section, "#globe-plate").setAttribute("aria-label", this.#label());
@@ -432,9 +413,4 @@ function fraction(magnification: number): string {
 
 function short(magnification: number): string {
   return Number.isInteger(magnification) ? String(magnification) : scale(magnification);
-}
-
-/** Writes a value, unless the reader is writing there. */
-function put(input: HTMLInputElement, value: string): void {
-  if (input !== document.activeElement || input.type === "range") input.value = value;
 }

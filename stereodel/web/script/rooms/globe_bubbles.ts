@@ -1,15 +1,17 @@
 /** Two globes: the bubble that is taken, and the one that it fills; rims and insides are dragged in either. */
 
-import { arcThrough } from "../drawing/arcs.ts";
+import { circle, pointAt } from "../drawing/arcs.ts";
+import type { Circle } from "../drawing/arcs.ts";
 import { circlePoints } from "../drawing/ball.ts";
 import { traceCap } from "../drawing/fill.ts";
+import { drawHandle } from "../drawing/pen.ts";
 import type { Pen } from "../drawing/pen.ts";
 import type { Reason } from "../drawing/plate.ts";
 import { MoebiusMap } from "../kernel/api.ts";
 import { arrowed, grabBall } from "../view/ball_hand.ts";
 import { distance } from "../view/hand.ts";
 import type { Gestures, Hold, Place } from "../view/hand.ts";
-import { betweenSights, capToCap, seenThrough } from "../view/lens.ts";
+import { capToCap, seenThrough } from "../view/lens.ts";
 import type { Cap } from "../view/lens.ts";
 import { between, pointUnder, turned } from "../view/view.ts";
 import type { View } from "../view/view.ts";
@@ -61,17 +63,14 @@ export class BubbleGlobe extends GlobePlate {
     this.host.set({ [this.#which]: view }, reason);
   }
 
-  /** Goes to another view. */
-  fly(to: View): void {
-    const [from, lens] = [this.view, BEGINNING.sight.lens];
-    this.motion.fly((t) => {
-      const { view } = betweenSights({ lens, view: from }, { lens, view: to }, t, this.isNorthUp);
-      this.turn(view, t < 1 ? "flight" : "state");
-    });
-  }
-
   get #cap(): Cap {
     return this.host.state[this.#which === "before" ? "from" : "to"];
+  }
+
+  /** The bubble's rim, axes of the view. */
+  get #rim(): Circle {
+    const { center, radius } = this.#cap;
+    return circle(this.view.seen(center), Math.cos((radius * Math.PI) / 180));
   }
 
   #setCap(cap: Cap): void {
@@ -82,15 +81,12 @@ export class BubbleGlobe extends GlobePlate {
   protected paintHeld(pen: Pen): void {
     const { disc } = this;
     const cap = this.#cap;
-    const seen: Vector[] = circlePoints(this.view.seen(cap.center), cap.radius);
-    const circle = arcThrough(seen.flat(), 0, 1, 2, true);
-    if (circle !== null) {
-      pen.draw(this.#which === "before" ? "bubble" : "bubble-open", (path) => traceCap(path, disc, circle));
-    }
+    const rim = this.#rim;
+    pen.draw(this.#which === "before" ? "bubble" : "bubble-open", (path) => traceCap(path, disc, rim));
     const handle = this.#handle();
     if (handle === null) return;
     const [x, y] = placeOf(disc, handle);
-    pen.handle(x, y, "rim");
+    drawHandle(pen, x, y, "rim");
     const isRight = handle[0] < 0.55;
     // Near the lower limb the label stands above its handle: below there is no drawing.
     const isLow = handle[1] < -0.5 && handle[2] < 0.4;
@@ -102,15 +98,10 @@ export class BubbleGlobe extends GlobePlate {
 
   /** The handle's point of the view, or null while the rim is behind. */
   #handle(): Vector | null {
-    const cap = this.#cap;
-    const [a, b, c] = circlePoints(this.view.seen(cap.center), cap.radius);
-    const middle: Vector = [(a[0] + b[0] + c[0]) / 3, (a[1] + b[1] + c[1]) / 3, (a[2] + b[2] + c[2]) / 3];
-    const e: Vector = [a[0] - middle[0], a[1] - middle[1], a[2] - middle[2]];
-    const f: Vector = [0, 1, 2].map((k) => (b[k] - c[k]) / Math.sqrt(3)) as unknown as Vector;
+    const rim = this.#rim;
     let best: Vector | null = null;
     for (let k = 0; k < TRIED; ++k) {
-      const [u, v] = [Math.cos((2 * Math.PI * k) / TRIED), Math.sin((2 * Math.PI * k) / TRIED)];
-      const point = unit([0, 1, 2].map((i) => middle[i] + u * e[i] + v * f[i]) as unknown as Vector);
+      const point = pointAt(rim, (2 * Math.PI * k) / TRIED);
       if (point[2] >= 0 && (best === null || toward(point) > toward(best))) best = point;
     }
     return best;

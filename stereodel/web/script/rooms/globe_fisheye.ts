@@ -1,5 +1,6 @@
 /** The large globe through the fisheye: turned, magnified and focused by hand; the circle at the pointer. */
 
+import { drawHandle } from "../drawing/pen.ts";
 import type { Pen } from "../drawing/pen.ts";
 import type { Reason } from "../drawing/plate.ts";
 import type { LabelStyle } from "../drawing/styles.ts";
@@ -58,7 +59,7 @@ export class FisheyeGlobe extends GlobePlate {
   protected paintHeld(pen: Pen): void {
     const focus = this.view.seen(this.#sight.lens.focus);
     const [x, y] = placeOf(this.disc, focus);
-    pen.handle(x, y, focus[2] >= 0 ? "front" : "behind");
+    drawHandle(pen, x, y, focus[2] >= 0 ? "front" : "behind");
     const isRight = focus[0] <= 0.75;
     const place: [number, number] = isRight ? [x + 9, y - 7] : [x - 9, y - 7];
     const words = focus[2] >= 0 ? "focus" : "focus*, behind*";

@@ -18,7 +18,7 @@ import { pointUnder } from "../view/view.ts";
 import type { View } from "../view/view.ts";
 import { scale } from "../words.ts";
 import { CIRCLE_RADIUS } from "./globe_scene.ts";
-import type { GlobeScene } from "./globe_scene.ts";
+import type { GlobeScene, GlobeSwitch } from "./globe_scene.ts";
 import type { GlobeState } from "./globe_state.ts";
 import { placeOf } from "./lines.ts";
 import type { Vector } from "./space.ts";
@@ -29,6 +29,8 @@ export const LABEL: LabelStyle = { ink: "accent-text", halo: "halo", size: 14 };
 export interface GlobeHost {
   readonly scene: GlobeScene;
   readonly state: GlobeState;
+  /** Whether something is drawn, or north stays up. */
+  readonly isOn: (name: GlobeSwitch) => boolean;
   /** Shows another state. */
   set(change: Partial<GlobeState>, reason: Reason, isStep?: boolean): void;
   run(body: () => void): void;
@@ -38,7 +40,6 @@ export abstract class GlobePlate implements Turnable {
   readonly plate: Plate;
   protected readonly host: GlobeHost;
   protected readonly motion = new Motion();
-  readonly #unfollow: () => void;
 
   constructor(canvas: HTMLCanvasElement, host: GlobeHost) {
     this.host = host;
@@ -52,7 +53,7 @@ export abstract class GlobePlate implements Turnable {
         this.paintHeld(pen);
       },
     );
-    this.#unfollow = follow(this.plate, { hover: (at) => this.point(at), ...this.gestures() });
+    follow(this.plate, { hover: (at) => this.point(at), ...this.gestures() });
   }
 
   abstract get view(): View;
@@ -73,17 +74,11 @@ export abstract class GlobePlate implements Turnable {
   }
 
   get isNorthUp(): boolean {
-    return this.host.state.isNorthUp;
+    return this.host.isOn("north");
   }
 
   stop(): void {
     this.motion.stop();
-  }
-
-  dispose(): void {
-    this.stop();
-    this.#unfollow();
-    this.plate.dispose();
   }
 
   protected isOnBall(at: Place): boolean {
@@ -97,7 +92,7 @@ export abstract class GlobePlate implements Turnable {
   }
 
   #paint(pen: Pen, isMoving: boolean): void {
-    this.host.scene.draw(pen, this.disc, this.map, this.host.state.drawn, isMoving);
+    this.host.scene.draw(pen, this.disc, this.map, this.host.isOn, isMoving);
     pen.draw("limb", (path) => traceDisc(path, this.disc));
   }
 

@@ -7,12 +7,12 @@ import {
   dotLayer,
   drawLayers,
   graticuleArcs,
-  regionLayer,
+  landLayer,
   ridgeArcs,
 } from "../drawing/ball.ts";
 import type { Layer } from "../drawing/ball.ts";
 import type { Disc, Pen } from "../drawing/pen.ts";
-import type { Contents, Rings } from "../contents.ts";
+import type { Contents } from "../contents.ts";
 import { lonlatToXyz, SphericalVoronoi } from "../kernel/api.ts";
 import type { Latitude, MoebiusMap } from "../kernel/api.ts";
 import { tableLatitude } from "../kernel/latitudes.ts";
@@ -30,19 +30,15 @@ const OF_EQUAL_AREA = 6371.007180918474;
 /** Degrees between the lines of the graticule, and between the circles. */
 export const STEP = 10;
 
-/** The place of the sea that is farthest from all land. */
-const AT_SEA = directionOf(-123.4, -48.9);
-
 /** Places beyond which their cells are left out while the globe moves. */
 const MANY_PLACES = 10_000;
 
-/** What is drawn, as the reader has switched it. */
-export interface Drawn {
-  readonly land: boolean;
-  readonly graticule: boolean;
-  readonly tissot: boolean;
-  readonly cells: boolean;
-}
+/** What the reader switches: what is drawn, and whether north stays up. */
+export const GLOBE_SWITCHES = ["land", "graticule", "tissot", "cells", "north"] as const;
+export type GlobeSwitch = (typeof GLOBE_SWITCHES)[number];
+
+/** Whether one of them is on. */
+type IsOn = (name: GlobeSwitch) => boolean;
 
 /** The reader's own places. */
 export interface Places {
@@ -91,20 +87,20 @@ export class GlobeScene {
   }
 
   /** Draws a globe; `map` takes the Earth to the axes of the view. */
-  draw(pen: Pen, disc: Disc, map: MoebiusMap, drawn: Drawn, isMoving: boolean): void {
+  draw(pen: Pen, disc: Disc, map: MoebiusMap, isOn: IsOn, isMoving: boolean): void {
     pen.ball(disc, "ocean");
     if (this.picture !== null) this.picture.draw(pen, disc, map, isMoving);
-    drawLayers(pen, disc, map, this.#layers(drawn, isMoving));
+    drawLayers(pen, disc, map, this.#layers(isOn, isMoving));
     pen.shade(disc);
   }
 
-  #layers(drawn: Drawn, isMoving: boolean): Layer[] {
+  #layers(isOn: IsOn, isMoving: boolean): Layer[] {
     const layers: (Layer | null)[] = [];
-    if (drawn.land && this.picture === null) layers.push(isMoving ? this.#coarse : (this.#fine ?? this.#coarse));
-    if (drawn.graticule) layers.push(this.#graticule);
-    if (drawn.tissot) layers.push(this.#tissot);
+    if (isOn("land") && this.picture === null) layers.push(isMoving ? this.#coarse : (this.#fine ?? this.#coarse));
+    if (isOn("graticule")) layers.push(this.#graticule);
+    if (isOn("tissot")) layers.push(this.#tissot);
     const count = (this.places?.lonlat.length ?? 0) / 2;
-    if (drawn.cells && !(isMoving && count > MANY_PLACES)) layers.push(this.#ridges());
+    if (isOn("cells") && !(isMoving && count > MANY_PLACES)) layers.push(this.#ridges());
     layers.push(this.#dots);
     if (this.places !== null && this.lit !== null) {
       layers.push(dotLayer("held", lonlatToXyz(this.places.lonlat.subarray(2 * this.lit, 2 * this.lit + 2))));
@@ -134,10 +130,6 @@ export class GlobeScene {
     const diagram = this.#diagram();
     return diagram === null ? null : (this.#cells ??= arcLayer("voronoi", this.#drawn(ridgeArcs(diagram))));
   }
-}
-
-function landLayer({ lonlat, offsets }: Rings): Layer {
-  return regionLayer("land", "coast", lonlatToXyz(lonlat), offsets, AT_SEA, false);
 }
 
 /** Three points of each circle, about places some distance apart on parallels that are as far apart. */

@@ -1,11 +1,10 @@
 /** The state of the Globe room, and how links hold it. */
 
-import { writeNumber } from "../link.ts";
+import { writeNumber, writePlace } from "../link.ts";
 import type { LinkValues } from "../link.ts";
 import { MOST } from "../view/lens.ts";
 import type { Cap, Sight } from "../view/lens.ts";
 import { View } from "../view/view.ts";
-import type { Drawn } from "./globe_scene.ts";
 import { directionOf, lonLatOf } from "./space.ts";
 import type { Vector } from "./space.ts";
 
@@ -21,8 +20,6 @@ export interface GlobeState {
   /** Where the globes of both bubbles are seen from. */
   readonly before: View;
   readonly after: View;
-  readonly drawn: Drawn;
-  readonly isNorthUp: boolean;
 }
 
 const CENTRAL_EUROPE = directionOf(10, 48);
@@ -35,8 +32,6 @@ export const BEGINNING: GlobeState = {
   to: { center: CENTRAL_EUROPE, radius: 72 },
   before: View.above(10, 42),
   after: View.above(10, 42),
-  drawn: { land: true, graticule: true, tissot: true, cells: false },
-  isNorthUp: true,
 };
 
 /** Degrees of the smallest bubble and of the largest: the complement of the smallest. */
@@ -84,8 +79,7 @@ const DIGITS = 7;
 type Values = Record<string, string>;
 
 export function toValues(state: GlobeState): Values {
-  const { sight, from, to, drawn } = state;
-  const off = (["land", "graticule", "tissot"] as const).filter((name) => !drawn[name]);
+  const { sight, from, to } = state;
   return {
     lens: state.lens,
     s: writeNumber(sight.lens.magnification, DIGITS),
@@ -102,18 +96,12 @@ export function toValues(state: GlobeState): Values {
           ...viewValues("after", state.after),
         }
       : {}),
-    ...(off.length > 0 ? { off: off.join(",") } : {}),
-    ...(drawn.cells ? { cells: "1" } : {}),
-    ...(state.isNorthUp ? {} : { north: "0" }),
   };
 }
 
 /** @throws LinkError where a value cannot be read. */
 export function fromValues(values: LinkValues): GlobeState {
   const begin = BEGINNING;
-  const off = values.text("off", "").split(",");
-  const isOn = (name: string): boolean => !off.includes(name);
-  const isNorthUp = values.word("north", ["0", "1"], "1") === "1";
   const cap = (name: string, otherwise: Cap): Cap => ({
     center: readPlace(values, name, otherwise.center),
     radius: values.number(`${name}radius`, LEAST_RADIUS, MOST_RADIUS, otherwise.radius),
@@ -133,41 +121,23 @@ export function fromValues(values: LinkValues): GlobeState {
     to: cap("to", begin.to),
     before: readView(values, "before", begin.before),
     after: readView(values, "after", begin.after),
-    drawn: {
-      land: isOn("land"),
-      graticule: isOn("graticule"),
-      tissot: isOn("tissot"),
-      cells: values.word("cells", ["0", "1"], "0") === "1",
-    },
-    isNorthUp,
   };
 }
 
 function placeValues(name: string, direction: Vector): Values {
-  const [lon, lat] = lonLatOf(direction);
-  return { [`${name}lon`]: writeNumber(lon, DIGITS), [`${name}lat`]: writeNumber(lat, DIGITS) };
+  return writePlace(name, lonLatOf(direction), DIGITS);
 }
 
 function viewValues(name: string, view: View): Values {
-  const [lon, lat] = view.middle;
   const roll = writeNumber(view.roll, DIGITS);
-  return {
-    [`${name}lon`]: writeNumber(lon, DIGITS),
-    [`${name}lat`]: writeNumber(lat, DIGITS),
-    ...(roll === "0" ? {} : { [`${name}roll`]: roll }),
-  };
-}
-
-function readLonLat(values: LinkValues, name: string, [lon, lat]: [number, number]): [number, number] {
-  return [values.number(`${name}lon`, -360, 360, lon), values.number(`${name}lat`, -90, 90, lat)];
+  return { ...writePlace(name, view.middle, DIGITS), ...(roll === "0" ? {} : { [`${name}roll`]: roll }) };
 }
 
 function readPlace(values: LinkValues, name: string, otherwise: Vector): Vector {
   if (!values.has(`${name}lon`) && !values.has(`${name}lat`)) return otherwise;
-  return directionOf(...readLonLat(values, name, lonLatOf(otherwise)));
+  return directionOf(...values.place(name, lonLatOf(otherwise)));
 }
 
 function readView(values: LinkValues, name: string, otherwise: View): View {
-  const roll = values.number(`${name}roll`, -360, 360, 0);
-  return View.above(...readLonLat(values, name, otherwise.middle), roll);
+  return View.above(...values.place(name, otherwise.middle), values.number(`${name}roll`, -360, 360, 0));
 }

@@ -53,10 +53,6 @@ export class FiveViews {
     for (const plate of this.#plates) plate.redraw(isMoving ? "state" : reason);
   }
 
-  dispose(): void {
-    for (const plate of this.#plates) plate.dispose();
-  }
-
   #paint(pen: Pen, panel: number, disc: Disc): void {
     const { lens } = this.#host.state.sight;
     const map = seenThrough(lensMap(lens), sideView(panel, lens.focus));

@@ -47,7 +47,11 @@ export function outlineOf(facets: Int32Array, chosen: readonly number[]): number
       if (!sides.delete(`${b} ${a}`)) sides.set(`${a} ${b}`, [a, b]);
     }
   }
-  const next = new Map(sides.values());
+  return chained(new Map(sides.values()));
+}
+
+/** The closed line that begins with the first key: from each number to its value. */
+export function chained(next: Map<number, number>): number[] {
   const outline: number[] = [];
   for (let at = next.keys().next().value; at !== undefined && next.has(at);) {
     outline.push(at);

@@ -12,14 +12,14 @@ import type { SiteSet } from "../sets.ts";
 import { distance, follow } from "../view/hand.ts";
 import type { Gestures, Hold, Place as Point } from "../view/hand.ts";
 import { View } from "../view/view.ts";
-import { counted, fixed, wrap } from "../words.ts";
+import { counted, fixed, ofFacets, wrap } from "../words.ts";
 import { NumberField } from "./controls.ts";
 import { drawLift, onPicture, sitePlace, standOf } from "./lift_drawing.ts";
 import type { LiftScene } from "./lift_drawing.ts";
 import type { Sheet as BentSheet } from "./lift_sheet.ts";
 import { SHEET_SIDES, sheetSets } from "./lift_sets.ts";
 import { LiftSites } from "./lift_sites.ts";
-import { measured, ofBend, ofBounds, ofFacets, ofPair, separation, withoutTriangles } from "./lift_words.ts";
+import { measured, ofBend, ofBounds, ofPair, separation, withoutTriangles } from "./lift_words.ts";
 import { SiteControls } from "./site_controls.ts";
 import type { NamedSites } from "./site_controls.ts";
 
@@ -30,6 +30,9 @@ const HEMISPHERE = 90;
 const HEIGHT = 35;
 const SIDE = 17;
 const PAIR = { p: 43, q: 1 };
+
+/** What the sum of facets is made of. */
+const SUM = ["on the ball", "of the sheet", " the pole"] as const;
 
 /** Degrees that a drag of a pixel turns. */
 const DEGREES_PER_PIXEL = 0.35;
@@ -51,7 +54,6 @@ class LiftRoom implements Room {
   #controls!: SiteControls;
   #viewFields!: { height: NumberField; side: NumberField };
   #pairFields!: { p: NumberField; q: NumberField };
-  #release = (): void => {};
 
   #sites = new LiftSites(new Float64Array(0));
   #corner = HEMISPHERE;
@@ -89,7 +91,7 @@ class LiftRoom implements Room {
     };
     const slider = field(section, "bend");
     slider.addEventListener("input", () => this.#host.guarded(() => this.#bend(slider.valueAsNumber)));
-    this.#release = follow(this.#plate, this.#gestures());
+    follow(this.#plate, this.#gestures());
   }
 
   // State
@@ -176,7 +178,7 @@ class LiftRoom implements Room {
     const alone = withoutTriangles(this.#sites);
     const { simplices } = this.#sites.delaunay;
     const sum = find(this.#section, "[data-out=sum]");
-    say(sum, alone ?? ofFacets(simplices.length / 3, this.#sites.closing.length / 3));
+    say(sum, alone ?? ofFacets(simplices.length / 3, this.#sites.closing.length / 3, SUM));
     this.#viewFields.height.value = this.#height;
     this.#viewFields.side.value = this.#side;
     this.redraw(reason);
@@ -407,11 +409,6 @@ class LiftRoom implements Room {
       q: this.#q,
     };
     return exchange.liftPython(this.#sites, this.#bent, shown);
-  }
-
-  dispose(): void {
-    this.#release();
-    this.#plate.dispose();
   }
 }
 

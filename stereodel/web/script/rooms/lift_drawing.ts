@@ -2,10 +2,11 @@
 
 import { traceArc } from "../drawing/arcs.ts";
 import { traceRegions } from "../drawing/fill.ts";
-import { traceDisc } from "../drawing/pen.ts";
+import { traceCorners, traceDisc, traceSegment } from "../drawing/pen.ts";
 import type { Disc, Path, Pen } from "../drawing/pen.ts";
 import type { LabelStyle } from "../drawing/styles.ts";
 import type { View } from "../view/view.ts";
+import { chained } from "./insertion.ts";
 import type { Sheet } from "./lift_sheet.ts";
 import type { LiftSites } from "./lift_sites.ts";
 import { traceGreat, tracePolygon } from "./lines.ts";
@@ -134,20 +135,20 @@ function drawFlat(pen: Pen, stand: Stand, scene: LiftScene): void {
     const hull = hullOf(sites);
     pen.draw("hatch", (path) => {
       outline(path);
-      polygon(path, hull.map(site).reverse());
+      traceCorners(path, hull.map(site).reverse());
     });
-    pen.draw("hull", (path) => polygon(path, hull.map(site)));
+    pen.draw("hull", (path) => traceCorners(path, hull.map(site)));
   }
   if (shown.triangles) {
     const { edges } = sites.delaunay;
     pen.draw("delaunay", (path) => {
-      for (let k = 0; k < edges.length; k += 2) line(path, site(edges[k]), site(edges[k + 1]));
+      for (let k = 0; k < edges.length; k += 2) traceSegment(path, site(edges[k]), site(edges[k + 1]));
     });
   }
   if (shown.cells) {
     pen.clipped(outline, () => {
       pen.draw("voronoi", (path) => {
-        for (const [a, b] of sites.ridges) line(path, place(...a), place(...b));
+        for (const [a, b] of sites.ridges) traceSegment(path, place(...a), place(...b));
       });
     });
   }
@@ -176,14 +177,14 @@ function drawPair(pen: Pen, stand: Stand, scene: LiftScene): void {
   if (!sheet.isFlat) {
     const touch = onPicture(stand, view, [0, 0, 0]);
     pen.draw("touch", (path) => {
-      line(path, [touch[0] - 4.5, touch[1]], [touch[0] + 4.5, touch[1]]);
-      line(path, [touch[0], touch[1] - 3.5], [touch[0], touch[1] + 3.5]);
+      traceSegment(path, [touch[0] - 4.5, touch[1]], [touch[0] + 4.5, touch[1]]);
+      traceSegment(path, [touch[0], touch[1] - 3.5], [touch[0], touch[1] + 3.5]);
     });
   }
   if (p !== null && q !== null && p !== q) {
     pen.draw("span", (path) => {
       if (sheet.isFlat)
-        line(path, onPicture(stand, view, sheet.flat(...at(p))), onPicture(stand, view, sheet.flat(...at(q))));
+        traceSegment(path, onPicture(stand, view, sheet.flat(...at(p))), onPicture(stand, view, sheet.flat(...at(q))));
       else
         traceSpan(
           path,
@@ -203,7 +204,7 @@ function drawPair(pen: Pen, stand: Stand, scene: LiftScene): void {
     const above = onPicture(stand, view, sheet.flat(...at(site)));
     const image = onPicture(stand, view, sheet.image(...at(site)));
     if (!sheet.isFlat) {
-      if (shown.rays) pen.draw("ray", (path) => line(path, poleIsSeen ? pole : image, above));
+      if (shown.rays) pen.draw("ray", (path) => traceSegment(path, poleIsSeen ? pole : image, above));
       pen.dots("shadow", above);
     }
     pen.dots("held", image);
@@ -286,7 +287,7 @@ function traceBorder(path: Path, disc: Disc, scene: LiftScene, side: "front" | "
 
 /** The plane's rectangle. */
 function tracePlane(path: Path, stand: Stand, scene: LiftScene): void {
-  polygon(
+  traceCorners(
     path,
     cornersOf(scene).map(([x, y]) => onPicture(stand, scene.view, scene.sheet.flat(x, y))),
   );
@@ -309,16 +310,8 @@ function holds(scene: LiftScene, seen: Vector): boolean {
 /** Sites of the convex hull, counterclockwise. */
 function hullOf(sites: LiftSites): number[] {
   const { convexHull } = sites.delaunay;
-  const next = new Map<number, number>();
-  for (let k = 0; k < convexHull.length; k += 2) next.set(convexHull[k], convexHull[k + 1]);
-  const hull: number[] = [];
-  for (let at: number | undefined = convexHull[0]; at !== undefined && next.has(at);) {
-    hull.push(at);
-    const to: number | undefined = next.get(at);
-    next.delete(at);
-    at = to;
-  }
-  return hull;
+  const starts = convexHull.filter((_, k) => k % 2 === 0);
+  return chained(new Map(Array.from(starts, (a, k) => [a, convexHull[2 * k + 1]])));
 }
 
 /** Whether a place lies in a convex polygon of sites. */
@@ -355,14 +348,4 @@ function ridgesOf({ sites }: LiftScene, look: (k: number) => Vector): [Vector, V
 /** The middle of a facet's circle on the ball, on the outer side of its plane. */
 function facetCenter(a: Vector, b: Vector, c: Vector): Vector {
   return unit(cross([b[0] - a[0], b[1] - a[1], b[2] - a[2]], [c[0] - a[0], c[1] - a[1], c[2] - a[2]]));
-}
-
-function line(path: Path, a: readonly [number, number], b: readonly [number, number]): void {
-  path.moveTo(...a);
-  path.lineTo(...b);
-}
-
-function polygon(path: Path, points: readonly (readonly [number, number])[]): void {
-  points.forEach(([x, y], k) => (k === 0 ? path.moveTo(x, y) : path.lineTo(x, y)));
-  if (points.length > 0) path.closePath();
 }

@@ -1,12 +1,10 @@
 /** What the Lift room says: sentences whose numbers change. */
 
-import { counted, fixed, several } from "../words.ts";
+import { counted, fixed } from "../words.ts";
 import { separationBounds } from "./lift_sheet.ts";
 import type { Sheet } from "./lift_sheet.ts";
 import type { LiftSites } from "./lift_sites.ts";
 import { angle } from "./space.ts";
-
-const SPACED = "\u2002";
 
 /** How far apart two sites are. */
 export interface Separation {
@@ -59,17 +57,6 @@ export function measured(value: number, diagonal: number): string {
   const [whole, rest] = fixed(Math.abs(value), decimals).split(".");
   const text = rest === undefined ? counted(Number(whole)) : `${counted(Number(whole))}.${rest}`;
   return value < 0 && /[1-9]/.test(text) ? `\u2212${text}` : text;
-}
-
-/** Facets on the ball = triangles of the sheet + facets that see the pole. */
-export function ofFacets(planar: number, closing: number): string {
-  return [
-    `${several(planar + closing, "facet")} on the ball`,
-    "=",
-    `${several(planar, "triangle")} of the sheet`,
-    "+",
-    `${several(closing, "facet")} that ${closing === 1 ? "sees" : "see"} the pole`,
-  ].join(SPACED);
 }
 
 /** What there is to say of sites without triangles; null where there are triangles. */

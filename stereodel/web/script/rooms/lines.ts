@@ -4,7 +4,7 @@ import { traceArc } from "../drawing/arcs.ts";
 import type { Side } from "../drawing/arcs.ts";
 import type { Disc, Path } from "../drawing/pen.ts";
 import { traceRegions } from "../drawing/fill.ts";
-import { angle, unit } from "./space.ts";
+import { cross, dot, unit } from "./space.ts";
 import type { Vector } from "./space.ts";
 
 /** Degrees between points along the side of a region. */
@@ -31,11 +31,15 @@ export function tracePolygon(path: Path, disc: Disc, corners: readonly Vector[],
   traceRegions(path, disc, { points: Float64Array.from(points.flat()), offsets: [0, points.length] }, holdsHidden);
 }
 
-/** Points of a side from its first corner on, without its last. */
+/** Points of a great-circle side, a degree apart at the most, from its first corner on, without its last. */
 export function along(a: Vector, b: Vector): Vector[] {
-  const count = Math.max(1, Math.ceil(angle(a, b) / FINE));
+  const n = cross(a, b);
+  const sine = Math.hypot(n[0], n[1], n[2]);
+  const whole = Math.atan2(sine, dot(a, b));
+  const count = Math.max(1, Math.ceil((whole * 180) / Math.PI / FINE));
   return Array.from({ length: count }, (_, k) => {
-    const t = k / count;
-    return unit([a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])]);
+    const t = (whole * k) / count;
+    const [s, u] = sine === 0 ? [1, 0] : [Math.sin(whole - t) / sine, Math.sin(t) / sine];
+    return unit([s * a[0] + u * b[0], s * a[1] + u * b[1], s * a[2] + u * b[2]]);
   });
 }

@@ -9,7 +9,7 @@ import type { SiteSet } from "../sets.ts";
 import { SiteTable } from "../table.ts";
 import type { Rows } from "../table.ts";
 import { counted } from "../words.ts";
-import { listSets, showSet, Switches, tellNamed } from "./controls.ts";
+import { Switches, tellNamed } from "./controls.ts";
 
 /** The name of sites that are no set of the list: opened, or changed by hand. */
 const OWN = "own";
@@ -78,7 +78,12 @@ export class SiteControls {
       actions.switched();
       host.changed();
     });
-    this.#select = listSets(section, sets, (set) => this.#begin(ofSet(set)));
+    this.#select = find(section, "select[name=set]");
+    this.#select.append(...sets.map(({ name, words }) => new Option(words, name)));
+    this.#select.addEventListener("change", () => {
+      const set = sets.find(({ name }) => name === this.#select.value);
+      if (set !== undefined) this.#begin(ofSet(set));
+    });
   }
 
   /** What the sites are called. */
@@ -130,7 +135,10 @@ export class SiteControls {
   /** Shows what the sites are called, how many there are, and the table. */
   show(named: NamedSites, rows: Omit<Rows, "names">): void {
     this.#named = named;
-    showSet(this.#select, named.set, named.set === OWN ? (named.file ?? "Your own sites") : null);
+    // Sites of the reader's own have an entry while they are there.
+    this.#select.querySelector(`option[value=${OWN}]`)?.remove();
+    if (named.set === OWN) this.#select.prepend(new Option(named.file ?? "Your own sites", OWN));
+    this.#select.value = named.set;
     const { count } = rows;
     find(this.#section, "[data-out=count]").textContent =
       count === 0 ? "No sites" : count === 1 ? "The site" : `The ${counted(count)} sites`;

@@ -10,12 +10,13 @@ import type { LinkValues } from "../link.ts";
 import type { Room, RoomHost } from "../room.ts";
 import { sphereSets } from "../sets.ts";
 import type { SiteSet, Stored } from "../sets.ts";
+import { arrowed, arrowStep } from "../view/ball_hand.ts";
 import { follow } from "../view/hand.ts";
 import { Motion } from "../view/motion.ts";
 import { View } from "../view/view.ts";
-import { counted, latitude, longitude, wrap } from "../words.ts";
+import { counted, latitude, longitude, ofFacets, wrap } from "../words.ts";
 import { Choice, PlaceFields } from "./controls.ts";
-import { History, withMoved, withoutSite, withSite } from "./edits.ts";
+import { withMoved, withoutSite, withSite } from "./edits.ts";
 import { PlaneFrame, reachAround } from "./plane_frame.ts";
 import { SiteControls } from "./site_controls.ts";
 import type { NamedSites } from "./site_controls.ts";
@@ -26,8 +27,6 @@ import { BallLayers, drawBall, drawPlane } from "./sphere_drawing.ts";
 import type { SphereScene, Step } from "./sphere_drawing.ts";
 import { ballGestures, planeGestures } from "./sphere_hand.ts";
 import type { SphereHost } from "./sphere_hand.ts";
-import { actionOf } from "./sphere_keys.ts";
-import type { SphereActions } from "./sphere_keys.ts";
 import { SphereSites } from "./sphere_sites.ts";
 import type { Bubble } from "./sphere_sites.ts";
 import {
@@ -42,7 +41,7 @@ import {
   viewPlace,
 } from "./sphere_state.ts";
 import type { Click, Place } from "./sphere_state.ts";
-import { ofBubble, ofDuplicates, ofFacets, ofStep, ofSite, withoutTriangles } from "./sphere_words.ts";
+import { ofBubble, ofDuplicates, ofStep, ofSite, withoutTriangles } from "./sphere_words.ts";
 import { StepControl } from "./step_control.ts";
 import { Twin } from "./twin.ts";
 
@@ -51,6 +50,12 @@ const SWITCHES = ["triangles", "cells", "bubble", "seeing", "closing"] as const;
 /** Sites from which on cells are left out while something moves, and from which on nothing but dots is drawn then. */
 const MANY = 3_000;
 const VERY_MANY = 100_000;
+
+/** What the sum of facets is made of. */
+const SUM = ["on the sphere", "in the plane", "\u00a0*P*"] as const;
+
+/** Changes by hand that can be undone. */
+const MOST_STEPS_BACK = 100;
 
 /** Between the pictures of a file, px. */
 const GAP = 32;
@@ -63,8 +68,8 @@ export function sphereRoom(host: RoomHost, stored: Stored, given: Given | null):
 class SphereRoom implements Room, SphereHost {
   readonly #host: RoomHost;
   readonly #sets: readonly SiteSet[];
-  readonly #history = new History();
-  readonly #releases: (() => void)[] = [];
+  /** Sites as they were before the last changes by hand. */
+  #history: NamedSites[] = [];
   readonly motion = new Motion();
   readonly isNorthUp = true;
   #section!: HTMLElement;
@@ -129,7 +134,8 @@ class SphereRoom implements Room, SphereHost {
       remove: () => guarded(() => this.#remove(this.#held)),
     });
     find(section, "[data-do=undo]").addEventListener("click", () => this.#undo());
-    this.#releases.push(follow(this.#ball, ballGestures(this)), follow(this.#plane, planeGestures(this)));
+    follow(this.#ball, ballGestures(this));
+    follow(this.#plane, planeGestures(this));
   }
 
   // State
@@ -143,7 +149,7 @@ class SphereRoom implements Room, SphereHost {
   restore(values: LinkValues): void {
     const named = this.#controls.fromValues(values);
     const state = fromValues(values, named.places.length / 2);
-    this.#history.clear();
+    this.#history = [];
     [this.#pole, this.#view, this.#aim] = [state.pole, state.view, state.aim];
     [this.#isPinned, this.#count, this.#held] = [state.isPinned, state.step, null];
     this.#click.value = state.click;
@@ -153,7 +159,7 @@ class SphereRoom implements Room, SphereHost {
 
   /** Other sites, seen as the last ones were. */
   #begin(named: NamedSites): void {
-    this.#history.clear();
+    this.#history = [];
     this.#count = this.#held = null;
     this.#take(named);
   }
@@ -259,7 +265,7 @@ class SphereRoom implements Room, SphereHost {
     const words = step === "done" ? [ofAll, ofDuplicates(sites)] : [ofStep(step.insertion, step.site)];
     const out = (name: string): HTMLElement => find(this.#section, `[data-out=${name}]`);
     say(out("sentence"), words.filter(Boolean).join(" "));
-    say(out("sum"), alone === null ? ofFacets(sites.facetCount, this.#seeingCount) : "");
+    say(out("sum"), alone === null ? ofFacets(sites.facetCount - this.#seeingCount, this.#seeingCount, SUM) : "");
     out("sum").hidden = step !== "done" || alone !== null;
     const side = dot(this.#twin.pole, directionAt(this.#view)) < 0 ? "behind" : "in front";
     say(out("pole-side"), `*P*, the pole of projection, lies ${side}.`);
@@ -267,7 +273,7 @@ class SphereRoom implements Room, SphereHost {
     this.#poleFields.value = this.#pole;
     this.#viewFields.value = this.#view;
     this.#controls.table.hold([...(this.#bubble?.sites ?? []), ...(held === null ? [] : [held])]);
-    find<HTMLButtonElement>(this.#section, "[data-do=undo]").disabled = this.#history.isEmpty;
+    find<HTMLButtonElement>(this.#section, "[data-do=undo]").disabled = this.#history.length === 0;
     this.#form.show(held === null ? null : [sites.lonlat[2 * held], sites.lonlat[2 * held + 1]]);
   }
 
@@ -327,7 +333,7 @@ class SphereRoom implements Room, SphereHost {
   }
 
   dragSite(site: number, direction: Vector, isFirst: boolean): void {
-    if (isFirst) this.#history.push(this.#named);
+    if (isFirst) this.#note();
     this.#host.guarded(() => this.#moveSite(site, direction, "hand"));
   }
 
@@ -411,15 +417,21 @@ class SphereRoom implements Room, SphereHost {
     this.#edit(withMoved(this.#named, site, [lon, lat]), site, words, reason);
   }
 
+  /** Keeps the sites to go back to. */
+  #note(): void {
+    this.#history.push(this.#named);
+    if (this.#history.length > MOST_STEPS_BACK) this.#history.shift();
+  }
+
   #moveHeld(place: Place): void {
     if (this.#held === null) return;
-    this.#history.push(this.#named);
+    this.#note();
     this.#moveSite(this.#held, directionAt(place));
   }
 
   #add(direction: Vector): void {
     const { count } = this.#sites;
-    this.#history.push(this.#named);
+    this.#note();
     this.#edit(withSite(this.#named, handPlace(direction)), count, () => {
       const same = this.#sites.sameAs(count);
       return same === null
@@ -431,13 +443,13 @@ class SphereRoom implements Room, SphereHost {
 
   #remove(site: number | null): void {
     if (site === null) return;
-    this.#history.push(this.#named);
+    this.#note();
     this.#edit(withoutSite(this.#named, site), null, () => `Site ${site + 1} removed`);
   }
 
   #undo(): void {
     const before = this.#history.pop();
-    if (before !== null) this.#host.guarded(() => this.#edit(before, null, () => "Undone"));
+    if (before !== undefined) this.#host.guarded(() => this.#edit(before, null, () => "Undone"));
   }
 
   /** Brings a site to the middle of the ball, and holds it. */
@@ -462,20 +474,32 @@ class SphereRoom implements Room, SphereHost {
 
   key(event: KeyboardEvent): boolean {
     this.motion.stop();
-    const middle = (): Vector => directionAt(this.#view);
-    const actions: SphereActions = {
-      turn: (place) => this.#turn(place),
-      add: () => this.#add(middle()),
-      click: () => this.click(middle(), null),
-      removeHeld: () => this.#remove(this.#held),
-      nudge: (east, north) => this.#nudge(east, north),
-      walk: (by) => this.#walk(by),
-      free: () => this.#free(),
-      undo: () => this.#undo(),
-    };
-    const action = actionOf(event, this, actions, this.#sites.count > 0);
+    const view = arrowed(this, event);
+    const action = view === null ? this.#keyed(event) : () => this.#turn(view.middle);
     if (action !== null) this.#host.guarded(action);
     return action !== null;
+  }
+
+  /** What a key does that does not turn the ball; without sites there is only to add one. */
+  #keyed(event: KeyboardEvent): (() => void) | null {
+    const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
+    if (event.ctrlKey) {
+      const step = arrowStep(event);
+      if (key === "z") return () => this.#undo();
+      return step === null ? null : () => this.#nudge(...step);
+    }
+    const middle = directionAt(this.#view);
+    if (key === "0") return () => this.#turn(VIEW);
+    if (key === "n") return () => this.#add(middle);
+    const withSites: Record<string, () => void> = {
+      ",": () => this.#walk(-1),
+      ".": () => this.#walk(1),
+      Delete: () => this.#remove(this.#held),
+      Backspace: () => this.#remove(this.#held),
+      Enter: () => this.click(middle, null),
+      Escape: () => this.#free(),
+    };
+    return (this.#sites.count > 0 && withSites[key]) || null;
   }
 
   /** Moves the site that is held by degrees. */
@@ -524,13 +548,6 @@ class SphereRoom implements Room, SphereHost {
     const aim = this.#bubble === null ? null : lonLatOf(this.#aim);
     const { file } = this.#named;
     return exchange.spherePython(this.#sites, { file, pole: this.#pole, view: this.#view, aim });
-  }
-
-  dispose(): void {
-    this.motion.stop();
-    for (const release of this.#releases) release();
-    this.#ball.dispose();
-    this.#plane.dispose();
   }
 }
 

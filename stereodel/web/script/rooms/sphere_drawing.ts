@@ -6,7 +6,7 @@ import { circle, traceCircle } from "../drawing/arcs.ts";
 import { arcLayer, dotLayer, drawLayers, edgeArcs, ridgeArcs } from "../drawing/ball.ts";
 import type { Layer } from "../drawing/ball.ts";
 import { traceCap } from "../drawing/fill.ts";
-import { traceDisc } from "../drawing/pen.ts";
+import { drawHandle, traceCorners, traceDisc, traceSegment } from "../drawing/pen.ts";
 import { MoebiusMap } from "../kernel/api.ts";
 import type { View } from "../view/view.ts";
 import type { Insertion } from "./insertion.ts";
@@ -170,7 +170,7 @@ function side(a: Vector, b: Vector, p: Vector): number {
 function drawPole(pen: Pen, disc: Disc, { view, twin }: SphereScene): void {
   const pole = view.seen(twin.pole);
   const [x, y] = placeOf(disc, pole);
-  pen.handle(x, y, pole[2] >= 0 ? "front" : "behind");
+  drawHandle(pen, x, y, pole[2] >= 0 ? "front" : "behind");
   const text = pole[2] >= 0 ? "*P*" : "*P*, behind";
   const left = x > disc.x; // towards the middle, where there is room
   pen.label(text, x + (left ? -11 : 11), y + 5, { ...BALL_LABEL, align: left ? "right" : "left" });
@@ -191,17 +191,12 @@ export function drawPlane(pen: Pen, frame: PlaneFrame, scene: SphereScene): void
 }
 
 function traceFrame(path: Path, { x, y, size }: PlaneFrame): void {
-  polygon(path, [
+  traceCorners(path, [
     [x, y],
     [x + size, y],
     [x + size, y + size],
     [x, y + size],
   ]);
-}
-
-function polygon(path: Path, points: readonly (readonly [number, number])[]): void {
-  points.forEach(([x, y], k) => (k === 0 ? path.moveTo(x, y) : path.lineTo(x, y)));
-  if (points.length > 0) path.closePath();
 }
 
 function drawWholePlane(pen: Pen, frame: PlaneFrame, scene: SphereScene, flat: (k: number) => [number, number]): void {
@@ -211,16 +206,16 @@ function drawWholePlane(pen: Pen, frame: PlaneFrame, scene: SphereScene, flat: (
     // The outline runs clockwise on the picture, the frame the same way turned round: between them the path winds once.
     pen.draw("hatch", (path) => {
       traceFrame(path, frame);
-      polygon(path, counterclockwise(outline));
+      traceCorners(path, counterclockwise(outline));
     });
   }
   if (shown.triangles) {
     pen.draw("delaunay", (path) => {
-      eachPlaneEdge(sites.delaunay.simplices, seeing, (a, b) => line(path, flat(a), flat(b)));
+      eachPlaneEdge(sites.delaunay.simplices, seeing, (a, b) => traceSegment(path, flat(a), flat(b)));
     });
   }
   if (shown.cells) pen.draw("voronoi", (path) => planeRidges(path, frame, scene));
-  if (shown.seeing) pen.draw("hull", (path) => polygon(path, outline));
+  if (shown.seeing) pen.draw("hull", (path) => traceCorners(path, outline));
   if (bubble !== null) drawPlaneBubble(pen, frame, bubble, twin, flat);
   const places: number[] = [];
   for (let k = 0; k < sites.count; ++k) places.push(...flat(k));
@@ -259,7 +254,7 @@ function drawPlaneBubble(
     const size = a * a + b * b;
     const [u, v] = [(a * image.offset) / size, (b * image.offset) / size];
     pen.draw("bubble-open", (path) =>
-      line(path, frame.place([u - 1e3 * b, v + 1e3 * a]), frame.place([u + 1e3 * b, v - 1e3 * a])),
+      traceSegment(path, frame.place([u - 1e3 * b, v + 1e3 * a]), frame.place([u + 1e3 * b, v - 1e3 * a])),
     );
     return;
   }
@@ -275,7 +270,7 @@ function drawPlaneBubble(
     ring(path);
   });
   pen.draw("bubble-open", ring);
-  if (!image.holdsPole) pen.draw("triangle", (path) => polygon(path, bubble.sites.map(flat)));
+  if (!image.holdsPole) pen.draw("triangle", (path) => traceCorners(path, bubble.sites.map(flat)));
 }
 
 /** Ridges between the triangles of the plane, and rays where one has no neighbour: the centres are those of its circles. */
@@ -297,7 +292,7 @@ function planeRidges(path: Path, frame: PlaneFrame, { sites, twin, seeing }: Sph
     const beyond = neighbors[at];
     if (seeing[facet] || (!seeing[beyond] && beyond < facet)) continue;
     if (!seeing[beyond]) {
-      line(path, frame.place(middle(facet)), frame.place(middle(beyond)));
+      traceSegment(path, frame.place(middle(facet)), frame.place(middle(beyond)));
       continue;
     }
     // The side opposite the corner runs counterclockwise: outward is to its right.
@@ -305,7 +300,7 @@ function planeRidges(path: Path, frame: PlaneFrame, { sites, twin, seeing }: Sph
     const length = Math.hypot(b[0] - a[0], b[1] - a[1]);
     const [u, v] = middle(facet);
     const far = (4 * frame.reach + Math.hypot(u, v)) / length;
-    line(path, frame.place([u, v]), frame.place([u + far * (b[1] - a[1]), v - far * (b[0] - a[0])]));
+    traceSegment(path, frame.place([u, v]), frame.place([u + far * (b[1] - a[1]), v - far * (b[0] - a[0])]));
   }
 }
 
@@ -321,27 +316,22 @@ function drawPlaneStep(
     // Facets of the fan that see the pole are no triangles of the plane, nor are sides between two of them its sides.
     const inPlane = (k: number): boolean => !fanSeeing[(k + outline.length) % outline.length];
     pen.draw("seen", (path) => {
-      outline.forEach((a, k) => inPlane(k) && polygon(path, [a, next(k), site].map(flat)));
+      outline.forEach((a, k) => inPlane(k) && traceCorners(path, [a, next(k), site].map(flat)));
     });
     pen.draw("delaunay", (path) => {
-      eachPlaneEdge(insertion.before, beforeSeeing, (a, b) => line(path, flat(a), flat(b)));
+      eachPlaneEdge(insertion.before, beforeSeeing, (a, b) => traceSegment(path, flat(a), flat(b)));
     });
     pen.draw("fan", (path) => {
-      outline.forEach((a, k) => (inPlane(k) || inPlane(k - 1)) && line(path, flat(site), flat(a)));
+      outline.forEach((a, k) => (inPlane(k) || inPlane(k - 1)) && traceSegment(path, flat(site), flat(a)));
     });
     pen.draw("horizon", (path) => {
-      outline.forEach((a, k) => inPlane(k) && line(path, flat(a), flat(next(k))));
+      outline.forEach((a, k) => inPlane(k) && traceSegment(path, flat(a), flat(next(k))));
     });
   }
   const places: number[] = [];
   for (let k = 0; k <= site; ++k) places.push(...flat(k));
   pen.dots("site", places);
   if (site < sites.count) pen.dots("held", flat(site));
-}
-
-function line(path: Path, a: readonly [number, number], b: readonly [number, number]): void {
-  path.moveTo(...a);
-  path.lineTo(...b);
 }
 
 /** A site's number beside its dot, on the side `out`, whose y points up. */

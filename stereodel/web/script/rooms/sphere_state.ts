@@ -1,7 +1,7 @@
 /** The state of the Sphere room but for its sites, and how a link tells it. */
 
 import { lonlatToXyz } from "../kernel/api.ts";
-import { writeNumber } from "../link.ts";
+import { writePlace } from "../link.ts";
 import type { LinkValues } from "../link.ts";
 import { wrap } from "../words.ts";
 import { lonLatOf, row } from "./space.ts";
@@ -42,8 +42,7 @@ export function toValues({ pole, view, aim, isPinned, step, click }: SphereState
   const values: Record<string, string> = {};
   const put = (name: string, value: Place, otherwise: Place): void => {
     if (value[0] === otherwise[0] && value[1] === otherwise[1]) return;
-    values[`${name}-lon`] = writeNumber(value[0], VIEW_DECIMALS);
-    values[`${name}-lat`] = writeNumber(value[1], VIEW_DECIMALS);
+    Object.assign(values, writePlace(`${name}-`, value, VIEW_DECIMALS));
   };
   put("pole", pole, POLE);
   put("view", view, VIEW);
@@ -62,15 +61,11 @@ export function toValues({ pole, view, aim, isPinned, step, click }: SphereState
  * @throws LinkError where it cannot be read.
  */
 export function fromValues(values: LinkValues, count: number): SphereState {
-  const place = (name: string, otherwise: Place): Place => [
-    values.number(`${name}-lon`, -360, 360, otherwise[0]),
-    values.number(`${name}-lat`, -90, 90, otherwise[1]),
-  ];
   const step = values.whole("step", 1, count, 0);
   return {
-    pole: place("pole", POLE),
-    view: place("view", VIEW),
-    aim: directionAt(place("aim", AIM)),
+    pole: values.place("pole-", POLE),
+    view: values.place("view-", VIEW),
+    aim: directionAt(values.place("aim-", AIM)),
     isPinned: values.has("pin"),
     step: step === 0 || step === count ? null : step,
     click: values.word("click", CLICKS, "keep"),

@@ -6,7 +6,6 @@ import type { Bubble, SphereSites } from "./sphere_sites.ts";
 import type { Twin } from "./twin.ts";
 
 const DEGREES = 180 / Math.PI;
-const SPACED = "\u2002";
 
 /** Distances below a radius by less than this part of it are those of sites on the circle, which are rounded. */
 const ON_CIRCLE = 1e-9;
@@ -57,17 +56,6 @@ export function ofStep(step: Insertion | null, site: number): string {
     `Site _${site + 1}_ sees ${several(step.seeing.length, "facet")}. They make room: their outline has ` +
     `_${step.outline.length}_ sides, and as many new facets meet at the site.`
   );
-}
-
-/** Facets on the sphere = triangles in the plane + facets that see P. */
-export function ofFacets(facets: number, seeing: number): string {
-  return [
-    `${several(facets, "facet")} on the sphere`,
-    "=",
-    `${several(facets - seeing, "triangle")} in the plane`,
-    "+",
-    `${several(seeing, "facet")} that ${seeing === 1 ? "sees" : "see"}\u00a0*P*`,
-  ].join(SPACED);
 }
 
 /** The first duplicate, if there is one. */

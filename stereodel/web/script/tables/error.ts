@@ -1,4 +1,4 @@
-/** A table that cannot be read, in the words of `stereodel.io.read_points`. */
+/** A table that cannot be read; the message begins with the row where there is one. */
 export class TableError extends Error {}
 
 /** No column, or several, look like what is needed: the reader is asked which. */
@@ -6,8 +6,8 @@ export class ColumnsError extends TableError {
   /** The columns there are. */
   readonly names: readonly string[];
 
-  constructor(message: string, names: readonly string[]) {
-    super(message);
+  constructor(names: readonly string[]) {
+    super("the table has no two columns of coordinates");
     this.names = names;
   }
 }

@@ -45,10 +45,14 @@ export function grabBall(ball: Turnable, motion: Motion, at: Place): Hold | null
 
 /** What an arrow key makes of a view, or null for other keys. */
 export function arrowed(ball: Turnable, event: KeyboardEvent): View | null {
-  if (event.ctrlKey) return null;
-  const step = event.shiftKey ? STEP.fine : STEP.wide;
-  const [east, north] = ARROWS[event.key] ?? [0, 0];
-  return east === 0 && north === 0 ? null : ball.view.stepped(east * step, north * step, ball.isNorthUp);
+  const step = event.ctrlKey ? null : arrowStep(event);
+  return step === null ? null : ball.view.stepped(...step, ball.isNorthUp);
+}
+
+/** Degrees east and north of an arrow key, or null for other keys. */
+export function arrowStep({ key, shiftKey }: KeyboardEvent): Place | null {
+  const step = shiftKey ? STEP.fine : STEP.wide;
+  return key in ARROWS ? [ARROWS[key][0] * step, ARROWS[key][1] * step] : null;
 }
 
 const ARROWS: Readonly<Record<string, Place>> = {

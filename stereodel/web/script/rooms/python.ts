@@ -1,0 +1,173 @@
+/** The Python lines that make the picture of a room. */
+
+import { writeNumber } from "../link.ts";
+import { CIRCLE_RADIUS, STEP } from "./globe_scene.ts";
+import type { GlobeScene, GlobeSwitch } from "./globe_scene.ts";
+import type { GlobeState } from "./globe_state.ts";
+import type { Sheet } from "./lift_sheet.ts";
+import type { LiftSites } from "./lift_sites.ts";
+import { lonLatOf } from "./space.ts";
+import type { Vector } from "./space.ts";
+import type { SphereSites } from "./sphere_sites.ts";
+
+/** Sites beyond which the lines name a file in place of the places. */
+const MOST_WRITTEN = 200;
+
+/** What the picture of the Sphere room shows beside the sites; degrees. */
+export interface SphereShown {
+  readonly file: string | null;
+  readonly pole: readonly [number, number];
+  readonly view: readonly [number, number];
+  readonly aim: readonly [number, number] | null;
+}
+
+/** Lines that draw the ball and the plane into two files. */
+export function spherePython(sites: SphereSites, { file, pole, view, aim }: SphereShown): string {
+  const tangent = [pole[0] > 0 ? pole[0] - 180 : pole[0] + 180, -pole[1]] as const;
+  const hasBubble = aim !== null && sites.delaunay.dimension === 2;
+  const isRead = file !== null || sites.count > MOST_WRITTEN;
+  return text(
+    "import numpy as np",
+    "from stereodel import SphericalDelaunay, SphericalVoronoi, Stereographic, lonlat_to_xyz",
+    "from stereodel.drawing import Scene, Sketch, View",
+    isRead && "from stereodel.io import read_points",
+    "from stereodel.sphere import SphereCircle",
+    "from stereodel.triangulation.theorem import planar_part",
+    "",
+    `lonlat = ${isRead ? `read_points(${quoted(file)}).lonlat` : written(sites.lonlat)}`,
+    "delaunay = SphericalDelaunay.from_lonlat(lonlat)",
+    "voronoi = SphericalVoronoi(delaunay)",
+    "",
+    "ball = Scene()",
+    'ball.add_edges(delaunay.points, delaunay.edges, name="delaunay")',
+    'ball.add_arcs(voronoi.ridge_arcs(), name="voronoi")',
+    hasBubble && `triangle = delaunay.simplices[delaunay.find_simplex(lonlat_to_xyz((${numbers(aim)})))]`,
+    hasBubble && "bubble = SphereCircle.through(*delaunay.points[triangle])",
+    hasBubble && 'ball.add_circles([bubble], name="accent2")',
+    'ball.add_points(delaunay.points, name="sites")',
+    `ball.page(View(${numbers(view)}), width=340).save("ball.svg")`,
+    "",
+    `pole = lonlat_to_xyz((${numbers(pole)}))`,
+    `flat = Stereographic((${numbers(tangent)})).forward(delaunay.points)`,
+    "triangles = planar_part(delaunay, pole)",
+    "edges = np.unique(np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)), axis=0)",
+    "plane = Sketch()",
+    'plane.add_edges(flat, edges, name="delaunay")',
+    'plane.add_points(flat, name="sites")',
+    "size = 1.07 * np.abs(flat).max()",
+    'plane.page((-size, size, -size, size)).save("plane.svg")',
+  );
+}
+
+/** What the picture of the Lift room shows beside the sites; degrees. */
+export interface LiftShown {
+  /** Of the rectangle, where it is not the smallest one. */
+  readonly sides: readonly [number, number] | undefined;
+  readonly file: string | null;
+  readonly height: number;
+  readonly side: number;
+  readonly p: number | null;
+  readonly q: number | null;
+}
+
+export function liftPython(sites: LiftSites, sheet: Sheet, { sides, file, height, side, p, q }: LiftShown): string {
+  const isRead = file !== null || sites.count > MOST_WRITTEN;
+  const ball = [
+    `sphere = Stereographic((0, -90), radius=lift.diagonal / 4 / np.tan(np.radians(${sheet.corner / 2})))`,
+    "xyz = sphere.inverse(points - lift.center)[:, [1, 0, 2]] * [1, 1, -1]  # the point of contact on top",
+    "",
+    "ball = Scene()",
+    'ball.add_edges(xyz, sheet.edges, name="delaunay")',
+    'ball.add_points(xyz, name="sites")',
+    `ball.page(View(${side - 90}, ${height}), width=340).save("lift.svg")`,
+    p !== null && q !== null && `print(angular_distance(xyz[${p}], xyz[${q}]))`,
+  ];
+  return text(
+    "import numpy as np",
+    "from stereodel import PlanarDelaunay, RectangleLift, Stereographic, angular_distance",
+    "from stereodel.drawing import Scene, View, diagram_page",
+    "",
+    isRead
+      ? `points = np.loadtxt(${quoted(file)}, delimiter=",", skiprows=1)  # the columns x and y`
+      : `points = ${written(sites.places)}`,
+    `lift = ${sides === undefined ? "RectangleLift.fit(points)" : `RectangleLift(${sides.join(", ")})`}`,
+    "sheet = PlanarDelaunay(points)",
+    ...(sheet.isFlat ? ['diagram_page(sheet).save("sheet.svg")'] : ball),
+  );
+}
+
+export function globePython(
+  state: GlobeState,
+  { places, picture, latitude }: GlobeScene,
+  isOn: (name: GlobeSwitch) => boolean,
+): string {
+  const { sight, from, to } = state;
+  const hasLand = isOn("land") && picture === null;
+  const isBubble = state.lens === "bubble";
+  const kind = latitude === "spherical" ? "" : `latitude="${latitude}"`;
+  const names = [
+    ...(isBubble ? ["SphereCircle"] : []),
+    ...(places === null ? [] : ["SphericalVoronoi"]),
+    isBubble ? "bubble_to_bubble" : "fisheye",
+  ];
+  const at = (direction: Vector): string => `(${lonLatOf(direction).map(float).join(", ")})`;
+  const view = isBubble ? state.after : sight.view;
+  const angles = [...view.middle, view.roll].map(float);
+  const isLevel = angles[2] === "0.0";
+  return text(
+    `from stereodel import ${names.join(", ")}`,
+    "from stereodel.drawing import View",
+    "from stereodel.globe import Globe",
+    places !== null && "from stereodel.io import read_points",
+    "",
+    isBubble && `taken = SphereCircle.around(${at(from.center)}, ${float(from.radius)})`,
+    isBubble && `filled = SphereCircle.around(${at(to.center)}, ${float(to.radius)})`,
+    isBubble
+      ? "lens = bubble_to_bubble(taken, filled)"
+      : `lens = fisheye(${at(sight.lens.focus)}, magnification=${float(sight.lens.magnification)})`,
+    `globe = Globe(${places === null ? "" : kind})`,
+    picture !== null && `globe.add_raster(${quoted(picture.name)})`,
+    hasLand && 'globe.add_land(resolution="50m")',
+    isOn("graticule") && `globe.add_graticule(${float(STEP)})`,
+    hasLand && 'globe.add_coastlines(resolution="50m")',
+    isOn("tissot") && `globe.add_tissot(${float(STEP)}, ${CIRCLE_RADIUS.toFixed(4)})`,
+    places !== null && `places = read_points(${quoted(places.name)}).lonlat`,
+    places !== null &&
+      isOn("cells") &&
+      `globe.add_cells(SphericalVoronoi.from_lonlat(${["places", kind].filter(Boolean).join(", ")}))`,
+    places !== null && "globe.add_points(places)",
+    `globe.save("globe.svg", lens, View(${(isLevel ? angles.slice(0, 2) : angles).join(", ")}))`,
+  );
+}
+
+/** Lines, without those that are left out. */
+function text(...lines: readonly (string | false)[]): string {
+  return `${lines.filter((line) => line !== false).join("\n")}\n`;
+}
+
+/** The name of a file; sites that have none are to be saved as sites.csv. */
+function quoted(file: string | null): string {
+  return JSON.stringify(file ?? "sites.csv");
+}
+
+/** Pairs of coordinates as an array (n, 2) of Python, in lines of at most 88 letters. */
+function written(values: Float64Array): string {
+  const rows = Array.from({ length: values.length / 2 }, (_, k) => `[${values[2 * k]}, ${values[2 * k + 1]}]`);
+  const lines: string[] = [];
+  for (const row of rows) {
+    const last = lines[lines.length - 1];
+    if (last !== undefined && last.length + row.length < 84) lines[lines.length - 1] = `${last} ${row},`;
+    else lines.push(`    ${row},`);
+  }
+  return lines.length === 0 ? "np.zeros((0, 2))" : `np.array([\n${lines.join("\n")}\n])`;
+}
+
+function numbers(pair: readonly [number, number]): string {
+  return pair.map((value) => writeNumber(value, 4)).join(", ");
+}
+
+/** A number that is a float of Python, with at most four digits behind the point. */
+function float(value: number): string {
+  const short = writeNumber(value, 4);
+  return short.includes(".") ? short : `${short}.0`;
+}
