@@ -11,7 +11,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from stereodel import PlanarDelaunay, PlanarVoronoi, SphericalDelaunay, SphericalVoronoi
-from stereodel._extras import optional
 from stereodel._files import replacing, said_of
 from stereodel._interrupts import stop_if_interrupted
 from stereodel.cli.options import Latitude
@@ -94,10 +93,11 @@ def save_table(path: Path, table: Table, columns: Columns) -> None:
     if path.suffix.lower() == ".csv":
         save_csv(path, columns)
         return
-    from stereodel.io.layers import Layer, packed
+    from stereodel.io.formats import wkb
+    from stereodel.io.layers import Layer
 
     others = {name: values for name, values in columns.items() if name not in table.axes}
-    save_layer(path, Layer(others, packed(optional("shapely", "geo").points(table.places)), table.crs))
+    save_layer(path, Layer(others, wkb.points(table.places), table.crs))
 
 
 def save_layer(path: Path, layer: Layer) -> None:

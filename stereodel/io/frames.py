@@ -13,7 +13,8 @@ from stereodel.curves.borders import frame_of
 from stereodel.interpolation import Contour
 from stereodel.io.columns import beside
 from stereodel.io.diagrams import Mesh, is_spherical, point_columns, usual_kind
-from stereodel.io.layers import Layer, Progress, is_there, packed
+from stereodel.io.formats.wkb import is_there
+from stereodel.io.layers import Layer, Progress, packed
 from stereodel.sphere.latitudes import KINDS, Latitude
 
 What = Literal["cells", "triangles", "edges", "ridges", "sites"]

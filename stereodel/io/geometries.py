@@ -14,6 +14,7 @@ from stereodel._arrays import FloatArray, Packed
 from stereodel.curves.borders import Box
 from stereodel.io.diagrams import Columns, Mesh, diagram_of, triangulation_of
 from stereodel.io.faces import triangle_sides, voronoi_sides
+from stereodel.io.formats import wkb
 from stereodel.io.layers import Progress, packed
 from stereodel.io.on_map import shapely
 from stereodel.io.plane import plane_cells
@@ -98,7 +99,7 @@ def _sphere_triangles(
 
 
 def _sites(points: FloatArray) -> tuple[Columns, Packed]:
-    return {"point": np.arange(len(points))}, packed(shapely.points(points))
+    return {"point": np.arange(len(points))}, wkb.points(points)
 
 
 def _triangle_columns(numbers: npt.NDArray[Any], simplices: npt.NDArray[Any]) -> Columns:

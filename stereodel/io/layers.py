@@ -17,18 +17,13 @@ from stereodel._arrays import BoolArray, Geometries, Indices, Packed
 from stereodel._extras import optional
 from stereodel.io.cells import as_text, plain_cells
 from stereodel.io.columns import beside, index_columns
+from stereodel.io.formats import wkb
 
 Progress = Callable[[float], object]
 """Called with the fraction of the work that is done, from 0 to 1."""
 
 ROWS: Final = 65_536
 """Rows in a block."""
-
-KINDS: Final = {1: "Point", 2: "LineString", 3: "Polygon", 4: "MultiPoint", 5: "MultiLineString", 6: "MultiPolygon"}
-"""Geometry types by their codes in well-known binary; 1000 is added for geometries with heights."""
-
-ONE: Final = {kind: bytes([1, kind + 3, 0, 0, 0, 1, 0, 0, 0]) for kind in (1, 2, 3)}
-"""Header that turns a single-part geometry into a multi-part one, by the code of its type."""
 
 
 def packed(geometries: Geometries) -> Packed:
@@ -42,11 +37,6 @@ def packed(geometries: Geometries) -> Packed:
 def unpacked(binary: Packed) -> Geometries:
     """Well-known binary as Shapely's geometries."""
     return np.asarray(optional("shapely", "geo").from_wkb(binary), dtype=object)
-
-
-def is_there(binary: Packed) -> BoolArray:
-    """Which rows have a geometry."""
-    return np.array([cell is not None for cell in binary.tolist()], dtype=np.bool_)
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,8 +91,7 @@ class Layer:
     @cached_property
     def kinds(self) -> list[str]:
         """Geometry types in the layer."""
-        found = {int.from_bytes(cell[1:5], "little") for cell in self.binary.tolist() if cell is not None}
-        return [KINDS.get(kind % 1000, "GeometryCollection") + (" Z" if kind > 1000 else "") for kind in sorted(found)]
+        return wkb.kinds(self.binary)
 
     @property
     def has_several(self) -> bool:
@@ -123,17 +112,12 @@ class Layer:
             arrow.record_batch(
                 [
                     *block.columns.values(),
-                    arrow.array(_of_several(block.binary) if several else block.binary, arrow.binary()),
+                    arrow.array(wkb.several(block.binary) if several else block.binary, arrow.binary()),
                 ],
                 schema=schema,
             )
             for block in whole.blocks(progress)
         )
-
-
-def _of_several(binary: Packed) -> list[bytes | None]:
-    """Single-part geometries as multi-part ones."""
-    return [cell and ONE.get(int.from_bytes(cell[1:5], "little"), b"") + cell for cell in binary.tolist()]
 
 
 def arrow_column(values: Any) -> Any:

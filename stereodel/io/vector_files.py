@@ -18,7 +18,8 @@ from xml.parsers import expat
 from stereodel._extras import optional
 from stereodel.io.cells import as_text, check_held, plain
 from stereodel.io.columns import DataWarning, RenamedColumnWarning, beside, listed
-from stereodel.io.layers import Layer, Progress, arrow_column, is_there
+from stereodel.io.formats.wkb import is_there
+from stereodel.io.layers import Layer, Progress, arrow_column
 from stereodel.io.self_contained import check_crs, check_stored, self_contained
 
 RESERVED: Final = {"gpkg": ("fid", "geom"), "fgb": (), "shp": (), "kml": ()}

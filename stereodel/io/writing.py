@@ -20,11 +20,12 @@ from stereodel.interpolation import Contour
 from stereodel.io.columns import beside
 from stereodel.io.csv_text import write_csv
 from stereodel.io.diagrams import Columns, Mesh, diagram_of, is_spherical, point_columns, triangulation_of, usual_kind
+from stereodel.io.formats import wkb
 from stereodel.io.frames import layer_of
 from stereodel.io.geojson import write_geojson
 from stereodel.io.geoparquet import write_parquet
 from stereodel.io.grids import Grid, write_geotiff, write_grid_table
-from stereodel.io.layers import Layer, Progress, packed
+from stereodel.io.layers import Layer, Progress
 from stereodel.io.meshes import to_polydata, to_trimesh
 from stereodel.io.reading import from_geodataframe
 from stereodel.io.tables import PointTable
@@ -136,7 +137,7 @@ def _layer(thing: Any, options: dict[str, Any]) -> Layer:
     if isinstance(thing, Layer):
         return thing
     if isinstance(thing, PointTable):
-        places = packed(optional("shapely", "geo").points(thing.lonlat))
+        places = wkb.points(thing.lonlat)
         rows = {name: objects(values.tolist()) if values.ndim > 1 else values for name, values in thing.columns.items()}
         return Layer(beside(["geometry"], rows), places, "EPSG:4326")
     if not hasattr(thing, "geometry"):
