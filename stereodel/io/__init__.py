@@ -5,8 +5,8 @@ install them.
 """
 
 from stereodel.io.columns import DataWarning, RenamedColumnWarning
+from stereodel.io.formats.geojson import to_geojson
 from stereodel.io.frames import to_geodataframe
-from stereodel.io.geojson import to_geojson
 from stereodel.io.grids import Grid
 from stereodel.io.meshes import to_polydata, to_trimesh
 from stereodel.io.reading import from_geodataframe, read_points

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
@@ -18,13 +17,14 @@ from stereodel._arrays import Column, FloatArray, Indices, as_choice
 from stereodel._extras import optional
 from stereodel.io.columns import beside, find_lonlat, index_columns, listed
 from stereodel.io.csv_text import split_columns
-from stereodel.io.geojson import Features, kind_of
+from stereodel.io.formats import geojson
+from stereodel.io.formats.geojson import Features
 from stereodel.io.geoparquet import read_parquet
 from stereodel.io.layers import Progress
 from stereodel.io.packed import unpacked
 from stereodel.io.shapes import MULTIPOINT, POINT, Shapes, of_features, of_geometries, of_items
 from stereodel.io.tables import PointTable, located, table_of
-from stereodel.io.text import column, texts
+from stereodel.io.text import column, decoded, texts
 from stereodel.io.vector_files import read_frame, told
 
 Source = str | os.PathLike[str] | BinaryIO | TextIO
@@ -185,7 +185,7 @@ def _shapes_of_file(path: Path) -> Shapes:
     with naming(path):
         file = _File(path, None if path.suffix.lower() in (*ENDINGS, *PACKED) else "vector")
         if file.kind == "geojson":
-            return of_features(Features.of(_json(_text(file.content))))
+            return of_features(Features.of(geojson.parsed(decoded(file.content))))
         frame = read_parquet(file.content) if file.kind == "parquet" else file.frame("give a file with one")
         if not hasattr(frame, "to_crs"):
             raise ValueError("the file is a table without geometries")
@@ -214,7 +214,7 @@ def read_plane_points(
     with naming(source):
         file = _File(source, layer=layer)
         if file.kind == "csv":
-            text = split_columns(_text(file.content), (x, y), progress)
+            text = split_columns(decoded(file.content), (x, y), progress)
             table, rows = text.typed(), text.rows
         elif file.kind == "parquet":
             read = read_parquet(file.content)
@@ -295,68 +295,18 @@ def _content(source: Source) -> bytes:
     return content.encode() if isinstance(content, str) else unpacked(content)
 
 
-def _text(content: bytes) -> str:
-    marked = content.startswith((b"\xff\xfe", b"\xfe\xff"))
-    try:
-        return content.decode("utf-16" if marked else "utf-8-sig")
-    except UnicodeDecodeError as error:
-        line = content[: error.start].count(b"\n") + 1
-        raise ValueError(f"line {line} is not text in UTF-8; save the file in that encoding") from error
-
-
 def _read_csv(content: bytes, asked: Asked) -> PointTable:
-    table = split_columns(_text(content), [name for name in (asked.lon, asked.lat) if name is not None], asked.progress)
+    table = split_columns(
+        decoded(content), [name for name in (asked.lon, asked.lat) if name is not None], asked.progress
+    )
     degrees = find_lonlat(list(table.columns), asked.lon, asked.lat) if asked.crs is None else ()
     return asked.table(table.typed(degrees=degrees), table.rows)
 
 
 def _read_geojson(content: bytes, asked: Asked) -> PointTable:
-    collection = _json(_text(content))
-    alone = kind_of(collection) == "Feature"  # as a sequence of one
-    if not alone and not (isinstance(collection, dict) and isinstance(collection.get("features"), list)):
-        raise ValueError("the file is not a GeoJSON FeatureCollection of points")
-    features = Features.of(collection)
+    lon, lat, features = geojson.points(decoded(content), skip_missing=asked.skip_missing)
     rows = np.arange(1, len(features.geometries) + 1)
-    places = [_position(geometry, row, asked) for row, geometry in enumerate(features.geometries, 1)]
-    lon, lat = (column(place[k] for place in places) for k in (0, 1))
     return table_of(lon, lat, features.columns(), rows, crs=features.crs, skip_missing=asked.skip_missing)
-
-
-def _json(text: str) -> Any:
-    """A JSON document; a sequence of features (RFC 8142, or one per line) becomes a collection."""
-    try:
-        return json.loads(text)
-    except RecursionError:
-        raise ValueError("the file is not a table: its JSON is nested too deeply") from None
-    except json.JSONDecodeError as error:
-        lines = [line.strip("\x1e \t\r") for line in text.split("\n")]
-        if not lines[0].endswith("}"):
-            raise ValueError(f"the file is not JSON: {error}") from error
-        try:
-            return {"features": [json.loads(line) for line in lines if line]}
-        except (json.JSONDecodeError, RecursionError):
-            raise ValueError(f"the file is not JSON: {error}") from error
-
-
-def _position(geometry: Any, row: int, asked: Asked) -> tuple[Any, Any]:
-    nothing = (None, None)
-    if geometry is None and asked.skip_missing:
-        return nothing
-    kind = geometry.get("type") if isinstance(geometry, dict) else "no geometry"
-    coordinates = geometry.get("coordinates") if isinstance(geometry, dict) else None
-    if kind == "MultiPoint" and isinstance(coordinates, list) and len(coordinates) == 1:
-        kind, coordinates = "Point", coordinates[0]
-    if kind != "Point":
-        raise ValueError(f"row {row}: a Point is needed, not {kind}{_advice(kind)}")
-    if not coordinates:
-        return nothing
-    if not isinstance(coordinates, list) or len(coordinates) < 2 or str in map(type, coordinates[:2]):
-        raise ValueError(f"row {row}: a Point has two or three coordinates, not {coordinates!r}")
-    return coordinates[0], coordinates[1]
-
-
-def _advice(kind: Any) -> str:
-    return "; leave such rows out with skip_missing" if kind == "no geometry" else "; take e.g. centroids first"
 
 
 def _read_parquet(content: bytes, asked: Asked) -> PointTable:
@@ -422,7 +372,7 @@ def _of_frame(frame: Any, asked: Asked) -> PointTable:
     if len(wrong):
         first = geometry[wrong[0]]
         kind = "no geometry" if first is None or first.is_empty else first.geom_type
-        raise ValueError(f"row {rows[wrong[0]]}: a Point is needed, not {kind}{_advice(kind)}")
+        raise geojson.no_point(rows[wrong[0]], kind)
     x, y = shapely.get_x(geometry), shapely.get_y(geometry)
     return table_of(x, y, _columns_of(frame), rows, skip_missing=asked.skip_missing)
 

@@ -21,8 +21,8 @@ from stereodel.io.columns import beside
 from stereodel.io.csv_text import write_csv
 from stereodel.io.diagrams import Columns, Mesh, diagram_of, is_spherical, point_columns, triangulation_of, usual_kind
 from stereodel.io.formats import wkb
+from stereodel.io.formats.geojson import write_geojson
 from stereodel.io.frames import layer_of
-from stereodel.io.geojson import write_geojson
 from stereodel.io.geoparquet import write_parquet
 from stereodel.io.grids import Grid, write_geotiff, write_grid_table
 from stereodel.io.layers import Layer, Progress
