@@ -104,7 +104,7 @@ def command(
         drawing = new_globe(features, latitude, texture_of(texture, texture_box, latitude), title, font)
         add_files(drawing, layers)
         if table is not None:
-            aim = aim.with_middle_of(table.points(latitude))
+            aim = aim.with_middle_of(table.points(latitude.value))
             add_points(drawing, table, looks)
     if filming:
         motion = motion_of(

@@ -12,13 +12,13 @@ import numpy as np
 
 from stereodel import SphericalDelaunay, SphericalVoronoi
 from stereodel.cli.options import Latitude, box_of, refuse
-from stereodel.cli.sources import Table
 from stereodel.data import blue_marble
 from stereodel.drawing.colors import as_color
 from stereodel.drawing.fonts import as_font
 from stereodel.drawing.lengths import as_length
 from stereodel.drawing.style import DOTS, LINES, MAP_DOT, MAP_LINES, DotStyle, LineStyle
 from stereodel.globe import Globe, Raster
+from stereodel.io import PointTable
 from stereodel.io.reading import naming
 
 CROWDED = 500  # number of points above which lines and dots become finer, so that cells stay visible
@@ -146,9 +146,9 @@ class PointLooks:
         return DotStyle(color, radius, usual.rim, radius * usual.rim_width / usual.radius)
 
 
-def add_points(globe: Globe, table: Table, looks: PointLooks) -> None:
+def add_points(globe: Globe, table: PointTable, looks: PointLooks) -> None:
     """Draw points, the ridges of their cells, the edges of their triangles, and labels."""
-    places = table.points(Latitude(globe.latitude))
+    places = table.points(globe.latitude)
     weight = max(FINEST, min(1.0, float(np.sqrt(CROWDED / max(1, len(places))))))
     triangulation = SphericalDelaunay(places)
     if "triangles" in looks.shown:

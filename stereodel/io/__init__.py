@@ -10,7 +10,7 @@ from stereodel.io.frames import to_geodataframe
 from stereodel.io.grids import Grid
 from stereodel.io.meshes import to_polydata, to_trimesh
 from stereodel.io.reading import from_geodataframe, read_points
-from stereodel.io.tables import PointTable
+from stereodel.io.table import PointTable
 from stereodel.io.ugrid import from_ugrid, to_ugrid
 from stereodel.io.warping import warp
 from stereodel.io.writing import write

@@ -28,7 +28,7 @@ from stereodel.io.grids import Grid, write_geotiff, write_grid_table
 from stereodel.io.layers import Layer, Progress
 from stereodel.io.meshes import to_polydata, to_trimesh
 from stereodel.io.reading import from_geodataframe
-from stereodel.io.tables import PointTable
+from stereodel.io.table import PointTable
 from stereodel.io.text import objects
 from stereodel.io.ugrid import to_ugrid
 from stereodel.io.vector_files import DRIVERS, write_layer
@@ -137,9 +137,9 @@ def _layer(thing: Any, options: dict[str, Any]) -> Layer:
     if isinstance(thing, Layer):
         return thing
     if isinstance(thing, PointTable):
-        places = wkb.points(thing.lonlat)
+        places = wkb.points(thing.places)
         rows = {name: objects(values.tolist()) if values.ndim > 1 else values for name, values in thing.columns.items()}
-        return Layer(beside(["geometry"], rows), places, "EPSG:4326")
+        return Layer(beside(["geometry"], rows), places, thing.crs)
     if not hasattr(thing, "geometry"):
         raise TypeError(f"thing must be a mesh, a PointTable or a GeoDataFrame, not {type(thing).__name__}")
     return Layer.of_frame(thing)
@@ -160,8 +160,7 @@ def _write_csv(thing: Any, path: Path, options: dict[str, Any], progress: Progre
     else:
         _no_options(options)
         table = thing if isinstance(thing, PointTable) else from_geodataframe(_layer(thing, {}).frame())
-        places: Columns = dict(zip(("lon", "lat"), table.lonlat.T, strict=True))
-        columns = places | beside(places, table.columns)
+        columns = table.located()
     with path.open("w", encoding="utf-8", newline="") as stream:
         write_csv(columns, stream)
 
