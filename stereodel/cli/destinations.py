@@ -17,10 +17,10 @@ from stereodel._interrupts import stop_if_interrupted
 from stereodel.cli.options import Latitude
 from stereodel.cli.progress import bar, stage
 from stereodel.io import PointTable, write
-from stereodel.io.csv_text import write_csv
+from stereodel.io.formats.delimited import write_csv
 
 if TYPE_CHECKING:
-    from stereodel.io.layers import Layer
+    from stereodel.io.formats.map_rows import MapRows
 
 TABLES = ("csv", "geojson", "geojsonl", "parquet", "gpkg", "fgb", "shp", "kml")
 SAME = {"json": "geojson", "geoparquet": "parquet"}
@@ -87,7 +87,7 @@ class Destination:
                 raise
 
 
-def save(path: Path, rows: PointTable | Layer) -> None:
+def save(path: Path, rows: PointTable | MapRows) -> None:
     """Write a table of points, or the rows of a map, in the format of the extension."""
     with bar(f"writing {len(rows)} rows") as shown:
         write(path, rows, progress=shown)

@@ -155,7 +155,7 @@ def _with_sites(
     found: PointTable, sites: PointTable, pairs: Pairs, kept: dict[str, Column], *, ranked: bool
 ) -> PointTable:
     """One row for each pair of a query point and a site."""
-    from stereodel.io.columns import beside
+    from stereodel.io.formats.names import beside
 
     results: dict[str, Column] = {"rank": pairs.rank} if ranked else {}
     results["site_row"] = sites.rows[pairs.site]

@@ -69,7 +69,7 @@ def _save(
     """Write the row numbers of each triangle's corners, or of each edge's endpoints."""
     from stereodel.cli.destinations import MESHES, TABLES, save, save_csv, save_mesh
     from stereodel.cli.progress import bar
-    from stereodel.io.frames import layer_of
+    from stereodel.io.maps.rows_of import rows_of
 
     kind = path.suffix.lower().removeprefix(".")
     if kind == "csv":
@@ -80,7 +80,7 @@ def _save(
         save_mesh(path, triangulation, latitude)
     else:
         with bar(f"drawing {what}") as shown:
-            layer = layer_of(
+            layer = rows_of(
                 triangulation,
                 what=what,
                 latitude=latitude.value,

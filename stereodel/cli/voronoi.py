@@ -133,8 +133,8 @@ def _save(
     from stereodel.cli.destinations import MESHES, save, save_mesh
     from stereodel.cli.progress import bar
     from stereodel.earth import AUTHALIC_RADIUS_KM
-    from stereodel.io.columns import beside
-    from stereodel.io.frames import layer_of
+    from stereodel.io.formats.names import beside
+    from stereodel.io.maps.rows_of import rows_of
     from stereodel.io.reading import naming
 
     kind = path.suffix.lower().removeprefix(".")
@@ -148,7 +148,7 @@ def _save(
         save(path, table.beside({name: diagram.areas(radius=radius)}))
         return
     with bar(f"drawing {len(table)} cells") as shown, naming(clip) if clip else nullcontext():
-        cells = layer_of(
+        cells = rows_of(
             diagram,
             latitude=latitude.value,
             radius=radius,

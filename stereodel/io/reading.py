@@ -15,17 +15,17 @@ import numpy as np
 
 from stereodel._arrays import Column, Indices, as_choice
 from stereodel._extras import optional
-from stereodel.io.columns import beside, find_lonlat, index_columns, listed
-from stereodel.io.csv_text import split_columns
 from stereodel.io.formats import geojson
+from stereodel.io.formats.delimited import split_columns
+from stereodel.io.formats.gdal import read_frame, told
 from stereodel.io.formats.geojson import Features
-from stereodel.io.geoparquet import read_parquet
-from stereodel.io.layers import Progress
-from stereodel.io.packed import unpacked
-from stereodel.io.shapes import MULTIPOINT, POINT, Shapes, of_features, of_geometries, of_items
+from stereodel.io.formats.map_rows import Progress
+from stereodel.io.formats.names import beside, find_lonlat, index_columns, listed
+from stereodel.io.formats.packed import unpacked
+from stereodel.io.formats.parquet import read_parquet
+from stereodel.io.formats.text import column, decoded, texts
+from stereodel.io.map_shapes import MULTIPOINT, POINT, Shapes, of_features, of_geometries, of_items
 from stereodel.io.table import PointTable, table_of
-from stereodel.io.text import column, decoded, texts
-from stereodel.io.vector_files import read_frame, told
 
 Source = str | os.PathLike[str] | BinaryIO | TextIO
 Format = Literal["csv", "geojson", "parquet", "vector"]

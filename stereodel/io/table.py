@@ -11,8 +11,8 @@ import numpy as np
 
 from stereodel._arrays import BoolArray, Column, FloatArray, Indices, as_choice, as_lonlat, as_points, read_only
 from stereodel._extras import optional
-from stereodel.io.columns import beside
-from stereodel.io.text import EXACT_INTEGERS, doubles, why_not
+from stereodel.io.formats.names import beside
+from stereodel.io.formats.text import EXACT_INTEGERS, doubles, why_not
 from stereodel.sphere import lonlat_to_xyz
 from stereodel.sphere.latitudes import Latitude
 

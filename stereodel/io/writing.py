@@ -17,21 +17,29 @@ from stereodel._arrays import as_choice
 from stereodel._extras import optional
 from stereodel._files import replacing, said_of
 from stereodel.interpolation import Contour
-from stereodel.io.columns import beside
-from stereodel.io.csv_text import write_csv
-from stereodel.io.diagrams import Columns, Mesh, diagram_of, is_spherical, point_columns, triangulation_of, usual_kind
 from stereodel.io.formats import wkb
+from stereodel.io.formats.delimited import write_csv
+from stereodel.io.formats.gdal import DRIVERS, write_layer
 from stereodel.io.formats.geojson import write_geojson
-from stereodel.io.frames import layer_of
-from stereodel.io.geoparquet import write_parquet
+from stereodel.io.formats.map_rows import MapRows, Progress
+from stereodel.io.formats.names import beside
+from stereodel.io.formats.parquet import write_parquet
+from stereodel.io.formats.text import objects
 from stereodel.io.grids import Grid, write_geotiff, write_grid_table
-from stereodel.io.layers import Layer, Progress
+from stereodel.io.maps.meshes_as_rows import (
+    Columns,
+    Mesh,
+    diagram_of,
+    is_spherical,
+    point_columns,
+    triangulation_of,
+    usual_kind,
+)
+from stereodel.io.maps.rows_of import rows_of
 from stereodel.io.meshes import to_polydata, to_trimesh
 from stereodel.io.reading import from_geodataframe
 from stereodel.io.table import PointTable
-from stereodel.io.text import objects
 from stereodel.io.ugrid import to_ugrid
-from stereodel.io.vector_files import DRIVERS, write_layer
 from stereodel.sphere import xyz_to_lonlat
 from stereodel.sphere.latitudes import Latitude
 
@@ -129,20 +137,20 @@ def write(
                 shutil.copyfile(part, temporary)
 
 
-def _layer(thing: Any, options: dict[str, Any]) -> Layer:
+def _layer(thing: Any, options: dict[str, Any]) -> MapRows:
     """The rows of a map for any supported `thing`."""
     if isinstance(thing, Mesh | list):
-        return layer_of(thing, **options)
+        return rows_of(thing, **options)
     _no_options(options)
-    if isinstance(thing, Layer):
+    if isinstance(thing, MapRows):
         return thing
     if isinstance(thing, PointTable):
         places = wkb.points(thing.places)
         rows = {name: objects(values.tolist()) if values.ndim > 1 else values for name, values in thing.columns.items()}
-        return Layer(beside(["geometry"], rows), places, thing.crs)
+        return MapRows(beside(["geometry"], rows), places, thing.crs)
     if not hasattr(thing, "geometry"):
         raise TypeError(f"thing must be a mesh, a PointTable or a GeoDataFrame, not {type(thing).__name__}")
-    return Layer.of_frame(thing)
+    return MapRows.of_frame(thing)
 
 
 def _no_options(options: dict[str, Any]) -> None:

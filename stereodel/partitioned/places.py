@@ -11,8 +11,8 @@ import numpy as np
 
 from stereodel._arrays import FloatArray, Indices, as_directions, as_points
 from stereodel._extras import optional
-from stereodel.io.columns import find_lonlat, listed
 from stereodel.io.formats import wkb
+from stereodel.io.formats.names import find_lonlat, listed
 from stereodel.io.table import degrees, numbers, transformed
 from stereodel.sphere import lonlat_to_xyz
 from stereodel.sphere.latitudes import Latitude

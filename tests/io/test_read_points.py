@@ -12,7 +12,7 @@ import pytest
 import shapely
 
 from stereodel.io import DataWarning, PointTable, RenamedColumnWarning, read_points, write
-from stereodel.io.columns import find_lonlat
+from stereodel.io.formats.names import find_lonlat
 
 CITIES = [("Quito", -78.5, -0.2, 1763000), ("Ulm", 10.0, 48.4, 129000), ("Perth", 115.9, -32.0, 2309000)]
 LONLAT = [[lon, lat] for _, lon, lat, _ in CITIES]
@@ -204,7 +204,7 @@ def test_wrong_tables(content, message):
 
 
 def test_long_tables_are_read_in_blocks(monkeypatch):
-    monkeypatch.setattr("stereodel.io.csv_text.BLOCK", 2)
+    monkeypatch.setattr("stereodel.io.formats.delimited.BLOCK", 2)
     rows = [f"{k},{k / 2},name {k}" for k in range(7)]
     table = read_points(io.StringIO("\n".join(["lon,lat,name", *rows, ",,", "", " "])))
     assert table.lonlat.tolist() == [[k, k / 2] for k in range(7)]

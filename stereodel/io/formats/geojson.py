@@ -17,11 +17,11 @@ import numpy as np
 from stereodel._arrays import Column, FloatArray, as_count
 from stereodel._extras import optional
 from stereodel.constants import EMPTY_RATIO, FEW_CELLS
-from stereodel.io.cells import check_held, plain_cells
-from stereodel.io.columns import DataWarning, beside, listed
-from stereodel.io.layers import Layer, Progress
-from stereodel.io.self_contained import check_crs
-from stereodel.io.text import column, objects
+from stereodel.io.formats.cell_values import check_held, plain_cells
+from stereodel.io.formats.map_rows import MapRows, Progress
+from stereodel.io.formats.names import DataWarning, beside, listed
+from stereodel.io.formats.self_contained import check_crs
+from stereodel.io.formats.text import column, objects
 
 HEAD: Final = '{"type":"FeatureCollection","features":['
 TAIL: Final = "]}"
@@ -279,7 +279,7 @@ def to_geojson(frame: Any, *, decimals: int | None = None, sequence: bool = Fals
 
 
 def write_geojson(
-    layer: Layer, path: Path, *, decimals: int | None = None, sequence: bool = False, progress: Progress | None = None
+    layer: MapRows, path: Path, *, decimals: int | None = None, sequence: bool = False, progress: Progress | None = None
 ) -> None:
     """Write the rows of a map in the format of `to_geojson`, block by block."""
     check_held(layer.columns, path.suffix[1:])

@@ -16,10 +16,10 @@ import numpy as np
 
 from stereodel._arrays import Column, Indices
 from stereodel.constants import MOST_COLUMNS, MOST_LINE
-from stereodel.io.cells import as_text, check_held, plain_cells
-from stereodel.io.columns import DataWarning, has_lonlat, listed
-from stereodel.io.layers import Progress
-from stereodel.io.text import EXACT_INTEGERS, NUMBER, decimal_mark, objects, texts, typed, why_not
+from stereodel.io.formats.cell_values import as_text, check_held, plain_cells
+from stereodel.io.formats.map_rows import Progress
+from stereodel.io.formats.names import DataWarning, has_lonlat, listed
+from stereodel.io.formats.text import EXACT_INTEGERS, NUMBER, decimal_mark, objects, texts, typed, why_not
 
 SEPARATORS = ",;\t|"
 LOOKED_AT = 50

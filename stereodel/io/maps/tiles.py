@@ -23,9 +23,17 @@ from stereodel.curves.borders import Antimeridian, Pieces
 from stereodel.curves.ragged import Ragged, offsets_of, spans
 from stereodel.curves.trace import Arcs, great, great_axes
 from stereodel.io.formats import wkb
-from stereodel.io.layers import Progress, packed, unpacked
-from stereodel.io.on_map import close_in_longitude, lines_on_map, polygons_on_map, refined, repaired, steps_of, unit
-from stereodel.io.star_rings import star_shaped
+from stereodel.io.formats.map_rows import Progress, packed, unpacked
+from stereodel.io.maps.on_map import (
+    close_in_longitude,
+    lines_on_map,
+    polygons_on_map,
+    refined,
+    repaired,
+    steps_of,
+    unit,
+)
+from stereodel.io.maps.star_rings import star_shaped
 from stereodel.sphere import xyz_to_lonlat
 from stereodel.sphere.latitudes import Latitude
 

@@ -15,9 +15,9 @@ import numpy as np
 
 from stereodel._arrays import BoolArray, Geometries, Indices, Packed
 from stereodel._extras import optional
-from stereodel.io.cells import as_text, plain_cells
-from stereodel.io.columns import beside, index_columns
 from stereodel.io.formats import wkb
+from stereodel.io.formats.cell_values import as_text, plain_cells
+from stereodel.io.formats.names import beside, index_columns
 
 Progress = Callable[[float], object]
 """Called with the fraction of the work that is done, from 0 to 1."""
@@ -40,7 +40,7 @@ def unpacked(binary: Packed) -> Geometries:
 
 
 @dataclass(frozen=True, eq=False)
-class Layer:
+class MapRows:
     """Rows of a map.
 
     columns: arrays of NumPy, pandas or Arrow, by name.
@@ -55,7 +55,7 @@ class Layer:
     name: str = "geometry"
 
     @classmethod
-    def of_frame(cls, frame: Any) -> Layer:
+    def of_frame(cls, frame: Any) -> MapRows:
         """The rows of a GeoDataFrame or GeoSeries; geometry columns that are not active become well-known text."""
         shapely, active = optional("shapely", "geo"), frame.geometry.name or "geometry"
         own = {name: frame[name].reset_index(drop=True) for name in getattr(frame, "columns", ()) if name != active}
@@ -69,12 +69,12 @@ class Layer:
     def __len__(self) -> int:
         return len(self.binary)
 
-    def take(self, rows: Indices | BoolArray | slice) -> Layer:
+    def take(self, rows: Indices | BoolArray | slice) -> MapRows:
         """Some of the rows."""
         columns = {name: getattr(values, "iloc", values)[rows] for name, values in self.columns.items()}
-        return Layer(columns, self.binary[rows], self.crs, self.name)
+        return MapRows(columns, self.binary[rows], self.crs, self.name)
 
-    def blocks(self, progress: Progress | None = None) -> Iterator[Layer]:
+    def blocks(self, progress: Progress | None = None) -> Iterator[MapRows]:
         """The rows in blocks of `ROWS`."""
         for begin in range(0, len(self), ROWS):
             yield self.take(slice(begin, begin + ROWS))
