@@ -72,24 +72,18 @@ class Asked:
         return self.plane
 
     def table(self, columns: dict[str, Column], rows: Indices | None = None) -> PointTable:
-        """A table with coordinates in two of its columns."""
+        """A table with coordinates in two of its columns; rows are counted from 1 unless they have numbers."""
         where = self.axes(list(columns))
         pair = [columns[name] for name in where]
         kept = {name: values for name, values in columns.items() if name not in where}
-        numbered = np.arange(1, len(pair[0]) + 1) if rows is None else rows
-        return self.of(pair, kept, numbered, plane=self.plane, crs=self.crs)
+        return self.of(pair, kept, rows, plane=self.plane, crs=self.crs)
 
     def of(
-        self,
-        pair: Sequence[Column],
-        columns: Mapping[str, Column],
-        rows: Indices,
-        *,
-        plane: tuple[str, str] | None = None,
-        crs: str | None = None,
+        self, pair: Sequence[Column], columns: dict[str, Column], rows: Indices | None = None, **on: Any
     ) -> PointTable:
-        """A table with coordinates beside its columns, in a plane or in `crs`."""
-        return table_of(pair, columns, rows, plane=plane, crs=crs, skip_missing=self.skip_missing, name=self.name)
+        """A table with coordinates beside its columns: in degrees, or on what `table_of` is told."""
+        numbered = np.arange(1, len(pair[0]) + 1) if rows is None else rows
+        return table_of(pair, columns, numbered, skip_missing=self.skip_missing, name=self.name, **on)
 
 
 def read_points(
@@ -298,7 +292,7 @@ def _read_geojson(content: bytes, asked: Asked) -> PointTable:
     if asked.plane is not None:
         raise ValueError("columns of a plane are those of tables, not of GeoJSON")
     lon, lat, features = geojson.points(decoded(content), skip_missing=asked.skip_missing)
-    return asked.of((lon, lat), features.columns(), np.arange(1, len(lon) + 1), crs=features.crs)
+    return asked.of((lon, lat), features.columns(), crs=features.crs)
 
 
 def _read_parquet(content: bytes, asked: Asked) -> PointTable:
@@ -355,7 +349,7 @@ def _of_frame(frame: Any, asked: Asked) -> PointTable:
     series = frame.geometry
     if series.crs is not None:
         series = series.to_crs("EPSG:4326")
-    geometry, rows = np.asarray(series, dtype=object), np.arange(1, len(series) + 1)
+    geometry = np.asarray(series, dtype=object)
     alone = (shapely.get_type_id(geometry) == MULTIPOINT) & (shapely.get_num_geometries(geometry) == 1)
     geometry = np.where(alone, shapely.get_geometry(geometry, 0), geometry)
     nothing = shapely.is_missing(geometry) | shapely.is_empty(geometry)
@@ -363,8 +357,8 @@ def _of_frame(frame: Any, asked: Asked) -> PointTable:
     if len(wrong):
         first = geometry[wrong[0]]
         kind = "no geometry" if first is None or first.is_empty else first.geom_type
-        raise geojson.no_point(rows[wrong[0]], kind)
-    return asked.of((shapely.get_x(geometry), shapely.get_y(geometry)), _columns_of(frame), rows)
+        raise geojson.no_point(wrong[0] + 1, kind)
+    return asked.of((shapely.get_x(geometry), shapely.get_y(geometry)), _columns_of(frame))
 
 
 def _columns_of(frame: Any) -> dict[str, Column]:

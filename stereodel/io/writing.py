@@ -38,7 +38,7 @@ from stereodel.io.maps.meshes_as_rows import (
 from stereodel.io.maps.rows_of import rows_of
 from stereodel.io.meshes import to_polydata, to_trimesh
 from stereodel.io.reading import from_geodataframe
-from stereodel.io.table import PointTable
+from stereodel.io.table import AXES, PointTable
 from stereodel.io.ugrid import to_ugrid
 from stereodel.sphere import xyz_to_lonlat
 from stereodel.sphere.latitudes import Latitude
@@ -186,12 +186,11 @@ def _mesh_columns(
         triangulation = triangulation_of(mesh)
         rows = triangulation.edges if kind == "edges" else triangulation.simplices
         return {name: rows[:, k] for k, name in enumerate("abc"[: rows.shape[1]])}
-    places = (
-        xyz_to_lonlat(mesh.points, latitude=latitude or mesh.latitude or "spherical")
-        if is_spherical(mesh)
-        else mesh.points
-    )
-    found = dict(zip(("lon", "lat") if is_spherical(mesh) else ("x", "y"), places.T, strict=True))
+    axes, places = AXES["plane"], mesh.points
+    if is_spherical(mesh):
+        axes = AXES["sphere"]
+        places = xyz_to_lonlat(mesh.points, latitude=latitude or mesh.latitude or "spherical")
+    found = dict(zip(axes, places.T, strict=True))
     if kind == "cells":
         found["area"] = diagram_of(mesh).areas(radius=radius)
     return found | beside(found, point_columns(columns, len(places)))

@@ -148,11 +148,12 @@ def rows_of(
     wanted = as_choice(what or usual_kind(mesh), WHAT, "what")
     chosen: Latitude = as_choice(latitude or mesh.latitude or "spherical", KINDS, "latitude")
     as_scalar(radius, "radius", low=0.0, open_low=True)
-    if clip is not None and (not is_spherical(mesh) or wanted not in ("cells", "triangles")):
+    spherical = is_spherical(mesh)
+    if clip is not None and not (spherical and wanted in ("cells", "triangles")):
         raise ValueError("clip is for cells and triangles of the sphere; what is in the plane is cut to bounds")
     from stereodel.io.maps import as_geometries
 
-    if is_spherical(mesh):
+    if spherical:
         found, binary = as_geometries.on_sphere(mesh, wanted, max_segment, chosen, radius, progress)
     else:
         found, binary = as_geometries.in_plane(mesh, wanted, frame_of(mesh.points, bounds), radius)
@@ -167,7 +168,7 @@ def rows_of(
         found |= {name: values[found["point"]] for name, values in named.items()}
     elif given:
         raise ValueError(f"columns belong to points, which {wanted} have none of; use what='cells' or what='sites'")
-    layer = MapRows(found, binary, "EPSG:4326" if is_spherical(mesh) else crs)
+    layer = MapRows(found, binary, "EPSG:4326" if spherical else crs)
     kept = is_there(binary)
     return layer if kept.all() else layer.take(kept)
 
