@@ -57,8 +57,8 @@ def command(
     values, table = table.values([value], skip_missing=skip_missing)
     wanted = _values_of(levels) if levels is not None else _multiples(values[:, 0], interval or 0.0)
     with reporting(f"lines between {len(table)} points"):
-        kind = PlanarDelaunay if table.planar else SphericalDelaunay
-        found = contours(kind(table.points(latitude)), values[:, 0], wanted)
+        kind = PlanarDelaunay if table.surface == "plane" else SphericalDelaunay
+        found = contours(kind(table.points(latitude.value)), values[:, 0], wanted)
     if not found:
         raise NothingToDoError(f"{table.name}: no lines: no level lies between the values")
     with reporting(f"writing {out}") as shown:

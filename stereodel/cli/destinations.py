@@ -5,24 +5,22 @@ from __future__ import annotations
 import shutil
 import sys
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from stereodel import PlanarDelaunay, PlanarVoronoi, SphericalDelaunay, SphericalVoronoi
-from stereodel._extras import optional
+from stereodel._arrays import Column
 from stereodel._files import replacing, said_of
 from stereodel._interrupts import stop_if_interrupted
 from stereodel.cli.application import reporting
 from stereodel.cli.options import Latitude
-from stereodel.cli.sources import Columns
-from stereodel.io import write
-from stereodel.io.csv_text import write_csv
+from stereodel.io import PointTable, write
+from stereodel.io.formats.delimited import write_csv
 
 if TYPE_CHECKING:
-    from stereodel.cli.sources import Table
-    from stereodel.io.layers import Layer
+    from stereodel.io.formats.map_rows import MapRows
 
 TABLES = ("csv", "geojson", "geojsonl", "parquet", "gpkg", "fgb", "shp", "kml")
 SAME = {"json": "geojson", "geoparquet": "parquet"}
@@ -89,24 +87,13 @@ class Destination:
                 raise
 
 
-def save_table(path: Path, table: Table, columns: Columns) -> None:
-    """Write columns, the coordinates of a table's points first, in the format of the extension."""
-    if path.suffix.lower() == ".csv":
-        save_csv(path, columns)
-        return
-    from stereodel.io.layers import Layer, packed
-
-    others = {name: values for name, values in columns.items() if name not in table.axes}
-    save_layer(path, Layer(others, packed(optional("shapely", "geo").points(table.places)), table.crs))
+def save(path: Path, rows: PointTable | MapRows) -> None:
+    """Write a table of points, or the rows of a map, in the format of the extension."""
+    with reporting(f"writing {len(rows)} rows") as shown:
+        write(path, rows, progress=shown)
 
 
-def save_layer(path: Path, layer: Layer) -> None:
-    """Write the rows of a map in the format of the extension."""
-    with reporting(f"writing {len(layer)} rows") as shown:
-        write(path, layer, progress=shown)
-
-
-def save_csv(path: Path, columns: Columns) -> None:
+def save_csv(path: Path, columns: Mapping[str, Column]) -> None:
     """Write columns as CSV."""
     with replacing(path) as temporary, temporary.open("w", encoding="utf-8", newline="") as file:
         write_csv(columns, file)

@@ -14,7 +14,7 @@ from typing import Final
 import typer
 
 from stereodel._interrupts import INTERRUPTED, interrupt, leave, signals
-from stereodel.io.columns import DataWarning
+from stereodel.io.formats.names import DataWarning
 
 NOTHING_TO_DO: Final = 1
 MISSING: Final = 1

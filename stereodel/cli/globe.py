@@ -18,11 +18,11 @@ from stereodel.cli import options
 
 if TYPE_CHECKING:
     from stereodel._arrays import FloatArray
-    from stereodel.cli.sources import Table
     from stereodel.conformal import MoebiusMap
     from stereodel.drawing.scene.view import MapView
     from stereodel.film.shots import Motion
     from stereodel.globe import Globe
+    from stereodel.io import PointTable
 
 EXAMPLE = "stereodel globe --focus=2.35,48.86 --magnify 20 -o paris.png"
 
@@ -162,7 +162,7 @@ def command(
             with naming(str(each.path)):
                 drawing.add_layer(each.path, **each.arguments())
         if table is not None:
-            aim = aim.with_middle_of(table.points(options.Latitude.authalic))
+            aim = aim.with_middle_of(table.points("authalic"))
             add_points(drawing, table, shown, labels)
     if filming:
         motion = motion_of(aim, [options.pair(text, "--fly", "LON,LAT") for text in fly or ()])
@@ -307,14 +307,14 @@ class LayerChoice:
         return found if color is None else found | {"color": color}
 
 
-def add_points(globe: Globe, table: Table, shown: frozenset[str], labels: str | None) -> None:
+def add_points(globe: Globe, table: PointTable, shown: frozenset[str], labels: str | None) -> None:
     """Draw points, the ridges of their cells, the edges of their triangles, and labels; finer where there are many."""
     import numpy as np
 
     from stereodel import SphericalDelaunay, SphericalVoronoi
     from stereodel.drawing.page.style import DOTS, LINES
 
-    places = table.points(options.Latitude.authalic)
+    places = table.points("authalic")
     weight = max(FINEST, min(1.0, float(np.sqrt(CROWDED / max(1, len(places))))))
     triangulation = SphericalDelaunay(places)
     if "triangles" in shown:

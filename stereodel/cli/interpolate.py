@@ -14,8 +14,7 @@ from stereodel.cli.failures import naming_options
 
 if TYPE_CHECKING:
     from stereodel._arrays import FloatArray
-    from stereodel.cli.sources import Table
-    from stereodel.io import Grid
+    from stereodel.io import Grid, PointTable
 
 GRIDS = ("csv", "nc", "tif", "tiff")
 PIECE = 100_000  # rows between two signs of progress
@@ -75,7 +74,7 @@ def command(
 
     Give either --at or --grid. Outside the convex hull of the points, linear, smooth and natural leave values empty.
     """
-    from stereodel.cli.destinations import TABLES, Destination, save_table
+    from stereodel.cli.destinations import TABLES, Destination, save
     from stereodel.cli.sources import read, read_second
     from stereodel.io import write
     from stereodel.sphere import lonlat_to_xyz
@@ -115,13 +114,12 @@ def command(
         plane=plane,
         skip_missing=skip_missing,
     )
-    results = dict(zip(value, interpolated(asking.points(latitude)).T, strict=True))
-    columns = asking.beside(results, taken=["geometry"])
-    destination.write(lambda path: save_table(path, asking, columns))
+    results = dict(zip(value, interpolated(asking.points(latitude.value)).T, strict=True))
+    destination.write(lambda path: save(path, asking.beside(results)))
 
 
 def _interpolator(
-    table: Table, names: list[str], method: Method, latitude: options.Latitude, skip_missing: bool
+    table: PointTable, names: list[str], method: Method, latitude: options.Latitude, skip_missing: bool
 ) -> Callable[[FloatArray], FloatArray]:
     """A function from points to values, (n, number of columns), that reports its progress."""
     import numpy as np
@@ -131,7 +129,7 @@ def _interpolator(
 
     values, table = table.values(names, skip_missing=skip_missing)
     with reporting("triangulating"):
-        interpolator = METHODS[method.value](table.points(latitude), values)
+        interpolator = METHODS[method.value](table.points(latitude.value), values)
 
     def interpolated(queries: FloatArray) -> FloatArray:
         found = np.empty((len(queries), len(names)))

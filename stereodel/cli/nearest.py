@@ -10,9 +10,9 @@ import typer
 from stereodel.cli import options
 
 if TYPE_CHECKING:
-    from stereodel._arrays import FloatArray, Indices
-    from stereodel.cli.sources import Columns, Table
+    from stereodel._arrays import Column, FloatArray, Indices
     from stereodel.curves.ragged import Ragged
+    from stereodel.io import PointTable
 
 EXAMPLE = "stereodel nearest airports.csv --of cities.csv -o nearest.csv"
 
@@ -62,7 +62,7 @@ def command(
     the distance. A query point with several sites has several rows, ranked from 1; a query point with no site has none.
     """
     from stereodel.cli.application import say
-    from stereodel.cli.destinations import TABLES, Destination, save_table
+    from stereodel.cli.destinations import TABLES, Destination, save
     from stereodel.cli.sources import read, read_second
 
     destination = Destination.of(out, format, TABLES, sites, queries, overwrite=overwrite)
@@ -80,10 +80,10 @@ def command(
         plane=plane,
         skip_missing=skip_missing,
     )
-    pairs = _pairs(chosen.points(latitude), asking.points(latitude), count, max_distance, exclude_self)
+    pairs = _pairs(chosen.points(latitude.value), asking.points(latitude.value), count, max_distance, exclude_self)
     found = asking.taken(pairs.query)
-    columns = _columns(chosen, found, pairs, _kept(chosen, keep), ranked=count > 1)
-    destination.write(lambda path: save_table(path, found, columns))
+    table = _with_sites(found, chosen, pairs, _kept(chosen, keep), ranked=count > 1)
+    destination.write(lambda path: save(path, table))
     say(f"{out}: nearest of {len(chosen)} sites for {len(asking)} points")
 
 
@@ -145,19 +145,21 @@ def _by_place(sites: FloatArray) -> Ragged:
     return Ragged.grouped(np.argsort(number, kind="stable"), number, len(first))
 
 
-def _kept(sites: Table, keep: list[str] | None) -> Columns:
+def _kept(sites: PointTable, keep: list[str] | None) -> dict[str, Column]:
     """The columns of the sites to write."""
     names = [name for name in sites.columns if name.lower() == "name"] if keep is None else keep
     return {name: sites.column(name) for name in names}
 
 
-def _columns(sites: Table, found: Table, pairs: Pairs, kept: Columns, *, ranked: bool) -> Columns:
+def _with_sites(
+    found: PointTable, sites: PointTable, pairs: Pairs, kept: dict[str, Column], *, ranked: bool
+) -> PointTable:
     """One row for each pair of a query point and a site."""
-    from stereodel.io.columns import beside
+    from stereodel.io.formats.names import beside
 
-    results: Columns = {"rank": pairs.rank} if ranked else {}
+    results: dict[str, Column] = {"rank": pairs.rank} if ranked else {}
     results["site_row"] = sites.rows[pairs.site]
-    distance: Columns = {"distance" if sites.planar else "distance_km": pairs.distance}
+    distance: dict[str, Column] = {"distance" if sites.surface == "plane" else "distance_km": pairs.distance}
     of_sites = {f"site_{name}": values[pairs.site] for name, values in kept.items()}
     results |= beside([*results, *distance], of_sites) | distance
-    return found.beside(results, taken=["geometry"])
+    return found.beside(results)

@@ -13,7 +13,8 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from stereodel import PlanarDelaunay, SphericalDelaunay
-    from stereodel.cli.sources import Columns, Table
+    from stereodel._arrays import Column
+    from stereodel.io import PointTable
 
 EXAMPLE = "stereodel triangulate stations.csv -o triangles.geojson"
 
@@ -47,8 +48,8 @@ def command(
     destination = Destination.of(out, format, TABLES + MESHES, points, overwrite=overwrite)
     table = read(points, lon=lon, lat=lat, plane=plane, layer=layer_name, crs=crs, skip_missing=skip_missing)
     with reporting(f"triangulating {len(table)} points"):
-        kind = PlanarDelaunay if table.planar else SphericalDelaunay
-        triangulation = kind(table.points(latitude))
+        kind = PlanarDelaunay if table.surface == "plane" else SphericalDelaunay
+        triangulation = kind(table.points(latitude.value))
     count = len(_corner_rows(triangulation, "triangles", table)["a"])
     if count == 0:
         raise NothingToDoError(f"{table.name}: no triangles: too few points, or all on one line or great circle")
@@ -61,14 +62,14 @@ def _save(
     path: Path,
     triangulation: PlanarDelaunay | SphericalDelaunay,
     what: Literal["triangles", "edges"],
-    table: Table,
+    table: PointTable,
     max_segment: float,
     latitude: options.Latitude,
 ) -> None:
     """Write the row numbers of each triangle's corners, or of each edge's endpoints."""
     from stereodel.cli.application import reporting
-    from stereodel.cli.destinations import MESHES, TABLES, save_csv, save_layer, save_mesh
-    from stereodel.io.frames import layer_of
+    from stereodel.cli.destinations import MESHES, TABLES, save, save_csv, save_mesh
+    from stereodel.io.maps.rows_of import rows_of
 
     kind = path.suffix.lower().removeprefix(".")
     if kind == "csv":
@@ -79,7 +80,7 @@ def _save(
         save_mesh(path, triangulation, latitude)
     else:
         with reporting(f"drawing {what}") as shown:
-            layer = layer_of(
+            layer = rows_of(
                 triangulation,
                 what=what,
                 latitude=latitude.value,
@@ -88,10 +89,10 @@ def _save(
                 progress=shown,
             )
         rows = {name: table.rows[layer.columns[name]] for name in "abc" if name in layer.columns}
-        save_layer(path, replace(layer, columns=rows))
+        save(path, replace(layer, columns=rows))
 
 
-def _corner_rows(triangulation: PlanarDelaunay | SphericalDelaunay, what: str, table: Table) -> Columns:
+def _corner_rows(triangulation: PlanarDelaunay | SphericalDelaunay, what: str, table: PointTable) -> dict[str, Column]:
     """Row numbers of the corners of all triangles except those that close the far side, or of their edges."""
     from stereodel import SphericalDelaunay
     from stereodel.triangulation.topology import edges_of

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from stereodel import PlanarVoronoi, SphericalVoronoi
-    from stereodel.cli.sources import Table
+    from stereodel.io import PointTable
 
 EXAMPLE = "stereodel voronoi cities.csv -o cells.gpkg"
 
@@ -110,17 +110,18 @@ def command(
     if plane is not None:
         options.refuse({"--clip": clip}, "cells of the sphere, not of a plane")
     table = read(name, lon=lon, lat=lat, plane=plane, layer=layer_name, crs=crs, skip_missing=skip_missing)
+    planar = table.surface == "plane"
     with reporting(f"cells of {len(table)} points"):
-        places = table.points(latitude)
-        diagram = PlanarVoronoi(places) if table.planar else SphericalVoronoi(places)
+        kind = PlanarVoronoi if planar else SphericalVoronoi
+        diagram = kind(table.points(latitude.value))
     destination.write(lambda path: _save(path, diagram, table, area_unit or AreaUnit.km2, clip, max_segment, latitude))
-    say(f"{out}: cells of {len(table)} points" + ("" if table.planar else f", with {latitude.value} latitudes"))
+    say(f"{out}: cells of {len(table)} points" + ("" if planar else f", with {latitude.value} latitudes"))
 
 
 def _save(
     path: Path,
     diagram: PlanarVoronoi | SphericalVoronoi,
-    table: Table,
+    table: PointTable,
     unit: AreaUnit,
     clip: str | None,
     max_segment: float,
@@ -130,22 +131,24 @@ def _save(
     import numpy as np
 
     from stereodel.cli.application import reporting
-    from stereodel.cli.destinations import MESHES, save_csv, save_layer, save_mesh
+    from stereodel.cli.destinations import MESHES, save, save_mesh
     from stereodel.earth import AUTHALIC_RADIUS_KM
-    from stereodel.io.frames import layer_of
+    from stereodel.io.formats.names import beside
+    from stereodel.io.maps.rows_of import rows_of
     from stereodel.io.reading import naming
 
     kind = path.suffix.lower().removeprefix(".")
-    name = "area" if table.planar else f"area_{unit.value}"
-    radius = 1.0 if table.planar or unit is AreaUnit.sr else AUTHALIC_RADIUS_KM
+    planar = table.surface == "plane"
+    name = "area" if planar else f"area_{unit.value}"
+    radius = 1.0 if planar or unit is AreaUnit.sr else AUTHALIC_RADIUS_KM
     if kind in MESHES:
         save_mesh(path, diagram, latitude)
         return
     if kind == "csv" and clip is None:
-        save_csv(path, table.beside({name: diagram.areas(radius=radius)}))
+        save(path, table.beside({name: diagram.areas(radius=radius)}))
         return
     with reporting(f"drawing {len(table)} cells") as shown, naming(clip) if clip else nullcontext():
-        cells = layer_of(
+        cells = rows_of(
             diagram,
             latitude=latitude.value,
             radius=radius,
@@ -157,7 +160,8 @@ def _save(
     point, area = cells.columns["point"], np.zeros(len(table))
     area[point] = cells.columns["area"]
     if kind == "csv":
-        save_csv(path, table.beside({name: area}))
+        save(path, table.beside({name: area}))
         return
-    rows = table.beside({name: area}, first={"row": table.rows}, taken=["geometry"])
-    save_layer(path, replace(cells, columns={name: values[point] for name, values in rows.items()}))
+    rows = table.beside({name: area}, first={"row": table.rows}).located()
+    columns = {name: values[point] for name, values in beside(["geometry"], rows).items()}
+    save(path, replace(cells, columns=columns))

@@ -52,8 +52,8 @@ from stereodel.globe.lines import SphereLines
 from stereodel.globe.pages import Panel, default_view, panels
 from stereodel.globe.raster import Raster
 from stereodel.globe.regions import Rings, SphereRegions
+from stereodel.io.map_shapes import Shapes
 from stereodel.io.reading import shapes_of
-from stereodel.io.shapes import Shapes
 from stereodel.sphere import SphereCircle, lonlat_to_xyz
 from stereodel.sphere.latitudes import KINDS, Latitude
 from stereodel.sphere.vectors import units

@@ -16,7 +16,7 @@ from stereodel.curves.clip import signed_areas
 from stereodel.curves.ragged import Ragged
 from stereodel.curves.seams import stitched
 from stereodel.globe.lines import SphereLines
-from stereodel.io.faces import triangle_sides, voronoi_sides
+from stereodel.io.maps.meshes_as_rows import triangle_sides, voronoi_sides
 from stereodel.sphere import SphereArc, SphereCircle
 from stereodel.sphere.latitudes import Latitude
 from stereodel.sphere.vectors import units

@@ -4,15 +4,15 @@ Other libraries are imported only when a function needs them; the extras ``draw`
 install them.
 """
 
-from stereodel.io.columns import DataWarning, RenamedColumnWarning
-from stereodel.io.frames import to_geodataframe
-from stereodel.io.geojson import to_geojson
+from stereodel.io.formats.geojson import to_geojson
+from stereodel.io.formats.names import DataWarning, RenamedColumnWarning
 from stereodel.io.grids import Grid
+from stereodel.io.maps.rows_of import to_geodataframe
+from stereodel.io.maps.warping import warp
 from stereodel.io.meshes import to_polydata, to_trimesh
 from stereodel.io.reading import from_geodataframe, read_points
-from stereodel.io.tables import PointTable
+from stereodel.io.table import PointTable
 from stereodel.io.ugrid import from_ugrid, to_ugrid
-from stereodel.io.warping import warp
 from stereodel.io.writing import write
 
 __all__ = [

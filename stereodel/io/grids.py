@@ -15,8 +15,8 @@ from stereodel._arrays import FloatArray, as_floats, as_lonlat, as_scalar, as_st
 from stereodel._extras import optional
 from stereodel.constants import GRID_ROUNDING, MOST_PLACES
 from stereodel.earth import EQUATORIAL_RADIUS_KM, INVERSE_FLATTENING
-from stereodel.io.columns import beside
-from stereodel.io.csv_text import write_csv
+from stereodel.io.formats.delimited import write_csv
+from stereodel.io.formats.names import beside
 
 WGS84: Final = {
     "grid_mapping_name": "latitude_longitude",

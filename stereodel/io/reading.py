@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import json
 import os
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
@@ -14,18 +13,19 @@ from typing import Any, BinaryIO, Final, Literal, TextIO
 
 import numpy as np
 
-from stereodel._arrays import Column, FloatArray, Indices, as_choice
+from stereodel._arrays import Column, Indices, as_choice
 from stereodel._extras import optional
 from stereodel._tasks.progress import Progress
-from stereodel.io.columns import beside, find_lonlat, index_columns, listed
-from stereodel.io.csv_text import split_columns
-from stereodel.io.geojson import Features, kind_of
-from stereodel.io.geoparquet import read_parquet
-from stereodel.io.packed import unpacked
-from stereodel.io.shapes import MULTIPOINT, POINT, Shapes, of_features, of_geometries, of_items
-from stereodel.io.tables import PointTable, located, table_of
-from stereodel.io.text import column, texts
-from stereodel.io.vector_files import read_frame, told
+from stereodel.io.formats import geojson
+from stereodel.io.formats.delimited import split_columns
+from stereodel.io.formats.gdal import read_frame, told
+from stereodel.io.formats.geojson import Features
+from stereodel.io.formats.names import beside, find_lonlat, index_columns, listed
+from stereodel.io.formats.packed import unpacked
+from stereodel.io.formats.parquet import read_parquet
+from stereodel.io.formats.text import column, decoded, texts
+from stereodel.io.map_shapes import MULTIPOINT, POINT, Shapes, of_features, of_geometries, of_items
+from stereodel.io.table import PointTable, table_of
 
 Source = str | os.PathLike[str] | BinaryIO | TextIO
 Format = Literal["csv", "geojson", "parquet", "vector"]
@@ -56,17 +56,34 @@ class Asked:
 
     lon: str | None = None
     lat: str | None = None
-    layer: str | None = None
+    plane: tuple[str, str] | None = None
     crs: str | None = None
     skip_missing: bool = False
     progress: Progress | None = None
+    name: str = ""
 
-    def table(self, columns: dict[str, Column], rows: Indices) -> PointTable:
-        """A table with coordinates in two of its columns."""
-        where = find_lonlat(list(columns), self.lon, self.lat)
+    def axes(self, names: Sequence[str]) -> tuple[str, str]:
+        """The columns of the coordinates; ValueError lists the columns if they are not among them."""
+        if self.plane is None:
+            return find_lonlat(names, self.lon, self.lat)
+        missing = [name for name in self.plane if name not in names]
+        if missing:
+            raise ValueError(f"there is no column {missing[0]!r}; the columns are {listed(names)}")
+        return self.plane
+
+    def table(self, columns: dict[str, Column], rows: Indices | None = None) -> PointTable:
+        """A table with coordinates in two of its columns; rows are counted from 1 unless they have numbers."""
+        where = self.axes(list(columns))
+        pair = [columns[name] for name in where]
         kept = {name: values for name, values in columns.items() if name not in where}
-        lon, lat = (columns[name] for name in where)
-        return table_of(lon, lat, kept, rows, crs=self.crs, skip_missing=self.skip_missing)
+        return self.of(pair, kept, rows, plane=self.plane, crs=self.crs)
+
+    def of(
+        self, pair: Sequence[Column], columns: dict[str, Column], rows: Indices | None = None, **on: Any
+    ) -> PointTable:
+        """A table with coordinates beside its columns: in degrees, or on what `table_of` is told."""
+        numbered = np.arange(1, len(pair[0]) + 1) if rows is None else rows
+        return table_of(pair, columns, numbered, skip_missing=self.skip_missing, name=self.name, **on)
 
 
 def read_points(
@@ -74,13 +91,14 @@ def read_points(
     *,
     lon: str | None = None,
     lat: str | None = None,
+    plane: tuple[str, str] | None = None,
     format: Format | None = None,
     layer: str | None = None,
     crs: str | None = None,
     skip_missing: bool = False,
     progress: Progress | None = None,
 ) -> PointTable:
-    r"""Read a table of points with longitude and latitude.
+    r"""Read a table of points with longitude and latitude, or with coordinates of a plane.
 
     Parameters
     ----------
@@ -89,6 +107,9 @@ def read_points(
     lon, lat : str, optional
         Names of the columns, in degrees. By default the columns whose names are or contain one of the words lon, lng,
         long, longitude and lat, latitude, else x and y, ignoring case. Files with geometries need none.
+    plane : tuple of str, optional
+        Names of the columns of both coordinates of a plane, in place of `lon` and `lat`. The file must be a table;
+        geometries that it has beside are left out.
     format : {"csv", "geojson", "parquet", "vector"}, optional
         By default taken from the extension of the path, else from the first bytes. "vector" is any format that GDAL
         reads: GeoPackage, Shapefile (also zipped), FlatGeobuf, KML, GPX, spreadsheets (.xlsx, .ods).
@@ -96,7 +117,7 @@ def read_points(
         Name of the layer or sheet, where a file has several with rows; of a file of GDAL's formats alone.
     crs : str, optional
         Coordinate reference system of the columns `lon` and `lat` (easting first), such as "EPSG:25832"; by default
-        they are in degrees. Files with geometries state their own.
+        they are in degrees. Files with geometries state their own. Coordinates of a `plane` stay as they are.
     skip_missing : bool
         Whether to leave out rows without a place, which are an error by default.
     progress : callable, optional
@@ -140,12 +161,17 @@ def read_points(
     >>> table = read_points(io.StringIO(text))
     >>> table.lonlat.tolist(), table.columns["people"].tolist()
     ([[-78.5, -0.2], [10.0, 48.4]], [1763000, 129000])
+    >>> read_points(io.StringIO("site,east,north\nA,3500,5400"), plane=("east", "north")).places.tolist()
+    [[3500.0, 5400.0]]
     >>> read_points(io.StringIO("lon,lat\n5,7\n7,95.2"))
     Traceback (most recent call last):
         ...
     ValueError: row 2: latitude 95.2 is outside [-90, 90]; is it the longitude, or not in degrees?
     """
-    asked = Asked(lon, lat, layer, crs, skip_missing, progress)
+    if plane is not None and (lon is not None or lat is not None):
+        raise ValueError("plane names the columns of both coordinates; leave out lon and lat")
+    name = os.fspath(source) if isinstance(source, str | os.PathLike) else ""
+    asked = Asked(lon, lat, plane, crs, skip_missing, progress, name)
     with naming(source):
         file = _File(source, format, layer)
         return _of_frame(file.frame(), asked) if file.kind == "vector" else READERS[file.kind](file.content, asked)
@@ -185,51 +211,11 @@ def _shapes_of_file(path: Path) -> Shapes:
     with naming(path):
         file = _File(path, None if path.suffix.lower() in (*ENDINGS, *PACKED) else "vector")
         if file.kind == "geojson":
-            return of_features(Features.of(_json(_text(file.content))))
+            return of_features(Features.of(geojson.parsed(decoded(file.content))))
         frame = read_parquet(file.content) if file.kind == "parquet" else file.frame("give a file with one")
         if not hasattr(frame, "to_crs"):
             raise ValueError("the file is a table without geometries")
         return shapes_of(frame)
-
-
-def read_plane_points(
-    source: Source,
-    x: str,
-    y: str,
-    *,
-    layer: str | None = None,
-    skip_missing: bool = False,
-    progress: Progress | None = None,
-) -> tuple[FloatArray, dict[str, Column], Indices]:
-    r"""Points of the plane from two columns of a table: (n, 2), the other columns, and row numbers.
-
-    ValueError for GeoJSON, a column that does not exist, and a row (named in the message) without finite numbers.
-
-    >>> import io
-    >>> text = "site,east,north\nA,3500,5400\nB,3600,5410"
-    >>> points, others, rows = read_plane_points(io.StringIO(text), "east", "north")
-    >>> points.tolist(), others["site"].tolist()
-    ([[3500.0, 5400.0], [3600.0, 5410.0]], ['A', 'B'])
-    """
-    with naming(source):
-        file = _File(source, layer=layer)
-        if file.kind == "csv":
-            text = split_columns(_text(file.content), (x, y), progress)
-            table, rows = text.typed(), text.rows
-        elif file.kind == "parquet":
-            read = read_parquet(file.content)
-            table = {name: _of_arrow(read[name]) for name in read.column_names if name != "geometry"}
-            rows = np.arange(1, read.num_rows + 1)
-        elif file.kind == "vector":
-            frame = file.frame()
-            table, rows = _columns_of(frame), np.arange(1, len(frame) + 1)
-        else:
-            raise ValueError("columns of a plane are those of tables, not of GeoJSON")
-        missing = [name for name in (x, y) if name not in table]
-        if missing:
-            raise ValueError(f"there is no column {missing[0]!r}; the columns are {listed(list(table))}")
-        kept = {name: values for name, values in table.items() if name not in (x, y)}
-        return located([(name, table[name]) for name in (x, y)], kept, rows, skip_missing=skip_missing)
 
 
 @contextmanager
@@ -295,76 +281,25 @@ def _content(source: Source) -> bytes:
     return content.encode() if isinstance(content, str) else unpacked(content)
 
 
-def _text(content: bytes) -> str:
-    marked = content.startswith((b"\xff\xfe", b"\xfe\xff"))
-    try:
-        return content.decode("utf-16" if marked else "utf-8-sig")
-    except UnicodeDecodeError as error:
-        line = content[: error.start].count(b"\n") + 1
-        raise ValueError(f"line {line} is not text in UTF-8; save the file in that encoding") from error
-
-
 def _read_csv(content: bytes, asked: Asked) -> PointTable:
-    table = split_columns(_text(content), [name for name in (asked.lon, asked.lat) if name is not None], asked.progress)
-    degrees = find_lonlat(list(table.columns), asked.lon, asked.lat) if asked.crs is None else ()
+    named = [name for name in asked.plane or (asked.lon, asked.lat) if name is not None]
+    table = split_columns(decoded(content), named, asked.progress)
+    degrees = asked.axes(list(table.columns)) if asked.crs is None and asked.plane is None else ()
     return asked.table(table.typed(degrees=degrees), table.rows)
 
 
 def _read_geojson(content: bytes, asked: Asked) -> PointTable:
-    collection = _json(_text(content))
-    alone = kind_of(collection) == "Feature"  # as a sequence of one
-    if not alone and not (isinstance(collection, dict) and isinstance(collection.get("features"), list)):
-        raise ValueError("the file is not a GeoJSON FeatureCollection of points")
-    features = Features.of(collection)
-    rows = np.arange(1, len(features.geometries) + 1)
-    places = [_position(geometry, row, asked) for row, geometry in enumerate(features.geometries, 1)]
-    lon, lat = (column(place[k] for place in places) for k in (0, 1))
-    return table_of(lon, lat, features.columns(), rows, crs=features.crs, skip_missing=asked.skip_missing)
-
-
-def _json(text: str) -> Any:
-    """A JSON document; a sequence of features (RFC 8142, or one per line) becomes a collection."""
-    try:
-        return json.loads(text)
-    except RecursionError:
-        raise ValueError("the file is not a table: its JSON is nested too deeply") from None
-    except json.JSONDecodeError as error:
-        lines = [line.strip("\x1e \t\r") for line in text.split("\n")]
-        if not lines[0].endswith("}"):
-            raise ValueError(f"the file is not JSON: {error}") from error
-        try:
-            return {"features": [json.loads(line) for line in lines if line]}
-        except (json.JSONDecodeError, RecursionError):
-            raise ValueError(f"the file is not JSON: {error}") from error
-
-
-def _position(geometry: Any, row: int, asked: Asked) -> tuple[Any, Any]:
-    nothing = (None, None)
-    if geometry is None and asked.skip_missing:
-        return nothing
-    kind = geometry.get("type") if isinstance(geometry, dict) else "no geometry"
-    coordinates = geometry.get("coordinates") if isinstance(geometry, dict) else None
-    if kind == "MultiPoint" and isinstance(coordinates, list) and len(coordinates) == 1:
-        kind, coordinates = "Point", coordinates[0]
-    if kind != "Point":
-        raise ValueError(f"row {row}: a Point is needed, not {kind}{_advice(kind)}")
-    if not coordinates:
-        return nothing
-    if not isinstance(coordinates, list) or len(coordinates) < 2 or str in map(type, coordinates[:2]):
-        raise ValueError(f"row {row}: a Point has two or three coordinates, not {coordinates!r}")
-    return coordinates[0], coordinates[1]
-
-
-def _advice(kind: Any) -> str:
-    return "; leave such rows out with skip_missing" if kind == "no geometry" else "; take e.g. centroids first"
+    if asked.plane is not None:
+        raise ValueError("columns of a plane are those of tables, not of GeoJSON")
+    lon, lat, features = geojson.points(decoded(content), skip_missing=asked.skip_missing)
+    return asked.of((lon, lat), features.columns(), crs=features.crs)
 
 
 def _read_parquet(content: bytes, asked: Asked) -> PointTable:
     table = read_parquet(content)
     if hasattr(table, "geometry"):
         return _of_frame(table, asked)
-    columns = {name: _of_arrow(table[name]) for name in table.column_names}
-    return asked.table(columns, np.arange(1, table.num_rows + 1))
+    return asked.table({name: _of_arrow(table[name]) for name in table.column_names})
 
 
 def _of_arrow(values: Any) -> Column:
@@ -405,16 +340,16 @@ def from_geodataframe(frame: Any) -> PointTable:
 
 
 def _of_frame(frame: Any, asked: Asked) -> PointTable:
-    """Points of a frame: from its geometries, or from two columns if it has none."""
-    if not hasattr(frame, "geometry"):
+    """Points of a frame: from its geometries, or from two columns if it has none or they are those of a plane."""
+    if not hasattr(frame, "geometry") or asked.plane is not None:
         if not hasattr(frame, "columns"):
             raise TypeError(f"frame must be a GeoDataFrame or GeoSeries, not {type(frame).__name__}")
-        return asked.table(_columns_of(frame), np.arange(1, len(frame) + 1))
+        return asked.table(_columns_of(frame))
     shapely = optional("shapely", "geo")
     series = frame.geometry
     if series.crs is not None:
         series = series.to_crs("EPSG:4326")
-    geometry, rows = np.asarray(series, dtype=object), np.arange(1, len(series) + 1)
+    geometry = np.asarray(series, dtype=object)
     alone = (shapely.get_type_id(geometry) == MULTIPOINT) & (shapely.get_num_geometries(geometry) == 1)
     geometry = np.where(alone, shapely.get_geometry(geometry, 0), geometry)
     nothing = shapely.is_missing(geometry) | shapely.is_empty(geometry)
@@ -422,9 +357,8 @@ def _of_frame(frame: Any, asked: Asked) -> PointTable:
     if len(wrong):
         first = geometry[wrong[0]]
         kind = "no geometry" if first is None or first.is_empty else first.geom_type
-        raise ValueError(f"row {rows[wrong[0]]}: a Point is needed, not {kind}{_advice(kind)}")
-    x, y = shapely.get_x(geometry), shapely.get_y(geometry)
-    return table_of(x, y, _columns_of(frame), rows, skip_missing=asked.skip_missing)
+        raise geojson.no_point(wrong[0] + 1, kind)
+    return asked.of((shapely.get_x(geometry), shapely.get_y(geometry)), _columns_of(frame))
 
 
 def _columns_of(frame: Any) -> dict[str, Column]:

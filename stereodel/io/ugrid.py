@@ -8,8 +8,8 @@ import numpy as np
 
 from stereodel._arrays import BoolArray, FloatArray, IntArray
 from stereodel._extras import optional
-from stereodel.io.diagrams import Mesh, diagram_of, is_spherical
-from stereodel.io.surfaces import Surface, surface_of
+from stereodel.io.maps.meshes_as_rows import Mesh, diagram_of, is_spherical
+from stereodel.io.meshes import Surface, surface_of
 from stereodel.sphere import lonlat_to_xyz, solid_angle, xyz_to_lonlat
 from stereodel.sphere.latitudes import Latitude
 

@@ -18,20 +18,29 @@ from stereodel._extras import optional
 from stereodel._files import replacing, said_of
 from stereodel._tasks.progress import Progress
 from stereodel.interpolation import Contour
-from stereodel.io.columns import beside
-from stereodel.io.csv_text import write_csv
-from stereodel.io.diagrams import Columns, Mesh, diagram_of, is_spherical, point_columns, triangulation_of, usual_kind
-from stereodel.io.frames import layer_of
-from stereodel.io.geojson import write_geojson
-from stereodel.io.geoparquet import write_parquet
+from stereodel.io.formats import wkb
+from stereodel.io.formats.delimited import write_csv
+from stereodel.io.formats.gdal import DRIVERS, write_layer
+from stereodel.io.formats.geojson import write_geojson
+from stereodel.io.formats.map_rows import MapRows
+from stereodel.io.formats.names import beside
+from stereodel.io.formats.parquet import write_parquet
+from stereodel.io.formats.text import objects
 from stereodel.io.grids import Grid, write_geotiff, write_grid_table
-from stereodel.io.layers import Layer, packed
+from stereodel.io.maps.meshes_as_rows import (
+    Columns,
+    Mesh,
+    diagram_of,
+    is_spherical,
+    point_columns,
+    triangulation_of,
+    usual_kind,
+)
+from stereodel.io.maps.rows_of import rows_of
 from stereodel.io.meshes import to_polydata, to_trimesh
 from stereodel.io.reading import from_geodataframe
-from stereodel.io.tables import PointTable
-from stereodel.io.text import objects
+from stereodel.io.table import AXES, PointTable
 from stereodel.io.ugrid import to_ugrid
-from stereodel.io.vector_files import DRIVERS, write_layer
 from stereodel.sphere import xyz_to_lonlat
 from stereodel.sphere.latitudes import Latitude
 
@@ -130,20 +139,20 @@ def write(
                 shutil.copyfile(part, temporary)
 
 
-def _layer(thing: Any, options: dict[str, Any]) -> Layer:
+def _layer(thing: Any, options: dict[str, Any]) -> MapRows:
     """The rows of a map for any supported `thing`."""
     if isinstance(thing, Mesh | list):
-        return layer_of(thing, **options)
+        return rows_of(thing, **options)
     _no_options(options)
-    if isinstance(thing, Layer):
+    if isinstance(thing, MapRows):
         return thing
     if isinstance(thing, PointTable):
-        places = packed(optional("shapely", "geo").points(thing.lonlat))
+        places = wkb.points(thing.places)
         rows = {name: objects(values.tolist()) if values.ndim > 1 else values for name, values in thing.columns.items()}
-        return Layer(beside(["geometry"], rows), places, "EPSG:4326")
+        return MapRows(beside(["geometry"], rows), places, thing.crs)
     if not hasattr(thing, "geometry"):
         raise TypeError(f"thing must be a mesh, a PointTable or a GeoDataFrame, not {type(thing).__name__}")
-    return Layer.of_frame(thing)
+    return MapRows.of_frame(thing)
 
 
 def _no_options(options: dict[str, Any]) -> None:
@@ -161,8 +170,7 @@ def _write_csv(thing: Any, path: Path, options: dict[str, Any], progress: Progre
     else:
         _no_options(options)
         table = thing if isinstance(thing, PointTable) else from_geodataframe(_layer(thing, {}).frame())
-        places: Columns = dict(zip(("lon", "lat"), table.lonlat.T, strict=True))
-        columns = places | beside(places, table.columns)
+        columns = table.located()
     with path.open("w", encoding="utf-8", newline="") as stream:
         write_csv(columns, stream)
 
@@ -180,12 +188,11 @@ def _mesh_columns(
         triangulation = triangulation_of(mesh)
         rows = triangulation.edges if kind == "edges" else triangulation.simplices
         return {name: rows[:, k] for k, name in enumerate("abc"[: rows.shape[1]])}
-    places = (
-        xyz_to_lonlat(mesh.points, latitude=latitude or mesh.latitude or "spherical")
-        if is_spherical(mesh)
-        else mesh.points
-    )
-    found = dict(zip(("lon", "lat") if is_spherical(mesh) else ("x", "y"), places.T, strict=True))
+    axes, places = AXES["plane"], mesh.points
+    if is_spherical(mesh):
+        axes = AXES["sphere"]
+        places = xyz_to_lonlat(mesh.points, latitude=latitude or mesh.latitude or "spherical")
+    found = dict(zip(axes, places.T, strict=True))
     if kind == "cells":
         found["area"] = diagram_of(mesh).areas(radius=radius)
     return found | beside(found, point_columns(columns, len(places)))

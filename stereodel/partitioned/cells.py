@@ -10,9 +10,9 @@ import numpy as np
 
 from stereodel._files import replacing
 from stereodel.curves.borders import frame_of
-from stereodel.io.frames import layer_of
-from stereodel.io.geoparquet import write_parquet
-from stereodel.io.layers import Layer
+from stereodel.io.formats.map_rows import MapRows
+from stereodel.io.formats.parquet import write_parquet
+from stereodel.io.maps.rows_of import rows_of
 from stereodel.partitioned.index import Index
 from stereodel.partitioned.places import Places
 from stereodel.partitioned.rounds import Round
@@ -20,7 +20,7 @@ from stereodel.partitioned.store import Store
 from stereodel.triangulation import PlanarDelaunay, PlanarVoronoi, SphericalDelaunay, SphericalVoronoi
 
 
-def cells_of(stars: Round, index: Index, places: Places) -> Layer:
+def cells_of(stars: Round, index: Index, places: Places) -> MapRows:
     """The cells of points whose stars are final, with the ``point`` that each is of and its ``area``.
 
     On the sphere they are cut at ±180° and led around the poles, as by `stereodel.io.to_geodataframe`; in the plane
@@ -33,19 +33,19 @@ def cells_of(stars: Round, index: Index, places: Places) -> Layer:
         top = slice(index.levels[-2], index.levels[-1])
         frame = frame_of(np.stack([index.lows[top].min(axis=0), index.highs[top].max(axis=0)]))
         diagram = PlanarVoronoi(PlanarDelaunay(points, workers=1))
-        whole = layer_of(diagram, bounds=(frame.left, frame.bottom, frame.right, frame.top))
+        whole = rows_of(diagram, bounds=(frame.left, frame.bottom, frame.right, frame.top))
     else:
-        whole = layer_of(SphericalVoronoi(SphericalDelaunay(points, workers=1)), latitude=places.latitude)
+        whole = rows_of(SphericalVoronoi(SphericalDelaunay(points, workers=1)), latitude=places.latitude)
     own = whole.take(stars.final[order][whole.columns["point"]])
     return replace(own, columns={**own.columns, "point": numbers[own.columns["point"]]})
 
 
-def write_cells(store: Store, part: int, layers: Sequence[Layer]) -> tuple[int, Path]:
+def write_cells(store: Store, part: int, layers: Sequence[MapRows]) -> tuple[int, Path]:
     """The file of a partition, in the order of the points' numbers; how many cells it has, and where it is."""
     names = ("point", "area")
     columns = {name: np.concatenate([layer.columns[name] for layer in layers]) for name in names}
     binary = np.concatenate([layer.binary for layer in layers])
-    whole = Layer(columns, binary, layers[0].crs).take(np.argsort(columns["point"]))
+    whole = MapRows(columns, binary, layers[0].crs).take(np.argsort(columns["point"]))
     path = store.room("cells") / f"{part}.parquet"
     path.parent.mkdir(parents=True, exist_ok=True)
     with replacing(path) as temporary:

@@ -8,7 +8,7 @@ from dataclasses import replace
 from typing import Any, Final
 
 from stereodel._arrays import as_choice
-from stereodel.io.columns import listed
+from stereodel.io.formats.names import listed
 from stereodel.partitioned.hats import hats_source, is_catalogue
 from stereodel.partitioned.places import Surface
 from stereodel.partitioned.sources import Given, PointFile, Source, opened, parquet_source

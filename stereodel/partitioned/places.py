@@ -9,10 +9,11 @@ from typing import Any, Final, Literal
 
 import numpy as np
 
-from stereodel._arrays import Bytes, FloatArray, Indices, as_directions, as_points
+from stereodel._arrays import FloatArray, Indices, as_directions, as_points
 from stereodel._extras import optional
-from stereodel.io.columns import find_lonlat, listed
-from stereodel.io.tables import degrees, numbers, transformed
+from stereodel.io.formats import wkb
+from stereodel.io.formats.names import find_lonlat, listed
+from stereodel.io.table import degrees, numbers, transformed
 from stereodel.sphere import lonlat_to_xyz
 from stereodel.sphere.latitudes import Latitude
 
@@ -24,12 +25,6 @@ Form = Literal["lonlat", "xyz", "xy", "wkb", "point"]
 
 DEGREES: Final = ("EPSG:4326", "OGC:CRS84")
 """Coordinate systems of geometries that are longitude and latitude in degrees without transformation."""
-
-WKB_POINT: Final = np.dtype([("order", "u1"), ("kind", "<u4"), ("place", "<f8", 2)])
-"""A point as well-known binary, least byte first: 21 bytes, and more where it has a height."""
-
-WKB_KINDS: Final = (1, 1001, 2001, 3001)
-"""Of points: with two coordinates, with height, measure, both."""
 
 
 @dataclass(frozen=True)
@@ -188,15 +183,7 @@ def wkb_places(column: Any, rows: Sequence[int] | None = None) -> FloatArray:
     plain = column.cast(pyarrow.large_binary())
     _, offsets, values = plain.buffers()
     starts = np.frombuffer(offsets, np.int64)[plain.offset : plain.offset + len(plain) + 1]
-    content: Bytes = np.frombuffer(values, np.uint8)
-    short = np.diff(starts) < WKB_POINT.itemsize
-    if short.any():
-        raise ValueError(f"row {numbered[np.flatnonzero(short)[0]]}: a Point is needed, not another geometry")
-    cells = content[starts[:-1, None] + np.arange(WKB_POINT.itemsize)].view(WKB_POINT).ravel()
-    wrong = (cells["order"] != 1) | ~np.isin(cells["kind"], WKB_KINDS)
-    if wrong.any():
-        raise ValueError(f"row {numbered[np.flatnonzero(wrong)[0]]}: a Point is needed, not another geometry")
-    return np.ascontiguousarray(cells["place"])
+    return wkb.xy(np.frombuffer(values, np.uint8), starts, numbered)
 
 
 def _pairs(column: Any, name: str, rows: Sequence[int]) -> FloatArray:

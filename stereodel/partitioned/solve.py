@@ -16,7 +16,7 @@ from stereodel._arrays import BoolArray, LongArray
 from stereodel._extras import optional
 from stereodel._files import replacing
 from stereodel._spaces import space_of
-from stereodel.io.layers import Layer
+from stereodel.io.formats.map_rows import MapRows
 from stereodel.partitioned.cells import cells_of, write_cells
 from stereodel.partitioned.index import Index
 from stereodel.partitioned.plan import Plan
@@ -104,7 +104,9 @@ def distances(a: npt.NDArray[np.float64], b: npt.NDArray[np.float64]) -> npt.NDA
     return np.hypot(*(a - b).T) if a.shape[1] == 2 else np.radians(angular_distance(a, b))
 
 
-def write(store: Store, part: int, found: Sequence[Told], shapes: Sequence[Layer]) -> tuple[dict[str, Any], list[Path]]:
+def write(
+    store: Store, part: int, found: Sequence[Told], shapes: Sequence[MapRows]
+) -> tuple[dict[str, Any], list[Path]]:
     """Write what was found of a partition; what there is to say of it, and the files."""
     plan = store.plan
     number = np.concatenate([told[0]["number"] for told in found])

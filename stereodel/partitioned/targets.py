@@ -10,7 +10,7 @@ from typing import Any, Final, NamedTuple
 import stereodel
 from stereodel._arrays import as_choice, as_count
 from stereodel._extras import of_extra
-from stereodel.io.columns import listed
+from stereodel.io.formats.names import listed
 from stereodel.partitioned import rows as rows_of
 from stereodel.partitioned.answers import INTERPOLATORS, answer, points_of, take_values
 from stereodel.partitioned.kinds import source_of

@@ -144,6 +144,12 @@ def test_a_plane_keeps_its_coordinate_system(folder, run, command, kind):
     assert "--crs is 'EPSG:0'" in run(*command, "--plane", "e", "n", "--crs", "EPSG:0", "-o", "b.gpkg", code=2)
 
 
+def test_a_plane_may_have_columns_of_any_name(folder, run):
+    (folder / "plane.csv").write_text("lon,lat\n0,0\n2,0\n0,2\n2,2\n1,1\n", encoding="utf-8")
+    run("voronoi", "plane.csv", "--plane", "lon", "lat", "-o", "cells.csv")
+    assert (folder / "cells.csv").read_text().splitlines()[-1] == "1,1,2"
+
+
 def test_other_endings_of_formats(folder, run):
     run("nearest", "cities.csv", "--of", "cities.csv", "-o", "out.json")
     run("nearest", "cities.csv", "--of", "cities.csv", "-o", "out.geoparquet")

@@ -7,7 +7,7 @@ import shapely
 
 from stereodel import PlanarVoronoi, SphericalDelaunay, SphericalVoronoi, data
 from stereodel.io import to_geodataframe, write
-from stereodel.io.clipping import areas_on_sphere
+from stereodel.io.maps.clipping import areas_on_sphere
 
 RNG = np.random.default_rng(21)
 LONLAT = np.column_stack([RNG.uniform(-180, 180, 300), np.degrees(np.arcsin(RNG.uniform(-1, 1, 300)))])

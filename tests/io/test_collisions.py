@@ -8,7 +8,7 @@ import pytest
 
 from stereodel import PlanarVoronoi, SphericalVoronoi
 from stereodel.io import PointTable, read_points, write
-from stereodel.io.columns import RenamedColumnWarning
+from stereodel.io.formats.names import RenamedColumnWarning
 
 LONLAT = np.array([[10.0, 48.4], [-78.5, -0.2], [135.8, 35.0], [115.9, -32.0]])
 TAKEN = {

@@ -6,7 +6,7 @@ import rasterio
 import xarray as xr
 
 from stereodel.io import Grid, write
-from stereodel.io.columns import RenamedColumnWarning
+from stereodel.io.formats.names import RenamedColumnWarning
 
 
 def filled(grid):

@@ -11,8 +11,8 @@ import shapely
 
 from stereodel import SphericalVoronoi
 from stereodel.io import from_geodataframe, read_points, to_geodataframe, write
-from stereodel.io import layers as module
-from stereodel.io.layers import Layer
+from stereodel.io.formats import map_rows as module
+from stereodel.io.formats.map_rows import MapRows
 
 POINTS = geopandas.points_from_xy([10.0, -78.5, 135.8], [48.4, -0.2, 35.0])
 
@@ -66,7 +66,7 @@ def test_one_kind_of_geometry_in_a_layer(monkeypatch, tmp_path):
     """Block by block, also in blocks of geometries of one part alone."""
     monkeypatch.setattr(module, "ROWS", 1)
     lines = np.array([shapely.LineString([(0, 0), (1, 1)]), shapely.MultiLineString([[(0, 0), (1, 0)]]), None])
-    layer = Layer({}, module.packed(np.array([*lines[:2], shapely.LineString()])))
+    layer = MapRows({}, module.packed(np.array([*lines[:2], shapely.LineString()])))
     assert layer.kinds == ["LineString", "MultiLineString"]
     assert layer.has_several
     assert not layer.take(slice(0, 1)).has_several
@@ -77,7 +77,7 @@ def test_one_kind_of_geometry_in_a_layer(monkeypatch, tmp_path):
         "MULTILINESTRING ((0 0, 1 1))",
         "MULTILINESTRING ((0 0, 1 0))",
     ]
-    write(tmp_path / "a.fgb", Layer({"n": np.arange(2)}, layer.binary[:2], "EPSG:4326"))
+    write(tmp_path / "a.fgb", MapRows({"n": np.arange(2)}, layer.binary[:2], "EPSG:4326"))
     assert pyogrio.read_info(tmp_path / "a.fgb")["geometry_type"] == "MultiLineString"
 
 
@@ -91,7 +91,7 @@ def test_progress_is_the_share_of_rows(tmp_path, monkeypatch, kind):
 
 
 def test_progress_of_reading(monkeypatch):
-    monkeypatch.setattr("stereodel.io.csv_text.BLOCK", 100)
+    monkeypatch.setattr("stereodel.io.formats.delimited.BLOCK", 100)
     told = []
     read_points(io.StringIO("lon,lat\n" + "1.5,2.5\n" * 1000), progress=lambda *said: told.append(said))
     assert len(told) == 10
@@ -107,8 +107,8 @@ def test_cells_are_the_same_in_blocks_of_any_size(monkeypatch):
     diagram = SphericalVoronoi.from_lonlat(lonlat)
     told = []
     expected = to_geodataframe(diagram)
-    monkeypatch.setattr("stereodel.io.tiles.BLOCK", 5)
-    monkeypatch.setattr("stereodel.io.tiles.thread_count", lambda workers, size: 3)
+    monkeypatch.setattr("stereodel.io.maps.tiles.BLOCK", 5)
+    monkeypatch.setattr("stereodel.io.maps.tiles.thread_count", lambda workers, size: 3)
     write(io.BytesIO(), diagram, format="geojson")
     found = module.unpacked(tiles_of(diagram, lambda *said: told.append(said)))
     assert shapely.equals_identical(found, np.asarray(expected.geometry)).all()
@@ -117,6 +117,6 @@ def test_cells_are_the_same_in_blocks_of_any_size(monkeypatch):
 
 
 def tiles_of(diagram, progress):
-    from stereodel.io.frames import layer_of
+    from stereodel.io.maps.rows_of import rows_of
 
-    return layer_of(diagram, progress=progress).binary
+    return rows_of(diagram, progress=progress).binary

@@ -9,10 +9,10 @@ import geopandas
 import numpy as np
 import pandas as pd
 import pytest
+import shapely
 
-from stereodel.io import DataWarning, PointTable, read_points
-from stereodel.io.columns import find_lonlat
-from stereodel.io.reading import read_plane_points
+from stereodel.io import DataWarning, PointTable, RenamedColumnWarning, read_points, write
+from stereodel.io.formats.names import find_lonlat
 
 CITIES = [("Quito", -78.5, -0.2, 1763000), ("Ulm", 10.0, 48.4, 129000), ("Perth", 115.9, -32.0, 2309000)]
 LONLAT = [[lon, lat] for _, lon, lat, _ in CITIES]
@@ -80,15 +80,58 @@ def test_a_place_in_metres_has_no_doubtful_marks():
     text = "east;north;rain\n567.890;54321;2,5\n"
     for read in (
         lambda: read_points(io.StringIO(text), lon="east", lat="north", crs="EPSG:3857"),
-        lambda: read_plane_points(io.StringIO(text), "east", "north"),
+        lambda: read_points(io.StringIO(text), plane=("east", "north")),
     ):
         with (
             pytest.warns(DataWarning, match="'east' is kept as text"),
             pytest.raises(ValueError, match=r"row 1: the east\w* '567.890' may be 567.890 or 567890; write thousands"),
         ):
             read()
-    points, *_ = read_plane_points(io.StringIO(text.replace("2,5", "2.5")), "east", "north")
-    assert points.tolist() == [[567.890, 54321]]
+    table = read_points(io.StringIO(text.replace("2,5", "2.5")), plane=("east", "north"))
+    assert table.places.tolist() == [[567.890, 54321]]
+
+
+def test_tables_of_a_plane(tmp_path):
+    text = "site,east,north,depth\nA,3500,5400,1\nB,3600,5410,\nC,,5420,2\n"
+    with pytest.raises(ValueError, match="row 3: the east is missing; leave such rows out with skip_missing=True"):
+        read_points(io.StringIO(text), plane=("east", "north"))
+    frame = pd.read_csv(io.StringIO(text))
+    places = geopandas.GeoDataFrame(frame, geometry=[shapely.Point(1, 2)] * 3, crs=4326)
+    (tmp_path / "a.csv").write_text(text)
+    frame.to_parquet(tmp_path / "plain.parquet")
+    places.to_parquet(tmp_path / "with_geometry.parquet")
+    places.to_file(tmp_path / "a.gpkg")
+    for path in tmp_path.iterdir():
+        table = read_points(path, plane=("east", "north"), crs="EPSG:31467", skip_missing=True)
+        assert (table.surface, table.axes, table.crs) == ("plane", ("east", "north"), "EPSG:31467")
+        assert table.places.tolist() == table.points().tolist() == [[3500, 5400], [3600, 5410]]
+        assert list(table.columns) == ["site", "depth"]
+        values, some = table.values(["depth"], skip_missing=True)
+        assert (values.tolist(), some.rows.tolist(), some.columns["site"].tolist()) == ([[1]], [1], ["A"])
+        with pytest.raises(ValueError, match=f"{path.name}: row 2: depth is missing"):
+            table.values(["depth"])
+        with pytest.raises(ValueError, match="those of a plane"):
+            _ = table.lonlat
+    for wrong, message in (
+        ({"plane": ("east", "up")}, "there is no column 'up'; the columns are 'site'"),
+        ({"plane": ("east", "north"), "lon": "east"}, "plane names the columns of both coordinates"),
+    ):
+        with pytest.raises(ValueError, match=message):
+            read_points(tmp_path / "a.csv", **wrong)
+    with pytest.raises(ValueError, match="not of GeoJSON"):
+        read_points(io.StringIO('{"features": []}'), plane=("x", "y"))
+    with pytest.raises(ValueError, match="crs is 'EPSG:31467', but points of the sphere are in degrees"):
+        PointTable([[1, 2]], crs="EPSG:31467")
+
+
+def test_a_table_of_a_plane_is_written_in_its_own_coordinates(tmp_path):
+    table = PointTable([[3500, 5400]], {"east": [7]}, surface="plane", axes=("east", "north"), crs="EPSG:31467")
+    with pytest.warns(RenamedColumnWarning, match="'east' is written as 'east_1'"):
+        write(tmp_path / "a.csv", table)
+    assert (tmp_path / "a.csv").read_text().splitlines() == ["east,north,east_1", "3500,5400,7"]
+    write(tmp_path / "a.gpkg", table)
+    found = geopandas.read_file(tmp_path / "a.gpkg")
+    assert (found.crs.to_epsg(), found.geometry[0].coords[:]) == (31467, [(3500, 5400)])
 
 
 def test_no_names_of_columns():
@@ -161,7 +204,7 @@ def test_wrong_tables(content, message):
 
 
 def test_long_tables_are_read_in_blocks(monkeypatch):
-    monkeypatch.setattr("stereodel.io.csv_text.BLOCK", 2)
+    monkeypatch.setattr("stereodel.io.formats.delimited.BLOCK", 2)
     rows = [f"{k},{k / 2},name {k}" for k in range(7)]
     table = read_points(io.StringIO("\n".join(["lon,lat,name", *rows, ",,", "", " "])))
     assert table.lonlat.tolist() == [[k, k / 2] for k in range(7)]

@@ -92,8 +92,11 @@ def test_the_member_crs_counts_at_every_door(tmp_path, in_metres):
     class Other:
         __geo_interface__ = collection
 
-    sources = [collection, lines, [collection], Other(), *sorted(tmp_path.iterdir())]
-    assert len(sources) == 7
+    inner = [{**each, "geometry": {**each["geometry"], "crs": MERCATOR}} for each in in_metres]
+    parts = {"type": "GeometryCollection", "geometries": [each["geometry"] for each in inner]}
+    (tmp_path / "inner.geojson").write_text(json.dumps({"type": "FeatureCollection", "features": inner}))
+    sources = [collection, lines, [collection], Other(), inner, parts, feature(parts), *sorted(tmp_path.iterdir())]
+    assert len(sources) == 11
     for source in sources:
         shapes = shapes_of(source)
         np.testing.assert_allclose(shapes.points, [[10, 50]], atol=1e-9)
@@ -102,8 +105,11 @@ def test_the_member_crs_counts_at_every_door(tmp_path, in_metres):
         with pytest.raises(ValueError, match="row 1: a Point is needed, not Polygon"):
             read_points(source)
     (tmp_path / "b.geojsonl").write_text(json.dumps(lines[1]))
-    np.testing.assert_allclose(read_points(tmp_path / "b.geojsonl").lonlat, [[10, 50]], atol=1e-9)
-    for source in ([lines[1], in_metres[1]], {"type": "FeatureCollection", "features": [lines[1], in_metres[1]]}):
+    (tmp_path / "c.geojson").write_text(json.dumps({"type": "FeatureCollection", "features": inner[1:]}))
+    for name in ("b.geojsonl", "c.geojson"):
+        np.testing.assert_allclose(read_points(tmp_path / name).lonlat, [[10, 50]], atol=1e-9)
+    mixed = ([lines[1], in_metres[1]], [inner[1], in_metres[1]])
+    for source in (*mixed, *({"type": "FeatureCollection", "features": each} for each in mixed)):
         with pytest.raises(ValueError, match="several coordinate systems, degrees, urn:ogc:def:crs:EPSG::3857"):
             shapes_of(source)
 

@@ -15,8 +15,9 @@ from stereodel import (
     lonlat_to_xyz,
     xyz_to_lonlat,
 )
-from stereodel.io import tiles, to_geodataframe
-from stereodel.io.frames import layer_of
+from stereodel.io import to_geodataframe
+from stereodel.io.maps import tiles
+from stereodel.io.maps.rows_of import rows_of
 from tests import sets
 from tests.examples import examples
 
@@ -116,7 +117,7 @@ def test_cells_tile_the_map(monkeypatch, points):
 def assert_long_way_is_the_same(monkeypatch, diagram, latitude="spherical"):
     def layers():
         options = {"latitude": latitude, "max_segment": 20.0}
-        return [layer_of(diagram, what=what, **options).binary.tolist() for what in ("cells", "triangles")]
+        return [rows_of(diagram, what=what, **options).binary.tolist() for what in ("cells", "triangles")]
 
     short = layers()
     monkeypatch.setattr(tiles, "_simple", nothing)
@@ -129,7 +130,7 @@ def test_the_long_way_to_many_cells(monkeypatch):
     clipped = tiles._clipped_block
     with monkeypatch.context() as patch:
         patch.setattr(tiles, "_clipped_block", lambda faces, sides: asked.append(len(faces)) or clipped(faces, sides))
-        layer_of(diagram)
+        rows_of(diagram)
     assert 0 < sum(asked) < 400  # those at ±180° and at the poles, and what is not star-shaped
     assert_long_way_is_the_same(monkeypatch, diagram, "authalic")
 

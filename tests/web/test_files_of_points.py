@@ -7,7 +7,6 @@ import json
 import pytest
 
 from stereodel.io import read_points
-from stereodel.io.reading import read_plane_points
 
 from .conftest import SCRIPT
 
@@ -128,8 +127,10 @@ def on_page(node, files, kind="lonlat", chosen=None):
 def in_python(folder, name, content, columns=None):
     path = folder / name
     path.write_bytes(content if isinstance(content, bytes) else content.encode())
-    found = read_plane_points(path, *columns)[0] if columns else read_points(path).lonlat
-    return found.ravel().tolist()
+    try:
+        return {"places": read_points(path, plane=columns).places.ravel().tolist()}
+    except ValueError as error:
+        return {"error": str(error).removeprefix(f"{path}: ")}
 
 
 CASES = [pytest.param("lonlat", name, content, None, id=name) for name, content in READABLE.items()]

@@ -1,14 +1,13 @@
 """Shapes: points, lines and rings in degrees, of GeoJSON, frames and geometries.
 
-GeoJSON is taken apart without any library; frames and geometries are by Shapely, all at once.
+Frames and geometries are taken apart by Shapely, all at once.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import chain, pairwise
-from numbers import Real
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -16,8 +15,8 @@ import numpy as np
 from stereodel._arrays import FloatArray, Geometries, Indices
 from stereodel._extras import optional
 from stereodel.curves.ragged import Ragged
-from stereodel.io.geojson import KINDS, Features, kind_of, one
-from stereodel.io.tables import degrees
+from stereodel.io.formats.geojson import Features
+from stereodel.io.table import degrees
 
 POINT, LINE, RING, POLYGON, MULTIPOINT, MULTILINE, MULTIPOLYGON, COLLECTION = range(8)
 """Type codes of geometries in Shapely; those above POLYGON are multi-part."""
@@ -89,28 +88,22 @@ def of_items(items: list[Any]) -> Shapes:
         geometries = np.empty(len(items), dtype=object)
         geometries[:] = items
         return of_geometries(geometries)
-    found = []
-    for number, item in enumerate(items):
-        content = item if isinstance(item, Mapping) else getattr(item, "__geo_interface__", None)
+    contents = [item if isinstance(item, Mapping) else getattr(item, "__geo_interface__", None) for item in items]
+    for number, content in enumerate(contents):
         if not isinstance(content, Mapping):
-            raise TypeError(f"source[{number}] must be a geometry or GeoJSON, got {type(item).__name__}")
-        found.append(Features.of(content))
-    rows = [row for each in found for row in zip(each.properties, each.geometries, strict=True)]
-    crs = one({each.crs for each in found if each.geometries})
-    return of_features(Features([row[0] for row in rows], [row[1] for row in rows], crs))
+            raise TypeError(f"source[{number}] must be a geometry or GeoJSON, got {type(items[number]).__name__}")
+    return of_features(Features.of(*contents))
 
 
 def of_features(features: Features) -> Shapes:
     """Shapes of what was read from GeoJSON."""
     points, lines, rings, polygons = Placed(), Placed(), Placed(), list[int]()
-    for number, geometry in enumerate(features.geometries):
-        where = f"row {number + 1}"
-        for kind, part in _parts(geometry, where):
-            if kind.endswith("Polygon"):
-                rings += [(len(polygons), _closed(_positions(ring, kind, where), kind, where)) for ring in part]
-                polygons.append(number)
-            else:
-                (points if kind.endswith("Point") else lines).append((number, _positions(part, kind, where)))
+    for number, kind, part in features.parts():
+        if kind.endswith("Polygon"):
+            rings += [(len(polygons), ring) for ring in part]
+            polygons.append(number)
+        else:
+            (points if kind.endswith("Point") else lines).append((number, part[0]))
     (of, at), (line_feature, along), (ring_polygon, around) = map(_unzipped, (points, lines, rings))
     polygon_feature = np.array(polygons, dtype=np.intp)
     point_feature = np.repeat(of, at.sizes)
@@ -145,53 +138,3 @@ def of_geometries(geometries: Geometries, properties: list[Mapping[str, Any]] | 
 def _unzipped(rows: Placed) -> tuple[Indices, Ragged]:
     numbers, places = [number for number, _ in rows], [positions for _, positions in rows]
     return np.array(numbers, dtype=np.intp), Ragged.of(places, np.zeros((0, 2)))
-
-
-def _parts(geometry: Any, where: str) -> Iterator[tuple[str, Any]]:
-    """Kind and coordinates of the points, lines and polygons of a geometry; a null or empty one has none."""
-    if geometry is None:
-        return
-    kind = kind_of(geometry)
-    if kind == "GeometryCollection":
-        for part in _listed(geometry.get("geometries") or (), kind, where):
-            yield from _parts(part, where)
-        return
-    if kind not in KINDS:
-        raise ValueError(f"{where}: has a geometry of type {kind!r}; known are {', '.join(KINDS)}")
-    coordinates = geometry.get("coordinates")
-    if coordinates is None:
-        raise ValueError(f"{where}: has a {kind} without coordinates")
-    coordinates = _listed(coordinates, kind, where)
-    if kind == "Point":
-        coordinates = [coordinates] if len(coordinates) else []
-    for part in coordinates if kind in ("MultiLineString", "MultiPolygon") else [coordinates]:
-        if len(_listed(part, kind, where)):
-            yield kind, part
-
-
-def _listed(value: Any, kind: str, where: str) -> Any:
-    """The same, a sequence of any kind; ValueError for what has no order."""
-    if hasattr(value, "__len__") and not isinstance(value, Mapping | str):
-        return value
-    inside = "geometries" if kind == "GeometryCollection" else "coordinates"
-    raise ValueError(f"{where}: has a {kind} whose {inside} are {value!r:.40}, which is no list; see RFC 7946")
-
-
-def _positions(positions: Any, kind: str, where: str) -> FloatArray:
-    """Positions (n, 2), without heights; text is none."""
-    try:
-        pairs = [(position[0], position[1]) for position in positions]
-        kinds = set(map(type, chain.from_iterable(pairs)))
-        if all(issubclass(kind, Real) and not issubclass(kind, bool) for kind in kinds):
-            return np.array(pairs, dtype=np.float64).reshape(-1, 2)
-    except (TypeError, IndexError, KeyError, OverflowError):
-        pass
-    raise ValueError(f"{where}: has a {kind} whose positions are not two or three numbers each")
-
-
-def _closed(ring: FloatArray, kind: str, where: str) -> FloatArray:
-    """A ring closed by its first point, which is added if it is missing."""
-    closed = ring if len(ring) > 1 and (ring[0] == ring[-1]).all() else np.concatenate([ring, ring[:1]])
-    if len(closed) < 4:
-        raise ValueError(f"{where}: has a {kind} with a ring of {max(0, len(closed) - 1)} points; a ring needs three")
-    return closed

@@ -59,7 +59,7 @@ def warp(shapes: Any, lens: MoebiusMap, *, tolerance: float = 0.01) -> Any:
     """
     shapely = optional("shapely", "geo")
     slack = float(np.radians(as_scalar(tolerance, "tolerance", low=0.0, high=45.0, open_low=True)))
-    from stereodel.io.images import images_of
+    from stereodel.io.maps.through_lens import images_of
 
     if hasattr(shapes, "set_geometry"):
         return shapes.set_geometry(warp(shapes.geometry, lens, tolerance=tolerance))

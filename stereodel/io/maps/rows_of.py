@@ -12,9 +12,10 @@ from stereodel._extras import optional
 from stereodel._tasks.progress import Progress
 from stereodel.curves.borders import frame_of
 from stereodel.interpolation import Contour
-from stereodel.io.columns import beside
-from stereodel.io.diagrams import Mesh, is_spherical, point_columns, usual_kind
-from stereodel.io.layers import Layer, is_there, packed
+from stereodel.io.formats.map_rows import MapRows, packed
+from stereodel.io.formats.names import beside
+from stereodel.io.formats.wkb import is_there
+from stereodel.io.maps.meshes_as_rows import Mesh, is_spherical, point_columns, usual_kind
 from stereodel.sphere.latitudes import KINDS, Latitude
 
 What = Literal["cells", "triangles", "edges", "ridges", "sites"]
@@ -109,7 +110,7 @@ def to_geodataframe(
     5      5    S  2.094       Polygon
     """
     optional("geopandas", "geo")
-    return layer_of(
+    return rows_of(
         mesh,
         what=what,
         columns=columns,
@@ -122,7 +123,7 @@ def to_geodataframe(
     ).frame()
 
 
-def layer_of(
+def rows_of(
     mesh: Mesh | list[Contour],
     *,
     what: What | None = None,
@@ -134,7 +135,7 @@ def layer_of(
     crs: Any = None,
     clip: Any = None,
     progress: Progress | None = None,
-) -> Layer:
+) -> MapRows:
     """The rows of `to_geodataframe` for writing to files, without creating a Shapely geometry for each."""
     # The parameters are written out in both functions: the documentation, type checkers and, for options of `write`,
     # error messages read them from the signatures, and options passed on as a mapping would be a third list.
@@ -148,16 +149,17 @@ def layer_of(
     wanted = as_choice(what or usual_kind(mesh), WHAT, "what")
     chosen: Latitude = as_choice(latitude or mesh.latitude or "spherical", KINDS, "latitude")
     as_scalar(radius, "radius", low=0.0, open_low=True)
-    if clip is not None and (not is_spherical(mesh) or wanted not in ("cells", "triangles")):
+    spherical = is_spherical(mesh)
+    if clip is not None and not (spherical and wanted in ("cells", "triangles")):
         raise ValueError("clip is for cells and triangles of the sphere; what is in the plane is cut to bounds")
-    from stereodel.io import geometries
+    from stereodel.io.maps import as_geometries
 
-    if is_spherical(mesh):
-        found, binary = geometries.on_sphere(mesh, wanted, max_segment, chosen, radius, progress)
+    if spherical:
+        found, binary = as_geometries.on_sphere(mesh, wanted, max_segment, chosen, radius, progress)
     else:
-        found, binary = geometries.in_plane(mesh, wanted, frame_of(mesh.points, bounds), radius)
+        found, binary = as_geometries.in_plane(mesh, wanted, frame_of(mesh.points, bounds), radius)
     if clip is not None:
-        from stereodel.io.clipping import clipped
+        from stereodel.io.maps.clipping import clipped
 
         binary, share = clipped(binary, clip, chosen)
         found["area"] = found["area"] * share
@@ -167,14 +169,14 @@ def layer_of(
         found |= {name: values[found["point"]] for name, values in named.items()}
     elif given:
         raise ValueError(f"columns belong to points, which {wanted} have none of; use what='cells' or what='sites'")
-    layer = Layer(found, binary, "EPSG:4326" if is_spherical(mesh) else crs)
+    layer = MapRows(found, binary, "EPSG:4326" if spherical else crs)
     kept = is_there(binary)
     return layer if kept.all() else layer.take(kept)
 
 
-def _of_contours(contours: Sequence[Contour], max_segment: float, latitude: Latitude | None, crs: Any) -> Layer:
+def _of_contours(contours: Sequence[Contour], max_segment: float, latitude: Latitude | None, crs: Any) -> MapRows:
     """A row for each contour."""
-    from stereodel.io.isolines import isolines
+    from stereodel.io.maps.as_geometries import isolines
 
     for number, contour in enumerate(contours):
         if not isinstance(contour, Contour):
@@ -182,4 +184,4 @@ def _of_contours(contours: Sequence[Contour], max_segment: float, latitude: Lati
     chosen = None if latitude is None else as_choice(latitude, KINDS, "latitude")
     found, lines = isolines(contours, max_segment, chosen)
     spherical = not contours or contours[0].points.shape[1] == 3
-    return Layer(found, packed(lines), "EPSG:4326" if spherical else crs)
+    return MapRows(found, packed(lines), "EPSG:4326" if spherical else crs)

@@ -10,10 +10,10 @@ from typing import Any, Final
 
 from stereodel._extras import optional
 from stereodel._tasks.progress import Progress
-from stereodel.io.cells import check_held
-from stereodel.io.layers import Layer
-from stereodel.io.packed import check_size
-from stereodel.io.vector_files import in_degrees, told
+from stereodel.io.formats.cell_values import check_held
+from stereodel.io.formats.gdal import in_degrees, told
+from stereodel.io.formats.map_rows import MapRows
+from stereodel.io.formats.packed import check_size
 
 VERSION: Final = "1.0.0"
 
@@ -47,7 +47,7 @@ def _letters(column: Any) -> int:
 
 
 def write_parquet(
-    layer: Layer, path: Path, progress: Progress | None = None, metadata: Mapping[str, str] | None = None
+    layer: MapRows, path: Path, progress: Progress | None = None, metadata: Mapping[str, str] | None = None
 ) -> None:
     """Rows of a map as GeoParquet, with metadata of the caller's."""
     check_held(layer.columns, "parquet")

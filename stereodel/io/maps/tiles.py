@@ -23,9 +23,18 @@ from stereodel.curves import clip
 from stereodel.curves.borders import Antimeridian, Pieces
 from stereodel.curves.ragged import Ragged, offsets_of, spans
 from stereodel.curves.trace import Arcs, great, great_axes
-from stereodel.io.layers import is_there, packed, unpacked
-from stereodel.io.on_map import close_in_longitude, lines_on_map, polygons_on_map, refined, repaired, steps_of, unit
-from stereodel.io.star_rings import packed_rings, star_shaped
+from stereodel.io.formats import wkb
+from stereodel.io.formats.map_rows import packed, unpacked
+from stereodel.io.maps.on_map import (
+    close_in_longitude,
+    lines_on_map,
+    polygons_on_map,
+    refined,
+    repaired,
+    steps_of,
+    unit,
+)
+from stereodel.io.maps.star_rings import star_shaped
 from stereodel.sphere import xyz_to_lonlat
 from stereodel.sphere.latitudes import Latitude
 
@@ -117,7 +126,7 @@ def sphere_polygons(
     some = np.flatnonzero(large)
     result[some[_Walk(faces.take(some), sides).widths < THIN_CELL]] = None
     bad = np.flatnonzero(wrong)
-    bad = bad[is_there(result[bad])]
+    bad = bad[wkb.is_there(result[bad])]
     result[bad] = packed(repaired(unpacked(result[bad]), np.ones(len(bad), dtype=bool)))
     return result
 
@@ -343,7 +352,7 @@ def _drawn_block(faces: Ragged, sides: Sides) -> tuple[Packed, BoolArray, BoolAr
         rings = _rings(faces.take(rows), sides)
         simple, area = star_shaped(rings, sides.border.slack)
         rows = rows[simple]
-        result[rows], large[rows] = packed_rings(rings.take(simple)), area[simple] > WORLD / 10
+        result[rows], large[rows] = wkb.polygons(rings.take(simple)), area[simple] > WORLD / 10
     others = np.ones(len(faces), dtype=bool)
     others[rows] = False
     result[others], wrong[others], large[others] = _clipped_block(faces.take(others), sides)

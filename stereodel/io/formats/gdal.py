@@ -17,10 +17,11 @@ from xml.parsers import expat
 
 from stereodel._extras import optional
 from stereodel._tasks.progress import Progress
-from stereodel.io.cells import as_text, check_held, plain
-from stereodel.io.columns import DataWarning, RenamedColumnWarning, beside, listed
-from stereodel.io.layers import Layer, arrow_column, is_there
-from stereodel.io.self_contained import check_crs, check_stored, self_contained
+from stereodel.io.formats.cell_values import as_text, check_held, plain
+from stereodel.io.formats.map_rows import MapRows, arrow_column
+from stereodel.io.formats.names import DataWarning, RenamedColumnWarning, beside, listed
+from stereodel.io.formats.self_contained import check_crs, check_stored, self_contained
+from stereodel.io.formats.wkb import is_there
 
 RESERVED: Final = {"gpkg": ("fid", "geom"), "fgb": (), "shp": (), "kml": ()}
 """Column names that a format reserves."""
@@ -155,7 +156,7 @@ def _stated_size(head: bytes, path: Path) -> int:
     return max(HEADER, start + rows * row)
 
 
-def write_layer(layer: Layer, path: Path, *, name: str, progress: Progress | None = None) -> None:
+def write_layer(layer: MapRows, path: Path, *, name: str, progress: Progress | None = None) -> None:
     """Write the rows of a map as a file with one named layer, in the format given by the extension of `path`."""
     pyogrio, arrow = optional("pyogrio", "geo"), optional("pyarrow", "geo")
     kind = path.suffix[1:].lower()
@@ -188,7 +189,7 @@ def write_layer(layer: Layer, path: Path, *, name: str, progress: Progress | Non
             warnings.warn(text, RenamedColumnWarning, stacklevel=2)
 
 
-def _is_whole(path: Path, layer: Layer) -> bool:
+def _is_whole(path: Path, layer: MapRows) -> bool:
     """Whether all of a layer, and its index, can be read back: on a full disk GDAL may end in silence."""
     pyogrio, rows, geometries = optional("pyogrio", "geo"), 0, 0
     try:

@@ -16,17 +16,12 @@ import numpy as np
 from stereodel._arrays import BoolArray, Geometries, Indices, Packed
 from stereodel._extras import optional
 from stereodel._tasks.progress import Progress
-from stereodel.io.cells import as_text, plain_cells
-from stereodel.io.columns import beside, index_columns
+from stereodel.io.formats import wkb
+from stereodel.io.formats.cell_values import as_text, plain_cells
+from stereodel.io.formats.names import beside, index_columns
 
 ROWS: Final = 65_536
 """Rows in a block."""
-
-KINDS: Final = {1: "Point", 2: "LineString", 3: "Polygon", 4: "MultiPoint", 5: "MultiLineString", 6: "MultiPolygon"}
-"""Geometry types by their codes in well-known binary; 1000 is added for geometries with heights."""
-
-ONE: Final = {kind: bytes([1, kind + 3, 0, 0, 0, 1, 0, 0, 0]) for kind in (1, 2, 3)}
-"""Header that turns a single-part geometry into a multi-part one, by the code of its type."""
 
 
 def packed(geometries: Geometries) -> Packed:
@@ -42,13 +37,8 @@ def unpacked(binary: Packed) -> Geometries:
     return np.asarray(optional("shapely", "geo").from_wkb(binary), dtype=object)
 
 
-def is_there(binary: Packed) -> BoolArray:
-    """Which rows have a geometry."""
-    return np.array([cell is not None for cell in binary.tolist()], dtype=np.bool_)
-
-
 @dataclass(frozen=True, eq=False)
-class Layer:
+class MapRows:
     """Rows of a map.
 
     columns: arrays of NumPy, pandas or Arrow, by name.
@@ -63,7 +53,7 @@ class Layer:
     name: str = "geometry"
 
     @classmethod
-    def of_frame(cls, frame: Any) -> Layer:
+    def of_frame(cls, frame: Any) -> MapRows:
         """The rows of a GeoDataFrame or GeoSeries; geometry columns that are not active become well-known text."""
         shapely, active = optional("shapely", "geo"), frame.geometry.name or "geometry"
         own = {name: frame[name].reset_index(drop=True) for name in getattr(frame, "columns", ()) if name != active}
@@ -77,12 +67,12 @@ class Layer:
     def __len__(self) -> int:
         return len(self.binary)
 
-    def take(self, rows: Indices | BoolArray | slice) -> Layer:
+    def take(self, rows: Indices | BoolArray | slice) -> MapRows:
         """Some of the rows."""
         columns = {name: getattr(values, "iloc", values)[rows] for name, values in self.columns.items()}
-        return Layer(columns, self.binary[rows], self.crs, self.name)
+        return MapRows(columns, self.binary[rows], self.crs, self.name)
 
-    def blocks(self, progress: Progress | None = None) -> Iterator[Layer]:
+    def blocks(self, progress: Progress | None = None) -> Iterator[MapRows]:
         """The rows in blocks of `ROWS`."""
         for begin in range(0, len(self), ROWS):
             yield self.take(slice(begin, begin + ROWS))
@@ -99,8 +89,7 @@ class Layer:
     @cached_property
     def kinds(self) -> list[str]:
         """Geometry types in the layer."""
-        found = {int.from_bytes(cell[1:5], "little") for cell in self.binary.tolist() if cell is not None}
-        return [KINDS.get(kind % 1000, "GeometryCollection") + (" Z" if kind > 1000 else "") for kind in sorted(found)]
+        return wkb.kinds(self.binary)
 
     @property
     def has_several(self) -> bool:
@@ -121,17 +110,12 @@ class Layer:
             arrow.record_batch(
                 [
                     *block.columns.values(),
-                    arrow.array(_of_several(block.binary) if several else block.binary, arrow.binary()),
+                    arrow.array(wkb.several(block.binary) if several else block.binary, arrow.binary()),
                 ],
                 schema=schema,
             )
             for block in whole.blocks(progress)
         )
-
-
-def _of_several(binary: Packed) -> list[bytes | None]:
-    """Single-part geometries as multi-part ones."""
-    return [cell and ONE.get(int.from_bytes(cell[1:5], "little"), b"") + cell for cell in binary.tolist()]
 
 
 def arrow_column(values: Any) -> Any:

@@ -15,8 +15,8 @@ from stereodel.curves.borders import Antimeridian, Pieces
 from stereodel.curves.ragged import Ragged
 from stereodel.curves.seams import left_inside, stitched
 from stereodel.curves.trace import Edges, sides_of, straight, unwrapped
-from stereodel.io.on_map import close_in_longitude, lines_on_map, polygons_on_map, repaired, shapely
-from stereodel.io.shapes import COLLECTION, LINE, MULTILINE, MULTIPOINT, MULTIPOLYGON, POINT, POLYGON, RING
+from stereodel.io.map_shapes import COLLECTION, LINE, MULTILINE, MULTIPOINT, MULTIPOLYGON, POINT, POLYGON, RING
+from stereodel.io.maps.on_map import close_in_longitude, lines_on_map, polygons_on_map, repaired, shapely
 from stereodel.sphere import lonlat_to_xyz, xyz_to_lonlat
 
 BORDER = Antimeridian()

@@ -50,6 +50,16 @@ CODE: Final = re.compile(r"^[-+]?0[0-9]", re.MULTILINE)
 """A value that starts, after an optional sign, with a zero and another digit."""
 
 
+def decoded(content: bytes) -> str:
+    """Text in UTF-8, or in UTF-16 with a byte order mark; ValueError names the first line that is neither."""
+    marked = content.startswith((b"\xff\xfe", b"\xfe\xff"))
+    try:
+        return content.decode("utf-16" if marked else "utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = content[: error.start].count(b"\n") + 1
+        raise ValueError(f"line {line} is not text in UTF-8; save the file in that encoding") from error
+
+
 def texts(values: Iterable[str]) -> Column:
     """Strings as an array of text, or of objects if a few long strings would make the text array large."""
     cells = list(values)

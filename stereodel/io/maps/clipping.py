@@ -9,8 +9,9 @@ import numpy as np
 
 from stereodel import data
 from stereodel._arrays import FloatArray, Geometries, Packed
-from stereodel.io.layers import ROWS, is_there, packed, unpacked
-from stereodel.io.on_map import repaired, shapely
+from stereodel.io.formats.map_rows import ROWS, packed, unpacked
+from stereodel.io.formats.wkb import is_there
+from stereodel.io.maps.on_map import repaired, shapely
 from stereodel.io.reading import shapes_of
 from stereodel.sphere import lonlat_to_xyz
 from stereodel.sphere.latitudes import Latitude

@@ -21,8 +21,8 @@ from zipfile import ZipFile
 
 from stereodel._extras import optional
 from stereodel.constants import MOST_COLUMNS, UNPACKED_RATIO
-from stereodel.io.columns import listed
-from stereodel.io.packed import ZIP, check_size, extract, pack_anew
+from stereodel.io.formats.names import listed
+from stereodel.io.formats.packed import ZIP, check_size, extract, pack_anew
 
 HEAD: Final = 1 << 20
 """Bytes from which a format is recognised; GDAL looks at fewer."""

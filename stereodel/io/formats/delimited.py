@@ -17,9 +17,9 @@ import numpy as np
 from stereodel._arrays import Column, Indices
 from stereodel._tasks.progress import Progress
 from stereodel.constants import MOST_COLUMNS, MOST_LINE
-from stereodel.io.cells import as_text, check_held, plain_cells
-from stereodel.io.columns import DataWarning, has_lonlat, listed
-from stereodel.io.text import EXACT_INTEGERS, NUMBER, decimal_mark, objects, texts, typed, why_not
+from stereodel.io.formats.cell_values import as_text, check_held, plain_cells
+from stereodel.io.formats.names import DataWarning, has_lonlat, listed
+from stereodel.io.formats.text import EXACT_INTEGERS, NUMBER, decimal_mark, objects, texts, typed, why_not
 
 SEPARATORS = ",;\t|"
 LOOKED_AT = 50

@@ -9,7 +9,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from stereodel.io.columns import listed
+from stereodel.io.formats.names import listed
 
 UNWRITABLE: Final = {
     "kml": re.compile("[\x00-\x08\x0b-\x1f\ufffe\uffff\ud800-\udfff]"),

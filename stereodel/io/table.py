@@ -1,0 +1,278 @@
+"""Tables of points: their places on the Earth or in a plane, and their other columns."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from types import MappingProxyType
+from typing import Any, Final, Literal
+
+import numpy as np
+
+from stereodel._arrays import BoolArray, Column, FloatArray, Indices, as_choice, as_lonlat, as_points, read_only
+from stereodel._extras import optional
+from stereodel.io.formats.names import beside
+from stereodel.io.formats.text import EXACT_INTEGERS, doubles, why_not
+from stereodel.sphere import lonlat_to_xyz
+from stereodel.sphere.latitudes import Latitude
+
+DEGREES: Final = "EPSG:4326"
+"""Coordinate system of longitude and latitude."""
+
+AXES: Final = {"sphere": ("lon", "lat"), "plane": ("x", "y")}
+"""Names of the coordinates of a surface, unless a table has its own."""
+
+
+@dataclass(frozen=True, eq=False)
+class PointTable:
+    """Points of the Earth or of a plane and their other columns, from `read_points` and for `write`.
+
+    Parameters
+    ----------
+    places : (n, 2) array_like
+        Longitude and latitude in degrees, latitude in [−90, 90]; or coordinates of the plane.
+    columns : mapping of str to (n,) array_like, optional
+        The other columns by name.
+    rows : (n,) array_like of int, optional
+        Row number of each point in its source, for messages; the first row of data is 1.
+    surface : {"sphere", "plane"}
+        What the points are on.
+    axes : tuple of str, optional
+        Names of the two coordinates, by default lon and lat, or x and y.
+    crs : str, optional
+        Coordinate reference system of the plane, if it is known. Degrees are those of EPSG:4326.
+    name : str
+        Name of the source, for messages.
+
+    Attributes
+    ----------
+    places, columns, rows
+        Read-only arrays; `columns` is a read-only mapping.
+    surface, axes, crs, name
+        As given.
+
+    Raises
+    ------
+    ValueError, TypeError
+        If a latitude is out of range, a coordinate is not a finite real number, or a column has the wrong length.
+
+    Examples
+    --------
+    >>> table = PointTable([[13.4, 52.5], [2.4, 48.9]], {"name": ["Berlin", "Paris"]})
+    >>> print(len(table), table.columns["name"], table.rows)
+    2 ['Berlin' 'Paris'] [1 2]
+    >>> PointTable([[3500.0, 5400.0]], surface="plane", axes=("east", "north"), crs="EPSG:31467").points()
+    array([[3500., 5400.]])
+    """
+
+    places: FloatArray
+    columns: Mapping[str, Column] = field(default_factory=dict)
+    rows: Indices = field(default_factory=lambda: np.zeros(0, dtype=np.intp))
+    surface: Literal["sphere", "plane"] = "sphere"
+    axes: tuple[str, ...] = ()
+    crs: str | None = None
+    name: str = ""
+
+    def __post_init__(self) -> None:
+        axes = self.axes or AXES[as_choice(self.surface, tuple(AXES), "surface")]
+        places = as_points(self.places, 2, "places")
+        if self.surface == "sphere":
+            places = as_lonlat(places, "places")
+            if self.crs not in (None, DEGREES):
+                raise ValueError(f"crs is {self.crs!r}, but points of the sphere are in degrees, {DEGREES}")
+            object.__setattr__(self, "crs", DEGREES)
+        given = np.asarray(self.rows, dtype=np.intp)
+        rows = given if given.size else np.arange(1, len(places) + 1)
+        columns = {str(name): read_only(np.asarray(values)) for name, values in self.columns.items()}
+        for name, values in {**columns, "rows": rows}.items():
+            if values.ndim < 1 or len(values) != len(places):
+                raise ValueError(f"column {name!r} has shape {values.shape}, but there are {len(places)} points")
+        object.__setattr__(self, "axes", tuple(axes))
+        object.__setattr__(self, "places", read_only(places))
+        object.__setattr__(self, "columns", MappingProxyType(columns))
+        object.__setattr__(self, "rows", read_only(rows))
+
+    def __len__(self) -> int:
+        return len(self.places)
+
+    def __reduce__(self) -> tuple[Any, ...]:  # a read-only mapping cannot be pickled or copied
+        given = self.places, dict(self.columns), self.rows, self.surface, self.axes, self.crs, self.name
+        return type(self), given
+
+    @property
+    def lonlat(self) -> FloatArray:
+        """(n, 2): longitude and latitude in degrees; ValueError for points of a plane."""
+        if self.surface == "plane":
+            raise ValueError("the points are those of a plane, not of the sphere; use places")
+        return self.places
+
+    def points(self, latitude: Latitude = "spherical") -> FloatArray:
+        """Unit vectors (n, 3), or points of the plane (n, 2), as triangulations and diagrams take them.
+
+        Parameters
+        ----------
+        latitude : {"spherical", "geodetic", "authalic"}
+            Kind of latitude on the sphere, see `lonlat_to_xyz`.
+
+        Returns
+        -------
+        (n, 3) or (n, 2) array
+        """
+        return self.places if self.surface == "plane" else lonlat_to_xyz(self.places, latitude=latitude)
+
+    def located(self) -> dict[str, Column]:
+        """Both coordinates by their names, followed by the other columns; those whose names are taken are renamed."""
+        own: dict[str, Column] = dict(zip(self.axes, self.places.T, strict=True))
+        return own | beside(own, self.columns)
+
+    def column(self, name: str) -> Column:
+        """A column by name; ValueError lists the columns that exist."""
+        if name not in self.columns:
+            known = ", ".join(self.columns) or "none besides the coordinates"
+            raise ValueError(self._said(f"there is no column {name!r}; the columns are {known}"))
+        return self.columns[name]
+
+    def numbers(self, name: str) -> FloatArray:
+        """A column of numbers, NaN where a cell is empty; ValueError names the first row that holds text."""
+        column = self.column(name)
+        if column.dtype.kind in "iuf":
+            return column.astype(np.float64)
+        values, wrong = doubles(column)
+        if wrong.any():
+            row = np.flatnonzero(wrong)[0]
+            said = str(column.tolist()[row]).strip()
+            raise ValueError(self._said(f"row {self.rows[row]}: the {name} {said!r} {why_not(said)}"))
+        return values
+
+    def values(self, names: Sequence[str], *, skip_missing: bool = False) -> tuple[FloatArray, PointTable]:
+        """Columns of numbers (n, number of names) and their points, without incomplete rows if `skip_missing`.
+
+        ValueError names the first row where a number is missing.
+        """
+        values = np.column_stack([self.numbers(name) for name in names])
+        missing = np.argwhere(~np.isfinite(values))
+        if len(missing) and not skip_missing:
+            row, column = missing[0]
+            said = f"row {self.rows[row]}: {names[column]} is missing; leave such rows out with skip_missing=True"
+            raise ValueError(self._said(said))
+        kept = np.ones(len(values), dtype=np.bool_)
+        kept[missing[:, 0]] = False
+        return values[kept], self.taken(kept)
+
+    def beside(self, results: Mapping[str, Column], *, first: Mapping[str, Column] | None = None) -> PointTable:
+        """The same points with more columns: `first` before the others, `results` after them.
+
+        A column of the table whose name is that of a coordinate or of a new column is renamed, with a
+        `RenamedColumnWarning`.
+        """
+        before = dict(first or {})
+        columns = before | beside([*self.axes, *before, *results], self.columns) | dict(results)
+        return replace(self, columns=columns)
+
+    def taken(self, which: BoolArray | Indices) -> PointTable:
+        """Some of the points, by index or mask."""
+        columns = {name: values[which] for name, values in self.columns.items()}
+        return replace(self, places=self.places[which], columns=columns, rows=self.rows[which])
+
+    def _said(self, message: str) -> str:
+        return f"{self.name}: {message}" if self.name else message
+
+
+def table_of(
+    pair: Sequence[Column],
+    columns: Mapping[str, Column],
+    rows: Indices,
+    *,
+    plane: tuple[str, str] | None = None,
+    crs: str | None = None,
+    skip_missing: bool = False,
+    name: str = "",
+) -> PointTable:
+    """A table from two columns of coordinates, as numbers or text: of a plane, in degrees, or in `crs`, easting first.
+
+    ValueError gives the first row that lacks a place, or has none on the Earth; `skip_missing` leaves out the former.
+    """
+    axes = plane or (("longitude", "latitude") if crs is None else ("easting", "northing"))
+    decimal = plane is None and crs is None
+    named = zip(axes, pair, strict=True)
+    places = np.column_stack([numbers(each, axis, rows, gaps=skip_missing, decimal=decimal) for axis, each in named])
+    there = ~np.isnan(places).any(axis=1)
+    places, rows = places[there], rows[there]
+    kept = {key: np.asarray(values)[there] for key, values in columns.items()}
+    if plane is not None:
+        return PointTable(places, kept, rows, "plane", plane, crs and known_crs(crs).to_string(), name)
+    return PointTable(degrees(places, crs, rows), kept, rows, name=name)
+
+
+def degrees(places: FloatArray, crs: str | None, rows: Indices) -> FloatArray:
+    """Places in degrees, transformed if `crs` is given; ValueError names the first row with a wrong one."""
+    lonlat = places if crs is None else transformed(places, crs, rows)
+    endless = np.flatnonzero(~np.isfinite(lonlat).all(axis=1))
+    if len(endless):
+        raise ValueError(f"row {rows[endless[0]]}: a coordinate is not finite{_more(endless)}")
+    outside = np.flatnonzero(np.abs(lonlat[:, 1]) > 90.0)
+    if len(outside):
+        raise ValueError(
+            f"row {rows[outside[0]]}: latitude {lonlat[outside[0], 1]} is outside [-90, 90]{_more(outside)}; "
+            "is it the longitude, or not in degrees?"
+        )
+    return lonlat
+
+
+def known_crs(crs: str) -> Any:
+    """The coordinate system of this name; ValueError if PROJ does not know it."""
+    pyproj = optional("pyproj", "geo")
+    try:
+        return pyproj.CRS(crs)
+    except pyproj.exceptions.CRSError as error:
+        raise ValueError(f"crs is {crs!r}, which PROJ does not know; give one such as EPSG:25832") from error
+
+
+def transformed(places: FloatArray, crs: str, rows: Indices) -> FloatArray:
+    """Coordinates in another system, easting first, as longitude and latitude."""
+    transformer = optional("pyproj", "geo").Transformer.from_crs(known_crs(crs), "EPSG:4326", always_xy=True)
+    lonlat = np.column_stack(transformer.transform(*places.T)) if len(places) else places
+    lost = np.flatnonzero(~np.isfinite(lonlat).all(axis=1))
+    if len(lost):
+        x, y = places[lost[0]]
+        raise ValueError(f"row {rows[lost[0]]}: ({x}, {y}) has no longitude and latitude in {crs}{_more(lost)}")
+    return lonlat
+
+
+def numbers(
+    values: Column,
+    name: str,
+    rows: Sequence[int] | Indices,
+    *,
+    gaps: bool = False,
+    decimal: bool = False,
+    advice: str = "leave such rows out with skip_missing=True",
+) -> FloatArray:
+    """A column as finite numbers, with NaN for missing ones if `gaps`; ValueError names the first invalid row."""
+    array = np.asarray(values)
+    if array.dtype.kind in "iuf":
+        result = array.astype(np.float64)
+        large = np.flatnonzero(np.abs(result) >= EXACT_INTEGERS).tolist() if array.dtype.kind in "iu" else []
+        rounded = [place for place in large if int(array[place]) != int(result[place])]
+        if rounded:
+            said = f"row {rows[rounded[0]]}: the {name} {array[rounded[0]]} is not a double{_more(rounded)}"
+            raise ValueError(f"{said}; subtract an origin that all share, or round it yourself")
+    else:
+        result, wrong = doubles(array, decimal=decimal)
+        if wrong.any():
+            places = np.flatnonzero(wrong)
+            said = str(array[places[0]]).strip()
+            raise ValueError(f"row {rows[places[0]]}: the {name} {said!r} {why_not(said)}{_more(places)}")
+    bad = np.flatnonzero(np.isinf(result) if gaps else ~np.isfinite(result))
+    if len(bad):
+        missing = bool(np.isnan(result[bad[0]]))
+        what = "is missing" if missing else f"is {result[bad[0]]}, but must be finite"
+        raise ValueError(
+            f"row {rows[bad[0]]}: the {name} {what}{_more(bad)}; "
+            + (advice if missing else "correct or drop such rows first")
+        )
+    return result
+
+
+def _more(places: Sequence[int] | Indices) -> str:
+    return f" (and {len(places) - 1} more rows like it)" if len(places) > 1 else ""
