@@ -10,6 +10,26 @@ from numpy.typing import NDArray
 
 from stereodel._kernel import plane as plane, sphere as sphere
 
+def moebius_product(
+    then: Annotated[NDArray[numpy.float64], dict(shape=(None,), order="C", device="cpu", writable=False)],
+    first: Annotated[NDArray[numpy.float64], dict(shape=(None,), order="C", device="cpu", writable=False)],
+) -> Annotated[NDArray[numpy.float64], dict(shape=(None,), order="C")]:
+    """
+    The map `first`, then another: quaternion, magnification and quaternion, nine numbers.
+    """
+
+def moebius_element(
+    map: Annotated[NDArray[numpy.float64], dict(shape=(None,), order="C", device="cpu", writable=False)],
+) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 4), order="C")]:
+    """
+    A map in SL(2, C): both parts as doubles and what they leave, and the square of its vector.
+    """
+
+def moebius_decomposed(
+    element: Annotated[NDArray[numpy.float64], dict(shape=(None, 4), order="C", device="cpu", writable=False)],
+) -> Annotated[NDArray[numpy.float64], dict(shape=(None,), order="C")]:
+    """The nine numbers of the first four rows of an element."""
+
 def moebius_images(
     xyz: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
     left: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],

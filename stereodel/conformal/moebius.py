@@ -13,10 +13,9 @@ from stereodel import _kernel
 from stereodel._arrays import FloatArray, as_complex_matrix, as_directions, as_lonlat, as_matrix, as_scalar, as_vectors
 from stereodel._double_double import DoubleDouble, dot, unit
 from stereodel._threads import thread_count
-from stereodel.conformal.biquaternions import Z_AXIS, Biquaternion
+from stereodel.conformal.biquaternions import Z_AXIS, Biquaternion, parts
 from stereodel.conformal.boosts import Circle, boost_circle, boost_points
 from stereodel.conformal.forms import from_lorentz, from_moebius, lorentz_matrix, stereographic_pipeline
-from stereodel.conformal.integers import IntegerElement
 from stereodel.conformal.subgroups import Kind, fixed_points_of, kind_of, multiplier_of, power
 from stereodel.constants import LARGEST_EXPONENT, LARGEST_MAGNIFICATION, STORED_ERROR
 from stereodel.sphere import Rotation, SphereArc, SphereCircle
@@ -228,7 +227,7 @@ class MoebiusMap:
         """
         if not isinstance(other, MoebiusMap):
             return NotImplemented
-        return MoebiusMap(*(self._integers @ other._integers).rounded().decomposed())
+        return MoebiusMap(*parts(_kernel.moebius_product(self._numbers, other._numbers)))
 
     def inverse(self) -> MoebiusMap:
         """The exact inverse; its focus is the image of this map's point of smallest scale."""
@@ -237,11 +236,12 @@ class MoebiusMap:
     @property
     def biquaternion(self) -> Biquaternion:
         """The map as an element of SL(2, C) in double-double."""
-        return self._integers.rounded()
+        return Biquaternion.of(self._numbers)
 
     @property
-    def _integers(self) -> IntegerElement:
-        return IntegerElement.of(self.left.quaternion, self.magnification, self.right.quaternion)
+    def _numbers(self) -> FloatArray:
+        """All that the kernel composes: left quaternion, magnification, right quaternion."""
+        return np.concatenate([self.left.quaternion, [self.magnification], self.right.quaternion])
 
     def power(self, exponent: float) -> MoebiusMap:
         """The map applied t times, for any real t: a one-parameter group through the map.

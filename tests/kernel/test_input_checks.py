@@ -246,6 +246,28 @@ def test_other_parameters():
         _kernel.voronoi_ridges(np.zeros(0, dtype=np.int64), NONE[:, 0], NONE[:, 0], 0)
 
 
+@pytest.mark.parametrize("place", [0, 4, 8])
+def test_maps_of_other_numbers_are_refused(place):
+    right = np.array([1.0, 0.0, 0.0, 0.0, 2.0, 1.0, 0.0, 0.0, 0.0])
+    wrong = [
+        (with_entry(right, place, np.nan), rf"\[{place}\] is nan, not a finite number"),
+        (right[:-1], "nine numbers"),
+        (with_entry(right, 4, 0.0), "magnification must be"),
+        (with_entry(right, 5 * (place > 4), 0.0), "a quaternion of a map is zero"),
+    ]
+    for numbers, said in wrong:
+        for arguments in ((numbers, right), (right, numbers)):
+            with pytest.raises(ValueError, match=said):
+                _kernel.moebius_product(*arguments)
+        with pytest.raises(ValueError, match=said):
+            _kernel.moebius_element(numbers)
+    element = _kernel.moebius_element(right)[:4].copy()
+    with pytest.raises(ValueError, match="four rows"):
+        _kernel.moebius_decomposed(element[:3])
+    with pytest.raises(ValueError, match=r"element\[2, 1\] is inf"):
+        _kernel.moebius_decomposed(with_entry(element, (2, 1), np.inf))
+
+
 @pytest.mark.parametrize("size", [1, 2, 3, 7, 8, 9, 1000, 4097])
 def test_every_place_of_long_arrays_is_seen(size):
     """Loops in vector registers have rests: a wrong number in the first, the middle or the last row."""

@@ -1,19 +1,26 @@
-// Python: conformal maps of the sphere at many points.
+// Python: conformal maps of the sphere, composed and at many points.
 #include <nanobind/stl/pair.h>
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
+#include "conformal/group.hpp"
 #include "conformal/moebius.hpp"
 #include "python/arrays.hpp"
 
 namespace stereodel::python {
 
+using conformal::Element;
 using conformal::MoebiusParts;
 using conformal::SplitRotation;
+using conformal::StoredMap;
+using conformal::composed;
+using conformal::element_of;
 using conformal::moebius_images;
 using conformal::moebius_lonlat;
 using conformal::moebius_scales;
+using conformal::stored;
 
 namespace {
 
@@ -31,11 +38,77 @@ SplitRotation split(const Matrix& matrix) {
     return {matrix.data(), matrix.data() + 9};
 }
 
-MoebiusParts to_parts(const Matrix& left, double magnification, const Matrix& right) {
+void check_magnification(double magnification) {
     if (!(magnification >= 0x1p-333 && magnification <= 0x1p333)) {  // 1e-100 to 1e100, and a little room
         throw std::invalid_argument("magnification must be from 1e-100 to 1e100");
     }
+}
+
+MoebiusParts to_parts(const Matrix& left, double magnification, const Matrix& right) {
+    check_magnification(magnification);
     return {split(left), magnification, split(right)};
+}
+
+// Nine numbers: a quaternion, the magnification, a quaternion.
+StoredMap to_map(const char* name, const ValuesIn<double>& numbers) {
+    if (numbers.shape(0) != 9) {
+        throw std::invalid_argument("a map is given by nine numbers");
+    }
+    check_finite(name, numbers.data(), 9);
+    check_magnification(numbers.data()[4]);
+    StoredMap map;
+    std::copy_n(numbers.data(), 4, map.left.begin());
+    map.magnification = numbers.data()[4];
+    std::copy_n(numbers.data() + 5, 4, map.right.begin());
+    const auto is_zero = [](double x) { return x == 0.0; };
+    if (std::all_of(map.left.begin(), map.left.end(), is_zero) ||
+        std::all_of(map.right.begin(), map.right.end(), is_zero)) {
+        throw std::invalid_argument("a quaternion of a map is zero");
+    }
+    return map;
+}
+
+ValuesOut<double> to_numbers(const StoredMap& map) {
+    Buffer<double> numbers(9);
+    std::copy(map.left.begin(), map.left.end(), numbers.data());
+    numbers[4] = map.magnification;
+    std::copy(map.right.begin(), map.right.end(), numbers.data() + 5);
+    return to_values(std::move(numbers));
+}
+
+// Rows of four: the real part as doubles and what they leave, the imaginary part likewise, and v.v: re, im.
+RowsOut<double, 4> element(const ValuesIn<double>& map) {
+    const auto [element, square] = element_of(to_map("map", map));
+    Buffer<double> rows(20);
+    for (std::size_t k = 0; k < 4; ++k) {
+        rows[k] = element.real[k].hi;
+        rows[4 + k] = element.real[k].lo;
+        rows[8 + k] = element.imag[k].hi;
+        rows[12 + k] = element.imag[k].lo;
+    }
+    for (std::size_t k = 0; k < 2; ++k) {
+        rows[16 + 2 * k] = square[k].hi;
+        rows[17 + 2 * k] = square[k].lo;
+    }
+    return to_rows<4>(std::move(rows));
+}
+
+ValuesOut<double> decomposed(const RowsIn<double, 4>& element) {
+    if (element.shape(0) != 4) {
+        throw std::invalid_argument("an element is given by four rows");
+    }
+    const double* rows = element.data();
+    check_finite("element", rows, 4, 4);
+    Element parts;
+    for (std::size_t k = 0; k < 4; ++k) {
+        parts.real[k] = {rows[k], rows[4 + k]};
+        parts.imag[k] = {rows[8 + k], rows[12 + k]};
+    }
+    return to_numbers(stored(parts));
+}
+
+ValuesOut<double> product(const ValuesIn<double>& then, const ValuesIn<double>& first) {
+    return to_numbers(composed(to_map("then", then), to_map("first", first)));
 }
 
 template <std::size_t Width>
@@ -67,6 +140,11 @@ std::pair<ValuesOut<double>, bool> scales(const RowsIn<double, 3>& xyz, const Ma
 
 void bind_conformal(Modules& modules) {
     nb::module_& module = modules.both;
+    module.def("moebius_product", product, "then"_a, "first"_a,
+               "The map `first`, then another: quaternion, magnification and quaternion, nine numbers.");
+    module.def("moebius_element", element, "map"_a,
+               "A map in SL(2, C): both parts as doubles and what they leave, and the square of its vector.");
+    module.def("moebius_decomposed", decomposed, "element"_a, "The nine numbers of the first four rows of an element.");
     module.def("moebius_images", images<moebius_images, 3>, "xyz"_a, "left"_a, "magnification"_a, "right"_a,
                "workers"_a = 1, "Images of directions as unit vectors, and whether all were finite and not zero.");
     module.def("moebius_lonlat", images<moebius_lonlat, 2>, "lonlat"_a, "left"_a, "magnification"_a, "right"_a,

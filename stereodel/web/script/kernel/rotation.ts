@@ -121,7 +121,7 @@ export function asDirection(point: Numbers, name: string): Float64Array {
 }
 
 /** The product p q of quaternions: as rotations, first q, then p. */
-export function multiply([pw, px, py, pz]: Row, [qw, qx, qy, qz]: Row): Row {
+function multiply([pw, px, py, pz]: Row, [qw, qx, qy, qz]: Row): Row {
   return [
     pw.times(qw).minus(px.times(qx)).minus(py.times(qy)).minus(pz.times(qz)),
     pw.times(qx).plus(px.times(qw)).plus(py.times(qz)).minus(pz.times(qy)),
@@ -131,10 +131,7 @@ export function multiply([pw, px, py, pz]: Row, [qw, qx, qy, qz]: Row): Row {
 }
 
 /** The inverse rotation, exactly. */
-export const conjugate = ([w, ...axis]: Row): Row => [w, ...axis.map((part) => part.negated())];
-
-/** The quaternion of length 1. */
-export const normalized = (q: Row): Row => over(q, dot(q, q).sqrt());
+const conjugate = ([w, ...axis]: Row): Row => [w, ...axis.map((part) => part.negated())];
 
 function rotationMatrix(q: Row): Row {
   const [w, x, y, z] = q;
@@ -157,7 +154,7 @@ function rotationMatrix(q: Row): Row {
  * The shortest rotation from unit vector a to b, as a quaternion of any length: (1 + a·b, a × b), written so that
  * nothing cancels; half a turn about a × e, e the axis along which a is shortest, for opposite ones.
  */
-export function between(a: Row, b: Row): Row {
+function between(a: Row, b: Row): Row {
   const total = sum(a, b);
   const square = dot(total, total);
   if (square.hi <= UNDECIDED ** 2) {
