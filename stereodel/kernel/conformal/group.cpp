@@ -9,8 +9,8 @@
 #include "conformal/group.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
+#include <functional>
 
 #include "arithmetic/big_integer.hpp"
 #include "arithmetic/integer_quotients.hpp"
@@ -27,7 +27,6 @@ using arithmetic::round_quotient;
 namespace {
 
 using Integers = std::array<BigInteger, 4>;
-using Vector = std::array<DoubleDouble, 3>;
 
 // (real + i imag)/sqrt(determinant).
 struct IntegerElement {
@@ -35,46 +34,36 @@ struct IntegerElement {
     BigInteger determinant;
 };
 
-template <class Number>
-std::array<Number, 4> product(const std::array<Number, 4>& p, const std::array<Number, 4>& q) {
-    const auto& [a, b, c, d] = p;
-    const auto& [w, x, y, z] = q;
-    return {a * w - b * x - c * y - d * z, a * x + b * w + c * z - d * y, a * y - b * z + c * w + d * x,
-            a * z + b * y - c * x + d * w};
-}
-
-template <class Number>
-std::array<Number, 4> conjugate(const std::array<Number, 4>& q) {
+Quaternion conjugate(const Quaternion& q) {
     return {q[0], -q[1], -q[2], -q[3]};
 }
 
-template <class Number, std::size_t Size>
-Number dot(const std::array<Number, Size>& a, const std::array<Number, Size>& b) {
-    Number total = a[0] * b[0];
-    for (std::size_t k = 1; k < Size; ++k) {
-        total = total + a[k] * b[k];
-    }
-    return total;
-}
-
 Integers operator*(const BigInteger& factor, const Integers& q) {
-    return {factor * q[0], factor * q[1], factor * q[2], factor * q[3]};
+    Integers result;
+    std::transform(q.begin(), q.end(), result.begin(), [&](const BigInteger& part) { return factor * part; });
+    return result;
 }
 
-Integers operator+(const Integers& p, const Integers& q) {
-    return {p[0] + q[0], p[1] + q[1], p[2] + q[2], p[3] + q[3]};
+Integers sum(const Integers& p, const Integers& q) {
+    Integers result;
+    std::transform(p.begin(), p.end(), q.begin(), result.begin(), std::plus<>());
+    return result;
 }
 
-Integers operator-(const Integers& p, const Integers& q) {
-    return {p[0] - q[0], p[1] - q[1], p[2] - q[2], p[3] - q[3]};
+Integers negative(const Integers& q) {
+    return BigInteger(-1) * q;
 }
 
 // A quaternion of doubles times a power of two.
 Integers whole(const std::array<double, 4>& q) {
-    const int unit = std::min(std::min(lowest_exponent(q[0]), lowest_exponent(q[1])),
-                              std::min(lowest_exponent(q[2]), lowest_exponent(q[3])));
-    return {BigInteger::from_double(q[0], unit), BigInteger::from_double(q[1], unit),
-            BigInteger::from_double(q[2], unit), BigInteger::from_double(q[3], unit)};
+    int unit = lowest_exponent(q[0]);
+    for (const double part : q) {
+        unit = std::min(unit, lowest_exponent(part));
+    }
+    Integers result;
+    std::transform(q.begin(), q.end(), result.begin(),
+                   [unit](double part) { return BigInteger::from_double(part, unit); });
+    return result;
 }
 
 IntegerElement exactly(const StoredMap& map) {
@@ -87,9 +76,9 @@ IntegerElement exactly(const StoredMap& map) {
             (size * one).shifted(2) * dot(left, left) * dot(right, right)};
 }
 
-IntegerElement product(const IntegerElement& p, const IntegerElement& q) {
-    return {product(p.real, q.real) - product(p.imag, q.imag), product(p.real, q.imag) + product(p.imag, q.real),
-            p.determinant * q.determinant};
+IntegerElement after(const IntegerElement& p, const IntegerElement& q) {
+    return {sum(product(p.real, q.real), negative(product(p.imag, q.imag))),
+            sum(product(p.real, q.imag), product(p.imag, q.real)), p.determinant * q.determinant};
 }
 
 // numerator/denominator 2^exponent as a double and what that leaves, rounded once each.
@@ -120,40 +109,6 @@ Element rounded(const IntegerElement& element) {
     const std::size_t bits = std::max<std::size_t>(256, element.determinant.bit_length() / 2 + 1);
     const IntegerRoot root = integer_root(element.determinant, bits);
     return {over(element.real, root), over(element.imag, root)};
-}
-
-template <std::size_t Size>
-std::array<DoubleDouble, Size> over(const std::array<DoubleDouble, Size>& vector, DoubleDouble divisor) {
-    std::array<DoubleDouble, Size> result;
-    std::transform(vector.begin(), vector.end(), result.begin(), [divisor](DoubleDouble x) { return x / divisor; });
-    return result;
-}
-
-template <std::size_t Size>
-std::array<DoubleDouble, Size> normalized(const std::array<DoubleDouble, Size>& vector) {
-    return over(vector, sqrt(dot(vector, vector)));
-}
-
-Vector cross(const Vector& a, const Vector& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-// The shortest rotation from unit vector a to b, as a quaternion of any length: (1 + a.b, a x b), with 1 + a.b =
-// |a + b|^2/2 and a x b = a x (b -+ a), so that nothing cancels. Opposite vectors: half a turn about a x e, e the axis
-// along which a is shortest.
-Quaternion between(const Vector& a, const Vector& b) {
-    const Vector total = {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
-    const DoubleDouble square = dot(total, total);
-    if (square.hi <= 0x1p-200) {
-        const auto shorter = [](DoubleDouble x, DoubleDouble y) { return std::abs(x.hi) < std::abs(y.hi); };
-        Vector axis{};
-        axis[static_cast<std::size_t>(std::min_element(a.begin(), a.end(), shorter) - a.begin())].hi = 1.0;
-        const Vector turn = cross(a, axis);
-        return {DoubleDouble{}, turn[0], turn[1], turn[2]};
-    }
-    const Vector difference = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
-    const Vector turn = cross(a, dot(a, b).hi < 0 ? total : difference);
-    return {square * DoubleDouble{0.5}, turn[0], turn[1], turn[2]};
 }
 
 std::array<double, 4> rounded(const Quaternion& q) {
@@ -189,7 +144,7 @@ StoredMap stored(const Element& element) {
 }
 
 StoredMap composed(const StoredMap& then, const StoredMap& first) {
-    return stored(rounded(product(exactly(then), exactly(first))));
+    return stored(rounded(after(exactly(then), exactly(first))));
 }
 
 }  // namespace stereodel::conformal

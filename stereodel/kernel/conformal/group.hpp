@@ -4,10 +4,9 @@
 #include <array>
 
 #include "arithmetic/double_double.hpp"
+#include "conformal/rotations.hpp"
 
 namespace stereodel::conformal {
-
-using Quaternion = std::array<arithmetic::DoubleDouble, 4>;  // w, x, y, z
 
 // A rotation, after the fisheye of a magnification above 0 along z, after a rotation: quaternions of any length but 0.
 struct StoredMap {

@@ -1,16 +1,19 @@
-// Python: conformal maps of the sphere, composed and at many points.
+// Python: rotations and conformal maps of the sphere, composed and at many points.
 #include <nanobind/stl/pair.h>
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 #include <utility>
 
 #include "conformal/group.hpp"
 #include "conformal/moebius.hpp"
+#include "conformal/rotations.hpp"
 #include "python/arrays.hpp"
 
 namespace stereodel::python {
 
+using arithmetic::DoubleDouble;
 using conformal::Element;
 using conformal::MoebiusParts;
 using conformal::SplitRotation;
@@ -25,12 +28,12 @@ using conformal::stored;
 namespace {
 
 using namespace nb::literals;
-using Matrix = RowsIn<double, 3>;
+using SixRows = RowsIn<double, 3>;
 
 constexpr std::size_t long_work = 100000;  // points: some milliseconds
 
 // Six rows: a matrix and what it leaves of a more exact one.
-SplitRotation split(const Matrix& matrix) {
+SplitRotation split(const SixRows& matrix) {
     if (matrix.shape(0) != 6) {
         throw std::invalid_argument("a rotation is given by six rows");
     }
@@ -44,7 +47,7 @@ void check_magnification(double magnification) {
     }
 }
 
-MoebiusParts to_parts(const Matrix& left, double magnification, const Matrix& right) {
+MoebiusParts to_parts(const SixRows& left, double magnification, const SixRows& right) {
     check_magnification(magnification);
     return {split(left), magnification, split(right)};
 }
@@ -111,11 +114,73 @@ ValuesOut<double> product(const ValuesIn<double>& then, const ValuesIn<double>& 
     return to_numbers(composed(to_map("then", then), to_map("first", first)));
 }
 
+// Two rows: doubles and what they leave.
+template <std::size_t Width>
+std::array<DoubleDouble, Width> to_pairs(const char* name, const RowsIn<double, Width>& rows) {
+    if (rows.shape(0) != 2) {
+        throw std::invalid_argument("a vector in double-double is given by two rows");
+    }
+    check_finite(name, rows.data(), 2, Width);
+    std::array<DoubleDouble, Width> pairs;
+    for (std::size_t k = 0; k < Width; ++k) {
+        pairs[k] = {rows.data()[k], rows.data()[Width + k]};
+    }
+    return pairs;
+}
+
+RowsOut<double, 4> two_rows(const conformal::Quaternion& q) {
+    Buffer<double> rows(8);
+    for (std::size_t k = 0; k < 4; ++k) {
+        rows[k] = q[k].hi;
+        rows[4 + k] = q[k].lo;
+    }
+    return to_rows<4>(std::move(rows));
+}
+
+RowsOut<double, 4> rotation_product(const RowsIn<double, 4>& then, const RowsIn<double, 4>& first) {
+    return two_rows(conformal::product(to_pairs<4>("then", then), to_pairs<4>("first", first)));
+}
+
+RowsOut<double, 4> rotation_between(const RowsIn<double, 3>& start, const RowsIn<double, 3>& end) {
+    return two_rows(conformal::between(to_pairs<3>("start", start), to_pairs<3>("end", end)));
+}
+
+RowsOut<double, 3> rotation_matrix(const RowsIn<double, 4>& quaternion) {
+    const conformal::Matrix matrix = conformal::matrix_of(to_pairs<4>("quaternion", quaternion));
+    Buffer<double> rows(18);
+    for (std::size_t k = 0; k < 9; ++k) {
+        const DoubleDouble entry = matrix[k / 3][k % 3];
+        rows[k] = entry.hi;
+        rows[9 + k] = entry.lo;
+    }
+    return to_rows<3>(std::move(rows));
+}
+
+RowsOut<double, 3> rotated(const SixRows& matrix, const RowsIn<double, 3>& vectors) {
+    if (matrix.shape(0) != 6) {
+        throw std::invalid_argument("a rotation is given by six rows");
+    }
+    check_finite("matrix", matrix.data(), 6, 3);
+    const std::size_t count = vectors.shape(0);
+    check_finite("vectors", vectors.data(), count, 3);
+    conformal::Matrix entries;
+    for (std::size_t k = 0; k < 9; ++k) {
+        entries[k / 3][k % 3] = {matrix.data()[k], matrix.data()[9 + k]};
+    }
+    return to_rows<3>(filled<double>(3 * count, count > long_work, [&](double* images, Stop stop) {
+        for (std::size_t first = 0; first < count; first += long_work) {
+            check(stop);
+            conformal::rotate(entries, vectors.data() + 3 * first, std::min(long_work, count - first),
+                              images + 3 * first);
+        }
+    }));
+}
+
 template <std::size_t Width>
 using Images = std::pair<RowsOut<double, Width>, bool>;
 template <auto Evaluate, std::size_t Width>
-Images<Width> images(const RowsIn<double, Width>& points, const Matrix& left, double magnification, const Matrix& right,
-                     int workers) {
+Images<Width> images(const RowsIn<double, Width>& points, const SixRows& left, double magnification,
+                     const SixRows& right, int workers) {
     const MoebiusParts parts = to_parts(left, magnification, right);
     const std::size_t count = points.shape(0);
     bool sound = true;
@@ -125,8 +190,8 @@ Images<Width> images(const RowsIn<double, Width>& points, const Matrix& left, do
     return {to_rows<Width>(std::move(rows)), sound};
 }
 
-std::pair<ValuesOut<double>, bool> scales(const RowsIn<double, 3>& xyz, const Matrix& left, double magnification,
-                                          const Matrix& right, int workers) {
+std::pair<ValuesOut<double>, bool> scales(const RowsIn<double, 3>& xyz, const SixRows& left, double magnification,
+                                          const SixRows& right, int workers) {
     const MoebiusParts parts = to_parts(left, magnification, right);
     const std::size_t count = xyz.shape(0);
     bool sound = true;
@@ -140,6 +205,12 @@ std::pair<ValuesOut<double>, bool> scales(const RowsIn<double, 3>& xyz, const Ma
 
 void bind_conformal(Modules& modules) {
     nb::module_& module = modules.both;
+    module.def("rotation_product", rotation_product, "then"_a, "first"_a, "The product of quaternions, two rows each.");
+    module.def("rotation_between", rotation_between, "start"_a, "end"_a,
+               "The shortest rotation between unit vectors, two rows each, as a quaternion of any length.");
+    module.def("rotation_matrix", rotation_matrix, "quaternion"_a, "The six rows of a quaternion of two rows.");
+    module.def("rotated", rotated, "matrix"_a, "vectors"_a,
+               "Vectors of any length times a matrix of six rows, rounded once.");
     module.def("moebius_product", product, "then"_a, "first"_a,
                "The map `first`, then another: quaternion, magnification and quaternion, nine numbers.");
     module.def("moebius_element", element, "map"_a,

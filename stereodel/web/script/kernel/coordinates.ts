@@ -1,7 +1,7 @@
 /** Longitude and latitude to unit vectors and back. */
 
 import { asDirections, asLonlat, type Numbers } from "./checks.ts";
-import { kernel } from "./instance.ts";
+import { computed } from "./instance.ts";
 import { ellipsoidToXyz, type Latitude } from "./latitudes.ts";
 
 /**
@@ -13,21 +13,14 @@ import { ellipsoidToXyz, type Latitude } from "./latitudes.ts";
  */
 export function lonlatToXyz(lonlat: Numbers, latitude: Latitude = "spherical"): Float64Array {
   if (latitude !== "spherical") return ellipsoidToXyz(asLonlat(lonlat), latitude);
-  return converted("lonlat_to_xyz", asLonlat(lonlat), 2, 3);
+  const rows = asLonlat(lonlat);
+  return computed((rows.length / 2) * 3, "lonlat_to_xyz", rows, rows.length / 2);
 }
 
 /**
  * Rows (longitude, latitude) in degrees of directions of any length: longitude in [-180, 180), each within an ulp.
  */
 export function xyzToLonlat(xyz: Numbers): Float64Array {
-  return converted("xyz_to_lonlat", asDirections(xyz, "xyz"), 3, 2);
-}
-
-function converted(name: string, rows: Float64Array, from: number, to: number): Float64Array {
-  return kernel().run((session) => {
-    const count = rows.length / from;
-    const out = session.place(Float64Array, to * count);
-    session.call(name, rows, count, out);
-    return out.copy();
-  });
+  const rows = asDirections(xyz, "xyz");
+  return computed((rows.length / 3) * 2, "xyz_to_lonlat", rows, rows.length / 3);
 }

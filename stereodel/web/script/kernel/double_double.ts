@@ -1,6 +1,6 @@
 /**
  * Double-double arithmetic: a value is the unevaluated sum hi + lo, about 106 bits. Operation by operation that of
- * stereodel/_double_double.py, so that rotations and maps have the same bits here and there.
+ * stereodel/_double_double.py, so that latitudes have the same bits here and there.
  */
 
 const SPLITTER = 2 ** 27 + 1; // Veltkamp: cuts a significand of 53 bits into two halves
@@ -29,7 +29,7 @@ function twoProduct(a: number, b: number): [number, number] {
   return [product, ah * bh - product + ah * bl + al * bh + al * bl];
 }
 
-/** One number; sums and products of others. */
+/** One number. */
 export class DoubleDouble {
   readonly hi: number;
   readonly lo: number;
@@ -77,46 +77,4 @@ export class DoubleDouble {
   round(): number {
     return this.hi + this.lo;
   }
-}
-
-/** A vector or a quaternion. */
-export type Row = readonly DoubleDouble[];
-
-/** Doubles as they stand. */
-export const exactly = (values: ArrayLike<number>): Row => Array.from(values, (value) => new DoubleDouble(value));
-
-export function dot(a: Row, b: Row): DoubleDouble {
-  return a.map((value, k) => value.times(b[k])).reduce((sum, term) => sum.plus(term));
-}
-
-export function cross([ax, ay, az]: Row, [bx, by, bz]: Row): Row {
-  return [ay.times(bz).minus(az.times(by)), az.times(bx).minus(ax.times(bz)), ax.times(by).minus(ay.times(bx))];
-}
-
-export const sum = (a: Row, b: Row): Row => a.map((value, k) => value.plus(b[k]));
-export const difference = (a: Row, b: Row): Row => a.map((value, k) => value.minus(b[k]));
-export const over = (a: Row, b: DoubleDouble): Row => a.map((value) => value.over(b));
-export const rounded = (a: Row): Float64Array => Float64Array.from(a, (value) => value.round());
-
-/** The direction of doubles that are not all zero, whatever their length. */
-export function unit(vector: ArrayLike<number>): Row {
-  const row = exactly(scaled(vector));
-  return over(row, dot(row, row).sqrt());
-}
-
-/** Doubles over a power of two, the largest of them in [1/2, 1). */
-export function scaled(values: ArrayLike<number>): Float64Array {
-  const largest = Array.from(values).reduce((most, value) => Math.max(most, Math.abs(value)), 0);
-  const exponent = exponentOf(largest);
-  const half = Math.floor(exponent / 2); // in two steps: 2^1074 is no double
-  return Float64Array.from(values, (value) => value * 2 ** -half * 2 ** (half - exponent));
-}
-
-/** k with |value| in [2^(k - 1), 2^k); 0 for 0. */
-function exponentOf(value: number): number {
-  if (value === 0) return 0;
-  const bits = new DataView(new ArrayBuffer(8));
-  bits.setFloat64(0, value);
-  const stored = (bits.getUint32(0) >>> 20) & 0x7ff;
-  return stored > 0 ? stored - 1022 : exponentOf(value * 2 ** 54) - 54; // below: a subnormal number
 }

@@ -1,8 +1,7 @@
 /** The conformal maps of the sphere that keep orientation: Möbius transformations. */
 
 import { asDirections, asLonlat, asScalar, type Numbers } from "./checks.ts";
-import type { Row } from "./double_double.ts";
-import { Kept, kernel, type Argument } from "./instance.ts";
+import { computed, Kept, type Argument } from "./instance.ts";
 import { asDirection, Rotation } from "./rotation.ts";
 
 const Z_AXIS = [0, 0, 1];
@@ -98,11 +97,7 @@ export class MoebiusMap {
 
   /** First `other`, then this one: the exact composition with its parameters rounded once. */
   after(other: MoebiusMap): MoebiusMap {
-    const product = kernel().run((session) => {
-      const out = session.place(Float64Array, 9);
-      session.call("moebius_product", this.numbers, other.numbers, out);
-      return out.copy();
-    });
+    const product = computed(9, "moebius_product", this.numbers, other.numbers);
     return new MoebiusMap(new Rotation(product.slice(0, 4)), product[4], new Rotation(product.slice(5)));
   }
 
@@ -124,17 +119,11 @@ export class MoebiusMap {
   }
 
   private call(name: string, rows: Argument, count: number, width: number): Float64Array {
-    return kernel().run((session) => {
-      const out = session.place(Float64Array, width * count);
-      session.call(name, this.forKernel, rows, count, out);
-      return out.copy();
-    });
+    return computed(width * count, name, this.forKernel, rows, count);
   }
 
   /** Both matrices, each with what its doubles leave, and the magnification between them. */
   private get forKernel(): Float64Array {
-    const numbers = (matrix: Row): number[] => [...matrix.map((part) => part.hi), ...matrix.map((part) => part.lo)];
-    const [left, right] = [this.left.exactMatrix, this.right.exactMatrix];
-    return (this.parts ??= Float64Array.of(...numbers(left), this.magnification, ...numbers(right)));
+    return (this.parts ??= Float64Array.of(...this.left.exactMatrix, this.magnification, ...this.right.exactMatrix));
   }
 }
