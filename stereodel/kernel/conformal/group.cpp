@@ -50,10 +50,6 @@ Integers sum(const Integers& p, const Integers& q) {
     return result;
 }
 
-Integers negative(const Integers& q) {
-    return BigInteger(-1) * q;
-}
-
 // A quaternion of doubles times a power of two.
 Integers whole(const std::array<double, 4>& q) {
     int unit = lowest_exponent(q[0]);
@@ -71,13 +67,14 @@ IntegerElement exactly(const StoredMap& map) {
     const int unit = std::min(0, lowest_exponent(map.magnification));
     const BigInteger size = BigInteger::from_double(map.magnification, unit);
     const BigInteger one = BigInteger(1).shifted(static_cast<std::size_t>(-unit));
-    const Integers along_z = {left[3], -left[2], left[1], -left[0]};  // left times -z
-    return {product((size + one) * left, right), product((size - one) * along_z, right),
+    Integers down;  // -z, S - 1 times as long
+    down[3] = one - size;
+    return {product((size + one) * left, right), product(product(left, down), right),
             (size * one).shifted(2) * dot(left, left) * dot(right, right)};
 }
 
 IntegerElement after(const IntegerElement& p, const IntegerElement& q) {
-    return {sum(product(p.real, q.real), negative(product(p.imag, q.imag))),
+    return {sum(product(p.real, q.real), product(BigInteger(-1) * p.imag, q.imag)),
             sum(product(p.real, q.imag), product(p.imag, q.real)), p.determinant * q.determinant};
 }
 

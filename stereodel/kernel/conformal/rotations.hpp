@@ -15,8 +15,10 @@ using Matrix = std::array<Vector, 3>;  // rows
 // As rotations, first q, then p. Component k has the terms p[i] q[i xor k]: bytes count in WebAssembly.
 template <class Number>
 std::array<Number, 4> product(const std::array<Number, 4>& p, const std::array<Number, 4>& q) {
-    constexpr bool minus[4][4] = {
-        {false, true, true, true}, {false, false, false, true}, {false, true, false, false}, {false, false, true, false}};
+    constexpr bool minus[4][4] = {{false, true, true, true},
+                                  {false, false, false, true},
+                                  {false, true, false, false},
+                                  {false, false, true, false}};
     std::array<Number, 4> result;
     for (std::size_t k = 0; k < 4; ++k) {
         result[k] = p[0] * q[k];

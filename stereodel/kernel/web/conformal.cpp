@@ -3,7 +3,6 @@
 // compose: quaternion, magnification and quaternion, nine numbers.
 #include "conformal/moebius.hpp"
 
-#include <algorithm>
 #include <cstddef>
 
 #include "conformal/group.hpp"
@@ -23,14 +22,6 @@ namespace {
 
 MoebiusParts to_parts(const double* parts) {
     return {{parts, parts + 9}, parts[18], {parts + 19, parts + 28}};
-}
-
-StoredMap to_map(const double* numbers) {
-    StoredMap map;
-    std::copy_n(numbers, 4, map.left.begin());
-    map.magnification = numbers[4];
-    std::copy_n(numbers + 5, 4, map.right.begin());
-    return map;
 }
 
 Quaternion exactly(const double* q) {
@@ -70,19 +61,14 @@ STEREODEL_EXPORT(rotation_matrix) void rotation_matrix(const double* quaternion,
     }
 }
 
-STEREODEL_EXPORT(rotated) void rotated(const double* matrix, const double* xyz, std::size_t count, double* images) {
-    Matrix exact;
-    for (std::size_t k = 0; k < 9; ++k) {
-        exact[k / 3][k % 3] = {matrix[k], matrix[9 + k]};
-    }
-    conformal::rotate(exact, xyz, count, images);
+STEREODEL_EXPORT(rotated) void rotated(const double* quaternion, const double* xyz, std::size_t count, double* images) {
+    conformal::rotate(conformal::matrix_of(exactly(quaternion)), xyz, count, images);
 }
 
-STEREODEL_EXPORT(moebius_product) void moebius_product(const double* then, const double* first, double* product) {
-    const StoredMap map = conformal::composed(to_map(then), to_map(first));
-    std::copy(map.left.begin(), map.left.end(), product);
-    product[4] = map.magnification;
-    std::copy(map.right.begin(), map.right.end(), product + 5);
+STEREODEL_EXPORT(moebius_product)
+void moebius_product(const StoredMap* then, const StoredMap* first, StoredMap* product) {
+    static_assert(sizeof(StoredMap) == 9 * sizeof(double), "a map is nine numbers");
+    *product = conformal::composed(*then, *first);
 }
 
 STEREODEL_EXPORT(moebius_images)

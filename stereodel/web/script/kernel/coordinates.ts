@@ -2,7 +2,7 @@
 
 import { asDirections, asLonlat, type Numbers } from "./checks.ts";
 import { computed } from "./instance.ts";
-import { ellipsoidToXyz, type Latitude } from "./latitudes.ts";
+import type { Latitude } from "./latitudes.ts";
 
 /**
  * Unit vectors of rows (longitude, latitude) in degrees: (cos lat cos lon, cos lat sin lon, sin lat), each component
@@ -12,9 +12,10 @@ import { ellipsoidToXyz, type Latitude } from "./latitudes.ts";
  * direction from the Earth's centre ("geodetic") or the point on the sphere of equal area ("authalic").
  */
 export function lonlatToXyz(lonlat: Numbers, latitude: Latitude = "spherical"): Float64Array {
-  if (latitude !== "spherical") return ellipsoidToXyz(asLonlat(lonlat), latitude);
   const rows = asLonlat(lonlat);
-  return computed((rows.length / 2) * 3, "lonlat_to_xyz", rows, rows.length / 2);
+  const count = rows.length / 2;
+  if (latitude === "spherical") return computed(3 * count, "lonlat_to_xyz", rows, count);
+  return computed(3 * count, "ellipsoid_to_xyz", rows, count, latitude === "authalic" ? 1 : 0);
 }
 
 /**

@@ -51,7 +51,7 @@ export class Rotation {
   /** Rotated vectors, row after row: the exact result for the exact quaternion, rounded once. */
   apply(xyz: Numbers): Float64Array {
     const rows = asRows(xyz, 3, "xyz");
-    return computed(rows.length, "rotated", this.exactMatrix, rows, rows.length / 3);
+    return computed(rows.length, "rotated", this.quaternion, rows, rows.length / 3);
   }
 
   /** The matrix, row after row, rounded once. */
