@@ -10,6 +10,51 @@ from numpy.typing import NDArray
 
 from stereodel._kernel import plane as plane, sphere as sphere
 
+def rotation_product(
+    then: Annotated[NDArray[numpy.float64], dict(shape=(None, 4), order="C", device="cpu", writable=False)],
+    first: Annotated[NDArray[numpy.float64], dict(shape=(None, 4), order="C", device="cpu", writable=False)],
+) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 4), order="C")]:
+    """The product of quaternions, two rows each."""
+
+def rotation_between(
+    start: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    end: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 4), order="C")]:
+    """
+    The shortest rotation between unit vectors, two rows each, as a quaternion of any length.
+    """
+
+def rotation_matrix(
+    quaternion: Annotated[NDArray[numpy.float64], dict(shape=(None, 4), order="C", device="cpu", writable=False)],
+) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C")]:
+    """The six rows of a quaternion of two rows."""
+
+def rotated(
+    matrix: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    vectors: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C")]:
+    """Vectors of any length times a matrix of six rows, rounded once."""
+
+def moebius_product(
+    then: Annotated[NDArray[numpy.float64], dict(shape=(None,), order="C", device="cpu", writable=False)],
+    first: Annotated[NDArray[numpy.float64], dict(shape=(None,), order="C", device="cpu", writable=False)],
+) -> Annotated[NDArray[numpy.float64], dict(shape=(None,), order="C")]:
+    """
+    The map `first`, then another: quaternion, magnification and quaternion, nine numbers.
+    """
+
+def moebius_element(
+    map: Annotated[NDArray[numpy.float64], dict(shape=(None,), order="C", device="cpu", writable=False)],
+) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 4), order="C")]:
+    """
+    A map in SL(2, C): both parts as doubles and what they leave, and the square of its vector.
+    """
+
+def moebius_decomposed(
+    element: Annotated[NDArray[numpy.float64], dict(shape=(None, 4), order="C", device="cpu", writable=False)],
+) -> Annotated[NDArray[numpy.float64], dict(shape=(None,), order="C")]:
+    """The nine numbers of the first four rows of an element."""
+
 def moebius_images(
     xyz: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
     left: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],

@@ -2,9 +2,7 @@
 
 q = a + i b with real quaternions a, b stands for the 2×2 matrix in which the quaternion units are −i times the Pauli
 matrices. A rotation is a real unit quaternion; the fisheye of magnification S along the unit vector f is cosh(η/2) − i
-sinh(η/2) f with η = ln S. Products are compositions; products of stored maps are computed in integers. For q =
-L·fisheye(S)·R the two parts are a = cosh(η/2) L R and b = −sinh(η/2) L z R, so the decomposition loses nothing however
-large S is.
+sinh(η/2) f with η = ln S. Products are compositions; those of stored maps are exact, and the kernel's.
 """
 
 from __future__ import annotations
@@ -14,9 +12,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from stereodel import _kernel
+from stereodel._arrays import FloatArray
 from stereodel._double_double import DoubleDouble, dot, stack, where
 from stereodel.sphere import Rotation
-from stereodel.sphere.rotations import between, conjugate, multiply, normalized
+from stereodel.sphere.rotations import conjugate, multiply, normalized
 
 
 @dataclass(frozen=True)
@@ -84,6 +84,14 @@ def inner(a: Complex, b: Complex) -> Complex:
 
 Z_AXIS = DoubleDouble(np.array([0.0, 0.0, 1.0]))
 
+Parts = tuple[Rotation, float, Rotation]
+"""Left rotation, magnification along z, right rotation."""
+
+
+def parts(numbers: FloatArray) -> Parts:
+    """The parts of a map from the nine numbers that the kernel gives: quaternion, magnification, quaternion."""
+    return Rotation(numbers[:4]), float(numbers[4]), Rotation(numbers[5:])
+
 
 class Biquaternion(NamedTuple):
     """The element real + i·imag of SL(2, C); q and −q are the same map."""
@@ -131,19 +139,16 @@ class Biquaternion(NamedTuple):
         element = Complex(self.real, self.imag) / self.determinant().sqrt()
         return Biquaternion(element.re, element.im)
 
-    def decomposed(self) -> tuple[Rotation, float, Rotation]:
-        """Left rotation, magnification S ≥ 1 along z and right rotation, each rounded once."""
-        # sinh(η/2) is |b|, and cosh(η/2) its √(1 + |b|²) rather than |a|: the determinant of a power is 1 up to a
-        # rounding of doubles, which must not magnify where b is 0.
-        square = dot(self.imag, self.imag)
-        root = square.sqrt() + (square + 1.0).sqrt()
-        magnification = float((root * root).round())
-        if magnification <= 1:
-            return Rotation.identity(), 1.0, Rotation.rounded(self.real)
-        axis = -multiply(self.imag, conjugate(self.real))[1:]
-        left = normalized(between(Z_AXIS, axis / dot(axis, axis).sqrt()))
-        right = multiply(conjugate(left), normalized(self.real))
-        return Rotation.rounded(left), magnification, Rotation.rounded(right)
+    @classmethod
+    def of(cls, numbers: FloatArray) -> Biquaternion:
+        """The element of a map's nine numbers (`parts`): each component within 2⁻¹⁰⁵ of itself, and v·v as accurate."""
+        rows = _kernel.moebius_element(numbers)
+        square = DoubleDouble(rows[4, ::2], rows[4, 1::2])
+        return cls(DoubleDouble(*rows[:2]), DoubleDouble(*rows[2:4]), Complex(square[0], square[1]))
+
+    def decomposed(self) -> Parts:
+        """The parts of the map, of magnification S ≥ 1, each rounded once."""
+        return parts(_kernel.moebius_decomposed(np.stack([self.real.hi, self.real.lo, self.imag.hi, self.imag.lo])))
 
 
 def rotation(quaternion: DoubleDouble) -> Biquaternion:

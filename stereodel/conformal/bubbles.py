@@ -8,8 +8,7 @@ import numpy.typing as npt
 from stereodel._arrays import as_scalar
 from stereodel._double_double import DoubleDouble, dot, stack, unit
 from stereodel.conformal.biquaternions import Z_AXIS, Biquaternion, boost, rotation
-from stereodel.conformal.boosts import boost_points
-from stereodel.conformal.moebius import MoebiusMap
+from stereodel.conformal.moebius import MoebiusMap, boost_points
 from stereodel.constants import STORED_ERROR
 from stereodel.sphere import SphereCircle, as_direction
 from stereodel.sphere.degrees import sin_cos_degrees

@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from stereodel._arrays import FloatArray
 from stereodel._double_double import DoubleDouble
-from stereodel.conformal.biquaternions import Complex, from_spinors
+from stereodel.conformal.biquaternions import Complex, Parts, from_spinors
 from stereodel.constants import MATRIX_ERROR, MATRIX_MAGNIFICATION, STORED_ERROR
 from stereodel.sphere import Rotation, xyz_to_lonlat
 from stereodel.sphere.coordinates import tangent_frame
@@ -20,9 +20,6 @@ from stereodel.sphere.vectors import determinant
 
 _METRIC = np.diag([1.0, 1.0, 1.0, -1.0])
 _Z = np.array([0.0, 0.0, 1.0])
-
-Parts = tuple[Rotation, float, Rotation]
-"""Left rotation, magnification along z, right rotation."""
 
 
 def lorentz_matrix(left: Rotation, magnification: float, right: Rotation) -> FloatArray:

@@ -1,4 +1,10 @@
-"""The orientation-preserving conformal maps of the sphere: Möbius transformations (claims P15 to P19 of the paper)."""
+"""The orientation-preserving conformal maps of the sphere: Möbius transformations (claims P15 to P19 of the paper).
+
+The fisheye along z acts on u = 1 + z and w = 1 − z (Figure 13): tan²(χ/2) = w/u, and tan(Ξ/2) = S tan(χ/2) says that u
+becomes u/S, w becomes S w, and the part across the axis stays, all up to a common factor. This is the boost of
+Minkowski space of rapidity −ln S along z, on light-cone coordinates; on a circle n·x = d the same factors act on
+d + n_z and d − n_z.
+"""
 
 from __future__ import annotations
 
@@ -11,21 +17,39 @@ import numpy.typing as npt
 
 from stereodel import _kernel
 from stereodel._arrays import FloatArray, as_complex_matrix, as_directions, as_lonlat, as_matrix, as_scalar, as_vectors
-from stereodel._double_double import DoubleDouble, dot, unit
+from stereodel._double_double import DoubleDouble, dot, stack, unit
 from stereodel._threads import thread_count
-from stereodel.conformal.biquaternions import Z_AXIS, Biquaternion
-from stereodel.conformal.boosts import Circle, boost_circle, boost_points
+from stereodel.conformal.biquaternions import Z_AXIS, Biquaternion, parts
 from stereodel.conformal.forms import from_lorentz, from_moebius, lorentz_matrix, stereographic_pipeline
-from stereodel.conformal.integers import IntegerElement
 from stereodel.conformal.subgroups import Kind, fixed_points_of, kind_of, multiplier_of, power
 from stereodel.constants import LARGEST_EXPONENT, LARGEST_MAGNIFICATION, STORED_ERROR
 from stereodel.sphere import Rotation, SphereArc, SphereCircle
 from stereodel.sphere.arcs import swept_angle
-from stereodel.sphere.circles import on_circle
+from stereodel.sphere.circles import light_cone, on_circle, one_plus_minus
 from stereodel.sphere.coordinates import as_sphere_points
 
 _FLIP = Rotation(np.array([0.0, 1.0, 0.0, 0.0]))
 """Half a turn about x: it turns the fisheye of magnification 1/S along z into that of S, exactly."""
+
+Circle = tuple[DoubleDouble, DoubleDouble, DoubleDouble]
+"""Normal (3,), cos α and sin α, up to one positive factor."""
+
+
+def boost_points(points: DoubleDouble, magnification: DoubleDouble) -> DoubleDouble:
+    """Images of unit vectors (..., 3) under the fisheye of magnification S at +z."""
+    x, y = points[..., 0], points[..., 1]
+    u, w = one_plus_minus(points[..., 2], x * x + y * y)
+    lower, upper = u / magnification, w * magnification
+    total = lower + upper
+    return stack([points[..., 0] * 2.0 / total, points[..., 1] * 2.0 / total, (lower - upper) / total])
+
+
+def boost_circle(circle: Circle, magnification: DoubleDouble) -> Circle:
+    """Image of the circle n·x = cos α, n a unit vector, with its interior; sin α is invariant before normalisation."""
+    normal, cosine, sine = circle
+    plus, minus = light_cone(normal, cosine, sine)
+    plus, minus = plus / magnification, minus * magnification
+    return stack([normal[0], normal[1], (plus + minus) * 0.5]), (plus - minus) * 0.5, sine
 
 
 @dataclass(frozen=True)
@@ -228,7 +252,7 @@ class MoebiusMap:
         """
         if not isinstance(other, MoebiusMap):
             return NotImplemented
-        return MoebiusMap(*(self._integers @ other._integers).rounded().decomposed())
+        return MoebiusMap(*parts(_kernel.moebius_product(self._numbers, other._numbers)))
 
     def inverse(self) -> MoebiusMap:
         """The exact inverse; its focus is the image of this map's point of smallest scale."""
@@ -237,11 +261,12 @@ class MoebiusMap:
     @property
     def biquaternion(self) -> Biquaternion:
         """The map as an element of SL(2, C) in double-double."""
-        return self._integers.rounded()
+        return Biquaternion.of(self._numbers)
 
     @property
-    def _integers(self) -> IntegerElement:
-        return IntegerElement.of(self.left.quaternion, self.magnification, self.right.quaternion)
+    def _numbers(self) -> FloatArray:
+        """All that the kernel composes: left quaternion, magnification, right quaternion."""
+        return np.concatenate([self.left.quaternion, [self.magnification], self.right.quaternion])
 
     def power(self, exponent: float) -> MoebiusMap:
         """The map applied t times, for any real t: a one-parameter group through the map.

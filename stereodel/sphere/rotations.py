@@ -13,10 +13,11 @@ from functools import cached_property
 import numpy as np
 import numpy.typing as npt
 
+from stereodel import _kernel
 from stereodel._arrays import FloatArray, as_matrix, as_quaternion, as_scalar, as_vectors
-from stereodel._double_double import DoubleDouble, by_blocks, cross, dot, stack, unit
+from stereodel._double_double import DoubleDouble, dot, stack, unit
 from stereodel._values import Keyed
-from stereodel.constants import MATRIX_ERROR, UNDECIDED
+from stereodel.constants import MATRIX_ERROR
 from stereodel.sphere.coordinates import as_direction, scaled
 from stereodel.sphere.degrees import sin_cos_degrees
 from stereodel.sphere.vectors import determinant
@@ -25,17 +26,13 @@ _CONJUGATE = np.array([1.0, -1.0, -1.0, -1.0])
 
 
 def multiply(p: DoubleDouble, q: DoubleDouble) -> DoubleDouble:
-    """The product p q of quaternions (..., 4): as rotations, first q, then p."""
-    pw, px, py, pz = (p[..., k] for k in range(4))
-    qw, qx, qy, qz = (q[..., k] for k in range(4))
-    return stack(
-        [
-            pw * qw - px * qx - py * qy - pz * qz,
-            pw * qx + px * qw + py * qz - pz * qy,
-            pw * qy - px * qz + py * qw + pz * qx,
-            pw * qz + px * qy - py * qx + pz * qw,
-        ]
-    )
+    """The product p q of quaternions (4,): as rotations, first q, then p."""
+    return DoubleDouble(*_kernel.rotation_product(_rows(p), _rows(q)))
+
+
+def _rows(vector: DoubleDouble) -> FloatArray:
+    """As the kernel takes a vector: doubles and what they leave."""
+    return np.stack([vector.hi, vector.lo])
 
 
 def conjugate(q: DoubleDouble) -> DoubleDouble:
@@ -50,15 +47,8 @@ def normalized(q: DoubleDouble) -> DoubleDouble:
 
 def rotation_matrix(q: DoubleDouble) -> DoubleDouble:
     """The (3, 3) rotation matrix of one quaternion (4,) of any length, entries with errors below 2⁻¹⁰⁰."""
-    w, x, y, z = (q[k] for k in range(4))
-    ww, xx, yy, zz = w * w, x * x, y * y, z * z
-    rows = [
-        stack([ww + xx - yy - zz, (x * y - w * z) * 2.0, (x * z + w * y) * 2.0]),
-        stack([(x * y + w * z) * 2.0, ww - xx + yy - zz, (y * z - w * x) * 2.0]),
-        stack([(x * z - w * y) * 2.0, (y * z + w * x) * 2.0, ww - xx - yy + zz]),
-    ]
-    matrix = DoubleDouble(np.stack([r.hi for r in rows]), np.stack([r.lo for r in rows]))
-    return matrix / dot(q, q)
+    rows = _kernel.rotation_matrix(_rows(q))
+    return DoubleDouble(rows[:3], rows[3:])
 
 
 def transform(matrix: DoubleDouble, vectors: DoubleDouble) -> DoubleDouble:
@@ -70,20 +60,9 @@ def transform(matrix: DoubleDouble, vectors: DoubleDouble) -> DoubleDouble:
 def between(a: DoubleDouble, b: DoubleDouble) -> DoubleDouble:
     """The shortest rotation from unit vector a to b, as a quaternion (4,) of any length.
 
-    (1 + a·b, a × b), with 1 + a·b = |a + b|²/2 and a × b = a × (b ∓ a), so that nothing cancels when the two are
-    nearly equal or nearly antipodal. Antipodal vectors: half a turn about a × eₖ, k the smallest component of a.
+    Antipodal vectors: half a turn about a × eₖ, k the smallest component of a.
     """
-    total = a + b
-    square = dot(total, total)
-    if float(square.hi) <= UNDECIDED**2:
-        basis = np.eye(3)[int(np.argmin(np.abs(a.hi)))]
-        return stack([DoubleDouble(0.0), *_components(cross(a, DoubleDouble(basis)))])
-    axis = cross(a, total if float(dot(a, b).hi) < 0 else b - a)
-    return stack([square * 0.5, *_components(axis)])
-
-
-def _components(vector: DoubleDouble) -> list[DoubleDouble]:
-    return [vector[k] for k in range(3)]
+    return DoubleDouble(*_kernel.rotation_between(_rows(a), _rows(b)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -175,11 +154,9 @@ class Rotation(Keyed):
 
     def __call__(self, xyz: npt.ArrayLike) -> FloatArray:
         """Rotated vectors, (..., 3) to (..., 3): the exact result for the exact quaternion, rounded once."""
-        return by_blocks(self._rotate, as_vectors(xyz, 3, "xyz"))
-
-    def _rotate(self, rows: FloatArray) -> FloatArray:
-        vectors, exponent = scaled(rows)
-        return np.ldexp(self.apply(DoubleDouble(vectors)).round(), exponent[..., None]) + 0.0
+        vectors = as_vectors(xyz, 3, "xyz")
+        matrix = np.concatenate([self.exact_matrix.hi, self.exact_matrix.lo])
+        return _kernel.rotated(matrix, vectors.reshape(-1, 3)).reshape(vectors.shape)
 
     def apply(self, vectors: DoubleDouble) -> DoubleDouble:
         """Double-double vectors (..., 3) of length about 1, rotated with an error below 2⁻⁹⁸."""

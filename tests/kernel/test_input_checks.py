@@ -75,6 +75,11 @@ def calls():
     yield "sphere.natural_neighbor_weights", triangles(SPHERE) | units | asked
     yield "lonlat_to_xyz", {"lonlat": PLANE.points}
     yield "xyz_to_lonlat", {"xyz": SPHERE.points}
+    quaternion, vector = np.eye(2, 4), np.eye(2, 3)
+    yield "rotation_product", {"then": quaternion, "first": quaternion}
+    yield "rotation_between", {"start": vector, "end": vector}
+    yield "rotation_matrix", {"quaternion": quaternion}
+    yield "rotated", {"matrix": EYE, "vectors": SPHERE.points}
     for name in ("moebius_images", "moebius_scales"):
         yield name, {"left": EYE, "magnification": 2.0, "right": EYE, "xyz": SPHERE.points}
 
@@ -203,14 +208,14 @@ def test_triangles_and_neighbors_that_do_not_fit_are_refused(name):
 def test_arrays_of_other_lengths_are_refused(name):
     """Each array that has to fit others, shortened: it is refused for its length or for what it no longer holds."""
     right = CALLS[name]
-    alone = {"queries", "duplicates", "edges", "numbers", "triangles", "xyz", "lonlat", "faces", "rows"}
+    alone = {"queries", "duplicates", "edges", "numbers", "triangles", "xyz", "lonlat", "faces", "rows", "vectors"}
     keys = [k for k, a in right.items() if isinstance(a, np.ndarray) and k not in alone]
     if "simplices" in keys and "neighbors" not in keys:
         keys.remove("simplices")
     for key in keys:
         if key == "points" and name.endswith(("triangulate", "part_of", "blocks")):
             continue
-        said = r"length|has \d rows|out of range|not those|each site with entries|six rows|not that|what box_tree gives"
+        said = r"length|has \d rows|out of range|not those|each site with|(six|two) rows|not that|what box_tree gives"
         with pytest.raises(ValueError, match=said):
             call(name, right | {key: right[key][:-1]})
 
@@ -244,6 +249,28 @@ def test_other_parameters():
             _kernel.moebius_images(SPHERE.points, EYE, magnification, EYE)
     with pytest.raises(ValueError, match="offsets"):
         _kernel.voronoi_ridges(np.zeros(0, dtype=np.int64), NONE[:, 0], NONE[:, 0], 0)
+
+
+@pytest.mark.parametrize("place", [0, 4, 8])
+def test_maps_of_other_numbers_are_refused(place):
+    right = np.array([1.0, 0.0, 0.0, 0.0, 2.0, 1.0, 0.0, 0.0, 0.0])
+    wrong = [
+        (with_entry(right, place, np.nan), rf"\[{place}\] is nan, not a finite number"),
+        (right[:-1], "nine numbers"),
+        (with_entry(right, 4, 0.0), "magnification must be"),
+        (with_entry(right, 5 * (place > 4), 0.0), "a quaternion of a map is zero"),
+    ]
+    for numbers, said in wrong:
+        for arguments in ((numbers, right), (right, numbers)):
+            with pytest.raises(ValueError, match=said):
+                _kernel.moebius_product(*arguments)
+        with pytest.raises(ValueError, match=said):
+            _kernel.moebius_element(numbers)
+    element = _kernel.moebius_element(right)[:4].copy()
+    with pytest.raises(ValueError, match="four rows"):
+        _kernel.moebius_decomposed(element[:3])
+    with pytest.raises(ValueError, match=r"element\[2, 1\] is inf"):
+        _kernel.moebius_decomposed(with_entry(element, (2, 1), np.inf))
 
 
 @pytest.mark.parametrize("size", [1, 2, 3, 7, 8, 9, 1000, 4097])

@@ -1,4 +1,5 @@
 // The folder `conformal`: conformal maps of the sphere. What is proved, and how, stands in moebius.cpp.
+// Reading order: moebius, images of points; rotations, quaternions; group, products.
 //
 // Conformal maps of the sphere at many points: a rotation, the fisheye along z, a rotation.
 #pragma once

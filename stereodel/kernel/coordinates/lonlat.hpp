@@ -1,5 +1,6 @@
 // The folder `coordinates`: degrees, and longitude and latitude as unit vectors.
-// Reading order: degrees, sine and cosine to twice the precision; plain_degrees, the same in doubles; lonlat.
+// Reading order: degrees, sine and cosine to twice the precision; plain_degrees, the same in doubles; lonlat;
+// latitudes, those of the ellipsoid.
 //
 // Longitude and latitude to unit vectors and back.
 #pragma once

@@ -1,4 +1,4 @@
-// The fisheye on u = 1 + z and w = 1 - z as in stereodel/conformal/boosts.py: u/S, S w and the rest unchanged are the
+// The fisheye on u = 1 + z and w = 1 - z as in stereodel/conformal/moebius.py: u/S, S w and the rest unchanged are the
 // image times `total`. The smaller of u and w comes from (x^2 + y^2)/(the larger), so that nothing cancels near the
 // axis; what is left is the rounding of the unit vector, 2^-52, times the scale there.
 #include "raster/page_trace.hpp"

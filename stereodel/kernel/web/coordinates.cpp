@@ -1,9 +1,9 @@
-// Longitude and latitude to unit vectors and back; sine and cosine of degrees.
+// Longitude and latitude to unit vectors and back.
 #include "coordinates/lonlat.hpp"
 
 #include <cstddef>
 
-#include "coordinates/degrees.hpp"
+#include "coordinates/latitudes.hpp"
 
 #include "web/answer.hpp"
 
@@ -17,15 +17,10 @@ STEREODEL_EXPORT(xyz_to_lonlat) void xyz_to_lonlat(const double* xyz, std::size_
     coordinates::xyz_to_lonlat(xyz, count, lonlat, alone, nullptr);
 }
 
-// Rows: sine, its low part, cosine, its low part.
-STEREODEL_EXPORT(sin_cos_degrees) void sin_cos_degrees(const double* angles, std::size_t count, double* rows) {
-    for (std::size_t k = 0; k < count; ++k) {
-        const coordinates::SineCosine value = coordinates::sin_cos_degrees(angles[k]);
-        rows[4 * k] = value.sine.hi;
-        rows[4 * k + 1] = value.sine.lo;
-        rows[4 * k + 2] = value.cosine.hi;
-        rows[4 * k + 3] = value.cosine.lo;
-    }
+STEREODEL_EXPORT(ellipsoid_to_xyz)
+void ellipsoid_to_xyz(const double* lonlat, std::size_t count, bool authalic, double* xyz) {
+    const auto kind = authalic ? coordinates::Latitude::authalic : coordinates::Latitude::geodetic;
+    coordinates::ellipsoid_to_xyz(lonlat, count, kind, xyz);
 }
 
 }  // namespace stereodel::web

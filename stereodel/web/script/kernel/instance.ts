@@ -251,3 +251,12 @@ export function kernel(): Kernel {
   if (current === null) throw new KernelError("the kernel is not loaded: await load() first");
   return current;
 }
+
+/** So many numbers that a function of the kernel fills in behind its other arguments. */
+export function computed(length: number, name: string, ...given: Argument[]): Float64Array {
+  return kernel().run((session) => {
+    const out = session.place(Float64Array, length);
+    session.call(name, ...given, out);
+    return out.copy();
+  });
+}

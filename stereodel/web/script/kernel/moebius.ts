@@ -1,10 +1,8 @@
 /** The conformal maps of the sphere that keep orientation: Möbius transformations. */
 
 import { asDirections, asLonlat, asScalar, type Numbers } from "./checks.ts";
-import { DoubleDouble, dot, exactly, over, rounded, type Row } from "./double_double.ts";
-import { Kept, kernel, type Argument } from "./instance.ts";
-import { IntegerMap } from "./integer_maps.ts";
-import { asDirection, between, conjugate, multiply, normalized, Rotation } from "./rotation.ts";
+import { computed, Kept, type Argument } from "./instance.ts";
+import { asDirection, Rotation } from "./rotation.ts";
 
 const Z_AXIS = [0, 0, 1];
 /** Half a turn about x: it turns the fisheye of magnification 1/S along z into that of S, exactly. */
@@ -99,18 +97,8 @@ export class MoebiusMap {
 
   /** First `other`, then this one: the exact composition with its parameters rounded once. */
   after(other: MoebiusMap): MoebiusMap {
-    const { real, imag } = this.integers.after(other.integers).rounded();
-    // sinh(η/2) is |imag|, and S = (sinh + cosh)².
-    const squared = dot(imag, imag);
-    const root = squared.sqrt().plus(squared.plus(new DoubleDouble(1)).sqrt());
-    const size = root.times(root).round();
-    if (size <= 1) return MoebiusMap.rotation(new Rotation(rounded(real)));
-    const axis = multiply(imag, conjugate(real))
-      .slice(1)
-      .map((part) => part.negated());
-    const left = normalized(between(exactly(Z_AXIS), over(axis, dot(axis, axis).sqrt())));
-    const right = multiply(conjugate(left), normalized(real));
-    return new MoebiusMap(new Rotation(rounded(left)), size, new Rotation(rounded(right)));
+    const product = computed(9, "moebius_product", this.numbers, other.numbers);
+    return new MoebiusMap(new Rotation(product.slice(0, 4)), product[4], new Rotation(product.slice(5)));
   }
 
   /** The exact inverse; its focus is where this map is smallest. */
@@ -119,8 +107,9 @@ export class MoebiusMap {
     return new MoebiusMap(this.right.inverse().after(flip), this.magnification, flip.after(this.left.inverse()));
   }
 
-  private get integers(): IntegerMap {
-    return IntegerMap.of(this.left.quaternion, this.magnification, this.right.quaternion);
+  /** All that the kernel composes. */
+  private get numbers(): Float64Array {
+    return Float64Array.of(...this.left.quaternion, this.magnification, ...this.right.quaternion);
   }
 
   private evaluate(name: string, xyz: Numbers | Directions, width: number): Float64Array {
@@ -130,17 +119,11 @@ export class MoebiusMap {
   }
 
   private call(name: string, rows: Argument, count: number, width: number): Float64Array {
-    return kernel().run((session) => {
-      const out = session.place(Float64Array, width * count);
-      session.call(name, this.forKernel, rows, count, out);
-      return out.copy();
-    });
+    return computed(width * count, name, this.forKernel, rows, count);
   }
 
   /** Both matrices, each with what its doubles leave, and the magnification between them. */
   private get forKernel(): Float64Array {
-    const numbers = (matrix: Row): number[] => [...matrix.map((part) => part.hi), ...matrix.map((part) => part.lo)];
-    const [left, right] = [this.left.exactMatrix, this.right.exactMatrix];
-    return (this.parts ??= Float64Array.of(...numbers(left), this.magnification, ...numbers(right)));
+    return (this.parts ??= Float64Array.of(...this.left.exactMatrix, this.magnification, ...this.right.exactMatrix));
   }
 }

@@ -2,25 +2,7 @@
 
 import { asDirections, asLonlat, asRows, asScalar, entry, type Numbers } from "./checks.ts";
 import { lonlatToXyz } from "./coordinates.ts";
-import {
-  cross,
-  difference,
-  dot,
-  DoubleDouble,
-  exactly,
-  over,
-  rounded,
-  scaled,
-  sum,
-  unit,
-  type Row,
-} from "./double_double.ts";
-import { kernel } from "./instance.ts";
-
-const TWO = new DoubleDouble(2);
-const HALF = new DoubleDouble(0.5);
-/** Distance of unit vectors in double-double that cannot be told from none. */
-const UNDECIDED = 2 ** -100;
+import { computed } from "./instance.ts";
 
 /**
  * A rotation about the centre of the sphere. Equal to that of the Python class of the same name, bit for bit.
@@ -32,7 +14,7 @@ const UNDECIDED = 2 ** -100;
 export class Rotation {
   /** (w, x, y, z) over a power of two; only its direction counts. */
   readonly quaternion: Float64Array;
-  private exact: Row | null = null;
+  private exact: Float64Array | null = null;
 
   /** @param quaternion (cos θ/2, axis · sin θ/2) up to length: counterclockwise by θ, seen from the axis' tip. */
   constructor(quaternion: Numbers) {
@@ -58,52 +40,39 @@ export class Rotation {
    */
   static about(axis: Numbers, angle: number): Rotation {
     const half = asScalar(angle, "angle") / 2;
-    const [sine, sineLow, cosine, cosineLow] = kernel().run((session) => {
-      const parts = session.place(Float64Array, 4);
-      session.call("sin_cos_degrees", Float64Array.of(half), 1, parts);
-      return parts.copy();
-    });
-    const direction = unit(asDirection(axis, "axis")).map((part) => part.times(new DoubleDouble(sine, sineLow)));
-    return new Rotation(rounded([new DoubleDouble(cosine, cosineLow), ...direction]));
+    return new Rotation(computed(4, "rotation_about", asDirection(axis, "axis"), half));
   }
 
   /** The shortest rotation that takes one point to another, both (longitude, latitude) in degrees or directions. */
   static between(start: Numbers, end: Numbers): Rotation {
-    return new Rotation(rounded(between(unit(asDirection(start, "start")), unit(asDirection(end, "end")))));
+    return new Rotation(computed(4, "rotation_between", asDirection(start, "start"), asDirection(end, "end")));
   }
 
   /** Rotated vectors, row after row: the exact result for the exact quaternion, rounded once. */
   apply(xyz: Numbers): Float64Array {
     const rows = asRows(xyz, 3, "xyz");
-    const [a, b, c, d, e, f, g, h, i] = this.exactMatrix;
-    const turned = new Float64Array(rows.length);
-    for (let k = 0; k < rows.length; k += 3) {
-      const [x, y, z] = exactly(rows.subarray(k, k + 3));
-      turned[k] = a.times(x).plus(b.times(y)).plus(c.times(z)).round() + 0;
-      turned[k + 1] = d.times(x).plus(e.times(y)).plus(f.times(z)).round() + 0;
-      turned[k + 2] = g.times(x).plus(h.times(y)).plus(i.times(z)).round() + 0;
-    }
-    return turned;
+    return computed(rows.length, "rotated", this.quaternion, rows, rows.length / 3);
   }
 
   /** The matrix, row after row, rounded once. */
   get matrix(): Float64Array {
-    return rounded(this.exactMatrix).map((value) => value + 0);
+    return this.exactMatrix.slice(0, 9).map((value) => value + 0);
   }
 
-  /** The matrix in double-double, row after row. */
-  get exactMatrix(): Row {
-    return (this.exact ??= rotationMatrix(exactly(this.quaternion)));
+  /** The matrix in double-double, row after row: its doubles, then what they leave. */
+  get exactMatrix(): Float64Array {
+    return (this.exact ??= computed(18, "rotation_matrix", this.quaternion));
   }
 
   /** First `other`, then this one; the exact product rounded once. */
   after(other: Rotation): Rotation {
-    return new Rotation(rounded(multiply(exactly(this.quaternion), exactly(other.quaternion))));
+    return new Rotation(computed(4, "rotation_product", this.quaternion, other.quaternion));
   }
 
   /** The exact inverse. */
   inverse(): Rotation {
-    return new Rotation(conjugate(exactly(this.quaternion)).map((part) => part.hi));
+    const [w, x, y, z] = this.quaternion;
+    return new Rotation([w, -x, -y, -z]);
   }
 }
 
@@ -120,50 +89,19 @@ export function asDirection(point: Numbers, name: string): Float64Array {
   throw new RangeError(`${name} must be (lon, lat) in degrees or a direction (x, y, z), got ${values.length} numbers`);
 }
 
-/** The product p q of quaternions: as rotations, first q, then p. */
-export function multiply([pw, px, py, pz]: Row, [qw, qx, qy, qz]: Row): Row {
-  return [
-    pw.times(qw).minus(px.times(qx)).minus(py.times(qy)).minus(pz.times(qz)),
-    pw.times(qx).plus(px.times(qw)).plus(py.times(qz)).minus(pz.times(qy)),
-    pw.times(qy).minus(px.times(qz)).plus(py.times(qw)).plus(pz.times(qx)),
-    pw.times(qz).plus(px.times(qy)).minus(py.times(qx)).plus(pz.times(qw)),
-  ];
+/** Doubles over a power of two, the largest of them in [1/2, 1). */
+function scaled(values: ArrayLike<number>): Float64Array {
+  const largest = Array.from(values).reduce((most, value) => Math.max(most, Math.abs(value)), 0);
+  const exponent = exponentOf(largest);
+  const half = Math.floor(exponent / 2); // in two steps: 2^1074 is no double
+  return Float64Array.from(values, (value) => value * 2 ** -half * 2 ** (half - exponent));
 }
 
-/** The inverse rotation, exactly. */
-export const conjugate = ([w, ...axis]: Row): Row => [w, ...axis.map((part) => part.negated())];
-
-/** The quaternion of length 1. */
-export const normalized = (q: Row): Row => over(q, dot(q, q).sqrt());
-
-function rotationMatrix(q: Row): Row {
-  const [w, x, y, z] = q;
-  const [ww, xx, yy, zz] = q.map((part) => part.times(part));
-  const rows = [
-    ww.plus(xx).minus(yy).minus(zz),
-    x.times(y).minus(w.times(z)).times(TWO),
-    x.times(z).plus(w.times(y)).times(TWO),
-    x.times(y).plus(w.times(z)).times(TWO),
-    ww.minus(xx).plus(yy).minus(zz),
-    y.times(z).minus(w.times(x)).times(TWO),
-    x.times(z).minus(w.times(y)).times(TWO),
-    y.times(z).plus(w.times(x)).times(TWO),
-    ww.minus(xx).minus(yy).plus(zz),
-  ];
-  return over(rows, dot(q, q));
-}
-
-/**
- * The shortest rotation from unit vector a to b, as a quaternion of any length: (1 + a·b, a × b), written so that
- * nothing cancels; half a turn about a × e, e the axis along which a is shortest, for opposite ones.
- */
-export function between(a: Row, b: Row): Row {
-  const total = sum(a, b);
-  const square = dot(total, total);
-  if (square.hi <= UNDECIDED ** 2) {
-    const sizes = a.map((part) => Math.abs(part.hi));
-    const least = sizes.indexOf(Math.min(...sizes));
-    return [new DoubleDouble(0), ...cross(a, exactly([0, 1, 2].map((k) => (k === least ? 1 : 0))))];
-  }
-  return [square.times(HALF), ...cross(a, dot(a, b).hi < 0 ? total : difference(b, a))];
+/** k with |value| in [2^(k - 1), 2^k); 0 for 0. */
+function exponentOf(value: number): number {
+  if (value === 0) return 0;
+  const bits = new DataView(new ArrayBuffer(8));
+  bits.setFloat64(0, value);
+  const stored = (bits.getUint32(0) >>> 20) & 0x7ff;
+  return stored > 0 ? stored - 1022 : exponentOf(value * 2 ** 54) - 54; // below: a subnormal number
 }
