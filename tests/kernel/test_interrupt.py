@@ -69,13 +69,15 @@ for k, change in enumerate(({changes})):
     except KeyboardInterrupt:
         print("interrupted")
     after = mesh.read()
-    assert after[0] == mesh.changes == before[0]
-    assert np.array_equal(after[1], before[1])
     check_delaunay(after[1], after[2], duplicates=after[4], neighbors=after[3])
-    assert after[5:] == before[5:]
-    assert mesh.insert(points[:1]) == len(before[1])
+    if after[0] == before[0]:  # else it came at the very end
+        print("undone")
+        assert np.array_equal(after[1], before[1])
+        assert after[5:] == before[5:]
+    size = len(after[1])
+    assert mesh.insert(points[:1]) == size
     check_delaunay(mesh.read()[1], mesh.read()[2])
-    assert mesh.remove(np.array([len(before[1])], dtype=np.int32)).tolist()[-1] == -1
+    assert mesh.remove(np.array([size], dtype=np.int32)).tolist()[-1] == -1
     before = mesh.read()
 """
 CHANGES = {
@@ -87,11 +89,12 @@ CHANGES = {
 @pytest.mark.skipif(sys.platform == "win32", reason="no timers there")
 @pytest.mark.parametrize("change", CHANGES)
 def test_a_change_that_was_interrupted_leaves_what_was_before(change):
+    """Unless it came to its end all the same."""
     size, changes = CHANGES[change]
     program = INTERRUPTED.format(size=size, changes=f"{changes},")
     ran = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True, timeout=60)
-    assert set(ran.stdout.split()) == {"interrupted"}
-    assert len(ran.stdout.split()) == changes.count("lambda")
+    assert ran.stdout.split().count("interrupted") == changes.count("lambda")
+    assert "undone" in ran.stdout
 
 
 ALONE = """

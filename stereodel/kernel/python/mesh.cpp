@@ -70,7 +70,8 @@ Buffer<T> copied(const T* values, std::size_t count) {
 //   for it.
 // * A state is written out under the lock, whole, so it is never that of two changes. `changes` counts those that are
 //   done, and is increased under the lock: while it is that of a state, the state is the present one.
-// * A change that does not come to its end leaves the points of before, and does not count.
+// * A change that does not come to its end leaves the points of before, and does not count. One that Ctrl-C comes too
+//   late for is made, and counts, though its caller is told of the interruption.
 template <class Surface>
 class BoundMesh {
   public:
@@ -328,8 +329,8 @@ void bind(nb::module_& space, const char* doc) {
                       std::optional<nb::dict>, bool>(),
              "points"_a, "simplices"_a, "neighbors"_a, "duplicates"_a = nb::none(), "inconclusive"_a = nb::none(),
              "checked"_a = false,
-             "The triangulation of `points`, as `triangulate` gives it. Copies everything. While one thread changes it, "
-             "the others wait, without the interpreter's lock.")
+             "The triangulation of `points`, as `triangulate` gives it. Copies everything. While one thread changes "
+             "it, the others wait, without the interpreter's lock.")
         .def("insert", &Bound::insert, "points"_a, "workers"_a = 1, "anew"_a = 0,
              "Append points. Returns the number of the first. anew: all are triangulated anew if so many times the new "
              "ones are more than the old ones.")
