@@ -39,10 +39,11 @@ def begun(change, mesh):
     """The thread that makes a change of a kernel's mesh, once it does: then who asks the mesh must wait."""
     changer = threading.Thread(target=change)
     changer.start()
-    while changer.is_alive():
-        asker = threading.Thread(target=lambda: mesh.size)
+    asks, asker = threading.Event(), threading.Thread()
+    while changer.is_alive() and not asker.is_alive():
+        asks.clear()
+        asker = threading.Thread(target=lambda: (asks.set(), mesh.size))
         asker.start()
-        asker.join(0.005)
-        if asker.is_alive():
-            break
+        asks.wait()
+        asker.join(0.02)
     return changer

@@ -420,17 +420,20 @@ class Delaunay(ABC):
     def __copy__(self) -> Self:
         """An object of its own that shares the present state, and makes its own mesh when it is changed."""
         twin = type(self).__new__(type(self))
-        now = self._now()
-        twin.__dict__.update((name, value) for name, value in self.__dict__.items() if name != "_mesh")
-        twin._last = 0, now
+        twin.__dict__.update(self._own())
+        twin._last = 0, self._now()
         return twin
+
+    def _own(self) -> dict[str, Any]:
+        """What it holds beside state and mesh."""
+        own = self.__dict__.copy()  # in one step: another thread may be setting the mesh
+        return {name: value for name, value in own.items() if name not in {"_mesh", "_last"}}
 
     def __getstate__(self) -> dict[str, Any]:
         """Only arrays; a copy makes its own mesh when it is changed."""
         now = self._now()
-        own = {name: value for name, value in self.__dict__.items() if name not in {"_mesh", "_last"}}
         made = now.simplices, now.known_neighbors, now.duplicates, now.dimension, now.inconclusive
-        return own | {"_arrays": (now.points, made)}
+        return self._own() | {"_arrays": (now.points, made)}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         points, made = state["_arrays"]

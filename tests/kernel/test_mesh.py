@@ -359,7 +359,7 @@ signal.setitimer(signal.ITIMER_REAL, 0.02)
 mesh.insert(points[100:])
 assert found == [(1, 60_000, 60_001)], found
 
-changer = threading.Thread(target=mesh.insert, args=(points + 2,))
+changer = threading.Thread(target=mesh.insert, args=(np.random.default_rng(1).random((400_000, 2)) + 2,))
 signal.signal(signal.SIGALRM, signal.default_int_handler)
 changer.start()
 signal.setitimer(signal.ITIMER_REAL, 0.05)
@@ -369,7 +369,7 @@ try:
 except KeyboardInterrupt:
     assert changer.is_alive()
     changer.join()
-    assert mesh.size == 120_001
+    assert mesh.size == 460_001
     print("interrupted")
 """
     ran = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False, timeout=60)
