@@ -32,9 +32,11 @@ def as_doubles(values: npt.ArrayLike, name: str) -> npt.NDArray[np.float64]:
 
 def is_masked(values: npt.ArrayLike) -> bool:
     """Whether some of the values of a masked array are masked."""
-    # There are no masked arrays before numpy.ma is loaded, and loading it would take a tenth of our import time.
+    # There are no masked arrays before numpy.ma is loaded, and loading it would take a tenth of our import time. It has
+    # no such class yet while another thread loads it.
     masked = sys.modules.get("numpy.ma")
-    return masked is not None and isinstance(values, masked.MaskedArray) and bool(masked.is_masked(values))
+    kind = getattr(masked, "MaskedArray", None)
+    return kind is not None and isinstance(values, kind) and bool(np.any(getattr(values, "mask", False)))
 
 
 def refuse_masked(values: npt.ArrayLike, name: str) -> None:

@@ -167,50 +167,45 @@ class Mesh:
         neighbors: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
         duplicates: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order="C", device="cpu", writable=False)]
         | None = None,
+        inconclusive: dict | None = None,
         checked: bool = False,
     ) -> None:
         """
-        The triangulation of `points`, as `triangulate_...` gives it; at least one triangle. Copies everything.
+        The triangulation of `points`, as `triangulate` gives it. Copies everything. While one thread changes it, the others wait, without the interpreter's lock.
         """
 
     def insert(
-        self, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)]
-    ) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order="C")]:
+        self,
+        points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+        workers: int = 1,
+        anew: int = 0,
+    ) -> int:
         """
-        Append points. Returns the pairs [dropped, kept] of those that repeat an earlier one.
+        Append points. Returns the number of the first. anew: all are triangulated anew if so many times the new ones are more than the old ones.
         """
 
     def remove(
-        self, indices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)]
+        self,
+        indices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
+        workers: int = 1,
+        anew: int = 0,
     ) -> Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C")]:
         """
-        Take points out, number the others anew in the same order. Returns old -> new, -1 = removed.
+        Take points out, number the others anew in the same order. Returns old -> new, -1 = removed. anew: as for `insert`, of those removed and of those left.
         """
 
-    def arrays(self) -> tuple:
+    def read(self, workers: int = 1) -> tuple:
         """
-        Simplices, smallest index first, and neighbors, -1 for none, as new arrays.
+        All of one state, in arrays that nobody changes: changes so far, points, then what `triangulate` gives; pairs [dropped, kept] by dropped.
         """
 
     @property
-    def duplicates(self) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order="C")]:
-        """All pairs [dropped, kept], by dropped; the lowest index is kept."""
-
-    @property
-    def is_flat(self) -> bool:
-        """Whether no triangles are left: then points can only be removed."""
+    def changes(self) -> int:
+        """Number of changes that have come to their end."""
 
     @property
     def size(self) -> int:
         """Number of points, duplicates included."""
-
-    @property
-    def changes(self) -> int:
-        """Number of changes that have begun, failed ones too."""
-
-    @property
-    def inconclusive(self) -> dict:
-        """Tests that each stage left open, in changes so far."""
 
 def part_of(
     points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],

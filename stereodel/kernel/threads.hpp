@@ -31,6 +31,7 @@
 #if STEREODEL_THREADS
 #include <condition_variable>
 #include <mutex>
+#include <shared_mutex>
 #include <system_error>
 #include <thread>
 #endif
@@ -58,7 +59,49 @@ inline int useful_workers(int workers, std::size_t size, std::size_t worth_a_thr
 
 using Mutex = std::mutex;
 using Lock = std::lock_guard<Mutex>;
-using PatientMutex = std::timed_mutex;  // can be waited for a while
+
+// For many who read at a time, or for one alone who writes. All pass a gate. Who is to be alone shuts it and then waits
+// for those inside to leave: readers who keep coming do not keep a writer out for good. Nobody waits for more than
+// `a_while` without looking up.
+class PatientMutex {
+  public:
+    // look() is called before each wait; what it throws ends the waiting, and nothing is held.
+    template <class Look>
+    void lock_shared(Look&& look) {
+        const Gate gate(*this, look);
+        while (!inside_.try_lock_shared_for(a_while)) {
+            look();
+        }
+    }
+    template <class Look>
+    void lock(Look&& look) {
+        const Gate gate(*this, look);
+        while (!inside_.try_lock_for(a_while)) {
+            look();
+        }
+    }
+    void unlock_shared() { inside_.unlock_shared(); }
+    void unlock() { inside_.unlock(); }
+
+  private:
+    static constexpr std::chrono::milliseconds a_while{20};
+
+    struct Gate {
+        template <class Look>
+        Gate(PatientMutex& mutex, Look&& look) : gate(mutex.gate_) {
+            do {
+                look();
+            } while (!gate.try_lock_for(a_while));
+        }
+        Gate(const Gate&) = delete;
+        Gate& operator=(const Gate&) = delete;
+        ~Gate() { gate.unlock(); }
+        std::timed_mutex& gate;
+    };
+
+    std::timed_mutex gate_;
+    std::shared_timed_mutex inside_;
+};
 
 // Lets other threads go first, while this one waits for what they do.
 inline void wait_for_others() {
@@ -221,7 +264,15 @@ struct Lock {
 };
 
 struct PatientMutex {
-    bool try_lock_for(std::chrono::milliseconds) { return true; }
+    template <class Look>
+    void lock_shared(Look&& look) {
+        look();
+    }
+    template <class Look>
+    void lock(Look&& look) {
+        look();
+    }
+    void unlock_shared() {}
     void unlock() {}
 };
 
@@ -256,18 +307,28 @@ class Crew {
 
 #endif
 
-// A lock that calls look() before it waits, and each millisecond while it does: what that throws ends the waiting.
-class PatientLock {
+// Locks that are waited for until `stop` is raised.
+class SharedLock {
   public:
-    template <class Look>
-    PatientLock(PatientMutex& mutex, Look&& look) : mutex_(mutex) {
-        do {
-            look();
-        } while (!mutex.try_lock_for(std::chrono::milliseconds(1)));
+    SharedLock(PatientMutex& mutex, Stop stop) : mutex_(mutex) {
+        mutex_.lock_shared([stop] { check(stop); });
     }
-    PatientLock(const PatientLock&) = delete;
-    PatientLock& operator=(const PatientLock&) = delete;
-    ~PatientLock() { mutex_.unlock(); }
+    SharedLock(const SharedLock&) = delete;
+    SharedLock& operator=(const SharedLock&) = delete;
+    ~SharedLock() { mutex_.unlock_shared(); }
+
+  private:
+    PatientMutex& mutex_;
+};
+
+class LoneLock {
+  public:
+    LoneLock(PatientMutex& mutex, Stop stop) : mutex_(mutex) {
+        mutex_.lock([stop] { check(stop); });
+    }
+    LoneLock(const LoneLock&) = delete;
+    LoneLock& operator=(const LoneLock&) = delete;
+    ~LoneLock() { mutex_.unlock(); }
 
   private:
     PatientMutex& mutex_;

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, ClassVar, Final, Self, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, Final, Generic, Self, TypeVar, cast
 
 import numpy as np
 import numpy.typing as npt
@@ -22,17 +22,20 @@ from stereodel._arrays import (
 )
 from stereodel._calls import by_name
 from stereodel._docs import shared
+from stereodel._kernel import sphere
 from stereodel._threads import thread_count
 from stereodel.constants import REBUILD_INSERTING, REBUILD_REMOVING
 from stereodel.sphere.latitudes import Latitude
 from stereodel.sphere.lonlat import BY_NAME, LONLAT, as_asked
 from stereodel.triangulation.topology import adjacency_of, boundary_of, edges_of, neighbors_of
-from stereodel.triangulation.versions import Versioned, kept
 
 if TYPE_CHECKING:
     from stereodel._kernel.space import Mesh, Space
 
 _T = TypeVar("_T")
+
+Made = tuple[IntArray, IntArray | None, IntArray, int, dict[str, int]]
+"""Simplices, neighbors or None, duplicates, dimension and inconclusive tests, as the kernel gives them."""
 
 FAMILY: Final = {
     "options": """
@@ -50,18 +53,87 @@ FAMILY: Final = {
         """,
     "changes": """
         Arrays are read-only; `insert` and `remove` replace them. Several threads may query at the same time. While one
-        of them changes the triangulation, queries and changes by the others raise a RuntimeError; copies (`copy.copy`)
-        share the arrays and are independent.
+        of them changes the triangulation, queries and changes by the others wait; each answer is that of one state.
+        Copies (`copy.copy`) share the arrays and are independent.
         """,
 }
 """What the docstrings of both triangulations have in common."""
 
 
-class Delaunay(Versioned, ABC):
+class _kept(Generic[_T]):  # noqa: N801  # a decorator, like `property`
+    """What follows from a state, computed once.
+
+    Threads that ask at the same time may all compute it; the first that comes, in one step, decides what all have. As
+    `functools.cached_property`, which promises the last, and up to Python 3.11 lets other states wait meanwhile.
+    """
+
+    def __init__(self, compute: Callable[[_State], _T]) -> None:
+        self._compute = compute
+        self._name = compute.__name__
+
+    def __get__(self, state: _State, _: type) -> _T:
+        # Found in the instance from then on: this has no __set__.
+        return cast("_T", state.__dict__.setdefault(self._name, self._compute(state)))
+
+
+class _State:
+    """A triangulation between two changes: arrays that never change, and what follows from these alone."""
+
+    def __init__(self, space: Space, workers: int | None, points: FloatArray, made: Made) -> None:
+        simplices, neighbors, duplicates, self.dimension, self.inconclusive = made
+        self.points, self.simplices, self.duplicates = points, locked(simplices), locked(duplicates)
+        self.known_neighbors = None if neighbors is None else locked(neighbors)
+        self._space, self._workers = space, workers
+
+    @_kept
+    def neighbors(self) -> IntArray:
+        return locked(neighbors_of(self.simplices)) if self.known_neighbors is None else self.known_neighbors
+
+    @_kept
+    def edges(self) -> IntArray:
+        return locked(edges_of(self.simplices))
+
+    @_kept
+    def vertex_neighbor_vertices(self) -> tuple[IntArray, IntArray]:
+        indptr, indices = adjacency_of(self.edges, len(self.points))
+        return locked(indptr), locked(indices)
+
+    @_kept
+    def convex_hull(self) -> IntArray:
+        return locked(boundary_of(self.simplices, self.neighbors, self.open))
+
+    @_kept
+    def circumcenters(self) -> FloatArray:
+        threads = thread_count(self._workers, len(self.points))
+        return locked(self._space.circumcenters(self.points, self.simplices, None, threads, True))
+
+    @_kept
+    def closing(self) -> BoolArray | None:
+        """Triangles that no query can lie in; None in the plane, where there are none."""
+        return locked(sphere.closing(self.points, self.simplices)) if self._space is sphere else None
+
+    @_kept
+    def open(self) -> BoolArray:
+        """Triangles that a query can lie in."""
+        return locked(np.ones(len(self.simplices), dtype=np.bool_) if self.closing is None else ~self.closing)
+
+    @_kept
+    def flat_order(self) -> IntArray:
+        """The distinct points in the order along their line or great circle, without triangles."""
+        return locked(self._space.flat_order(self.points, checked=True))
+
+    @property
+    def triangles(self) -> tuple[FloatArray, IntArray, IntArray]:
+        """As the kernel's queries take them."""
+        return self.points, self.simplices, self.neighbors
+
+
+class Delaunay(ABC):
     """A triangulation that depends only on the set of points; see the two subclasses.
 
-    After `insert` and `remove` the kernel's mesh is what is up to date, and arrays are made from it when asked for. It
-    goes from version to version; one that has lost it starts from its points.
+    The first change makes a mesh of the kernel, which from then on has the points: changes and states come from it
+    alone, and its lock lets one thread at a time change it while the others wait. A query takes a state once and asks
+    nothing else, so it never mixes two; it holds no lock while it works on the arrays, which never change.
     """
 
     _space: ClassVar[Space]
@@ -69,149 +141,100 @@ class Delaunay(Versioned, ABC):
     _latitude: Latitude | None = None
     _workers: int | None
     _eager: bool  # whether neighbors are wanted with the simplices
-
-    # Of a version, beside what is kept:
-    _chunks: tuple[FloatArray, ...]  # the points, in pieces until asked for
-    _size: int  # number of points
-    _mesh: Mesh  # if it has one
-    _changes: int  # of the mesh, up to this version
-    _counts: dict[str, int]  # inconclusive tests before the mesh was made
+    _mesh: Mesh | None = None  # from the first change on
+    _last: tuple[int, _State]  # the state that was asked for last, and after how many changes of the mesh it is
 
     def __init__(self, points: npt.ArrayLike, *, workers: int | None = None, neighbors: bool = True) -> None:
         self._workers = as_workers(workers)
         self._eager = bool(neighbors)
-        self._hold(self._fresh(private(self._as_points(points, f"{type(self).__name__}.from_lonlat"), points)))
+        own = private(self._as_points(points, f"{type(self).__name__}.from_lonlat"), points)
+        threads = thread_count(self._workers, len(own))
+        self._begin(own, self._space.triangulate(own, threads, self._eager))
 
     @classmethod
     def _from_simplices(cls, points: FloatArray, simplices: IntArray, duplicates: IntArray) -> Self:
         """The triangulation of `points` whose simplices are known already, as from the dual diagram; not checked."""
         self = cls.__new__(cls)
         self._workers, self._eager = None, True
-        version = self._new_version((points,))
-        version.__dict__["_built"] = simplices, None, duplicates, 2, dict.fromkeys(self._space.stages, 0)
-        self._hold(version)
+        self._begin(points, (simplices, None, duplicates, 2, dict.fromkeys(self._space.stages, 0)))
         return self
 
-    def _new_version(self, chunks: tuple[FloatArray, ...]) -> Self:
-        version = type(self).__new__(type(self))
-        version._workers, version._eager = self._workers, self._eager
-        version._chunks, version._size = chunks, sum(map(len, chunks))
-        return version
+    def _begin(self, points: FloatArray, made: Made) -> None:
+        self._last = 0, _State(self._space, self._workers, points, made)
 
-    def _fresh(self, points: FloatArray) -> Self:
-        """A version that starts from its points."""
-        version = self._new_version((points,))
-        _ = version._built
-        return version
+    def _now(self) -> _State:
+        """The present state; waits while another thread changes the triangulation.
 
-    def _changed(self, change: Callable[[Mesh], _T], chunks: tuple[FloatArray, ...]) -> tuple[Self, _T]:
-        """The version after a change of this one's mesh, and what the change returns.
-
-        The mesh is lost to this version, whether the change succeeds or not.
+        The order matters. Without a mesh no change had ended when this was asked. With one, the number of its changes
+        is read after `_last`: if it is that of the state, no change had ended since. States that two threads read at
+        the same time hold the same arrays; whichever they leave in `_last`, its number tells whether it is out of date.
         """
-        version = self._new_version(chunks)
-        tests = self._tests  # before the mesh goes on, which knows what earlier changes cost
-        mesh = self.__dict__.pop("_mesh", None)  # in one step: a copy that shares this version cannot have it, too
-        version._counts = tests if mesh is None else self._counts
-        version._mesh = mesh or self._space.Mesh(*self._triangles(), self.duplicates, True)
-        result = change(version._mesh)
-        version._changes = version._mesh.changes
-        version.__dict__["dimension"] = 2
-        return version, result
+        mesh = self._mesh
+        changes, state = self._last
+        if mesh is not None and mesh.changes != changes:
+            found = mesh.read(thread_count(self._workers, mesh.size))
+            state = _State(self._space, self._workers, found[1], found[2:])
+            self._last = found[0], state
+        return state
 
-    @kept
-    def _built(self) -> tuple[IntArray, IntArray | None, IntArray, int, dict[str, int]]:
-        """Simplices, neighbors or None, duplicates, dimension and inconclusive tests, from the points alone."""
-        return self._space.triangulate(self.points, thread_count(self._workers, self._size), self._eager)
+    def _changing(self) -> Mesh:
+        """The mesh to be changed. Of threads that make it at the same time, one sets it for all, in one step."""
+        if self._mesh is None:
+            state = self._last[1]
+            rows = state.simplices, state.neighbors, state.duplicates
+            made = self._space.Mesh(state.points, *rows, state.inconclusive, checked=True)
+            self.__dict__.setdefault("_mesh", made)
+        return cast("Mesh", self._mesh)
 
-    def _from_mesh(self, read: Callable[[Mesh], _T]) -> _T | None:
-        """What the mesh says of this version, None if there is none."""
-        mesh = self.__dict__.get("_mesh")
-        if mesh is None:
-            return None
-        try:
-            value = read(mesh)
-        except RuntimeError:
-            if "_mesh" in self.__dict__:
-                raise
-            return None
-        return value if mesh.changes == self._changes else None  # None: it has gone on meanwhile
-
-    @kept
-    def _rows(self) -> tuple[IntArray, IntArray | None]:
-        """Simplices, and neighbors if known: of one origin, as the order of rows depends on it."""
-        simplices, neighbors = self._from_mesh(lambda mesh: mesh.arrays()) or self._built[:2]
-        return locked(simplices), None if neighbors is None else locked(neighbors)
-
-    @kept
+    @property
     def dimension(self) -> int:
         """Dimension of the point set: -1 without points, 0, 1, or 2 when there are triangles."""
-        return self._built[3]
+        return self._now().dimension
 
-    @kept
+    @property
     def points(self) -> FloatArray:
         """The points, in the order given, inserted ones at the end."""
-        return self._chunks[0] if len(self._chunks) == 1 else locked(np.concatenate(self._chunks))
+        return self._now().points
 
-    @kept
+    @property
     def simplices(self) -> IntArray:
         """Triangles (m, 3) int32, counterclockwise, smallest index first."""
-        return self._rows[0]
+        return self._now().simplices
 
-    @kept
+    @property
     def neighbors(self) -> IntArray:
         """Triangle opposite each corner, (m, 3) int32, -1 where there is none."""
-        simplices, neighbors = self._rows
-        return locked(neighbors_of(simplices)) if neighbors is None else neighbors
+        return self._now().neighbors
 
-    @kept
+    @property
     def duplicates(self) -> IntArray:
         """Pairs [dropped, kept] of equal points, (k, 2) int32."""
-        pairs = self._from_mesh(lambda mesh: mesh.duplicates)
-        return locked(self._built[2] if pairs is None else pairs)
+        return self._now().duplicates
 
     @property
     def inconclusive(self) -> dict[str, int]:
         """Number of tests that each stage left open, in construction and changes."""
-        return dict(self._present()._tests)
+        return dict(self._now().inconclusive)
 
-    @kept
-    def _tests(self) -> dict[str, int]:
-        changes = self._from_mesh(lambda mesh: mesh.inconclusive)
-        if changes is None:
-            return self._built[4]
-        return {stage: count + changes.get(stage, 0) for stage, count in self._counts.items()}
-
-    @kept
+    @property
     def edges(self) -> IntArray:
         """Edges (e, 2) int32 with i < j, in lexicographic order."""
-        return locked(edges_of(self.simplices))
+        return self._now().edges
 
-    @kept
+    @property
     def vertex_neighbor_vertices(self) -> tuple[IntArray, IntArray]:
         """Neighbours of each point: ``indices[indptr[k]:indptr[k + 1]]`` of the tuple (indptr, indices)."""
-        indptr, indices = adjacency_of(self.edges, self._size)
-        return locked(indptr), locked(indices)
+        return self._now().vertex_neighbor_vertices
 
-    @kept
+    @property
     def convex_hull(self) -> IntArray:
         """Directed edges (h, 2) int32 around the triangles, which lie on the left, in lexicographic order."""
-        return locked(boundary_of(self.simplices, self.neighbors, self._open))
+        return self._now().convex_hull
 
-    @kept
+    @property
     def circumcenters(self) -> FloatArray:
         """Centre of each triangle's circle, (m, 2) or (m, 3)."""
-        return locked(self._space.circumcenters(self.points, self.simplices, None, self._thread_count(), True))
-
-    @kept
-    def _open(self) -> BoolArray:
-        """Triangles that a query can lie in."""
-        return locked(np.ones(len(self.simplices), dtype=np.bool_))
-
-    @kept
-    def _flat_order(self) -> IntArray:
-        """The distinct points in the order along their line or great circle, without triangles."""
-        return locked(self._space.flat_order(self.points, checked=True))
+        return self._now().circumcenters
 
     @property
     def latitude(self) -> Latitude | None:
@@ -246,14 +269,10 @@ class Delaunay(Versioned, ABC):
         pairs = None if lonlat is None else as_points(lonlat, 2, "lonlat")
         given = as_asked(points, pairs, self._latitude, "points")
         added = private(self._as_points(given, "insert(lonlat=…)"), given)
-        with self._change():
-            before = self._latest()
-            if before.dimension < 2 or REBUILD_INSERTING * len(added) > before._size:
-                self._put(before._fresh(locked(np.concatenate([before.points, added]))))
-            else:
-                version, _ = before._changed(lambda mesh: mesh.insert(added), (*before._chunks, added))
-                self._put(version)
-        return np.arange(before._size, before._size + len(added), dtype=np.int32)
+        mesh = self._changing()
+        threads = thread_count(self._workers, mesh.size + len(added))
+        first = mesh.insert(added, threads, REBUILD_INSERTING)
+        return np.arange(first, first + len(added), dtype=np.int32)
 
     def remove(self, indices: npt.ArrayLike) -> IntArray:
         """Remove points; the others keep their order and are renumbered.
@@ -279,22 +298,11 @@ class Delaunay(Versioned, ABC):
         several duplicates is removed, the lowest remaining one takes its place. Arrays handed out earlier do not
         change.
         """
-        with self._change():
-            before = self._latest()
-            points = before.points
-            gone = as_indices(indices, len(points))
-            if not len(gone):
-                return np.arange(len(points), dtype=np.int32)
-            stays = np.ones(len(points), dtype=np.bool_)
-            stays[gone] = False
-            left = np.flatnonzero(stays)
-            rest = locked(points.take(left, axis=0))  # four times as fast as points[stays]
-            if before.dimension < 2 or REBUILD_REMOVING * (len(points) - len(left)) > len(left):
-                self._put(before._fresh(rest))
-                return np.where(stays, np.cumsum(stays, dtype=np.int32) - np.int32(1), np.int32(-1))
-            version, number = before._changed(lambda mesh: mesh.remove(gone.astype(np.int32)), (rest,))
-            self._put(before._fresh(rest) if version._mesh.is_flat else version)
-        return number
+        size = len(self._now().points) if self._mesh is None else self._mesh.size
+        gone = as_indices(indices, size)  # and once more by the kernel, for another thread may have removed some
+        if not len(gone):
+            return np.arange(size, dtype=np.int32)
+        return self._changing().remove(gone.astype(np.int32), thread_count(self._workers, size), REBUILD_REMOVING)
 
     @by_name(BY_NAME)
     @shared(**LONLAT)
@@ -326,9 +334,9 @@ class Delaunay(Versioned, ABC):
             For values that are not finite real numbers, zero vectors, or another last axis; for `lonlat` where the
             points were not given by longitude and latitude.
         """
-        now = self._present()
-        array, flat, threads = now._as_queries(as_asked(queries, lonlat, self._latitude), workers)
-        return _shaped(now._space.find_simplex(*now._triangles(), flat, now._closed(), threads, True), array)
+        now = self._now()
+        array, flat, threads = self._as_queries(as_asked(queries, lonlat, self._latitude), workers)
+        return _shaped(self._space.find_simplex(*now.triangles, flat, now.closing, threads, True), array)
 
     @by_name(BY_NAME)
     @shared(**LONLAT)
@@ -385,25 +393,19 @@ class Delaunay(Versioned, ABC):
         >>> square.nearest([[1.5, 1.0], [0.1, 1.9]], k=4).tolist()
         [[1, 2, 4, 0], [3, 0, 2, 4]]
         """
-        now = self._present()
-        if now._size == 0:
+        now, space = self._now(), self._space
+        size = len(now.points)
+        if size == 0:
             raise ValueError("nearest needs at least one point; this triangulation has none")
-        array, flat, threads = now._as_queries(as_asked(queries, lonlat, self._latitude), workers)
-        count = 1 if k is None else as_count(k, "k", high=now._size)
+        array, flat, threads = self._as_queries(as_asked(queries, lonlat, self._latitude), workers)
+        count = 1 if k is None else as_count(k, "k", high=size)
         if now.dimension < 2:
-            found = now._space.nearest_flat(now.points, now._flat_order, now.duplicates, flat, count, threads, True)
+            found = space.nearest_flat(now.points, now.flat_order, now.duplicates, flat, count, threads, True)
         elif k is None:
-            found = now._space.nearest(*now._triangles(), flat, now._closed(), threads, True)
+            found = space.nearest(*now.triangles, flat, now.closing, threads, True)
         else:
-            found = now._space.k_nearest(*now._triangles(), now.duplicates, flat, count, now._closed(), threads, True)
+            found = space.k_nearest(*now.triangles, now.duplicates, flat, count, now.closing, threads, True)
         return _shaped(found.ravel(), array) if k is None else found.reshape(*array.shape[:-1], count)
-
-    def _triangles(self) -> tuple[FloatArray, IntArray, IntArray]:
-        return self.points, self.simplices, self.neighbors
-
-    def _closed(self) -> BoolArray | None:
-        """Triangles that no query can lie in, None if there is none."""
-        return None
 
     def _as_queries(self, queries: npt.ArrayLike, workers: int | None) -> tuple[FloatArray, FloatArray, int]:
         array = self._check_queries(queries)
@@ -413,31 +415,38 @@ class Delaunay(Versioned, ABC):
     def _thread_count(self, workers: int | None = None, size: int | None = None) -> int:
         """How many threads a task of `size` points takes, by default of all points."""
         chosen = self._workers if workers is None else workers
-        return thread_count(chosen, self._present()._size if size is None else size)
+        return thread_count(chosen, len(self.points) if size is None else size)
+
+    def __copy__(self) -> Self:
+        """An object of its own that shares the present state, and makes its own mesh when it is changed."""
+        twin = type(self).__new__(type(self))
+        twin.__dict__.update(self._own())
+        twin._last = 0, self._now()
+        return twin
+
+    def _own(self) -> dict[str, Any]:
+        """What it holds beside state and mesh."""
+        own = self.__dict__.copy()  # in one step: another thread may be setting the mesh
+        return {name: value for name, value in own.items() if name not in {"_mesh", "_last"}}
 
     def __getstate__(self) -> dict[str, Any]:
         """Only arrays; a copy makes its own mesh when it is changed."""
-        now = self._present()
-        own = {name: value for name, value in self.__dict__.items() if name not in {"_turn", "_version"}}
-        return own | {"_arrays": (now.points, (*now._rows, now.duplicates, now.dimension, now._tests))}
+        now = self._now()
+        made = now.simplices, now.known_neighbors, now.duplicates, now.dimension, now.inconclusive
+        return self._own() | {"_arrays": (now.points, made)}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
-        points, built = state["_arrays"]
-        for array in (points, *built):
-            if isinstance(array, np.ndarray):
-                array.flags.writeable = False  # unpickled arrays are not
+        points, made = state["_arrays"]
         self.__dict__.update((name, value) for name, value in state.items() if name != "_arrays")
-        version = self._new_version((points,))
-        version.__dict__["_built"] = built
-        self._hold(version)
+        self._begin(locked(points), made)
 
     def __len__(self) -> int:
         return len(self.simplices)
 
     def __repr__(self) -> str:
-        now = self._present()
+        now = self._now()
         return (
-            f"{type(self).__name__}({now._size} points, {len(now.simplices)} simplices, "
+            f"{type(self).__name__}({len(now.points)} points, {len(now.simplices)} simplices, "
             f"{len(now.duplicates)} duplicates, dimension {now.dimension})"
         )
 

@@ -40,9 +40,9 @@ def threads_of(triangulation: Triangulation, workers: int | None, size: int | No
 
 def flat_order(triangulation: Triangulation) -> IntArray:
     """Without triangles: the distinct points in the order along their line or great circle."""
-    return triangulation._flat_order
+    return triangulation._now().flat_order
 
 
 def open_triangles(triangulation: Triangulation) -> BoolArray:
     """Whether a query can lie in a triangle, (m,): all but the closing ones of the sphere."""
-    return triangulation._open
+    return triangulation._now().open

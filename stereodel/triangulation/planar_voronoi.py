@@ -72,7 +72,7 @@ class PlanarVoronoi(Diagram):
         if triangulation.dimension == 2:
             self.vertices = locked(self._set_diagram(triangulation))
         else:
-            self._set_strips(triangulation._flat_order)
+            self._set_strips(triangulation._now().flat_order)
 
     def _set_strips(self, order: IntArray) -> None:
         """Points on one line."""

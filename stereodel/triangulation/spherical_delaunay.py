@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from typing import ClassVar
+from typing import ClassVar, cast
 
 import numpy.typing as npt
 
 from stereodel import _kernel
-from stereodel._arrays import BoolArray, FloatArray, as_directions, locked
+from stereodel._arrays import BoolArray, FloatArray, as_directions
 from stereodel._calls import by_name
 from stereodel._docs import shared
 from stereodel.sphere.latitudes import Latitude
 from stereodel.sphere.lonlat import IN_ROWS, LONLAT, as_sites, as_told
 from stereodel.triangulation.delaunay import FAMILY, Delaunay
-from stereodel.triangulation.versions import kept
 
 
 @shared(**FAMILY)
@@ -144,14 +143,10 @@ class SphericalDelaunay(Delaunay):
         """Longitude and latitude of `circumcenters`, (m, 2) in degrees, if the points were given by them."""
         return as_told(self.circumcenters, self.latitude)
 
-    @kept
+    @property
     def closing(self) -> BoolArray:
         """Facets whose empty bubble is a hemisphere or more, (m,)."""
-        return locked(_kernel.sphere.closing(self.points, self.simplices))
-
-    @kept
-    def _open(self) -> BoolArray:
-        return locked(~self.closing)
+        return cast("BoolArray", self._now().closing)
 
     @staticmethod
     def _as_points(points: npt.ArrayLike, lonlat_door: str) -> FloatArray:
@@ -160,6 +155,3 @@ class SphericalDelaunay(Delaunay):
     @staticmethod
     def _check_queries(queries: npt.ArrayLike) -> FloatArray:
         return as_directions(queries, "xyz", instead="for longitude and latitude write lonlat=…")
-
-    def _closed(self) -> BoolArray:
-        return self.closing

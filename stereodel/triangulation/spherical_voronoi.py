@@ -90,7 +90,7 @@ class SphericalVoronoi(Diagram):
         if triangulation.dimension == 2:
             self._set_vertices(self._set_diagram(triangulation))
         else:
-            self._set_circle(triangulation._flat_order)
+            self._set_circle(triangulation._now().flat_order)
 
     @classmethod
     @by_name(IN_ROWS)

@@ -12,7 +12,7 @@ from stereodel import SphericalVoronoi
 from stereodel.cli import interpolate, partitions
 from stereodel.cli.application import reporting, say
 from stereodel.cli.options import Latitude
-from stereodel.cli.sources import Table
+from stereodel.io import PointTable
 from stereodel.partitioned import Run
 
 
@@ -147,7 +147,8 @@ def test_values_come_in_pieces(monkeypatch, piece):
     """Of the same values as all at once, the last piece shorter than the others."""
     monkeypatch.setattr(interpolate, "PIECE", piece)
     stream = terminal(monkeypatch)
-    table = Table("a", np.array([[0.0, 0], [1, 0], [0, 1]]), ("x", "y"), {"z": np.array([0.0, 1, 2])}, np.arange(3))
+    columns = {"z": np.array([0.0, 1, 2])}
+    table = PointTable(np.array([[0.0, 0], [1, 0], [0, 1]]), columns, surface="plane", axes=("x", "y"), name="a")
     queries = np.linspace(0.0, 0.4, 10).reshape(5, 2)
     values = interpolate._interpolator(table, ["z"], interpolate.Method.linear, Latitude.authalic, skip_missing=False)(
         queries

@@ -228,7 +228,7 @@ def test_changes_of_a_mesh():
         with pytest.raises(ValueError, match=r"indices\[1\] is 12, out of range"):
             mesh.remove(np.array([0, 12], dtype=np.int32))
         assert mesh.size == 12
-        assert np.array_equal(mesh.arrays()[0], t.simplices)
+        assert np.array_equal(mesh.read()[2], t.simplices)
     with pytest.raises(ValueError, match=r"points\[0\] is the zero vector"):
         mesh.insert(np.zeros((1, 3)))
 

@@ -56,31 +56,45 @@ def test_an_interrupted_call_ends_soon_and_harms_nothing(call, patience):
 INTERRUPTED = """
 import signal
 import numpy as np
-from stereodel import _kernel
+from stereodel import _kernel, check_delaunay
 
 points = np.random.default_rng(0).random((400_000, 2))
-simplices, neighbors, duplicates, _, _ = _kernel.plane.triangulate(points[:1000])
-mesh = _kernel.plane.Mesh(points[:1000], simplices, neighbors, duplicates)
+mesh = _kernel.plane.Mesh(points[:{size}], *_kernel.plane.triangulate(points[:{size}])[:3])
+before = mesh.read()
 signal.signal(signal.SIGALRM, signal.default_int_handler)
-signal.setitimer(signal.ITIMER_REAL, 0.02)
-try:
-    mesh.insert(points[1000:])
-except KeyboardInterrupt:
-    print("interrupted")
-for use in (mesh.arrays, lambda: mesh.insert(points[:1]), lambda: mesh.remove(np.zeros(1, dtype=np.int32))):
+for k, change in enumerate(({changes})):
+    signal.setitimer(signal.ITIMER_REAL, 0.01)
     try:
-        use()
-    except ValueError as error:
-        print(error)
+        change()
+    except KeyboardInterrupt:
+        print("interrupted")
+    after = mesh.read()
+    check_delaunay(after[1], after[2], duplicates=after[4], neighbors=after[3])
+    if after[0] == before[0]:  # else it came at the very end
+        print("undone")
+        assert np.array_equal(after[1], before[1])
+        assert after[5:] == before[5:]
+    size = len(after[1])
+    assert mesh.insert(points[:1]) == size
+    check_delaunay(mesh.read()[1], mesh.read()[2])
+    assert mesh.remove(np.array([size], dtype=np.int32)).tolist()[-1] == -1
+    before = mesh.read()
 """
+CHANGES = {
+    "insert": (1000, "lambda: mesh.insert(points[1000:]), lambda: mesh.insert(points[1000:], 1, 3)"),
+    "remove": (100_000, "lambda: mesh.remove(np.arange(95_000, dtype=np.int32))"),
+}
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no timers there")
-def test_a_change_that_was_interrupted_is_not_used():
-    ran = subprocess.run([sys.executable, "-c", INTERRUPTED], capture_output=True, text=True, check=True, timeout=60)
-    first, *others = ran.stdout.splitlines()
-    assert first == "interrupted"
-    assert others == ["an earlier change did not come to its end; build the triangulation anew"] * 3
+@pytest.mark.parametrize("change", CHANGES)
+def test_a_change_that_was_interrupted_leaves_what_was_before(change):
+    """Unless it came to its end all the same."""
+    size, changes = CHANGES[change]
+    program = INTERRUPTED.format(size=size, changes=f"{changes},")
+    ran = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True, timeout=60)
+    assert ran.stdout.split().count("interrupted") == changes.count("lambda")
+    assert "undone" in ran.stdout
 
 
 ALONE = """

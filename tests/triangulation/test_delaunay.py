@@ -293,8 +293,8 @@ def test_contract_of_the_arrays(space):
     assert "40 points" in repr(triangulation)
     assert len(triangulation) == len(triangulation.simplices)
     lazy = space.delaunay(triangulation.points, neighbors=False)
-    assert triangulation._rows[1] is not None
-    assert lazy._rows[1] is None
+    assert triangulation._now().known_neighbors is not None
+    assert lazy._now().known_neighbors is None
     assert np.array_equal(triangulation.neighbors, lazy.neighbors)
 
 

@@ -1,9 +1,8 @@
-"""Several threads with one triangulation: queries beside queries, and errors instead of a query beside a change."""
+"""Several threads with one triangulation: queries beside queries, and what waits for a change."""
 
 import copy
 import pickle
 import threading
-import time
 
 import numpy as np
 import pytest
@@ -11,31 +10,25 @@ import pytest
 from stereodel import check_delaunay
 from stereodel.graphs import gabriel_graph
 from stereodel.interpolation import LinearInterpolator
+from stereodel.triangulation import delaunay
 from tests import sets
 from tests.spaces import BOTH, SPACES
+from tests.threads import at_once, begun, until
 
-USES = {
+KEPT = ("points", "simplices", "neighbors", "duplicates", "edges", "convex_hull", "circumcenters")
+QUERIES = {name: lambda t, name=name: getattr(t, name) for name in KEPT} | {
     "find_simplex": lambda t: t.find_simplex(t_queries(t)),
     "nearest": lambda t: t.nearest(t_queries(t)),
     "k nearest": lambda t: t.nearest(t_queries(t), k=3),
-    "insert": lambda t: t.insert(t_queries(t)[None]),
-    "remove": lambda t: t.remove([0]),
-    "points": lambda t: t.points,
-    "simplices": lambda t: t.simplices,
-    "neighbors": lambda t: t.neighbors,
-    "duplicates": lambda t: t.duplicates,
     "dimension": lambda t: t.dimension,
     "inconclusive": lambda t: t.inconclusive,
-    "edges": lambda t: t.edges,
-    "convex_hull": lambda t: t.convex_hull,
-    "circumcenters": lambda t: t.circumcenters,
     "len": len,
     "repr": repr,
     "copy": copy.copy,
     "pickle": pickle.dumps,
     "diagram": lambda t: space_of_class(t).voronoi(t),
     "graph": gabriel_graph,
-    "interpolator": lambda t: LinearInterpolator(t, np.zeros(40)),
+    "interpolator": lambda t: LinearInterpolator(t, np.zeros(40_050)),
 }
 
 
@@ -51,87 +44,122 @@ def points_of(space, size, seed=0):
     return space.random(np.random.default_rng(seed), size)
 
 
-@pytest.mark.parametrize("use", USES)
-@BOTH
-def test_what_comes_upon_a_change_is_refused(space, use):
-    triangulation = space.delaunay(points_of(space, 40))
-    if use in {"edges", "circumcenters"}:
-        USES[use](triangulation)  # known already: refused all the same
-    with triangulation._turn, pytest.raises(RuntimeError, match="another thread is changing this triangulation"):
-        USES[use](triangulation)
-    USES[use](triangulation)
-    assert len(triangulation.points) == 40 + (use == "insert") - (use == "remove")
-    check_delaunay(triangulation)
+@pytest.fixture
+def in_change(monkeypatch):
+    """A triangulation of 50 points into which another thread is inserting 40 000, of a grid, and that thread."""
 
+    def start(space):
+        monkeypatch.setattr(delaunay, "REBUILD_INSERTING", 0)
+        triangulation = space.delaunay(points_of(space, 40))
+        triangulation.insert(points_of(space, 10, seed=2))
+        for name in KEPT:
+            getattr(triangulation, name)  # known of the state before
+        many = space.on_grid(sets.grid(200, 200))  # ties, which take long
+        return triangulation, begun(lambda: triangulation.insert(many), triangulation._mesh)
 
-class TakenUnseen:
-    """A lock that another thread takes just after one looked."""
-
-    def __init__(self):
-        lock = threading.Lock()
-        self.acquire, self.release = lock.acquire, lock.release
-
-    def __enter__(self):
-        self.acquire()
-
-    def __exit__(self, *_):
-        self.release()
-
-    def locked(self):
-        return False
-
-
-@pytest.mark.parametrize("change", ["insert", "remove"])
-@BOTH
-def test_of_two_changes_at_the_same_moment_one_is_refused(space, change):
-    """The second does not wait, even if nobody was there when it looked."""
-    triangulation = space.delaunay(points_of(space, 40))
-    triangulation._turn = TakenUnseen()
-    refused = []
-
-    def second():
-        try:
-            USES[change](triangulation)
-        except RuntimeError as error:
-            refused.append(str(error))
-
-    changer = threading.Thread(target=second)
-    with triangulation._turn:
-        changer.start()
-        changer.join(timeout=5)
-        waits = changer.is_alive()
-    changer.join()
-    assert not waits
-    assert len(refused) == 1
-    assert "another thread is changing this triangulation" in refused[0]
-    assert len(triangulation.points) == 40
-    USES[change](triangulation)  # refused, not broken
-    check_delaunay(triangulation)
+    return start
 
 
 @BOTH
-def test_a_long_change_refuses_at_once(space):
-    few, many = points_of(space, 200), points_of(space, 60_000, seed=1)
-    triangulation = space.delaunay(few)
-    changer = threading.Thread(target=triangulation.insert, args=(many,))
-    changer.start()
-    refused, longest = 0, 0.0
-    while changer.is_alive():
-        before = time.perf_counter()
-        try:
-            triangulation.nearest(many[0])
-        except RuntimeError:
-            refused += 1
-            longest = max(longest, time.perf_counter() - before)
-    changer.join()
-    assert refused > 0
-    assert longest < 5.0  # not a wait for the end of the change, on a slow machine either
-    assert len(triangulation.points) == 60_200
+def test_queries_that_come_upon_a_change_wait_for_it(space, in_change):
+    """And are told of what came of it, all of them."""
+    triangulation, changer = in_change(space)
+    found = {}
+    at_once(*(lambda n=name: found.__setitem__(n, QUERIES[n](triangulation)) for name in QUERIES))
+    changer.join(60)
+    now = space.delaunay(triangulation.points)
+    assert len(now.points) == 40_050
+    for name in KEPT:
+        if name != "neighbors":  # numbers of rows, whose order may differ
+            assert np.array_equal(in_order(found[name]), in_order(getattr(now, name)))
+    check_delaunay(now.points, found["simplices"], neighbors=found["neighbors"])
+    assert found["nearest"] == now.nearest(t_queries(now))
+    assert found["len"] == len(now)
+    assert "(40050 points" in found["repr"]
+    assert len(found["copy"].points) == len(pickle.loads(found["pickle"]).points) == 40_050
+    assert len(found["diagram"].points) == 40_050
+
+
+@BOTH
+def test_changes_that_come_upon_a_change_wait_for_it(space, in_change):
+    triangulation, changer = in_change(space)
+    more = points_of(space, 3, seed=7)
+    numbers = []
+    at_once(lambda: numbers.append(triangulation.insert(more)), lambda: triangulation.remove([0, 1]))
+    changer.join(60)
+    assert numbers[0].tolist() in ([40_050, 40_051, 40_052], [40_048, 40_049, 40_050])
+    assert np.array_equal(triangulation.points[-3:], more)
+    assert len(triangulation.points) == 40_051
+    assert np.array_equal(triangulation.edges, space.delaunay(triangulation.points).edges)
+
+
+@pytest.mark.parametrize("seconds", [0.5, pytest.param(2.0, marks=pytest.mark.thorough)])
+@BOTH
+def test_queries_beside_changes(space, seconds):
+    """Whatever is asked is that of some state: what threads find of one state fits together, and fits its points."""
+    rng = np.random.default_rng(4)
+    triangulation = space.delaunay(points_of(space, 200))
+    queries = points_of(space, 50, seed=5)
+    changes, seen = [], []
+
+    def change():
+        before = len(triangulation.points)  # nobody else changes it
+        first = triangulation.insert(space.random(rng, int(rng.integers(1, 90))))
+        assert first[0] == before
+        triangulation.remove(rng.permutation(before)[: len(first)])
+        assert len(triangulation.points) == before
+        changes.append(None)
+
+    def ask():
+        state = copy.copy(triangulation)
+        assert triangulation.nearest(queries).max() < 290
+        assert len(state.circumcenters) == len(state.simplices) == len(state.neighbors)
+        assert len(state.edges) == state.vertex_neighbor_vertices[0][-1] // 2
+        assert state.nearest(state.points).tolist() == list(range(len(state.points)))
+        seen.append(state)
+
+    at_once(*(until(seconds, work) for work in (change, ask, ask, ask)))
+    assert len(changes) > 5
+    assert len(seen) > 5
+    for state in seen[-20:]:
+        check_delaunay(state)
+        assert np.array_equal(state.edges, space.delaunay(state.points).edges)
+
+
+@BOTH
+def test_what_follows_from_a_state_is_the_same_for_all_who_ask(space):
+    triangulation = space.delaunay(points_of(space, 5000))
+    triangulation.insert(points_of(space, 10, seed=1))
+    triangulation.simplices  # noqa: B018  # the state is read
+    found, barrier = [], threading.Barrier(8)
+
+    def ask():
+        barrier.wait()
+        found.append((triangulation.edges, triangulation.circumcenters))
+
+    at_once(*[ask] * 8)
+    assert len({id(array) for pair in found for array in pair}) == 2
+
+
+@BOTH
+def test_a_state_that_is_late_is_not_believed(space):
+    """As when a thread has read a state and stops, and leaves it behind when others have gone on."""
+    triangulation = space.delaunay(points_of(space, 60))
+    triangulation.insert(points_of(space, 2, seed=1))
+    old = len(triangulation.points), triangulation._last
+    triangulation.insert(points_of(space, 3, seed=2))
+    assert len(triangulation.points) == old[0] + 3
+    triangulation._last = old[1]
+    assert len(triangulation.points) == old[0] + 3
+    twin = copy.copy(triangulation)  # whose own changes begin anew
+    for _ in range(3):
+        twin.insert(points_of(space, 1, seed=3))
+        assert np.array_equal(twin.edges, space.delaunay(twin.points).edges)
 
 
 @BOTH
 def test_copies_go_their_own_ways(space):
-    """A copy shares a mesh whose arrays nobody asked for; the one that changes first takes it."""
+    """A copy shares the state, and makes a mesh of its own."""
     start, more = points_of(space, 60), points_of(space, 8, seed=1)
     triangulation = space.delaunay(start)
     triangulation.insert(more[:2])
@@ -153,7 +181,6 @@ def test_copies_go_their_own_ways(space):
 
 @BOTH
 def test_two_changes_of_copies_at_a_time(space):
-    """Both copies want the mesh of one version: one gets it."""
     start = points_of(space, 300)
     more = points_of(space, 40, seed=1)
     for _ in range(20):
@@ -176,27 +203,10 @@ def test_two_changes_of_copies_at_a_time(space):
 @BOTH
 def test_arrays_cannot_be_set(space):
     triangulation = space.delaunay(points_of(space, 10))
-    with pytest.raises(AttributeError, match="points cannot be set"):
+    with pytest.raises(AttributeError, match="points"):
         triangulation.points = points_of(space, 5)
     triangulation.inconclusive["filter"] = -1
     assert triangulation.inconclusive["filter"] >= 0
-
-
-@BOTH
-def test_a_mesh_that_went_on_is_not_believed(space):
-    """As when a query has taken hold of the mesh, and a change ends before it asks."""
-    start, more = points_of(space, 60), points_of(space, 8, seed=1)
-    triangulation = space.delaunay(start)
-    triangulation.insert(more[:2])
-    version = triangulation._present()
-    mesh = version._mesh
-    triangulation.insert(more[2:])
-    triangulation.insert(more[2:3])  # a duplicate
-    version.__dict__["_mesh"] = mesh
-    expected = space.delaunay(version.points)
-    assert np.array_equal(version.edges, expected.edges)
-    assert np.array_equal(version.duplicates, expected.duplicates)
-    assert version.inconclusive == expected.inconclusive
 
 
 def in_order(rows):
@@ -204,34 +214,15 @@ def in_order(rows):
 
 
 @BOTH
-def test_a_copy_that_is_read_does_not_hinder_changes(space):
-    """The original and the copy share the mesh: writing out its arrays takes a while."""
-    triangulation = space.delaunay(points_of(space, 60_000))
-    for turn in range(6):
-        triangulation.insert(points_of(space, 3, seed=turn + 1))  # whose arrays are not written yet
-        twin = copy.copy(triangulation)
-        expected = space.delaunay(twin.points)
-        found = []
-        reader = threading.Thread(target=lambda: found.append((twin.simplices, twin.inconclusive)))  # noqa: B023
-        reader.start()
-        time.sleep(0.0003 * turn)
-        triangulation.insert(points_of(space, 3, seed=turn + 100))
-        reader.join(60)
-        assert not reader.is_alive()
-        assert np.array_equal(in_order(found[0][0]), in_order(expected.simplices))
-
-
-@BOTH
 def test_tests_left_open_are_remembered(space):
-    """Neither a change that is given up nor one of the original after a copy alters how many there were."""
+    """Neither a change that is refused nor one of the original after a copy alters how many there were."""
     points = space.on_grid(sets.grid(20, 20))
     first, second, third = (space.delaunay(points) for _ in range(3))
     for triangulation in (first, second, third):
         triangulation.insert(points_of(space, 3) + 9.5)
     wanted, twin = first.inconclusive, copy.copy(second)
-    third.simplices  # noqa: B018  # from the mesh
-    with pytest.raises(ZeroDivisionError):
-        third._latest()._changed(lambda mesh: 1 / 0, third._latest()._chunks)
+    with pytest.raises(ValueError, match="out of range"):
+        third._changing().remove(np.array([403], dtype=np.int32))
     assert third.inconclusive == wanted
     second.insert(points_of(space, 3, seed=1) + 9.5)
     assert twin.inconclusive == wanted

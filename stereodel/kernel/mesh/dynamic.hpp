@@ -24,7 +24,8 @@ using order::insertion_rounds;
 // `Surface`: PlaneSurface or SphereSurface. Points, also those that repeat another one, are numbered from 0 on;
 // duplicates are pairs dropped, kept, in the order of the dropped.
 //
-// After an exception out of `insert` or `remove` the object refuses everything.
+// After an exception out of `insert` or `remove` the object has lost its triangles and refuses everything but
+// `leave_points`: the points from before the change are still there, in the same order, and come first.
 template <class Surface>
 class DynamicDelaunay {
   public:
@@ -56,6 +57,11 @@ class DynamicDelaunay {
         check_usable();
         return mesh_;
     }
+
+    const double* points() const { return points_.data(); }
+
+    // The points alone, when nothing else is asked any more.
+    GrowingArray<double> leave_points() { return std::move(points_); }
 
     // Append `count` points. Those equal to one that is there already are among the duplicates only.
     void insert(const double* points, std::size_t count, Stop stop) {
@@ -90,7 +96,7 @@ class DynamicDelaunay {
         } else {
             take_out(number, stop);
         }
-        compact(number, stop);
+        compact(number);
         usable_ = true;
         return number;
     }
@@ -234,8 +240,9 @@ class DynamicDelaunay {
         }
     }
 
-    // Close the gaps in the numbers. What lies between two of them moves in one piece.
-    void compact(Buffer<Index>& number, Stop stop) {
+    // Close the gaps in the numbers. What lies between two of them moves in one piece. Nothing stops this halfway: the
+    // points from before would be lost.
+    void compact(Buffer<Index>& number) {
         double* const coordinates = points_.data();
         Index *const all = number.data(), *const end = all + number.size();
         std::size_t count = 0;
@@ -254,7 +261,7 @@ class DynamicDelaunay {
         if (flat_) {
             mesh_ = Mesh();
         } else {
-            mesh_.renumber(number.data(), stop);
+            mesh_.renumber(number.data(), nullptr);
         }
         for (auto& [dropped, kept] : duplicates_) {
             dropped = number[static_cast<std::size_t>(dropped)];

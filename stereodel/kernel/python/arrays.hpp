@@ -11,6 +11,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <exception>
 #include <initializer_list>
 #include <optional>
@@ -92,13 +93,17 @@ ValuesOut<T> to_values(Buffer<T>&& buffer) {
     return to_array<ValuesOut<T>>(std::move(buffer), {count});
 }
 
-inline RowsOut<Index, 2> to_rows(const Pairs& pairs) {
+inline Buffer<Index> to_buffer(const Pairs& pairs) {
     Buffer<Index> buffer(2 * pairs.size());
     for (std::size_t k = 0; k < pairs.size(); ++k) {
         buffer[2 * k] = pairs[k].first;
         buffer[2 * k + 1] = pairs[k].second;
     }
-    return to_rows<2>(std::move(buffer));
+    return buffer;
+}
+
+inline RowsOut<Index, 2> to_rows(const Pairs& pairs) {
+    return to_rows<2>(to_buffer(pairs));
 }
 
 // Pairs (dropped, kept) of `size` points; none if there are no rows.
@@ -124,6 +129,13 @@ inline nb::dict to_dict(const Tally& tally, bool on_sphere) {
     result["double_double"] = tally.double_double;
     result["exact"] = tally.exact;
     return result;
+}
+
+inline Tally to_tally(const nb::dict& counts) {
+    const auto count = [&](const char* stage) {
+        return counts.contains(stage) ? nb::cast<std::uint64_t>(counts[stage]) : 0;
+    };
+    return {count("filter"), count("curvature"), count("double_double"), count("exact")};
 }
 
 // Calls work(stop) without the interpreter's lock. Long work runs on a thread of its own, while this one looks for

@@ -1,12 +1,17 @@
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/optional.h>
 
+#include <algorithm>
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
-#include <stdexcept>
 #include <utility>
 
+#include "engine/plane.hpp"
+#include "engine/sphere.hpp"
+#include "growing_array.hpp"
 #include "mesh/dynamic.hpp"
 #include "mesh/plane_surface.hpp"
 #include "mesh/sphere_surface.hpp"
@@ -14,6 +19,10 @@
 
 namespace stereodel::python {
 
+using engine::Pole;
+using engine::Triangulation;
+using engine::triangulate_plane;
+using engine::triangulate_sphere;
 using mesh::DynamicDelaunay;
 using mesh::Mesh;
 using mesh::PlaneSurface;
@@ -26,115 +35,290 @@ using namespace nb::literals;
 constexpr std::size_t long_changes = 500;    // points: some milliseconds
 constexpr std::size_t long_copies = 100000;  // points: the same
 
-// A triangulation that Python holds; several threads may have it. While one changes it, the others are refused.
+// What a mesh is between two changes, in arrays that nobody changes. Whoever asks gets the same ones.
+struct State {
+    std::uint64_t changes;
+    Buffer<double> points;
+    Buffer<Index> simplices, neighbors, duplicates;
+    int dimension;
+    Tally tally;
+};
+
+// Rows of a state as an array of NumPy's, read-only, that keeps the state alive.
+template <std::size_t Width, class T>
+nb::ndarray<nb::numpy, const T, nb::shape<-1, static_cast<nb::ssize_t>(Width)>, nb::c_contig> rows_of(
+    const std::shared_ptr<const State>& state, const Buffer<T>& buffer) {
+    using Holder = std::shared_ptr<const State>;
+    auto* holder = new Holder(state);
+    const nb::capsule owner(holder, [](void* p) noexcept { delete static_cast<Holder*>(p); });
+    return {buffer.data(), {buffer.size() / Width, Width}, owner};
+}
+
+template <class T>
+Buffer<T> copied(const T* values, std::size_t count) {
+    Buffer<T> buffer(count);
+    std::copy(values, values + count, buffer.data());
+    return buffer;
+}
+
+// A triangulation that Python holds, and any number of threads with it. Who reads shares the lock, who changes has it
+// alone, and all the others wait.
+//
+// * Nobody waits while they hold the interpreter's lock, so that whoever has ours and wants that one gets it; and
+//   nobody runs Python while they have ours. Long work, and work that has to wait, is done and has the lock on a thread
+//   of its own, while the calling one looks for signals: their handlers may ask, even change, this same mesh, and wait
+//   for it.
+// * A state is written out under the lock, whole, so it is never that of two changes. `changes` counts those that are
+//   done, and is increased under the lock: while it is that of a state, the state is the present one.
+// * A change that does not come to its end leaves the points of before, and does not count. One that Ctrl-C comes too
+//   late for is made, and counts, though its caller is told of the interruption.
 template <class Surface>
 class BoundMesh {
   public:
-    using Points = RowsIn<double, DynamicDelaunay<Surface>::dimension>;
+    static constexpr std::size_t width = DynamicDelaunay<Surface>::dimension;
+    using Points = RowsIn<double, width>;
 
     BoundMesh(Points points, RowsIn<Index, 3> simplices, RowsIn<Index, 3> neighbors,
-              const std::optional<RowsIn<Index, 2>>& duplicates, bool checked)
-        : delaunay_(make(points, simplices, neighbors, duplicates, checked)) {}
+              const std::optional<RowsIn<Index, 2>>& duplicates, const std::optional<nb::dict>& inconclusive,
+              bool checked)
+        : size_(points.shape(0)) {
+        Pairs pairs = to_pairs(duplicates, size_);
+        if (inconclusive) {
+            tally_ = to_tally(*inconclusive);
+        }
+        const nb::gil_scoped_release release;
+        check_triangles(points, simplices, neighbors, checked);
+        if (simplices.shape(0) == 0) {
+            points_.append(points.data(), width * size_);
+        } else {
+            delaunay_.emplace(points.data(), size_, simplices.data(), neighbors.data(), simplices.shape(0),
+                              std::move(pairs), Stop{});
+        }
+        is_bare_ = !delaunay_;
+    }
 
-    RowsOut<Index, 2> insert(Points points) {
+    std::size_t insert(Points points, int workers, std::size_t anew) {
         const std::size_t count = points.shape(0);
         check_points("points", points);
-        const Pairs added = change(count > long_changes, [&](Stop stop) {
-            const std::size_t old = delaunay_.duplicates().size();
-            delaunay_.insert(points.data(), count, stop);
-            return Pairs(delaunay_.duplicates().begin() + static_cast<std::ptrdiff_t>(old),
-                         delaunay_.duplicates().end());
+        return change(count > long_changes, [&](Stop stop) {
+            const std::size_t old = size_;
+            if (delaunay_ && anew * count <= old) {
+                try {
+                    delaunay_->insert(points.data(), count, stop);
+                } catch (...) {
+                    give_up(old);
+                    throw;
+                }
+            } else {
+                GrowingArray<double> all;
+                all.reserve(width * (old + count));
+                all.append(coordinates(), width * old);
+                all.append(points.data(), width * count);
+                start(std::move(all), workers, stop);
+            }
+            size_ = old + count;
+            return old;
         });
-        return to_rows(added);
     }
 
-    ValuesOut<Index> remove(ValuesIn<Index> indices) {
+    ValuesOut<Index> remove(ValuesIn<Index> indices, int workers, std::size_t anew) {
         const std::size_t count = indices.shape(0);
-        Buffer<Index> number = change(count > long_changes || size() > long_copies, [&](Stop stop) {
-            check_indices("indices", indices.data(), count, delaunay_.size());
-            return delaunay_.remove(indices.data(), count, stop);
+        return to_values(change(count > long_changes || size_ > long_copies, [&](Stop stop) {
+            const std::size_t old = size_;
+            check_indices("indices", indices.data(), count, old);
+            std::size_t left = 0;
+            Buffer<Index> number = numbers_without(indices, old, left);
+            if (delaunay_ && anew * (old - left) <= left) {
+                try {
+                    delaunay_->remove(indices.data(), count, stop);
+                } catch (...) {
+                    give_up(old);
+                    throw;
+                }
+                if (delaunay_->is_flat()) {
+                    tally_ = {};  // as if they had never been more; the rest is found out when somebody reads
+                    leave_triangles();
+                    is_tallied_ = false;
+                }
+            } else {
+                GrowingArray<double> rest;
+                rest.resize(width * left);
+                double* to = rest.data();
+                for (std::size_t p = 0; p < old; ++p) {
+                    if (number[p] >= 0) {
+                        to = std::copy_n(coordinates() + width * p, width, to);
+                    }
+                }
+                start(std::move(rest), workers, stop);
+            }
+            size_ = left;
+            return number;
+        }));
+    }
+
+    nb::tuple read(int workers) {
+        using Holder = std::shared_ptr<const State>;
+        const bool is_long = size_ > long_copies || is_bare_ || changing_ > 0;
+        const Holder state = run_without_lock(is_long, [&](Stop stop) -> Holder {
+            {
+                const SharedLock lock(mutex_, stop);
+                if (state_) {
+                    return state_;
+                }
+            }
+            const LoneLock lock(mutex_, stop);  // writing out moves facets
+            if (!state_) {
+                state_ = written(workers, stop);
+            }
+            return state_;
         });
-        return to_values(std::move(number));
+        return nb::make_tuple(state->changes, rows_of<width>(state, state->points), rows_of<3>(state, state->simplices),
+                              rows_of<3>(state, state->neighbors), rows_of<2>(state, state->duplicates),
+                              state->dimension, to_dict(state->tally, !Surface::has_ghost));
     }
 
-    nb::tuple arrays() {
-        auto rows = read(size() > long_copies, [&](Stop stop) {
-            Mesh& mesh = delaunay_.mesh();
-            std::pair<Buffer<Index>, Buffer<Index>> out(3 * mesh.triangles(), 3 * mesh.triangles());
-            mesh.write(out.first.data(), out.second.data(), stop);
-            return out;
+    // Asked before each query: where nobody changes anything, nobody waits for it.
+    std::uint64_t changes() {
+        return changing_ == 0 ? changes_.load() : run_without_lock(true, [&](Stop stop) {
+            const SharedLock lock(mutex_, stop);
+            return changes_.load();
         });
-        return nb::make_tuple(to_rows<3>(std::move(rows.first)), to_rows<3>(std::move(rows.second)));
-    }
-
-    RowsOut<Index, 2> duplicates() {
-        return to_rows(read(false, [&](Stop) { return delaunay_.duplicates(); }));
-    }
-
-    bool is_flat() {
-        return read(false, [&](Stop) { return delaunay_.is_flat(); });
     }
 
     std::size_t size() {
-        return read(false, [&](Stop) { return delaunay_.size(); });
-    }
-
-    nb::dict inconclusive() {
-        return to_dict(read(false, [&](Stop) { return delaunay_.tally(); }), !Surface::has_ghost);
-    }
-
-    std::uint64_t changes() const { return changes_; }
-
-  private:
-    static DynamicDelaunay<Surface> make(Points points, RowsIn<Index, 3> simplices, RowsIn<Index, 3> neighbors,
-                                         const std::optional<RowsIn<Index, 2>>& duplicates, bool checked) {
-        Pairs pairs = to_pairs(duplicates, points.shape(0));
-        const nb::gil_scoped_release release;
-        check_triangles(points, simplices, neighbors, checked);
-        return DynamicDelaunay<Surface>(points.data(), points.shape(0), simplices.data(), neighbors.data(),
-                                        simplices.shape(0), std::move(pairs), Stop{});
-    }
-
-    // Both call work(stop) without the interpreter's lock, one thread at a time. All wait for reads, which soon end
-    // (even writing out the arrays moves facets); nothing waits for a change.
-    template <class Work>
-    auto read(bool is_long, Work&& work) {
-        return run_without_lock(is_long, [&](Stop stop) {
-            const PatientLock lock(mutex_, [&] { refuse_if(changing_); });
-            return work(stop);
+        return changing_ == 0 ? size_.load() : run_without_lock(true, [&](Stop stop) {
+            const SharedLock lock(mutex_, stop);
+            return size_.load();
         });
     }
+
+  private:
+    // A thread that is changing the mesh, or waits until it may.
+    struct Changing {
+        explicit Changing(std::atomic<int>& number) : count(number) { ++count; }
+        Changing(const Changing&) = delete;
+        Changing& operator=(const Changing&) = delete;
+        ~Changing() { --count; }
+        std::atomic<int>& count;
+    };
 
     template <class Work>
     auto change(bool is_long, Work&& work) {
-        return run_without_lock(is_long, [&](Stop stop) {
-            refuse_if(changing_.exchange(true));
-            const Changing mark(*this);
-            const PatientLock lock(mutex_, [] {});
-            return work(stop);
+        const Changing mark(changing_);
+        return run_without_lock(is_long || is_bare_ || changing_ > 1, [&](Stop stop) {
+            const LoneLock lock(mutex_, stop);
+            auto result = work(stop);
+            state_.reset();
+            ++changes_;
+            return result;
         });
     }
 
-    static void refuse_if(bool in_use) {
-        if (in_use) {
-            throw std::runtime_error(
-                "another thread is changing this mesh; let one wait for the other by a lock, or query a copy");
+    const double* coordinates() const { return delaunay_ ? delaunay_->points() : points_.data(); }
+
+    // New number of each of `size` points, -1 for those that go; how many are left.
+    static Buffer<Index> numbers_without(const ValuesIn<Index>& gone, std::size_t size, std::size_t& left) {
+        Buffer<Index> number(size);
+        std::fill_n(number.data(), size, 0);
+        for (std::size_t k = 0; k < gone.shape(0); ++k) {
+            number[static_cast<std::size_t>(gone.data()[k])] = -1;
+        }
+        for (std::size_t p = 0; p < size; ++p) {
+            if (number[p] == 0) {
+                number[p] = static_cast<Index>(left++);
+            }
+        }
+        return number;
+    }
+
+    static Triangulation triangulated(const double* points, std::size_t size, int workers, Stop stop) {
+        if constexpr (width == 2) {
+            return triangulate_plane(points, size, true, workers, stop);
+        } else {
+            return triangulate_sphere(points, size, true, workers, Pole{0, -1}, stop);
         }
     }
 
-    // Counts a change, and ends it.
-    struct Changing {
-        explicit Changing(BoundMesh& mesh) : changing(mesh.changing_) { ++mesh.changes_; }
-        Changing(const Changing&) = delete;
-        Changing& operator=(const Changing&) = delete;
-        ~Changing() { changing = false; }
-        std::atomic<bool>& changing;
-    };
+    // From the points alone. What throws, throws before anything is changed.
+    void start(GrowingArray<double>&& points, int workers, Stop stop) {
+        const std::size_t size = points.size() / width;
+        Triangulation made = triangulated(points.data(), size, workers, stop);
+        if (made.dimension == 2) {
+            const engine::Triangles& rows = made.triangles;
+            delaunay_ = DynamicDelaunay<Surface>(points.data(), size, rows.corners.data(), rows.neighbors.data(),
+                                                 rows.count(), std::move(made.duplicates), stop);
+            points_ = {};
+        } else {
+            delaunay_.reset();
+            points_ = std::move(points);
+            duplicates_ = std::move(made.duplicates);
+        }
+        dimension_ = made.dimension;
+        tally_ = made.tally;
+        is_tallied_ = true;
+        is_bare_ = !delaunay_;
+    }
 
-    DynamicDelaunay<Surface> delaunay_;
-    PatientMutex mutex_;
-    std::atomic<bool> changing_{false};
+    // After a change that did not end: the first `size` points are those of before.
+    void give_up(std::size_t size) {
+        tally_ += delaunay_->tally();
+        leave_triangles();
+        points_.resize(width * size);
+    }
+
+    void leave_triangles() {
+        points_ = delaunay_->leave_points();
+        delaunay_.reset();
+        dimension_ = unknown;
+        is_bare_ = true;
+    }
+
+    std::shared_ptr<const State> written(int workers, Stop stop) {
+        if (!delaunay_ && dimension_ == unknown) {
+            const Tally known = tally_;
+            const bool is_tallied = is_tallied_;
+            GrowingArray<double> points;
+            points.append(points_.data(), points_.size());
+            start(std::move(points), workers, stop);
+            if (is_tallied) {
+                tally_ = known;
+            }
+        }
+        auto state = std::make_shared<State>();
+        state->changes = changes_;
+        state->points = copied(coordinates(), width * size_);
+        state->dimension = delaunay_ ? 2 : dimension_;
+        state->tally = tally_;
+        std::size_t triangles = 0;
+        if (delaunay_) {
+            state->tally += delaunay_->tally();
+            triangles = delaunay_->mesh().triangles();
+        }
+        state->simplices = Buffer<Index>(3 * triangles);
+        state->neighbors = Buffer<Index>(3 * triangles);
+        if (delaunay_) {
+            delaunay_->mesh().write(state->simplices.data(), state->neighbors.data(), stop);
+        }
+        state->duplicates = to_buffer(delaunay_ ? delaunay_->duplicates() : duplicates_);
+        return state;
+    }
+
+    static constexpr int unknown = -2;  // dimension of points that nobody has looked at since they were left
+
+    // Under the lock; the atomic ones are looked at without it, too, to guess how long something will take.
+    std::optional<DynamicDelaunay<Surface>> delaunay_;
+    GrowingArray<double> points_;  // where that is not there, and so are the next two
+    Pairs duplicates_;
+    int dimension_ = unknown;
+    Tally tally_;  // before delaunay_
+    bool is_tallied_ = true;
+    std::shared_ptr<const State> state_;  // if somebody asked since the last change
+    std::atomic<std::size_t> size_;
+    std::atomic<bool> is_bare_{false};  // no triangles: whoever changes or asks takes up all points
     std::atomic<std::uint64_t> changes_{0};
+
+    PatientMutex mutex_;
+    std::atomic<int> changing_{0};
 };
 
 template <class Surface>
@@ -142,20 +326,22 @@ void bind(nb::module_& space, const char* doc) {
     using Bound = BoundMesh<Surface>;
     nb::class_<Bound>(space, "Mesh", doc)
         .def(nb::init<typename Bound::Points, RowsIn<Index, 3>, RowsIn<Index, 3>, std::optional<RowsIn<Index, 2>>,
-                      bool>(),
-             "points"_a, "simplices"_a, "neighbors"_a, "duplicates"_a = nb::none(), "checked"_a = false,
-             "The triangulation of `points`, as `triangulate_...` gives it; at least one triangle. Copies everything.")
-        .def("insert", &Bound::insert, "points"_a,
-             "Append points. Returns the pairs [dropped, kept] of those that repeat an earlier one.")
-        .def("remove", &Bound::remove, "indices"_a,
-             "Take points out, number the others anew in the same order. Returns old -> new, -1 = removed.")
-        .def("arrays", &Bound::arrays, "Simplices, smallest index first, and neighbors, -1 for none, as new arrays.")
-        .def_prop_ro("duplicates", &Bound::duplicates, nb::rv_policy::automatic,  // the array owns its memory
-                     "All pairs [dropped, kept], by dropped; the lowest index is kept.")
-        .def_prop_ro("is_flat", &Bound::is_flat, "Whether no triangles are left: then points can only be removed.")
-        .def_prop_ro("size", &Bound::size, "Number of points, duplicates included.")
-        .def_prop_ro("changes", &Bound::changes, "Number of changes that have begun, failed ones too.")
-        .def_prop_ro("inconclusive", &Bound::inconclusive, "Tests that each stage left open, in changes so far.");
+                      std::optional<nb::dict>, bool>(),
+             "points"_a, "simplices"_a, "neighbors"_a, "duplicates"_a = nb::none(), "inconclusive"_a = nb::none(),
+             "checked"_a = false,
+             "The triangulation of `points`, as `triangulate` gives it. Copies everything. While one thread changes "
+             "it, the others wait, without the interpreter's lock.")
+        .def("insert", &Bound::insert, "points"_a, "workers"_a = 1, "anew"_a = 0,
+             "Append points. Returns the number of the first. anew: all are triangulated anew if so many times the new "
+             "ones are more than the old ones.")
+        .def("remove", &Bound::remove, "indices"_a, "workers"_a = 1, "anew"_a = 0,
+             "Take points out, number the others anew in the same order. Returns old -> new, -1 = removed. anew: as "
+             "for `insert`, of those removed and of those left.")
+        .def("read", &Bound::read, "workers"_a = 1,
+             "All of one state, in arrays that nobody changes: changes so far, points, then what `triangulate` gives; "
+             "pairs [dropped, kept] by dropped.")
+        .def_prop_ro("changes", &Bound::changes, "Number of changes that have come to their end.")
+        .def_prop_ro("size", &Bound::size, "Number of points, duplicates included.");
 }
 
 }  // namespace
