@@ -327,9 +327,12 @@ def test_who_waits_does_not_hold_the_interpreter(use):
     for _ in range(5):  # a busy machine may let nobody have a turn before the change has ended
         mesh, waited = start(points[:100]), []
         changer = begun(lambda mesh=mesh: mesh.insert(points[100:]), mesh)
-        waiter = threading.Thread(
-            target=lambda mesh=mesh, waited=waited: (USES[use](mesh), waited.append(mesh.changes))
-        )
+
+        def wait(mesh=mesh, waited=waited):
+            USES[use](mesh)
+            waited.append(mesh.changes)
+
+        waiter = threading.Thread(target=wait)
         waiter.start()
         while changer.is_alive() and waiter.is_alive():
             turns += 1
