@@ -13,7 +13,7 @@ ln -s "$root/stereodel/web/script/node_modules" stereodel/web/script/node_module
 
 export STEREODEL_TEST_PATIENCE=10
 failed=0
-python -m pytest -p no:cacheprovider -o faulthandler_timeout=3000 -m 'not large' --cov=stereodel --cov-branch --cov-report= "$@" || failed=$?
+python -m pytest -p no:cacheprovider -o faulthandler_timeout=3000 -m 'not large' --hypothesis-profile=thorough --cov=stereodel --cov-branch --cov-report= "$@" || failed=$?
 python -m coverage json --quiet -o "$root/build/coverage/python.json"
 python -m coverage report --format=total --precision=1 | sed 's/^/Python, lines and branches, per cent: /'
 # Branches that the compiler adds for exceptions are not the kernel's. Counts of threads that come together can be wrong.

@@ -37,9 +37,6 @@ class Surface:
         rows = [(u, v, w) for (u, v), w in self.apex.items() if u < v and u < w]
         return as_rows(sorted(rows), 3)
 
-    def __len__(self) -> int:
-        return len(self.apex) // 3
-
 
 def as_rows(rows: list[Facet] | list[Edge], width: int) -> IntArray:
     """Tuples of indices as an int32 array (k, width), also for none."""

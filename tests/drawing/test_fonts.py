@@ -74,6 +74,8 @@ def test_fonts_that_are_none(tmp_path):
         as_font("DejaVu Sanz")
     with pytest.raises(FileNotFoundError, match=r"nowhere\.ttf is not there"):
         Globe(font="nowhere.ttf")
+    with pytest.raises(TypeError, match="font is 5; give a family, the path of a font's file"):
+        as_font(5)
     assert as_font(["Nowhere", Path(CJK)]) == ("Nowhere", CJK)
 
 

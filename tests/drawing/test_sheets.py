@@ -173,6 +173,7 @@ def test_an_empty_file_changes_nothing_and_a_base_comes_first(tmp_path):
         ("fills.land = 'grass'", "mine.toml: fills.land is 'grass', which is not a colour"),
         ("labels.size = 0", "mine.toml: labels.size is 0"),
         ("labels.font = 'Nowhere'", "mine.toml: labels.font is 'Nowhere', which this machine does not have"),
+        ("labels.font = 5", "mine.toml: labels.font is 5; give a family"),
         ("dots = []", "mine.toml: dots is [], but must be a table"),
         ("base = 'bright'", "style is 'bright'"),
         ("background = [1, 2]", "mine.toml: background is [1, 2], which is not a colour"),

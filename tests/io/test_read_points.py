@@ -91,6 +91,15 @@ def test_a_place_in_metres_has_no_doubtful_marks():
     assert table.places.tolist() == [[567.890, 54321]]
 
 
+def test_features_without_a_place():
+    text = '{"type": "FeatureCollection", "features": [{"type": "Feature", "properties": {}, "geometry": null}, '
+    text += '{"type": "Feature", "properties": {}, "geometry": {"type": "Point", "coordinates": [1, 2]}}]}'
+    with pytest.raises(ValueError, match="row 1: a Point is needed, not no geometry"):
+        read_points(io.BytesIO(text.encode()), format="geojson")
+    found = read_points(io.BytesIO(text.encode()), format="geojson", skip_missing=True)
+    assert (found.places.tolist(), found.rows.tolist()) == ([[1, 2]], [2])
+
+
 def test_tables_of_a_plane(tmp_path):
     text = "site,east,north,depth\nA,3500,5400,1\nB,3600,5410,\nC,,5420,2\n"
     with pytest.raises(ValueError, match="row 3: the east is missing; leave such rows out with skip_missing=True"):

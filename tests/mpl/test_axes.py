@@ -135,6 +135,8 @@ def test_contours_cover_the_disc_and_lines_do_not_follow_it():
     filled = axes.tricontourf(lon, lat, np.sin(np.radians(2 * lon)) * np.cos(np.radians(lat)), levels=9)
     covered = sum(area(axes.transGlobe.transform_path(path)) for path in filled.get_paths())
     assert covered == pytest.approx(np.pi, rel=1e-3)
+    for path in axes.tricontour(lon, lat, np.sin(np.radians(lat)), levels=[0.0]).get_paths():
+        assert path.codes is None or path.CLOSEPOLY not in path.codes
 
 
 @pytest.mark.parametrize("sight", [{}, {"magnification": 30}, {"view": StereographicView(10, 80, angular_radius=150)}])

@@ -14,6 +14,7 @@ import pytest
 
 from stereodel._tasks.crew import Crew
 from stereodel._tasks.kept import locked
+from stereodel.partitioned import run as running
 from stereodel.partitioned import triangulate
 from stereodel.partitioned.run import PASSES
 from tests.disks import small_disk
@@ -212,3 +213,20 @@ def test_inputs_stay_as_they_are(tmp_path, points):
     before = {path: (path.read_bytes(), path.stat().st_mtime_ns) for path in folder.iterdir()}
     serially(folder, tmp_path / "out", partition=60)
     assert {path: (path.read_bytes(), path.stat().st_mtime_ns) for path in folder.iterdir()} == before
+
+
+@pytest.mark.parametrize(
+    ("wrong", "message"),
+    [
+        ({"triangles": 10}, "there are 10 triangles, but 12 by Euler's formula"),
+        ({"area": 12.5}, r"the areas of all cells add up to 12\.5, but the sphere's is 12\.566"),
+    ],
+)
+def test_results_that_no_input_may_have(tmp_path, points, monkeypatch, wrong, message):
+    """Triangles that are too few and areas that do not cover the sphere end the run, with nothing published."""
+    folder, _ = points
+    right = running._report
+    monkeypatch.setattr(running, "_report", lambda *given: right(*given) | {"euler": 12, "triangles": 12} | wrong)
+    with pytest.raises(RuntimeError, match=message):
+        serially(folder, tmp_path / "out")
+    assert not (tmp_path / "out" / "run.json").exists()
