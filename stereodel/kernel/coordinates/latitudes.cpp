@@ -7,7 +7,8 @@ namespace stereodel::coordinates {
 namespace {
 
 constexpr std::size_t TERMS = 15;  // e^30 is below 2^-108, and the terms left out add up to less than that
-constexpr std::size_t PAIRS = 5;   // in double-double: ten roundings of the rest, below e^10 < 2^-36, lose 2^-85 at most
+// Those in double-double: ten roundings of the rest, below e^10 < 2^-36, lose 2^-85 at most.
+constexpr std::size_t PAIRS = 5;
 
 constexpr DoubleDouble whole(double value) {
     return {value, 0.0};
