@@ -183,7 +183,7 @@ def kept_and_broken(points, plane):
 
 @pytest.mark.parametrize("center", [PLACE, (-70.0, -10.0), (0.0, 90.0)])
 def test_stereographic_projections_keep_all_triangles(center):
-    projection, points = Stereographic(center), sets.sphere("unit").drawn(300)
+    projection, points = Stereographic(center), sets.sphere("unit").drawn(3000)
     part = planar_part(SphericalDelaunay(points), -lonlat_to_xyz(center))
     assert triangles(PlanarDelaunay(projection.forward(points)).simplices) == triangles(part)
     kept, broken = kept_and_broken(sites_of_a_cap(), Stereographic(PLACE).forward(sites_of_a_cap()))
