@@ -88,4 +88,4 @@ mkdir repository
 cp -r "$root"/{README.md,tools,figures} repository
 cd repository
 bare python -m tools.page_commands README.md "$work/readme"
-bare python -m tools.readme_images "$work/pictures"
+bare python -m tools.pictures readme "$work/pictures"
