@@ -24,7 +24,7 @@ from pathlib import Path
 from typing import Any
 
 from stereodel._tasks.crew import Crew
-from stereodel._tasks.kept import Kept
+from stereodel._tasks.kept import Kept, Note
 from stereodel._threads import thread_count
 from stereodel.film import Film
 from stereodel.render.figure import STYLE_HELP, style_names, styled_folder
@@ -95,10 +95,10 @@ def build(
     """
     chosen = find_scripts(scripts, names)
     _require_writable(out)
-    kept, shared = Kept(out), shared_digest(scripts)
+    kept, shared = Kept(out), shared_digest(scripts, styles)
     inputs = {script.stem: _digest(shared.encode() + script.read_bytes()) for script in chosen}
     notes = {script.stem: kept.note(f"{NOTES}/{script.stem}") or {} for script in chosen}
-    late = [script for script in chosen if force or notes[script.stem].get("inputs") != inputs[script.stem]]
+    late = [script for script in chosen if force or not _is_current(notes[script.stem], inputs[script.stem], out)]
     # The longest first, so that none of them is waited for at the end.
     late.sort(key=lambda script: -notes[script.stem].get("seconds", 0.0))
     outcomes: list[Outcome] = []
@@ -110,7 +110,8 @@ def build(
         if not outcome.error:
             # After each, so that what was finished is kept whatever comes.
             files = sorted(path.name for path in out.glob(f"{name}.*"))
-            kept.keep(f"{NOTES}/{name}", {**record, "inputs": inputs[name]}, files)
+            digests = {file: _digest((out / file).read_bytes()) for file in files}
+            kept.keep(f"{NOTES}/{name}", {**record, "inputs": inputs[name], "digests": digests}, files)
     return outcomes
 
 
@@ -141,10 +142,18 @@ def _require_writable(out: Path) -> None:
 # What a picture depends on
 
 
-def shared_digest(scripts: Path) -> str:
-    """Of all that every script depends on: shared modules, library, kernel, versions, the renderer asked for."""
-    shared = [path.name.encode() + b"\0" + path.read_bytes() + b"\0" for path in sorted(scripts.glob("_*.py"))]
+def shared_digest(scripts: Path, styles: tuple[str, ...] = ()) -> str:
+    """Of all that every script depends on: shared modules, style files, library, kernel, versions, the renderer."""
+    files = [*sorted(scripts.glob("_*.py")), *(path for path in map(Path, styles) if path.is_file())]
+    shared = [path.name.encode() + b"\0" + path.read_bytes() + b"\0" for path in files]
     return _digest(library_digest() + b"".join(shared))
+
+
+def _is_current(note: Note, inputs: str, out: Path) -> bool:
+    """Whether a script ran on these inputs, and its files, of the same sizes, have what it wrote."""
+    return note.get("inputs") == inputs and all(
+        _digest((out / name).read_bytes()) == digest for name, digest in note["digests"].items()
+    )
 
 
 def _digest(data: bytes) -> str:

@@ -73,6 +73,11 @@ def test_only_what_is_out_of_date_runs(scripts, tmp_path):
     (out / "fig01_one.txt").unlink()
     assert drawn(build.build(scripts, out)) == ["fig01_one"]
 
+    written = (out / "fig01_one.txt").read_bytes()
+    (out / "fig01_one.txt").write_bytes(written[::-1])
+    assert drawn(build.build(scripts, out)) == ["fig01_one"]  # of the same size, and another one
+    assert (out / "fig01_one.txt").read_bytes() == written
+
     (out / "notes" / "anim_two.json").write_text('{"half')
     assert drawn(build.build(scripts, out)) == ["anim_two"]
 
@@ -134,6 +139,8 @@ def test_a_style_goes_into_a_folder_of_its_own(scripts, tmp_path):
     made = {path.name for path in (tmp_path / "out" / "dark-gold").iterdir()}
     assert made == {"anim_two.gif", "notes"}
     assert "up to date" in command(*line, cwd=tmp_path).stdout
+    (tmp_path / "gold.toml").write_text('background = "navy"\n')
+    assert "1 drawn, 0 failed" in command(*line, cwd=tmp_path).stdout
 
 
 @pytest.mark.thorough
