@@ -24,14 +24,14 @@ FORMATS = ("parquet", "fgb", "gpkg", "geojson")
 MEASURE = r"""
 import json, sys, time
 import numpy as np
-from benchmarks.processes import peak_memory
+from benchmarks.peers.python_peer import high_water
 from stereodel import SphericalVoronoi
 from stereodel.io import write
 path, points = sys.argv[1], np.random.default_rng(1).normal(size=(int(sys.argv[2]), 3))
 begin, busy = time.perf_counter(), time.process_time()
 write(path, SphericalVoronoi(points))
 times = {"seconds": time.perf_counter() - begin, "busy": time.process_time() - busy}
-print(json.dumps(times | {"peak": peak_memory()}))
+print(json.dumps(times | {"peak": high_water()}))
 """
 
 

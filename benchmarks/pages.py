@@ -73,13 +73,7 @@ def listed(rows: Rows, align: str, *columns: tuple[str, str]) -> str:
 
 
 def fill(page: str, blocks: Blocks) -> None:
-    """Put each block between its markers `<!-- measured: name -->` and `<!-- end -->` of a page of docs/.
-
-    Raises
-    ------
-    ValueError
-        When the page lacks the markers.
-    """
+    """Put each block between its markers `<!-- measured: name -->` and `<!-- end -->` of a page of docs/."""
     path = DOCS / page
     text = path.read_text(encoding="utf-8")
     for name, block in blocks.items():

@@ -27,7 +27,8 @@ import pyarrow.parquet as pq
 
 from benchmarks import pages
 from benchmarks.__main__ import machine
-from benchmarks.processes import Watch, peak_memory
+from benchmarks.peers.python_peer import high_water
+from benchmarks.processes import Watch
 from stereodel import SphericalDelaunay, SphericalVoronoi, lonlat_to_xyz
 from stereodel.partitioned import triangulate
 
@@ -95,7 +96,7 @@ def in_partitions(points: Path, folder: Path, size: int, partition: int, workers
             progress=lambda name, *_: passes.update({name: time.perf_counter()}),
         )
     statistics, ends = run.statistics, list(passes.values())
-    told = watch.told()
+    told = watch.found()
     shutil.rmtree(folder / "out")
     shutil.rmtree(scratch, ignore_errors=True)
     seconds = {name: end - begin for name, begin, end in zip(passes, [ends[0], *ends[:-1]], ends, strict=True)}
@@ -129,7 +130,7 @@ def _in_memory(points: Path, folder: Path, workers: int) -> dict[str, float]:
     return {
         "wall": time.perf_counter() - began,
         "cpu": time.process_time(),
-        "rss_mb": peak_memory() / 2**20,
+        "rss_mb": high_water() / 2**20,
         "triangles": len(mesh.simplices),
     }
 

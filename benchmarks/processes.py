@@ -14,11 +14,12 @@ import subprocess
 import tempfile
 import threading
 import time
-from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Self
+
+import psutil
 
 SECONDS = 60.0
 """A call that takes longer ends the engine."""
@@ -104,7 +105,9 @@ class Engine:
                 self._heard += heard
             elif time.monotonic() > end:
                 raise StoppedError(f"over {SECONDS:.0f} s")
-            elif resident(self._process.pid) > 1.25 * BYTES:  # its points and libraries are not part of the limit
+            elif (
+                psutil.Process(self._process.pid).memory_info().rss > 1.25 * BYTES
+            ):  # its points and libraries are not part of the limit
                 raise StoppedError(f"over {BYTES >> 30} GB")
         line, self._heard = self._heard.split(b"\n", 1)
         return line.decode("utf-8", "replace")
@@ -136,24 +139,6 @@ class Engine:
         self.close()
 
 
-def resident(pid: int) -> int:
-    """Resident memory of a process, bytes; 0 when it is gone."""
-    return _status(pid, "VmRSS")
-
-
-def peak_memory() -> int:
-    """The most that was ever resident of this process, bytes; `getrusage` counts what started it, too."""
-    return _status("self", "VmHWM")
-
-
-def _status(process: int | str, what: str) -> int:
-    try:
-        status = Path(f"/proc/{process}/status").read_text(encoding="utf-8")
-    except OSError:
-        return 0
-    return sum(1024 * int(line.split()[1]) for line in status.splitlines() if line.startswith(f"{what}:"))
-
-
 class Watch(threading.Thread):
     """The peaks of the memory of child processes and of the bytes in a folder, and the seconds of processors."""
 
@@ -179,34 +164,23 @@ class Watch(threading.Thread):
     def run(self) -> None:
         """Look again and again."""
         while not self._ended.wait(LOOK):
-            for child in _children(os.getpid()):
-                with suppress(OSError):  # it has ended
-                    clock = Path(f"/proc/{child}/stat").read_text(encoding="utf-8").rpartition(")")[2].split()
-                    _, whole, shared = Path(f"/proc/{child}/statm").read_text(encoding="ascii").split()[:3]
-                    self._whole[child] = max(self._whole.get(child, 0), int(whole))
-                    self._own[child] = max(self._own.get(child, 0), int(whole) - int(shared))
-                    self._cpu[child] = (int(clock[11]) + int(clock[12])) / os.sysconf("SC_CLK_TCK")
+            for child in psutil.Process().children(recursive=True):
+                with suppress(psutil.Error):  # it has ended
+                    memory, clock = child.memory_info(), child.cpu_times()
+                    self._whole[child.pid] = max(self._whole.get(child.pid, 0), memory.rss)
+                    self._own[child.pid] = max(self._own.get(child.pid, 0), memory.rss - memory.shared)
+                    self._cpu[child.pid] = clock.user + clock.system
             self._disk = max(self._disk, size_of(self._folder))
 
-    def told(self) -> dict[str, float]:
+    def found(self) -> dict[str, float]:
         """Seconds of wall and processors, megabytes of the largest process with and without pages of files, disk."""
-        page_mb = os.sysconf("SC_PAGESIZE") / 2**20
         return {
             "wall": self.wall,
             "cpu": self.driver + sum(self._cpu.values()),
-            "rss_mb": page_mb * max(self._whole.values(), default=0),
-            "own_mb": page_mb * max(self._own.values(), default=0),
+            "rss_mb": max(self._whole.values(), default=0) / 2**20,
+            "own_mb": max(self._own.values(), default=0) / 2**20,
             "scratch_bytes": self._disk,
         }
-
-
-def _children(pid: int) -> Iterator[int]:
-    """The processes that a process has started, and those that they have."""
-    for file in Path(f"/proc/{pid}/task").glob("*/children"):
-        with suppress(OSError):
-            for child in map(int, file.read_text(encoding="ascii").split()):
-                yield child
-                yield from _children(child)
 
 
 def size_of(folder: Path) -> int:

@@ -142,12 +142,9 @@ Calls = dict[str, Callable[[], object]]
 
 
 def in_turns(calls: Calls, reference: str | None = None, rounds: int = 7) -> dict[str, dict[str, Any]]:
-    """Calls in this process: each once in every round, after one that does not count.
+    """Calls in this process, each once in every round, after one that does not count.
 
-    Returns
-    -------
-    dict
-        For each call the median of its seconds, those of all rounds, their ratios to the reference if there is one.
+    Of each the median of its seconds, those of all rounds, and their ratios to the reference if there is one.
     """
     seconds: dict[str, list[float]] = {key: [] for key in calls}
     for number in range(rounds + 1):

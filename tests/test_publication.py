@@ -86,7 +86,7 @@ def test_the_page_on_support_names_every_python():
     ["CITATION.cff", "SECURITY.md", "CODE_OF_CONDUCT.md", "paper/paper.md", "paper/paper.bib", "conda/recipe.yaml"],
 )
 def test_no_address_and_no_identifier(path):
-    """They are known at publication; CONTRIBUTING lists them."""
+    """They are known at publication; docs/development.md lists them."""
     text = read(path)
     assert not re.search(r"[\w.]+@[\w-]+\.\w+", text)
     assert not re.search(r"(?i)\b(?:doi|orcid|swhid)\b", text)

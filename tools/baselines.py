@@ -108,17 +108,7 @@ FRAMES: Final = ("first", "middle", "last")
 
 @dataclass(frozen=True)
 class Comparison:
-    """How two pictures differ.
-
-    Parameters
-    ----------
-    visible : float
-        Share of pixels of which a channel differs by more than `PIXEL_LEVELS`.
-    any : float
-        Share of pixels that differ at all.
-    worst : Tile
-        The part of the picture, `PIXEL_TILE` pixels wide and high, that differs most.
-    """
+    """The shares of pixels that differ visibly, by more than `PIXEL_LEVELS`, and at all; the part that differs most."""
 
     visible: float
     any: float
@@ -155,11 +145,7 @@ class Tile:
 
 
 def compare(expected: Pixels, actual: Pixels) -> Comparison:
-    """How a picture differs from the expected one; another shape differs everywhere.
-
-    Parameters
-    ----------
-    expected, actual : (h, w, c) uint8 arrays
+    """How a picture (h, w, c) differs from the expected one; another shape differs everywhere.
 
     Examples
     --------
@@ -205,18 +191,9 @@ def set_with() -> str:
 
 
 def array_differences(expected: Arrays, actual: Arrays, *, tolerance: float = GOLDEN_ERROR) -> dict[str, str]:
-    """What differs between two sets of named arrays.
+    """What differs between two sets of named arrays: name → what is wrong with it in a few words.
 
-    Parameters
-    ----------
-    expected, actual : mapping of str to array
-    tolerance : float
-        Largest difference of floats, relative to the largest number of the expected array, or to 1 if that is larger.
-
-    Returns
-    -------
-    dict
-        Name → what is wrong with it in a few words; empty when nothing is.
+    Floats may differ by `tolerance` times the largest number of the expected array, or times 1 if that is larger.
 
     Examples
     --------
@@ -486,13 +463,7 @@ def case_names(script: Path) -> list[str]:
 
 
 def write_baselines(scripts: Path, folder: Path, names: Sequence[str] = ()) -> Iterator[str]:
-    """Draw and store the cases of all scripts, or of those whose name begins with one of `names`.
-
-    Yields
-    ------
-    str
-        What was done, a line for each case.
-    """
+    """Draw and store the cases of all scripts, or of those whose name begins with one of `names`; a line for each."""
     folder.mkdir(parents=True, exist_ok=True)
     store = Store(folder)
     for script in find_scripts(scripts, names):

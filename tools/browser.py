@@ -64,13 +64,7 @@ Pixels = npt.NDArray[np.uint8]
 
 
 def executable() -> Path:
-    """The browser.
-
-    Raises
-    ------
-    FileNotFoundError
-        If there is none.
-    """
+    """The browser; a FileNotFoundError where there is none."""
     for name in NAMES:
         if found := shutil.which(name):
             return Path(found)
@@ -124,33 +118,11 @@ class _Quiet(SimpleHTTPRequestHandler):
 
 
 class Visit:
-    """An open page, with what it asked for and what it complained about.
+    """An open page of an address or a file, as Playwright has it (`page`).
 
-    Parameters
-    ----------
-    browser : Browser
-        Of `chromium`.
-    address : str or Path
-        Address of the page, or its file.
-    width, height : int
-        Of the window, in CSS pixels.
-    scale : float
-        Pixels of the device in a CSS pixel.
-    colours : {"light", "dark"}
-        What the system is set to.
-    reduced_motion, touch : bool
-        Likewise; with `touch` the pointer is coarse.
-    offline : bool, optional
-        No connection at all; by default where the page is a file.
-
-    Attributes
-    ----------
-    page : Page
-        The page, as Playwright has it.
-    requests : list of str
-        Addresses that the page asked for, its own first; those of data and blobs, which ask nobody, left out.
-    complaints : list of str
-        Errors that no script caught, and warnings and errors on the console.
+    `requests` are the addresses that it asked for, its own first, without those of data and blobs, which ask nobody;
+    `complaints` errors that no script caught, and warnings and errors on the console. The window is `width` by
+    `height` CSS pixels, of `scale` pixels of the device each; a page that is a file has no connection at all.
     """
 
     def __init__(
@@ -201,13 +173,7 @@ class Visit:
         self._context.close()
 
     def until(self, condition: str, *, seconds: float = 10.0) -> None:
-        """Wait until a JavaScript expression is true.
-
-        Raises
-        ------
-        TimeoutError
-            If it is not after so many seconds.
-        """
+        """Wait until a JavaScript expression is true; a TimeoutError after so many seconds."""
         # Not `wait_for_function`, which evaluates text in the page, where the security policy forbids that.
         end = time.monotonic() + seconds
         while not self.page.evaluate(condition):
@@ -216,13 +182,7 @@ class Visit:
             self.page.wait_for_timeout(20)
 
     def rest(self, *, still: float = 0.2, seconds: float = 10.0) -> None:
-        """Wait until no frame was drawn for `still` seconds.
-
-        Raises
-        ------
-        TimeoutError
-            If the page does not come to rest.
-        """
+        """Wait until no frame was drawn for `still` seconds; a TimeoutError if the page does not come to rest."""
         end = time.monotonic() + seconds
         while self.frames(still):
             if time.monotonic() > end:

@@ -66,32 +66,10 @@ def build(
     jobs: int | None = None,
     force: bool = False,
 ) -> list[Outcome]:
-    """Run every script in `scripts` that is out of date, say so in a line for each, and note what was drawn.
+    """Run the scripts of a folder that are out of date, or all by `force`; say so and note what was drawn.
 
-    Parameters
-    ----------
-    scripts : Path
-        Folder of the scripts.
-    out : Path
-        Folder to write to; made when it is missing.
-    names : iterable of str, optional
-        Beginnings of script names; all scripts when empty.
-    styles : tuple of str
-        Of the pictures, see `stereodel.drawing.styled`.
-    jobs : int, optional
-        Scripts that run at once; the usable cores by default.
-    force : bool
-        Run scripts that are up to date as well.
-
-    Returns
-    -------
-    list of Outcome
-        Of the scripts that ran, in the order of their ends.
-
-    Raises
-    ------
-    BuildError
-        If the folder cannot be written to, or a name is no script's beginning.
+    `names` are beginnings of script names, none for all; `styles` those of `stereodel.drawing.styled`; `jobs` scripts
+    run at once, one a core by default. A BuildError where a name begins no script's, or the folder cannot be written.
     """
     chosen = find_scripts(scripts, names)
     _require_writable(out)
@@ -186,14 +164,8 @@ def run_script(script: Path, out: Path, styles: tuple[str, ...] = ()) -> Outcome
     if record.get("renderer") == "gl":
         found = describe()
         record["opengl"] = f"{found.platform}: OpenGL {found.version}, {found.renderer}"
-    record = {
-        **record,
-        "figure": script.stem,
-        "script": script.name,
-        "seconds": round(seconds, 3),
-        "versions": library_versions(),
-    }
-    return Outcome(script, record)
+    about = {"figure": script.stem, "seconds": round(seconds, 3), "versions": library_versions()}
+    return Outcome(script, record | about)
 
 
 def save_film(film: Film[Any], path: Path) -> Record:

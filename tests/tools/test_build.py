@@ -93,7 +93,6 @@ def test_notes_say_what_was_drawn_with_what(scripts, tmp_path):
     assert list(notes) == ["anim_two", "fig01_one"]
     record = notes["fig01_one"]
     assert record["figure"] == "fig01_one"
-    assert record["script"] == "fig01_one.py"
     assert record["pixel_hash"] == "abc"
     assert record["renderer"] == "none"
     assert record["seconds"] >= 0
