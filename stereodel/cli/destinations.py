@@ -5,19 +5,18 @@ from __future__ import annotations
 import shutil
 import sys
 import tempfile
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from stereodel import PlanarDelaunay, PlanarVoronoi, SphericalDelaunay, SphericalVoronoi
 from stereodel._arrays import Column
 from stereodel._files import replacing, said_of
 from stereodel._interrupts import stop_if_interrupted
 from stereodel.cli.application import reporting
-from stereodel.cli.options import Latitude
 from stereodel.io import PointTable, write
 from stereodel.io.formats.delimited import write_csv
+from stereodel.io.maps.meshes_as_rows import Mesh
 
 if TYPE_CHECKING:
     from stereodel.io.formats.map_rows import MapRows
@@ -87,30 +86,24 @@ class Destination:
                 raise
 
 
-def save(path: Path, rows: PointTable | MapRows) -> None:
-    """Write a table of points, or the rows of a map, in the format of the extension."""
+def save(path: Path, rows: PointTable | MapRows | dict[str, Column]) -> None:
+    """Write a table of points, the rows of a map in the format of the extension, or columns alone as CSV."""
+    if isinstance(rows, dict):
+        with replacing(path) as temporary, temporary.open("w", encoding="utf-8", newline="") as file:
+            write_csv(rows, file)
+        return
     with reporting(f"writing {len(rows)} rows") as shown:
         write(path, rows, progress=shown)
 
 
-def save_csv(path: Path, columns: Mapping[str, Column]) -> None:
-    """Write columns as CSV."""
-    with replacing(path) as temporary, temporary.open("w", encoding="utf-8", newline="") as file:
-        write_csv(columns, file)
-
-
-def save_mesh(
-    path: Path, mesh: PlanarDelaunay | PlanarVoronoi | SphericalDelaunay | SphericalVoronoi, latitude: Latitude
-) -> None:
+def save_mesh(path: Path, mesh: Mesh, latitude: str) -> None:
     """Write cells or triangles as a mesh or picture."""
     kind = path.suffix.lower().removeprefix(".")
-    if kind not in PICTURES:
-        with reporting(f"writing {path.name}"):
-            if kind == "nc":
-                write(path, mesh, latitude=latitude.value)
-            else:
-                write(path, mesh)
-        return
-    from stereodel.drawing import diagram_page
+    if kind in PICTURES:
+        from stereodel.drawing import diagram_page
 
-    diagram_page(mesh).save(path)
+        diagram_page(mesh).save(path)
+        return
+    with reporting(f"writing {path.name}"):
+        known: dict[str, Any] = {"latitude": latitude} if kind == "nc" else {}
+        write(path, mesh, **known)

@@ -21,6 +21,7 @@ from stereodel._files import ENDING
 from stereodel._tasks.crew import Crew
 from stereodel._tasks.kept import Note, locked, save_json
 from stereodel._tasks.progress import Progress
+from stereodel.io.formats.names import spelled
 from stereodel.partitioned import rows as rows_of
 from stereodel.partitioned import spread
 from stereodel.partitioned.plan import NAME, Plan
@@ -167,7 +168,7 @@ def _begin(store: Store, resume: bool) -> None:
         if other:
             raise ValueError(
                 f"{folder} has a run of other files or arguments: {other}; take another folder, or begin anew "
-                "with resume=False"
+                f"with {spelled('resume', '=False')}"
             )
         if not (folder / REPORT).exists() and not (store.made / REPORT).exists():
             _delete(*left)  # what an earlier deletion left, when it was interrupted
