@@ -10,7 +10,8 @@ from PIL import Image, ImageCms
 from stereodel import fisheye
 from stereodel.drawing.scene.view import View
 from stereodel.globe import Raster, save_panorama
-from stereodel.globe.images import read_photo, write_photo
+from stereodel.globe.panoramas import write_photo
+from stereodel.globe.raster import read_photo
 from tests.globe.supersampling import zone_plate
 
 LENS = fisheye((90.0, 0.0), magnification=4.0)

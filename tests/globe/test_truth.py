@@ -17,8 +17,7 @@ from stereodel.curves.ragged import Ragged
 from stereodel.drawing import LineStyle, StereographicView, View
 from stereodel.drawing.page import Polygons
 from stereodel.globe import Globe
-from stereodel.globe.lines import SphereLines
-from stereodel.globe.regions import SphereRegions
+from stereodel.globe.outlines_on_sphere import SphereLines, SphereRegions
 from stereodel.mpl.transforms import LonLatToPage
 from tests.globe import truth
 from tests.images.foreign import by_pdfium
