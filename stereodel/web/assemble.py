@@ -14,6 +14,7 @@ import json
 import os
 import re
 from collections.abc import Sequence
+from functools import cache
 from importlib import resources
 from pathlib import Path
 from typing import Final
@@ -23,8 +24,7 @@ import numpy.typing as npt
 from stereodel._arrays import as_choice, as_lonlat
 from stereodel._files import replacing
 from stereodel.sphere.latitudes import KINDS, Latitude
-from stereodel.web.contents import RESOLUTIONS, Given, built, contents
-from stereodel.web.packing import packed
+from stereodel.web.contents import RESOLUTIONS, Given, built, contents, packed
 
 ENCODING: Final = r'<meta charset="utf-8"\s*/?>'
 STYLE: Final = r'<link rel="stylesheet" href="page\.css"\s*/?>'
@@ -123,6 +123,7 @@ def template() -> str:
     return resources.files("stereodel.web").joinpath("page.html").read_text(encoding="utf-8")
 
 
+@cache
 def module(resolution: str) -> str:
     """The script of the widget, with its contents as a constant."""
     return f"const CONTENTS = {json.dumps(contents(resolution, latitude=None))};\n{built('widget.js').decode('utf-8')}"
