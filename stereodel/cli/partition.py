@@ -56,7 +56,7 @@ def command(
     if "-" in points:
         raise ValueError(f"results in the folder {out} are of files, not of stdin")
     if (lon is None) != (lat is None):
-        raise ValueError("--lon and --lat are given together where results are in a folder")
+        raise ValueError("--lon and --lat are given together")
     names = {**ARGUMENTS, "columns": "--plane" if plane else "--lon"}
     with reporting() as told, workers(scheduler) as executor, spelling(names):
         try:

@@ -69,11 +69,9 @@ def command(
 
 def _corner_rows(triangulation: PlanarDelaunay | SphericalDelaunay, what: str, table: PointTable) -> dict[str, Column]:
     """Row numbers of the corners of all triangles except those that close the far side, or of their edges."""
-    from stereodel import SphericalDelaunay
+    from stereodel.triangulation.dispatch import open_triangles
     from stereodel.triangulation.topology import edges_of
 
-    simplices = triangulation.simplices
-    if isinstance(triangulation, SphericalDelaunay):
-        simplices = simplices[~triangulation.closing]
+    simplices = triangulation.simplices[open_triangles(triangulation)]
     corners = simplices if what == "triangles" else edges_of(simplices)
     return dict(zip("abc", table.rows[corners].T, strict=False))

@@ -187,3 +187,18 @@ class Names:
         places, seen = chart.points(self.xyz)
         for label, (x, y) in ((self.labels[k], places[k]) for k in np.flatnonzero(seen)):
             yield replace(label, anchor=(float(x), float(y)))
+
+
+class Layered(Protocol):
+    """Interface of what a panel shows, such as a `Globe`."""
+
+    layers: list[MapLayer]
+    limb: Limb
+
+
+def laid(globe: Layered, chart: Chart) -> tuple[Item, ...]:
+    """The page items of a chart, in painter's order."""
+    items: list[Item] = []
+    for layer in (*globe.layers, globe.limb):
+        items += layer.beside(chart, items) if isinstance(layer, Names) else layer.lay(chart)
+    return tuple(items)

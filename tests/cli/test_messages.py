@@ -53,7 +53,7 @@ voronoi cities.csv --clip land -o a.svg → --clip is for csv, geojson, geojsonl
 voronoi cities.csv --clip land --plane lon lat → --clip is for cells of the sphere
 voronoi cities.csv -o points → points: cannot write a file without extension; choose .csv
 partition - -o a/ → results in the folder a/ are of files, not of stdin
-partition FILE -o a/ --lon lon → --lon and --lat are given together where results are in a folder
+partition FILE -o a/ --lon lon → --lon and --lat are given together
 partition FILE -o a/ --lon x --lat y → --lon has 'x', which is not one of the columns 'lon'
 partition FILE -o a/ --keep x → --keep has 'x', which is not one of the columns 'lon', 'lat', 'id'
 partition nowhere.parquet -o a/ → nowhere.parquet is no file, folder or pattern of Parquet files
