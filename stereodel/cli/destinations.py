@@ -22,8 +22,6 @@ if TYPE_CHECKING:
     from stereodel.io.formats.map_rows import MapRows
 
 TABLES = ("csv", "geojson", "geojsonl", "parquet", "gpkg", "fgb", "shp", "kml")
-SAME = {"json": "geojson", "geoparquet": "parquet"}
-"""Alternative extensions of formats."""
 PICTURES = ("svg", "pdf")
 MESHES = ("nc", "glb", "ply", "vtp", *PICTURES)
 
@@ -34,36 +32,6 @@ class Destination:
 
     name: str
     kind: str
-
-    @classmethod
-    def of(
-        cls, name: str, kind: str | None, allowed: tuple[str, ...], *inputs: str | None, overwrite: bool = False
-    ) -> Destination:
-        """The destination given by --out and --format; an impossible one is rejected before the work starts.
-
-        An existing file is replaced only with --overwrite, an input never.
-        """
-        if name != "-" and kind is not None:
-            raise ValueError(f"--format is for stdout (--out -); the format of {name} is given by its extension")
-        chosen = (kind or allowed[0]) if name == "-" else Path(name).suffix
-        chosen = chosen.lower().removeprefix(".")
-        chosen = SAME.get(chosen, chosen)
-        if name == "-" and chosen == "shp":
-            raise ValueError("a shapefile is several files, and stdout is one; name a file with --out")
-        if chosen not in allowed:
-            kinds = ", ".join(f".{kind}" for kind in allowed)
-            raise ValueError(f"{name}: cannot write {chosen or 'a file without extension'}; choose {kinds}")
-        if name != "-" and not Path(name).resolve().parent.is_dir():
-            raise ValueError(f"{name}: there is no folder {Path(name).parent}")
-        if Path(name).is_dir():
-            raise ValueError(f"{name}: is a folder")
-        if Path(name).is_file():
-            for given in inputs:
-                if given is not None and Path(given).exists() and Path(given).samefile(name):
-                    raise ValueError(f"{name}: is an input, so it cannot be overwritten; choose another name")
-            if not overwrite:
-                raise ValueError(f"{name}: already exists; replace it with --overwrite, or choose another name")
-        return cls(name, chosen)
 
     def write(self, save: Callable[[Path], object]) -> None:
         """Call `save` to write the file; for stdout, to write a temporary file, which is then copied."""

@@ -67,7 +67,7 @@ class Projection(StrEnum):
 @options.grouped
 def command(
     *,
-    out: options.Out,
+    output: options.File,
     points: Annotated[
         str | None,
         typer.Argument(metavar="[POINTS]", help="Table of points: .csv, .geojson, .parquet, .gpkg; - for stdin."),
@@ -126,7 +126,6 @@ def command(
         int | None, typer.Option(min=1, max=65_535, help="Width in pixels; by default 1600, and 720 for films.")
     ] = None,
     columns: options.Table,
-    overwrite: options.Overwrite = False,
 ) -> None:
     """Draw a globe under a conformal fisheye, with maps, points and their cells, and layers from files.
 
@@ -134,12 +133,11 @@ def command(
     globe makes one turn if nothing is magnified.
     """
     from stereodel.cli.application import reporting
-    from stereodel.cli.destinations import Destination
     from stereodel.io.reading import naming
 
     layers = [layer_of(text) for text in layer or ()]
     read_from = (points, texture, *(str(path) for path, _ in layers), *(style or ()))
-    destination = Destination.of(out, None, PICTURES + FILMS, *read_from, overwrite=overwrite)
+    destination = output.of(PICTURES + FILMS, *read_from)
     filming = destination.kind in FILMS
     if points is None:
         options.refuse({"--labels": labels, **columns.given}, "POINTS; give a table")
@@ -149,7 +147,7 @@ def command(
     if filming:
         options.refuse({"--legend": legend, "--style": style}, "pictures, not for films")
     else:
-        options.refuse({"--fly": fly}, f"films, but {out} is none; the endings are .{', .'.join(FILMS)}")
+        options.refuse({"--fly": fly}, f"films, but {output.out} is none; the endings are .{', .'.join(FILMS)}")
     seen_from, at = (
         None if text is None else options.place(text, name) for text, name in ((view, "--view"), (focus, "--focus"))
     )

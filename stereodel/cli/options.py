@@ -9,6 +9,7 @@ from dataclasses import MISSING, dataclass, fields, is_dataclass, replace
 from enum import StrEnum
 from inspect import Parameter, signature
 from math import isfinite
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, get_type_hints
 
 import typer
@@ -31,6 +32,9 @@ class Latitude(StrEnum):
     authalic = "authalic"
 
 
+SAME = {"json": "geojson", "geoparquet": "parquet"}
+"""Alternative extensions of formats."""
+
 Place = tuple[float, float]
 """Longitude and latitude in degrees."""
 
@@ -47,9 +51,6 @@ def _segment(value: float) -> float:
 
 Points = Annotated[
     str, typer.Argument(metavar="POINTS", help="Table of points: .csv, .geojson, .gpkg, .shp, .xlsx …; - is stdin.")
-]
-Out = Annotated[
-    str, typer.Option("--out", "-o", metavar="FILE", help="File to write; its extension gives the format; - is stdout.")
 ]
 Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace the file if it exists.")]
 MaxSegment = Annotated[
@@ -70,20 +71,51 @@ Magnify = Annotated[float, typer.Option(metavar="S", callback=_magnification, he
 
 
 @dataclass(frozen=True)
-class Output:
-    """Where a command writes to."""
+class File:
+    """What a command writes: a file, or stdout."""
 
-    out: Out
-    format: Annotated[
-        str | None, typer.Option(metavar="NAME", help="Format of stdout, when --out is -; an extension, such as csv.")
-    ] = None
+    out: Annotated[
+        str,
+        typer.Option("--out", "-o", metavar="FILE", help="File to write; its extension gives the format; - is stdout."),
+    ]
     overwrite: Overwrite = False
 
     def of(self, allowed: tuple[str, ...], *inputs: str | None) -> Destination:
-        """The destination, as `Destination.of` says; without --format stdout gets the first of those allowed."""
+        """The destination, in the first of the formats for stdout; an impossible one is rejected before the work.
+
+        An existing file is replaced only with --overwrite, an input never.
+        """
         from stereodel.cli.destinations import Destination
 
-        return Destination.of(self.out, self.format, allowed, *inputs, overwrite=self.overwrite)
+        name, path, kind = self.out, Path(self.out), getattr(self, "format", None)
+        if name != "-" and kind is not None:
+            raise ValueError(f"--format is for stdout (--out -); the format of {name} is given by its extension")
+        chosen = ((kind or allowed[0]) if name == "-" else path.suffix).lower().removeprefix(".")
+        chosen = SAME.get(chosen, chosen)
+        if name == "-" and chosen == "shp":
+            raise ValueError("a shapefile is several files, and stdout is one; name a file with --out")
+        if chosen not in allowed:
+            kinds = ", ".join(f".{kind}" for kind in allowed)
+            raise ValueError(f"{name}: cannot write {chosen or 'a file without extension'}; choose {kinds}")
+        if name != "-" and not path.resolve().parent.is_dir():
+            raise ValueError(f"{name}: there is no folder {path.parent}")
+        if path.is_dir():
+            raise ValueError(f"{name}: is a folder")
+        if path.is_file():
+            if any(given is not None and Path(given).exists() and Path(given).samefile(name) for given in inputs):
+                raise ValueError(f"{name}: is an input, so it cannot be overwritten; choose another name")
+            if not self.overwrite:
+                raise ValueError(f"{name}: already exists; replace it with --overwrite, or choose another name")
+        return Destination(name, chosen)
+
+
+@dataclass(frozen=True)
+class Output(File):
+    """What a command writes, to stdout in one of several formats."""
+
+    format: Annotated[
+        str | None, typer.Option(metavar="NAME", help="Format of stdout, when --out is -; an extension, such as csv.")
+    ] = None
 
 
 @dataclass(frozen=True)

@@ -50,14 +50,13 @@ def command(
     from pathlib import Path
 
     from stereodel.cli.application import reporting, say
-    from stereodel.cli.destinations import Destination
     from stereodel.web import web
 
     named = "stereodel" if points in (None, "-") else Path(points or "").stem
     target = out or f"{named}.html"
     if open_it and target == "-":
         raise ValueError("--open needs a file; name one with --out")
-    destination = Destination.of(target, None, ("html",), points, overwrite=overwrite)
+    destination = options.File(target, overwrite).of(("html",), points)
     lonlat, names, name = None, None, ""
     if points is not None:
         table = columns.read(points)
