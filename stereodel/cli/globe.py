@@ -148,10 +148,9 @@ def command(
         options.refuse({"--legend": legend, "--style": style}, "pictures, not for films")
     else:
         options.refuse({"--fly": fly}, f"films, but {output.out} is none; the endings are .{', .'.join(FILMS)}")
-    seen_from, at = (
-        None if text is None else options.place(text, name) for text, name in ((view, "--view"), (focus, "--focus"))
-    )
-    aim = Aim(at, magnify, seen_from, projection)
+    at = None if focus is None else options.place(focus, "--focus")
+    middle = None if view is None else options.place(view, "--view")
+    aim = Aim(at, magnify, middle, projection)
     shown, table = shown_of(show, texture), None
     if points is not None:
         table = columns.read(points)
@@ -249,13 +248,11 @@ def shown_of(text: str | None, texture: str | None) -> frozenset[str]:
 def new_globe(shown: frozenset[str], resolution: str, spacing: float | None, texture: str | None) -> Globe:
     """A globe with an image and maps of the Earth, drawn from the bottom up; the spacing None suits the picture."""
     from stereodel.data import blue_marble
-    from stereodel.globe import Globe, Raster
+    from stereodel.globe import Globe
 
     globe = Globe(latitude="authalic")
     if texture is not None:
-        kind = globe.latitude
-        image = Raster(blue_marble(), latitude=kind) if texture == OWN_TEXTURE else Raster.open(texture, latitude=kind)
-        globe.add_raster(image)
+        globe.add_raster(blue_marble() if texture == OWN_TEXTURE else texture)
     for name in MAPS:
         if name == "graticule" and name in shown:
             globe.add_graticule(spacing)
