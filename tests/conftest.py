@@ -82,8 +82,8 @@ def pytest_runtest_teardown(item, nextitem):
     and what C's allocator keeps: half a gigabyte.
     """
     if nextitem is None or scope(item.nodeid) != scope(nextitem.nodeid):
-        if features := sys.modules.get("stereodel.globe.features"):
-            for kept in vars(features).values():
+        if outlines := sys.modules.get("stereodel.globe.outlines_on_sphere"):
+            for kept in vars(outlines).values():
                 getattr(kept, "cache_clear", list)()
         with suppress(AttributeError, OSError, TypeError):  # where it is not glibc's
             ctypes.CDLL(None).malloc_trim(0)

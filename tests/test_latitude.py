@@ -9,7 +9,7 @@ import pytest
 import typer.main
 from typer.testing import CliRunner
 
-from stereodel.cli import application, partitions
+from stereodel.cli import application, partition
 from stereodel.cli.application import app
 from stereodel.sphere.latitudes import KINDS, Latitude
 from tests.test_api import PACKAGES
@@ -71,11 +71,11 @@ def test_where_areas_are_written_the_command_says_of_which_latitudes(tmp_path, m
     lon, lat = [1.0, 20.0, 50.0, 9.0], [3.0, 4.0, -50.0, 70.0]
     pq.write_table(pa.table({"lon": lon, "lat": lat}), tmp_path / "points.parquet")
     said = []
-    for module in (application, partitions):
+    for module in (application, partition):
         monkeypatch.setattr(module, "say", said.append)
-    command = ["web", "points.parquet", "-o", out] if out.endswith("html") else ["voronoi", "points.parquet", "-o", out]
+    command = {"a.csv": "voronoi", "a/": "partition", "a.html": "web"}[out]
     monkeypatch.chdir(tmp_path)
-    ran = CliRunner().invoke(app, [*command, *given])
+    ran = CliRunner().invoke(app, [command, "points.parquet", "-o", out, *given])
     assert ran.exit_code == 0, ran.output
     assert len(said) == 1
     assert said[0].endswith(f" {kind} latitudes")

@@ -5,26 +5,23 @@ from __future__ import annotations
 import shutil
 import sys
 import tempfile
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from stereodel import PlanarDelaunay, PlanarVoronoi, SphericalDelaunay, SphericalVoronoi
 from stereodel._arrays import Column
 from stereodel._files import replacing, said_of
 from stereodel._interrupts import stop_if_interrupted
 from stereodel.cli.application import reporting
-from stereodel.cli.options import Latitude
 from stereodel.io import PointTable, write
 from stereodel.io.formats.delimited import write_csv
+from stereodel.io.maps.meshes_as_rows import Mesh
 
 if TYPE_CHECKING:
     from stereodel.io.formats.map_rows import MapRows
 
 TABLES = ("csv", "geojson", "geojsonl", "parquet", "gpkg", "fgb", "shp", "kml")
-SAME = {"json": "geojson", "geoparquet": "parquet"}
-"""Alternative extensions of formats."""
 PICTURES = ("svg", "pdf")
 MESHES = ("nc", "glb", "ply", "vtp", *PICTURES)
 
@@ -35,36 +32,6 @@ class Destination:
 
     name: str
     kind: str
-
-    @classmethod
-    def of(
-        cls, name: str, kind: str | None, allowed: tuple[str, ...], *inputs: str | None, overwrite: bool = False
-    ) -> Destination:
-        """The destination given by --out and --format; an impossible one is rejected before the work starts.
-
-        An existing file is replaced only with --overwrite, an input never.
-        """
-        if name != "-" and kind is not None:
-            raise ValueError(f"--format is for stdout (--out -); the format of {name} is given by its extension")
-        chosen = (kind or allowed[0]) if name == "-" else Path(name).suffix
-        chosen = chosen.lower().removeprefix(".")
-        chosen = SAME.get(chosen, chosen)
-        if name == "-" and chosen == "shp":
-            raise ValueError("a shapefile is several files, and stdout is one; name a file with --out")
-        if chosen not in allowed:
-            kinds = ", ".join(f".{kind}" for kind in allowed)
-            raise ValueError(f"{name}: cannot write {chosen or 'a file without extension'}; choose {kinds}")
-        if name != "-" and not Path(name).resolve().parent.is_dir():
-            raise ValueError(f"{name}: there is no folder {Path(name).parent}")
-        if Path(name).is_dir():
-            raise ValueError(f"{name}: is a folder")
-        if Path(name).is_file():
-            for given in inputs:
-                if given is not None and Path(given).exists() and Path(given).samefile(name):
-                    raise ValueError(f"{name}: is an input, so it cannot be overwritten; choose another name")
-            if not overwrite:
-                raise ValueError(f"{name}: already exists; replace it with --overwrite, or choose another name")
-        return cls(name, chosen)
 
     def write(self, save: Callable[[Path], object]) -> None:
         """Call `save` to write the file; for stdout, to write a temporary file, which is then copied."""
@@ -87,30 +54,24 @@ class Destination:
                 raise
 
 
-def save(path: Path, rows: PointTable | MapRows) -> None:
-    """Write a table of points, or the rows of a map, in the format of the extension."""
+def save(path: Path, rows: PointTable | MapRows | dict[str, Column]) -> None:
+    """Write a table of points, the rows of a map in the format of the extension, or columns alone as CSV."""
+    if isinstance(rows, dict):
+        with replacing(path) as temporary, temporary.open("w", encoding="utf-8", newline="") as file:
+            write_csv(rows, file)
+        return
     with reporting(f"writing {len(rows)} rows") as shown:
         write(path, rows, progress=shown)
 
 
-def save_csv(path: Path, columns: Mapping[str, Column]) -> None:
-    """Write columns as CSV."""
-    with replacing(path) as temporary, temporary.open("w", encoding="utf-8", newline="") as file:
-        write_csv(columns, file)
-
-
-def save_mesh(
-    path: Path, mesh: PlanarDelaunay | PlanarVoronoi | SphericalDelaunay | SphericalVoronoi, latitude: Latitude
-) -> None:
+def save_mesh(path: Path, mesh: Mesh, latitude: str) -> None:
     """Write cells or triangles as a mesh or picture."""
     kind = path.suffix.lower().removeprefix(".")
-    if kind not in PICTURES:
-        with reporting(f"writing {path.name}"):
-            if kind == "nc":
-                write(path, mesh, latitude=latitude.value)
-            else:
-                write(path, mesh)
-        return
-    from stereodel.drawing import diagram_page
+    if kind in PICTURES:
+        from stereodel.drawing import diagram_page
 
-    diagram_page(mesh).save(path)
+        diagram_page(mesh).save(path)
+        return
+    with reporting(f"writing {path.name}"):
+        known: dict[str, Any] = {"latitude": latitude} if kind == "nc" else {}
+        write(path, mesh, **known)

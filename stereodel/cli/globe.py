@@ -6,11 +6,11 @@ What people rarely type is in style files (`--style`), in the table itself, or i
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Final
+from typing import TYPE_CHECKING, Annotated, Any, Final, TypeVar
 
 import typer
 
@@ -23,6 +23,8 @@ if TYPE_CHECKING:
     from stereodel.film.shots import Motion
     from stereodel.globe import Globe
     from stereodel.io import PointTable
+
+T = TypeVar("T")
 
 EXAMPLE = "stereodel globe --focus=2.35,48.86 --magnify 20 -o paris.png"
 
@@ -62,8 +64,10 @@ class Projection(StrEnum):
     hemispheres = "hemispheres"
 
 
+@options.grouped
 def command(
-    out: options.Out,
+    *,
+    output: options.File,
     points: Annotated[
         str | None,
         typer.Argument(metavar="[POINTS]", help="Table of points: .csv, .geojson, .parquet, .gpkg; - for stdin."),
@@ -121,12 +125,7 @@ def command(
     size: Annotated[
         int | None, typer.Option(min=1, max=65_535, help="Width in pixels; by default 1600, and 720 for films.")
     ] = None,
-    lon: options.Lon = None,
-    lat: options.Lat = None,
-    layer_name: options.LayerName = None,
-    crs: options.Crs = None,
-    skip_missing: options.SkipMissing = False,
-    overwrite: options.Overwrite = False,
+    columns: options.Table,
 ) -> None:
     """Draw a globe under a conformal fisheye, with maps, points and their cells, and layers from files.
 
@@ -134,38 +133,39 @@ def command(
     globe makes one turn if nothing is magnified.
     """
     from stereodel.cli.application import reporting
-    from stereodel.cli.destinations import Destination
-    from stereodel.cli.sources import read
     from stereodel.io.reading import naming
 
-    layers = [LayerChoice.of(text) for text in layer or ()]
-    read_from = (points, texture, *(str(each.path) for each in layers), *(style or ()))
-    destination = Destination.of(out, None, PICTURES + FILMS, *read_from, overwrite=overwrite)
+    layers = [layer_of(text) for text in layer or ()]
+    read_from = (points, texture, *(str(path) for path, _ in layers), *(style or ()))
+    destination = output.of(PICTURES + FILMS, *read_from)
     filming = destination.kind in FILMS
     if points is None:
-        columns = {"--labels": labels, "--lon": lon, "--lat": lat, "--layer-name": layer_name, "--crs": crs}
-        found: dict[str, object] = {**columns, "--skip-missing": skip_missing}
-        options.refuse(found, "POINTS; give a table")
+        options.refuse({"--labels": labels, **columns.given}, "POINTS; give a table")
+    for name in style or ():
+        if name != "dark" and not name.lower().endswith(".toml"):
+            raise ValueError(f"--style is {name!r}; give dark or a file .toml")
     if filming:
         options.refuse({"--legend": legend, "--style": style}, "pictures, not for films")
     else:
-        options.refuse({"--fly": fly}, f"films, but {out} is none; the endings are .{', .'.join(FILMS)}")
-    aim = Aim(options.place(focus, "--focus"), magnify, options.place(view, "--view"), projection)
+        options.refuse({"--fly": fly}, f"films, but {output.out} is none; the endings are .{', .'.join(FILMS)}")
+    at = None if focus is None else options.place(focus, "--focus")
+    middle = None if view is None else options.place(view, "--view")
+    aim = Aim(at, magnify, middle, projection)
     shown, table = shown_of(show, texture), None
     if points is not None:
-        table = read(points, lon=lon, lat=lat, layer=layer_name, crs=crs, skip_missing=skip_missing)
+        table = columns.read(points)
     with reporting("reading maps"):
         resolution, spacing = ("50m", FILM_SPACING) if filming else (aim.resolution, None)
         drawing = new_globe(shown, resolution, spacing, texture)
         drawing.title = title
-        for each in layers:
-            with naming(str(each.path)):
-                drawing.add_layer(each.path, **each.arguments())
+        for path, looks in layers:
+            with naming(str(path)):
+                drawing.add_layer(path, **looks)
         if table is not None:
             aim = aim.with_middle_of(table.points("authalic"))
             add_points(drawing, table, shown, labels)
     if filming:
-        motion = motion_of(aim, [options.pair(text, "--fly", "LON,LAT") for text in fly or ()])
+        motion = motion_of(aim, [options.place(text, "--fly") for text in fly or ()])
         fps = GIF_FPS if destination.kind == "gif" else FPS
         destination.write(lambda path: save_film(drawing, motion, path, size=size or 720, fps=fps))
         return
@@ -185,9 +185,6 @@ class Aim:
     magnification: float
     middle: options.Place | None
     projection: Projection
-
-    def __post_init__(self) -> None:
-        options.as_magnification(self.magnification)
 
     def with_middle_of(self, points: FloatArray) -> Aim:
         """The aim centred on unit vectors (n, 3), unless a centre or focus was given."""
@@ -251,13 +248,11 @@ def shown_of(text: str | None, texture: str | None) -> frozenset[str]:
 def new_globe(shown: frozenset[str], resolution: str, spacing: float | None, texture: str | None) -> Globe:
     """A globe with an image and maps of the Earth, drawn from the bottom up; the spacing None suits the picture."""
     from stereodel.data import blue_marble
-    from stereodel.globe import Globe, Raster
+    from stereodel.globe import Globe
 
     globe = Globe(latitude="authalic")
     if texture is not None:
-        kind = globe.latitude
-        image = Raster(blue_marble(), latitude=kind) if texture == OWN_TEXTURE else Raster.open(texture, latitude=kind)
-        globe.add_raster(image)
+        globe.add_raster(blue_marble() if texture == OWN_TEXTURE else texture)
     for name in MAPS:
         if name == "graticule" and name in shown:
             globe.add_graticule(spacing)
@@ -266,45 +261,42 @@ def new_globe(shown: frozenset[str], resolution: str, spacing: float | None, tex
     return globe
 
 
-@dataclass(frozen=True)
-class LayerChoice:
-    """A file to draw and its style, as given by `--layer`: ``FILE,color=…,width=…``."""
+def layer_of(text: str) -> tuple[Path, dict[str, Any]]:
+    """The file and the arguments of `Globe.add_layer` that ``FILE,color=…,width=…`` stands for.
 
-    path: Path
-    looks: Mapping[str, str]
+    An existing file whose name contains commas and equals signs is taken literally.
+    """
+    from stereodel.drawing.page.colors import as_color
+    from stereodel.drawing.page.lengths import as_length
+    from stereodel.drawing.page.style import MAP_DOT, MAP_FILLS, MAP_LINES, LineStyle
 
-    @classmethod
-    def of(cls, text: str) -> LayerChoice:
-        """Parse an option; an existing file whose name contains commas and equals signs is taken literally."""
-        if Path(text).exists():
-            return cls(Path(text), {})
-        path, *given = re.split(r",(?=\w+=)", text)
-        looks = dict(part.split("=", 1) for part in given)
-        for key in looks:
-            if key not in LAYER_KEYS:
-                raise ValueError(f"--layer {text}: {key} is unknown; the keys are {', '.join(LAYER_KEYS)}")
-        return cls(Path(path), looks)
+    path, *given = [text] if Path(text).exists() else re.split(r",(?=\w+=)", text)
+    looks = dict(part.split("=", 1) for part in given)
+    for key in looks:
+        if key not in LAYER_KEYS:
+            raise ValueError(f"--layer {text}: {key} is unknown; the keys are {', '.join(LAYER_KEYS)}")
 
-    def arguments(self) -> dict[str, Any]:
-        """Arguments for `Globe.add_layer`."""
-        from stereodel.drawing.page.colors import as_color
-        from stereodel.drawing.page.lengths import as_length
-        from stereodel.drawing.page.style import MAP_DOT, MAP_LINES, DotStyle, LineStyle
+    def look(key: str, read: Callable[[Any, str], T], usual: T) -> T:
+        return read(looks[key], f"--layer: {key}") if key in looks else usual
 
-        looks, line, rim = self.looks, MAP_LINES["line"], MAP_LINES["outline"]
-        color = as_color(looks["color"], "--layer: color") if "color" in looks else None
-        width = as_length(looks["width"], "--layer: width") if "width" in looks else None
-        edge = as_color(looks["outline"], "--layer: outline") if looks.get("outline", "none") != "none" else rim.color
-        outline = None if looks.get("outline") == "none" else LineStyle(edge, rim.width if width is None else width)
-        radius = as_length(looks["size"], "--layer: size") / 2 if "size" in looks else MAP_DOT.radius
-        found = {
-            "outline": outline,
-            "style": LineStyle(color or line.color, line.width if width is None else width),
-            "dot_style": DotStyle(color or MAP_DOT.color, radius, MAP_DOT.rim, min(MAP_DOT.rim_width, radius / 3)),
-            "column": looks.get("column"),
-            "legend": self.path.stem,
-        }
-        return found if color is None else found | {"color": color}
+    line, rim = MAP_LINES["line"], MAP_LINES["outline"]
+    bare = looks.get("outline") == "none"
+    edge = rim.color if bare else look("outline", as_color, rim.color)
+    radius = look("size", as_length, 2 * MAP_DOT.radius) / 2
+    found: dict[str, Any] = {
+        "color": look("color", as_color, as_color(MAP_FILLS["area"])),
+        "outline": None if bare else LineStyle(edge, look("width", as_length, rim.width)),
+        "style": LineStyle(look("color", as_color, line.color), look("width", as_length, line.width)),
+        "dot_style": replace(
+            MAP_DOT,
+            color=look("color", as_color, MAP_DOT.color),
+            radius=radius,
+            rim_width=min(MAP_DOT.rim_width, radius / 3),
+        ),
+        "column": looks.get("column"),
+        "legend": Path(path).stem,
+    }
+    return Path(path), found
 
 
 def add_points(globe: Globe, table: PointTable, shown: frozenset[str], labels: str | None) -> None:
@@ -317,22 +309,21 @@ def add_points(globe: Globe, table: PointTable, shown: frozenset[str], labels: s
     places = table.points("authalic")
     weight = max(FINEST, min(1.0, float(np.sqrt(CROWDED / max(1, len(places))))))
     triangulation = SphericalDelaunay(places)
+    edges, ridges = (LINES[name].scaled(weight) for name in ("delaunay", "voronoi"))
+    dots = DOTS["sites"].scaled(weight)
     if "triangles" in shown:
-        style = LINES["delaunay"].scaled(weight)
-        globe.add_triangulation(triangulation, style=style, name="delaunay")
-        globe.legend["triangles"] = style
+        globe.add_triangulation(triangulation, style=edges, name="delaunay")
+        globe.legend["triangles"] = edges
     if "cells" in shown:
-        style = LINES["voronoi"].scaled(weight)
-        globe.add_cells(SphericalVoronoi(triangulation), style=style, name="voronoi")
-        globe.legend["cells"] = style
+        globe.add_cells(SphericalVoronoi(triangulation), style=ridges, name="voronoi")
+        globe.legend["cells"] = ridges
     if "points" in shown:
-        dots = DOTS["sites"].scaled(weight)
         globe.add_points(table.places, style=dots, name="sites")
         globe.legend[Path(table.name).stem] = dots
     if labels is not None:
         texts = ["" if value is None else str(value).strip() for value in table.column(labels).tolist()]
-        named = np.array([text not in ("", "nan") for text in texts], dtype=np.bool_)
-        globe.add_labels(table.places[named], [text for text in texts if text not in ("", "nan")], movable=True)
+        named = [k for k, text in enumerate(texts) if text not in ("", "nan")]
+        globe.add_labels(table.places[named], [texts[k] for k in named], movable=True)
 
 
 def motion_of(aim: Aim, stops: Sequence[options.Place]) -> Motion:

@@ -1,13 +1,27 @@
-"""Options shared by several commands, with the same wording."""
+"""Options that several commands share: words for typer, tables to read, and texts as numbers."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import sys
+from collections.abc import Callable, Mapping
+from copy import copy
+from dataclasses import MISSING, dataclass, fields, is_dataclass, replace
 from enum import StrEnum
+from inspect import Parameter, signature
 from math import isfinite
-from typing import Annotated
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, get_type_hints
 
 import typer
+
+from stereodel._arrays import as_scalar
+from stereodel.cli.application import ARGUMENTS, NothingToDoError, reporting
+from stereodel.constants import LARGEST_MAGNIFICATION
+from stereodel.io.formats.names import spelling
+
+if TYPE_CHECKING:
+    from stereodel.cli.destinations import Destination
+    from stereodel.io import PointTable
 
 
 class Latitude(StrEnum):
@@ -18,41 +32,32 @@ class Latitude(StrEnum):
     authalic = "authalic"
 
 
+SAME = {"json": "geojson", "geoparquet": "parquet"}
+"""Alternative extensions of formats."""
+
 Place = tuple[float, float]
 """Longitude and latitude in degrees."""
+
+
+def _magnification(value: float) -> float:
+    return as_scalar(value, "--magnify", low=1 / LARGEST_MAGNIFICATION, high=LARGEST_MAGNIFICATION)
+
+
+def _segment(value: float) -> float:
+    from stereodel.io.maps.rows_of import LARGEST_SEGMENT
+
+    return as_scalar(value, "--max-segment", low=0.0, high=LARGEST_SEGMENT, open_low=True)
+
 
 Points = Annotated[
     str, typer.Argument(metavar="POINTS", help="Table of points: .csv, .geojson, .gpkg, .shp, .xlsx …; - is stdin.")
 ]
-Out = Annotated[
-    str, typer.Option("--out", "-o", metavar="FILE", help="File to write; its extension gives the format; - is stdout.")
-]
 Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace the file if it exists.")]
-Format = Annotated[
-    str | None, typer.Option("--format", metavar="NAME", help="Format of stdout, when --out is -; csv by default.")
-]
-Lon = Annotated[
-    str | None, typer.Option("--lon", metavar="COLUMN", help="Column of longitudes; recognised by its name by default.")
-]
-Lat = Annotated[
-    str | None, typer.Option("--lat", metavar="COLUMN", help="Column of latitudes; recognised by its name by default.")
-]
-LayerName = Annotated[
-    str | None, typer.Option("--layer-name", metavar="NAME", help="Layer of the points, if the file has several.")
-]
-Crs = Annotated[
-    str | None,
-    typer.Option(
-        "--crs",
-        metavar="NAME",
-        help="Coordinate system of the columns, e.g. EPSG:25832; by default degrees, or with --plane none.",
-    ),
-]
-SkipMissing = Annotated[
-    bool, typer.Option("--skip-missing", help="Leave out rows without a position or a value, instead of stopping.")
-]
 MaxSegment = Annotated[
-    float, typer.Option("--max-segment", metavar="DEGREES", help="Longest straight piece of an arc, in map formats.")
+    float,
+    typer.Option(
+        "--max-segment", metavar="DEGREES", callback=_segment, help="Longest straight piece of an arc, in map formats."
+    ),
 ]
 LatitudeKind = Annotated[
     Latitude,
@@ -62,13 +67,183 @@ LatitudeKind = Annotated[
         "(authalic), or a sphere.",
     ),
 ]
-Magnify = Annotated[float, typer.Option(metavar="S", help="Magnification at the focus.")]
-Plane = Annotated[
-    tuple[str, str] | None,
-    typer.Option(
-        "--plane", metavar="X Y", help="Columns of coordinates in a plane, instead of longitude and latitude."
-    ),
-]
+Magnify = Annotated[float, typer.Option(metavar="S", callback=_magnification, help="Magnification at the focus.")]
+
+
+@dataclass(frozen=True)
+class File:
+    """What a command writes: a file, or stdout."""
+
+    out: Annotated[
+        str,
+        typer.Option("--out", "-o", metavar="FILE", help="File to write; its extension gives the format; - is stdout."),
+    ]
+    overwrite: Overwrite = False
+
+    def of(self, allowed: tuple[str, ...], *inputs: str | None) -> Destination:
+        """The destination, in the first of the formats for stdout; an impossible one is rejected before the work.
+
+        An existing file is replaced only with --overwrite, an input never.
+        """
+        from stereodel.cli.destinations import Destination
+
+        name, path, kind = self.out, Path(self.out), getattr(self, "format", None)
+        if name != "-" and kind is not None:
+            raise ValueError(f"--format is for stdout (--out -); the format of {name} is given by its extension")
+        chosen = ((kind or allowed[0]) if name == "-" else path.suffix).lower().removeprefix(".")
+        chosen = SAME.get(chosen, chosen)
+        if name == "-" and chosen == "shp":
+            raise ValueError("a shapefile is several files, and stdout is one; name a file with --out")
+        if chosen not in allowed:
+            kinds = ", ".join(f".{kind}" for kind in allowed)
+            raise ValueError(f"{name}: cannot write {chosen or 'a file without extension'}; choose {kinds}")
+        if name != "-" and not path.resolve().parent.is_dir():
+            raise ValueError(f"{name}: there is no folder {path.parent}")
+        if path.is_dir():
+            raise ValueError(f"{name}: is a folder")
+        if path.is_file():
+            if any(given is not None and Path(given).exists() and Path(given).samefile(name) for given in inputs):
+                raise ValueError(f"{name}: is an input, so it cannot be overwritten; choose another name")
+            if not self.overwrite:
+                raise ValueError(f"{name}: already exists; replace it with --overwrite, or choose another name")
+        return Destination(name, chosen)
+
+
+@dataclass(frozen=True)
+class Output(File):
+    """What a command writes, to stdout in one of several formats."""
+
+    format: Annotated[
+        str | None, typer.Option(metavar="NAME", help="Format of stdout, when --out is -; an extension, such as csv.")
+    ] = None
+
+
+@dataclass(frozen=True)
+class Table:
+    """How a table of places of the Earth is read."""
+
+    lon: Annotated[
+        str | None, typer.Option(metavar="COLUMN", help="Column of longitudes; recognised by its name by default.")
+    ] = None
+    lat: Annotated[
+        str | None, typer.Option(metavar="COLUMN", help="Column of latitudes; recognised by its name by default.")
+    ] = None
+    layer_name: Annotated[
+        str | None, typer.Option(metavar="NAME", help="Layer of the points, if the file has several.")
+    ] = None
+    crs: Annotated[
+        str | None,
+        typer.Option(
+            metavar="NAME",
+            help="Coordinate system of the columns, e.g. EPSG:25832; by default degrees, or in a plane none.",
+        ),
+    ] = None
+    skip_missing: Annotated[
+        bool, typer.Option("--skip-missing", help="Leave out rows without a position or a value, instead of stopping.")
+    ] = False
+
+    @property
+    def given(self) -> dict[str, object]:
+        """Values by option, to be refused where there is no table."""
+        return {f"--{field.name.replace('_', '-')}": getattr(self, field.name) for field in fields(self)}
+
+    def read(self, name: str, plane: tuple[str, str] | None = None) -> PointTable:
+        """The table in a file, or on stdin if `name` is "-"; NothingToDoError for one without points."""
+        from stereodel.io import read_points
+        from stereodel.io.reading import naming
+
+        shown = "stdin" if name == "-" else name
+        source = sys.stdin.buffer if name == "-" else name
+        with reporting(f"reading {shown}") as told, naming(shown if name == "-" else None):
+            table = read_points(
+                source,
+                lon=self.lon,
+                lat=self.lat,
+                plane=plane,
+                layer=self.layer_name,
+                crs=self.crs,
+                skip_missing=self.skip_missing,
+                progress=told,
+            )
+        if len(table) == 0:
+            raise NothingToDoError(f"{shown}: there are no points")
+        return table if table.name else replace(table, name=shown)
+
+
+@dataclass(frozen=True)
+class AnyTable(Table):
+    """How a table of points is read, which may be of a plane."""
+
+    plane: Annotated[
+        tuple[str, str] | None,
+        typer.Option(metavar="X Y", help="Columns of coordinates in a plane, instead of longitude and latitude."),
+    ] = None
+
+    def read(self, name: str, plane: tuple[str, str] | None = None) -> PointTable:
+        """As for `Table`."""
+        return super().read(name, plane or self.plane)
+
+
+@dataclass(frozen=True)
+class SecondTable:
+    """How the table that an option names, `of`, is read, where it differs from the first one."""
+
+    of: str
+    lon: Annotated[str | None, typer.Option(metavar="COLUMN", help="Column of longitudes of {of}.")] = None
+    lat: Annotated[str | None, typer.Option(metavar="COLUMN", help="Column of latitudes of {of}.")] = None
+    layer_name: Annotated[str | None, typer.Option(metavar="NAME", help="Layer of {of}, if the file has several.")] = (
+        None
+    )
+    crs: Annotated[str | None, typer.Option(metavar="NAME", help="Coordinate system of the columns of {of}.")] = None
+
+    @property
+    def given(self) -> dict[str, object]:
+        """As for `Table`."""
+        names = [field.name for field in fields(self)[1:]]
+        return {f"{self.of}-{name.replace('_', '-')}": getattr(self, name) for name in names}
+
+    def read(self, name: str, first: AnyTable) -> PointTable:
+        """The table; in a plane both have the columns of --plane, and by default the coordinate system of the first."""
+        crs = self.crs or (first.crs if first.plane else None)
+        table = replace(first, lon=self.lon, lat=self.lat, layer_name=self.layer_name, crs=crs)
+        own = {key: f"{self.of}{ARGUMENTS[key][1:]}" for key in ("lon", "lat", "layer", "crs")}
+        with spelling({**ARGUMENTS, **own}):
+            return table.read(name)
+
+
+def grouped(command: Callable[..., None]) -> Callable[..., None]:
+    """A command as typer reads it: a parameter that is a dataclass of options stands for one option a field.
+
+    ``Annotated[SecondTable, "--of"]`` gives the fields options of its own, ``--of-lon`` and so on.
+    """
+    groups: dict[str, tuple[Any, dict[str, str], dict[str, str]]] = {}
+    parameters: list[Parameter] = []
+    for name, parameter in signature(command, eval_str=True).parameters.items():
+        group = getattr(parameter.annotation, "__origin__", parameter.annotation)
+        if not is_dataclass(group):
+            parameters.append(parameter.replace(kind=Parameter.KEYWORD_ONLY))
+            continue
+        of = "".join(getattr(parameter.annotation, "__metadata__", ()))
+        hints = get_type_hints(group, include_extras=True)
+        options = {field.name: field for field in fields(group) if field.name != "of"}
+        names = {key: f"{of.removeprefix('--')}_{key}" if of else key for key in options}
+        for key, field in options.items():
+            option = copy(hints[key].__metadata__[0])
+            option.help = option.help.format(of=of)
+            default = Parameter.empty if field.default is MISSING else field.default
+            typed = Annotated[hints[key].__origin__, option]  # type: ignore[valid-type]
+            parameters.append(Parameter(names[key], Parameter.KEYWORD_ONLY, default=default, annotation=typed))
+        groups[name] = (group, names, {"of": of} if of else {})
+
+    def called(**given: Any) -> None:
+        for name, (group, names, of) in groups.items():
+            given[name] = group(**of, **{key: given.pop(option) for key, option in names.items()})
+        command(**given)
+
+    called.__doc__ = command.__doc__
+    called.__annotations__ = {parameter.name: parameter.annotation for parameter in parameters}
+    called.__signature__ = signature(command).replace(parameters=parameters)  # type: ignore[attr-defined]
+    return called
 
 
 def refuse(given: Mapping[str, object], purpose: str) -> None:
@@ -79,26 +254,20 @@ def refuse(given: Mapping[str, object], purpose: str) -> None:
         raise ValueError(f"{several} for {purpose}")
 
 
-def as_magnification(value: float) -> float:
-    """The value of --magnify, checked."""
-    if not 0 < value < float("inf"):
-        raise ValueError(f"--magnify is {value:g}, but a magnification is positive and finite")
-    return value
-
-
-def place(text: str | None, option: str) -> Place | None:
-    """Longitude and latitude from the text of an option."""
-    return None if text is None else pair(text, option, "LON,LAT")
-
-
-def pair(text: str, option: str, meaning: str) -> Place:
-    """Longitude and latitude separated by a comma, such as ``10.5,48``."""
+def numbers(text: str, option: str, meaning: str, example: str, count: int = 0) -> list[float]:
+    """Finite numbers, if need be so many, separated by commas."""
     try:
-        lon, lat = (float(part) for part in text.split(","))
+        found = [float(part) for part in text.split(",")]
     except ValueError:
-        raise ValueError(f"{option} is {text!r}, but must be {meaning}, e.g. {option}=10.5,48") from None
-    if not isfinite(lon):
-        raise ValueError(f"{option} is {text!r}, but its longitude must be finite")
+        found = []
+    if not found or not all(map(isfinite, found)) or len(found) != (count or len(found)):
+        raise ValueError(f"{option} is {text!r}, but must be {meaning}, e.g. {option}={example}")
+    return found
+
+
+def place(text: str, option: str) -> Place:
+    """Longitude and latitude separated by a comma, such as ``10.5,48``."""
+    lon, lat = numbers(text, option, "LON,LAT", "10.5,48", 2)
     if not -90 <= lat <= 90:
         raise ValueError(f"{option} is {text!r}, but its latitude is outside [-90, 90]; the longitude comes first")
     return lon, lat
@@ -106,12 +275,7 @@ def pair(text: str, option: str, meaning: str) -> Place:
 
 def box_of(text: str, option: str) -> tuple[float, float, float, float]:
     """Bounds of a box "W,S,E,N" in degrees; the eastern one exceeds 180 if the box crosses ±180°."""
-    try:
-        west, south, east, north = (float(part) for part in text.split(","))
-    except ValueError:
-        raise ValueError(f"{option} is {text!r}, but must be W,S,E,N in degrees, e.g. {option}=-25,34,45,72") from None
-    if not (isfinite(west) and isfinite(east)):
-        raise ValueError(f"{option} is {text!r}, but its west and east borders must be finite")
+    west, south, east, north = numbers(text, option, "W,S,E,N in degrees", "-25,34,45,72", 4)
     if not -90 <= south < north <= 90:
         raise ValueError(f"{option} is {text!r}, but its south border must be below its north border in [-90, 90]")
     return west, south, east if east > west else east + 360.0, north

@@ -22,11 +22,13 @@ class Form(StrEnum):
     planet = "planet"
 
 
+@options.grouped
 def command(
+    *,
     picture: Annotated[
         str, typer.Argument(metavar="PICTURE", help="Panorama, twice as wide as high: .jpg, .png, .webp, .tif …")
     ],
-    out: options.Out,
+    output: options.Output,
     focus: Annotated[
         str | None, typer.Option(metavar="LON,LAT", help="Focus of the fisheye; by default the centre of the picture.")
     ] = None,
@@ -46,36 +48,32 @@ def command(
     faces: Annotated[
         bool, typer.Option("--faces", help="For cubemaps: a file for each face, NAME_right.jpg …")
     ] = False,
-    format: Annotated[
-        str | None, typer.Option("--format", metavar="NAME", help="Format of stdout, when --out is -; jpg by default.")
-    ] = None,
-    overwrite: options.Overwrite = False,
 ) -> None:
     """Write a 360° picture as seen through a conformal fisheye: places near the focus grow, circles stay round.
 
     Longitude and latitude are those of the picture: 0,0 is its centre, 0,90 straight up.
     """
+    from dataclasses import replace
     from pathlib import Path
 
     from stereodel import fisheye
     from stereodel.cli.application import reporting
-    from stereodel.cli.destinations import Destination
     from stereodel.drawing import View
     from stereodel.globe.panoramas import face_paths, save_panorama
     from stereodel.globe.raster import panorama_size, planet_radius
 
     if faces and to != Form.cubemap:
         raise ValueError(f"--faces requires --to cubemap, but --to is {to.value}")
-    if faces and out == "-":
+    if faces and output.out == "-":
         raise ValueError("--faces are six files, and stdout is one; name a file with --out")
-    destination = Destination.of(out, format, PICTURES, picture, overwrite=overwrite and not faces)
-    for name in face_paths(Path(out)) if faces else ():
-        Destination.of(str(name), None, PICTURES, picture, overwrite=overwrite)
-    options.as_magnification(magnify)
+    destination = replace(output, overwrite=output.overwrite and not faces).of(PICTURES, picture)
+    for name in face_paths(Path(output.out)) if faces else ():
+        replace(output, out=str(name)).of(PICTURES, picture)
     if width is not None:
         panorama_size(width, to.value, "--width")
     planet_radius(angular_radius, "--angular-radius")
-    seen, at = options.place(view, "--view"), options.place(focus, "--focus")
+    seen = None if view is None else options.place(view, "--view")
+    at = None if focus is None else options.place(focus, "--focus")
     if at is None and magnify != 1:
         at = seen or (0.0, -90.0 if to == Form.planet else 0.0)
     lens = fisheye(at, magnification=magnify) if at else None

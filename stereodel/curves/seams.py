@@ -12,47 +12,18 @@ import numpy as np
 
 from stereodel._arrays import BoolArray, FloatArray, Indices
 from stereodel.curves.ragged import Ragged, cycles, spans
-
-
-def left_inside(rings: Ragged, outer: BoolArray) -> Ragged:
-    """Closed rings (k, 2) in degrees, in either direction, oriented so that their region is on the left.
-
-    Outer rings then run counterclockwise and holes clockwise. A ring whose longitudes continue around the Earth, as
-    after `unwrapped`, is not bounded on the map: it contains the pole on its smaller side.
-    """
-    points, after = rings.values, rings.following
-    last = np.zeros(len(points), dtype=bool)
-    last[rings.offsets[1:] - 1] = True
-    # Twice the area on the map, relative to the first point of each, and the longitude that each goes around.
-    p = points - np.repeat(points[rings.offsets[:-1]], rings.sizes, axis=0)
-    step = np.where(last[:, None], 0.0, points[after] - points)
-    area = np.bincount(rings.row, p[:, 0] * step[:, 1] - p[:, 1] * step[:, 0], minlength=len(rings))
-    turns = np.round(np.bincount(rings.row, step[:, 0], minlength=len(rings)) / 360)
-    # The area to the left of a ring around the Earth is 2π − ∫ sin φ dλ, whatever its direction.
-    sine = np.sin(np.radians(points[:, 1]))
-    height = np.bincount(rings.row, (sine + sine[after]) / 2 * step[:, 0], minlength=len(rings))
-    return rings.reversed(np.where(turns != 0, height < 0, area < 0) == outer)
+from stereodel.curves.trace import sides_of
 
 
 def stitched(rings: Ragged, owner: Indices, seam: float = 180.0) -> tuple[FloatArray, FloatArray, Ragged, Indices]:
     """Edges and rings, without seams, of closed rings (k, 2) in degrees with their regions on the left.
 
-    The map is cut at the meridian `seam`, degrees.
-
-    Returns
-    -------
-    start, end : (e, 2) arrays
-        Edges in degrees; the end of one and the start of the next may be one point with two longitudes.
-    rings : Ragged
-        Indices of the edges of each ring.
-    owner : (r,) array
-        The region of each ring.
+    seam: the meridian where the map is cut, in degrees.
+    Returns starts and ends of edges (e, 2), in degrees, where the end of one and the start of the next may be one point
+    with two longitudes; the indices of the edges of each ring; and the region of each ring.
     """
-    inner = np.ones(len(rings.values), dtype=bool)
-    inner[rings.offsets[1:] - 1] = False
-    first = np.flatnonzero(inner)
+    first, sides = sides_of(rings)
     start, end = rings.values[first], rings.values[first + 1]
-    sides = Ragged(np.arange(len(first)), rings.offsets - np.arange(len(rings) + 1))
     border = _on_meridian(rings.values, seam) | (np.abs(rings.values[:, 1]) == 90)
     if not border.any():
         return start, end, sides, owner

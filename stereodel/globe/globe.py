@@ -46,13 +46,12 @@ from stereodel.drawing.page.style import (
 )
 from stereodel.drawing.scene.legend import LegendEntry, with_legend
 from stereodel.drawing.scene.view import MapView
-from stereodel.globe import features
-from stereodel.globe.layers import Areas, GridLines, Ground, Image, Lines, MapLayer, Names, Points, Rim
-from stereodel.globe.lines import SphereLines
+from stereodel.globe.layers import Areas, GridLines, Ground, Image, Limb, LineLayer, MapLayer, Names, Points, laid
+from stereodel.globe.outlines_on_sphere import Rings, SphereLines, SphereRegions, earth_lines, earth_regions
 from stereodel.globe.pages import Panel, default_view, panels
 from stereodel.globe.raster import Raster
-from stereodel.globe.regions import Rings, SphereRegions
 from stereodel.io.map_shapes import Shapes
+from stereodel.io.maps.meshes_as_rows import ridge_arcs
 from stereodel.io.reading import shapes_of
 from stereodel.sphere import SphereCircle, lonlat_to_xyz
 from stereodel.sphere.latitudes import KINDS, Latitude
@@ -122,7 +121,7 @@ class Globe:
     ) -> None:
         self.latitude: Latitude = as_choice(latitude, KINDS, "latitude")
         self.layers: list[MapLayer] = [Ground(as_color(ocean, "ocean"))]
-        self.limb = Rim(limb)
+        self.limb = Limb(limb)
         self.font = as_font(font)
         self.title = title
         self.legend: dict[str, LegendEntry] = {}
@@ -171,29 +170,30 @@ class Globe:
         self, *, color: ColorLike = MAP_FILLS["land"], outline: LineStyle | None = None, resolution: str = "50m"
     ) -> None:
         """Fill the land of the Earth (Natural Earth), and draw its outline if a style is given."""
-        self._add_polygons(features.land(resolution, self.latitude), color, outline, "land")
+        self._add_polygons(earth_regions("land", resolution, self.latitude), color, outline, "land")
 
     def add_ocean(self, *, color: ColorLike = MAP_FILLS["ocean"], resolution: str = "50m") -> None:
         """Fill everything but the land of the Earth (Natural Earth); layers below then show on land only."""
-        self.add(Areas(features.sea(resolution, self.latitude), np.array([as_color(color)]), "ocean"))
+        sea = earth_regions("land", resolution, self.latitude).complement
+        self.add(Areas(sea, np.array([as_color(color)]), "ocean"))
 
     def add_lakes(
         self, *, color: ColorLike = MAP_FILLS["ocean"], outline: LineStyle | None = None, resolution: str = "50m"
     ) -> None:
         """Fill the lakes of the Earth (Natural Earth)."""
-        self._add_polygons(features.lakes(resolution, self.latitude), color, outline, "lakes")
+        self._add_polygons(earth_regions("lakes", resolution, self.latitude), color, outline, "lakes")
 
     def add_rivers(self, *, style: LineStyle = MAP_LINES["rivers"], resolution: str = "50m") -> None:
         """Draw the large rivers of the Earth (Natural Earth)."""
-        self.add(Lines(features.rivers(resolution, self.latitude), style, "rivers"))
+        self.add(LineLayer(earth_lines("rivers", resolution, self.latitude), style, "rivers"))
 
     def add_coastlines(self, *, style: LineStyle = MAP_LINES["coast"], resolution: str = "50m") -> None:
         """Draw the coastlines of the Earth (Natural Earth)."""
-        self.add(Lines(features.coastlines(resolution, self.latitude), style, "coast"))
+        self.add(LineLayer(earth_lines("coastlines", resolution, self.latitude), style, "coast"))
 
     def add_borders(self, *, style: LineStyle = MAP_LINES["borders"], resolution: str = "50m") -> None:
         """Draw the borders between the countries of the Earth (Natural Earth)."""
-        self.add(Lines(features.borders(resolution, self.latitude), style, "borders"))
+        self.add(LineLayer(earth_lines("borders", resolution, self.latitude), style, "borders"))
 
     def add_graticule(self, spacing: float | None = 15.0, *, style: LineStyle = MAP_LINES["graticule"]) -> None:
         """Draw meridians and parallels, `spacing` degrees apart, which must divide 180.
@@ -212,14 +212,14 @@ class Globe:
 
         A segment that spans more than 180° of longitude takes the shorter way, across ±180°.
         """
-        self.add(Lines(SphereLines.straight_in_lonlat(lines, self.latitude), style, name))
+        self.add(LineLayer(SphereLines.straight_in_lonlat(lines, self.latitude), style, name))
 
     def add_great_circles(
         self, starts: npt.ArrayLike, ends: npt.ArrayLike, *, style: LineStyle = MAP_LINES["line"], name: str = "arcs"
     ) -> None:
         """Draw the shorter great-circle arcs between places as for `add_points`; one start may serve all ends."""
         first, last = np.broadcast_arrays(self._xyz(starts, "starts"), self._xyz(ends, "ends"))
-        self.add(Lines(SphereLines.great(first, last), style, name))
+        self.add(LineLayer(SphereLines.great(first, last), style, name))
 
     def add_polygons(
         self,
@@ -303,7 +303,7 @@ class Globe:
             cells = SphereRegions.cells(voronoi)
             self.add(Areas(cells, as_colors(colors, len(voronoi.points)), name))
         if style is not None:
-            self.add(Lines(features.ridges(voronoi), style, name))
+            self.add(LineLayer(SphereLines.alone(ridge_arcs(voronoi)), style, name))
 
     def add_triangulation(
         self,
@@ -318,7 +318,8 @@ class Globe:
             triangles = SphereRegions.triangles(triangulation)
             self.add(Areas(triangles, as_colors(colors, len(triangulation.simplices)), name))
         if style is not None:
-            self.add(Lines(features.edges(triangulation), style, name))
+            starts, ends = units(triangulation.points)[triangulation.edges].transpose(1, 0, 2)
+            self.add(LineLayer(SphereLines.great(starts, ends), style, name))
 
     def add_circles(
         self,
@@ -332,7 +333,7 @@ class Globe:
         regions = SphereRegions.circles(circles)
         if color is not None:
             self.add(Areas(regions, as_colors(color, regions.count, "color"), name))
-        self.add(Lines(regions.outlines, style, name))
+        self.add(LineLayer(regions.outlines, style, name))
 
     def add_tissot(
         self,
@@ -416,13 +417,7 @@ class Globe:
 
     def items(self, chart: Chart) -> tuple[Item, ...]:
         """The page items of a chart, in painter's order; `panels` removes labels that would overlap others."""
-        items: list[Item] = []
-        for layer in (*self.layers, self.limb):
-            if isinstance(layer, Names):
-                items += layer.beside(chart, items)
-            else:
-                items += layer.lay(chart)
-        return tuple(items)
+        return laid(self, chart)
 
     def page(
         self,
@@ -541,4 +536,4 @@ class Globe:
     ) -> None:
         self.add(Areas(regions, as_colors(color, regions.count, "color"), name))
         if outline is not None:
-            self.add(Lines(regions.outlines, outline, f"{name}-outline"))
+            self.add(LineLayer(regions.outlines, outline, f"{name}-outline"))

@@ -17,9 +17,8 @@ from stereodel.drawing.page.style import DotStyle, LineStyle
 from stereodel.drawing.scene.graticule import LEAST_APART, WIDTHS_APART, Graticule, usual_spacing
 from stereodel.drawing.scene.space_curves import page_path
 from stereodel.drawing.scene.visibility import limb
-from stereodel.globe.lines import SphereLines
+from stereodel.globe.outlines_on_sphere import SphereLines, SphereRegions
 from stereodel.globe.raster import Raster, RasterOnDisc
-from stereodel.globe.regions import SphereRegions
 from stereodel.sphere.latitudes import Latitude
 
 
@@ -53,7 +52,7 @@ class Ground:
 
 
 @dataclass(frozen=True)
-class Rim:
+class Limb:
     """The edge of the disc."""
 
     style: LineStyle
@@ -65,7 +64,7 @@ class Rim:
 
 
 @dataclass(frozen=True, eq=False)
-class Lines:
+class LineLayer:
     """Lines of one style."""
 
     lines: SphereLines
@@ -92,12 +91,12 @@ class GridLines:
     name: str
 
     def lay(self, chart: Chart) -> Iterator[Item]:
-        """As for `Lines`; some lines end where they are less than `WIDTHS_APART` line widths apart."""
+        """As for `LineLayer`; some lines end where they are less than `WIDTHS_APART` line widths apart."""
         spacing = usual_spacing(chart) if self.spacing is None else self.spacing
         least = max(WIDTHS_APART * self.style.width, LEAST_APART) / (chart.unit * chart.scale)
         grid = Graticule.shown(spacing, chart, least, latitude=self.latitude)
         shown = SphereLines.alone(grid.thinned(chart, least))
-        yield from Lines(shown, self.style, self.name).lay(chart)
+        yield from LineLayer(shown, self.style, self.name).lay(chart)
 
 
 @dataclass(frozen=True, eq=False)
@@ -136,8 +135,7 @@ class Image:
 
     def lay(self, chart: Chart) -> Iterator[Item]:
         """The whole disc as one image, warped when it is drawn."""
-        painter = RasterOnDisc(self.raster, chart.lens, chart.view, chart.at, chart.scale, self.opacity)
-        yield Picture((outline(chart),), painter, self.name)
+        yield Picture((outline(chart),), RasterOnDisc(self.raster, chart, self.opacity), self.name)
 
 
 @dataclass(frozen=True, eq=False)
@@ -189,3 +187,18 @@ class Names:
         places, seen = chart.points(self.xyz)
         for label, (x, y) in ((self.labels[k], places[k]) for k in np.flatnonzero(seen)):
             yield replace(label, anchor=(float(x), float(y)))
+
+
+class Layered(Protocol):
+    """Interface of what a panel shows, such as a `Globe`."""
+
+    layers: list[MapLayer]
+    limb: Limb
+
+
+def laid(globe: Layered, chart: Chart) -> tuple[Item, ...]:
+    """The page items of a chart, in painter's order."""
+    items: list[Item] = []
+    for layer in (*globe.layers, globe.limb):
+        items += layer.beside(chart, items) if isinstance(layer, Names) else layer.lay(chart)
+    return tuple(items)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Protocol
 
 from stereodel._arrays import as_count, as_scalar
 from stereodel.conformal import MoebiusMap
@@ -14,6 +13,7 @@ from stereodel.drawing.page.fonts import FontLike, as_font, in_font
 from stereodel.drawing.page.labels import haloed, with_room
 from stereodel.drawing.page.style import BLACK, PRINT_WIDTH
 from stereodel.drawing.scene.view import MapView, StereographicView, View
+from stereodel.globe.layers import Layered, laid
 from stereodel.sphere import xyz_to_lonlat
 
 MARGIN = 0.03
@@ -21,13 +21,6 @@ MARGIN = 0.03
 
 TITLE_HEIGHT = 14.0
 """Height of the title above a panel with its margin, in points."""
-
-
-class Drawable(Protocol):
-    """Interface of what a panel shows, such as a `Globe`."""
-
-    def items(self, chart: Chart) -> tuple[Item, ...]:
-        """The page items of a chart, in painter's order."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,7 +37,7 @@ class Panel:
         Title above the disc; text between two dollar signs is a formula in matplotlib's mathtext.
     """
 
-    globe: Drawable
+    globe: Layered
     lens: MoebiusMap | None = None
     view: MapView | None = None
     title: str = ""
@@ -123,7 +116,7 @@ def panels(
         view = default_view(lens) if panel.view is None else panel.view
         around = (at[0] - pitch / 2, at[0] + pitch / 2, at[1] - pitch / 2, at[1] + pitch / 2)
         chart = Chart(lens, view, at, 1.0, fine / unit, unit)
-        items += with_room(panel.globe.items(chart), around, unit)
+        items += with_room(laid(panel.globe, chart), around, unit)
         views.append(chart.matrix)
         if panel.title:
             items.append(Label(panel.title, (at[0], at[1] + pitch / 2), (0.0, 3.0), "center", "baseline", color=BLACK))

@@ -3,15 +3,38 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any, Final
 
 import numpy as np
 
-from stereodel._arrays import as_choice
+from stereodel._arrays import Pixels, as_choice
+from stereodel._extras import of_extra
+from stereodel._files import replacing
 from stereodel.conformal import MoebiusMap
 from stereodel.drawing.scene.view import View
-from stereodel.globe.images import check_photo, read_photo, write_photo
-from stereodel.globe.raster import FACES, PANORAMA_FORMS, PLANET_RADIUS, SHARES, PanoramaForm, Raster, panorama_size
+from stereodel.globe.raster import (
+    FACES,
+    PANORAMA_FORMS,
+    PLANET_RADIUS,
+    SHARES,
+    PanoramaForm,
+    Raster,
+    panorama_size,
+    read_photo,
+)
+
+WRITTEN: Final[Mapping[str, Mapping[str, Any]]] = {
+    "JPEG": {"quality": 95, "subsampling": 0},
+    # For photographs, level 6 of zlib takes three times as long for files 2 % smaller.
+    "PNG": {"compress_level": 3},
+    "WEBP": {"quality": 92, "method": 4},
+}
+"""Formats that are written, without visible loss, by Pillow's names of them and of its settings."""
+
+WEBP_SIDE: Final = 16_383
+"""Longest side of a WebP in pixels; the sides of the other formats are longer than `MOST_TEXELS` allows."""
 
 
 def save_panorama(
@@ -86,8 +109,7 @@ def save_panorama(
     columns, rows = {"equirectangular": (side, side // 2), "cubemap": (6 * side, side), "planet": (side, side)}[form]
     opaque = bool((photo[..., 3] == 255).all())
     check_photo(target.name, (side if faces else columns, rows), opaque=opaque)
-    seen = View(0.0, -90.0 if form == "planet" else 0.0) if view is None else view
-    pixels = Raster(photo).panorama(lens, form, view=seen, size=side, angular_radius=angular_radius)
+    pixels = Raster(photo).panorama(lens, form, view=view, size=side, angular_radius=angular_radius)
     if faces:
         return [write_photo(name, face, profile) for name, face in zip(face_paths(target), pixels, strict=True)]
     if form == "cubemap":
@@ -104,6 +126,39 @@ def face_paths(path: Path) -> list[Path]:
     ['room_right.jpg', 'room_left.jpg']
     """
     return [path.with_name(f"{path.stem}_{face}{path.suffix}") for face in FACES]
+
+
+def check_photo(name: str, size: tuple[int, int], *, opaque: bool) -> str:
+    """Pillow's name of the format given by a file name; ValueError if it cannot hold an image of `size`, (w, h)."""
+    with of_extra("draw"):
+        from PIL import Image
+
+    kind = Image.registered_extensions().get(Path(name).suffix.lower(), "")
+    if kind not in WRITTEN:
+        raise ValueError(f"path must end in .jpg, .png or .webp, got {name!r}")
+    if kind == "WEBP" and max(size) > WEBP_SIDE:
+        raise ValueError(f"{name} would have {size[0]} × {size[1]} pixels, but WebP has at most {WEBP_SIDE} a side")
+    if kind == "JPEG" and not opaque:
+        raise ValueError(f"{name}: JPEG has no opacity, and the picture is transparent in parts; write .png or .webp")
+    return kind
+
+
+def write_photo(path: str | os.PathLike[str], pixels: Pixels, profile: bytes = b"", xmp: str = "") -> Path:
+    """Write an image with an ICC profile and XMP data as JPEG, PNG or WebP, by the extension."""
+    with of_extra("draw"):
+        from PIL import Image, PngImagePlugin
+
+    target, opaque = Path(path), bool((pixels[..., 3] == 255).all())
+    kind = check_photo(target.name, (pixels.shape[1], pixels.shape[0]), opaque=opaque)
+    told: dict[str, Any] = {"icc_profile": profile} if profile else {}
+    if xmp and kind == "PNG":  # for which Pillow has no argument `xmp`
+        told["pnginfo"] = PngImagePlugin.PngInfo()
+        told["pnginfo"].add_itxt("XML:com.adobe.xmp", xmp)
+    elif xmp:
+        told["xmp"] = xmp.encode()
+    with replacing(target) as temporary:
+        Image.fromarray(pixels[..., :3] if opaque else pixels).save(temporary, format=kind, **WRITTEN[kind], **told)
+    return target
 
 
 def _viewer_tag(width: int, height: int) -> str:

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import hashlib
 import os
+import struct
+import warnings
 from collections.abc import Mapping
 from dataclasses import KW_ONLY, dataclass
 from functools import cache, cached_property
-from typing import Final, Literal
+from typing import Any, Final, Literal
 
 import numpy as np
 import numpy.typing as npt
@@ -24,12 +26,12 @@ from stereodel._arrays import (
     as_window,
     locked,
 )
+from stereodel._extras import of_extra
 from stereodel._threads import thread_count
 from stereodel.conformal import MoebiusMap
 from stereodel.constants import MOST_PIXELS_ACROSS, MOST_TEXELS
-from stereodel.curves.chart import ChartView
+from stereodel.curves.chart import Chart, ChartView
 from stereodel.drawing.scene.view import MapView, View
-from stereodel.globe.images import read_photo
 from stereodel.sphere import lonlat_to_xyz, xyz_to_lonlat
 from stereodel.sphere.latitudes import KINDS, Latitude
 from stereodel.sphere.vectors import turned
@@ -59,6 +61,15 @@ FACES: Final[Mapping[str, FloatArray]] = {
 }
 """Faces of a cubemap in order: right, up and forward of each, as rows, in the axes of the front face."""
 
+SIXTEEN_BITS: Final = ("I", "I;16", "I;16B", "I;16L", "I;16N")
+"""Pillow's modes for 16-bit gray."""
+
+FORMATS: Final = ("PNG", "JPEG", "TIFF", "WEBP", "GIF", "BMP", "PPM", "TGA", "JPEG2000")
+"""Formats that are opened: those that Pillow decodes itself. For others it starts programs such as Ghostscript."""
+
+DAMAGED: Final = (OSError, SyntaxError, ValueError, EOFError, struct.error, IndexError, TypeError)
+"""Exceptions that Pillow's decoders raise on truncated or corrupt files."""
+
 
 def panorama_size(size: int, form: PanoramaForm, name: str = "size") -> int:
     """Check a size for `Raster.panorama`; ValueError if it is invalid."""
@@ -78,6 +89,55 @@ def panorama_size(size: int, form: PanoramaForm, name: str = "size") -> int:
 def planet_radius(angular_radius: float, name: str = "angular_radius") -> float:
     """Check an angular radius for `Raster.panorama`; ValueError if it is invalid."""
     return as_scalar(angular_radius, name, low=0.0, high=MOST_PLANET_RADIUS, open_low=True)
+
+
+def read_photo(path: str | os.PathLike[str]) -> tuple[Pixels, bytes]:
+    """The first image of a file, (h, w, 4), rotated upright by its EXIF data, and the ICC profile of its colours.
+
+    Opacity is not premultiplied; the profile is empty for sRGB. OSError if the file cannot be read; ValueError if it is
+    not an image, has more than `MOST_TEXELS` pixels, which is checked before decoding, or is damaged.
+    """
+    with of_extra("draw"):
+        from PIL import Image, ImageOps, UnidentifiedImageError
+
+    name = os.fspath(path)
+    # Pillow warns at half the size that it refuses, which exceeds our own limit.
+    with open(name, "rb") as file, warnings.catch_warnings():
+        warnings.simplefilter("ignore", Image.DecompressionBombWarning)
+        try:
+            opened = Image.open(file, formats=FORMATS)
+        except UnidentifiedImageError as error:
+            raise ValueError(f"{name} is not a picture of a kind that is read: {', '.join(FORMATS)}") from error
+        except Image.DecompressionBombError as error:
+            raise ValueError(f"{name} has too many pixels: at most {MOST_TEXELS} are read; make it smaller") from error
+        except DAMAGED as error:
+            raise ValueError(f"{name} is damaged or cut off: {error}") from error
+        with opened as image:
+            if image.width * image.height > MOST_TEXELS:
+                raise ValueError(f"{name} has too many pixels: at most {MOST_TEXELS} are read; make it smaller")
+            boxes = [tile[1] or (0, 0, 0, 0) for tile in image.tile]
+            covered = sum((right - left) * (low - top) for left, top, right, low in boxes)
+            if image.format == "TIFF" and covered < image.width * image.height:
+                raise ValueError(f"{name} is damaged or cut off: it has pixels of a part of its size alone")
+            try:
+                image.load()
+                ImageOps.exif_transpose(image, in_place=True)
+            except DAMAGED as error:
+                raise ValueError(f"{name} is damaged or cut off: {error}") from error
+            # Profiles for gray or printing inks do not apply to the converted pixels.
+            profile = image.info.get("icc_profile") if image.mode in ("RGB", "RGBA", "P") else None
+            return _converted(name, image), profile or b""
+
+
+def _converted(name: str, image: Any) -> Pixels:
+    if image.mode not in ("F", *SIXTEEN_BITS):
+        return np.asarray(image.convert("RGBA"))
+    gray = np.asarray(image)
+    wrong = "floating-point numbers" if image.mode == "F" else "numbers beyond 16 bits"
+    if image.mode == "F" or gray.max(initial=0) > 65535 or gray.min(initial=0) < 0:
+        raise ValueError(f"{name} holds {wrong}; scale them to 0 to 255 and give them as an array")
+    levels = ((gray.astype(np.uint32) + 128) // 257).astype(np.uint8)
+    return np.dstack([levels, levels, levels, np.full_like(levels, 255)])
 
 
 @dataclass(frozen=True, eq=False)
@@ -222,18 +282,11 @@ class Raster:
     ) -> Pixels:
         """As for `warp`, for pixels anywhere on the page.
 
-        Parameters
-        ----------
-        lens, view, workers
-            As for `warp`.
-        place : tuple of float
-            Left and upper edge of the image, then width and height of a pixel, in radii of the disc from its centre, y
-            up.
-        pixels : tuple of int
-            Number of columns and rows.
-        covered : bool
-            Whether opacity on the limb includes the fraction of the pixel covered by the disc. Otherwise it is that of
-            the raster, for an image that is then clipped to the disc.
+        place: left and upper edge of the image, then width and height of a pixel, in radii of the disc from its centre,
+            y up.
+        pixels: number of columns and rows.
+        covered: whether opacity on the limb includes the fraction of the pixel covered by the disc. Otherwise it is
+            that of the raster, for an image that is then clipped to the disc.
         """
         reach = 0.0 if view.round else float(np.tan(np.radians(view.angular_radius) / 2))
         projection = "orthographic" if view.round else "stereographic"
@@ -397,42 +450,26 @@ def _shifts(latitude: Latitude) -> FloatArray:
 
 @dataclass(frozen=True, eq=False)
 class RasterOnDisc:
-    """A raster through a lens and a view on a disc of a page, for a `stereodel.drawing.page.Picture`.
-
-    Parameters
-    ----------
-    raster : Raster
-    lens, view
-        As for `Raster.warp`.
-    at : tuple of float
-        Page coordinates of the centre of the disc.
-    scale : float
-        Radius of the disc in page units.
-    opacity : float
-        Factor in [0, 1] by which the raster's own opacity is multiplied.
-    """
+    """A raster on the disc of a chart, for a `stereodel.drawing.page.Picture`; `opacity` multiplies its own."""
 
     raster: Raster
-    lens: MoebiusMap
-    view: ChartView
-    at: tuple[float, float] = (0.0, 0.0)
-    scale: float = 1.0
+    chart: Chart
     opacity: float = 1.0
 
     def paint(self, place: tuple[float, float, float, float], pixels: tuple[int, int]) -> Pixels:
         """Pixels of the page, (rows, columns, 4); see `stereodel.drawing.page.Painter`."""
-        left, top, width, height = place
-        in_disc = (left - self.at[0]) / self.scale, (top - self.at[1]) / self.scale
-        sides = width / self.scale, height / self.scale
-        found = self.raster.painted(self.lens, self.view, (*in_disc, *sides), pixels, covered=False)
+        (left, top, width, height), (x, y), scale = place, self.chart.at, self.chart.scale
+        in_disc = ((left - x) / scale, (top - y) / scale, width / scale, height / scale)
+        found = self.raster.painted(self.chart.lens, self.chart.view, in_disc, pixels, covered=False)
         if self.opacity < 1:
             found[..., 3] = np.floor(found[..., 3] * self.opacity + 0.5)
         return found
 
     def arrays(self) -> dict[str, npt.NDArray[np.generic]]:
         """Lens, view, place, opacity, and a digest of the raster."""
-        parts = self.lens.left.matrix.ravel(), self.lens.right.matrix.ravel(), self.view.matrix.ravel()
-        numbers = [self.lens.magnification, self.view.edge, *self.at, self.scale, self.opacity]
+        lens, view = self.chart.lens, self.chart.view
+        parts = lens.left.matrix.ravel(), lens.right.matrix.ravel(), view.matrix.ravel()
+        numbers = [lens.magnification, view.edge, *self.chart.at, self.chart.scale, self.opacity]
         return {
             "map": np.concatenate([*parts, numbers]),
             "bounds": np.array(self.raster.bounds),

@@ -16,7 +16,7 @@ from stereodel._extras import optional
 from stereodel.constants import GRID_ROUNDING, MOST_PLACES
 from stereodel.earth import EQUATORIAL_RADIUS_KM, INVERSE_FLATTENING
 from stereodel.io.formats.delimited import write_csv
-from stereodel.io.formats.names import beside
+from stereodel.io.formats.names import beside, spelled
 
 WGS84: Final = {
     "grid_mapping_name": "latitude_longitude",
@@ -108,7 +108,7 @@ class Grid:
         """
         half = 0.5 if centers else 0.0
         if bounds is None:
-            steps = as_steps(180.0, spacing, "spacing")
+            steps = as_steps(180.0, spacing, spelled("spacing"))
             step, rows = 180.0 / steps, steps if centers else steps + 1
             _check_places(spacing, 2 * steps, rows)
             lon, lat = (np.arange(low, high, dtype=np.float64) + half for low, high in ((-steps, steps), (0, rows)))
@@ -119,7 +119,9 @@ class Grid:
             raise ValueError(f"bounds are {(west, south, east, north)}, but south must be below north")
         east = east if east > west else east + 360.0
         sides = ((west, east), (south, north))
-        step = as_scalar(spacing, "spacing", low=0.0, high=min(high - low for low, high in sides), open_low=True)
+        step = as_scalar(
+            spacing, spelled("spacing"), low=0.0, high=min(high - low for low, high in sides), open_low=True
+        )
         counts = [int(np.floor((high - low) / step + GRID_ROUNDING)) + (0 if centers else 1) for low, high in sides]
         _check_places(step, *counts)
         lon, lat = (
@@ -183,9 +185,8 @@ class Grid:
 def _check_places(spacing: float, columns: int, rows: int) -> None:
     """A ValueError for a grid that no memory holds."""
     if columns * rows > MOST_PLACES:
-        raise ValueError(
-            f"spacing is {spacing:g}, which makes a grid of {columns} × {rows} places; {MOST_PLACES} are the most"
-        )
+        made = f"a grid of {columns} × {rows} places; {MOST_PLACES} are the most"
+        raise ValueError(f"{spelled('spacing')} is {spacing:g}, which makes {made}")
 
 
 def write_geotiff(grid: Grid, path: Path) -> None:

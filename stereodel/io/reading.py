@@ -20,7 +20,7 @@ from stereodel.io.formats import geojson
 from stereodel.io.formats.delimited import split_columns
 from stereodel.io.formats.gdal import read_frame, told
 from stereodel.io.formats.geojson import Features
-from stereodel.io.formats.names import beside, find_lonlat, index_columns, listed
+from stereodel.io.formats.names import beside, find_lonlat, index_columns, listed, spelled
 from stereodel.io.formats.packed import unpacked
 from stereodel.io.formats.parquet import read_parquet
 from stereodel.io.formats.text import column, decoded, texts
@@ -237,7 +237,9 @@ class _File:
         self._path = Path(source) if isinstance(source, str | os.PathLike) else None
         self.kind: Format = as_choice(format or self._found(), (*READERS, "vector"), "format")
         if layer is not None and self.kind != "vector":
-            raise ValueError(f"layer is {layer!r}, but a file of the kind {self.kind} has no layers; leave it out")
+            raise ValueError(
+                f"{spelled('layer')} is {layer!r}, but a file of the kind {self.kind} has no layers; leave it out"
+            )
 
     def _found(self) -> Format:
         """The format from the extension of the path, ignoring that of compression, else from the first bytes."""
@@ -252,8 +254,9 @@ class _File:
         """The decompressed bytes."""
         return _content(self._source)
 
-    def frame(self, choice: str = "say which with layer=") -> Any:
+    def frame(self, choice: str = "") -> Any:
         """The frame in a file of a GDAL format; by path, as GDAL needs the extension and any companion files."""
+        choice = choice or f"say which with {spelled('layer', '=')}"
         if self._path is not None and self._path.suffix.lower() not in PACKED:
             if not self._path.is_dir():  # as some formats are
                 self._path.open("rb").close()  # the system's own message says best why it cannot be read

@@ -11,7 +11,7 @@ import numpy as np
 
 from stereodel._arrays import BoolArray, Column, FloatArray, Indices, as_choice, as_lonlat, as_points, read_only
 from stereodel._extras import optional
-from stereodel.io.formats.names import beside
+from stereodel.io.formats.names import beside, spelled
 from stereodel.io.formats.text import EXACT_INTEGERS, doubles, why_not
 from stereodel.sphere import lonlat_to_xyz
 from stereodel.sphere.latitudes import Latitude
@@ -153,8 +153,7 @@ class PointTable:
         missing = np.argwhere(~np.isfinite(values))
         if len(missing) and not skip_missing:
             row, column = missing[0]
-            said = f"row {self.rows[row]}: {names[column]} is missing; leave such rows out with skip_missing=True"
-            raise ValueError(self._said(said))
+            raise ValueError(self._said(f"row {self.rows[row]}: {names[column]} is missing; {_left_out()}"))
         kept = np.ones(len(values), dtype=np.bool_)
         kept[missing[:, 0]] = False
         return values[kept], self.taken(kept)
@@ -225,7 +224,9 @@ def known_crs(crs: str) -> Any:
     try:
         return pyproj.CRS(crs)
     except pyproj.exceptions.CRSError as error:
-        raise ValueError(f"crs is {crs!r}, which PROJ does not know; give one such as EPSG:25832") from error
+        raise ValueError(
+            f"{spelled('crs')} is {crs!r}, which PROJ does not know; give one such as EPSG:25832"
+        ) from error
 
 
 def transformed(places: FloatArray, crs: str, rows: Indices) -> FloatArray:
@@ -246,7 +247,7 @@ def numbers(
     *,
     gaps: bool = False,
     decimal: bool = False,
-    advice: str = "leave such rows out with skip_missing=True",
+    advice: str = "",
 ) -> FloatArray:
     """A column as finite numbers, with NaN for missing ones if `gaps`; ValueError names the first invalid row."""
     array = np.asarray(values)
@@ -269,9 +270,13 @@ def numbers(
         what = "is missing" if missing else f"is {result[bad[0]]}, but must be finite"
         raise ValueError(
             f"row {rows[bad[0]]}: the {name} {what}{_more(bad)}; "
-            + (advice if missing else "correct or drop such rows first")
+            + ((advice or _left_out()) if missing else "correct or drop such rows first")
         )
     return result
+
+
+def _left_out() -> str:
+    return f"leave such rows out with {spelled('skip_missing', '=True')}"
 
 
 def _more(places: Sequence[int] | Indices) -> str:

@@ -23,25 +23,57 @@ from matplotlib.patches import Patch, PathPatch
 from matplotlib.path import Path
 from matplotlib.projections import register_projection
 from matplotlib.spines import Spine
-from matplotlib.transforms import Transform
+from matplotlib.transforms import Bbox, Transform
 
 from stereodel import data
-from stereodel._arrays import FloatArray, IntArray, as_choice, as_edges, as_lonlat
+from stereodel._arrays import FloatArray, as_choice, as_edges, as_lonlat
 from stereodel.conformal import MoebiusMap, fisheye
 from stereodel.constants import PAGE_TOLERANCE
 from stereodel.curves.ragged import Ragged
 from stereodel.drawing.page.style import LINES, LineStyle
 from stereodel.drawing.scene.view import MapView, View
-from stereodel.mpl.frame import Disc, Limb
-from stereodel.mpl.geometries import paths_of
 from stereodel.mpl.plots import GlobePlots
-from stereodel.mpl.transforms import EDGES, Edges, LonLatToPage, compound
+from stereodel.mpl.transforms import EDGES, Edges, LonLatToPage, compound, paths_of
 from stereodel.sphere import SphereArc, graticules, xyz_to_lonlat
 
 __all__ = ["FisheyeAxes"]
 
 LAND = "0.86"
 """Gray of the land, against which coasts, borders and the graticule are visible."""
+
+CIRCLE = Path.unit_circle()
+POLYGON = Path.unit_regular_polygon(2000)
+"""A polygon within 1.3e-6 of the unit circle, used where the limits cut the circle."""
+
+
+class _Shown:
+    """A patch of the part of the view's disc within the limits, in axes coordinates, computed anew when they change."""
+
+    def __init__(self, globe: Axes, *args: Any) -> None:
+        self._globe, self._limits, self._within = globe, (), CIRCLE
+        super().__init__(*args)
+
+    def get_path(self) -> Path:
+        """The path in axes coordinates."""
+        left, bottom, right, top = limits = tuple(np.asarray(self._globe.viewLim.extents).tolist())
+        if limits != self._limits:
+            corners = np.array([(left, bottom), (right, bottom), (right, top), (left, top), (left, bottom)])
+            if max(left, bottom) <= -1 and min(right, top) >= 1:
+                within = CIRCLE
+            elif (np.sum(corners**2, axis=1) <= 1).all():
+                within = Path(corners, closed=True)
+            else:
+                within = POLYGON.clip_to_bbox(Bbox.from_extents(*limits), inside=True)
+            self._limits, self._within = limits, self._globe.transLimits.transform_path(within)
+        return self._within
+
+
+class _Disc(_Shown, Patch):
+    """The background patch, to which artists are clipped."""
+
+
+class _Limb(_Shown, Spine):
+    """The outline of the visible part."""
 
 
 class FisheyeAxes(GlobePlots):
@@ -138,10 +170,12 @@ class FisheyeAxes(GlobePlots):
         return self._yaxis_transform  # type: ignore[attr-defined]
 
     def _gen_axes_patch(self) -> Patch:
-        return Disc(self)
+        return _Disc(self)
 
     def _gen_axes_spines(self) -> dict[str, Spine]:
-        return {"limb": Limb(self)}
+        limb = _Limb(self, self, "circle", CIRCLE)
+        limb.set(transform=self.transAxes, capstyle="round", joinstyle="round")
+        return {"limb": limb}
 
     def clear(self) -> None:
         """Clear the axes and show the whole view, with a graticule only if matplotlib's setting ``axes.grid`` is on."""
@@ -253,7 +287,7 @@ class FisheyeAxes(GlobePlots):
         Returns the artist; `kwargs` are those of `matplotlib.patches.PathPatch`.
         """
         path = compound(Ragged.of([_in_degrees(arc) for arc in graticules.graticule(spacing)]), closed=False)
-        self._graticule = self._lines(path, self.transStraight, LINES["graticule"], {"zorder": 1.5} | kwargs)
+        self._graticule = self._lines(path, LINES["graticule"], {"zorder": 1.5} | kwargs)
         return self._graticule
 
     def coastlines(self, resolution: str = "50m", **kwargs: Any) -> PathPatch:
@@ -261,29 +295,24 @@ class FisheyeAxes(GlobePlots):
 
         Returns the artist; `kwargs` are those of `matplotlib.patches.PathPatch`.
         """
-        lines = data.coastlines(resolution)
-        return self._lines(_path(lines.lonlat, lines.offsets), self.transStraight, LINES["fine"], kwargs)
+        return self._lines(_path(data.coastlines(resolution)), LINES["fine"], kwargs)
 
     def borders(self, resolution: str = "50m", **kwargs: Any) -> PathPatch:
         """Draw the borders between countries of Natural Earth; the arguments are those of `coastlines`."""
-        lines = data.borders(resolution)
-        return self._lines(_path(lines.lonlat, lines.offsets), self.transStraight, LINES["frame"], kwargs)
+        return self._lines(_path(data.borders(resolution)), LINES["frame"], kwargs)
 
     def land(self, resolution: str = "50m", **kwargs: Any) -> PathPatch:
         """Fill the land of Natural Earth; the arguments are those of `coastlines`, to be drawn over it."""
-        areas = data.land(resolution)
-        path = _path(areas.lonlat, areas.ring_offsets, closed=True)
         style = {"color": LAND, "edgecolor": "none", "zorder": 0.5} | normalize_kwargs(kwargs, PathPatch)
-        return self._added(PathPatch(path, transform=self.transStraight, **{"facecolor": style.pop("color")} | style))
+        return self._added(_path(data.land(resolution)), {"facecolor": style.pop("color")} | style)
 
-    def _lines(self, path: Path, transform: Transform, usual: LineStyle, given: dict[str, Any]) -> PathPatch:
+    def _lines(self, path: Path, usual: LineStyle, given: dict[str, Any]) -> PathPatch:
         style = {"color": usual.color, "linewidth": usual.width, "joinstyle": "round", "capstyle": "round"}
         style |= normalize_kwargs(given, PathPatch)
-        return self._added(
-            PathPatch(path, transform=transform, **{"edgecolor": style.pop("color"), "facecolor": "none"} | style)
-        )
+        return self._added(path, {"edgecolor": style.pop("color"), "facecolor": "none"} | style)
 
-    def _added(self, artist: PathPatch) -> PathPatch:
+    def _added(self, path: Path, style: dict[str, Any]) -> PathPatch:
+        artist = PathPatch(path, transform=self.transStraight, **style)
         # Not by add_patch, which reads every vertex for data limits, which a globe does not use.
         self.add_artist(artist)
         return artist
@@ -309,14 +338,10 @@ class FisheyeAxes(GlobePlots):
         """
         paths, points = paths_of(geometries)
         if len(points):
-            self.scatter(
-                points[:, 0],
-                points[:, 1],
-                s=9,
-                **{key: kwargs[key] for key in ("color", "zorder", "alpha") if key in kwargs},
-            )
-        kinds = dict(zip(EDGES, (self.transGreatCircle, self.transStraight), strict=True))
-        transform = kinds[as_choice(edges, EDGES, "edges")]
+            style = {key: kwargs[key] for key in ("color", "zorder", "alpha") if key in kwargs}
+            self.scatter(points[:, 0], points[:, 1], s=9, **style)
+        straight = as_choice(edges, EDGES, "edges") == "straight"
+        transform = self.transStraight if straight else self.transGreatCircle
         return self._collection(paths, transform, {"edgecolor": "black", "linewidth": 0.5} | kwargs)
 
 
@@ -328,8 +353,9 @@ def _view_of(view: MapView | Sequence[float] | None, lens: MoebiusMap) -> MapVie
     return view
 
 
-def _path(lonlat: FloatArray, offsets: IntArray, *, closed: bool = False) -> Path:
-    return compound(Ragged(lonlat, offsets.astype(np.intp)), closed=closed)
+def _path(of: data.Coastlines | data.Borders | data.Land) -> Path:
+    offsets = of.ring_offsets if isinstance(of, data.Land) else of.offsets
+    return compound(Ragged(of.lonlat, offsets.astype(np.intp)), closed=isinstance(of, data.Land))
 
 
 def _in_degrees(arc: SphereArc) -> FloatArray:

@@ -14,8 +14,8 @@ from matplotlib.transforms import Transform
 
 from stereodel._arrays import FloatArray
 from stereodel.constants import DIRECTION_STEP
-from stereodel.mpl.mesh import mesh_paths
-from stereodel.mpl.transforms import LonLatToPage
+from stereodel.curves.ragged import Ragged
+from stereodel.mpl.transforms import NOTHING, LonLatToPage, compounds
 
 
 class GlobePlots(Axes):
@@ -40,7 +40,7 @@ class GlobePlots(Axes):
         Returns a PathCollection with the values as its array, cut at the edge of the view.
         """
         mesh = super().pcolormesh(*args, **kwargs)
-        paths = mesh_paths(np.asarray(mesh.get_coordinates()), self.transGlobe)
+        paths = _mesh_paths(np.asarray(mesh.get_coordinates()), self.transGlobe)
         return self._instead(mesh, paths, self.transPage, kwargs)
 
     def hexbin(self, *args: Any, **kwargs: Any) -> PathCollection:  # type: ignore[override]
@@ -108,6 +108,30 @@ class GlobePlots(Axes):
                 "with extent=(-1, 1, -1, 1), transform=axes.transPage"
             )
         return super().imshow(*args, **kwargs)
+
+
+def _mesh_paths(corners: FloatArray, globe: LonLatToPage) -> list[Path]:
+    """A path for each cell of a grid with corners (rows + 1, columns + 1, 2) in degrees, row by row; empty if hidden.
+
+    Cells beyond a pole, as around values on the pole itself, end there.
+    """
+    kept = np.clip(corners, [-np.inf, -90.0], [np.inf, 90.0])
+    a, b, c, d = kept[:-1, :-1], kept[:-1, 1:], kept[1:, 1:], kept[1:, :-1]
+    cells = np.stack([a, b, c, d, a], axis=2).reshape(-1, 5, 2)
+    page = globe.transform_non_affine(cells.reshape(-1, 2)).reshape(-1, 5, 2)
+    # In space and on the page a side of length L deviates from its chord by about L²/8, for circles of radius up to 1.
+    sides = np.sqrt(np.sum(np.diff(page, axis=1) ** 2, axis=2)).max(axis=1)
+    small = sides < np.sqrt(8 * globe.tolerance / globe.view.stretch)
+    paths = [Path(outline, closed=True) if whole else NOTHING for outline, whole in zip(page, small, strict=True)]
+    large = np.flatnonzero(~small)
+    rings = Ragged(cells[large].reshape(-1, 2), 5 * np.arange(len(large) + 1))
+    loops, cell = globe.regions(rings, np.arange(len(large)), len(large))
+    order = np.argsort(cell, kind="stable")
+    for number, path in zip(
+        large.tolist(), compounds(loops.take(order), cell[order], len(large), closed=True), strict=True
+    ):
+        paths[number] = path
+    return paths
 
 
 def _page_step(globe: LonLatToPage, lon: FloatArray, lat: FloatArray, step: FloatArray) -> FloatArray:

@@ -16,11 +16,12 @@ from stereodel.conformal import MoebiusMap
 from stereodel.constants import DEGREE_ROUNDING, PAGE_TOLERANCE, WHOLE_TURNS
 from stereodel.curves import trace
 from stereodel.curves.chart import Chart
+from stereodel.curves.insides import on_the_left
 from stereodel.curves.ragged import Ragged
 from stereodel.curves.seams import stitched
 from stereodel.curves.trace import sides_of, unwrapped
 from stereodel.drawing.scene.view import MapView
-from stereodel.mpl.insides import on_the_left
+from stereodel.io.reading import shapes_of
 from stereodel.sphere import lonlat_to_xyz, xyz_to_lonlat
 from stereodel.sphere.vectors import turned
 
@@ -33,14 +34,8 @@ class LonLatToPage(Transform):
     """Longitude and latitude to the unit disc of a view; edges of paths are resampled and cut at the edge of the view.
 
     Open paths remain lines. A path with closed parts is a region, bounded by all of them together by the even-odd rule;
-    where it is cut by the edge of the view, its outline follows that edge.
-
-    Parameters
-    ----------
-    lens : MoebiusMap
-    view : View or StereographicView
-    edges : {"great circle", "straight"}
-        Edges between vertices: shorter great-circle arcs, or straight on the map of longitude and latitude.
+    where it is cut by the edge of the view, its outline follows that edge. Edges between vertices are the shorter
+    great-circle arcs, or straight on the map of longitude and latitude.
     """
 
     input_dims = output_dims = 2
@@ -96,14 +91,8 @@ class LonLatToPage(Transform):
     def regions(self, rings: Ragged, owner: Indices, count: int) -> tuple[Ragged, Indices]:
         """The visible parts of regions, as closed loops on the page along the edge of the view, and the region of each.
 
-        Parameters
-        ----------
-        rings : Ragged of (k, 2)
-            In degrees, in any direction, with the first point repeated at the end.
-        owner : (r,) array
-            The region of each ring.
-        count : int
-            Number of regions.
+        Rings (k, 2) are in degrees, in any direction, with the first point repeated at the end; `owner` is the region
+        of each.
         """
         # So that points a whole turn apart are bitwise the same point.
         lon = np.rint(rings.values[:, 0] / WHOLE_TURNS) * WHOLE_TURNS
@@ -213,3 +202,13 @@ def compounds(lines: Ragged, number: Indices, count: int, *, closed: bool) -> li
     return [
         Path(vertices[begin:stop], codes[begin:stop]) if stop > begin else NOTHING for begin, stop in pairwise(ends)
     ]
+
+
+def paths_of(geometries: Any) -> tuple[list[Path], FloatArray]:
+    """A path for each polygon and line of what `shapes_of` takes, in order, rings closed; and all points, (n, 2)."""
+    shapes = shapes_of(geometries)
+    polygons = compounds(shapes.rings, shapes.ring_polygon, len(shapes.polygon_feature), closed=True)
+    lines = compounds(shapes.lines, np.arange(len(shapes.lines)), len(shapes.lines), closed=False)
+    order = np.argsort(np.concatenate([shapes.polygon_feature, shapes.line_feature]), kind="stable")
+    paths = polygons + lines
+    return [paths[k] for k in order.tolist()], shapes.points

@@ -8,7 +8,7 @@ from dataclasses import replace
 from typing import Any, Final
 
 from stereodel._arrays import as_choice
-from stereodel.io.formats.names import listed
+from stereodel.io.formats.names import listed, spelled
 from stereodel.partitioned.hats import hats_source, is_catalogue
 from stereodel.partitioned.places import Surface
 from stereodel.partitioned.sources import Given, PointFile, Source, opened, parquet_source
@@ -51,12 +51,12 @@ def source_of(
         for name in carried:
             if name not in schema.names:
                 where = f"columns {listed(schema.names)} of {file.path}"
-                raise ValueError(f"keep has {name!r}, which is not one of the {where}")
+                raise ValueError(f"{spelled('keep')} has {name!r}, which is not one of the {where}")
             if schema.field(name).type != first.field(name).type:
                 types = (
                     f"{first.field(name).type} in {found.files[0].path}, but {schema.field(name).type} in {file.path}"
                 )
-                raise ValueError(f"keep has {name!r}, which is {types}; give it one type")
+                raise ValueError(f"{spelled('keep')} has {name!r}, which is {types}; give it one type")
     for name in carried:
         if name in results:
             raise ValueError(f"column {name!r} cannot be kept: results have that name; rename it in the files")

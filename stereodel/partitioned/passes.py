@@ -24,7 +24,7 @@ from stereodel._tasks.progress import Progress
 from stereodel.partitioned import rows as rows_of
 from stereodel.partitioned import spread
 from stereodel.partitioned.plan import NAME, Plan
-from stereodel.partitioned.shards import load_json, save
+from stereodel.partitioned.shards import anew, load_json, save
 from stereodel.partitioned.solve import write_table
 from stereodel.partitioned.sources import Source, opened
 from stereodel.partitioned.store import DIGITS, KEPT, RESULTS, SCRATCH, Store
@@ -98,11 +98,11 @@ def check_results(folder: Path, plan: Plan, partitions: Sequence[Mapping[str, An
     wanted = {folder / name: rows for name, rows in planned(plan, partitions).items()}
     for path, rows in wanted.items():
         if not path.exists():
-            raise ValueError(f"{path} was deleted after it was written; begin anew with resume=False")
+            raise ValueError(f"{path} was deleted after it was written; {anew()}")
         with opened(path) as content:
             told = (content.metadata.metadata or {}).get(b"stereodel.digest", b"").decode()
             if (content.metadata.num_rows, told) != (rows, plan.digest):
-                raise ValueError(f"{path} was changed after it was written; begin anew with resume=False")
+                raise ValueError(f"{path} was changed after it was written; {anew()}")
     for room in RESULTS:
         for path in (folder / room).rglob("*.parquet"):
             if path not in wanted and path.name[0] not in "._":
@@ -166,15 +166,14 @@ def _begin(store: Store, resume: bool) -> None:
         other = Plan.load(folder).differs(store.plan)
         if other:
             raise ValueError(
-                f"{folder} has a run of other files or arguments: {other}; take another folder, or begin anew "
-                "with resume=False"
+                f"{folder} has a run of other files or arguments: {other}; take another folder, or {anew()}"
             )
         if not (folder / REPORT).exists() and not (store.made / REPORT).exists():
             _delete(*left)  # what an earlier deletion left, when it was interrupted
         return
     there = [path for path in left if path.exists()]
     if there and _is_report(folder / REPORT):
-        raise ValueError(f"{folder / NAME} was deleted after it was written; begin anew with resume=False")
+        raise ValueError(f"{folder / NAME} was deleted after it was written; {anew()}")
     if there:
         raise ValueError(f"{folder} has {there[-1].name!r}, which is not of a run; take another folder")
     store.plan.save(folder)

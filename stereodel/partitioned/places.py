@@ -12,7 +12,7 @@ import numpy as np
 from stereodel._arrays import FloatArray, Indices, as_directions, as_points
 from stereodel._extras import optional
 from stereodel.io.formats import wkb
-from stereodel.io.formats.names import find_lonlat, listed
+from stereodel.io.formats.names import find_lonlat, listed, spelled
 from stereodel.io.table import degrees, numbers, transformed
 from stereodel.sphere import lonlat_to_xyz
 from stereodel.sphere.latitudes import Latitude
@@ -114,7 +114,7 @@ def find_places(
     given = _guessed(names, surface) if columns is None else tuple(columns)
     missing = [name for name in given if name not in names]
     if missing:
-        raise ValueError(f"columns has {missing[0]!r}, which is not one of the columns {listed(names)}")
+        raise ValueError(f"{spelled('columns')} has {missing[0]!r}, which is not one of the columns {listed(names)}")
     if len(given) == 1 and given[0] in geo.get("columns", {}):
         return _of_geometries(schema, geo, given[0], surface, latitude)
     forms: dict[tuple[Surface, int], Form] = {("sphere", 2): "lonlat", ("sphere", 3): "xyz", ("plane", 2): "xy"}

@@ -17,6 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel._files import replacing
+from stereodel.io.formats.names import spelled
 
 ALIGNMENT: Final = 64
 """Bytes of which the header is a multiple."""
@@ -85,7 +86,7 @@ def _mapped(path: Path) -> tuple[npt.NDArray[Any], int]:
 
 
 def _damaged(path: Path, what: str) -> str:
-    return f"{path} was {what} after it was written; begin anew with resume=False"
+    return f"{path} was {what} after it was written; {anew()}"
 
 
 def load_json(path: Path) -> dict[str, Any]:
@@ -96,3 +97,8 @@ def load_json(path: Path) -> dict[str, Any]:
         raise ValueError(_damaged(path, "deleted")) from error
     except ValueError as error:
         raise ValueError(_damaged(path, "cut short or changed")) from error
+
+
+def anew() -> str:
+    """What to do about results that are not what they were."""
+    return f"begin anew with {spelled('resume', '=False')}"

@@ -15,6 +15,7 @@ import numpy as np
 from stereodel._arrays import FloatArray
 from stereodel._extras import optional
 from stereodel.partitioned.places import Places, Surface, find_places
+from stereodel.partitioned.shards import anew
 from stereodel.sphere.latitudes import Latitude
 
 Given = str | os.PathLike[str] | Sequence[str | os.PathLike[str]]
@@ -45,7 +46,7 @@ class PointFile:
         """Raise ValueError unless the file is there as it was, by its size and time stamp."""
         state = os.stat(self.path)
         if (state.st_size, state.st_mtime_ns) != (self.size, self.modified):
-            raise ValueError(f"{self.path} has changed since the run began; begin anew with resume=False")
+            raise ValueError(f"{self.path} has changed since the run began; {anew()}")
 
     @classmethod
     def of(cls, path: Path, name: str) -> PointFile:

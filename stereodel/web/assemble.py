@@ -14,6 +14,7 @@ import json
 import os
 import re
 from collections.abc import Sequence
+from functools import cache
 from importlib import resources
 from pathlib import Path
 from typing import Final
@@ -23,13 +24,12 @@ import numpy.typing as npt
 from stereodel._arrays import as_choice, as_lonlat
 from stereodel._files import replacing
 from stereodel.sphere.latitudes import KINDS, Latitude
-from stereodel.web.contents import RESOLUTIONS, Given, built, contents
-from stereodel.web.packing import packed
+from stereodel.web.contents import RESOLUTIONS, Given, built, contents, packed
 
 ENCODING: Final = r'<meta charset="utf-8"\s*/?>'
 STYLE: Final = r'<link rel="stylesheet" href="page\.css"\s*/?>'
 SCRIPT: Final = r'<script(?: type="module"| defer)? src="page\.js"></script>'
-"""Parts that the template contains once each, in this order. The policy precedes the style."""
+"""Parts that the template contains once each, the encoding first: the policy precedes the style."""
 
 LATER: Final = ("exchange", "lift")
 """Scripts that run when they are first needed: what files take, and a room that is not the first."""
@@ -107,15 +107,15 @@ def html(resolution: str, given: Given | None = None, latitude: Latitude = "auth
     carried = contents(resolution, given, latitude=latitude) | {name: packed(code) for name, code in later.items()}
     blocks = (f'<script type="text/plain" id="block-{name}">{text}</script>' for name, text in carried.items())
     page = template()
-    pieces = re.split("|".join((ENCODING, STYLE, SCRIPT)), page)
-    if len(pieces) != 4 or not re.search(f"{ENCODING}.*{STYLE}.*{SCRIPT}", page, re.DOTALL):
-        raise ValueError("the template of the page must name its encoding, page.css and page.js, each once")
-    parts = (
-        f'<meta charset="utf-8">\n<meta http-equiv="Content-Security-Policy" content="{policy}">',
-        f"<style>{style}</style>",
-        "\n".join([*blocks, f"<script>{script}</script>"]),
-    )
-    return "".join(piece for pair in zip(pieces, (*parts, ""), strict=True) for piece in pair)
+    for place, part in (
+        (ENCODING, f'<meta charset="utf-8">\n<meta http-equiv="Content-Security-Policy" content="{policy}">'),
+        (STYLE, f"<style>{style}</style>"),
+        (SCRIPT, "\n".join([*blocks, f"<script>{script}</script>"])),
+    ):
+        if len(pieces := re.split(place, page)) != 2:
+            raise ValueError("the template of the page must name its encoding, page.css and page.js, each once")
+        page = part.join(pieces)
+    return page
 
 
 def template() -> str:
@@ -123,6 +123,7 @@ def template() -> str:
     return resources.files("stereodel.web").joinpath("page.html").read_text(encoding="utf-8")
 
 
+@cache
 def module(resolution: str) -> str:
     """The script of the widget, with its contents as a constant."""
     return f"const CONTENTS = {json.dumps(contents(resolution, latitude=None))};\n{built('widget.js').decode('utf-8')}"

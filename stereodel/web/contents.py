@@ -1,8 +1,13 @@
-"""Contents of a page: the kernel, land, data sets of the package, and the reader's own points, as texts by name."""
+"""Contents of a page: the kernel, land, data sets of the package, and the reader's own points, as texts by name.
+
+Numbers are deflated, then written in base64, which all browsers decode natively; `script/contents.ts` reads them.
+"""
 
 from __future__ import annotations
 
+import base64
 import json
+import zlib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
@@ -10,14 +15,14 @@ from importlib import resources
 from typing import Final
 
 import numpy as np
+import numpy.typing as npt
 
-from stereodel._arrays import FloatArray, Indices
+from stereodel._arrays import Bytes, FloatArray
 from stereodel.curves.ragged import Ragged
 from stereodel.curves.seams import stitched
 from stereodel.data import airports, cities, land, stars
 from stereodel.sphere.latitudes import Latitude
 from stereodel.triangulation import SphericalDelaunay
-from stereodel.web.packing import packed, packed_doubles, packed_places
 
 RESOLUTIONS: Final = {"50m": ("110m", "50m"), "110m": ("110m",)}
 """Land included for each resolution; the coarse one is drawn while the globe moves."""
@@ -56,6 +61,56 @@ class Given:
             )
 
 
+def packed(content: bytes) -> str:
+    """Bytes as text.
+
+    >>> packed(b"Ulm")
+    'eNoLzckFAAJHAS8='
+    """
+    return base64.b64encode(zlib.compress(content, 9)).decode("ascii")
+
+
+def packed_places(places: Ragged, digits: int) -> str:
+    """Rows of longitude and latitude in degrees, rounded to `digits` decimals, as packed numbers of `varints`.
+
+    They are digits, number of rows, size of each row, then the steps of all longitudes and of all latitudes from one
+    place to the next, in units of the last digit. A negative step s is written as −2s − 1, any other as 2s. Integers
+    divided by a power of ten give the doubles nearest to the decimals.
+    """
+    units = np.rint(places.values * 10.0**digits).astype(np.int64)
+    steps = np.diff(units, axis=0, prepend=np.zeros((1, 2), dtype=np.int64)).T.ravel()
+    zigzag = np.where(steps < 0, -2 * steps - 1, 2 * steps)
+    return packed(varints(np.concatenate([[digits, len(places)], places.sizes, zigzag])).tobytes())
+
+
+def packed_doubles(values: FloatArray) -> str:
+    """Doubles stored exactly: the lowest byte of all, then the second lowest of all, and so on.
+
+    Grouped in this way, high bytes are similar and compress well.
+    """
+    planes = np.ascontiguousarray(values, dtype="<f8").reshape(-1, 1).view(np.uint8).T
+    return packed(planes.tobytes())
+
+
+def varints(numbers: npt.NDArray[np.int64]) -> Bytes:
+    """Non-negative integers, seven bits per byte, lowest first; the eighth bit marks that more bytes follow.
+
+    >>> varints(np.array([5, 300])).tolist()
+    [5, 172, 2]
+    """
+    rest = numbers.astype(np.uint64)
+    groups, more = [], []
+    while True:
+        groups.append((rest & np.uint64(0x7F)).astype(np.uint8))
+        rest = rest >> np.uint64(7)
+        more.append(rest > 0)
+        if not more[-1].any():
+            break
+    lengths = 1 + np.sum(more, axis=0)
+    table = np.stack(groups, axis=1) | np.where(np.stack(more, axis=1), 0x80, 0).astype(np.uint8)
+    return table[np.arange(len(groups)) < lengths[:, None]]
+
+
 def built(name: str) -> bytes:
     """A built file of the page, shipped with the library."""
     return resources.files("stereodel.web").joinpath("built", name).read_bytes()
@@ -86,18 +141,16 @@ def land_rings(resolution: str) -> str:
 @cache
 def sites(name: str) -> str:
     """One of the small sets, those of `SITE_DIGITS`."""
-    places = _places(name)
-    return packed_places(Ragged(places, np.array([0, len(places)])), SITE_DIGITS[name])
-
-
-def _places(name: str) -> FloatArray:
-    """The sites that a room begins with, the largest cities, the airports nearest to them, or the brightest stars."""
     if name in ("gap", "sheet"):
-        return scattered()[name]
-    if name == "stars":
-        return stars().lonlat[stars().magnitude <= BRIGHT_STAR]
-    large = cities().lonlat[cities().population >= LARGE_CITY]
-    return large if name == "cities" else airports().lonlat[_nearest(airports().lonlat, large)]
+        places = scattered()[name]
+    elif name == "stars":
+        places = stars().lonlat[stars().magnitude <= BRIGHT_STAR]
+    else:
+        places = cities().lonlat[cities().population >= LARGE_CITY]
+    if name == "airports":
+        near = SphericalDelaunay.from_lonlat(airports().lonlat).nearest(lonlat=places)
+        places = airports().lonlat[np.unique(near)]
+    return packed_places(Ragged(places, np.array([0, len(places)])), SITE_DIGITS[name])
 
 
 def scattered() -> dict[str, FloatArray]:
@@ -108,11 +161,6 @@ def scattered() -> dict[str, FloatArray]:
     """
     text = resources.files("stereodel.web").joinpath("scattered.json").read_text(encoding="utf-8")
     return {name: np.array(rows) for name, rows in json.loads(text).items()}
-
-
-def _nearest(places: FloatArray, to: FloatArray) -> Indices:
-    """Indices of the places nearest to `to`, sorted and without repeats."""
-    return np.unique(SphericalDelaunay.from_lonlat(places).nearest(lonlat=to))
 
 
 def _shown(name: object) -> str:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from functools import cache
 from typing import Any
 
 import numpy as np
@@ -103,7 +102,7 @@ class GlobeWidget(anywidget.AnyWidget):
 
     @traitlets.default("_esm")
     def _script(self) -> str:
-        return _module()
+        return module("110m")
 
     @traitlets.default("_css")
     def _style(self) -> str:
@@ -126,11 +125,10 @@ class GlobeWidget(anywidget.AnyWidget):
 
     @traitlets.validate("selection")
     def _checked_selection(self, proposal: Mapping[str, Any]) -> list[int]:
-        numbers = [int(number) for number in proposal["value"]]
-        count = len(self.lonlat)
-        for number in numbers:
-            if not 0 <= number < count:
-                raise ValueError(f"selection has site {number}, but the numbers of {count} sites are below {count}")
+        numbers, count = [int(number) for number in proposal["value"]], len(self.lonlat)
+        wrong = [number for number in numbers if not 0 <= number < count]
+        if wrong:
+            raise ValueError(f"selection has site {wrong[0]}, but the numbers of {count} sites are below {count}")
         return numbers
 
 
@@ -143,9 +141,3 @@ def _entries(given: Mapping[str, Any], names: tuple[str, ...], what: str) -> Map
         wanted = f"{', '.join(names[:-1])} and {names[-1]}"
         raise ValueError(f"{what} has the entries {', '.join(map(repr, given))}, but must have {wanted}")
     return given
-
-
-@cache
-def _module() -> str:
-    """The script with its contents."""
-    return module("110m")

@@ -5,8 +5,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from stereodel.curves.insides import oriented
 from stereodel.curves.ragged import Ragged
-from stereodel.curves.seams import left_inside, stitched
+from stereodel.curves.seams import stitched
 from stereodel.curves.trace import unwrapped
 
 
@@ -111,7 +112,7 @@ def test_rings_are_turned_so_that_their_region_is_on_the_left():
     square, small = box(0, 0, 10, 10), box(2, 2, 4, 4)
     for shell in (square, square[::-1]):
         for hole in (small, small[::-1]):
-            turned = list(left_inside(Ragged.of([shell, hole]), np.array([True, False])))
+            turned = list(oriented(Ragged.of([shell, hole]), np.array([False, True]))[0])
             np.testing.assert_array_equal(turned[0], square)
             np.testing.assert_array_equal(turned[1], small[::-1])
 
@@ -120,7 +121,7 @@ def test_rings_over_180_are_turned_as_they_go_on():
     ring = box(170, 0, 190, 10)
     jumping = ring - np.where(ring[:, :1] > 180, [360.0, 0.0], [0.0, 0.0])
     for given_ring in (jumping, jumping[::-1]):
-        (turned,) = left_inside(unwrapped(Ragged.of([given_ring])), np.array([True]))
+        (turned,) = oriented(unwrapped(Ragged.of([given_ring])), np.array([False]))[0]
         assert np.ptp(turned[:, 0]) == 20
         x, y = turned.T
         assert np.sum(x[:-1] * y[1:] - x[1:] * y[:-1]) > 0
@@ -131,7 +132,7 @@ def test_a_ring_round_a_pole_holds_the_smaller_side(height, outer, east):
     lon = np.arange(0.0, 361.0, 30.0)
     ring = np.column_stack([np.where(lon > 180, lon - 360, lon), height + 5 * np.sin(np.radians(3 * lon))])
     for given_ring in (ring, ring[::-1]):
-        (turned,) = left_inside(unwrapped(Ragged.of([given_ring])), np.array([outer]))
+        (turned,) = oriented(unwrapped(Ragged.of([given_ring])), np.array([not outer]))[0]
         assert (turned[-1, 0] - turned[0, 0] > 0) == east
 
 

@@ -10,7 +10,7 @@ from stereodel.constants import MOST_GRID_LINES
 from stereodel.curves.chart import Chart
 from stereodel.drawing import StereographicView, View
 from stereodel.drawing.scene.graticule import Graticule, usual_spacing
-from stereodel.globe.lines import SphereLines
+from stereodel.globe.outlines_on_sphere import SphereLines
 from stereodel.sphere import graticule, graticule_patch
 from tests.tiers import by_day
 

@@ -24,7 +24,7 @@ import pyogrio
 from PIL import Image
 
 from stereodel.constants import MOST_TEXELS
-from stereodel.globe.images import read_photo
+from stereodel.globe.raster import read_photo
 from stereodel.io import read_points
 from stereodel.io.reading import shapes_of
 

@@ -3,6 +3,7 @@
 import numpy as np
 from hypothesis import strategies as st
 
+from stereodel import MoebiusMap
 from stereodel.drawing.scene.view import StereographicView, View
 
 places = st.tuples(st.floats(-180, 180), st.floats(-90, 90))
@@ -39,3 +40,13 @@ def disc(size):
     """Places (…, 2) of the middles of pixels of a square around the unit disc, from its upper left corner."""
     middle = (np.arange(size) + 0.5) * 2 / size - 1
     return np.stack(np.meshgrid(middle, -middle), axis=-1)
+
+
+def sampled(lines):
+    """Points of all edges of lines, a row for each, on the sphere."""
+    return lines.edges.arcs_under(MoebiusMap.identity(), 1e-5).through(MoebiusMap.identity()).sampled(1e-5)
+
+
+def length(lines):
+    """Of all edges of lines together, on the sphere."""
+    return sum(np.linalg.norm(np.diff(row, axis=0), axis=1).sum() for row in sampled(lines))

@@ -126,8 +126,8 @@ def test_vector_files_hold_one_picture_cut_along_the_limb(tmp_path, kind):
 
 def test_painted_where_it_lies_on_the_page():
     """Moved and scaled on the page, the same pixels."""
-    plain = RasterOnDisc(COLOURED, LENS, View(0, 0))
-    moved = RasterOnDisc(COLOURED, LENS, View(0, 0), (8.0, -4.0), 4.0)
+    plain = RasterOnDisc(COLOURED, Chart(LENS, View(0, 0)))
+    moved = RasterOnDisc(COLOURED, Chart(LENS, View(0, 0), (8.0, -4.0), 4.0))
     found = moved.paint((4.0, 0.0, 1 / 16, 1 / 16), (128, 128))
     assert np.array_equal(found, plain.paint((-1.0, 1.0, 1 / 64, 1 / 64), (128, 128)))
 

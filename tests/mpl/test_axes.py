@@ -109,14 +109,6 @@ def test_data_is_in_degrees():
     assert text.get_position() == (174, -41)
 
 
-def test_a_straight_line_and_a_great_circle():
-    axes = axes_of(view=(0, 60))
-    between = [(-60, 60), (60, 60)]
-    great = axes.transGreatCircle.transform_path(Path(between)).vertices
-    straight = axes.transStraight.transform_path(Path(between)).vertices
-    assert great[:, 1].max() > straight[:, 1].max()  # the shorter way goes north
-
-
 def test_contours_cover_the_disc_and_lines_do_not_follow_it():
     lon, lat = np.meshgrid(*GRID)
     height = np.cos(np.radians(3 * lon)) * np.cos(np.radians(lat)) ** 2 + np.sin(np.radians(2 * lat))

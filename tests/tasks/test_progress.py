@@ -1,4 +1,4 @@
-"""Progress elsewhere than on a terminal; bars are tested with the command, `tests/cli/test_voronoi_folder.py`."""
+"""Progress elsewhere than on a terminal; bars are tested with the command, `tests/cli/test_partition.py`."""
 
 import pytest
 

@@ -74,9 +74,12 @@ def built(monkeypatch):
     for module in (assemble, contents):
         monkeypatch.setattr(module, "built", read)
     monkeypatch.setattr(assemble, "template", lambda: files["page.html"])
-    contents.kernel.cache_clear()
+    kept = (contents.kernel, assemble.module)
+    for each in kept:
+        each.cache_clear()
     yield files
-    contents.kernel.cache_clear()
+    for each in kept:
+        each.cache_clear()
 
 
 def test_a_page_runs_by_itself(built, visit, tmp_path):

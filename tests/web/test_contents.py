@@ -8,8 +8,16 @@ import pytest
 from stereodel import data
 from stereodel.curves.ragged import Ragged
 from stereodel.data import land
-from stereodel.web.contents import MOST_POINTS, Given, land_rings, scattered, sites
-from stereodel.web.packing import packed, packed_doubles, packed_places
+from stereodel.web.contents import (
+    MOST_POINTS,
+    Given,
+    land_rings,
+    packed,
+    packed_doubles,
+    packed_places,
+    scattered,
+    sites,
+)
 
 from .conftest import SCRIPT
 

@@ -19,7 +19,7 @@ from stereodel._extras import optional
 from stereodel._tasks.progress import Progress
 from stereodel.io.formats.cell_values import as_text, check_held, plain
 from stereodel.io.formats.map_rows import MapRows, arrow_column
-from stereodel.io.formats.names import DataWarning, RenamedColumnWarning, beside, listed
+from stereodel.io.formats.names import DataWarning, RenamedColumnWarning, beside, listed, spelled
 from stereodel.io.formats.self_contained import check_crs, check_stored, self_contained
 from stereodel.io.formats.wkb import is_there
 
@@ -117,7 +117,7 @@ def _chosen(path: Path, layer: str | None, choice: str) -> str:
         raise ValueError("the file is damaged: there is no layer in it")
     every = [str(name) for name, _ in layers]
     if layer is not None and layer not in every:
-        raise ValueError(f"layer is {layer!r}, which is not one of {listed(every)}")
+        raise ValueError(f"{spelled('layer')} is {layer!r}, which is not one of {listed(every)}")
     names = [layer] if layer else [str(name) for name, kind in layers if kind is not None] or every
     check_stored(path, names)
     if len(names) > 1:  # GPX always has five

@@ -20,7 +20,7 @@ from stereodel._tasks.progress import Progress
 from stereodel.constants import EMPTY_RATIO, FEW_CELLS
 from stereodel.io.formats.cell_values import check_held, plain_cells
 from stereodel.io.formats.map_rows import MapRows
-from stereodel.io.formats.names import DataWarning, beside, listed
+from stereodel.io.formats.names import DataWarning, beside, listed, spelled
 from stereodel.io.formats.self_contained import check_crs
 from stereodel.io.formats.text import column, objects
 
@@ -111,7 +111,11 @@ def points(text: str, *, skip_missing: bool) -> tuple[Column, Column, Features]:
 
 def no_point(row: Any, kind: Any) -> ValueError:
     """The error for a row with another geometry than a point, or with "no geometry"."""
-    advice = "leave such rows out with skip_missing" if kind == "no geometry" else "take e.g. centroids first"
+    advice = (
+        f"leave such rows out with {spelled('skip_missing', '=True')}"
+        if kind == "no geometry"
+        else "take e.g. centroids first"
+    )
     return ValueError(f"row {row}: a Point is needed, not {kind}; {advice}")
 
 

@@ -1,12 +1,15 @@
-"""Names of columns: finding longitude and latitude, and renaming columns whose names collide."""
+"""Names of columns: finding longitude and latitude, renaming those that collide; names of arguments in messages."""
 
 from __future__ import annotations
 
 import re
 import warnings
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
 from itertools import count
-from typing import Any, TypeVar
+from types import MappingProxyType
+from typing import Any, Final, TypeVar
 
 T = TypeVar("T")
 
@@ -19,6 +22,28 @@ NAMES = {
 }
 """Words for each, the most reliable first."""
 
+SPELLING: Final[ContextVar[Mapping[str, str]]] = ContextVar("SPELLING", default=MappingProxyType({}))
+
+
+def spelled(argument: str, value: str = "") -> str:
+    """An argument in a message as the caller types it: ``crs``, with a value ``crs=…``; on the command line ``--crs``.
+
+    >>> with spelling({"crs": "--crs"}):
+    ...     spelled("crs"), spelled("layer", "=")
+    ('--crs', 'layer=')
+    """
+    return SPELLING.get().get(argument, argument + value)
+
+
+@contextmanager
+def spelling(options: Mapping[str, str]) -> Iterator[None]:
+    """A context in which messages name options in place of these arguments."""
+    token = SPELLING.set(options)
+    try:
+        yield
+    finally:
+        SPELLING.reset(token)
+
 
 def find_lonlat(names: Sequence[str], lon: str | None = None, lat: str | None = None) -> tuple[str, str]:
     """Names of the columns of longitude and latitude; ValueError lists the columns if none or more than one matches.
@@ -28,7 +53,9 @@ def find_lonlat(names: Sequence[str], lon: str | None = None, lat: str | None = 
     """
     found = [_find(names, kind, given) for kind, given in (("lon", lon), ("lat", lat))]
     if found[0] == found[1]:
-        raise ValueError(f"lon and lat are both the column {found[0]!r}; the columns are {listed(names)}")
+        raise ValueError(
+            f"{spelled('lon')} and {spelled('lat')} are both the column {found[0]!r}; the columns are {listed(names)}"
+        )
     return found[0], found[1]
 
 
@@ -104,7 +131,7 @@ def _find(names: Sequence[str], kind: str, given: str | None) -> str:
     if given is not None:
         same = [name for name in names if name == given] or [n for n in names if n.lower() == str(given).lower()]
         if len(same) != 1:
-            raise ValueError(f"{kind} is {given!r}, which is not one of the columns {listed(names)}")
+            raise ValueError(f"{spelled(kind)} is {given!r}, which is not one of the columns {listed(names)}")
         return same[0]
     sure, unsure = NAMES[kind]
     meant = max(sure, key=len)
@@ -117,8 +144,9 @@ def _find(names: Sequence[str], kind: str, given: str | None) -> str:
         if len(matching) == 1:
             return matching[0]
         if matching:
-            raise ValueError(f"{listed(matching)} may all be the {meant}; say which with {kind}=")
-    raise ValueError(f"no column looks like the {meant}; say which with {kind}=, the columns are {listed(names)}")
+            raise ValueError(f"{listed(matching)} may all be the {meant}; say which with {spelled(kind, '=')}")
+    advice = f"say which with {spelled(kind, '=')}, the columns are {listed(names)}"
+    raise ValueError(f"no column looks like the {meant}; {advice}")
 
 
 def words(name: str) -> set[str]:

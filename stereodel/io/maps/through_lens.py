@@ -12,8 +12,9 @@ from stereodel.conformal import MoebiusMap
 from stereodel.constants import FINER_WARPS
 from stereodel.curves import clip
 from stereodel.curves.borders import Antimeridian, Pieces
+from stereodel.curves.insides import oriented
 from stereodel.curves.ragged import Ragged
-from stereodel.curves.seams import left_inside, stitched
+from stereodel.curves.seams import stitched
 from stereodel.curves.trace import Edges, sides_of, straight, unwrapped
 from stereodel.io.map_shapes import COLLECTION, LINE, MULTILINE, MULTIPOINT, MULTIPOLYGON, POINT, POLYGON, RING
 from stereodel.io.maps.on_map import close_in_longitude, lines_on_map, polygons_on_map, repaired, shapely
@@ -63,8 +64,9 @@ def _polygons(geometries: Geometries, lens: MoebiusMap, slack: float) -> Geometr
     polygons, geometry = shapely.get_parts(geometries, return_index=True)
     rings, polygon = shapely.get_rings(polygons, return_index=True)
     lonlat, ring = shapely.get_coordinates(rings, return_index=True)
-    outer = np.append(True, polygon[1:] != polygon[:-1])
-    outlines, owner = left_inside(Ragged.grouped(lonlat, ring, len(rings)), outer), geometry[polygon]
+    hole = np.append(False, polygon[1:] == polygon[:-1])
+    outlines, _ = oriented(Ragged.grouped(lonlat, ring, len(rings)), hole)
+    owner = geometry[polygon]
     images = _filled(outlines, owner, len(geometries), lens, slack)
     wrong = ~shapely.is_valid(images)
     length = shapely.length(geometries)

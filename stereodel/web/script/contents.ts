@@ -1,7 +1,7 @@
 /**
  * What the page carries with it: the kernel, land, sets of points, and points that its maker gave.
  *
- * Each is a text by name that `stereodel/web/packing.py` wrote: base64 of deflated bytes.
+ * Each is a text by name that `stereodel/web/contents.py` wrote: base64 of deflated bytes.
  */
 
 import type { Latitude } from "./kernel/api.ts";

@@ -1,22 +1,22 @@
-"""Regions of the sphere by their borders: map polygons, cells and triangles of diagrams, interiors of circles."""
+"""Lines and regions of the sphere, from maps and diagrams, prepared once for all lenses and views."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 
 import numpy as np
 import numpy.typing as npt
 
+from stereodel import data
 from stereodel._arrays import BoolArray, FloatArray, Indices, as_lonlat
 from stereodel.curves import trace
 from stereodel.curves.chart import Chart
-from stereodel.curves.clip import signed_areas
-from stereodel.curves.ragged import Ragged
+from stereodel.curves.insides import oriented
+from stereodel.curves.ragged import Ragged, thinned
 from stereodel.curves.seams import stitched
-from stereodel.globe.lines import SphereLines
-from stereodel.io.maps.meshes_as_rows import triangle_sides, voronoi_sides
+from stereodel.io.maps.meshes_as_rows import ridge_arcs, triangle_sides, voronoi_sides
 from stereodel.sphere import SphereArc, SphereCircle
 from stereodel.sphere.latitudes import Latitude
 from stereodel.sphere.vectors import units
@@ -25,23 +25,55 @@ from stereodel.triangulation import SphericalDelaunay, SphericalVoronoi
 Rings = Sequence[npt.ArrayLike]
 """An outer ring and its holes, (k, 2) each, in degrees; the first point may be repeated at the end."""
 
-HALF_OF_MAP = 180.0 * 180.0
-"""Square degrees."""
+HALF_OF_MAP = 360.0
+"""Square degrees of the equal-area map."""
+
+
+@dataclass(frozen=True, eq=False)
+class SphereLines:
+    """Lines on the sphere as sequences of edges, which they may share; `sides` has ~e for edge e in reverse."""
+
+    edges: trace.Edges
+    sides: Ragged
+
+    @classmethod
+    def straight_in_lonlat(cls, lines: Iterable[npt.ArrayLike], latitude: Latitude = "spherical") -> SphereLines:
+        """Lines, (k, 2) each, in degrees, straight in longitude and latitude; single points are left out.
+
+        A segment that spans more than 180° of longitude takes the shorter way, across ±180°.
+        """
+        arrays = [as_lonlat(line, "lines").reshape(-1, 2) for line in lines]
+        return cls.of_lonlat(Ragged.of([line for line in arrays if len(line) > 1], np.zeros((0, 2))), latitude)
+
+    @classmethod
+    def of_lonlat(cls, lines: Ragged, latitude: Latitude = "spherical") -> SphereLines:
+        """The same, from rows of points in degrees."""
+        lonlat = trace.unwrapped(lines, turns=False)
+        first, sides = trace.sides_of(lonlat)
+        return cls(trace.Edges.straight(lonlat.values[first], lonlat.values[first + 1], latitude), sides)
+
+    @classmethod
+    def great(cls, starts: FloatArray, ends: FloatArray) -> SphereLines:
+        """The shorter great-circle arc between each pair of unit vectors (n, 3)."""
+        return cls.alone(trace.great(starts, ends))
+
+    @classmethod
+    def alone(cls, arcs: trace.Arcs) -> SphereLines:
+        """Prepared arcs, each of them a line."""
+        return cls(trace.Edges.of(trace.numbered(arcs)), Ragged(np.arange(len(arcs)), np.arange(len(arcs) + 1)))
+
+    def on(self, chart: Chart) -> Ragged:
+        """The visible parts, on the page."""
+        return thinned(chart.lines(self.edges, self.sides), chart.tolerance)
 
 
 @dataclass(frozen=True, eq=False)
 class SphereRegions:
     """Regions bounded by rings of edges, interior on the left; neighbours may share edges.
 
-    Parameters
-    ----------
-    edges : Edges
-    rings : Ragged
-        The edges of each ring in order; ~e for edge e in reverse.
-    owner : (r,) array
-        The region of each ring.
-    everywhere : (n,) bool array
-        Whether each region is the whole sphere, without any ring.
+    rings: the edges of each ring in order; ~e for edge e in reverse.
+    owner: the region of each ring, (r,).
+    everywhere: whether each region is the whole sphere, without any ring, (n,).
     """
 
     edges: trace.Edges
@@ -57,21 +89,11 @@ class SphereRegions:
         owners: npt.ArrayLike | None = None,
         latitude: Latitude = "spherical",
     ) -> SphereRegions:
-        """Polygons whose sides are straight in longitude and latitude.
+        """Polygons whose sides are straight in longitude and latitude; ValueError for a ring of less than three points.
 
-        Parameters
-        ----------
-        polygons : iterable of sequences of (k, 2) array_like
-            Rings of each polygon in degrees, the outer one first, in either direction. A ring that jumps by more than
-            180° of longitude continues across ±180°; one that separates the poles has its smaller side as interior.
-        owners : (n,) array_like of int, optional
-            The region of each polygon; by default each polygon is one region.
-        latitude : {"spherical", "geodetic", "authalic"}
-
-        Raises
-        ------
-        ValueError
-            If a latitude is outside [−90, 90], or a ring has fewer than three points.
+        polygons: rings of each polygon in degrees, the outer one first, in either direction. A ring that jumps by more
+            than 180° of longitude continues across ±180°; one that separates the poles has its smaller side inside.
+        owners: the region of each polygon; by default each polygon is one region.
         """
         rings, polygon, hole = [], [], []
         for number, polygon_rings in enumerate(polygons):
@@ -82,7 +104,7 @@ class SphereRegions:
         if owners is not None:
             region = np.asarray(owners, dtype=np.intp)[region]
         count = int(region.max(initial=-1)) + 1
-        lonlat, area = _oriented(trace.unwrapped(Ragged.of(rings, np.zeros((0, 2)))), np.array(hole, dtype=bool))
+        lonlat, area = oriented(trace.unwrapped(Ragged.of(rings, np.zeros((0, 2)))), np.array(hole, dtype=bool))
         start, end, sides, owner = stitched(lonlat, region)
         # A polygon that fills the map, with no border left once the map's seams are removed, is the whole sphere.
         everywhere = np.bincount(region, area, minlength=count) > HALF_OF_MAP
@@ -97,9 +119,8 @@ class SphereRegions:
             raise ValueError(
                 "a cell has fewer than three vertices, as where all sites are on one circle; draw its ridges"
             )
-        start, end = (voronoi.vertices[voronoi.ridge_vertices[:, k]] for k in (0, 1))
-        arcs, count = trace.great(start, end, voronoi.ridge_normals()), len(voronoi.points)
-        return cls._of(arcs, voronoi_sides(voronoi), np.arange(count), count)
+        count = len(voronoi.points)
+        return cls._of(ridge_arcs(voronoi), voronoi_sides(voronoi), np.arange(count), count)
 
     @classmethod
     def triangles(cls, triangulation: SphericalDelaunay) -> SphereRegions:
@@ -125,7 +146,7 @@ class SphereRegions:
         """Number of regions."""
         return len(self.everywhere)
 
-    @property
+    @cached_property
     def complement(self) -> SphereRegions:
         """What none of the regions contains, as one region, if they do not overlap."""
         rings = Ragged(~self.rings.values[::-1], self.rings.offsets[-1] - self.rings.offsets[::-1])
@@ -186,20 +207,14 @@ def _closed(ring: npt.ArrayLike, number: int) -> FloatArray:
     return np.concatenate([points, points[:1]])
 
 
-def _oriented(rings: Ragged, hole: BoolArray) -> tuple[Ragged, FloatArray]:
-    """Rings oriented so that the polygon is on their left, and their areas on the map, negative for holes.
+@cache
+def earth_lines(name: str, resolution: str, latitude: Latitude) -> SphereLines:
+    """Natural Earth's coastlines, borders or rivers."""
+    lines = getattr(data, name)(resolution=resolution)
+    return SphereLines.of_lonlat(Ragged(lines.lonlat, lines.offsets.astype(np.intp)), latitude)
 
-    A ring that goes once around the Earth has its smaller side as interior.
-    """
-    area, _ = signed_areas(rings)
-    first, last = rings.offsets[:-1], rings.offsets[1:] - 1
-    way = rings.values[last, 0] - rings.values[first, 0]
-    inner = np.ones(len(rings.values), dtype=bool)
-    inner[last] = False
-    begin = np.flatnonzero(inner)
-    sine = np.sin(np.radians(rings.values[:, 1]))
-    step = rings.values[begin + 1, 0] - rings.values[begin, 0]
-    north = np.bincount(rings.row[begin], step * (sine[begin] + sine[begin + 1]), minlength=len(rings)) * way > 0
-    # North of an eastward ring is on its left.
-    left = np.where(np.abs(way) > 180, north == (way > 0), area > 0)
-    return rings.reversed(left == hole), np.where(hole, -1.0, 1.0) * np.abs(area)
+
+@cache
+def earth_regions(name: str, resolution: str, latitude: Latitude) -> SphereRegions:
+    """Natural Earth's land or lakes."""
+    return SphereRegions.of_lonlat(getattr(data, name)(resolution=resolution).polygons(), latitude=latitude)

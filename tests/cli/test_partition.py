@@ -1,4 +1,4 @@
-"""`stereodel voronoi` into a folder: points in partitions; and signs of progress, on a terminal alone."""
+"""`stereodel partition`: points in files, results in a folder; and signs of progress, on a terminal alone."""
 
 import io
 from concurrent.futures import ThreadPoolExecutor
@@ -9,10 +9,8 @@ import pyarrow.parquet as pq
 import pytest
 
 from stereodel import SphericalVoronoi
-from stereodel.cli import interpolate, partitions
+from stereodel.cli import interpolate, partition
 from stereodel.cli.application import reporting, say
-from stereodel.cli.options import Latitude
-from stereodel.io import PointTable
 from stereodel.partitioned import Run
 
 
@@ -34,7 +32,7 @@ FILES = ["points/0.parquet", "points/1.parquet"]
 
 @pytest.mark.parametrize("given", [FILES, ["points"], ["points/*.parquet"]])
 def test_areas_are_those_of_all_points(folder, points, run, given):
-    assert run("voronoi", *given, "-o", "cells/", "--partition", 100) == ""
+    assert run("partition", *given, "-o", "cells/", "--partition", 100) == ""
     table = Run(folder / "cells").rows().to_table()
     assert table.column_names == ["area", "degree", "nearest", "distance", "kept"]
     assert table["area"].to_pylist() == SphericalVoronoi.from_lonlat(points, latitude="authalic").areas().tolist()
@@ -44,21 +42,21 @@ def test_areas_are_those_of_all_points(folder, points, run, given):
 
 
 def test_options_of_a_folder(folder, points, run):
-    run("voronoi", *FILES, "-o", "cells/", "--keep", "id", "--shapes", "--latitude", "spherical", "--area-unit", "sr")
+    run("partition", *FILES, "-o", "cells/", "--keep", "id", "--shapes", "--latitude", "spherical")
     found = Run(folder / "cells")
     assert found.rows().schema.names[0] == "id"
     assert found.cells().count_rows() == 300
-    run("voronoi", "plane.parquet", "--plane", "east", "north", "-o", "plane/")
+    run("partition", "plane.parquet", "--plane", "east", "north", "-o", "plane/")
     assert Run(folder / "plane").statistics["triangles"] > 60
-    run("voronoi", *FILES, "--lon", "lon", "--lat", "lat", "-o", "named/")
+    run("partition", *FILES, "--lon", "lon", "--lat", "lat", "-o", "named/")
 
 
 def test_another_input_is_not_mixed_with_what_is_there(folder, points, run):
-    run("voronoi", FILES[0], "-o", "cells/")
-    message = run("voronoi", FILES[1], "-o", "cells/", code=2)
+    run("partition", FILES[0], "-o", "cells/")
+    message = run("partition", FILES[1], "-o", "cells/", code=2)
     assert "has a run of other files or arguments" in message
     assert message.endswith("take another folder, or begin anew with --overwrite\n")
-    run("voronoi", FILES[1], "-o", "cells/", "--overwrite")
+    run("partition", FILES[1], "-o", "cells/", "--overwrite")
     assert Run(folder / "cells").statistics["points"] == 100
 
 
@@ -69,12 +67,12 @@ def test_an_interruption_keeps_what_is_done(folder, points, run, monkeypatch):
 
     whole = Passes._aligned
     monkeypatch.setattr(Passes, "_aligned", lambda self: (_ for _ in ()).throw(KeyboardInterrupt))
-    message = run("voronoi", *FILES, "-o", "cells/", "--partition", 100, code=130)
+    message = run("partition", *FILES, "-o", "cells/", "--partition", 100, code=130)
     assert message == "interrupted; what is done is kept, and the same command goes on from there\n"
     monkeypatch.setattr(Passes, "_aligned", whole)
     solved = []
     monkeypatch.setattr(running, "solve", lambda *arguments, **options: solved.append(arguments))
-    run("voronoi", *FILES, "-o", "cells/", "--partition", 100)
+    run("partition", *FILES, "-o", "cells/", "--partition", 100)
     assert solved == []
     assert Run(folder / "cells").statistics["points"] == 300
 
@@ -99,10 +97,10 @@ def test_a_scheduler_of_dask(folder, points, run, monkeypatch):
             assert options == {"pure": False, "retries": 0}
             return ThreadPoolExecutor(1)
 
-    monkeypatch.setattr(partitions, "distributed", lambda: type("distributed", (), {"Client": Client}))
-    run("voronoi", *FILES, "-o", "cells/", "--scheduler", "tcp://here:1")
+    monkeypatch.setattr(partition, "distributed", lambda: type("distributed", (), {"Client": Client}))
+    run("partition", *FILES, "-o", "cells/", "--scheduler", "tcp://here:1")
     assert asked == ["tcp://here:1", "closed"]
-    message = run("voronoi", *FILES, "-o", "other/", "--scheduler", "tcp://there:1", code=2)
+    message = run("partition", *FILES, "-o", "other/", "--scheduler", "tcp://there:1", code=2)
     assert message.startswith("error: --scheduler is 'tcp://there:1', where none answers: Timed out")
 
 
@@ -147,12 +145,9 @@ def test_values_come_in_pieces(monkeypatch, piece):
     """Of the same values as all at once, the last piece shorter than the others."""
     monkeypatch.setattr(interpolate, "PIECE", piece)
     stream = terminal(monkeypatch)
-    columns = {"z": np.array([0.0, 1, 2])}
-    table = PointTable(np.array([[0.0, 0], [1, 0], [0, 1]]), columns, surface="plane", axes=("x", "y"), name="a")
+    points, given = np.array([[0.0, 0], [1, 0], [0, 1]]), np.array([[0.0], [1], [2]])
     queries = np.linspace(0.0, 0.4, 10).reshape(5, 2)
-    values = interpolate._interpolator(table, ["z"], interpolate.Method.linear, Latitude.authalic, skip_missing=False)(
-        queries
-    )
+    values = interpolate._interpolator(points, given, interpolate.Method.linear)(queries)
     assert values[:, 0] == pytest.approx(queries @ [1, 2])
     assert "100%" in stream.getvalue()
 

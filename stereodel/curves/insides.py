@@ -1,9 +1,9 @@
 """The interior of rings: rings in any direction, oriented so that their region is on the left.
 
 It is defined on the map of longitude and latitude, as in matplotlib, GeoJSON and shapefiles: the interior is the
-bounded side, whatever the direction of the ring, and nested rings are alternately holes and islands (the even-odd
-rule). A ring that goes once around the Earth without visiting a pole is not closed on that map; its interior is the
-smaller side.
+bounded side, whatever the direction of the ring. Which rings are holes is given (`oriented`), or nested rings are
+alternately holes and islands, by the even-odd rule (`on_the_left`). A ring that goes once around the Earth without
+visiting a pole is not closed on that map; its interior is the smaller side.
 
 Areas are computed on the equal-area map (λ, sin φ). The area to the left of a ring that is closed there is −∮ sin φ dλ,
 which has a closed form for both kinds of edges.
@@ -12,6 +12,7 @@ which has a closed form for both kinds of edges.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from typing import Final
 
 import numpy as np
@@ -31,35 +32,29 @@ PROBE: Final = (3 - 5**0.5) / 2
 """Position on an edge where its ring's depth is measured: not a simple fraction, to avoid meridians of vertices."""
 
 
+def oriented(rings: Ragged, hole: BoolArray) -> tuple[Ragged, FloatArray]:
+    """Closed rings, straight on the map and wherever their longitudes lead, with their region on the left.
+
+    Also their areas on the equal-area map, of 720 square degrees, negative for holes.
+    """
+    first, sides = sides_of(rings)
+    (lon, lat), (turn, rise) = rings.values[first].T, np.diff(rings.values, axis=0)[first].T
+    area, left, _ = _Edges(sides.row, lon, lat, turn, rise, np.zeros(len(lon)), straight=True).lefts(len(rings))
+    return rings.reversed(left == hole), np.where(hole, -1.0, 1.0) * np.abs(area)
+
+
 def on_the_left(
     rings: Ragged, owner: Indices, count: int, spot: FloatArray, *, straight: bool
 ) -> tuple[Ragged, BoolArray]:
-    """Closed rings with their region on the left, and which regions contain a spot.
+    """Closed rings with their region on the left, and which regions contain a spot, (2,) in degrees.
 
-    Parameters
-    ----------
-    rings : Ragged of (k, 2)
-        In degrees, the first point repeated at the end.
-    owner : (r,) array
-        The region of each ring.
-    count : int
-        Number of regions.
-    spot : (2,) array
-        Degrees.
-    straight : bool
-        Whether edges are straight on the map; otherwise they are the shorter great-circle arcs.
+    rings: (k, 2) in degrees, the first point repeated at the end.
+    owner, count: the region of each ring, (r,), and the number of regions.
+    straight: whether edges are straight on the map; otherwise they are the shorter great-circle arcs.
     """
     edges = _Edges.of(rings, straight=straight)
-
-    def total(of_edges: FloatArray) -> FloatArray:
-        return np.bincount(edges.ring, of_edges, minlength=len(rings)).astype(np.float64)
-
-    area = -total(edges.swept() + edges.border * np.sign(edges.lat))
-    # Whole turns, up to rounding.
-    around = np.abs(total(edges.turn + edges.border)) > 180.0
-    # Eastwards around the Earth the left is the north, 360 + area large where the sphere is 720; westwards it is the
-    # south, again 360 + area: in both cases the smaller side where the area is negative.
-    left = (area > 0) ^ around
+    _, left, around = edges.lefts(len(rings))
+    total = partial(_total, edges.ring, len(rings))
     # The upper border of the map is above all edges: rings may follow it, or contain the pole without visiting it.
     over = np.rint(total(np.where(edges.lat > 0, edges.border, 0.0)) / 360.0).astype(np.intp)
     over += around & ((total(edges.turn) > 0) == left)
@@ -95,6 +90,16 @@ class _Edges:
             sides.row, lon, lat, turn, rise, np.where(polar & (lat * (lat + rise) > 0), given - turn, 0.0), straight
         )
 
+    def lefts(self, count: int) -> tuple[FloatArray, BoolArray, BoolArray]:
+        """Of each of `count` rings: the area to its left, whether its region is there, and whether it goes around."""
+        total = partial(_total, self.ring, count)
+        area = -total(self.swept() + self.border * np.sign(self.lat))
+        # Whole turns, up to rounding.
+        around = np.abs(total(self.turn + self.border)) > 180.0
+        # Eastwards around the Earth the left is the north, 360 + area large where the sphere is 720; westwards it is
+        # the south, again 360 + area: in both cases the smaller side where the area is negative.
+        return area, (area > 0) ^ around, around
+
     def swept(self) -> FloatArray:
         """∫ sin φ dλ along the edges, in degrees: the areas between them and the equator."""
         middle, half = np.radians(self.lat + self.rise / 2), np.radians(self.rise / 2)
@@ -129,6 +134,10 @@ class _Edges:
         edge, at = np.repeat(np.arange(len(west)), last - first), spans(first, last - first)
         since, turn = meridians[at] - west[edge], self.turn[edge]
         return edge, np.tile(order, len(turns))[at], np.where(turn > 0, since, since + turn)
+
+
+def _total(ring: Indices, count: int, of_edges: FloatArray) -> FloatArray:
+    return np.bincount(ring, of_edges, minlength=count).astype(np.float64)
 
 
 def _is_hole(edges: _Edges, rings: Ragged, owner: Indices, count: int, left: BoolArray, over: Indices) -> BoolArray:

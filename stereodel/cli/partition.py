@@ -1,0 +1,106 @@
+"""`stereodel partition`: the Voronoi cells of more points than memory holds, in partitions, as files in a folder."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from concurrent.futures import Executor
+from contextlib import contextmanager
+from typing import Annotated, Any
+
+import typer
+
+from stereodel._extras import optional
+from stereodel._interrupts import stop_if_interrupted
+from stereodel.cli import options
+from stereodel.cli.application import ARGUMENTS, NothingToDoError, reporting, say
+from stereodel.io.formats.names import spelling
+
+EXAMPLE = "stereodel partition points/*.parquet -o cells"
+
+KEPT = "interrupted; what is done is kept, and the same command goes on from there"
+
+
+def command(
+    points: Annotated[
+        list[str],
+        typer.Argument(metavar="POINTS...", help="Parquet files, folders or patterns of them, or a HATS catalogue."),
+    ],
+    out: Annotated[str, typer.Option("--out", "-o", metavar="FOLDER", help="Folder of the results.")],
+    lon: Annotated[str | None, typer.Option(metavar="COLUMN", help="Column of longitudes, given with --lat.")] = None,
+    lat: Annotated[str | None, typer.Option(metavar="COLUMN", help="Column of latitudes, given with --lon.")] = None,
+    plane: Annotated[
+        tuple[str, str] | None,
+        typer.Option(metavar="X Y", help="Columns of coordinates in a plane, instead of longitude and latitude."),
+    ] = None,
+    latitude: options.LatitudeKind = options.Latitude.authalic,
+    partition: Annotated[
+        int | None, typer.Option(metavar="COUNT", min=1, help="Points of a partition; 650000 by default.")
+    ] = None,
+    scheduler: Annotated[
+        str | None, typer.Option(metavar="ADDRESS", help="Scheduler of Dask whose workers compute.")
+    ] = None,
+    shapes: Annotated[bool, typer.Option("--shapes", help="Write the shapes of the cells too.")] = False,
+    keep: Annotated[
+        list[str] | None, typer.Option(metavar="COLUMN", help="Column to write beside the results, repeatable.")
+    ] = None,
+    overwrite: Annotated[bool, typer.Option("--overwrite", help="Begin anew, replacing the results.")] = False,
+) -> None:
+    """Write the areas and neighbours of Voronoi cells, as Parquet files in a folder.
+
+    It gets rows/ with the area in steradians, the number of neighbours, the nearest point and its distance, in as many
+    files and rows as the points have. An interrupted command goes on where it stopped.
+    """
+    from stereodel.partitioned import triangulate
+    from stereodel.partitioned.passes import PARTITION
+
+    if "-" in points:
+        raise ValueError(f"results in the folder {out} are of files, not of stdin")
+    if (lon is None) != (lat is None):
+        raise ValueError("--lon and --lat are given together")
+    names = {**ARGUMENTS, "columns": "--plane" if plane else "--lon"}
+    with reporting() as told, workers(scheduler) as executor, spelling(names):
+        try:
+            run = triangulate(
+                points[0] if len(points) == 1 else points,
+                out,
+                columns=plane or (None if lon is None or lat is None else (lon, lat)),
+                surface="plane" if plane else "sphere",
+                latitude=latitude.value,
+                keep=keep or [],
+                triangles=False,
+                cells=shapes,
+                partition=partition or PARTITION,
+                executor=executor,
+                resume=not overwrite,
+                progress=told,
+            )
+        except KeyboardInterrupt:
+            raise KeyboardInterrupt(KEPT) from None
+        except (RuntimeError, TypeError) as error:  # another run holds the folder; a column has no numbers
+            raise ValueError(str(error)) from error
+    stop_if_interrupted()
+    found = run.statistics
+    if not found["points"]:
+        raise NothingToDoError(f"{', '.join(points)}: there are no points")
+    kind = "" if plane else f", with {latitude.value} latitudes"
+    say(f"{out}: cells of {found['points']} points, in {found['partitions']} partitions{kind}")
+
+
+@contextmanager
+def workers(scheduler: str | None) -> Iterator[Executor | None]:
+    """Workers of a scheduler of Dask; None, for processes of this machine, without an address."""
+    if scheduler is None:
+        yield None
+        return
+    library = distributed()
+    try:
+        client = library.Client(scheduler, set_as_default=False)
+    except (OSError, ValueError) as error:
+        raise ValueError(f"--scheduler is {scheduler!r}, where none answers: {error}") from error
+    with client:
+        yield client.get_executor(pure=False, retries=0)
+
+
+def distributed() -> Any:
+    """Dask's library of schedulers and workers."""
+    return optional("distributed", "dask")
