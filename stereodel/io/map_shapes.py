@@ -16,7 +16,7 @@ from stereodel._arrays import FloatArray, Geometries, Indices
 from stereodel._extras import optional
 from stereodel.curves.ragged import Ragged
 from stereodel.io.formats.geojson import Features
-from stereodel.io.table import degrees
+from stereodel.io.places import degrees
 
 POINT, LINE, RING, POLYGON, MULTIPOINT, MULTILINE, MULTIPOLYGON, COLLECTION = range(8)
 """Type codes of geometries in Shapely; those above POLYGON are multi-part."""

@@ -19,13 +19,13 @@ from stereodel._files import replacing, said_of
 from stereodel._tasks.progress import Progress
 from stereodel.interpolation import Contour
 from stereodel.io.formats import wkb
+from stereodel.io.formats.columns import objects
 from stereodel.io.formats.delimited import write_csv
 from stereodel.io.formats.gdal import DRIVERS, write_layer
 from stereodel.io.formats.geojson import write_geojson
 from stereodel.io.formats.map_rows import MapRows
 from stereodel.io.formats.names import beside
 from stereodel.io.formats.parquet import write_parquet
-from stereodel.io.formats.text import objects
 from stereodel.io.grids import Grid, write_geotiff, write_grid_table
 from stereodel.io.maps.meshes_as_rows import (
     Columns,

@@ -17,10 +17,11 @@ from xml.parsers import expat
 
 from stereodel._extras import optional
 from stereodel._tasks.progress import Progress
-from stereodel.io.formats.cell_values import as_text, check_held, plain
-from stereodel.io.formats.map_rows import MapRows, arrow_column
+from stereodel.io.formats import FORMATS, File, Format, Wanted
+from stereodel.io.formats.columns import as_text, check_held, plain
+from stereodel.io.formats.foreign import check_crs, check_stored, self_contained
+from stereodel.io.formats.map_rows import Frame, MapRows, arrow_column
 from stereodel.io.formats.names import DataWarning, RenamedColumnWarning, beside, listed
-from stereodel.io.formats.self_contained import check_crs, check_stored, self_contained
 from stereodel.io.formats.wkb import is_there
 
 RESERVED: Final = {"gpkg": ("fid", "geom"), "fgb": (), "shp": (), "kml": ()}
@@ -59,17 +60,29 @@ LAUNDERED: Final = re.compile(r"field name: '(.*)' to '(.*)'")
 """GDAL's warning for a column name that it shortens."""
 
 
-def read_frame(path: Path, *, layer: str | None, choice: str) -> Any:
-    """A layer of a file as a GeoDataFrame, or as a DataFrame if it has no geometries; `layer` selects one of several.
+def read(file: File, wanted: Wanted) -> Frame:
+    """A layer of a file, with or without geometries; `wanted` selects one of several.
 
-    ValueError if the file is damaged, its format is not read or refers to other files, or `layer` does not exist, or is
-    needed: `choice` then says what to do.
+    ValueError if the file is damaged, its format is not read or refers to other files, or the layer does not exist.
     """
     optional("pyogrio", "geo")
     optional("geopandas", "geo")
-    with self_contained(path) as source:
+    with file.on_disk() as path, self_contained(path) as source:
         _check_whole(source)
-        return in_degrees(_read_frame(source, layer, choice))
+        return Frame(in_degrees(_read_frame(source, wanted.layer, wanted.choice)))
+
+
+FORMATS["vector"] = Format(
+    (".gpkg", ".shp", ".fgb", ".kml", ".kmz", ".gml", ".gpx", ".zip", ".xlsx", ".ods"),
+    {
+        b"SQLite format 3": ".gpkg",
+        b"fgb": ".fgb",
+        b"PK\x03\x04": ".zip",
+        b"\x00\x00\x27\x0a": ".shp",
+        b"<": ".kml",
+    },
+    read,
+)
 
 
 def in_degrees(frame: Any) -> Any:

@@ -34,7 +34,6 @@ from stereodel.io.maps.on_map import (
     steps_of,
     unit,
 )
-from stereodel.io.maps.star_rings import star_shaped
 from stereodel.sphere import xyz_to_lonlat
 from stereodel.sphere.latitudes import Latitude
 
@@ -345,16 +344,22 @@ def _drawn(
 def _drawn_block(faces: Ragged, sides: Sides) -> tuple[Packed, BoolArray, BoolArray]:
     """First the faces that do not meet the border and whose rings are simple; the others are clipped in full."""
     result, large = np.full(len(faces), None, dtype=object), np.zeros(len(faces), dtype=bool)
-    wrong = np.zeros(len(faces), dtype=bool)
+    wrong, others = np.zeros(len(faces), dtype=bool), np.ones(len(faces), dtype=bool)
     inland = np.bincount(faces.row, ~sides.inland[np.maximum(faces.values, ~faces.values)], minlength=len(faces)) == 0
     rows = np.flatnonzero(inland & (faces.sizes > 0))
     if len(rows):
         rings = _rings(faces.take(rows), sides)
-        simple, area = star_shaped(rings, sides.border.slack)
+        outlines = shapely.linearrings(rings.values, indices=rings.row)
+        polygons = shapely.polygons(outlines)
+        area = shapely.area(polygons)
+        # What is thinner than the border is blurred is clipped, as are rings that stand still, which lose such steps.
+        simple = shapely.is_valid(polygons) & shapely.is_ccw(outlines)
+        simple &= area > 2 * sides.border.slack * shapely.length(outlines)
+        still = (rings.values == rings.values[rings.following]).all(axis=1)
+        simple[rings.row[still]] = False
         rows = rows[simple]
         result[rows], large[rows] = wkb.polygons(rings.take(simple)), area[simple] > WORLD / 10
-    others = np.ones(len(faces), dtype=bool)
-    others[rows] = False
+        others[rows] = False
     result[others], wrong[others], large[others] = _clipped_block(faces.take(others), sides)
     return result, wrong, large
 

@@ -1,28 +1,44 @@
-"""Files that GDAL is given: of a known format, and without a reference to other files or to hosts.
+"""Files of strangers: unpacked within limits, and given to GDAL where they refer to no other file and no host.
 
 GDAL goes by content, not by name, and knows formats that are nothing but references, such as virtual ones and services.
-So the format is recognised here first, and every other is refused.
+So the format is recognised here first, and every other is refused. What is packed, by gzip, bzip2 or zip, is unpacked
+in pieces and within the limits of `stereodel.constants`.
 """
 
 from __future__ import annotations
 
+import bz2
 import functools
+import gzip
+import io
 import os
 import re
 import sqlite3
+import struct
+import zlib
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import closing, contextmanager, nullcontext
 from pathlib import Path
+from shutil import copyfileobj
 from tempfile import TemporaryDirectory
 from threading import Lock
 from typing import Any, Final
-from zipfile import ZipFile
+from zipfile import BadZipFile, ZipFile
 
 from stereodel._extras import optional
-from stereodel.constants import MOST_COLUMNS, UNPACKED_RATIO
+from stereodel.constants import MOST_COLUMNS, MOST_MEMBERS, UNPACKED_RATIO, UNPACKED_SIZE
 from stereodel.io.formats.names import listed
-from stereodel.io.formats.packed import ZIP, check_size, extract, pack_anew
+
+ZIP: Final = b"PK\x03\x04"
+MARKS: Final[dict[bytes, Callable[..., Any]]] = {b"\x1f\x8b": gzip.open, b"BZh": bz2.open}
+"""First bytes of packed files, and what unpacks them."""
+
+PIECE: Final = 1 << 20
+"""Bytes that are unpacked at a time."""
+
+DAMAGED: Final = (OSError, EOFError, zlib.error, BadZipFile, NotImplementedError, RuntimeError, struct.error)
+"""What unpacking raises for damaged, encrypted and unknown contents."""
 
 HEAD: Final = 1 << 20
 """Bytes from which a format is recognised; GDAL looks at fewer."""
@@ -84,6 +100,64 @@ STORED: Final = "type = 'table' AND name IN ('gpkg_spatial_ref_sys', 'spatial_re
 """Tables of coordinate systems."""
 
 _settings = Lock()
+
+
+def unpacked(content: bytes) -> bytes:
+    """What gzip or bzip2 packed; other bytes as they are."""
+    opened = next((opened for mark, opened in MARKS.items() if content.startswith(mark)), None)
+    if opened is None:
+        return content
+    pieces, size = [], 0
+    try:
+        with opened(io.BytesIO(content)) as stream:
+            while piece := stream.read(PIECE):
+                pieces.append(piece)
+                size += len(piece)
+                check_size(size, len(content))
+    except DAMAGED as error:
+        raise ValueError(f"the compressed file is damaged: {error}") from error
+    return b"".join(pieces)
+
+
+def extract(path: Path, folder: Path, endings: tuple[str, ...]) -> list[Path]:
+    """Unpack the members of a zip archive that have one of these endings, and say where they are."""
+    with _archive(path) as archive:
+        names = [
+            name for name in archive.namelist() if name.lower().endswith(endings) and not name.startswith("__MACOSX/")
+        ]
+        return [Path(archive.extract(name, folder)) for name in names]
+
+
+def pack_anew(path: Path, target: Path) -> None:
+    """Copy a zip archive member by member, so that its table of contents says what is in it, and without packing."""
+    with _archive(path) as archive, ZipFile(target, "w") as copy:
+        for member in archive.infolist():
+            with archive.open(member) as source, copy.open(member.filename, "w") as into:
+                copyfileobj(source, into, PIECE)
+
+
+@contextmanager
+def _archive(path: Path) -> Iterator[ZipFile]:
+    """A zip archive with members whose number and size stay within the limits."""
+    try:
+        with ZipFile(path) as archive:
+            members = archive.infolist()
+            if len(members) > MOST_MEMBERS:
+                raise ValueError(f"the archive has {len(members)} members; {MOST_MEMBERS} are the most")
+            check_size(sum(member.file_size for member in members), path.stat().st_size)
+            yield archive
+    except DAMAGED as error:
+        raise ValueError(f"the archive is damaged: {error}") from error
+
+
+def check_size(size: int, packed: int) -> None:
+    """A ValueError for a file of `packed` bytes that holds far more, `size`."""
+    most = max(UNPACKED_SIZE, UNPACKED_RATIO * packed)
+    if size > most:
+        raise ValueError(
+            f"the file would unpack to more than {most} bytes, {UNPACKED_RATIO} times its size; "
+            "if you trust it, unpack it first, or save it in another format"
+        )
 
 
 @contextmanager
