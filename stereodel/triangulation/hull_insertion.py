@@ -15,17 +15,17 @@ from stereodel._arrays import (
     Indices,
     IntArray,
     LongArray,
-    as_directions,
     as_plane_or_sphere,
     as_points,
     read_only,
 )
 from stereodel._docs import shared
+from stereodel._spaces import surface_of
 from stereodel.predicates.rays import units
 from stereodel.sphere.latitudes import Latitude
 from stereodel.sphere.lonlat import LONLAT, as_asked, as_sites, as_told
-from stereodel.triangulation.sites import GHOST, InsertionSites, PlaneSites, RaySites
-from stereodel.triangulation.topology import Edge, Facet, Surface, as_rows
+from stereodel.triangulation.sites import GHOST, SITES, InsertionSites
+from stereodel.triangulation.topology import Edge, Facet, Facets, as_rows
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,9 +115,10 @@ class HullInsertion:
     def __init__(self, points: npt.ArrayLike, *, spatial: bool = False) -> None:
         array = as_plane_or_sphere(points)
         self.latitude: Latitude | None = None
-        self._sites: InsertionSites = RaySites() if array.shape[1] == 3 else PlaneSites()
+        self.surface = surface_of(array)
+        self._sites = SITES[self.surface]()
         self._spatial = spatial
-        self._surface = Surface()
+        self._hull = Facets()
         self._first: dict[object, int] = {}
         self._duplicates: list[Edge] = []
         self._waiting: deque[int] = deque()
@@ -161,11 +162,7 @@ class HullInsertion:
         """Append points, or `lonlat` with the same kind of latitude; iterate (or `run`) to insert them."""
         pairs = None if lonlat is None else as_points(lonlat, 2, "lonlat")
         given = as_asked(points, pairs, self.latitude, "points")
-        if self.points.shape[1] == 2:
-            self._append(as_points(given, 2, instead="this surface is one of the plane"))
-        else:
-            door = "for longitude and latitude use extend(lonlat=…)"
-            self._append(as_directions(given, "points", points=True, instead=door))
+        self._append(self.surface.as_points(given, "extend(lonlat=…)"))
 
     def run(self) -> None:
         """Insert all pending points, without a record of the steps."""
@@ -181,7 +178,7 @@ class HullInsertion:
     @property
     def facets(self) -> IntArray:
         """The current surface, (m, 3)."""
-        return self._surface.facets()
+        return self._hull.rows()
 
     @property
     def simplices(self) -> IntArray:
@@ -227,7 +224,7 @@ class HullInsertion:
         if len(self.start) < 3:
             return
         for facet in self._sites.begin(*self.start):
-            self._surface.add(*facet)
+            self._hull.add(*facet)
             self._near = self._near or facet
         self._waiting = deque(p for p in self._waiting if p not in self.start)
 
@@ -239,9 +236,9 @@ class HullInsertion:
     def _insert(self, point: int) -> tuple[list[Facet], list[Edge]]:
         visible, horizon = self._conflict(point)
         for facet in visible:
-            self._surface.remove(*facet)
+            self._hull.remove(*facet)
         for u, v in horizon:
-            self._surface.add(u, v, point)
+            self._hull.add(u, v, point)
         self._near = (*horizon[-1], point)
         return visible, horizon
 
@@ -250,7 +247,7 @@ class HullInsertion:
 
         No facet is reached twice: a second way to one would close a ring around a vertex and hide it.
         """
-        sees, apex = self._sites.sees, self._surface.apex
+        sees, apex = self._sites.sees, self._hull.apex
         a, b, c = self._locate(p)
         visible, horizon = [(a, b, c)], []
         border = [(c, a), (b, c), (a, b)]
@@ -267,7 +264,7 @@ class HullInsertion:
     def _locate(self, p: int) -> Facet:
         """A facet that p sees: the one in which it lies as seen from the pole, or one at the pole."""
         assert self._near is not None
-        beyond, apex, pole = self._sites.beyond, self._surface.apex, self._sites.pole
+        beyond, apex, pole = self._sites.beyond, self._hull.apex, self._sites.pole
         a, b, c = self._near
         while True:
             if pole in (a, b, c):

@@ -10,6 +10,7 @@ from collections import Counter
 from collections.abc import Callable, Hashable, Iterator
 
 from stereodel._arrays import FloatArray
+from stereodel._spaces import PLANE, SPHERE, PlaneOrSphere
 from stereodel.predicates.integers import to_integers
 from stereodel.predicates.plane import (
     filter_coordinates,
@@ -177,3 +178,4 @@ class RaySites(_Sites):
 
 
 InsertionSites = PlaneSites | RaySites
+SITES: dict[PlaneOrSphere, type[PlaneSites | RaySites]] = {PLANE: PlaneSites, SPHERE: RaySites}
