@@ -1,4 +1,9 @@
-"""The paper's pseudo-code: points one at a time, visible facets replaced by a fan over their horizon."""
+"""The paper's pseudo-code: points one at a time, visible facets replaced by a fan over their horizon.
+
+One engine serves plane and sphere. Circles stay circles under stereographic projection, so a planar triangulation is a
+hull whose pole is a ghost vertex, and a hull is a planar triangulation whose pole is one of its own points. The sites
+answer what a point sees by the kernel's exact signs, ties decided.
+"""
 
 from __future__ import annotations
 
@@ -14,14 +19,12 @@ from stereodel._arrays import (
     FloatArray,
     Indices,
     IntArray,
-    LongArray,
     as_plane_or_sphere,
     as_points,
     read_only,
 )
 from stereodel._docs import shared
-from stereodel._spaces import surface_of
-from stereodel.predicates.rays import units
+from stereodel._spaces import space_of, surface_of
 from stereodel.sphere.latitudes import Latitude
 from stereodel.sphere.lonlat import LONLAT, as_asked, as_sites, as_told
 from stereodel.triangulation.sites import GHOST, SITES, InsertionSites
@@ -84,7 +87,7 @@ class HullInsertion:
     duplicates : (k, 2) array of int32
         Pairs [dropped, kept] of equal points (directions); the lowest index is kept.
     inconclusive : dict
-        "filter": tests that floating point left open; "exact": exact ties.
+        "exact": exact ties, which displacement decides.
 
     Raises
     ------
@@ -95,8 +98,9 @@ class HullInsertion:
     -----
     The paper (row P14) takes the sphere's centre for a point inside and compares signs with it; the first hulls hardly
     ever hold the centre. Facets are oriented counterclockwise seen from outside the hull instead: p sees a b c if and
-    only if det(b−a, c−a, p−a) > 0 on the exact unit vectors. Ties are displaced (`stereodel.predicates.ties`): no point
-    is ever hidden, the facets that a point sees form a tree, and the result depends only on the set of points.
+    only if det(b−a, c−a, p−a) > 0 on the exact unit vectors. Ties are decided by displacing points, in an order of the
+    points themselves: none is ever hidden, the facets that a point sees form a tree, and the result depends only on
+    the set of points.
 
     The first visible facet is found by a visibility walk in the triangulation as the pole sees it, which ends
     because the triangulation is a regular one (H. Edelsbrunner, "An acyclicity theorem for cell complexes in d
@@ -198,13 +202,13 @@ class HullInsertion:
 
     @property
     def inconclusive(self) -> dict[str, int]:
-        """How many tests each stage left open."""
-        return dict(self._sites.inconclusive)
+        """How many tests were exact ties."""
+        return {"exact": self._sites.ties}
 
     def _append(self, array: FloatArray) -> None:
         size = len(self.points)
         self.points = read_only(np.concatenate([self.points, array]))
-        self._sites.extend(array)
+        self._sites.extend(self.points[size:])
         fresh = [p for p in range(size, len(self.points)) if self._is_first(p)]
         if self._spatial:
             fresh = [fresh[k] for k in insertion_order(self.points[fresh]).tolist()]
@@ -305,24 +309,9 @@ def spanning_points(sites: InsertionSites, distinct: Sequence[int]) -> list[int]
 def insertion_order(points: FloatArray) -> Indices:
     """An order in which neighbours in the list are mostly neighbours in place, so that walks are short.
 
-    Rounds of doubling size, drawn at random with a fixed seed, each along a Morton curve: N. Amenta, S. Choi, G. Rote,
-    "Incremental constructions con BRIO" (2003). Speed alone depends on it.
+    Rounds of doubling size, drawn at random with a fixed seed, each in the order of a k-d tree's leaves: N. Amenta, S.
+    Choi, G. Rote, "Incremental constructions con BRIO" (2003). Speed alone depends on it.
     """
-    places = units(points)[:, :3] if points.shape[1] == 3 else points
     drawn = np.random.default_rng(0).permutation(len(points))
     rounds = np.frexp(drawn + 1.0)[1]
-    return np.lexsort([_morton(places), rounds])
-
-
-def _morton(points: FloatArray) -> LongArray:
-    """Interleaved bits of each point's cell in a grid of 2²⁰ cells a side over the bounding box."""
-    with np.errstate(over="ignore", invalid="ignore"):
-        low, high = points.min(axis=0, initial=np.inf), points.max(axis=0, initial=-np.inf)
-        fractions = (points / 2 - low / 2) / np.maximum((high / 2 - low / 2).max(), np.finfo(float).tiny)
-    # Bit b of every axis in turn: places whose keys begin alike lie in one cell of a coarser grid.
-    cells = (np.nan_to_num(fractions) * (2**20 - 1)).astype(np.int64)
-    keys = np.zeros(len(points), dtype=np.int64)
-    for bit in range(20):
-        for axis in range(points.shape[1]):
-            keys |= ((cells[:, axis] >> bit) & 1) << (points.shape[1] * bit + axis)
-    return keys
+    return np.lexsort([np.argsort(space_of(points).blocks(points, 1)[0]), rounds])
