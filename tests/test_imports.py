@@ -30,7 +30,7 @@ MAY_IMPORT = {
     "_interrupts": set(),
     "_values": set(),
     "_kernel": set(),
-    "_spaces": {"_arrays", "_kernel"},
+    "_spaces": {"_arrays", "_kernel", "sphere"},
     "_arrays": BASE,
     "_numbers": BASE,
     "_double_double": BASE,
