@@ -48,7 +48,8 @@ MAY_IMPORT = {
     "spatial": BASE | {"triangulation"},
     "graphs": KERNEL | {"sphere", "triangulation"},
     "relaxation": KERNEL | {"curves", "sphere", "triangulation"},
-    "io": BASE | {"_files", "_tasks", "conformal", "curves", "data", "interpolation", "sphere", "triangulation"},
+    "io": BASE
+    | {"_files", "_spaces", "_tasks", "conformal", "curves", "data", "interpolation", "sphere", "triangulation"},
     "partitioned": KERNEL
     | {"__init__", "_files", "curves", "interpolation", "io", "sphere", "_tasks", "triangulation"},
     "__init__": MATHEMATICS,

@@ -69,7 +69,7 @@ def _save(
     """Write the row numbers of each triangle's corners, or of each edge's endpoints."""
     from stereodel.cli.application import reporting
     from stereodel.cli.destinations import MESHES, TABLES, save, save_csv, save_mesh
-    from stereodel.io.maps.rows_of import rows_of
+    from stereodel.io.rows_of import rows_of
 
     kind = path.suffix.lower().removeprefix(".")
     if kind == "csv":

@@ -134,8 +134,8 @@ def _save(
     from stereodel.cli.destinations import MESHES, save, save_mesh
     from stereodel.earth import AUTHALIC_RADIUS_KM
     from stereodel.io.formats.names import beside
-    from stereodel.io.maps.rows_of import rows_of
     from stereodel.io.reading import naming
+    from stereodel.io.rows_of import rows_of
 
     kind = path.suffix.lower().removeprefix(".")
     planar = table.surface == "plane"

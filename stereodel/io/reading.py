@@ -25,8 +25,8 @@ from stereodel.io.formats import (
 )
 from stereodel.io.formats.geojson import Features
 from stereodel.io.formats.map_rows import Frame
+from stereodel.io.located import located
 from stereodel.io.map_shapes import Shapes, of_features, of_geometries, of_items
-from stereodel.io.places import located
 from stereodel.io.table import PointTable
 
 

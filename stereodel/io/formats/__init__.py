@@ -64,7 +64,7 @@ class Rows:
         """Both coordinates of features that are points, missing where they are empty; None without geometries."""
 
 
-class Format(NamedTuple):
+class FileFormat(NamedTuple):
     """Extensions of a format; first bytes of its files, and an extension for each; and what reads one."""
 
     endings: tuple[str, ...]
@@ -72,7 +72,7 @@ class Format(NamedTuple):
     read: Callable[[File, Wanted], Rows]
 
 
-FORMATS: dict[FormatName, Format] = {}
+FORMATS: dict[FormatName, FileFormat] = {}
 
 
 class File:

@@ -15,14 +15,16 @@ from textwrap import shorten
 from typing import Any, Final
 from xml.parsers import expat
 
-from stereodel._extras import optional
+from stereodel._extras import OnUse, optional
 from stereodel._tasks.progress import Progress
-from stereodel.io.formats import FORMATS, File, Format, Wanted
+from stereodel.io.formats import FORMATS, File, FileFormat, Wanted
 from stereodel.io.formats.columns import as_text, check_held, plain
 from stereodel.io.formats.foreign import check_crs, check_stored, self_contained
-from stereodel.io.formats.map_rows import Frame, MapRows, arrow_column
+from stereodel.io.formats.map_rows import Frame, MapRows, arrow, arrow_column
 from stereodel.io.formats.names import DataWarning, RenamedColumnWarning, beside, listed
 from stereodel.io.formats.wkb import is_there
+
+pyogrio: Any = OnUse(lambda: optional("pyogrio", "geo"))
 
 RESERVED: Final = {"gpkg": ("fid", "geom"), "fgb": (), "shp": (), "kml": ()}
 """Column names that a format reserves."""
@@ -72,7 +74,7 @@ def read(file: File, wanted: Wanted) -> Frame:
         return Frame(in_degrees(_read_frame(source, wanted.layer, wanted.choice)))
 
 
-FORMATS["vector"] = Format(
+FORMATS["vector"] = FileFormat(
     (".gpkg", ".shp", ".fgb", ".kml", ".kmz", ".gml", ".gpx", ".zip", ".xlsx", ".ods"),
     {
         b"SQLite format 3": ".gpkg",
@@ -96,7 +98,6 @@ def in_degrees(frame: Any) -> Any:
 
 
 def _read_frame(path: Path, layer: str | None, choice: str) -> Any:
-    pyogrio = optional("pyogrio", "geo")
     with warnings.catch_warnings(record=True) as said:
         warnings.simplefilter("always", RuntimeWarning)
         chosen = _chosen(path, layer, choice)
@@ -123,7 +124,6 @@ def _read_frame(path: Path, layer: str | None, choice: str) -> Any:
 
 def _chosen(path: Path, layer: str | None, choice: str) -> str:
     """The name of the layer to read: of those with geometries, if there are any, the only one that has rows."""
-    pyogrio = optional("pyogrio", "geo")
     with told():
         layers = pyogrio.list_layers(path)
     if not len(layers):
@@ -171,7 +171,6 @@ def _stated_size(head: bytes, path: Path) -> int:
 
 def write_layer(layer: MapRows, path: Path, *, name: str, progress: Progress | None = None) -> None:
     """Write the rows of a map as a file with one named layer, in the format given by the extension of `path`."""
-    pyogrio, arrow = optional("pyogrio", "geo"), optional("pyarrow", "geo")
     kind = path.suffix[1:].lower()
     named = beside([layer.name, *RESERVED[kind]], layer.columns, any_case=True)
     check_held(named, kind)
@@ -204,7 +203,7 @@ def write_layer(layer: MapRows, path: Path, *, name: str, progress: Progress | N
 
 def _is_whole(path: Path, layer: MapRows) -> bool:
     """Whether all of a layer, and its index, can be read back: on a full disk GDAL may end in silence."""
-    pyogrio, rows, geometries = optional("pyogrio", "geo"), 0, 0
+    rows = geometries = 0
     try:
         if path.suffix in INDEXED and not pyogrio.read_info(path)["capabilities"]["fast_spatial_filter"]:
             return False
@@ -221,7 +220,6 @@ def _is_whole(path: Path, layer: MapRows) -> bool:
 
 def plain_column(values: Any, kind: str) -> Any:
     """An Arrow column of a type that GDAL supports in a format; lists and mappings become text, as JSON."""
-    arrow = optional("pyarrow", "geo")
     column = arrow_column(values)
     if arrow.types.is_dictionary(column.type):
         column = column.dictionary_decode()

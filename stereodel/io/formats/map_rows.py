@@ -26,8 +26,8 @@ arrow: Any = OnUse(lambda: optional("pyarrow", "geo"))
 ROWS: Final = 65_536
 """Rows in a block."""
 
-POINT, MULTIPOINT = 0, 4
-"""Type codes of geometries in Shapely."""
+POINT, LINE, RING, POLYGON, MULTIPOINT, MULTILINE, MULTIPOLYGON, COLLECTION = range(8)
+"""Type codes of geometries in Shapely; those above POLYGON are multi-part."""
 
 
 def packed(geometries: Geometries) -> Packed:
@@ -124,9 +124,7 @@ class MapRows:
 
 def arrow_column(values: Any) -> Any:
     """The column as an Arrow array; values without an Arrow type, such as integers of any size, become text."""
-    if (
-        isinstance(values, np.ndarray) and values.dtype.char in "Ug"
-    ):  # text of a fixed width would end at its first zero
+    if isinstance(values, np.ndarray) and values.dtype.char in "Ug":  # fixed-width text would end at its first zero
         values = values.astype(object if values.dtype.kind == "U" else np.float64)
     try:
         column = arrow.array(values, from_pandas=True)
