@@ -52,8 +52,8 @@ def read_points(
         Names of the columns, in degrees. By default the columns whose names are or contain one of the words lon, lng,
         long, longitude and lat, latitude, else x and y, ignoring case. Files with geometries need none.
     plane : tuple of str, optional
-        Names of the columns of both coordinates of a plane, in place of `lon` and `lat`. The file must be a table;
-        geometries that it has beside are left out.
+        Names of the columns of both coordinates of a plane, in place of `lon` and `lat`. Geometries that the file has
+        beside are left out.
     format : {"csv", "geojson", "parquet", "vector"}, optional
         By default taken from the extension of the path, else from the first bytes. "vector" is any format that GDAL
         reads: GeoPackage, Shapefile (also zipped), FlatGeobuf, KML, GPX, spreadsheets (.xlsx, .ods).

@@ -8,7 +8,6 @@ in pieces and within the limits of `stereodel.constants`.
 from __future__ import annotations
 
 import bz2
-import functools
 import gzip
 import io
 import os
@@ -19,6 +18,7 @@ import zlib
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import closing, contextmanager, nullcontext
+from functools import reduce
 from pathlib import Path
 from shutil import copyfileobj
 from tempfile import TemporaryDirectory
@@ -51,8 +51,9 @@ ROOT: Final = re.compile(
 )
 """The name of the first element of an XML file, without its prefix."""
 
+ROOTS: Final = {b"kml": "kml", b"gpx": "gpx", b"FeatureCollection": "gml"}
 BINARY: Final = {b"SQLite format 3\0": "sqlite", b"fgb": "fgb", b"\x00\x00\x27\x0a": "shp", ZIP: "zip"}
-"""First bytes of the binary formats."""
+"""Names of first elements, and first bytes of the binary formats."""
 
 MAIN: Final = (".shp", ".gpkg", ".sqlite", ".fgb", ".kml", ".gml", ".gpx")
 """Endings of the files in a zip archive that are read."""
@@ -66,7 +67,6 @@ NAMED: Final = (".xlsx", ".ods", ".kmz")
 CELL: Final = re.compile(rb"\br\s*=\s*[\"']([A-Za-z]{1,3})[0-9]")
 """The column in the name of a cell of a spreadsheet."""
 
-SHARED: Final = "sharedStrings.xml"
 TEXT: Final = re.compile(rb"<si\b.*?</si>", re.DOTALL)
 OF_TEXT: Final = re.compile(rb"\bt\s*=\s*[\"']s[\"'][^<]*<v[^>]*>\s*([0-9]{1,9})")
 """The texts of a spreadsheet, and the number of its text in a cell."""
@@ -117,23 +117,6 @@ def unpacked(content: bytes) -> bytes:
     except DAMAGED as error:
         raise ValueError(f"the compressed file is damaged: {error}") from error
     return b"".join(pieces)
-
-
-def extract(path: Path, folder: Path, endings: tuple[str, ...]) -> list[Path]:
-    """Unpack the members of a zip archive that have one of these endings, and say where they are."""
-    with _archive(path) as archive:
-        names = [
-            name for name in archive.namelist() if name.lower().endswith(endings) and not name.startswith("__MACOSX/")
-        ]
-        return [Path(archive.extract(name, folder)) for name in names]
-
-
-def pack_anew(path: Path, target: Path) -> None:
-    """Copy a zip archive member by member, so that its table of contents says what is in it, and without packing."""
-    with _archive(path) as archive, ZipFile(target, "w") as copy:
-        for member in archive.infolist():
-            with archive.open(member) as source, copy.open(member.filename, "w") as into:
-                copyfileobj(source, into, PIECE)
 
 
 @contextmanager
@@ -204,8 +187,9 @@ def _kind_of(path: Path) -> str:
     """The format of a file, by its first bytes."""
     with path.open("rb") as file:
         head = file.read(HEAD)
-    root = ROOT.match(head.removeprefix(b"\xef\xbb\xbf"))
-    kind = next((kind for mark, kind in BINARY.items() if head.startswith(mark)), root and _kind_of_root(root[1], head))
+    kind = next((kind for mark, kind in BINARY.items() if head.startswith(mark)), None)
+    if root := ROOT.match(head.removeprefix(b"\xef\xbb\xbf")):
+        kind = ROOTS.get(root[1], "gml" if b"opengis.net/gml" in head else None)
     if kind is None or REFERRING.search(head):
         raise ValueError("the file is damaged, or of a format that is not read; write it as GeoPackage, say")
     if kind == "sqlite":
@@ -217,13 +201,6 @@ def _kind_of(path: Path) -> str:
     if kind == "gml" and schema.is_file() and INCLUDED.search(schema.read_bytes()):
         raise ValueError(f"the schema beside it, {schema.name}, includes another file, which is not opened")
     return kind
-
-
-def _kind_of_root(name: bytes, head: bytes) -> str | None:
-    """The format of an XML file by the name of its root."""
-    if name in (b"kml", b"gpx"):
-        return name.decode()
-    return "gml" if name == b"FeatureCollection" or b"opengis.net/gml" in head else None
 
 
 def _kind_of_folder(path: Path) -> str:
@@ -238,7 +215,7 @@ def _kind_of_folder(path: Path) -> str:
 def _check_tables(path: Path) -> None:
     """A ValueError for a database with a table that is kept elsewhere."""
     try:
-        with closing(sqlite3.connect(f"{path.absolute().as_uri()}?mode=ro&immutable=1", uri=True)) as base:
+        with _base(path) as base:
             tables = base.execute(f"SELECT name, sql FROM sqlite_master WHERE {MADE}").fetchall()
             for (name,) in base.execute(f"SELECT name FROM sqlite_master WHERE {STORED}").fetchall():
                 check_crs(" ".join(map(str, base.execute(f"SELECT * FROM {name}").fetchall())))
@@ -249,12 +226,17 @@ def _check_tables(path: Path) -> None:
             raise ValueError(f"the table {name!r} is not stored in the file, but made, and could be any other file")
 
 
+def _base(path: Path) -> closing[sqlite3.Connection]:
+    """A database, only to be read."""
+    return closing(sqlite3.connect(f"{path.absolute().as_uri()}?mode=ro&immutable=1", uri=True))
+
+
 def check_stored(path: Path, layers: Iterable[str]) -> None:
     """A ValueError for a layer of a database that is computed, and may be of any size."""
     with path.open("rb") if path.is_file() else nullcontext() as file:
         if file is None or BINARY.get(file.read(16)) != "sqlite":
             return
-    with closing(sqlite3.connect(f"{path.absolute().as_uri()}?mode=ro&immutable=1", uri=True)) as base:
+    with _base(path) as base:
         every = "SELECT lower(name), type, sql FROM sqlite_master WHERE type IN ('table', 'view')"
         known = {name: (kind, sql) for name, kind, sql in base.execute(every)}
     for layer in layers:
@@ -268,10 +250,18 @@ def check_stored(path: Path, layers: Iterable[str]) -> None:
 def _of_archive(path: Path, folder: Path) -> tuple[Path, str]:
     """A zip archive as what GDAL reads: a copy without packing, or the one file that is in it, and its format."""
     if path.suffix.lower() in NAMED:
-        pack_anew(path, copy := folder / f"{path.stem}{path.suffix.lower()}")
+        copy = folder / f"{path.stem}{path.suffix.lower()}"
+        # Member by member, so that the table of contents says what is in it.
+        with _archive(path) as archive, ZipFile(copy, "w") as plain:
+            for member in archive.infolist():
+                with archive.open(member) as source, plain.open(member.filename, "w") as into:
+                    copyfileobj(source, into, PIECE)
         _check_cells(copy, path.stat().st_size)
         return copy, "zip"
-    found = [file for file in extract(path, folder, (*MAIN, *BESIDE)) if file.suffix.lower() in MAIN]
+    with _archive(path) as archive:
+        names = [name for name in archive.namelist() if not name.startswith("__MACOSX/")]
+        files = [Path(archive.extract(name, folder)) for name in names if name.lower().endswith((*MAIN, *BESIDE))]
+    found = [file for file in files if file.suffix.lower() in MAIN]
     kinds = {_kind_of(file) for file in found}
     if not found:
         raise ValueError(f"the archive holds no file that is read; such files end in {', '.join(MAIN)}")
@@ -291,22 +281,24 @@ def _check_cells(path: Path, packed: int) -> None:
     """
     with ZipFile(path) as archive:
         names, letters = archive.namelist(), 0
-        shared = [len(each) for name in names if name.endswith(SHARED) for each in TEXT.findall(archive.read(name))]
+        shared = [
+            len(each)
+            for name in names
+            if name.endswith("sharedStrings.xml")
+            for each in TEXT.findall(archive.read(name))
+        ]
         for name in names:
             if "worksheets/" in name:
                 sheet = archive.read(name)
                 cells = CELL.findall(sheet)
-                width = max(map(_number, set(cells)), default=0)
+                # The number of a column, 1 for A.
+                numbers = (reduce(lambda number, letter: 26 * number + letter - 64, c.upper(), 0) for c in set(cells))
+                width = max(numbers, default=0)
                 if b"\0" in sheet or width * sheet.count(b"<row") > UNPACKED_RATIO * len(cells) + MOST_COLUMNS:
                     raise ValueError("the spreadsheet is nearly empty, with cells far apart; save it as CSV")
                 counts = Counter(map(int, OF_TEXT.findall(sheet)))
                 letters += sum(shared[number] * count for number, count in counts.items() if number < len(shared))
     check_size(letters, packed)
-
-
-def _number(letters: bytes) -> int:
-    """The number of a spreadsheet's column, 1 for A."""
-    return functools.reduce(lambda number, letter: 26 * number + letter - 64, letters.upper(), 0)
 
 
 @contextmanager
