@@ -137,4 +137,6 @@ class OnUse:
         self._load = load
 
     def __getattr__(self, name: str) -> Any:
+        if name.startswith("__"):  # what inspects modules asks for these
+            raise AttributeError(name)
         return getattr(self._load(), name)

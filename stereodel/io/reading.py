@@ -162,11 +162,6 @@ def shapes_of(source: Any) -> Shapes:
     source: a GeoJSON file (also a sequence, or compressed) or object, any other file that GeoPandas reads, a frame, a
     geometry or a sequence of them, or anything with ``__geo_interface__``. Coordinates in another system (of GeoJSON,
     by a member ``crs``) are transformed; without one they are in degrees. Null and empty geometries have no shapes.
-
-    >>> square = {"type": "Polygon", "coordinates": [[[0, 0], [10, 0], [10, 10], [0, 10], [0, 0]]]}
-    >>> shapes = shapes_of({"type": "Feature", "properties": {"people": 3}, "geometry": square})
-    >>> len(shapes.rings), shapes.rings.values[1].tolist(), shapes.column("people").tolist()
-    (1, [10.0, 0.0], [3.0])
     """
     if isinstance(source, str | os.PathLike):
         return _shapes_of_file(Path(source))

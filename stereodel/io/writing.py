@@ -170,22 +170,14 @@ def _mesh_columns(
     return found | beside(found, point_columns(columns, len(places)))
 
 
-def _write_geojson(thing: Any, path: Path, options: dict[str, Any], progress: Progress | None) -> None:
-    decimals = options.pop("decimals", None)
-    sequence = path.suffix == ".geojsonl"
-    write_geojson(_layer(thing, options), path, decimals=decimals, sequence=sequence, progress=progress)
-
-
-def _write_parquet(thing: Any, path: Path, options: dict[str, Any], progress: Progress | None) -> None:
-    optional("pyarrow", "geo")
-    if hasattr(thing, "to_parquet"):
+def _write_rows(thing: Any, path: Path, options: dict[str, Any], progress: Progress | None) -> None:
+    kind = path.suffix[1:]
+    if kind == "parquet" and hasattr(thing, "to_parquet"):
+        optional("pyarrow", "geo")
         thing.to_parquet(path)  # with its index and all its geometry columns
-    else:
-        write_parquet(_layer(thing, options), path, progress)
-
-
-def _write_vector(thing: Any, path: Path, options: dict[str, Any], progress: Progress | None) -> None:
-    write_layer(_layer(thing, options), path, name=path.stem, progress=progress)
+        return
+    own = {"decimals": options.pop("decimals", None)} if kind in ("geojson", "geojsonl") else {}
+    LAYERS[kind](_layer(thing, options), path, progress=progress, **own)
 
 
 def _write_tif(thing: Any, path: Path, options: dict[str, Any], progress: Progress | None) -> None:
@@ -221,12 +213,17 @@ def _write_polydata(thing: Any, path: Path, options: dict[str, Any], progress: P
     path.write_text(writer.GetOutputString(), encoding="utf-8")
 
 
-WRITERS: dict[str, Callable[[Any, Path, dict[str, Any], Progress | None], None]] = {
+LAYERS: Final[dict[str, Callable[..., None]]] = {
+    "geojson": write_geojson,
+    "parquet": write_parquet,
+    "geojsonl": write_geojson,
+    **dict.fromkeys(DRIVERS, write_layer),
+}
+"""What writes rows of maps, by format."""
+
+WRITERS: Final[dict[str, Callable[[Any, Path, dict[str, Any], Progress | None], None]]] = {
     "csv": _write_csv,
-    "geojson": _write_geojson,
-    "parquet": _write_parquet,
-    "geojsonl": _write_geojson,
-    **dict.fromkeys(DRIVERS, _write_vector),
+    **dict.fromkeys(LAYERS, _write_rows),
     "nc": _write_nc,
     "tif": _write_tif,
     "glb": _write_trimesh,

@@ -125,6 +125,7 @@ def test_cells_are_the_same_in_blocks_of_any_size(monkeypatch):
 LONLAT = np.array([[10.0, 48.4], [-78.5, -0.2], [135.8, 35.0], [115.9, -32.0]])
 TAKEN = {
     "lon": [99.0, 98.0, 97.0, 96.0],
+    "lon_1": [9, 9, 9, 7],
     "LAT": [88.0, 87.0, 86.0, 85.0],
     "area": [1, 2, 3, 4],
     "point": [5, 6, 7, 8],

@@ -203,7 +203,7 @@ def test_columns_that_cannot_be_told(names, options, message):
         (b"name,lon,lat\nUlm,1,2\nK\xf6ln,3,4\n", "line 3 is not text in UTF-8"),
         (b"a,10,48.4\nb,2,51\n", "column_1', 'column_2', 'column_3"),
         (b"{]", "not JSON"),
-        (b'{"type": "Topology"}', "this is not GeoJSON: its type is 'Topology'"),
+        (b'{"type": "Point"}', "row 1: the longitude is missing"),
         (gzip.compress(b"name,lon,lat\n" * 1000)[:-9], "the compressed file is damaged"),
     ],
 )

@@ -125,13 +125,6 @@ def typed(values: Column, *, comma: bool = False) -> Column:
 
     The column stays text if a number has more digits than a double can hold, or starts with a zero and another digit,
     as codes do. `comma` says whether a comma may be a decimal mark.
-
-    Examples
-    --------
-    >>> typed(np.array(["1", "2"])), typed(np.array(["1,5", ""]), comma=True)
-    (array([1, 2]), array([1.5, nan]))
-    >>> typed(np.array(["12345678901234567891"])), typed(np.array(["007"]))
-    (array(['12345678901234567891'], dtype='<U20'), array(['007'], dtype='<U3'))
     """
     if values.dtype.kind != "U":
         return values

@@ -169,8 +169,8 @@ def _stated_size(head: bytes, path: Path) -> int:
     return max(HEADER, start + rows * row)
 
 
-def write_layer(layer: MapRows, path: Path, *, name: str, progress: Progress | None = None) -> None:
-    """Write the rows of a map as a file with one named layer, in the format given by the extension of `path`."""
+def write_layer(layer: MapRows, path: Path, *, progress: Progress | None = None) -> None:
+    """Write the rows of a map as a file with one layer of its name, in the format given by its extension."""
     kind = path.suffix[1:].lower()
     named = beside([layer.name, *RESERVED[kind]], layer.columns, any_case=True)
     check_held(named, kind)
@@ -183,7 +183,7 @@ def write_layer(layer: MapRows, path: Path, *, name: str, progress: Progress | N
         pyogrio.write_arrow(
             arrow.RecordBatchReader.from_batches(schema, batches),
             memory if kind == "kml" else path,
-            layer=name,
+            layer=path.stem,
             driver=DRIVERS[kind],
             geometry_name=layer.name,
             geometry_type=kinds[0] if len(kinds) == 1 else "Unknown",

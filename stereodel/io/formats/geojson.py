@@ -273,11 +273,10 @@ def to_geojson(frame: Any, *, decimals: int | None = None, sequence: bool = Fals
     return "\n".join(found) if sequence else "\n".join([HEAD, ",\n".join(found), TAIL])
 
 
-def write_geojson(
-    layer: MapRows, path: Path, *, decimals: int | None = None, sequence: bool = False, progress: Progress | None = None
-) -> None:
-    """Write the rows of a map in the format of `to_geojson`, block by block."""
+def write_geojson(layer: MapRows, path: Path, *, decimals: int | None = None, progress: Progress | None = None) -> None:
+    """Write the rows of a map in the format of `to_geojson`, block by block; a sequence if the path says so."""
     check_held(layer.columns, path.suffix[1:])
+    sequence = path.suffix == ".geojsonl"
     between = "\n" if sequence else ",\n"
     with path.open("w", encoding="utf-8", newline="") as file:
         file.write("" if sequence else HEAD)

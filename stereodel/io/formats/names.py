@@ -54,16 +54,6 @@ def beside(taken: Iterable[str], columns: Mapping[str, T], *, any_case: bool = F
 
     A name that is taken, ignoring case, gets the first free number appended: ``lon`` becomes ``lon_1``. With `any_case`
     the names of `columns` also differ from each other in more than case, as databases require.
-
-    Examples
-    --------
-    >>> import warnings
-    >>> with warnings.catch_warnings(record=True) as said:
-    ...     warnings.simplefilter("always")
-    ...     beside(["lon", "lat"], {"name": 1, "Lon": 2, "lon_1": 3})
-    {'name': 1, 'Lon_1': 2, 'lon_1': 3}
-    >>> print(said[0].message)
-    column 'Lon' is written as 'Lon_1', because its name is taken
     """
     reserved = {name.casefold() for name in taken}
     used: set[str] = set()
