@@ -165,16 +165,13 @@ def shapes_of(source: Any) -> Shapes:
     """
     if isinstance(source, str | os.PathLike):
         return _shapes_of_file(Path(source))
-    if isinstance(source, Mapping):
-        return of_features(Features.of(source))
     if hasattr(source, "to_crs"):
         degrees = source if source.crs is None else source.to_crs("EPSG:4326")
         others = degrees.drop(columns=degrees.geometry.name).to_dict("records") if hasattr(degrees, "columns") else None
         return of_geometries(np.asarray(degrees.geometry, dtype=object), others)
-    if hasattr(source, "geom_type"):
-        return of_geometries(np.array([source], dtype=object))
-    if isinstance(getattr(source, "__geo_interface__", None), Mapping):
-        return of_features(Features.of(source.__geo_interface__))
+    alone = isinstance(source, Mapping) or hasattr(source, "geom_type")
+    if alone or isinstance(getattr(source, "__geo_interface__", None), Mapping):
+        return of_items([source])
     if isinstance(source, Iterable) and not isinstance(source, bytes):
         return of_items(list(source))
     raise TypeError(f"source must be a file, GeoJSON, a GeoDataFrame or geometries, got {type(source).__name__}")
