@@ -325,9 +325,9 @@ def as_indices(values: npt.ArrayLike, size: int, name: str = "indices") -> Indic
 def as_plane_or_sphere(values: npt.ArrayLike, name: str = "points") -> FloatArray:
     """Points of the plane, (n, 2), or non-zero directions of space, (n, 3), distinguished by their shape."""
     array = as_floats(values, name)
-    if array.ndim == 2 and array.shape[1] == 3:
+    if array.shape[1:] == (3,):
         return as_directions(array, name, points=True)
-    if array.shape != (0,) and (array.ndim != 2 or array.shape[1] != 2):
+    if array.shape != (0,) and array.shape[1:] != (2,):
         raise ValueError(f"{name} must have shape (n, 2) or (n, 3), got {array.shape}")
     return as_points(array, 2, name)
 

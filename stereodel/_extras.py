@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from importlib import import_module
@@ -128,3 +128,15 @@ def optional(module: str, extra: str) -> Any:
     """A module of an extra, or an ImportError that says how to get it."""
     with of_extra(extra):
         return import_module(module)
+
+
+class OnUse:
+    """A library that is loaded when something of it is asked for: ``OnUse(lambda: optional("shapely", "geo"))``."""
+
+    def __init__(self, load: Callable[[], Any]) -> None:
+        self._load = load
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("__"):  # what inspects modules asks for these
+            raise AttributeError(name)
+        return getattr(self._load(), name)

@@ -1,19 +1,100 @@
-"""Plane and sphere as spaces of the kernel: the same functions for points (n, 2) and for directions (n, 3).
+"""Plane and sphere, `PLANE` and `SPHERE`: what differs between them, for code that works on either.
 
-Code that works on either chooses its space once, with ``space_of(points)``.
+Triangulations and diagrams hold one of the two as `surface`; for points alone it is ``surface_of(points)``.
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from abc import ABC, abstractmethod
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+import numpy.typing as npt
 
 from stereodel import _kernel
-from stereodel._arrays import FloatArray
+from stereodel._arrays import FloatArray, as_directions, as_points, as_vectors
+from stereodel.sphere.measures import angular_distance, solid_angle
 
 if TYPE_CHECKING:
     from stereodel._kernel.space import Space
 
 
-def space_of(points: FloatArray) -> Space:
+class PlaneOrSphere(ABC):
+    """What both have.
+
+    name: as arguments and tables have it.
+    width: numbers that make a point: (n, 2), or directions (n, 3).
+    kernel: the kernel's functions.
+    delaunay, voronoi: the classes of triangulations and diagrams, which enter themselves.
+    """
+
+    name: ClassVar[str]
+    width: ClassVar[int]
+    kernel: Space
+    delaunay: Any
+    voronoi: Any
+
+    def __reduce__(self) -> str:  # copies and pickles are the value itself
+        return self.name.upper()
+
+    @abstractmethod
+    def as_points(self, values: npt.ArrayLike, lonlat_door: str) -> FloatArray:
+        """Checked points (n, width); the message about those of the plane names the door for longitude and latitude."""
+
+    @abstractmethod
+    def as_queries(self, values: npt.ArrayLike) -> FloatArray:
+        """Checked queries of any leading shape."""
+
+    @abstractmethod
+    def distances(self, a: FloatArray, b: FloatArray) -> FloatArray:
+        """Between points row by row; on the sphere in degrees."""
+
+    @abstractmethod
+    def areas(self, a: FloatArray, b: FloatArray, c: FloatArray) -> FloatArray:
+        """Of triangles row by row, positive where counterclockwise; on the sphere in steradians."""
+
+
+class _Plane(PlaneOrSphere):
+    name, width, kernel = "plane", 2, _kernel.plane
+
+    def as_points(self, values: npt.ArrayLike, lonlat_door: str) -> FloatArray:
+        return as_points(values, 2, instead="triangulate directions by SphericalDelaunay")
+
+    def as_queries(self, values: npt.ArrayLike) -> FloatArray:
+        return as_vectors(values, 2, "queries", instead="the points of this object are of the plane")
+
+    def distances(self, a: FloatArray, b: FloatArray) -> FloatArray:
+        return np.hypot(*np.moveaxis(b - a, -1, 0))
+
+    def areas(self, a: FloatArray, b: FloatArray, c: FloatArray) -> FloatArray:
+        (dx, dy), (ex, ey) = (b - a).T, (c - a).T
+        return (dx * ey - dy * ex) / 2
+
+
+class _Sphere(PlaneOrSphere):
+    name, width, kernel = "sphere", 3, _kernel.sphere
+
+    def as_points(self, values: npt.ArrayLike, lonlat_door: str) -> FloatArray:
+        return as_directions(values, "points", points=True, instead=f"for longitude and latitude use {lonlat_door}")
+
+    def as_queries(self, values: npt.ArrayLike) -> FloatArray:
+        return as_directions(values, "queries", instead="for longitude and latitude write lonlat=…")
+
+    def distances(self, a: FloatArray, b: FloatArray) -> FloatArray:
+        return angular_distance(a, b)
+
+    def areas(self, a: FloatArray, b: FloatArray, c: FloatArray) -> FloatArray:
+        return solid_angle(a, b, c)
+
+
+PLANE, SPHERE = _Plane(), _Sphere()
+
+
+def surface_of(points: FloatArray) -> PlaneOrSphere:
     """The plane for points (n, 2), the sphere for directions (n, 3)."""
-    return _kernel.plane if points.shape[1] == 2 else _kernel.sphere
+    return PLANE if points.shape[1] == 2 else SPHERE
+
+
+def space_of(points: FloatArray) -> Space:
+    """The kernel's functions for points (n, 2), or for directions (n, 3)."""
+    return surface_of(points).kernel

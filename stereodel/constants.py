@@ -235,13 +235,6 @@ Polygons narrower than 2⁻⁸ of the tolerance, 4 m on Earth, and parts that to
 chords are. What a crossing adds or takes away is within the tolerance.
 """
 
-STAR_ROUNDING: Final = 2.0**-50
-"""Rounding of a cross product of two differences of doubles, in terms of the sum of its two products.
-
-Each difference is off by 2⁻⁵³ of itself, so are products and their difference: four times that together, and as much
-again to be sure.
-"""
-
 DEGREE_ROUNDING: Final = 2.0**-43
 """Deviation of a chord from its arc, in degrees, that may be due to rounding: four units in the last place of 180°.
 

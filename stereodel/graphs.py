@@ -14,14 +14,17 @@ import numpy.typing as npt
 from stereodel import _kernel
 from stereodel._arrays import AnyIndices, BoolArray, FloatArray, IntArray, locked
 from stereodel._docs import shared
-from stereodel._spaces import space_of
+from stereodel._spaces import PLANE
 from stereodel.sphere.latitudes import Latitude
 from stereodel.sphere.lonlat import LONLAT
-from stereodel.sphere.measures import angular_distance, solid_angle
 from stereodel.sphere.vectors import units
-from stereodel.triangulation.dispatch import Triangulation, as_triangulation, flat_order, threads_of
-from stereodel.triangulation.planar_delaunay import PlanarDelaunay
-from stereodel.triangulation.spherical_delaunay import SphericalDelaunay
+from stereodel.triangulation.delaunay import (
+    Triangulation,
+    as_triangulation,
+    closing_triangles,
+    flat_order,
+    threads_of,
+)
 from stereodel.triangulation.topology import as_edges
 
 __all__ = [
@@ -212,7 +215,7 @@ def minimum_spanning_tree(
     """
     triangulation = as_triangulation(points, lonlat=lonlat, latitude=latitude)
     edges = _proximity_edges(triangulation, "urquhart", workers)
-    return locked(space_of(triangulation.points).spanning_tree(triangulation.points, edges))
+    return locked(triangulation.surface.kernel.spanning_tree(triangulation.points, edges))
 
 
 @shared(**_SHARED)
@@ -289,11 +292,9 @@ def hull_area(
     0.5
     """
     triangulation = as_triangulation(points, lonlat=lonlat, latitude=latitude)
-    first, one, other = _fan(triangulation)
-    if isinstance(triangulation, SphericalDelaunay):
-        return float(solid_angle(first, one, other).sum())
-    d, e = one - first, other - first
-    return float((d[:, 0] * e[:, 1] - d[:, 1] * e[:, 0]).sum()) / 2
+    corners = _hull_points(triangulation)
+    first = np.broadcast_to(corners[:1], corners[2:].shape)
+    return float(triangulation.surface.areas(first, corners[1:-1], corners[2:]).sum())
 
 
 @shared(**_SHARED)
@@ -324,16 +325,7 @@ def hull_perimeter(
     """
     triangulation = as_triangulation(points, lonlat=lonlat, latitude=latitude)
     corners = _hull_points(triangulation)
-    following = np.roll(corners, -1, axis=0)
-    if isinstance(triangulation, SphericalDelaunay):
-        return float(angular_distance(corners, following).sum())
-    return float(np.hypot(*(following - corners).T).sum())
-
-
-def _fan(triangulation: Triangulation) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """The hull as triangles, three arrays (h - 2, d) of their corners."""
-    corners = _hull_points(triangulation)
-    return np.broadcast_to(corners[:1], corners[2:].shape), corners[1:-1], corners[2:]
+    return float(triangulation.surface.distances(corners, np.roll(corners, -1, axis=0)).sum())
 
 
 def _hull_points(triangulation: Triangulation) -> FloatArray:
@@ -348,12 +340,12 @@ def _proximity_edges(
     triangulation: Triangulation, kind: Literal["gabriel", "urquhart", "relative"], workers: int | None
 ) -> IntArray:
     """Edges (e, 2) with i < j, in lexicographic order."""
-    threads = threads_of(triangulation, workers)
-    points = triangulation.points
+    points, space = triangulation.points, triangulation.surface.kernel
     if triangulation.dimension == 2:
-        return space_of(points).proximity(points, triangulation.simplices, triangulation.neighbors, kind, threads, True)
+        mesh = points, triangulation.simplices, triangulation.neighbors
+        return space.proximity(*mesh, kind, threads_of(triangulation, workers), True)
     order = flat_order(triangulation)
-    if isinstance(triangulation, PlanarDelaunay) or len(order) < 3:
+    if triangulation.surface is PLANE or len(order) < 3:
         return as_edges(order[:-1], order[1:])
     steps = _short_steps(points, order)
     if kind == "relative":
@@ -391,11 +383,10 @@ def _has_empty_lune(points: FloatArray, circle: AnyIndices, step: AnyIndices) ->
 
 def _corners(triangulation: Triangulation) -> AnyIndices:
     """The hull of points with triangles."""
-    if isinstance(triangulation, SphericalDelaunay):
+    if (closing := closing_triangles(triangulation)) is not None:
         # The points lie in an open hemisphere exactly if the hull of the vectors' tips has a facet with the centre
         # strictly on its outer side.
-        closing = triangulation.simplices[triangulation.closing]
-        a, b, c = (triangulation.points[closing[:, k]] for k in range(3))
+        a, b, c = triangulation.points[triangulation.simplices[closing].T]
         if not (_kernel.sphere.turn(a, b, c) < 0).any():
             return np.zeros(0, dtype=np.int32)
     # The directed edges of the hull, one from each vertex, in one cycle; what lies within a side does not turn.
@@ -404,7 +395,7 @@ def _corners(triangulation: Triangulation) -> AnyIndices:
     while (vertex := after[cycle[-1]]) != cycle[0]:
         cycle.append(vertex)
     before, here, following = (triangulation.points[np.roll(cycle, shift)] for shift in (1, 0, -1))
-    corners = np.array(cycle)[space_of(here).turn(before, here, following) != 0]
+    corners = np.array(cycle)[triangulation.surface.kernel.turn(before, here, following) != 0]
     return np.roll(corners, -int(np.argmin(corners)))
 
 
@@ -413,7 +404,7 @@ def _ends(triangulation: Triangulation) -> AnyIndices:
     order, points = flat_order(triangulation), triangulation.points
     if len(order) < 2:
         return order
-    if isinstance(triangulation, PlanarDelaunay):
+    if triangulation.surface is PLANE:
         return np.sort(order[[0, -1]])
     # On a great circle the ends of the one step of more than a half-turn, if there is one.
     if len(order) == 2:

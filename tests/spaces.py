@@ -19,10 +19,9 @@ from hypothesis import strategies as st
 from stereodel import HullInsertion, PlanarDelaunay, PlanarVoronoi, SphericalDelaunay, SphericalVoronoi, _kernel
 from stereodel import _kernel_probe as probe
 from stereodel.predicates import orient2d
-from stereodel.predicates.integers import sign_of_roots
-from stereodel.predicates.rays import ray
 from stereodel.triangulation import check_delaunay
 from stereodel.triangulation.topology import canonical
+from tests.reference import ray, sign_of_roots
 
 
 @dataclass(frozen=True)

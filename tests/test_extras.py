@@ -103,7 +103,7 @@ ROOMS = {
 }
 """Packages that cannot be imported without an extra; all others can."""
 
-LAZY = {"stereodel.render.": "draw", "stereodel.io.maps.": "geo"}
+LAZY = {"stereodel.render.": "draw"}
 """Packages some of whose modules cannot."""
 
 

@@ -30,7 +30,7 @@ MAY_IMPORT = {
     "_interrupts": set(),
     "_values": set(),
     "_kernel": set(),
-    "_spaces": {"_arrays", "_kernel"},
+    "_spaces": {"_arrays", "_kernel", "sphere"},
     "_arrays": BASE,
     "_numbers": BASE,
     "_double_double": BASE,
@@ -48,7 +48,8 @@ MAY_IMPORT = {
     "spatial": BASE | {"triangulation"},
     "graphs": KERNEL | {"sphere", "triangulation"},
     "relaxation": KERNEL | {"curves", "sphere", "triangulation"},
-    "io": BASE | {"_files", "_tasks", "conformal", "curves", "data", "interpolation", "sphere", "triangulation"},
+    "io": BASE
+    | {"_files", "_spaces", "_tasks", "conformal", "curves", "data", "interpolation", "sphere", "triangulation"},
     "partitioned": KERNEL
     | {"__init__", "_files", "curves", "interpolation", "io", "sphere", "_tasks", "triangulation"},
     "__init__": MATHEMATICS,

@@ -44,7 +44,7 @@ def _magnification(value: float) -> float:
 
 
 def _segment(value: float) -> float:
-    from stereodel.io.maps.rows_of import LARGEST_SEGMENT
+    from stereodel.io.rows_of import LARGEST_SEGMENT
 
     return as_scalar(value, "--max-segment", low=0.0, high=LARGEST_SEGMENT, open_low=True)
 

@@ -34,7 +34,7 @@ def command(
     """
     from stereodel.cli.application import NothingToDoError, reporting, say
     from stereodel.cli.destinations import MESHES, TABLES, save, save_mesh
-    from stereodel.io.maps.rows_of import rows_of
+    from stereodel.io.rows_of import rows_of
     from stereodel.triangulation.dispatch import as_triangulation
 
     destination = output.of(TABLES + MESHES, points)

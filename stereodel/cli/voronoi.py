@@ -50,8 +50,8 @@ def command(
     from stereodel.earth import AUTHALIC_RADIUS_KM
     from stereodel.io.formats.names import beside
     from stereodel.io.maps.meshes_as_rows import diagram_of
-    from stereodel.io.maps.rows_of import rows_of
     from stereodel.io.reading import naming
+    from stereodel.io.rows_of import rows_of
     from stereodel.triangulation.dispatch import as_triangulation
 
     destination = output.of(TABLES + MESHES, points, clip)

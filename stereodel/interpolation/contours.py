@@ -12,7 +12,7 @@ from stereodel._docs import shared
 from stereodel.interpolation.interpolator import FAMILY, PrecisePoints, one_value_a_place
 from stereodel.sphere.latitudes import Latitude
 from stereodel.sphere.lonlat import as_told
-from stereodel.triangulation.dispatch import Triangulation, as_triangulation, open_triangles
+from stereodel.triangulation.delaunay import Triangulation, as_triangulation, open_triangles
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,7 +13,7 @@ from stereodel.constants import UNDETERMINED
 from stereodel.curves.ragged import spans
 from stereodel.interpolation.interpolator import FAMILY, PrecisePoints, as_site_values
 from stereodel.interpolation.triangles import cross3, dot, lengths
-from stereodel.triangulation.dispatch import Triangulation, as_triangulation, open_triangles
+from stereodel.triangulation.delaunay import Triangulation, as_triangulation, open_triangles
 from stereodel.triangulation.topology import adjacency_of, edges_of
 
 _UNKNOWNS = 5

@@ -9,14 +9,15 @@ from typing import Any, Final, Self
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import AnyIndices, FloatArray, as_choice, as_directions, as_values, as_vectors, locked
+from stereodel._arrays import AnyIndices, FloatArray, as_choice, as_values, locked
 from stereodel._calls import by_name
 from stereodel._docs import shared
 from stereodel._double_double import ROWS, DoubleDouble, unit
+from stereodel._spaces import SPHERE, surface_of
 from stereodel.interpolation.labelled import labels_of_one, places_of
 from stereodel.sphere.latitudes import Latitude
 from stereodel.sphere.lonlat import BY_NAME, IN_ROWS, LONLAT, as_asked
-from stereodel.triangulation.dispatch import Triangulation, as_triangulation
+from stereodel.triangulation.delaunay import Triangulation, as_triangulation
 
 FAMILY: Final = {
     "points": """
@@ -99,7 +100,7 @@ class PrecisePoints:
     """
 
     def __init__(self, points: FloatArray) -> None:
-        self.curved = points.shape[1] == 3
+        self.curved = surface_of(points) is SPHERE
         self.exact = DoubleDouble(points)  # or unit vectors with errors below 2⁻¹⁰², (n, d)
         if self.curved and len(points):
             blocks = [unit(points[i : i + ROWS]) for i in range(0, len(points), ROWS)]
@@ -248,12 +249,8 @@ class Interpolator(ABC):
         places = places_of(queries, lonlat)
         if places is not None:
             queries, lonlat = (places.pairs, None) if lonlat is None else (None, places.pairs)
-        given, dimension = as_asked(queries, lonlat, self.latitude), self.triangulation.points.shape[1]
-        if dimension == 3:
-            array = as_directions(given, "queries", instead="for longitude and latitude write lonlat=…")
-        else:
-            array = as_vectors(given, 2, "queries", instead="the points of this function are of the plane")
-        return array, array.reshape(-1, dimension)
+        array = self.triangulation.surface.as_queries(as_asked(queries, lonlat, self.latitude))
+        return array, array.reshape(-1, array.shape[-1])
 
     @abstractmethod
     def _evaluate(self, queries: FloatArray, workers: int | None) -> FloatArray:

@@ -15,7 +15,7 @@ from stereodel.interpolation.natural_neighbor import NaturalNeighborInterpolator
 from stereodel.interpolation.nearest import NearestInterpolator
 from stereodel.interpolation.smooth import SmoothInterpolator
 from stereodel.sphere.latitudes import Latitude
-from stereodel.triangulation.dispatch import as_triangulation
+from stereodel.triangulation.delaunay import as_triangulation
 
 Method = Literal["nearest", "linear", "natural", "smooth"]
 

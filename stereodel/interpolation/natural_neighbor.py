@@ -6,13 +6,11 @@ from typing import Any
 
 import numpy as np
 
-from stereodel import _kernel
 from stereodel._arrays import FloatArray, Indices
 from stereodel._docs import shared
 from stereodel.interpolation.interpolator import FAMILY, PrecisePoints
 from stereodel.interpolation.weights import Shares, WeightedInterpolator
-from stereodel.triangulation import SphericalDelaunay
-from stereodel.triangulation.dispatch import threads_of
+from stereodel.triangulation.delaunay import closing_triangles, threads_of
 
 
 @shared(**FAMILY)
@@ -76,11 +74,10 @@ class NaturalNeighborInterpolator(WeightedInterpolator):
         self, queries: FloatArray, workers: int | None
     ) -> tuple[Any, tuple[Any, ...], tuple[Any, ...], int]:
         """The kernel's space, mesh, queries (on the sphere with what double-doubles add), and number of threads."""
-        triangulation = self.triangulation
-        mesh = triangulation.simplices, triangulation.neighbors
-        threads = threads_of(triangulation, workers, len(queries))
-        if not isinstance(triangulation, SphericalDelaunay):
-            return _kernel.plane, (triangulation.points, *mesh), (queries,), threads
+        mesh, space = self.triangulation, self.triangulation.surface.kernel
+        threads = threads_of(mesh, workers, len(queries))
+        if (closing := closing_triangles(mesh)) is None:
+            return space, (mesh.points, mesh.simplices, mesh.neighbors), (queries,), threads
         sites, asked = self._sites.exact, PrecisePoints(queries).exact
-        places = queries, asked.hi, asked.lo, triangulation.closing
-        return _kernel.sphere, (triangulation.points, sites.hi, sites.lo, *mesh), places, threads
+        triangles = mesh.points, sites.hi, sites.lo, mesh.simplices, mesh.neighbors
+        return space, triangles, (queries, asked.hi, asked.lo, closing), threads

@@ -9,7 +9,7 @@ from stereodel._arrays import FloatArray
 from stereodel._docs import shared
 from stereodel.interpolation.interpolator import FAMILY
 from stereodel.interpolation.weights import Shares, WeightedInterpolator
-from stereodel.triangulation.dispatch import Triangulation
+from stereodel.triangulation.delaunay import Triangulation
 
 
 @shared(**FAMILY)

@@ -11,7 +11,7 @@ from stereodel.interpolation.gradients import fit_gradients
 from stereodel.interpolation.interpolator import FAMILY, TriangleInterpolator, one_value_a_place
 from stereodel.interpolation.side_vertex import side_vertex, side_vertex_slope
 from stereodel.interpolation.triangles import LocatedQueries, dot
-from stereodel.triangulation.dispatch import Triangulation
+from stereodel.triangulation.delaunay import Triangulation
 
 
 @shared(**FAMILY)

@@ -7,12 +7,11 @@ install them.
 from stereodel.io.formats.geojson import to_geojson
 from stereodel.io.formats.names import DataWarning, RenamedColumnWarning
 from stereodel.io.grids import Grid
-from stereodel.io.maps.rows_of import to_geodataframe
 from stereodel.io.maps.warping import warp
-from stereodel.io.meshes import to_polydata, to_trimesh
+from stereodel.io.meshes import from_ugrid, to_polydata, to_trimesh, to_ugrid
 from stereodel.io.reading import from_geodataframe, read_points
+from stereodel.io.rows_of import to_geodataframe
 from stereodel.io.table import PointTable
-from stereodel.io.ugrid import from_ugrid, to_ugrid
 from stereodel.io.writing import write
 
 __all__ = [

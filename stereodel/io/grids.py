@@ -15,7 +15,6 @@ from stereodel._arrays import FloatArray, as_floats, as_lonlat, as_scalar, as_st
 from stereodel._extras import optional
 from stereodel.constants import GRID_ROUNDING, MOST_PLACES
 from stereodel.earth import EQUATORIAL_RADIUS_KM, INVERSE_FLATTENING
-from stereodel.io.formats.delimited import write_csv
 from stereodel.io.formats.names import beside, spelled
 
 WGS84: Final = {
@@ -135,6 +134,11 @@ class Grid:
         """Coordinates of the nodes, (h, w, 2) in degrees, rows from south to north."""
         return np.stack(np.meshgrid(self.lon, self.lat), axis=-1)
 
+    def located(self) -> dict[str, FloatArray]:
+        """Columns of a table with a row for each node, starting in the southwest."""
+        columns = dict(zip(("lon", "lat"), self.lonlat.reshape(-1, 2).T, strict=True))
+        return columns | {name: values.ravel() for name, values in beside(columns, self.values).items()}
+
     @property
     def steps(self) -> tuple[float, float]:
         """Degrees between neighbours in longitude and latitude; along an axis with one node, the size of its cell."""
@@ -152,14 +156,6 @@ class Grid:
         >>> grid.to_xarray()["depth"].attrs["units"]
         'm'
         """
-        coordinates, variables = self._described()
-        dataset = optional("xarray", "grid").Dataset(variables, coordinates, {"Conventions": "CF-1.8"})
-        for variable in dataset.variables.values():  # in files, values can be missing, and nothing else
-            variable.encoding["_FillValue"] = np.nan if "grid_mapping" in variable.attrs else None
-        return dataset
-
-    def _described(self) -> tuple[dict[str, Any], dict[str, Any]]:
-        """Coordinates and variables as (dimensions, values, attributes)."""
         coordinates: dict[str, Any] = {}
         variables: dict[str, Any] = {"crs": ((), np.int32(0), WGS84)}
         axes = (
@@ -171,15 +167,16 @@ class Grid:
             if self.centers:
                 attributes["bounds"] = f"{name}_bnds"
                 edges = np.stack([places - step / 2, places + step / 2], axis=1)
-                variables[f"{name}_bnds"] = ((name, "bnds"), edges, {})
-            coordinates[name] = ((name,), places, attributes)
+                variables[f"{name}_bnds"] = ((name, "bnds"), edges)
+            coordinates[name] = (name, places, attributes)
         named = beside([*variables, *coordinates, "bnds"], self.values)
         for (given, values), name in zip(self.values.items(), named, strict=True):
-            attributes = {"long_name": given, "grid_mapping": "crs"}
-            if given in self.units:
-                attributes["units"] = self.units[given]
-            variables[name] = (("lat", "lon"), values, attributes)
-        return coordinates, variables
+            unit = {"units": self.units[given]} if given in self.units else {}
+            variables[name] = (("lat", "lon"), values, {"long_name": given, "grid_mapping": "crs"} | unit)
+        dataset = optional("xarray", "grid").Dataset(variables, coordinates, {"Conventions": "CF-1.8"})
+        for variable in dataset.variables.values():  # in files, values can be missing, and nothing else
+            variable.encoding["_FillValue"] = np.nan if "grid_mapping" in variable.attrs else None
+        return dataset
 
 
 def _check_places(spacing: float, columns: int, rows: int) -> None:
@@ -208,12 +205,3 @@ def write_geotiff(grid: Grid, path: Path) -> None:
                 if name in grid.units:
                     file.set_band_unit(number, grid.units[name])
         path.write_bytes(memory.getbuffer())
-
-
-def write_grid_table(grid: Grid, path: Path) -> None:
-    """Write a grid as a table, one row for each node, starting in the southwest."""
-    lon, lat = grid.lonlat.reshape(-1, 2).T
-    columns = {"lon": lon, "lat": lat}
-    columns |= {name: values.ravel() for name, values in beside(columns, grid.values).items()}
-    with path.open("w", encoding="utf-8", newline="") as stream:
-        write_csv(columns, stream)

@@ -13,13 +13,10 @@ from typing import Any
 import numpy as np
 
 from stereodel._arrays import FloatArray, Geometries, Indices
-from stereodel._extras import optional
 from stereodel.curves.ragged import Ragged
 from stereodel.io.formats.geojson import Features
-from stereodel.io.table import degrees
-
-POINT, LINE, RING, POLYGON, MULTIPOINT, MULTILINE, MULTIPOLYGON, COLLECTION = range(8)
-"""Type codes of geometries in Shapely; those above POLYGON are multi-part."""
+from stereodel.io.formats.map_rows import POINT, POLYGON, shapely
+from stereodel.io.located import degrees
 
 Placed = list[tuple[int, FloatArray]]
 """Numbers of features or polygons, and positions of each."""
@@ -113,7 +110,6 @@ def of_features(features: Features) -> Shapes:
 
 def of_geometries(geometries: Geometries, properties: list[Mapping[str, Any]] | None = None) -> Shapes:
     """Shapes of Shapely's geometries, one feature each."""
-    shapely = optional("shapely", "geo")
     # A copy, as pandas gives arrays that are read-only, which Shapely takes since 2.2.
     parts, feature = np.array(geometries), np.arange(len(geometries))
     while (shapely.get_type_id(parts) > POLYGON).any():

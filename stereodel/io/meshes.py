@@ -1,32 +1,49 @@
-"""Meshes in space, for PyVista and for trimesh, which writes GLB and PLY."""
+"""Meshes for other programs: UGRID by xarray, GLB and PLY by trimesh, PyVista."""
 
 from __future__ import annotations
 
 import colorsys
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import Bytes, FloatArray, Indices, IntArray, as_choice, as_floats, as_scalar
 from stereodel._extras import optional
+from stereodel._spaces import SPHERE
 from stereodel.curves.clip import points_along
 from stereodel.curves.ragged import Ragged, spans
 from stereodel.io.maps.meshes_as_rows import (
     Mesh,
     diagram_of,
-    is_spherical,
+    places_of,
     ridge_arcs,
+    triangles_of,
     triangulation_of,
     usual_kind,
     voronoi_sides,
 )
-from stereodel.io.maps.rows_of import LARGEST_SEGMENT
+from stereodel.io.maps.on_map import steps_of
+from stereodel.io.rows_of import LARGEST_SEGMENT
+from stereodel.sphere import lonlat_to_xyz
+from stereodel.sphere.latitudes import Latitude
 from stereodel.sphere.vectors import units
 from stereodel.triangulation import SphericalVoronoi
 
-GOLDEN = (np.sqrt(5.0) - 1) / 2
+GOLDEN: Final = (np.sqrt(5.0) - 1) / 2
+LOOKS: Final = ((0.20, 0.97), (0.38, 0.93), (0.52, 0.84))
+"""Saturation and value of pale colours."""
+
+FILL: Final = -1
+"""What short rows of a table of nodes are padded with."""
+
+LONLAT: Final = {
+    "lon": {"standard_name": "longitude", "units": "degrees_east"},
+    "lat": {"standard_name": "latitude", "units": "degrees_north"},
+}
+CARTESIAN: Final = {axis: {"long_name": f"Cartesian {axis}", "units": "1"} for axis in "xyz"}
+"""Names of coordinates, and their attributes by the CF conventions."""
 
 
 def to_trimesh(
@@ -68,13 +85,12 @@ def to_trimesh(
     step = as_scalar(max_segment, "max_segment", low=0.0, high=LARGEST_SEGMENT, open_low=True)
     trimesh = optional("trimesh", "mesh")
     if as_choice(what or usual_kind(mesh), ("cells", "triangles"), "what") == "cells":
-        vertices, faces, owner = _sphere_fans(diagram_of(mesh), step) if is_spherical(mesh) else _plane_fans(mesh)
+        vertices, faces, owner = _fans(mesh, step)
         paint = _pale(len(mesh.points)) if colors is None else _as_colors(colors, len(mesh.points))
         result = trimesh.Trimesh(_space(vertices), faces, process=False, vertex_colors=paint[owner])
         result.vertex_attributes["point"] = owner.astype(np.float32)  # glTF has no larger integers here
         return result
-    simplices = triangulation_of(mesh).simplices
-    points = _space(units(mesh.points) if is_spherical(mesh) else mesh.points)
+    simplices, points = triangulation_of(mesh).simplices, _space(_nodes(mesh))
     if colors is None:
         return trimesh.Trimesh(points, simplices, process=False)
     paint = np.repeat(_as_colors(colors, len(simplices)), 3, axis=0)
@@ -111,40 +127,184 @@ def to_polydata(mesh: Mesh, *, what: str | None = None) -> Any:
     >>> cells.n_cells, cells.n_points, round(float(cells["area"].sum() / 3.141592653589793), 6)
     (6, 8, 4.0)
     """
-    surface = surface_of(mesh, what)
-    polygons = surface.polygons
-    faces = np.insert(polygons.values, polygons.offsets[:-1], polygons.sizes)
-    result = optional("pyvista", "mesh").PolyData(_space(surface.nodes), faces=faces)
-    result.cell_data["point" if surface.cells else "triangle"] = surface.number
-    if surface.cells:
-        result.cell_data["area"] = diagram_of(mesh).areas()[surface.number]
+    faces = Faces.of(mesh, what)
+    table = np.insert(faces.polygons.values, faces.polygons.offsets[:-1], faces.polygons.sizes)
+    result = optional("pyvista", "mesh").PolyData(_space(faces.nodes), faces=table)
+    result.cell_data[faces.what] = faces.number
+    if faces.what == "point":
+        result.cell_data["area"] = faces.areas(mesh)
     return result
+
+
+def to_ugrid(mesh: Mesh, *, what: str | None = None, latitude: Latitude | None = None) -> Any:
+    """Triangles or cells as an xarray Dataset with a UGRID mesh topology.
+
+    Parameters
+    ----------
+    mesh : SphericalDelaunay, SphericalVoronoi, PlanarDelaunay or PlanarVoronoi
+    what : {"triangles", "cells"}, optional
+        By default the triangles of a triangulation and the cells of a diagram.
+    latitude : {"spherical", "geodetic", "authalic"}, optional
+        Kind of latitude of the nodes, as in `xyz_to_lonlat`; by default that of the input points.
+
+    Returns
+    -------
+    xarray.Dataset
+        ``mesh`` holds the topology; ``node_lon`` and ``node_lat`` are in degrees, ``node_x``, ``node_y``, ``node_z``
+        unit vectors (in the plane, ``node_x`` and ``node_y`` alone); ``face_node_connectivity`` is counterclockwise,
+        counts from 0 and pads short rows with -1; then ``edge_node_connectivity``. Faces have ``face_point`` or
+        ``face_triangle``, the index of the point or triangle, and on the sphere ``face_area`` in steradians.
+        ``face_lon`` and ``face_lat`` are the sites of cells or the directions of the mean of a triangle's corners,
+        ``edge_lon`` and ``edge_lat`` the midpoints of edges (in the plane, ``face_x``, ``face_y``, ``edge_x``,
+        ``edge_y``).
+
+    Raises
+    ------
+    ImportError
+        If xarray is missing (the extra ``grid``).
+
+    Notes
+    -----
+    `closing` triangles, unbounded cells and the cells of duplicates are left out. Cells between two antipodal vertices
+    have the midpoints of their ridges as additional nodes. ``uxarray.open_grid`` accepts the dataset. Source: UGRID
+    Conventions 1.0, https://ugrid-conventions.github.io/ugrid-conventions.
+
+    Examples
+    --------
+    >>> from stereodel import SphericalDelaunay
+    >>> dataset = to_ugrid(SphericalDelaunay([[1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]]))
+    >>> dict(dataset.sizes)
+    {'node': 6, 'face': 8, 'edge': 12, 'three': 3, 'two': 2}
+    """
+    faces = Faces.of(mesh, what)
+    table, edges = faces.table, faces.edges
+    width = "three" if table.shape[1] == 3 else "max_corners"
+    middles = {"node": faces.nodes, "face": faces.centers(mesh), "edge": faces.nodes[edges].sum(axis=1) / 2}
+    axes = LONLAT if mesh.surface is SPHERE else {axis: CARTESIAN[axis] for axis in "xy"}
+    variables: dict[str, Any] = {}
+    for at, points in middles.items():  # on the sphere directions of any length
+        places = places_of(mesh, points, latitude or mesh.latitude or "spherical")
+        variables |= {f"{at}_{axis}": (at, places[:, k], axes[axis]) for k, axis in enumerate(axes)}
+        if at == "node":
+            cartesian = zip(CARTESIAN.items(), points.T, strict=False)
+            variables |= {f"node_{axis}": (at, column, known) for (axis, known), column in cartesian}
+    for at, dimension, links in (("face", width, table), ("edge", "two", edges)):
+        known = {"cf_role": f"{at}_node_connectivity", "start_index": np.int32(0), "_FillValue": np.int32(FILL)}
+        variables[f"{at}_node_connectivity"] = ((at, dimension), links, known)
+    of_face = {"mesh": "mesh", "location": "face"}
+    variables[f"face_{faces.what}"] = ("face", faces.number, {**of_face, "long_name": f"number of the {faces.what}"})
+    if axes is LONLAT:
+        variables["face_area"] = ("face", faces.areas(mesh), {**of_face, "units": "sr"})
+    topology = {
+        "cf_role": "mesh_topology",
+        "topology_dimension": np.int32(2),
+        **{f"{at}_coordinates": " ".join(f"{at}_{axis}" for axis in axes) for at in middles},
+        **{f"{at}_node_connectivity": f"{at}_node_connectivity" for at in ("face", "edge")},
+        **{f"{at}_dimension": at for at in ("face", "edge")},
+    }
+    variables["mesh"] = ((), np.int32(0), topology)
+    return optional("xarray", "grid").Dataset(variables, attrs={"Conventions": "CF-1.11 UGRID-1.0"})
+
+
+def from_ugrid(dataset: Any) -> tuple[FloatArray, IntArray]:
+    """Nodes and faces of a UGRID mesh.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        Dataset with a mesh topology of dimension 2, from this library or another.
+
+    Returns
+    -------
+    nodes : (n, 3) or (n, 2) ndarray
+        Directions, from ``node_x``, ``node_y``, ``node_z`` if present, else from longitude and latitude; plane
+        coordinates for a mesh of the plane.
+    faces : (f, k) ndarray of int32
+        Nodes of each face, counted from 0; short rows are padded with -1.
+
+    Raises
+    ------
+    ValueError
+        If there is no such mesh, its variables are missing, or a face has fewer than three nodes or one that is not
+        there.
+
+    Examples
+    --------
+    >>> from stereodel import SphericalDelaunay, check_delaunay
+    >>> points, faces = from_ugrid(to_ugrid(SphericalDelaunay([[1, 0, 0], [0, 1, 0], [0, 0, 1], [-1, -1, -1]])))
+    >>> check_delaunay(points, faces).ties
+    0
+    """
+    meshes = [name for name in dataset.variables if dataset[name].attrs.get("cf_role") == "mesh_topology"]
+    if len(meshes) != 1:
+        found = ", ".join(meshes) or "none"
+        raise ValueError(f"the dataset must have one mesh topology, it has {len(meshes)}: {found}")
+    topology = dataset[meshes[0]].attrs
+    links = _variable(dataset, topology.get("face_node_connectivity", ""))
+    nodes = _coordinates(dataset, str(topology.get("node_coordinates", "")).split())
+    rows, start, count = np.asarray(links), int(links.attrs.get("start_index", 0)), len(nodes)
+    fill = {links.attrs.get("_FillValue"), links.encoding.get("_FillValue")} - {None}
+    missing = np.isnan(rows) | np.isin(rows, list(fill))
+    wrong = np.argwhere(~missing & ((rows < start) | (rows >= start + count) | (rows != np.floor(rows))))
+    if len(wrong):
+        face, corner = wrong[0].tolist()
+        raise ValueError(
+            f"face {face} names node {rows[face, corner]:.15g}, but the nodes are {start} to {start + count - 1}; its "
+            "attributes start_index and _FillValue say where counting starts and which number stands for none"
+        )
+    few = np.flatnonzero((~missing).sum(axis=1) < 3)
+    if len(few):
+        raise ValueError(f"face {few[0]} has {(~missing[few[0]]).sum()} nodes, but a face has at least three")
+    return nodes, np.where(missing, FILL, np.where(missing, 0, rows).astype(np.int64) - start).astype(np.int32)
+
+
+def _coordinates(dataset: Any, names: list[str]) -> FloatArray:
+    cartesian = [f"node_{axis}" for axis in "xyz"]
+    if all(name in dataset for name in cartesian):
+        return np.column_stack([_variable(dataset, name) for name in cartesian]).astype(np.float64)
+    columns = [_variable(dataset, name) for name in names]
+    kinds = [column.attrs.get("standard_name") for column in columns]
+    if set(kinds) == {"longitude", "latitude"}:
+        return lonlat_to_xyz(np.column_stack([columns[kinds.index(kind)] for kind in ("longitude", "latitude")]))
+    if len(columns) != 2:
+        raise ValueError(f"node_coordinates must name two variables, it names {names}")
+    return np.column_stack(columns).astype(np.float64)
+
+
+def _variable(dataset: Any, name: str) -> Any:
+    if name not in dataset:
+        raise ValueError(f"the mesh topology names {name!r}, which is not in the dataset")
+    return dataset[name]
 
 
 def _space(points: FloatArray) -> FloatArray:
     """Points of the plane as points in space, with z = 0."""
-    return points if points.shape[1] == 3 else np.column_stack([points, np.zeros(len(points))])
+    return np.column_stack([points, np.zeros((len(points), 3 - points.shape[1]))])
 
 
-def _sphere_fans(diagram: SphericalVoronoi, max_segment: float) -> tuple[FloatArray, Indices, Indices]:
-    """Triangles around each site in rings at most `max_segment` apart; and the point of each vertex."""
+def _nodes(mesh: Mesh) -> FloatArray:
+    """The points of a mesh, on the sphere as unit vectors."""
+    return units(mesh.points) if mesh.surface is SPHERE else mesh.points
+
+
+def _fans(mesh: Mesh, max_segment: float) -> tuple[FloatArray, Indices, Indices]:
+    """Triangles around each site, on the sphere in rings at most `max_segment` apart; and the point of each vertex."""
+    center, levels = _nodes(mesh), np.ones(len(mesh.points), dtype=np.intp)
+    if mesh.surface is not SPHERE:
+        faces = Faces.of(mesh, "cells")
+        return _rings(faces.nodes[faces.polygons.values], faces.number[faces.polygons.row], center, levels)
+    diagram = diagram_of(mesh)
     arcs = ridge_arcs(diagram)
     pieces = np.maximum(np.ceil(np.degrees(arcs.stop) / max_segment), 1).astype(np.intp)
     # Around each cell; its first point is repeated at the end and left out.
     around = points_along(voronoi_sides(diagram), arcs.spread(pieces))
-    inner = np.ones(len(around.values), dtype=bool)
-    inner[around.offsets[1:] - 1] = False
-    border, owner, center = around.values[inner], around.row[inner], units(diagram.points)
+    inner = steps_of(around)
+    border, owner = around.values[inner], around.row[inner]
     reach = np.zeros(len(center))
     np.maximum.at(reach, owner, np.degrees(np.arccos(np.clip(np.sum(border * center[owner], axis=1), -1, 1))))
-    levels = np.maximum(np.ceil(reach / max_segment), 1).astype(np.intp)
-    return _rings(border, owner, center, levels)
-
-
-def _plane_fans(mesh: Mesh) -> tuple[FloatArray, Indices, Indices]:
-    surface = surface_of(mesh, "cells")
-    owner = surface.number[surface.polygons.row]
-    return _rings(surface.nodes[surface.polygons.values], owner, mesh.points, np.ones(len(mesh.points), dtype=np.intp))
+    levels = np.maximum(np.ceil(reach / max_segment), levels).astype(np.intp)
+    vertices, triangles, owner = _rings(border, owner, center, levels)
+    return units(vertices), triangles, owner
 
 
 def _rings(
@@ -159,8 +319,6 @@ def _rings(
     source, level = np.repeat(np.arange(len(owner)), count), spans(np.zeros_like(count), count)
     share = (level / levels[owner[source]])[:, None]
     vertices = center[owner[source]] * (1 - share) + border[source] * share
-    if border.shape[1] == 3:
-        vertices = units(vertices)
     after = Ragged.grouped(owner, owner, len(center)).following
     here, there = first[source] + level, first[after[source]] + level
     outer, inner = level > 0, level > 1
@@ -191,26 +349,40 @@ def _as_colors(colors: npt.ArrayLike, count: int) -> Bytes:
 
 def _pale(count: int) -> Bytes:
     """Hues spaced by the golden ratio, so that successive ones differ strongly, in three saturations."""
-    looks = ((0.20, 0.97), (0.38, 0.93), (0.52, 0.84))
-    wheel = np.array([[colorsys.hsv_to_rgb(k / 360, *look) for k in range(360)] for look in looks])
+    wheel = np.array([[colorsys.hsv_to_rgb(k / 360, *look) for k in range(360)] for look in LOOKS])
     number = np.arange(count)
     return _as_colors(wheel[number % 3, (360 * (GOLDEN * number % 1.0)).astype(np.intp)], count)
 
 
 @dataclass(frozen=True, eq=False)
-class Surface:
-    """Polygons of nodes, counterclockwise: triangles, or `cells`."""
+class Faces:
+    """Polygons of nodes, counterclockwise, without unbounded cells and closing triangles."""
 
     nodes: FloatArray  # (n, 2) of the plane, or (n, 3), unit vectors
     polygons: Ragged  # the nodes of each
     number: Indices  # (f,): index of each cell's point, or of each triangle
-    cells: bool
+    what: str  # "point" or "triangle"
+
+    @classmethod
+    def of(cls, mesh: Mesh, what: str | None) -> Faces:
+        """Cells or triangles."""
+        if as_choice(what or usual_kind(mesh), ("cells", "triangles"), "what") == "triangles":
+            triangulation, number = triangles_of(mesh)
+            corners = triangulation.simplices[number].astype(np.intp).ravel()
+            return cls(_nodes(mesh), Ragged(corners, 3 * np.arange(len(number) + 1)), number, "triangle")
+        diagram = diagram_of(mesh)
+        if mesh.surface is SPHERE and len(diagram.vertices) == 2:
+            return _lunes(diagram)
+        regions = Ragged(diagram.region_indices.astype(np.intp), diagram.region_offsets)
+        unbounded = np.bincount(regions.row, regions.values < 0, minlength=len(regions)) > 0
+        number = np.flatnonzero((regions.sizes > 0) & ~unbounded)
+        return cls(diagram.vertices, regions.take(number), number, "point")
 
     @property
     def table(self) -> IntArray:
-        """The polygons as rows, (f, largest number of corners), padded with -1."""
+        """The polygons as rows, (f, largest number of corners), padded."""
         sizes = self.polygons.sizes
-        rows = np.full((len(sizes), int(sizes.max(initial=3))), -1, dtype=np.int32)
+        rows = np.full((len(sizes), int(sizes.max(initial=3))), FILL, dtype=np.int32)
         rows[self.polygons.row, spans(np.zeros_like(sizes), sizes)] = self.polygons.values
         return rows
 
@@ -221,31 +393,18 @@ class Surface:
         sides = np.column_stack([here, here[self.polygons.following]])
         return np.unique(np.sort(sides, axis=1), axis=0).astype(np.int32)
 
+    def centers(self, mesh: Mesh) -> FloatArray:
+        """The sites of cells, or the means of triangles' corners."""
+        return mesh.points[self.number] if self.what == "point" else self.nodes[self.table].mean(axis=1)
 
-def surface_of(mesh: Mesh, what: str | None) -> Surface:
-    """Cells or triangles; unbounded cells of the plane and closing triangles of the sphere are left out."""
-    kind = as_choice(what or usual_kind(mesh), ("cells", "triangles"), "what")
-    return _cells(diagram_of(mesh)) if kind == "cells" else _triangles(mesh)
-
-
-def _triangles(mesh: Mesh) -> Surface:
-    triangulation, spherical = triangulation_of(mesh), is_spherical(mesh)
-    number = np.flatnonzero(~triangulation.closing) if spherical else np.arange(len(triangulation.simplices))
-    corners = triangulation.simplices[number].astype(np.intp).ravel()
-    nodes = units(mesh.points) if spherical else mesh.points
-    return Surface(nodes, Ragged(corners, 3 * np.arange(len(number) + 1)), number, cells=False)
+    def areas(self, mesh: Mesh) -> FloatArray:
+        """The areas of cells or triangles, on the sphere in steradians."""
+        if self.what == "triangle":
+            return mesh.surface.areas(*self.nodes[self.table].transpose(1, 0, 2))
+        return np.asarray(diagram_of(mesh).areas()[self.number])
 
 
-def _cells(diagram: Any) -> Surface:
-    if isinstance(diagram, SphericalVoronoi) and len(diagram.vertices) == 2:
-        return _lunes(diagram)
-    regions = Ragged(diagram.region_indices.astype(np.intp), diagram.region_offsets)
-    unbounded = np.bincount(regions.row, regions.values < 0, minlength=len(regions)) > 0
-    number = np.flatnonzero((regions.sizes > 0) & ~unbounded)
-    return Surface(diagram.vertices, regions.take(number), number, cells=True)
-
-
-def _lunes(diagram: SphericalVoronoi) -> Surface:
+def _lunes(diagram: SphericalVoronoi) -> Faces:
     """Cells between two antipodal vertices, with the midpoint of each ridge as an additional node."""
     sides, arcs = voronoi_sides(diagram), ridge_arcs(diagram)
     ridge = np.maximum(sides.values, ~sides.values)
@@ -253,4 +412,4 @@ def _lunes(diagram: SphericalVoronoi) -> Surface:
     corners = Ragged(np.column_stack([start, 2 + ridge]).ravel(), 2 * sides.offsets)
     number = np.flatnonzero(sides.sizes)
     middles = arcs.points(np.arange(len(arcs)), arcs.stop / 2)
-    return Surface(np.concatenate([diagram.vertices, middles]), corners.take(number), number, cells=True)
+    return Faces(np.concatenate([diagram.vertices, middles]), corners.take(number), number, "point")

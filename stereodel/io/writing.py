@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping
 from contextlib import nullcontext
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any, BinaryIO
+from typing import Any, BinaryIO, Final
 
 import numpy.typing as npt
 
@@ -19,50 +19,33 @@ from stereodel._files import replacing, said_of
 from stereodel._tasks.progress import Progress
 from stereodel.interpolation import Contour
 from stereodel.io.formats import wkb
+from stereodel.io.formats.columns import objects
 from stereodel.io.formats.delimited import write_csv
 from stereodel.io.formats.gdal import DRIVERS, write_layer
 from stereodel.io.formats.geojson import write_geojson
 from stereodel.io.formats.map_rows import MapRows
 from stereodel.io.formats.names import beside
 from stereodel.io.formats.parquet import write_parquet
-from stereodel.io.formats.text import objects
-from stereodel.io.grids import Grid, write_geotiff, write_grid_table
+from stereodel.io.grids import Grid, write_geotiff
 from stereodel.io.maps.meshes_as_rows import (
     Columns,
     Mesh,
     diagram_of,
-    is_spherical,
+    places_of,
     point_columns,
     triangulation_of,
     usual_kind,
 )
-from stereodel.io.maps.rows_of import rows_of
-from stereodel.io.meshes import to_polydata, to_trimesh
+from stereodel.io.meshes import to_polydata, to_trimesh, to_ugrid
 from stereodel.io.reading import from_geodataframe
+from stereodel.io.rows_of import rows_of
 from stereodel.io.table import AXES, PointTable
-from stereodel.io.ugrid import to_ugrid
-from stereodel.sphere import xyz_to_lonlat
 from stereodel.sphere.latitudes import Latitude
 
-ENDINGS = {
-    ".csv": "csv",
-    ".geojson": "geojson",
-    ".json": "geojson",
-    ".parquet": "parquet",
-    ".geoparquet": "parquet",
-    ".gpkg": "gpkg",
-    ".fgb": "fgb",
-    ".shp": "shp",
-    ".kml": "kml",
-    ".geojsonl": "geojsonl",
-    ".nc": "nc",
-    ".tif": "tif",
-    ".tiff": "tif",
-    ".glb": "glb",
-    ".ply": "ply",
-    ".vtp": "vtp",
-}
-PICTURES = ("svg", "pdf", "png")
+SAME: Final = {"json": "geojson", "geoparquet": "parquet", "tiff": "tif"}
+"""Alternative extensions of formats."""
+
+PICTURES: Final = ("svg", "pdf", "png")
 
 
 def write(
@@ -117,14 +100,15 @@ def write(
     >>> print(stream.getvalue().decode().splitlines()[:2])
     ['lon,lat,area,name', '10,50,16.05702911834783,A']
     """
-    kind = format
+    kind, stem = format, "layer"
     if isinstance(path, str | os.PathLike):
-        ending = Path(path).suffix.lower()
-        kind = format or ENDINGS.get(ending, ending.removeprefix("."))
+        ending = Path(path).suffix.lower().removeprefix(".")
+        kind, stem = format or SAME.get(ending, ending), Path(path).stem
     if kind in PICTURES:
         raise ValueError(f"format is {kind!r}, a picture, but data are written here; save a page, as of `diagram_page`")
     writer = WRITERS[as_choice(kind, tuple(WRITERS), "format")]
-    stem = Path(path).stem if isinstance(path, str | os.PathLike) else "layer"
+    if not isinstance(thing, Mesh | list) and (unknown := [name for name in options if name != "decimals"]):
+        raise TypeError(f"{', '.join(unknown)} is not an option where tables are written")
     with TemporaryDirectory() as folder:
         made = Path(folder, f"{stem}.{kind}")  # libraries go by the extension, and name the layer after the stem
         with said_of(path, folder) if isinstance(path, str | os.PathLike) else nullcontext():
@@ -143,34 +127,25 @@ def _layer(thing: Any, options: dict[str, Any]) -> MapRows:
     """The rows of a map for any supported `thing`."""
     if isinstance(thing, Mesh | list):
         return rows_of(thing, **options)
-    _no_options(options)
+    if options:
+        raise TypeError(f"{', '.join(options)} is not an option of this format")
     if isinstance(thing, MapRows):
         return thing
     if isinstance(thing, PointTable):
-        places = wkb.points(thing.places)
         rows = {name: objects(values.tolist()) if values.ndim > 1 else values for name, values in thing.columns.items()}
-        return MapRows(beside(["geometry"], rows), places, thing.crs)
+        return MapRows(beside(["geometry"], rows), wkb.points(thing.places), thing.crs)
     if not hasattr(thing, "geometry"):
         raise TypeError(f"thing must be a mesh, a PointTable or a GeoDataFrame, not {type(thing).__name__}")
     return MapRows.of_frame(thing)
 
 
-def _no_options(options: dict[str, Any]) -> None:
-    if options:
-        raise TypeError(f"{', '.join(options)} is not an option where tables are written")
-
-
 def _write_csv(thing: Any, path: Path, options: dict[str, Any], progress: Progress | None) -> None:
-    if isinstance(thing, Grid):
-        _no_options(options)
-        write_grid_table(thing, path)
-        return
     if isinstance(thing, Mesh):
         columns = _mesh_columns(thing, **options)
+    elif isinstance(thing, Grid | PointTable):
+        columns = thing.located()
     else:
-        _no_options(options)
-        table = thing if isinstance(thing, PointTable) else from_geodataframe(_layer(thing, {}).frame())
-        columns = table.located()
+        columns = from_geodataframe(_layer(thing, options).frame()).located()
     with path.open("w", encoding="utf-8", newline="") as stream:
         write_csv(columns, stream)
 
@@ -187,47 +162,33 @@ def _mesh_columns(
     if kind in ("triangles", "edges"):
         triangulation = triangulation_of(mesh)
         rows = triangulation.edges if kind == "edges" else triangulation.simplices
-        return {name: rows[:, k] for k, name in enumerate("abc"[: rows.shape[1]])}
-    axes, places = AXES["plane"], mesh.points
-    if is_spherical(mesh):
-        axes = AXES["sphere"]
-        places = xyz_to_lonlat(mesh.points, latitude=latitude or mesh.latitude or "spherical")
-    found = dict(zip(axes, places.T, strict=True))
+        return dict(zip("abc", rows.T, strict=False))
+    places = places_of(mesh, mesh.points, latitude or mesh.latitude or "spherical")
+    found = dict(zip(AXES[mesh.surface.name], places.T, strict=True))
     if kind == "cells":
         found["area"] = diagram_of(mesh).areas(radius=radius)
     return found | beside(found, point_columns(columns, len(places)))
 
 
-def _write_geojson(thing: Any, path: Path, options: dict[str, Any], progress: Progress | None) -> None:
-    decimals = options.pop("decimals", None)
-    sequence = path.suffix == ".geojsonl"
-    write_geojson(_layer(thing, options), path, decimals=decimals, sequence=sequence, progress=progress)
-
-
-def _write_parquet(thing: Any, path: Path, options: dict[str, Any], progress: Progress | None) -> None:
-    optional("pyarrow", "geo")
-    if hasattr(thing, "to_parquet"):
-        _no_options(options)
+def _write_rows(thing: Any, path: Path, options: dict[str, Any], progress: Progress | None) -> None:
+    kind = path.suffix[1:]
+    if kind == "parquet" and hasattr(thing, "to_parquet"):
+        optional("pyarrow", "geo")
         thing.to_parquet(path)  # with its index and all its geometry columns
         return
-    write_parquet(_layer(thing, options), path, progress)
-
-
-def _write_vector(thing: Any, path: Path, options: dict[str, Any], progress: Progress | None) -> None:
-    write_layer(_layer(thing, options), path, name=path.stem, progress=progress)
+    own = {"decimals": options.pop("decimals", None)} if kind in ("geojson", "geojsonl") else {}
+    LAYERS[kind](_layer(thing, options), path, progress=progress, **own)
 
 
 def _write_tif(thing: Any, path: Path, options: dict[str, Any], progress: Progress | None) -> None:
     if not isinstance(thing, Grid):
         raise TypeError(f"thing must be a Grid for a GeoTIFF, not {type(thing).__name__}")
-    _no_options(options)
     write_geotiff(thing, path)
 
 
 def _write_nc(thing: Any, path: Path, options: dict[str, Any], progress: Progress | None) -> None:
     optional("netCDF4", "grid")
     if isinstance(thing, Grid):
-        _no_options(options)
         dataset, form = thing.to_xarray(), "NETCDF3_64BIT"  # the classic format, which every reader supports
     else:
         dataset, form = to_ugrid(thing, **options), "NETCDF4"
@@ -252,12 +213,17 @@ def _write_polydata(thing: Any, path: Path, options: dict[str, Any], progress: P
     path.write_text(writer.GetOutputString(), encoding="utf-8")
 
 
-WRITERS: dict[str, Callable[[Any, Path, dict[str, Any], Progress | None], None]] = {
+LAYERS: Final[dict[str, Callable[..., None]]] = {
+    "geojson": write_geojson,
+    "parquet": write_parquet,
+    "geojsonl": write_geojson,
+    **dict.fromkeys(DRIVERS, write_layer),
+}
+"""What writes rows of maps, by format."""
+
+WRITERS: Final[dict[str, Callable[[Any, Path, dict[str, Any], Progress | None], None]]] = {
     "csv": _write_csv,
-    "geojson": _write_geojson,
-    "parquet": _write_parquet,
-    "geojsonl": _write_geojson,
-    **dict.fromkeys(DRIVERS, _write_vector),
+    **dict.fromkeys(LAYERS, _write_rows),
     "nc": _write_nc,
     "tif": _write_tif,
     "glb": _write_trimesh,

@@ -24,7 +24,7 @@ import numpy.typing as npt
 
 from stereodel._arrays import BoolArray, FloatArray, Indices, IntArray, LongArray
 from stereodel.interpolation import LinearInterpolator, NaturalNeighborInterpolator
-from stereodel.io.table import numbers as numbers_of
+from stereodel.io.located import numbers as numbers_of
 from stereodel.partitioned.index import Index
 from stereodel.partitioned.places import doubles_of
 from stereodel.partitioned.plan import Plan, Question

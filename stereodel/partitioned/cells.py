@@ -12,7 +12,7 @@ from stereodel._files import replacing
 from stereodel.curves.borders import frame_of
 from stereodel.io.formats.map_rows import MapRows
 from stereodel.io.formats.parquet import write_parquet
-from stereodel.io.maps.rows_of import rows_of
+from stereodel.io.rows_of import rows_of
 from stereodel.partitioned.index import Index
 from stereodel.partitioned.places import Places
 from stereodel.partitioned.rounds import Round

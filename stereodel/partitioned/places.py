@@ -13,7 +13,7 @@ from stereodel._arrays import FloatArray, Indices, as_directions, as_points
 from stereodel._extras import optional
 from stereodel.io.formats import wkb
 from stereodel.io.formats.names import find_lonlat, listed, spelled
-from stereodel.io.table import degrees, numbers, transformed
+from stereodel.io.located import degrees, numbers, transformed
 from stereodel.sphere import lonlat_to_xyz
 from stereodel.sphere.latitudes import Latitude
 

@@ -19,7 +19,7 @@ def as_polygon(bounds: npt.ArrayLike | None) -> FloatArray:
     if values.shape == (4,):
         left, bottom, right, top = as_bounds(values)
         values = np.array([[left, bottom], [right, bottom], [right, top], [left, top]])
-    if values.ndim != 2 or values.shape[1] != 2 or len(values) < 3:
+    if values.shape[1:] != (2,) or len(values) < 3:
         raise ValueError(f"bounds must be (xmin, ymin, xmax, ymax) or corners (k, 2), k >= 3, got shape {values.shape}")
     turns = _kernel.plane.turn(values, np.roll(values, -1, axis=0), np.roll(values, -2, axis=0))
     # Left turns alone could go around more than once: each corner must lie left of all sides too.

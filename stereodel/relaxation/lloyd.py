@@ -12,15 +12,14 @@ import numpy.typing as npt
 from stereodel._arrays import AnyIndices, FloatArray, as_count, as_scalar, as_weights, as_workers, locked, read_only
 from stereodel._docs import shared
 from stereodel._double_double import unit
+from stereodel._spaces import SPHERE, surface_of
 from stereodel.constants import BALANCED
 from stereodel.relaxation.flat_cells import as_polygon, check_inside, flat_cells, outside
 from stereodel.relaxation.quadrature import MIDPOINTS, RADON, flat_nodes, spherical_nodes
 from stereodel.relaxation.round_cells import RoundCells
 from stereodel.sphere.latitudes import Latitude
 from stereodel.sphere.lonlat import LONLAT, as_sites, as_told, refuse_lonlat
-from stereodel.triangulation.dispatch import Triangulation, as_triangulation
-from stereodel.triangulation.planar_delaunay import PlanarDelaunay
-from stereodel.triangulation.spherical_delaunay import SphericalDelaunay
+from stereodel.triangulation.delaunay import Triangulation, as_triangulation
 
 Density = Callable[[FloatArray], npt.ArrayLike]
 
@@ -244,7 +243,7 @@ def lloyd(
     [[-45.   0.]
      [135.   0.]]
     """
-    if isinstance(points, PlanarDelaunay | SphericalDelaunay):
+    if isinstance(points, Triangulation):
         refuse_lonlat(lonlat, latitude)
         given, kind = points.points, points.latitude
     else:
@@ -252,7 +251,7 @@ def lloyd(
     limit, threads = as_scalar(tolerance, "tolerance", low=0.0), as_workers(workers)
     share = as_scalar(factor, "factor", low=0.0, high=2.0, open_low=True, open_high=True)
     course = Course(as_count(steps, "steps", low=0), limit, callback)
-    if given.shape[1] == 3:
+    if surface_of(given) is SPHERE:
         if bounds is not None:
             raise ValueError("bounds are for points of the plane; on the sphere leave them out")
         relaxed = _relax(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
+import copy
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, ClassVar, Final, Generic, Self, TypeVar, cast
 
@@ -22,15 +22,15 @@ from stereodel._arrays import (
 )
 from stereodel._calls import by_name
 from stereodel._docs import shared
-from stereodel._kernel import sphere
+from stereodel._spaces import SPHERE, PlaneOrSphere, surface_of
 from stereodel._threads import thread_count
 from stereodel.constants import REBUILD_INSERTING, REBUILD_REMOVING
 from stereodel.sphere.latitudes import Latitude
-from stereodel.sphere.lonlat import BY_NAME, LONLAT, as_asked
+from stereodel.sphere.lonlat import BY_NAME, LONLAT, as_asked, as_sites, refuse_lonlat
 from stereodel.triangulation.topology import adjacency_of, boundary_of, edges_of, neighbors_of
 
 if TYPE_CHECKING:
-    from stereodel._kernel.space import Mesh, Space
+    from stereodel._kernel.space import Mesh
 
 _T = TypeVar("_T")
 
@@ -79,11 +79,11 @@ class _kept(Generic[_T]):  # noqa: N801  # a decorator, like `property`
 class _State:
     """A triangulation between two changes: arrays that never change, and what follows from these alone."""
 
-    def __init__(self, space: Space, workers: int | None, points: FloatArray, made: Made) -> None:
+    def __init__(self, surface: PlaneOrSphere, workers: int | None, points: FloatArray, made: Made) -> None:
         simplices, neighbors, duplicates, self.dimension, self.inconclusive = made
         self.points, self.simplices, self.duplicates = points, locked(simplices), locked(duplicates)
         self.known_neighbors = None if neighbors is None else locked(neighbors)
-        self._space, self._workers = space, workers
+        self._surface, self._workers = surface, workers
 
     @_kept
     def neighbors(self) -> IntArray:
@@ -105,12 +105,12 @@ class _State:
     @_kept
     def circumcenters(self) -> FloatArray:
         threads = thread_count(self._workers, len(self.points))
-        return locked(self._space.circumcenters(self.points, self.simplices, None, threads, True))
+        return locked(self._surface.kernel.circumcenters(self.points, self.simplices, None, threads, True))
 
     @_kept
     def closing(self) -> BoolArray | None:
         """Triangles that no query can lie in; None in the plane, where there are none."""
-        return locked(sphere.closing(self.points, self.simplices)) if self._space is sphere else None
+        return locked(SPHERE.kernel.closing(self.points, self.simplices)) if self._surface is SPHERE else None
 
     @_kept
     def open(self) -> BoolArray:
@@ -120,7 +120,7 @@ class _State:
     @_kept
     def flat_order(self) -> IntArray:
         """The distinct points in the order along their line or great circle, without triangles."""
-        return locked(self._space.flat_order(self.points, checked=True))
+        return locked(self._surface.kernel.flat_order(self.points, checked=True))
 
     @property
     def triangles(self) -> tuple[FloatArray, IntArray, IntArray]:
@@ -128,7 +128,7 @@ class _State:
         return self.points, self.simplices, self.neighbors
 
 
-class Delaunay(ABC):
+class Triangulation:
     """A triangulation that depends only on the set of points; see the two subclasses.
 
     The first change makes a mesh of the kernel, which from then on has the points: changes and states come from it
@@ -136,7 +136,7 @@ class Delaunay(ABC):
     nothing else, so it never mixes two; it holds no lock while it works on the arrays, which never change.
     """
 
-    _space: ClassVar[Space]
+    surface: ClassVar[PlaneOrSphere]
 
     _latitude: Latitude | None = None
     _workers: int | None
@@ -144,23 +144,28 @@ class Delaunay(ABC):
     _mesh: Mesh | None = None  # from the first change on
     _last: tuple[int, _State]  # the state that was asked for last, and after how many changes of the mesh it is
 
+    def __init_subclass__(cls, *, surface: PlaneOrSphere | None = None) -> None:
+        super().__init_subclass__()
+        if surface is not None:
+            cls.surface, surface.delaunay = surface, cls
+
     def __init__(self, points: npt.ArrayLike, *, workers: int | None = None, neighbors: bool = True) -> None:
         self._workers = as_workers(workers)
         self._eager = bool(neighbors)
-        own = private(self._as_points(points, f"{type(self).__name__}.from_lonlat"), points)
+        own = private(self.surface.as_points(points, f"{type(self).__name__}.from_lonlat"), points)
         threads = thread_count(self._workers, len(own))
-        self._begin(own, self._space.triangulate(own, threads, self._eager))
+        self._begin(own, self.surface.kernel.triangulate(own, threads, self._eager))
 
     @classmethod
     def _from_simplices(cls, points: FloatArray, simplices: IntArray, duplicates: IntArray) -> Self:
         """The triangulation of `points` whose simplices are known already, as from the dual diagram; not checked."""
         self = cls.__new__(cls)
         self._workers, self._eager = None, True
-        self._begin(points, (simplices, None, duplicates, 2, dict.fromkeys(self._space.stages, 0)))
+        self._begin(points, (simplices, None, duplicates, 2, dict.fromkeys(self.surface.kernel.stages, 0)))
         return self
 
     def _begin(self, points: FloatArray, made: Made) -> None:
-        self._last = 0, _State(self._space, self._workers, points, made)
+        self._last = 0, _State(self.surface, self._workers, points, made)
 
     def _now(self) -> _State:
         """The present state; waits while another thread changes the triangulation.
@@ -173,7 +178,7 @@ class Delaunay(ABC):
         changes, state = self._last
         if mesh is not None and mesh.changes != changes:
             found = mesh.read(thread_count(self._workers, mesh.size))
-            state = _State(self._space, self._workers, found[1], found[2:])
+            state = _State(self.surface, self._workers, found[1], found[2:])
             self._last = found[0], state
         return state
 
@@ -182,7 +187,7 @@ class Delaunay(ABC):
         if self._mesh is None:
             state = self._last[1]
             rows = state.simplices, state.neighbors, state.duplicates
-            made = self._space.Mesh(state.points, *rows, state.inconclusive, checked=True)
+            made = self.surface.kernel.Mesh(state.points, *rows, state.inconclusive, checked=True)
             self.__dict__.setdefault("_mesh", made)
         return cast("Mesh", self._mesh)
 
@@ -268,7 +273,7 @@ class Delaunay(ABC):
         """
         pairs = None if lonlat is None else as_points(lonlat, 2, "lonlat")
         given = as_asked(points, pairs, self._latitude, "points")
-        added = private(self._as_points(given, "insert(lonlat=…)"), given)
+        added = private(self.surface.as_points(given, "insert(lonlat=…)"), given)
         mesh = self._changing()
         threads = thread_count(self._workers, mesh.size + len(added))
         first = mesh.insert(added, threads, REBUILD_INSERTING)
@@ -336,7 +341,7 @@ class Delaunay(ABC):
         """
         now = self._now()
         array, flat, threads = self._as_queries(as_asked(queries, lonlat, self._latitude), workers)
-        return _shaped(self._space.find_simplex(*now.triangles, flat, now.closing, threads, True), array)
+        return _shaped(self.surface.kernel.find_simplex(*now.triangles, flat, now.closing, threads, True), array)
 
     @by_name(BY_NAME)
     @shared(**LONLAT)
@@ -393,7 +398,7 @@ class Delaunay(ABC):
         >>> square.nearest([[1.5, 1.0], [0.1, 1.9]], k=4).tolist()
         [[1, 2, 4, 0], [3, 0, 2, 4]]
         """
-        now, space = self._now(), self._space
+        now, space = self._now(), self.surface.kernel
         size = len(now.points)
         if size == 0:
             raise ValueError("nearest needs at least one point; this triangulation has none")
@@ -408,7 +413,7 @@ class Delaunay(ABC):
         return _shaped(found.ravel(), array) if k is None else found.reshape(*array.shape[:-1], count)
 
     def _as_queries(self, queries: npt.ArrayLike, workers: int | None) -> tuple[FloatArray, FloatArray, int]:
-        array = self._check_queries(queries)
+        array = self.surface.as_queries(queries)
         flat = array.reshape(-1, array.shape[-1])
         return array, flat, self._thread_count(workers, len(flat))
 
@@ -450,17 +455,43 @@ class Delaunay(ABC):
             f"{len(now.duplicates)} duplicates, dimension {now.dimension})"
         )
 
-    @staticmethod
-    @abstractmethod
-    def _as_points(points: npt.ArrayLike, lonlat_door: str) -> FloatArray:
-        """Checked points; the message about those of the other space names the door for longitude and latitude."""
-
-    @staticmethod
-    @abstractmethod
-    def _check_queries(queries: npt.ArrayLike) -> FloatArray:
-        """Checked queries of any leading shape."""
-
 
 def _shaped(found: IntArray, queries: FloatArray) -> IntArray | int:
     """One number for each query, in the queries' leading shape."""
     return found.reshape(queries.shape[:-1]) if queries.ndim > 1 else int(found[0])
+
+
+def as_triangulation(
+    points: npt.ArrayLike | Triangulation | None,
+    *,
+    lonlat: npt.ArrayLike | None = None,
+    latitude: Latitude | None = None,
+) -> Triangulation:
+    """The triangulation given, as it is now, or that of points of the plane, of directions, or of `lonlat`."""
+    if isinstance(points, Triangulation):
+        refuse_lonlat(lonlat, latitude)
+        return copy.copy(points)
+    array, kind = as_sites(points, lonlat, latitude)
+    triangulation: Triangulation = surface_of(array).delaunay(array)
+    triangulation._latitude = kind
+    return triangulation
+
+
+def threads_of(triangulation: Triangulation, workers: int | None, size: int | None = None) -> int:
+    """How many threads a task of `size` points takes, by default of all points; without `workers` as for the points."""
+    return triangulation._thread_count(workers, size)
+
+
+def flat_order(triangulation: Triangulation) -> IntArray:
+    """Without triangles: the distinct points in the order along their line or great circle."""
+    return triangulation._now().flat_order
+
+
+def open_triangles(triangulation: Triangulation) -> BoolArray:
+    """Whether a query can lie in a triangle, (m,): all but the closing ones of the sphere."""
+    return triangulation._now().open
+
+
+def closing_triangles(triangulation: Triangulation) -> BoolArray | None:
+    """The others, as the kernel takes them; None in the plane."""
+    return triangulation._now().closing

@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+import copy
 from functools import cached_property
 from itertools import pairwise
-from typing import Final
+from typing import ClassVar, Final, Generic, TypeVar, cast
 
 import numpy as np
+import numpy.typing as npt
 
 from stereodel import _kernel
 from stereodel._arrays import BoolArray, FloatArray, Indices, IntArray, locked
-from stereodel._spaces import space_of
+from stereodel._spaces import PlaneOrSphere
 from stereodel.sphere.latitudes import Latitude
-from stereodel.triangulation.delaunay import Delaunay
+from stereodel.triangulation.delaunay import Triangulation, flat_order, threads_of
+
+_Mesh = TypeVar("_Mesh", bound=Triangulation)
 
 FAMILY: Final = {
     "flat_regions": """
@@ -35,12 +39,14 @@ FAMILY: Final = {
 """What the docstrings of both diagrams have in common."""
 
 
-class Diagram:
+class Diagram(Generic[_Mesh]):
     """The common part of planar and spherical Voronoi diagrams: cells, ridges and vertices as read-only arrays.
 
     The cell of a site is a range of entries: its vertices counterclockwise from the lowest, and beside each the site
     beyond the ridge that leaves it. Ridges and polygons are read off these in O(n).
     """
+
+    surface: ClassVar[PlaneOrSphere]
 
     points: FloatArray
     vertices: FloatArray
@@ -53,6 +59,37 @@ class Diagram:
     _order: IntArray  # of sites with cells, along the curve of the triangles
     _rank: IntArray | None  # of triangles that share a vertex, by their corners
     _threads: int
+    _dimension: int
+
+    def __init_subclass__(cls, *, surface: PlaneOrSphere | None = None) -> None:
+        super().__init_subclass__()
+        if surface is not None:
+            cls.surface, surface.voronoi = surface, cls
+
+    def __init__(self, points: npt.ArrayLike | _Mesh, *, workers: int | None = None) -> None:
+        kind = self.surface.delaunay
+        if given := isinstance(points, kind):
+            triangulation = copy.copy(cast("_Mesh", points))
+        else:
+            checked = self.surface.as_points(cast("npt.ArrayLike", points), f"{type(self).__name__}.from_lonlat")
+            triangulation = kind(checked, workers=workers)
+        self.points, self.latitude = triangulation.points, triangulation.latitude
+        self._dimension = triangulation.dimension
+        self._threads = threads_of(triangulation, workers if given else None)
+        region = np.arange(len(self.points), dtype=np.int32)
+        region[triangulation.duplicates[:, 0]] = triangulation.duplicates[:, 1]
+        self.point_region = locked(region)
+        if self._dimension == 2:
+            self._set_vertices(self._set_diagram(triangulation))
+        else:
+            self._set_flat(flat_order(triangulation))
+
+    def _set_vertices(self, vertices: FloatArray) -> None:
+        self.vertices = locked(vertices)
+
+    def _set_flat(self, order: IntArray) -> None:
+        """No triangles: the points in the order along their line or great circle."""
+        raise NotImplementedError
 
     @cached_property
     def regions(self) -> list[list[int]]:
@@ -75,9 +112,9 @@ class Diagram:
         points, vertices = _kernel.voronoi_ridges(*self._cells(), self._threads)
         return locked(points), locked(vertices)
 
-    def _set_diagram(self, triangulation: Delaunay) -> FloatArray:
+    def _set_diagram(self, triangulation: _Mesh) -> FloatArray:
         """Cells, and which triangle has which vertex; returns the vertices."""
-        space, points = space_of(self.points), self.points
+        space, points = self.surface.kernel, self.points
         arrays = points, triangulation.simplices, triangulation.neighbors
         made = space.voronoi(*arrays, self._threads, True)
         offsets, vertices, neighbors, self._order, simplex_vertex, self._rank, sites, vertex = made
@@ -88,15 +125,27 @@ class Diagram:
         return space.circumcenters(points, sites, vertex, self._threads, True)
 
     def _cell_areas(self) -> FloatArray:
-        return space_of(self.points).cell_areas(self.points, *self._cells(), self._order, self._threads, True)
+        return self.surface.kernel.cell_areas(self.points, *self._cells(), self._order, self._threads, True)
 
     def _cell_centroids(self) -> FloatArray:
-        return space_of(self.points).cell_centroids(self.points, *self._cells(), self._order, self._threads, True)
+        return self.surface.kernel.cell_centroids(self.points, *self._cells(), self._order, self._threads, True)
 
-    def _simplices(self) -> IntArray:
-        """The triangles, from the topology of the diagram."""
-        rows = self.simplex_vertex, self._rank
-        return space_of(self.points).delaunay_of(self.points, *self._cells(), *rows, self._threads)
+    def delaunay(self) -> _Mesh:
+        """The triangulation, from the topology of the diagram alone, in O(n).
+
+        The sites around a vertex are a triangle, or a polygon whose diagonals the tie rule draws: the first point is
+        cut off as an ear. Equal to the direct triangulation, row by row: `simplex_vertex` belongs to its `simplices`.
+        """
+        if self._dimension < 2:
+            triangulation = self.surface.delaunay(self.points)
+        else:
+            rows = self.simplex_vertex, self._rank
+            simplices = self.surface.kernel.delaunay_of(self.points, *self._cells(), *rows, self._threads)
+            dropped = np.flatnonzero(~self.is_kept)
+            duplicates = np.column_stack([dropped, self.point_region[dropped]]).astype(np.int32)
+            triangulation = self.surface.delaunay._from_simplices(self.points, simplices, duplicates)
+        triangulation._latitude = self.latitude
+        return cast("_Mesh", triangulation)
 
     def _cells(self) -> tuple[Indices, IntArray, IntArray, int]:
         """The diagram as the kernel takes it."""
@@ -106,20 +155,10 @@ class Diagram:
         self.region_offsets, self.region_indices = locked(offsets), locked(vertices)
         self.region_neighbors = locked(neighbors)
 
-    def _set_point_region(self, duplicates: IntArray) -> None:
-        region = np.arange(len(self.points), dtype=np.int32)
-        region[duplicates[:, 0]] = duplicates[:, 1]
-        self.point_region = locked(region)
-
     @property
     def is_kept(self) -> BoolArray:
         """Whether a point has a cell of its own and is not a dropped duplicate, (n,) bool."""
         return self.point_region == np.arange(len(self.points))
-
-    def _duplicates(self) -> IntArray:
-        """Pairs [dropped, kept] of equal points, (k, 2)."""
-        dropped = np.flatnonzero(~self.is_kept)
-        return np.column_stack([dropped, self.point_region[dropped]]).astype(np.int32)
 
     def __repr__(self) -> str:
         return f"{type(self).__name__}({len(self.points)} points, {len(self.vertices)} vertices)"

@@ -1,4 +1,9 @@
-"""The paper's pseudo-code: points one at a time, visible facets replaced by a fan over their horizon."""
+"""The paper's pseudo-code: points one at a time, visible facets replaced by a fan over their horizon.
+
+One engine serves plane and sphere. Circles stay circles under stereographic projection, so a planar triangulation is a
+hull whose pole is a ghost vertex, and a hull is a planar triangulation whose pole is one of its own points. The sites
+answer what a point sees by the kernel's exact signs, ties decided.
+"""
 
 from __future__ import annotations
 
@@ -14,18 +19,16 @@ from stereodel._arrays import (
     FloatArray,
     Indices,
     IntArray,
-    LongArray,
-    as_directions,
     as_plane_or_sphere,
     as_points,
     read_only,
 )
 from stereodel._docs import shared
-from stereodel.predicates.rays import units
+from stereodel._spaces import space_of, surface_of
 from stereodel.sphere.latitudes import Latitude
 from stereodel.sphere.lonlat import LONLAT, as_asked, as_sites, as_told
-from stereodel.triangulation.sites import GHOST, InsertionSites, PlaneSites, RaySites
-from stereodel.triangulation.topology import Edge, Facet, Surface, as_rows
+from stereodel.triangulation.sites import GHOST, SITES, InsertionSites
+from stereodel.triangulation.topology import Edge, Facet, Facets, as_rows
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,7 +87,7 @@ class HullInsertion:
     duplicates : (k, 2) array of int32
         Pairs [dropped, kept] of equal points (directions); the lowest index is kept.
     inconclusive : dict
-        "filter": tests that floating point left open; "exact": exact ties.
+        "exact": exact ties, which displacement decides.
 
     Raises
     ------
@@ -95,8 +98,9 @@ class HullInsertion:
     -----
     The paper (row P14) takes the sphere's centre for a point inside and compares signs with it; the first hulls hardly
     ever hold the centre. Facets are oriented counterclockwise seen from outside the hull instead: p sees a b c if and
-    only if det(b−a, c−a, p−a) > 0 on the exact unit vectors. Ties are displaced (`stereodel.predicates.ties`): no point
-    is ever hidden, the facets that a point sees form a tree, and the result depends only on the set of points.
+    only if det(b−a, c−a, p−a) > 0 on the exact unit vectors. Ties are decided by displacing points, in an order of the
+    points themselves: none is ever hidden, the facets that a point sees form a tree, and the result depends only on
+    the set of points.
 
     The first visible facet is found by a visibility walk in the triangulation as the pole sees it, which ends
     because the triangulation is a regular one (H. Edelsbrunner, "An acyclicity theorem for cell complexes in d
@@ -115,9 +119,10 @@ class HullInsertion:
     def __init__(self, points: npt.ArrayLike, *, spatial: bool = False) -> None:
         array = as_plane_or_sphere(points)
         self.latitude: Latitude | None = None
-        self._sites: InsertionSites = RaySites() if array.shape[1] == 3 else PlaneSites()
+        self.surface = surface_of(array)
+        self._sites = SITES[self.surface]()
         self._spatial = spatial
-        self._surface = Surface()
+        self._hull = Facets()
         self._first: dict[object, int] = {}
         self._duplicates: list[Edge] = []
         self._waiting: deque[int] = deque()
@@ -161,11 +166,7 @@ class HullInsertion:
         """Append points, or `lonlat` with the same kind of latitude; iterate (or `run`) to insert them."""
         pairs = None if lonlat is None else as_points(lonlat, 2, "lonlat")
         given = as_asked(points, pairs, self.latitude, "points")
-        if self.points.shape[1] == 2:
-            self._append(as_points(given, 2, instead="this surface is one of the plane"))
-        else:
-            door = "for longitude and latitude use extend(lonlat=…)"
-            self._append(as_directions(given, "points", points=True, instead=door))
+        self._append(self.surface.as_points(given, "extend(lonlat=…)"))
 
     def run(self) -> None:
         """Insert all pending points, without a record of the steps."""
@@ -181,7 +182,7 @@ class HullInsertion:
     @property
     def facets(self) -> IntArray:
         """The current surface, (m, 3)."""
-        return self._surface.facets()
+        return self._hull.rows()
 
     @property
     def simplices(self) -> IntArray:
@@ -201,13 +202,13 @@ class HullInsertion:
 
     @property
     def inconclusive(self) -> dict[str, int]:
-        """How many tests each stage left open."""
-        return dict(self._sites.inconclusive)
+        """How many tests were exact ties."""
+        return {"exact": self._sites.ties}
 
     def _append(self, array: FloatArray) -> None:
         size = len(self.points)
         self.points = read_only(np.concatenate([self.points, array]))
-        self._sites.extend(array)
+        self._sites.extend(self.points[size:])
         fresh = [p for p in range(size, len(self.points)) if self._is_first(p)]
         if self._spatial:
             fresh = [fresh[k] for k in insertion_order(self.points[fresh]).tolist()]
@@ -227,7 +228,7 @@ class HullInsertion:
         if len(self.start) < 3:
             return
         for facet in self._sites.begin(*self.start):
-            self._surface.add(*facet)
+            self._hull.add(*facet)
             self._near = self._near or facet
         self._waiting = deque(p for p in self._waiting if p not in self.start)
 
@@ -239,9 +240,9 @@ class HullInsertion:
     def _insert(self, point: int) -> tuple[list[Facet], list[Edge]]:
         visible, horizon = self._conflict(point)
         for facet in visible:
-            self._surface.remove(*facet)
+            self._hull.remove(*facet)
         for u, v in horizon:
-            self._surface.add(u, v, point)
+            self._hull.add(u, v, point)
         self._near = (*horizon[-1], point)
         return visible, horizon
 
@@ -250,7 +251,7 @@ class HullInsertion:
 
         No facet is reached twice: a second way to one would close a ring around a vertex and hide it.
         """
-        sees, apex = self._sites.sees, self._surface.apex
+        sees, apex = self._sites.sees, self._hull.apex
         a, b, c = self._locate(p)
         visible, horizon = [(a, b, c)], []
         border = [(c, a), (b, c), (a, b)]
@@ -267,7 +268,7 @@ class HullInsertion:
     def _locate(self, p: int) -> Facet:
         """A facet that p sees: the one in which it lies as seen from the pole, or one at the pole."""
         assert self._near is not None
-        beyond, apex, pole = self._sites.beyond, self._surface.apex, self._sites.pole
+        beyond, apex, pole = self._sites.beyond, self._hull.apex, self._sites.pole
         a, b, c = self._near
         while True:
             if pole in (a, b, c):
@@ -308,24 +309,9 @@ def spanning_points(sites: InsertionSites, distinct: Sequence[int]) -> list[int]
 def insertion_order(points: FloatArray) -> Indices:
     """An order in which neighbours in the list are mostly neighbours in place, so that walks are short.
 
-    Rounds of doubling size, drawn at random with a fixed seed, each along a Morton curve: N. Amenta, S. Choi, G. Rote,
-    "Incremental constructions con BRIO" (2003). Speed alone depends on it.
+    Rounds of doubling size, drawn at random with a fixed seed, each in the order of a k-d tree's leaves: N. Amenta, S.
+    Choi, G. Rote, "Incremental constructions con BRIO" (2003). Speed alone depends on it.
     """
-    places = units(points)[:, :3] if points.shape[1] == 3 else points
     drawn = np.random.default_rng(0).permutation(len(points))
     rounds = np.frexp(drawn + 1.0)[1]
-    return np.lexsort([_morton(places), rounds])
-
-
-def _morton(points: FloatArray) -> LongArray:
-    """Interleaved bits of each point's cell in a grid of 2²⁰ cells a side over the bounding box."""
-    with np.errstate(over="ignore", invalid="ignore"):
-        low, high = points.min(axis=0, initial=np.inf), points.max(axis=0, initial=-np.inf)
-        fractions = (points / 2 - low / 2) / np.maximum((high / 2 - low / 2).max(), np.finfo(float).tiny)
-    # Bit b of every axis in turn: places whose keys begin alike lie in one cell of a coarser grid.
-    cells = (np.nan_to_num(fractions) * (2**20 - 1)).astype(np.int64)
-    keys = np.zeros(len(points), dtype=np.int64)
-    for bit in range(20):
-        for axis in range(points.shape[1]):
-            keys |= ((cells[:, axis] >> bit) & 1) << (points.shape[1] * bit + axis)
-    return keys
+    return np.lexsort([np.argsort(space_of(points).blocks(points, 1)[0]), rounds])

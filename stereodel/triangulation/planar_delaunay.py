@@ -2,18 +2,13 @@
 
 from __future__ import annotations
 
-from typing import ClassVar
-
-import numpy.typing as npt
-
-from stereodel import _kernel
-from stereodel._arrays import FloatArray, as_points, as_vectors
 from stereodel._docs import shared
-from stereodel.triangulation.delaunay import FAMILY, Delaunay
+from stereodel._spaces import PLANE
+from stereodel.triangulation.delaunay import FAMILY, Triangulation
 
 
 @shared(**FAMILY)
-class PlanarDelaunay(Delaunay):
+class PlanarDelaunay(Triangulation, surface=PLANE):
     """Delaunay triangulation of points in the plane: no point lies inside the circumcircle of a triangle.
 
     Parameters
@@ -70,13 +65,3 @@ class PlanarDelaunay(Delaunay):
     >>> print(triangulation.simplices[triangle], outside)
     [1 2 4] -1
     """
-
-    _space: ClassVar = _kernel.plane
-
-    @staticmethod
-    def _as_points(points: npt.ArrayLike, lonlat_door: str) -> FloatArray:
-        return as_points(points, 2, instead="triangulate directions by SphericalDelaunay")
-
-    @staticmethod
-    def _check_queries(queries: npt.ArrayLike) -> FloatArray:
-        return as_vectors(queries, 2, "xy", instead="this triangulation is one of the plane")

@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-import copy
-
 import numpy as np
 import numpy.typing as npt
 
 from stereodel import _kernel
 from stereodel._arrays import FloatArray, Indices, IntArray, as_bounds, as_scalar, locked
 from stereodel._docs import shared
+from stereodel._spaces import PLANE
 from stereodel.triangulation.diagram import FAMILY, Diagram
 from stereodel.triangulation.planar_delaunay import PlanarDelaunay
 
 
 @shared(**FAMILY)
-class PlanarVoronoi(Diagram):
+class PlanarVoronoi(Diagram[PlanarDelaunay], surface=PLANE):
     """Voronoi diagram of points in the plane.
 
     Parameters
@@ -61,21 +60,7 @@ class PlanarVoronoi(Diagram):
     [[-1, 0], [-1, 0], [-1, 0], [-1, 0]]
     """
 
-    def __init__(self, points: npt.ArrayLike | PlanarDelaunay, *, workers: int | None = None) -> None:
-        given = isinstance(points, PlanarDelaunay)
-        triangulation = (
-            copy.copy(points) if isinstance(points, PlanarDelaunay) else PlanarDelaunay(points, workers=workers)
-        )
-        self.points = triangulation.points
-        self._threads = triangulation._thread_count(workers if given else None)
-        self._set_point_region(triangulation.duplicates)
-        if triangulation.dimension == 2:
-            self.vertices = locked(self._set_diagram(triangulation))
-        else:
-            self._set_strips(triangulation._now().flat_order)
-
-    def _set_strips(self, order: IntArray) -> None:
-        """Points on one line."""
+    def _set_flat(self, order: IntArray) -> None:
         self.vertices, self.simplex_vertex = locked(np.zeros((0, 2))), locked(np.zeros(0, dtype=np.int32))
         cells, ridges = _kernel.plane.flat_diagram(self.points, order)
         self._ridges = locked(ridges), locked(np.full_like(ridges, -1))
@@ -167,17 +152,6 @@ class PlanarVoronoi(Diagram):
         whole = np.column_stack([first == start, last == end])[seen]
         ends[whole] = self.vertices[self.ridge_vertices[seen][whole]]
         return ends, seen
-
-    def delaunay(self) -> PlanarDelaunay:
-        """The triangulation, from the topology of the diagram alone, in O(n).
-
-        The sites around a vertex are a triangle, or a polygon whose diagonals the tie rule draws (the height
-        x² + y² + ε lifts the first point most, so it is cut off as an ear): equal to the direct triangulation, row
-        by row: `simplex_vertex` belongs to its `simplices`.
-        """
-        if len(self.vertices) == 0:
-            return PlanarDelaunay(self.points)
-        return PlanarDelaunay._from_simplices(self.points, self._simplices(), self._duplicates())
 
     def _stretch(self, middle: FloatArray, along: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Parameters of both ends of each ridge on its line."""

@@ -1,25 +1,28 @@
 """Point sets as the insertion engine asks them: which facets does a point see, ties decided.
 
 One engine serves plane and sphere. Circles stay circles under stereographic projection, so a planar triangulation is a
-hull whose pole is a ghost vertex, and a hull is a planar triangulation whose pole is one of its own points.
+hull whose pole is a ghost vertex, and a hull is a planar triangulation whose pole is one of its own points. All signs
+are the kernel's, exact; only what decides an exact zero is worked out here.
+
+That is displacement without end, ordered by the points themselves (H. Edelsbrunner, E. P. Mücke, "Simulation of
+simplicity", ACM Transactions on Graphics 9 (1990), with this order in place of the indices). Plane: the heights x² + y²
+grow by ε, the more the earlier the point stands in lexicographic order. Sphere: directions move outward, p̂(1 + ε), in
+the same way; four points of a great circle, which that does not separate, take second, smaller displacements along x,
+then y, then z. A zero is therefore decided by the first point, in that order, whose cofactor is not zero. No order of
+input changes a triangulation, and points in strictly convex position stay so: nothing is hidden, no zero is left.
 """
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Callable, Hashable, Iterator
+from collections.abc import Hashable
+from fractions import Fraction
+from functools import cmp_to_key
+from typing import Any
+
+import numpy as np
 
 from stereodel._arrays import FloatArray
-from stereodel.predicates.integers import to_integers
-from stereodel.predicates.plane import (
-    filter_coordinates,
-    incircle_filter,
-    incircle_integer,
-    orient2d_filter,
-    orient2d_integer,
-)
-from stereodel.predicates.rays import Ray, bubble_filter, bubble_ray, ray, turn_ray, units
-from stereodel.predicates.ties import Point, bubble_tie, incircle_tie
+from stereodel._spaces import PLANE, SPHERE, PlaneOrSphere
 from stereodel.triangulation.topology import Facet
 
 GHOST = -1
@@ -31,47 +34,54 @@ class _Sites:
 
     keys: one hashable value for each point, equal exactly for equal points.
     pole: vertex from which the surface is seen as a planar triangulation.
-    inconclusive: counts of "filter", tests that floating point left open, and "exact", ties that displacement decided.
+    ties: how many exact zeros displacement has decided.
     """
 
-    keys: list[Hashable]
     pole: int
-    _exact_signs: Callable[..., Iterator[int]]
-    """The exact sign of the sidedness test of four points, then that after displacement, each made when asked."""
+    _kernel: Any
 
     def __init__(self) -> None:
-        self.keys = []
-        self.inconclusive: Counter[str] = Counter(filter=0, exact=0)
+        self.keys: list[Any] = []
+        self.ties = 0
+        self._rows: list[FloatArray] = []
 
-    def _is_inside(self, value: float, bound: float, *four: int) -> bool:
-        """Whether the sidedness test of four points is positive: by its value in doubles if that exceeds the bound."""
-        if abs(value) > bound:
-            return value > 0
-        self.inconclusive["filter"] += 1
-        signs = self._exact_signs(*four)
-        sign = next(signs)
+    def extend(self, points: FloatArray) -> None:
+        """Append points (k, width), which nobody changes."""
+        self._rows += [points[k : k + 1] for k in range(len(points))]
+        self.keys += map(self._key, points.tolist())
+
+    def turn(self, a: int, b: int, c: int) -> int:
+        """Orientation of three points, exactly; 0 on one line or great circle."""
+        rows = self._rows
+        return int(self._kernel.turn(rows[a], rows[b], rows[c])[0])
+
+    def _is_inside(self, a: int, b: int, c: int, p: int) -> bool:
+        """Whether p lies in the circle of a b c, after displacement if it lies on it."""
+        rows = self._rows
+        sign = int(self._kernel.in_circle(rows[a], rows[b], rows[c], rows[p])[0])
         if sign == 0:
-            self.inconclusive["exact"] += 1
-            sign = next(signs)
+            self.ties += 1
+            four = a, b, c, p
+            first = four.index(min(four, key=cmp_to_key(self._compare)))
+            sign = (-1) ** first * self._tie(*four[:first], *four[first + 1 :])
         return sign > 0
+
+    def _key(self, point: list[float]) -> Hashable:
+        raise NotImplementedError
+
+    def _compare(self, a: int, b: int) -> int:
+        """The order of displacement: negative where a comes before b."""
+        raise NotImplementedError
+
+    def _tie(self, a: int, b: int, c: int) -> int:
+        """Sign of the cofactor of the point before the three others of a circle, were it the first of the four."""
+        raise NotImplementedError
 
 
 class PlaneSites(_Sites):
     """Points of the plane; the pole is the ghost, takes part in no displacement and wins every tie."""
 
-    pole = GHOST
-
-    def __init__(self) -> None:
-        super().__init__()
-        self._floats: list[tuple[float, ...]] = []
-        self._coordinates: list[float] = []
-        self._integers: list[Point] = []
-
-    def extend(self, points: FloatArray) -> None:
-        """Append points (k, 2)."""
-        self._floats += map(tuple, filter_coordinates(points).tolist())
-        self._coordinates += points.ravel().tolist()
-        self.keys += map(tuple, (points + 0.0).tolist())  # −0 becomes 0
+    pole, _kernel = GHOST, PLANE.kernel
 
     def begin(self, a: int, b: int, c: int) -> list[Facet]:
         """The first surface, of three points that `turn`: the triangle, and a ghost facet beyond each of its edges."""
@@ -87,65 +97,39 @@ class PlaneSites(_Sites):
             return self._sees_edge(b, c, p)
         if b == GHOST:
             return self._sees_edge(c, a, p)
-        floats = self._floats
-        value, bound = incircle_filter(floats[a], floats[b], floats[c], floats[p])
-        return self._is_inside(value, bound, a, b, c, p)
-
-    def _exact_signs(self, *four: int) -> Iterator[int]:
-        points = [self._exact()[i] for i in four]
-        yield incircle_integer(*points)
-        yield incircle_tie(*points)
+        return self._is_inside(a, b, c, p)
 
     def _sees_edge(self, u: int, v: int, p: int) -> bool:
         sign = self.turn(u, v, p)
         if sign == 0:
-            self.inconclusive["exact"] += 1
-            low, middle, high = (self._coordinates[2 * i : 2 * i + 2] for i in (u, p, v))
-            return low < middle < high or high < middle < low
+            self.ties += 1
+            low, middle, high = (self.keys[i] for i in (u, p, v))
+            return bool(low < middle < high or high < middle < low)
         return sign > 0
 
     def beyond(self, u: int, v: int, p: int) -> bool:
         """Whether p lies strictly to the right of the edge u → v: the ghost takes part in no displacement."""
         return self.turn(v, u, p) > 0
 
-    def turn(self, a: int, b: int, c: int) -> int:
-        """Orientation of three points, exactly; 0 on one line."""
-        floats = self._floats
-        value, bound = orient2d_filter(floats[a], floats[b], floats[c])
-        if value > bound:
-            return 1
-        if value < -bound:
-            return -1
-        self.inconclusive["filter"] += 1
-        points = self._exact()
-        return orient2d_integer(points[a], points[b], points[c])
-
     def independent(self, a: int, b: int) -> bool:
         """Two distinct points always span a line."""
         return True
 
-    def _exact(self) -> list[Point]:
-        """All points as integers of one scale, made when first needed."""
-        if 2 * len(self._integers) != len(self._coordinates):
-            flat = to_integers(self._coordinates)
-            self._integers = list(zip(flat[::2], flat[1::2], strict=True))
-        return self._integers
+    def _key(self, point: list[float]) -> Hashable:
+        return point[0] + 0.0, point[1] + 0.0  # −0 becomes 0
+
+    def _compare(self, a: int, b: int) -> int:
+        return (self.keys[a] > self.keys[b]) - (self.keys[a] < self.keys[b])
+
+    def _tie(self, a: int, b: int, c: int) -> int:
+        # Three points of a circle are not collinear: the first point always decides.
+        return self.turn(a, b, c)
 
 
 class RaySites(_Sites):
     """Directions; the pole is the first vertex of the first surface."""
 
-    def __init__(self) -> None:
-        super().__init__()
-        self._units: list[tuple[float, ...]] = []
-        self._rays: list[Ray] = []
-
-    def extend(self, points: FloatArray) -> None:
-        """Append non-zero vectors (k, 3)."""
-        self._units += map(tuple, units(points).tolist())
-        rays = [ray(vector) for vector in points.tolist()]
-        self._rays += rays
-        self.keys += rays
+    _kernel = SPHERE.kernel
 
     def begin(self, a: int, b: int, c: int) -> list[Facet]:
         """The first surface, the triangle from both sides: any further point, displaced, sees exactly one of them."""
@@ -154,26 +138,36 @@ class RaySites(_Sites):
 
     def sees(self, a: int, b: int, c: int, p: int) -> bool:
         """Whether p sees the facet from outside: whether it lies in its bubble."""
-        four = self._units
-        value, bound = bubble_filter(four[a], four[b], four[c], four[p])
-        return self._is_inside(value, bound, a, b, c, p)
-
-    def _exact_signs(self, *four: int) -> Iterator[int]:
-        rays = [self._rays[i] for i in four]
-        yield bubble_ray(*rays)
-        yield bubble_tie(*rays)
+        return self._is_inside(a, b, c, p)
 
     def beyond(self, u: int, v: int, p: int) -> bool:
         """Whether p is beyond an edge, seen from the pole: would see the facet that joins it, reversed, to the pole."""
         return self.sees(v, u, self.pole, p)
 
-    def turn(self, a: int, b: int, c: int) -> int:
-        """Orientation of three directions, exactly; 0 on one great circle."""
-        return turn_ray(self._rays[a], self._rays[b], self._rays[c])
-
     def independent(self, a: int, b: int) -> bool:
         """Whether two different directions are not opposite."""
-        return self._rays[a][:3] != tuple(-x for x in self._rays[b][:3])
+        return bool(self.keys[a] != tuple(-x for x in self.keys[b]))
+
+    def _key(self, point: list[float]) -> Hashable:
+        largest = Fraction(max(map(abs, point)))
+        return tuple(Fraction(x) / largest for x in point)
+
+    def _compare(self, a: int, b: int) -> int:
+        return int(self._kernel.compare(self._rows[a], self._rows[b])[0])
+
+    def _tie(self, a: int, b: int, c: int) -> int:
+        # The test is minus the determinant with rows (x̂, ŷ, ẑ, 1); moving p̂ to p̂(1 + ε) is, up to a positive factor of
+        # its row, moving the 1 to 1 − ε. Three points of a small circle are independent, so the first point decides.
+        if sign := -self.turn(a, b, c):
+            return sign
+        # On a great circle the cofactor of column k is, up to (−1)^k, the area of the triangle of the others seen along
+        # axis k: the normal's component, on the side from which they are counterclockwise. In the bubble of the three
+        # on that side the direction of the axis lies where that is positive.
+        for axis in np.eye(3)[:, None]:
+            if sign := -int(self._kernel.in_circle(*(self._rows[i] for i in (a, b, c)), axis)[0]):
+                return sign
+        raise ArithmeticError("three of the four directions are the same")
 
 
 InsertionSites = PlaneSites | RaySites
+SITES: dict[PlaneOrSphere, type[PlaneSites | RaySites]] = {PLANE: PlaneSites, SPHERE: RaySites}

@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
-from typing import ClassVar, cast
+from typing import cast
 
 import numpy.typing as npt
 
-from stereodel import _kernel
-from stereodel._arrays import BoolArray, FloatArray, as_directions
+from stereodel._arrays import BoolArray, FloatArray
 from stereodel._calls import by_name
 from stereodel._docs import shared
+from stereodel._spaces import SPHERE
 from stereodel.sphere.latitudes import Latitude
 from stereodel.sphere.lonlat import IN_ROWS, LONLAT, as_sites, as_told
-from stereodel.triangulation.delaunay import FAMILY, Delaunay
+from stereodel.triangulation.delaunay import FAMILY, Triangulation
 
 
 @shared(**FAMILY)
-class SphericalDelaunay(Delaunay):
+class SphericalDelaunay(Triangulation, surface=SPHERE):
     """Delaunay triangulation of points on the sphere: the outer bubble of each triangle is empty.
 
     Parameters
@@ -87,8 +87,6 @@ class SphericalDelaunay(Delaunay):
     [False, True]
     """
 
-    _space: ClassVar = _kernel.sphere
-
     @classmethod
     @by_name(IN_ROWS)
     @shared(**LONLAT)
@@ -147,11 +145,3 @@ class SphericalDelaunay(Delaunay):
     def closing(self) -> BoolArray:
         """Facets whose empty bubble is a hemisphere or more, (m,)."""
         return cast("BoolArray", self._now().closing)
-
-    @staticmethod
-    def _as_points(points: npt.ArrayLike, lonlat_door: str) -> FloatArray:
-        return as_directions(points, "points", points=True, instead=f"for longitude and latitude use {lonlat_door}")
-
-    @staticmethod
-    def _check_queries(queries: npt.ArrayLike) -> FloatArray:
-        return as_directions(queries, "xyz", instead="for longitude and latitude write lonlat=…")

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import copy
-
 import numpy as np
 import numpy.typing as npt
 
@@ -11,6 +9,7 @@ from stereodel import _kernel
 from stereodel._arrays import FloatArray, IntArray, as_scalar, locked
 from stereodel._calls import by_name
 from stereodel._docs import shared
+from stereodel._spaces import SPHERE
 from stereodel.sphere import SphereArc, SphereCircle
 from stereodel.sphere.latitudes import Latitude
 from stereodel.sphere.lonlat import IN_ROWS, LONLAT, as_told
@@ -19,7 +18,7 @@ from stereodel.triangulation.spherical_delaunay import SphericalDelaunay
 
 
 @shared(**FAMILY)
-class SphericalVoronoi(Diagram):
+class SphericalVoronoi(Diagram[SphericalDelaunay], surface=SPHERE):
     """Voronoi diagram of points on the sphere.
 
     Parameters
@@ -76,22 +75,6 @@ class SphericalVoronoi(Diagram):
     [0.66666667 0.66666667 0.66666667 0.66666667 0.66666667 0.66666667]
     """
 
-    def __init__(self, points: npt.ArrayLike | SphericalDelaunay, *, workers: int | None = None) -> None:
-        given = isinstance(points, SphericalDelaunay)
-        if isinstance(points, SphericalDelaunay):
-            triangulation = copy.copy(points)
-        else:
-            checked = SphericalDelaunay._as_points(points, "SphericalVoronoi.from_lonlat")
-            triangulation = SphericalDelaunay(checked, workers=workers)
-        self.points, self.latitude = triangulation.points, triangulation.latitude
-        self._dimension = triangulation.dimension
-        self._threads = triangulation._thread_count(workers if given else None)
-        self._set_point_region(triangulation.duplicates)
-        if triangulation.dimension == 2:
-            self._set_vertices(self._set_diagram(triangulation))
-        else:
-            self._set_circle(triangulation._now().flat_order)
-
     @classmethod
     @by_name(IN_ROWS)
     @shared(**LONLAT)
@@ -139,8 +122,7 @@ class SphericalVoronoi(Diagram):
         """Longitude and latitude of `vertices`, (v, 2) in degrees, if the points were given by them."""
         return as_told(self.vertices, self.latitude)
 
-    def _set_circle(self, order: IntArray) -> None:
-        """No triangles: two points or more on one great circle, or fewer than two."""
+    def _set_flat(self, order: IntArray) -> None:
         self._order = order
         self.simplex_vertex = locked(np.zeros(0, dtype=np.int32))
         cells, vertices = _kernel.sphere.flat_diagram(self.points, order)
@@ -216,16 +198,3 @@ class SphericalVoronoi(Diagram):
         angles = np.maximum(angles, np.finfo(np.float64).tiny)
         rows = zip(self.ridge_normals(), starts, ends, angles.tolist(), strict=True)
         return [SphereArc(SphereCircle(n, 0.0), a, b, angle) for n, a, b, angle in rows]
-
-    def delaunay(self) -> SphericalDelaunay:
-        """The triangulation, from the topology of the diagram alone, in O(n).
-
-        The sites around a vertex are a triangle, or a polygon whose diagonals the tie rule draws: equal to the direct
-        triangulation, row by row: `simplex_vertex` belongs to its `simplices`.
-        """
-        if self._dimension < 2:
-            triangulation = SphericalDelaunay(self.points)
-        else:
-            triangulation = SphericalDelaunay._from_simplices(self.points, self._simplices(), self._duplicates())
-        triangulation._latitude = self.latitude
-        return triangulation

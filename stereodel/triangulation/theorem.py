@@ -21,7 +21,6 @@ import numpy.typing as npt
 
 from stereodel._arrays import FloatArray, IntArray, as_directions, as_points
 from stereodel._double_double import two_prod, two_sum
-from stereodel._spaces import space_of
 from stereodel.predicates import in_bubble
 from stereodel.triangulation.diagram import polygons
 from stereodel.triangulation.planar_delaunay import PlanarDelaunay
@@ -125,8 +124,8 @@ def merged_polygons(
     chosen = triangulation.simplices if simplices is None else np.asarray(simplices, dtype=np.int32).reshape(-1, 3)
     if len(chosen) == 0:
         return frozenset()
-    points = triangulation.points
-    offsets, vertices, across, _, vertex, *_ = space_of(points).voronoi(points, chosen, neighbors_of(chosen))
+    found = triangulation.surface.kernel.voronoi(triangulation.points, chosen, neighbors_of(chosen))
+    offsets, vertices, across, _, vertex, *_ = found
     return frozenset(map(tuple, polygons(offsets, vertices, across, int(vertex.max()) + 1)))
 
 

@@ -10,7 +10,7 @@ Facet = tuple[int, int, int]
 Edge = tuple[int, int]
 
 
-class Surface:
+class Facets:
     """A closed oriented surface of triangles that can be taken apart and put together.
 
     Each directed edge u → v belongs to one facet, u v w counterclockwise; `apex` maps it to w. The facet across the
@@ -32,7 +32,7 @@ class Surface:
         """Take out the facet u v w."""
         del self.apex[u, v], self.apex[v, w], self.apex[w, u]
 
-    def facets(self) -> IntArray:
+    def rows(self) -> IntArray:
         """All facets in canonical order, (m, 3); a ghost vertex, -1, comes first in its rows."""
         rows = [(u, v, w) for (u, v), w in self.apex.items() if u < v and u < w]
         return as_rows(sorted(rows), 3)

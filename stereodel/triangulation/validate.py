@@ -23,7 +23,7 @@ from typing import Any, Literal
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import BoolArray, FloatArray, LongArray, SignArray, as_directions, as_points
+from stereodel._arrays import BoolArray, FloatArray, LongArray, SignArray, as_plane_or_sphere
 from stereodel.triangulation.validate_mesh import (
     InvalidTriangulation,
     Mesh,
@@ -116,30 +116,23 @@ def check_delaunay(
         duplicates = getattr(points, "duplicates", None) if duplicates is None else duplicates
         neighbors = getattr(points, "neighbors", None) if neighbors is None else neighbors
         simplices, points = points.simplices, points.points
-    array, surface = _as_surface(points)
+    array = as_plane_or_sphere(points)
     kept_by = first_occurrences(array)
     _check_duplicates(kept_by, duplicates)
     kept = np.flatnonzero(kept_by == np.arange(len(array)))
     triangles = as_simplices(simplices, len(array))
-    signs = PlaneSigns(array) if surface == "plane" else SphereSigns(array)
+    signs = SphereSigns(array) if array.shape[1] == 3 else PlaneSigns(array)
+    edges = ties = 0
     if len(triangles) == 0:
         _check_flat(signs, kept)
-        return DelaunayCertificate(surface, len(kept), len(array) - len(kept), 0, 0, 0, signs.exact_tests)
-    mesh = build_mesh(triangles, len(array))
-    if neighbors is not None:
-        check_neighbors(mesh, neighbors)
-    ties = _check_plane(mesh, signs, kept) if isinstance(signs, PlaneSigns) else _check_sphere(mesh, signs, kept)
-    edges = len(mesh.inner) + len(mesh.boundary)
-    return DelaunayCertificate(
-        surface, len(kept), len(array) - len(kept), len(triangles), edges, ties, signs.exact_tests
-    )
-
-
-def _as_surface(points: Any) -> tuple[FloatArray, Literal["plane", "sphere"]]:
-    shape = np.shape(points)
-    if len(shape) == 2 and shape[1] == 3:
-        return as_directions(points, "points", points=True), "sphere"
-    return as_points(points, 2), "plane"
+    else:
+        mesh = build_mesh(triangles, len(array))
+        if neighbors is not None:
+            check_neighbors(mesh, neighbors)
+        ties = _check_plane(mesh, signs, kept) if isinstance(signs, PlaneSigns) else _check_sphere(mesh, signs, kept)
+        edges = len(mesh.inner) + len(mesh.boundary)
+    counts = len(kept), len(array) - len(kept), len(triangles), edges, ties
+    return DelaunayCertificate(signs.surface, *counts, signs.exact_tests)
 
 
 def first_occurrences(points: FloatArray) -> LongArray:
@@ -149,15 +142,14 @@ def first_occurrences(points: FloatArray) -> LongArray:
     keys. Different directions with one key (closer than half an ulp) are distinguished by integers.
     """
     # Equal keys stand next to each other when sorted, by index within a key (the sort is stable): all take the first.
-    keys = points + 0.0  # −0 becomes 0
-    if points.shape[1] == 3:
-        keys = points / np.abs(points).max(axis=1, keepdims=True) + 0.0
+    in_space = points.shape[1] == 3
+    keys = (points / np.abs(points).max(axis=1, keepdims=True) if in_space else points) + 0.0  # −0 becomes 0
     order = np.lexsort(keys.T[::-1])
     starts = np.ones(len(points), dtype=bool)
     starts[1:] = (keys[order[1:]] != keys[order[:-1]]).any(axis=1)
     kept = np.empty(len(points), dtype=np.int64)
     kept[order] = order[np.maximum.accumulate(np.where(starts, np.arange(len(points)), 0))]
-    if points.shape[1] == 3:
+    if in_space:
         _tell_apart(points, kept)
     return kept
 
@@ -177,7 +169,7 @@ def _check_duplicates(kept_by: LongArray, duplicates: npt.ArrayLike | None) -> N
     dropped = np.flatnonzero(kept_by != np.arange(len(kept_by)))
     expected = {(int(i), int(kept_by[i])) for i in dropped}
     rows = np.asarray(duplicates)
-    if rows.shape != (0,) and (rows.ndim != 2 or rows.shape[1] != 2):
+    if rows.shape != (0,) and rows.shape[1:] != (2,):
         raise InvalidTriangulation(f"duplicates must have shape (k, 2), got {rows.shape}")
     given = {(int(i), int(k)) for i, k in rows.reshape(-1, 2)}
     if given - expected:

@@ -53,7 +53,7 @@ def as_simplices(simplices: npt.ArrayLike, size: int) -> LongArray:
     array = np.asarray(simplices)
     if array.shape in ((0,), (0, 3)):
         return np.zeros((0, 3), dtype=np.int64)
-    if array.ndim != 2 or array.shape[1] != 3:
+    if array.shape[1:] != (3,):
         raise InvalidTriangulation(f"simplices must have shape (m, 3), got {array.shape}")
     if array.dtype.kind not in "iu":
         raise InvalidTriangulation(f"simplices must hold integers, not {array.dtype}")

@@ -6,7 +6,7 @@ few in general position and all of them in sets full of ties; both stages are ve
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 
@@ -23,6 +23,8 @@ _RADIAL_BOUND = 300 * UNIT_ROUNDOFF**2
 
 class PlaneSigns:
     """Orientation and incircle signs of points (n, 2) of the plane, given by their numbers."""
+
+    surface: Final = "plane"
 
     def __init__(self, points: FloatArray) -> None:
         self.points = points
@@ -94,6 +96,8 @@ def _circle_integers(p: BigIntegers) -> SignArray:
 
 class SphereSigns:
     """Signs on the exact rays through points (n, 3) of space, of any length but zero, given by their numbers."""
+
+    surface: Final = "sphere"
 
     def __init__(self, points: FloatArray) -> None:
         self.points = points

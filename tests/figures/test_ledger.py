@@ -1,6 +1,5 @@
 """Claims about algorithms, and the words "only" and "completely determined" (rows P3, P5, P6 and P23 to P25)."""
 
-from collections import Counter
 from fractions import Fraction
 
 import numpy as np
@@ -10,9 +9,8 @@ from hypothesis import strategies as st
 from mpmath import mp, mpf, workdps
 
 from stereodel import Gnomonic, MoebiusMap, Stereographic, fisheye, lonlat_to_xyz
+from stereodel import _kernel_probe as probe
 from stereodel.conformal import three_points
-from stereodel.predicates.plane import filter_coordinates, incircle_filter, orient2d_filter
-from stereodel.predicates.rays import bubble_filter, units
 from stereodel.sphere import SphereCircle, angular_distance, great_circle_points
 from stereodel.triangulation import (
     HullInsertion,
@@ -25,6 +23,7 @@ from stereodel.triangulation import (
 from stereodel.triangulation.sites import GHOST, PlaneSites, RaySites
 from tests import sets
 from tests.figures.scripts import script
+from tests.kernel.stages import OPEN
 
 
 def triangles(simplices):
@@ -80,46 +79,37 @@ def bubble(*four):
     return mp.det(mp.matrix([[x - y for x, y in zip(v, a, strict=True)] for v in others]))
 
 
+def open_in_doubles(predicate, points, numbers):
+    """Which of the tests of four points by number the kernel's filter leaves open."""
+    rows = np.array(numbers, dtype=int).reshape(-1, 4)
+    return rows[predicate(*points[rows.T], stage="filter") == OPEN]
+
+
 @pytest.mark.parametrize("rays", sets.named("sphere", "unit", "three close", "cube", "a rounding and 8 far"))
-def test_the_engine_counts_what_floating_point_leaves_open_on_the_sphere(monkeypatch, rays):
+def test_the_engine_counts_exact_ties_on_the_sphere(monkeypatch, rays):
     points, asked = rays.drawn(33), recorded(monkeypatch, RaySites, "sees")
     engine = HullInsertion(points)
     engine.run()
-    unit = [tuple(row) for row in units(points).tolist()]
-    left_open = []
-    for four in asked:
-        value, bound = bubble_filter(*(unit[i] for i in four))
-        if abs(value) <= bound:
-            left_open.append(four)
+    left_open = open_in_doubles(probe.bubble, points, asked)
     with workdps(120):
-        ties = sum(abs(bubble(*points[list(four)])) < mpf("1e-100") for four in left_open)
-    assert engine.inconclusive == {"filter": len(left_open), "exact": ties}
-    assert left_open or rays.traits & {"random"}
+        ties = sum(abs(bubble(*points[four])) < mpf("1e-100") for four in left_open)
+    assert engine.inconclusive == {"exact": ties}
+    assert len(left_open) or rays.traits & {"random"}
     assert ties > 0 or not rays.traits & {"ties"}
 
 
 @pytest.mark.parametrize("sites", sets.named("plane", "random", "small grid", "cluster", "needles"))
-def test_the_engine_counts_what_floating_point_leaves_open_in_the_plane(monkeypatch, sites):
+def test_the_engine_counts_exact_ties_in_the_plane(monkeypatch, sites):
     points = sites.drawn(40)
-    circles, turns = recorded(monkeypatch, PlaneSites, "sees"), recorded(monkeypatch, PlaneSites, "turn")
-    edges = recorded(monkeypatch, PlaneSites, "_sees_edge")
+    asked, edges = recorded(monkeypatch, PlaneSites, "sees"), recorded(monkeypatch, PlaneSites, "_sees_edge")
     engine = HullInsertion(points)
     engine.run()
-    filtered = [tuple(row) for row in filter_coordinates(points).tolist()]
     exact = [tuple(map(Fraction, row)) for row in points.tolist()]
-    expected = Counter(filter=0, exact=0)
-    for numbers, test, truth in (
-        *((four, incircle_filter, incircle) for four in circles if GHOST not in four),
-        *((three, orient2d_filter, orientation) for three in turns),
-    ):
-        value, bound = test(*(filtered[i] for i in numbers))
-        if abs(value) <= bound:
-            expected["filter"] += 1
-            expected["exact"] += test is incircle_filter and truth(*(exact[i] for i in numbers)) == 0
-    expected["exact"] += sum(orientation(*(exact[i] for i in three)) == 0 for three in edges)
-    assert engine.inconclusive == expected
-    assert expected["filter"] > 0
-    assert (expected["exact"] > 0) == ("ties" in sites.traits)
+    circles = open_in_doubles(probe.incircle, points, [four for four in asked if GHOST not in four])
+    ties = sum(incircle(*(exact[i] for i in four)) == 0 for four in circles)
+    ties += sum(orientation(*(exact[i] for i in three)) == 0 for three in edges)
+    assert engine.inconclusive == {"exact": ties}
+    assert (ties > 0) == ("ties" in sites.traits)
 
 
 def orientation(a, b, c):
@@ -146,8 +136,8 @@ def test_curvature_decides_the_exact_sign_in_a_flat_region(size):
         angle = rng.uniform(0, 2 * np.pi, size=(4, 1))
         fours.append(axis + size * (np.cos(angle) * u + np.sin(angle) * v))
     for four in fours:
-        value, bound = bubble_filter(*(tuple(row) for row in units(four).tolist()))
-        decided.append(np.sign(value) if abs(value) > bound else 0)
+        sign = probe.bubble(*four[:, None], stage="filter")[0]
+        decided.append(0 if sign == OPEN else sign)
         a, *others = four / np.linalg.norm(four, axis=1)[:, None]
         plain.append(np.sign(np.linalg.det(np.array(others) - a)))
         with workdps(120):

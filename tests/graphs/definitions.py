@@ -7,8 +7,7 @@ from itertools import combinations
 
 import numpy as np
 
-from stereodel.predicates.integers import sign, sign_of_roots
-from stereodel.predicates.rays import compare_directions, ray
+from tests.reference import compare_directions, ray, sign, sign_of_roots
 from tests.spaces import dot
 
 

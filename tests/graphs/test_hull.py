@@ -9,10 +9,10 @@ from hypothesis import strategies as st
 
 from stereodel import orient2d
 from stereodel.graphs import hull
-from stereodel.predicates.rays import ray, turn_ray
 from tests import sets
 from tests.exact import cross
 from tests.examples import examples
+from tests.reference import ray, turn_ray
 from tests.spaces import BOTH, PLANE, SPHERE, dot
 
 

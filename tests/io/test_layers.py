@@ -1,6 +1,7 @@
-"""Layers of maps: what frames hold comes through Arrow into every file, and progress is told truly."""
+"""Rows of maps: what frames hold comes through Arrow into every file, names that are taken, progress, binary."""
 
 import io
+import warnings
 
 import geopandas
 import numpy as np
@@ -9,10 +10,13 @@ import pyogrio
 import pytest
 import shapely
 
-from stereodel import SphericalVoronoi
-from stereodel.io import from_geodataframe, read_points, to_geodataframe, write
+from stereodel import PlanarVoronoi, SphericalVoronoi
+from stereodel.curves.ragged import Ragged
+from stereodel.io import PointTable, RenamedColumnWarning, from_geodataframe, read_points, to_geodataframe, write
 from stereodel.io.formats import map_rows as module
+from stereodel.io.formats import wkb
 from stereodel.io.formats.map_rows import MapRows
+from stereodel.io.rows_of import rows_of
 
 POINTS = geopandas.points_from_xy([10.0, -78.5, 135.8], [48.4, -0.2, 35.0])
 
@@ -110,13 +114,123 @@ def test_cells_are_the_same_in_blocks_of_any_size(monkeypatch):
     monkeypatch.setattr("stereodel.io.maps.tiles.BLOCK", 5)
     monkeypatch.setattr("stereodel.io.maps.tiles.thread_count", lambda workers, size: 3)
     write(io.BytesIO(), diagram, format="geojson")
-    found = module.unpacked(tiles_of(diagram, lambda *said: told.append(said)))
+    found = module.unpacked(rows_of(diagram, progress=lambda *said: told.append(said)).binary)
     assert shapely.equals_identical(found, np.asarray(expected.geometry)).all()
     assert told[-1][1] == told[-1][2] == len(told)
     assert told == sorted(told)
 
 
-def tiles_of(diagram, progress):
-    from stereodel.io.maps.rows_of import rows_of
+# Names that are taken
 
-    return rows_of(diagram, progress=progress).binary
+LONLAT = np.array([[10.0, 48.4], [-78.5, -0.2], [135.8, 35.0], [115.9, -32.0]])
+TAKEN = {
+    "lon": [99.0, 98.0, 97.0, 96.0],
+    "lon_1": [9, 9, 9, 7],
+    "LAT": [88.0, 87.0, 86.0, 85.0],
+    "area": [1, 2, 3, 4],
+    "point": [5, 6, 7, 8],
+    "geometry": ["a", "b", "c", "d"],
+    "fid": [4, 4, 4, 4],
+    "geom": [1, 1, 1, 2],
+    "name": ["Ulm", "Quito", "Kyoto", "Perth"],
+    "Name": ["U", "Q", "K", "P"],
+}
+FORMATS = ("csv", "geojson", "geojsonl", "parquet", "gpkg", "fgb")
+
+
+def kept(columns):
+    """What columns hold, whatever they are called: no name, no order, no type."""
+    return sorted(sorted(map(plain, np.asarray(values).tolist())) for values in columns.values())
+
+
+def plain(value):
+    """A value as text, whole numbers without a fraction."""
+    return f"{value:g}" if isinstance(value, int | float) else str(value)
+
+
+@pytest.mark.parametrize("kind", FORMATS)
+def test_tables_keep_their_places_and_columns(tmp_path, kind):
+    path = tmp_path / f"table.{kind}"
+    for columns in (TAKEN, *({name: values} for name, values in TAKEN.items() if kind in ("gpkg", "csv"))):
+        table = PointTable(LONLAT, columns)
+        with warnings.catch_warnings(record=True) as said:
+            warnings.simplefilter("always")
+            write(path, table)
+        found = read_points(path, **({"lon": "lon", "lat": "lat"} if kind == "csv" else {}))
+        order = np.argsort(found.lonlat[:, 0])  # FlatGeobuf has its own
+        assert np.array_equal(found.lonlat[order], LONLAT[np.argsort(LONLAT[:, 0])])
+        assert kept(found.columns) == kept(table.columns)
+        assert any(each.category is RenamedColumnWarning for each in said) == (list(found.columns) != list(columns))
+
+
+@pytest.mark.parametrize("kind", FORMATS)
+def test_cells_keep_everything(tmp_path, kind):
+    path = tmp_path / f"cells.{kind}"
+    diagram = SphericalVoronoi.from_lonlat(LONLAT)
+    with pytest.warns(RenamedColumnWarning):
+        write(path, diagram, columns=TAKEN)
+    read = {"csv": lambda path: read_points(path).columns, "parquet": geopandas.read_parquet}
+    found = read.get(kind, geopandas.read_file)(path)
+    columns = {key: np.asarray(found[key]) for key in found if kind == "csv" or key != "geometry"}
+    assert np.allclose(np.sort(columns["area"]), np.sort(diagram.areas()), rtol=1e-12)
+    for values in TAKEN.values():
+        assert sorted(map(plain, values)) in kept(columns)
+
+
+def test_cells_of_the_plane_keep_their_coordinates(tmp_path):
+    diagram = PlanarVoronoi([[0, 0], [4, 0], [0, 4], [4, 4.5]])
+    with pytest.warns(RenamedColumnWarning, match="'x' is written as 'x_1' and 'area' as 'area_1'"):
+        write(tmp_path / "cells.csv", diagram, columns={"x": [7, 7, 7, 7], "area": [8, 8, 8, 8]})
+    found = (tmp_path / "cells.csv").read_text(encoding="utf-8").splitlines()
+    assert found[0] == "x,y,area,x_1,area_1"
+    assert found[2].startswith("4,0.0,")
+
+
+def test_shapefiles_say_which_names_they_cut(tmp_path):
+    table = PointTable(LONLAT, {"a_very_long_name": [1, 2, 3, 4], "a_very_long_name_too": [5, 6, 7, 8]})
+    with pytest.warns(RenamedColumnWarning, match="as long as the format allows"):
+        write(tmp_path / "table.shp", table)
+    assert kept(read_points(tmp_path / "table.shp").columns) == kept(table.columns)
+
+
+# Well-known binary
+
+RNG = np.random.default_rng(3)
+LINE = shapely.LineString([(0, 0), (1, 1)])
+PARTS = [shapely.Point(1, 2), LINE, shapely.box(0, 0, 1, 1)]
+WHOLES = [shapely.MultiPoint(PARTS[:1]), shapely.MultiLineString([LINE]), shapely.MultiPolygon(PARTS[2:])]
+
+
+def binary(geometries):
+    return np.asarray(shapely.to_wkb(geometries, byte_order=1, flavor="iso"), dtype=object)
+
+
+def test_points_and_polygons_are_written_as_by_shapely():
+    places = np.concatenate([RNG.normal(size=(20, 2)) * 1e3, [[-0.0, 1e-310]]])
+    assert wkb.points(places).tolist() == binary(shapely.points(places)).tolist()
+    assert wkb.points(places[:0]).shape == (0,)
+    rings = Ragged.of([RNG.normal(size=(size, 2)) for size in (3, 5, 4, 3)])
+    assert wkb.polygons(rings).tolist() == binary([shapely.Polygon(ring) for ring in rings]).tolist()
+
+
+def test_points_of_any_length_are_read_and_other_geometries_refused_with_their_row():
+    places = RNG.normal(size=(3, 2))
+    cells = [*wkb.points(places[:1]), *binary(shapely.points(np.column_stack([places, places[:, :1]])))[1:]]
+
+    def read(cells):
+        return wkb.xy(np.frombuffer(b"".join(cells), np.uint8), np.cumsum([0, *map(len, cells)]), range(11, 15))
+
+    assert np.array_equal(read(cells), places)
+    for other in (binary([LINE])[0], b"\1\1\0\0", bytes([0, 0, 0, 0, 1]) + bytes(16)):
+        with pytest.raises(ValueError, match="row 13: a Point is needed"):
+            read([*cells[:2], other])
+
+
+def test_kinds_and_parts_are_those_of_shapely():
+    cells = np.array([*binary([*PARTS, *WHOLES, shapely.Point(1, 2, 3)]), None], dtype=object)
+    names = ["Point", "LineString", "Polygon", "MultiPoint", "MultiLineString", "MultiPolygon", "Point Z"]
+    assert wkb.kinds(cells) == names
+    assert wkb.is_there(cells).tolist() == [True] * 7 + [False]
+    *found, nothing = wkb.several(cells[[0, 1, 2, 3, 4, 5, 7]])
+    assert nothing is None
+    assert shapely.from_wkb(found).tolist() == WHOLES * 2

@@ -127,7 +127,7 @@ def test_tables_of_a_plane(tmp_path):
     ):
         with pytest.raises(ValueError, match=message):
             read_points(tmp_path / "a.csv", **wrong)
-    with pytest.raises(ValueError, match="not of GeoJSON"):
+    with pytest.raises(ValueError, match="there is no column 'x'; the columns are none at all"):
         read_points(io.StringIO('{"features": []}'), plane=("x", "y"))
     with pytest.raises(ValueError, match="crs is 'EPSG:31467', but points of the sphere are in degrees"):
         PointTable([[1, 2]], crs="EPSG:31467")
@@ -203,7 +203,7 @@ def test_columns_that_cannot_be_told(names, options, message):
         (b"name,lon,lat\nUlm,1,2\nK\xf6ln,3,4\n", "line 3 is not text in UTF-8"),
         (b"a,10,48.4\nb,2,51\n", "column_1', 'column_2', 'column_3"),
         (b"{]", "not JSON"),
-        (b'{"type": "Point"}', "not a GeoJSON FeatureCollection"),
+        (b'{"type": "Point"}', "row 1: the longitude is missing"),
         (gzip.compress(b"name,lon,lat\n" * 1000)[:-9], "the compressed file is damaged"),
     ],
 )

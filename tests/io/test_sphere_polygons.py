@@ -17,7 +17,7 @@ from stereodel import (
 )
 from stereodel.io import to_geodataframe
 from stereodel.io.maps import tiles
-from stereodel.io.maps.rows_of import rows_of
+from stereodel.io.rows_of import rows_of
 from tests import sets
 from tests.examples import examples
 
@@ -72,9 +72,9 @@ SETS = [
 ]
 
 
-def nothing(net, max_segment, block):
-    """No face or arc is simple."""
-    return np.zeros((2, len(net.ends[block])), dtype=bool)
+def nothing(net, block):
+    """No arc is off the border."""
+    return np.zeros(len(net.ends[block]), dtype=bool)
 
 
 @pytest.mark.parametrize("step", [1e-6, 1e-12, 1e-14, 3e-16])
@@ -101,10 +101,7 @@ def assert_tiles(geometry):
 
 @pytest.mark.parametrize("points", SETS)
 def test_cells_tile_the_map(monkeypatch, points):
-    """Each holds its point, where those of a cluster do not coincide; the long way to them makes the same bytes.
-
-    The short way is for faces off the border, and for arcs that are chords.
-    """
+    """Each holds its point, where those of a cluster do not coincide; the way by the border has the same bytes."""
     diagram = SphericalVoronoi(points)
     frame, sites = to_geodataframe(diagram), to_geodataframe(diagram, what="sites")
     assert_tiles(frame.geometry.values)
@@ -120,7 +117,7 @@ def assert_long_way_is_the_same(monkeypatch, diagram, latitude="spherical"):
         return [rows_of(diagram, what=what, **options).binary.tolist() for what in ("cells", "triangles")]
 
     short = layers()
-    monkeypatch.setattr(tiles, "_simple", nothing)
+    monkeypatch.setattr(tiles, "_inland", nothing)
     assert layers() == short
 
 
@@ -131,7 +128,7 @@ def test_the_long_way_to_many_cells(monkeypatch):
     with monkeypatch.context() as patch:
         patch.setattr(tiles, "_clipped_block", lambda faces, sides: asked.append(len(faces)) or clipped(faces, sides))
         rows_of(diagram)
-    assert 0 < sum(asked) < 400  # those at ±180° and at the poles, and what is not star-shaped
+    assert 0 < sum(asked) < 400  # those at ±180° and at the poles
     assert_long_way_is_the_same(monkeypatch, diagram, "authalic")
 
 

@@ -205,7 +205,7 @@ def test_no_file_opens_another_or_asks_a_host(name, door, tmp_path, secret, aske
 
 
 def test_a_coordinate_system_of_a_file_may_name_grids_of_proj_but_no_path():
-    from stereodel.io.formats.self_contained import check_crs
+    from stereodel.io.formats.foreign import check_crs
 
     check_crs('EXTENSION["PROJ4","+proj=merc +nadgrids=@null +wktext"]')
     check_crs('PARAMETERFILE["Latitude and longitude difference file","ntv2_0.gsb"]')

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from stereodel.io.formats.text import LONG, column, doubles, texts, typed
+from stereodel.io.formats.columns import LONG, column, doubles, texts, typed
 
 
 @pytest.mark.parametrize(

@@ -14,7 +14,7 @@ import pytest
 
 import stereodel
 from stereodel import _kernel_probe as probe
-from stereodel.predicates.rays import bubble_ray, ray, turn_ray
+from tests.reference import bubble_ray, ray, turn_ray
 
 OPEN = 2
 PREDICATES = Path(stereodel.__file__).parent / "kernel" / "predicates"

@@ -10,11 +10,9 @@ from hypothesis import strategies as st
 
 from stereodel import HullInsertion, PlanarDelaunay
 from stereodel import _kernel_probe as probe
-from stereodel.predicates.integers import sign, to_integers
-from stereodel.predicates.plane import incircle_integer, orient2d_integer
-from stereodel.predicates.ties import incircle_tie
 from tests import sets
 from tests.kernel.stages import Predicates, third_by_day
+from tests.reference import incircle_integer, incircle_tie, orient2d_integer, sign, to_integers
 from tests.spaces import PLANE
 
 SPREADS = [1.0, 1e-3, 1e-6, 1e-9, 1e-12, 1e-14, 1e-15]

@@ -6,9 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from stereodel import _kernel_probe as probe
-from stereodel.predicates.integers import sign_of_roots
-from stereodel.predicates.rays import bubble_ray, compare_component, compare_directions, ray, turn_ray
 from tests.kernel.stages import OPEN, Predicates, third_by_day
+from tests.reference import bubble_ray, compare_component, compare_directions, ray, sign_of_roots, turn_ray
 from tests.sets import unit as normalised
 from tests.spaces import SPHERE, dot
 

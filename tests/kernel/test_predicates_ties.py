@@ -8,9 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from stereodel import _kernel_probe as probe
-from stereodel.predicates.rays import bubble_ray, ray, turn_ray
-from stereodel.predicates.ties import bubble_tie
 from tests import sets
+from tests.reference import bubble_ray, bubble_tie, ray, turn_ray
 from tests.spaces import SPHERE
 
 SMALL = SPHERE.places(2)

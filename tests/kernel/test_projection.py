@@ -10,12 +10,11 @@ from hypothesis import strategies as st
 from mpmath import mpf, workdps
 
 from stereodel import _kernel_probe as probe
-from stereodel.predicates.integers import sign_of_roots
-from stereodel.predicates.rays import ray
 from tests import sets
 from tests.exact import mp as vector
 from tests.exact import norm
 from tests.kernel.stages import shares_of
+from tests.reference import ray, sign_of_roots
 from tests.spaces import SPHERE
 
 POLES = list(itertools.product(range(3), (-1, 1)))

@@ -7,8 +7,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from stereodel import _kernel_probe as probe
-from stereodel.predicates.integers import sign_of_roots
 from tests.kernel.long_integers import digits, integers
+from tests.reference import sign_of_roots
 
 
 def kernel_sign(terms):

@@ -337,9 +337,9 @@ def test_without_points(space):
 
 
 def test_bad_queries_are_named():
-    with pytest.raises(ValueError, match=r"xy must have shape"):
+    with pytest.raises(ValueError, match=r"queries must have shape"):
         PlanarDelaunay([[0, 0]]).find_simplex([1, 2, 3])
-    with pytest.raises(ValueError, match=r"xyz\[0\] is the zero vector"):
+    with pytest.raises(ValueError, match=r"queries\[0\] is the zero vector"):
         SphericalDelaunay(np.eye(3)).nearest([[0, 0, 0]])
 
 

@@ -8,8 +8,8 @@ import re
 import warnings
 from collections import Counter
 from collections.abc import Collection, Iterator, Mapping
-from dataclasses import dataclass
 from itertools import islice
+from types import SimpleNamespace
 from typing import Any, TextIO
 
 import numpy as np
@@ -17,9 +17,21 @@ import numpy as np
 from stereodel._arrays import Column, Indices
 from stereodel._tasks.progress import Progress
 from stereodel.constants import MOST_COLUMNS, MOST_LINE
-from stereodel.io.formats.cell_values import as_text, check_held, plain_cells
+from stereodel.io.formats import FORMATS, File, FileFormat, Rows, Wanted
+from stereodel.io.formats.columns import (
+    EXACT_INTEGERS,
+    NUMBER,
+    as_text,
+    check_held,
+    decimal_mark,
+    decoded,
+    objects,
+    plain_cells,
+    texts,
+    typed,
+    why_not,
+)
 from stereodel.io.formats.names import DataWarning, has_lonlat, listed
-from stereodel.io.formats.text import EXACT_INTEGERS, NUMBER, decimal_mark, objects, texts, typed, why_not
 
 SEPARATORS = ",;\t|"
 LOOKED_AT = 50
@@ -29,41 +41,49 @@ BLOCK = 20_000
 COMMENTS = re.compile(r"(?:[ \t]*#[^\r\n]*(?:\r\n?|\n|\Z))+")
 """Comment lines at the top, which begin with a hash."""
 
-Rows = list[list[str]]
+Lines = list[list[str]]
 
 
-@dataclass(frozen=True, eq=False)
-class TextTable:
-    """Columns of text by name, their row numbers, and whether commas are decimal separators."""
-
-    columns: dict[str, Column]
-    rows: Indices
-    comma: bool
-
-    def typed(self, *, degrees: Collection[str] = ()) -> dict[str, Column]:
-        """The columns; one whose values are all numbers becomes numeric, except `degrees`, whose marks are decimal.
-
-        Numbers whose marks may separate thousands stay text, with a warning, if the table has another decimal mark, or
-        if their mark is a comma and no other number has it.
-        """
-        result = dict(self.columns)
-        marks = {name: decimal_mark(result[name]) for name in degrees}
-        for name in [name for name in result if name not in marks]:
-            result[name] = typed(self.columns[name], comma=self.comma)
-            if result[name].dtype.kind == "f":
-                marks[name] = decimal_mark(self.columns[name])
-        decimal = {mark for name, (mark, sure) in marks.items() if sure or name in degrees} - {""}
-        for name in [name for name, (mark, sure) in marks.items() if mark and not sure and name not in degrees]:
-            mark = marks[name][0]
-            if decimal - {mark} or (mark == "," and not decimal):
-                result[name] = self.columns[name]
-                cell = next(cell.strip() for cell in result[name].tolist() if mark in cell)
-                warnings.warn(f"column {name!r} is kept as text: {cell!r} {why_not(cell)}", DataWarning, stacklevel=2)
-        return result
+def read(file: File, wanted: Wanted) -> Rows:
+    """A table of text; columns whose values are all numbers become numeric, but for degrees."""
+    named = [name for name in wanted.plane or (wanted.lon, wanted.lat) if name is not None]
+    columns, rows, comma = split_columns(decoded(file.content), named, wanted.progress)
+    degrees = wanted.axes(list(columns)) if wanted.crs is None and wanted.plane is None else ()
+    return Rows(typed_columns(columns, comma, degrees), rows)
 
 
-def split_columns(text: str, wanted: Collection[str] = (), progress: Progress | None = None) -> TextTable:
-    """Columns of a table as text; a first line that contains one of the names `wanted` is a header."""
+FORMATS["csv"] = FileFormat((".csv", ".tsv", ".txt"), {}, read)
+
+
+def typed_columns(columns: dict[str, Column], comma: bool, degrees: Collection[str]) -> dict[str, Column]:
+    """The columns; one whose values are all numbers becomes numeric, except `degrees`, whose marks are decimal.
+
+    Numbers whose marks may separate thousands stay text, with a warning, if the table has another decimal mark, or if
+    their mark is a comma, which may be decimal where `comma`, and no other number has it.
+    """
+    result = dict(columns)
+    marks = {name: decimal_mark(columns[name]) for name in degrees}
+    for name in [name for name in columns if name not in marks]:
+        result[name] = typed(columns[name], comma=comma)
+        if result[name].dtype.kind == "f":
+            marks[name] = decimal_mark(columns[name])
+    decimal = {mark for name, (mark, sure) in marks.items() if sure or name in degrees} - {""}
+    for name in [name for name, (mark, sure) in marks.items() if mark and not sure and name not in degrees]:
+        mark = marks[name][0]
+        if decimal - {mark} or (mark == "," and not decimal):
+            result[name] = columns[name]
+            cell = next(cell.strip() for cell in columns[name].tolist() if mark in cell)
+            warnings.warn(f"column {name!r} is kept as text: {cell!r} {why_not(cell)}", DataWarning, stacklevel=2)
+    return result
+
+
+def split_columns(
+    text: str, wanted: Collection[str], progress: Progress | None
+) -> tuple[dict[str, Column], Indices, bool]:
+    """Columns of a table as text, numbers of the rows, and whether commas are decimal marks.
+
+    A first line that contains one of the names `wanted` is a header.
+    """
     comments = COMMENTS.match(text)
     above = text[: comments.end()] if comments else ""
     text = text[len(above) :]
@@ -93,10 +113,10 @@ def split_columns(text: str, wanted: Collection[str] = (), progress: Progress | 
         for k, (name, values) in enumerate(zip(names, columns, strict=True), 1)
         if name or (values != "").any()
     }
-    return TextTable(named, np.arange(1, before + 1), comma=mark != ",")
+    return named, np.arange(1, before + 1), mark != ","
 
 
-def _columns(rows: Rows, width: int, before: int) -> list[Column]:
+def _columns(rows: Lines, width: int, before: int) -> list[Column]:
     """Rows of text as columns; `before` is the number of earlier rows of data."""
     for number, row in enumerate(rows, before + 1):
         if len(row) != width:
@@ -144,7 +164,7 @@ def _rows(lines: TextIO, mark: str | None, above: int) -> Iterator[list[str]]:
         yield row
 
 
-def _header(row: list[str], wanted: Collection[str]) -> tuple[list[str], Rows]:
+def _header(row: list[str], wanted: Collection[str]) -> tuple[list[str], Lines]:
     """Names of the columns, empty where there is none, and the first row if it is data.
 
     The row is data if most of its fields are numbers, unless names of coordinates are among them. Two columns without
@@ -166,19 +186,10 @@ def write_csv(columns: Mapping[str, Column], stream: TextIO) -> None:
     Missing and infinite numbers are empty fields; a column of doubles that are all integers is written as integers.
     """
     check_held(columns, "csv")
-    writer = csv.writer(_Lines(stream))
+    # The module's own lines end with a carriage return, so that it quotes fields with one; they are written without.
+    writer = csv.writer(SimpleNamespace(write=lambda line: stream.write(f"{line[:-2]}\n")))
     writer.writerow(columns)
     writer.writerows(zip(*(_fields(np.asarray(values)) for values in columns.values()), strict=True))
-
-
-class _Lines:
-    """Lines of a writer that quotes carriage returns, since its own lines end with one, without these."""
-
-    def __init__(self, stream: TextIO) -> None:
-        self._stream = stream
-
-    def write(self, line: str) -> None:
-        self._stream.write(f"{line[:-2]}\n")
 
 
 def _fields(values: Column) -> list[Any]:

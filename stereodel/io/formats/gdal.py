@@ -15,13 +15,16 @@ from textwrap import shorten
 from typing import Any, Final
 from xml.parsers import expat
 
-from stereodel._extras import optional
+from stereodel._extras import OnUse, optional
 from stereodel._tasks.progress import Progress
-from stereodel.io.formats.cell_values import as_text, check_held, plain
-from stereodel.io.formats.map_rows import MapRows, arrow_column
+from stereodel.io.formats import FORMATS, File, FileFormat, Wanted
+from stereodel.io.formats.columns import as_text, check_held, plain
+from stereodel.io.formats.foreign import check_crs, check_stored, self_contained
+from stereodel.io.formats.map_rows import Frame, MapRows, arrow, arrow_column
 from stereodel.io.formats.names import DataWarning, RenamedColumnWarning, beside, listed, spelled
-from stereodel.io.formats.self_contained import check_crs, check_stored, self_contained
 from stereodel.io.formats.wkb import is_there
+
+pyogrio: Any = OnUse(lambda: optional("pyogrio", "geo"))
 
 RESERVED: Final = {"gpkg": ("fid", "geom"), "fgb": (), "shp": (), "kml": ()}
 """Column names that a format reserves."""
@@ -59,17 +62,29 @@ LAUNDERED: Final = re.compile(r"field name: '(.*)' to '(.*)'")
 """GDAL's warning for a column name that it shortens."""
 
 
-def read_frame(path: Path, *, layer: str | None, choice: str) -> Any:
-    """A layer of a file as a GeoDataFrame, or as a DataFrame if it has no geometries; `layer` selects one of several.
+def read(file: File, wanted: Wanted) -> Frame:
+    """A layer of a file, with or without geometries; `wanted` selects one of several.
 
-    ValueError if the file is damaged, its format is not read or refers to other files, or `layer` does not exist, or is
-    needed: `choice` then says what to do.
+    ValueError if the file is damaged, its format is not read or refers to other files, or the layer does not exist.
     """
     optional("pyogrio", "geo")
     optional("geopandas", "geo")
-    with self_contained(path) as source:
+    with file.on_disk() as path, self_contained(path) as source:
         _check_whole(source)
-        return in_degrees(_read_frame(source, layer, choice))
+        return Frame(in_degrees(_read_frame(source, wanted.layer, wanted.choice)))
+
+
+FORMATS["vector"] = FileFormat(
+    (".gpkg", ".shp", ".fgb", ".kml", ".kmz", ".gml", ".gpx", ".zip", ".xlsx", ".ods"),
+    {
+        b"SQLite format 3": ".gpkg",
+        b"fgb": ".fgb",
+        b"PK\x03\x04": ".zip",
+        b"\x00\x00\x27\x0a": ".shp",
+        b"<": ".kml",
+    },
+    read,
+)
 
 
 def in_degrees(frame: Any) -> Any:
@@ -83,7 +98,6 @@ def in_degrees(frame: Any) -> Any:
 
 
 def _read_frame(path: Path, layer: str | None, choice: str) -> Any:
-    pyogrio = optional("pyogrio", "geo")
     with warnings.catch_warnings(record=True) as said:
         warnings.simplefilter("always", RuntimeWarning)
         chosen = _chosen(path, layer, choice)
@@ -110,7 +124,6 @@ def _read_frame(path: Path, layer: str | None, choice: str) -> Any:
 
 def _chosen(path: Path, layer: str | None, choice: str) -> str:
     """The name of the layer to read: of those with geometries, if there are any, the only one that has rows."""
-    pyogrio = optional("pyogrio", "geo")
     with told():
         layers = pyogrio.list_layers(path)
     if not len(layers):
@@ -125,7 +138,8 @@ def _chosen(path: Path, layer: str | None, choice: str) -> str:
             counts = [pyogrio.read_info(path, layer=name, force_feature_count=True)["features"] for name in names]
         names = [name for name, count in zip(names, counts, strict=True) if count] or names[:1]
     if len(names) > 1:
-        raise ValueError(f"there are several layers, {listed(names)}; {choice}")
+        advice = choice or f"say which with {spelled('layer', '=')}"
+        raise ValueError(f"there are several layers, {listed(names)}; {advice}")
     return names[0]
 
 
@@ -156,9 +170,8 @@ def _stated_size(head: bytes, path: Path) -> int:
     return max(HEADER, start + rows * row)
 
 
-def write_layer(layer: MapRows, path: Path, *, name: str, progress: Progress | None = None) -> None:
-    """Write the rows of a map as a file with one named layer, in the format given by the extension of `path`."""
-    pyogrio, arrow = optional("pyogrio", "geo"), optional("pyarrow", "geo")
+def write_layer(layer: MapRows, path: Path, *, progress: Progress | None = None) -> None:
+    """Write the rows of a map as a file with one layer of its name, in the format given by its extension."""
     kind = path.suffix[1:].lower()
     named = beside([layer.name, *RESERVED[kind]], layer.columns, any_case=True)
     check_held(named, kind)
@@ -171,7 +184,7 @@ def write_layer(layer: MapRows, path: Path, *, name: str, progress: Progress | N
         pyogrio.write_arrow(
             arrow.RecordBatchReader.from_batches(schema, batches),
             memory if kind == "kml" else path,
-            layer=name,
+            layer=path.stem,
             driver=DRIVERS[kind],
             geometry_name=layer.name,
             geometry_type=kinds[0] if len(kinds) == 1 else "Unknown",
@@ -191,7 +204,7 @@ def write_layer(layer: MapRows, path: Path, *, name: str, progress: Progress | N
 
 def _is_whole(path: Path, layer: MapRows) -> bool:
     """Whether all of a layer, and its index, can be read back: on a full disk GDAL may end in silence."""
-    pyogrio, rows, geometries = optional("pyogrio", "geo"), 0, 0
+    rows = geometries = 0
     try:
         if path.suffix in INDEXED and not pyogrio.read_info(path)["capabilities"]["fast_spatial_filter"]:
             return False
@@ -208,7 +221,6 @@ def _is_whole(path: Path, layer: MapRows) -> bool:
 
 def plain_column(values: Any, kind: str) -> Any:
     """An Arrow column of a type that GDAL supports in a format; lists and mappings become text, as JSON."""
-    arrow = optional("pyarrow", "geo")
     column = arrow_column(values)
     if arrow.types.is_dictionary(column.type):
         column = column.dictionary_decode()

@@ -15,14 +15,13 @@ from typing import Any, Final
 import numpy as np
 
 from stereodel._arrays import Column, FloatArray, as_count
-from stereodel._extras import optional
 from stereodel._tasks.progress import Progress
 from stereodel.constants import EMPTY_RATIO, FEW_CELLS
-from stereodel.io.formats.cell_values import check_held, plain_cells
-from stereodel.io.formats.map_rows import MapRows
-from stereodel.io.formats.names import DataWarning, beside, listed, spelled
-from stereodel.io.formats.self_contained import check_crs
-from stereodel.io.formats.text import column, objects
+from stereodel.io.formats import FORMATS, File, FileFormat, Rows, Wanted
+from stereodel.io.formats.columns import check_held, column, decoded, objects, plain_cells
+from stereodel.io.formats.foreign import check_crs
+from stereodel.io.formats.map_rows import MapRows, no_point, shapely
+from stereodel.io.formats.names import DataWarning, beside, listed
 
 HEAD: Final = '{"type":"FeatureCollection","features":['
 TAIL: Final = "]}"
@@ -32,12 +31,13 @@ KINDS: Final = ("Point", "MultiPoint", "LineString", "LinearRing", "MultiLineStr
 
 
 @dataclass(frozen=True, eq=False)
-class Features:
+class Features(Rows):
     """Features that were read: properties and geometry of each, and the coordinate system, None for degrees."""
 
     properties: list[Mapping[str, Any]]
     geometries: list[Any]
     crs: str | None
+    rows = None
 
     @classmethod
     def of(cls, *contents: Any) -> Features:
@@ -99,24 +99,14 @@ def parsed(text: str) -> Any:
             raise ValueError(f"the file is not JSON: {error}") from error
 
 
-def points(text: str, *, skip_missing: bool) -> tuple[Column, Column, Features]:
-    """Both coordinates of the points of a file, as by `Features.places`, and its features."""
-    content = parsed(text)
-    alone = _kind_of(content) == "Feature"  # as a sequence of one
-    if not alone and not (isinstance(content, dict) and isinstance(content.get("features"), list)):
-        raise ValueError("the file is not a GeoJSON FeatureCollection of points")
-    found = Features.of(content)
-    return *found.places(skip_missing=skip_missing), found
+def read(file: File, _: Wanted) -> Features:
+    """The features of a file."""
+    return Features.of(parsed(decoded(file.content)))
 
 
-def no_point(row: Any, kind: Any) -> ValueError:
-    """The error for a row with another geometry than a point, or with "no geometry"."""
-    advice = (
-        f"leave such rows out with {spelled('skip_missing', '=True')}"
-        if kind == "no geometry"
-        else "take e.g. centroids first"
-    )
-    return ValueError(f"row {row}: a Point is needed, not {kind}; {advice}")
+FORMATS["geojson"] = FileFormat(
+    (".geojson", ".json", ".geojsonl", ".geojsons"), {b"{": ".geojson", b"\x1e{": ".geojson"}, read
+)
 
 
 def _kind_of(content: Any) -> Any:
@@ -283,11 +273,10 @@ def to_geojson(frame: Any, *, decimals: int | None = None, sequence: bool = Fals
     return "\n".join(found) if sequence else "\n".join([HEAD, ",\n".join(found), TAIL])
 
 
-def write_geojson(
-    layer: MapRows, path: Path, *, decimals: int | None = None, sequence: bool = False, progress: Progress | None = None
-) -> None:
-    """Write the rows of a map in the format of `to_geojson`, block by block."""
+def write_geojson(layer: MapRows, path: Path, *, decimals: int | None = None, progress: Progress | None = None) -> None:
+    """Write the rows of a map in the format of `to_geojson`, block by block; a sequence if the path says so."""
     check_held(layer.columns, path.suffix[1:])
+    sequence = path.suffix == ".geojsonl"
     between = "\n" if sequence else ",\n"
     with path.open("w", encoding="utf-8", newline="") as file:
         file.write("" if sequence else HEAD)
@@ -299,7 +288,6 @@ def write_geojson(
 
 def features(frame: Any, decimals: int | None) -> Iterator[str]:
     """The rows of a frame as GeoJSON features, one line each."""
-    shapely = optional("shapely", "geo")
     if frame.crs is not None:
         frame = frame.to_crs("EPSG:4326")
     geometry = shapely.orient_polygons(np.asarray(frame.geometry))

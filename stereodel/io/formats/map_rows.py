@@ -13,20 +13,25 @@ from typing import Any, Final
 
 import numpy as np
 
-from stereodel._arrays import BoolArray, Geometries, Indices, Packed
-from stereodel._extras import optional
+from stereodel._arrays import BoolArray, Column, Geometries, Indices, Packed
+from stereodel._extras import OnUse, optional
 from stereodel._tasks.progress import Progress
-from stereodel.io.formats import wkb
-from stereodel.io.formats.cell_values import as_text, plain_cells
-from stereodel.io.formats.names import beside, index_columns
+from stereodel.io.formats import Rows, wkb
+from stereodel.io.formats.columns import as_text, of_objects, plain_cells
+from stereodel.io.formats.names import beside, index_columns, left_out
+
+shapely: Any = OnUse(lambda: optional("shapely", "geo"))
+arrow: Any = OnUse(lambda: optional("pyarrow", "geo"))
 
 ROWS: Final = 65_536
 """Rows in a block."""
 
+POINT, LINE, RING, POLYGON, MULTIPOINT, MULTILINE, MULTIPOLYGON, COLLECTION = range(8)
+"""Type codes of geometries in Shapely; those above POLYGON are multi-part."""
+
 
 def packed(geometries: Geometries) -> Packed:
     """Shapely's geometries as well-known binary; None for empty ones."""
-    shapely = optional("shapely", "geo")
     binary: Packed = np.asarray(shapely.to_wkb(geometries, byte_order=1, flavor="iso"), dtype=object)
     binary[shapely.is_empty(geometries)] = None
     return binary
@@ -34,7 +39,7 @@ def packed(geometries: Geometries) -> Packed:
 
 def unpacked(binary: Packed) -> Geometries:
     """Well-known binary as Shapely's geometries."""
-    return np.asarray(optional("shapely", "geo").from_wkb(binary), dtype=object)
+    return np.asarray(shapely.from_wkb(binary), dtype=object)
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,7 +60,7 @@ class MapRows:
     @classmethod
     def of_frame(cls, frame: Any) -> MapRows:
         """The rows of a GeoDataFrame or GeoSeries; geometry columns that are not active become well-known text."""
-        shapely, active = optional("shapely", "geo"), frame.geometry.name or "geometry"
+        active = frame.geometry.name or "geometry"
         own = {name: frame[name].reset_index(drop=True) for name in getattr(frame, "columns", ()) if name != active}
         columns = {
             str(name): shapely.to_wkt(np.asarray(values)) if values.dtype == "geometry" else values
@@ -101,7 +106,6 @@ class MapRows:
 
         With `several`, single-part geometries are written as multi-part ones, block by block.
         """
-        arrow = optional("pyarrow", "geo")
         whole = replace(self, columns={name: arrow_column(values) for name, values in self.columns.items()})
         fields = [arrow.field(name, values.type) for name, values in whole.columns.items()]
         known = {"ARROW:extension:name": "geoarrow.wkb", "ARROW:extension:metadata": "{}"}
@@ -120,10 +124,7 @@ class MapRows:
 
 def arrow_column(values: Any) -> Any:
     """The column as an Arrow array; values without an Arrow type, such as integers of any size, become text."""
-    arrow = optional("pyarrow", "geo")
-    if (
-        isinstance(values, np.ndarray) and values.dtype.char in "Ug"
-    ):  # text of a fixed width would end at its first zero
+    if isinstance(values, np.ndarray) and values.dtype.char in "Ug":  # fixed-width text would end at its first zero
         values = values.astype(object if values.dtype.kind == "U" else np.float64)
     try:
         column = arrow.array(values, from_pandas=True)
@@ -132,3 +133,40 @@ def arrow_column(values: Any) -> Any:
     if isinstance(column, arrow.ChunkedArray):
         column = column.combine_chunks()
     return column.cast(arrow.string()) if arrow.types.is_null(column.type) else column
+
+
+class Frame(Rows):
+    """Rows of a frame of pandas or GeoPandas, with or without geometries."""
+
+    def __init__(self, frame: Any) -> None:
+        if not hasattr(frame, "geometry") and not hasattr(frame, "columns"):
+            raise TypeError(f"frame must be a GeoDataFrame or GeoSeries, not {type(frame).__name__}")
+        self.frame, self.rows = frame, None
+
+    def columns(self) -> dict[str, Column]:
+        """The columns that are not geometries, and the index if that is more than row numbers."""
+        names = [name for name in getattr(self.frame, "columns", ()) if self.frame[name].dtype != "geometry"]
+        columns = {str(name): self.frame[name] for name in names}
+        every = beside(columns, index_columns(self.frame)) | columns
+        return {name: of_objects(values.to_numpy()) for name, values in every.items()}
+
+    def places(self, *, skip_missing: bool) -> tuple[Column, Column] | None:
+        """Both coordinates in degrees of rows that are points, NaN where one is missing."""
+        if not hasattr(self.frame, "geometry"):
+            return None
+        series = self.frame.geometry
+        geometry = np.asarray(series if series.crs is None else series.to_crs("EPSG:4326"), dtype=object)
+        alone = (shapely.get_type_id(geometry) == MULTIPOINT) & (shapely.get_num_geometries(geometry) == 1)
+        geometry = np.where(alone, shapely.get_geometry(geometry, 0), geometry)
+        nothing = shapely.is_missing(geometry) | shapely.is_empty(geometry)
+        wrong = np.flatnonzero((nothing & (not skip_missing)) | (~nothing & (shapely.get_type_id(geometry) != POINT)))
+        if len(wrong):
+            first = geometry[wrong[0]]
+            raise no_point(wrong[0] + 1, "no geometry" if first is None or first.is_empty else first.geom_type)
+        return shapely.get_x(geometry), shapely.get_y(geometry)
+
+
+def no_point(row: Any, kind: Any) -> ValueError:
+    """The error for a row with another geometry than a point, or with "no geometry"."""
+    advice = left_out() if kind == "no geometry" else "take e.g. centroids first"
+    return ValueError(f"row {row}: a Point is needed, not {kind}; {advice}")

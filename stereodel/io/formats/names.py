@@ -35,6 +35,11 @@ def spelled(argument: str, value: str = "") -> str:
     return SPELLING.get().get(argument, argument + value)
 
 
+def left_out() -> str:
+    """What to do about rows without a value."""
+    return f"leave such rows out with {spelled('skip_missing', '=True')}"
+
+
 @contextmanager
 def spelling(options: Mapping[str, str]) -> Iterator[None]:
     """A context in which messages name options in place of these arguments."""
@@ -81,16 +86,6 @@ def beside(taken: Iterable[str], columns: Mapping[str, T], *, any_case: bool = F
 
     A name that is taken, ignoring case, gets the first free number appended: ``lon`` becomes ``lon_1``. With `any_case`
     the names of `columns` also differ from each other in more than case, as databases require.
-
-    Examples
-    --------
-    >>> import warnings
-    >>> with warnings.catch_warnings(record=True) as said:
-    ...     warnings.simplefilter("always")
-    ...     beside(["lon", "lat"], {"name": 1, "Lon": 2, "lon_1": 3})
-    {'name': 1, 'Lon_1': 2, 'lon_1': 3}
-    >>> print(said[0].message)
-    column 'Lon' is written as 'Lon_1', because its name is taken
     """
     reserved = {name.casefold() for name in taken}
     used: set[str] = set()

@@ -8,12 +8,14 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Final
 
+from stereodel._arrays import Column
 from stereodel._extras import optional
 from stereodel._tasks.progress import Progress
-from stereodel.io.formats.cell_values import check_held
+from stereodel.io.formats import FORMATS, File, FileFormat, Rows, Wanted
+from stereodel.io.formats.columns import check_held, column, of_objects
+from stereodel.io.formats.foreign import check_size
 from stereodel.io.formats.gdal import in_degrees, told
-from stereodel.io.formats.map_rows import MapRows
-from stereodel.io.formats.packed import check_size
+from stereodel.io.formats.map_rows import Frame, MapRows
 
 VERSION: Final = "1.0.0"
 
@@ -21,8 +23,9 @@ TEXTS: Final = ("string", "binary")
 """Names of Arrow's types that Parquet packs by numbers of distinct values."""
 
 
-def read_parquet(content: bytes) -> Any:
-    """A GeoDataFrame, or a table of Arrow if the file has no metadata of geometries."""
+def read(file: File, _: Wanted) -> Rows:
+    """A frame with geometries, or columns alone if the file has no metadata of geometries."""
+    content = file.content
     parquet = optional("pyarrow.parquet", "geo")
     with told():
         found = parquet.read_metadata(io.BytesIO(content))
@@ -34,9 +37,18 @@ def read_parquet(content: bytes) -> Any:
     check_size(sum(_letters(table[name]) for name in names), len(content))
     with told():
         if b"geo" not in (table.schema.metadata or {}):
-            return table
+            return Rows({name: _of_arrow(table[name]) for name in table.column_names})
         frame = optional("geopandas", "geo").read_parquet(io.BytesIO(content))
-    return in_degrees(frame)
+    return Frame(in_degrees(frame))
+
+
+FORMATS["parquet"] = FileFormat((".parquet", ".geoparquet"), {b"PAR1": ".parquet"}, read)
+
+
+def _of_arrow(values: Any) -> Column:
+    """An Arrow column as an array; integers with missing values do not become doubles if that would round them."""
+    whole = optional("pyarrow", "geo").types.is_integer(values.type)
+    return column(values.to_pylist()) if whole and values.null_count else of_objects(values.to_numpy())
 
 
 def _letters(column: Any) -> int:

@@ -31,11 +31,7 @@ ONE: Final = {kind: bytes([1, kind + 3, 0, 0, 0, 1, 0, 0, 0]) for kind in (1, 2,
 
 
 def points(places: FloatArray) -> Packed:
-    """Points at places (n, 2).
-
-    >>> points(np.array([[8.5, 47.4]]))[0].hex()
-    '010100000000000000000021403333333333b34740'
-    """
+    """Points at places (n, 2)."""
     cells = np.empty(len(places), POINT)
     cells["order"], cells["kind"], cells["xy"] = 1, 1, places
     return cells.view(f"V{POINT.itemsize}").astype(object)

@@ -7,17 +7,13 @@ from typing import Any, Final
 
 import numpy as np
 
-from stereodel import data
-from stereodel._arrays import FloatArray, Geometries, Packed
-from stereodel.io.formats.map_rows import ROWS, packed, unpacked
+from stereodel._arrays import FloatArray, Geometries, Indices, Packed
+from stereodel.curves.ragged import Ragged
+from stereodel.io.formats.map_rows import ROWS, packed, shapely, unpacked
 from stereodel.io.formats.wkb import is_there
-from stereodel.io.maps.on_map import repaired, shapely
-from stereodel.io.reading import shapes_of
+from stereodel.io.maps.on_map import repaired
 from stereodel.sphere import lonlat_to_xyz
 from stereodel.sphere.latitudes import Latitude
-
-LAND: Final = "land"
-"""Name of the Earth's land as a clipping mask."""
 
 TILES: Final = (1.40625, 5.625, 22.5, 90.0)
 """Sides, in degrees, of the squares into which the mask is divided; each is a quarter of the next."""
@@ -31,13 +27,13 @@ MARGIN: Final = 1 / 64
 """Overlap of a square with its neighbours, in units of its side: a clipped polygon ends before the square does."""
 
 
-def clipped(binary: Packed, clip: Any, latitude: Latitude) -> tuple[Packed, FloatArray]:
-    """Polygons clipped to others, None if they lie outside, and the fraction of each area that remains.
+def clipped(binary: Packed, rings: Ragged, polygon: Indices, latitude: Latitude) -> tuple[Packed, FloatArray]:
+    """Polygons clipped to others, given by rings, and the share of each area that remains; None if they lie outside.
 
     Lines are straight on the map, as in a GIS; those of the polygons follow great circles as closely as before.
     Crossings are rounded to doubles, separately for each of two neighbours.
     """
-    mask, result, share = Mask(clip), binary.copy(), np.zeros(len(binary))
+    mask, result, share = Mask(rings, polygon), binary.copy(), np.zeros(len(binary))
     for begin in range(0, len(binary), ROWS):
         rows = begin + np.flatnonzero(is_there(binary[begin : begin + ROWS]))
         whole = unpacked(binary[rows])
@@ -51,17 +47,12 @@ def clipped(binary: Packed, clip: Any, latitude: Latitude) -> tuple[Packed, Floa
 
 
 class Mask:
-    """The polygons to which others are clipped.
+    """The polygons to which others are clipped: in degrees, either cut at ±180° or continued beyond."""
 
-    clip: "land", or a source for `shapes_of`; in degrees, either cut at ±180° or continued beyond.
-    """
-
-    def __init__(self, clip: Any) -> None:
-        shapes = shapes_of(data.land() if isinstance(clip, str) and clip == LAND else clip)
-        if not len(shapes.rings):
+    def __init__(self, rings: Ragged, polygon: Indices) -> None:
+        if not len(rings):
             raise ValueError("clip has no polygons; give land, or polygons to cut with")
-        rings = shapely.linearrings(shapes.rings.values, indices=shapes.rings.row)
-        polygons = shapely.polygons(rings, indices=shapes.ring_polygon)
+        polygons = shapely.polygons(shapely.linearrings(rings.values, indices=rings.row), indices=polygon)
         whole = shapely.union_all(repaired(polygons, ~shapely.is_valid(polygons)))
         world = shapely.box(-180.0, -90.0, 180.0, 90.0)
         if not shapely.covers(world, whole):

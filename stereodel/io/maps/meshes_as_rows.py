@@ -12,10 +12,15 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import Indices, IntArray
+from stereodel._arrays import FloatArray, Indices, IntArray
+from stereodel._spaces import SPHERE
 from stereodel.curves.ragged import Ragged
 from stereodel.curves.trace import Arcs, great
+from stereodel.sphere import xyz_to_lonlat
+from stereodel.sphere.latitudes import Latitude
 from stereodel.triangulation import PlanarDelaunay, PlanarVoronoi, SphericalDelaunay, SphericalVoronoi
+from stereodel.triangulation.delaunay import Triangulation, open_triangles
+from stereodel.triangulation.diagram import Diagram
 
 Mesh = PlanarDelaunay | PlanarVoronoi | SphericalDelaunay | SphericalVoronoi
 Columns = dict[str, npt.NDArray[Any]]
@@ -23,14 +28,9 @@ Columns = dict[str, npt.NDArray[Any]]
 
 def usual_kind(mesh: Mesh) -> str:
     """What a mesh shows by default: cells of a diagram, triangles of a triangulation; TypeError for anything else."""
-    if not isinstance(mesh, Mesh):
+    if not isinstance(mesh, Triangulation | Diagram):
         raise TypeError(f"mesh must be a triangulation or a Voronoi diagram of stereodel, not {type(mesh).__name__}")
-    return "cells" if isinstance(mesh, PlanarVoronoi | SphericalVoronoi) else "triangles"
-
-
-def is_spherical(mesh: Mesh) -> bool:
-    """Whether the mesh is on the sphere."""
-    return isinstance(mesh, SphericalDelaunay | SphericalVoronoi)
+    return "cells" if isinstance(mesh, Diagram) else "triangles"
 
 
 def point_columns(columns: Mapping[str, npt.ArrayLike] | None, count: int) -> Columns:
@@ -42,16 +42,25 @@ def point_columns(columns: Mapping[str, npt.ArrayLike] | None, count: int) -> Co
     return given
 
 
+def places_of(mesh: Mesh, points: FloatArray, latitude: Latitude) -> FloatArray:
+    """Points on the surface of a mesh as (n, 2): longitude and latitude, or as they are in the plane."""
+    return xyz_to_lonlat(points, latitude=latitude) if mesh.surface is SPHERE else points
+
+
 def diagram_of(mesh: Mesh) -> Any:
     """The Voronoi diagram of a triangulation, or the diagram itself."""
-    if isinstance(mesh, PlanarDelaunay):
-        return PlanarVoronoi(mesh)
-    return SphericalVoronoi(mesh) if isinstance(mesh, SphericalDelaunay) else mesh
+    return mesh if isinstance(mesh, Diagram) else mesh.surface.voronoi(mesh)
 
 
 def triangulation_of(mesh: Mesh) -> Any:
     """The triangulation of a Voronoi diagram, or the triangulation itself."""
-    return mesh.delaunay() if isinstance(mesh, PlanarVoronoi | SphericalVoronoi) else mesh
+    return mesh.delaunay() if isinstance(mesh, Diagram) else mesh
+
+
+def triangles_of(mesh: Mesh) -> tuple[Any, Indices]:
+    """The triangulation, and its triangles but for those that close the far side of the sphere."""
+    triangulation = triangulation_of(mesh)
+    return triangulation, np.flatnonzero(open_triangles(triangulation))
 
 
 def ridge_arcs(diagram: SphericalVoronoi) -> Arcs:

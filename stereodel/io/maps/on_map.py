@@ -8,14 +8,12 @@ from typing import Any
 import numpy as np
 
 from stereodel._arrays import BoolArray, FloatArray, Geometries, Indices
-from stereodel._extras import optional
 from stereodel.constants import AT_POLE
 from stereodel.curves import clip
 from stereodel.curves.borders import Antimeridian, Pieces
 from stereodel.curves.fill import holders
 from stereodel.curves.ragged import Ragged, spans
-
-shapely = optional("shapely", "geo")
+from stereodel.io.formats.map_rows import shapely
 
 Rule = Callable[[Ragged, Indices], tuple[Indices, FloatArray]]
 """Given some rows of points and their indices, returns after which points to insert new ones, and the new points."""

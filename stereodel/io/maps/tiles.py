@@ -11,20 +11,20 @@ from collections import deque
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
+from itertools import count
 
 import numpy as np
 
 from stereodel._arrays import BoolArray, FloatArray, Geometries, Indices, Packed
-from stereodel._extras import optional
 from stereodel._tasks.progress import Progress
 from stereodel._threads import in_order, thread_count
 from stereodel.constants import AT_POLE, BORDER_STEPS, CHORD_CLEARANCE, DEGREE_ROUNDING, THIN_CELL
 from stereodel.curves import clip
 from stereodel.curves.borders import Antimeridian, Pieces
 from stereodel.curves.ragged import Ragged, offsets_of, spans
-from stereodel.curves.trace import Arcs, great, great_axes
+from stereodel.curves.trace import Arcs, great
 from stereodel.io.formats import wkb
-from stereodel.io.formats.map_rows import packed, unpacked
+from stereodel.io.formats.map_rows import packed, shapely, unpacked
 from stereodel.io.maps.on_map import (
     close_in_longitude,
     lines_on_map,
@@ -34,11 +34,11 @@ from stereodel.io.maps.on_map import (
     steps_of,
     unit,
 )
-from stereodel.io.maps.star_rings import star_shaped
 from stereodel.sphere import xyz_to_lonlat
 from stereodel.sphere.latitudes import Latitude
 
-shapely = optional("shapely", "geo")
+Step = Callable[[], None]
+"""Reports progress."""
 
 BLOCK = 20_000
 """Faces, or arcs, in a thread's block: larger blocks take more memory and save no time."""
@@ -109,9 +109,15 @@ def sphere_polygons(
     binary, a third of the memory of geometry objects.
     """
     threads = thread_count(None, len(faces))
-    told = _Told(progress, len(range(0, len(net), BLOCK)) + len(range(0, len(faces), BLOCK)))
-    sides = _prepared(net, max_segment, Antimeridian(latitude=latitude), threads, told)
-    result, wrong, large = _drawn(faces, np.arange(len(faces)), sides, threads, told)
+    steps = sum(len(list(_blocks(len(each)))) for each in (net, faces))
+    done = count(1)
+
+    def step() -> None:
+        if progress is not None:
+            progress("drawing", next(done), steps)
+
+    sides = _prepared(net, max_segment, Antimeridian(latitude=latitude), threads, step)
+    result, wrong, large = _drawn(faces, np.arange(len(faces)), sides, threads, step)
     # Rings that are all simple and counterclockwise tile the map, since each side is shared by two faces. So the chords
     # of the other rings are halved, and the faces across them are rebuilt, too.
     while len(places := _crossing(faces.take(wrong), sides)):
@@ -131,24 +137,11 @@ def sphere_polygons(
     return result
 
 
-class _Told:
-    """Reports progress over a known number of steps."""
-
-    def __init__(self, progress: Progress | None, steps: int) -> None:
-        self._progress, self._steps, self._done = progress, steps, 0
-
-    def step(self) -> None:
-        """Count one more step as done."""
-        self._done += 1
-        if self._progress is not None:
-            self._progress("drawing", self._done, self._steps)
-
-
 def _blocks(size: int) -> Iterator[slice]:
     return (slice(begin, min(begin + BLOCK, size)) for begin in range(0, size, BLOCK))
 
 
-def _prepared(net: Net, max_segment: float, border: Antimeridian, threads: int, told: _Told) -> Sides:
+def _prepared(net: Net, max_segment: float, border: Antimeridian, threads: int, step: Step) -> Sides:
     """All arcs cut at the border, with their sample points."""
     lonlat = np.zeros((len(net.vertices), 2))
 
@@ -167,7 +160,7 @@ def _prepared(net: Net, max_segment: float, border: Antimeridian, threads: int, 
             values = np.concatenate([values[:filled], np.empty((len(values) + len(points), 5))])
         values[filled : filled + len(points)] = points
         filled += len(points)
-        told.step()
+        step()
     if not parts:
         parts.append(prepared(slice(0, 0))[0])
     edge, opens, shuts, along, sizes = (np.concatenate([part[k] for part in parts]) for k in range(5))
@@ -188,58 +181,27 @@ def _prepared_block(
 
     Which of the arcs do not meet the border is written to `inland`.
     """
-    inland[block], straight = _simple(net, max_segment, block)
-    bent, ends = np.flatnonzero(~straight), net.ends[block]
-    pieces = border.cut(net.arcs(block.start + bent))
+    inland[block], ends = _inland(net, block), net.ends[block]
+    pieces = border.cut(net.arcs(block))
     samples = _sampled(pieces, max_segment)
-    edge = bent[pieces.arcs.edge]
     if net.sites is not None and net.site is not None:
-        samples = _clear_of_sites(samples, pieces, border, net.sites[net.site[block][bent]])
+        samples = _clear_of_sites(samples, pieces, border, net.sites[net.site[block]])
     values = np.concatenate([samples.values, np.zeros((len(samples.values), 2))], axis=1)
     unknown = np.ones(len(values), dtype=bool)
     # Most points are vertices, each of several arcs.
-    for place, vertex in zip((samples.offsets[:-1], samples.offsets[1:] - 1), ends[edge].T, strict=True):
+    for place, vertex in zip((samples.offsets[:-1], samples.offsets[1:] - 1), ends[pieces.arcs.edge].T, strict=True):
         same = (samples.values[place] == net.vertices[vertex]).all(axis=1)
         values[place[same], 3:] = lonlat[vertex[same]]
         unknown[place[same]] = False
     values[unknown] = _with_lonlat(samples.values[unknown], border.latitude)
-    # Add the arcs that consist of their endpoints only, one piece each, in the order of the arcs.
-    chords, corners = np.flatnonzero(straight), ends[straight].ravel()
-    order = np.argsort(np.concatenate([edge, chords]), kind="stable")
-    points = clip.together(
-        Ragged(values, samples.offsets),
-        Ragged(np.concatenate([net.vertices[corners], lonlat[corners]], axis=1), 2 * np.arange(len(chords) + 1)),
-    ).take(order)
-    flags = (
-        np.append(flag, np.zeros(len(chords), dtype=bool))[order] for flag in (pieces.opens, pieces.shuts, pieces.along)
-    )
-    opens, shuts, along = flags
-    return (np.concatenate([edge, chords])[order] + block.start, opens, shuts, along, points.sizes), points.values
+    return (pieces.arcs.edge + block.start, pieces.opens, pieces.shuts, pieces.along, samples.sizes), values
 
 
-def _simple(net: Net, max_segment: float, block: slice) -> tuple[BoolArray, BoolArray]:
-    """Which of some arcs certainly do not meet the border of the map, and which of these are certainly a chord on it.
-
-    In a large diagram that is nearly all of them; the others are processed in full.
-    """
+def _inland(net: Net, block: slice) -> BoolArray:
+    """Which of some arcs certainly do not meet the border of the map: in a large diagram, nearly all of them."""
     start, end = net.vertices[net.ends[block]].transpose(1, 0, 2)
-    half = _lengths(end - start) / 2
     # No point of an arc is farther from its start than its end is; twice that leaves room for rounding.
-    inland = np.maximum(np.abs(start[:, 1]), start[:, 0]) > 2 * np.maximum(2 * half, AT_POLE)
-    # Coordinates that count as zero are made zero where arcs are cut.
-    moved = (np.abs(start) <= AT_POLE).any(axis=1) | (np.abs(end) <= AT_POLE).any(axis=1)
-    some = np.flatnonzero(inland & ~moved & (half < SHORT))
-    middle, half = unit(start[some] + end[some]), half[some]
-    # The longitude range of an arc is at most that of its length at its least distance from the axis.
-    straight = 2 * LONGER * half <= np.radians(max_segment) * _least_reach(middle, half)
-    if net.sites is not None and net.site is not None:
-        sites, stray = net.sites[net.site[block][some]], _most_straying(middle, half)
-        near = np.flatnonzero(stray > _allowed(sites, middle, half))
-        foot = _feet(sites[near], great_axes(start[some[near]], end[some[near]]))
-        straight[near] &= stray[near] <= _allowed(sites[near], middle[near], half[near], foot)
-    result = np.zeros(len(inland), dtype=bool)
-    result[some] = straight
-    return inland, result
+    return np.maximum(np.abs(start[:, 1]), start[:, 0]) > 2 * np.maximum(_lengths(end - start), AT_POLE)
 
 
 def _with_lonlat(points: FloatArray, latitude: Latitude) -> FloatArray:
@@ -256,7 +218,7 @@ def _sampled(pieces: Pieces, max_segment: float) -> Ragged:
 
 def _clear_of_sites(samples: Ragged, pieces: Pieces, border: Antimeridian, sites: FloatArray) -> Ragged:
     """The samples, refined where a chord departs from its arc by too large a share of its distance to the site."""
-    foot = _feet(sites[pieces.arcs.edge], pieces.arcs.axis)
+    foot = np.abs(np.sum(sites[pieces.arcs.edge] * pieces.arcs.axis, axis=1))
 
     def rule(some: Ragged, rows: Indices) -> tuple[Indices, FloatArray]:
         step = steps_of(some)
@@ -274,13 +236,8 @@ def _clear_of_sites(samples: Ragged, pieces: Pieces, border: Antimeridian, sites
     return refined(samples, rule)
 
 
-def _feet(sites: FloatArray, axes: FloatArray) -> FloatArray:
-    """Distances of sites from the planes of great circles."""
-    return np.abs(np.sum(sites * axes, axis=1))
-
-
-def _allowed(sites: FloatArray, middle: FloatArray, half: FloatArray, foot: FloatArray | float = 0.0) -> FloatArray:
-    """Largest deviation of chords in degrees; `foot` is the distance of the site from the arc's plane, if known.
+def _allowed(sites: FloatArray, middle: FloatArray, half: FloatArray, foot: FloatArray) -> FloatArray:
+    """Largest deviation of chords in degrees; `foot` is the distance of the site from the arc's plane.
 
     A site is at least as far from an arc as from its plane, and as from its midpoint less half the chord.
     """
@@ -293,13 +250,6 @@ def _lengths(vectors: FloatArray) -> FloatArray:
     return np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
 
 
-def _least_reach(middle: FloatArray, half: FloatArray) -> FloatArray:
-    """Lower bounds on the distances of short arcs from the axis; 0 for long ones and those around a pole."""
-    reach = np.hypot(middle[:, 0], middle[:, 1])
-    least = reach - LONGER * half
-    return np.where((half < SHORT) & (2 * least > reach), least, 0.0)
-
-
 def _most_straying(middle: FloatArray, half: FloatArray) -> FloatArray:
     """Bounds on the distance of short chords on the map from their arcs, in degrees of a great circle; else infinite.
 
@@ -308,8 +258,10 @@ def _most_straying(middle: FloatArray, half: FloatArray) -> FloatArray:
     in λ cos φ. Other kinds of latitude change the former by 1.5 % of 1/c + 1. The sum is below 2h²/c. The cosine
     changes by at most h.
     """
-    least = _least_reach(middle, half)
-    return np.where(least > 0, np.degrees(2 * (LONGER * half) ** 2 / np.where(least > 0, least, 1.0)), np.inf)
+    reach = np.hypot(middle[:, 0], middle[:, 1])
+    least = reach - LONGER * half
+    near = (half < SHORT) & (2 * least > reach) & (least > 0)
+    return np.where(near, np.degrees(2 * (LONGER * half) ** 2 / np.where(near, least, 1.0)), np.inf)
 
 
 def _straying(samples: Ragged, step: Indices, middle: FloatArray, along: BoolArray, border: Antimeridian) -> FloatArray:
@@ -324,7 +276,7 @@ def _straying(samples: Ragged, step: Indices, middle: FloatArray, along: BoolArr
 
 
 def _drawn(
-    faces: Ragged, rows: Indices, sides: Sides, threads: int, told: _Told | None = None
+    faces: Ragged, rows: Indices, sides: Sides, threads: int, step: Step = lambda: None
 ) -> tuple[Packed, BoolArray, BoolArray]:
     """Polygons of some of the faces, which are not simple and counterclockwise, and which are large."""
     result = np.full(len(rows), None, dtype=object)
@@ -337,24 +289,29 @@ def _drawn(
     sides.pieces.of_edge  # noqa: B018 - computed once here, not by each thread
     for block, found in zip(blocks, in_order(drawn, blocks, threads), strict=True):
         result[block], wrong[block], large[block] = found
-        if told is not None:
-            told.step()
+        step()
     return result, wrong, large
 
 
 def _drawn_block(faces: Ragged, sides: Sides) -> tuple[Packed, BoolArray, BoolArray]:
     """First the faces that do not meet the border and whose rings are simple; the others are clipped in full."""
     result, large = np.full(len(faces), None, dtype=object), np.zeros(len(faces), dtype=bool)
-    wrong = np.zeros(len(faces), dtype=bool)
+    wrong, others = np.zeros(len(faces), dtype=bool), np.ones(len(faces), dtype=bool)
     inland = np.bincount(faces.row, ~sides.inland[np.maximum(faces.values, ~faces.values)], minlength=len(faces)) == 0
     rows = np.flatnonzero(inland & (faces.sizes > 0))
     if len(rows):
         rings = _rings(faces.take(rows), sides)
-        simple, area = star_shaped(rings, sides.border.slack)
+        outlines = shapely.linearrings(rings.values, indices=rings.row)
+        polygons = shapely.polygons(outlines)
+        area = shapely.area(polygons)
+        # What is thinner than the border is blurred is clipped, as are rings that stand still, which lose such steps.
+        simple = shapely.is_valid(polygons) & shapely.is_ccw(outlines)
+        simple &= area > 2 * sides.border.slack * shapely.length(outlines)
+        still = (rings.values == rings.values[rings.following]).all(axis=1)
+        simple[rings.row[still]] = False
         rows = rows[simple]
         result[rows], large[rows] = wkb.polygons(rings.take(simple)), area[simple] > WORLD / 10
-    others = np.ones(len(faces), dtype=bool)
-    others[rows] = False
+        others[rows] = False
     result[others], wrong[others], large[others] = _clipped_block(faces.take(others), sides)
     return result, wrong, large
 

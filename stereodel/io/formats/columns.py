@@ -1,4 +1,4 @@
-"""Columns of text: converted to numbers where no digit is lost, otherwise kept unchanged.
+"""Columns: text as numbers where no digit is lost, and what their cells are in formats that have fewer types.
 
 A number is what people and programs write in tables: digits, a sign, a decimal point or comma, an exponent. Other
 notations that Python accepts, such as 1_000 or digits of other scripts, are text, and so are thousands with separators.
@@ -9,14 +9,16 @@ separate thousands, as in 9,9934 or 0.125.
 
 from __future__ import annotations
 
+import json
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from decimal import Decimal
 from typing import Any, Final
 
 import numpy as np
 
-from stereodel._arrays import BoolArray, Codes, Column, FloatArray, Texts
+from stereodel._arrays import BoolArray, Column, FloatArray
+from stereodel.io.formats.names import listed
 
 MISSING: Final = ("", "na", "n/a", "nan", "null", "none", "<na>", "-")
 """Spellings of a missing value, in any case."""
@@ -41,13 +43,23 @@ TINY: Final = float(np.finfo(np.float64).tiny)
 EXACT_INTEGERS: Final = 2.0**53
 """Up to this number doubles represent every integer."""
 
-_LETTERS: Final = np.frombuffer("0123456789+-.,eE\0".encode("utf-32-le"), dtype=np.uint32)
-
 LETTERS: Final = frozenset("0123456789+-.,eE")
 """What finite numbers are written with."""
 
 CODE: Final = re.compile(r"^[-+]?0[0-9]", re.MULTILINE)
 """A value that starts, after an optional sign, with a zero and another digit."""
+
+UNWRITABLE: Final = {
+    "kml": re.compile("[\x00-\x08\x0b-\x1f\ufffe\uffff\ud800-\udfff]"),
+    **dict.fromkeys(("gpkg", "fgb", "shp"), re.compile("[\x00\ud800-\udfff]")),
+}
+"""Characters that text of a format cannot have: those that XML lacks or changes, and the end of text in GDAL."""
+
+HALVES: Final = re.compile("[\ud800-\udfff]")
+"""Halves of characters, which UTF-8 lacks."""
+
+LARGEST: Final = {"shp": 1e23, "kml": 1.797693134862315e308}
+"""From here on a number has more digits than a shapefile's field, or GDAL's 15 digits of it are infinite."""
 
 
 def decoded(content: bytes) -> str:
@@ -97,18 +109,22 @@ def column(values: Iterable[Any]) -> Column:
     return np.array([np.nan if cell is None else cell for cell in cells], dtype=np.float64)
 
 
+def of_objects(values: Any) -> Column:
+    """Objects of one type as an array of that type; other arrays as they are."""
+    array = np.asarray(values)
+    if array.dtype.kind != "O" or not len(array):
+        return array
+    cells = array.tolist()
+    if all(isinstance(cell, str) for cell in cells):
+        return texts(cells)
+    return column(cells) if all(cell is None or type(cell) is int for cell in cells) else array
+
+
 def typed(values: Column, *, comma: bool = False) -> Column:
     """A column of text as integers, or as floats with NaN for missing values, if all its values are numbers.
 
     The column stays text if a number has more digits than a double can hold, or starts with a zero and another digit,
     as codes do. `comma` says whether a comma may be a decimal mark.
-
-    Examples
-    --------
-    >>> typed(np.array(["1", "2"])), typed(np.array(["1,5", ""]), comma=True)
-    (array([1, 2]), array([1.5, nan]))
-    >>> typed(np.array(["12345678901234567891"])), typed(np.array(["007"]))
-    (array(['12345678901234567891'], dtype='<U20'), array(['007'], dtype='<U3'))
     """
     if values.dtype.kind != "U":
         return values
@@ -179,7 +195,7 @@ def _doubles(values: Column) -> tuple[FloatArray, BoolArray]:
     if values.dtype.kind == "U":
         text = np.char.strip(values.astype(np.str_, copy=False))
         try:
-            if np.isin(_letters(text), _LETTERS).all():
+            if LETTERS.issuperset("".join(text.tolist())):
                 return text.astype(np.float64), np.zeros(len(text), dtype=np.bool_)
         except ValueError:
             pass
@@ -193,13 +209,6 @@ def _doubles(values: Column) -> tuple[FloatArray, BoolArray]:
     return result, wrong
 
 
-def _letters(text: Texts) -> Codes:
-    """The code points of text, (n, longest), padded with zeros."""
-    if not len(text) or not text.dtype.itemsize:
-        return np.zeros((len(text), 1), dtype=np.uint32)
-    return np.ascontiguousarray(text).view(np.uint32).reshape(len(text), -1)
-
-
 def _all_held(text: list[str], numbers: FloatArray) -> bool:
     """Whether the doubles preserve all digits of the text from which they were read."""
     if not np.isfinite(numbers).all():
@@ -209,3 +218,62 @@ def _all_held(text: list[str], numbers: FloatArray) -> bool:
         if unsure and Decimal(cell) != Decimal(repr(number)):
             return False
     return True
+
+
+def plain_cells(values: Any) -> list[Any]:
+    """The values of a column as JSON has them, None for missing and infinite ones."""
+    array = np.asarray(values)
+    return [plain(cell) for cell in (array if array.dtype.kind in "mM" else array.tolist())]
+
+
+def plain(cell: Any) -> Any:
+    """One value: dates are text as in ISO 8601, bytes are hexadecimal, durations and other objects as `str` says."""
+    if cell is None or isinstance(cell, bool | int | str):
+        return cell
+    if isinstance(cell, float | np.floating):
+        return float(cell) if np.isfinite(cell) else None
+    if isinstance(cell, np.datetime64 | np.timedelta64):
+        return None if np.isnat(cell) else str(cell)
+    if isinstance(cell, np.bool_ | np.integer):
+        return cell.item()
+    if isinstance(cell, bytes):
+        return cell.hex().upper()
+    if isinstance(cell, Mapping):
+        return {str(name): plain(part) for name, part in cell.items()}
+    if isinstance(cell, list | tuple | set | np.ndarray):
+        return [plain(part) for part in cell]
+    if type(cell).__name__ == "NAType" or cell != cell:  # missing values of pandas and NumPy
+        return None
+    return cell.isoformat() if hasattr(cell, "isoformat") else str(cell)
+
+
+def as_text(cell: Any) -> Any:
+    """A plain value as text, lists and mappings as JSON; None stays."""
+    if isinstance(cell, list | dict):
+        return json.dumps(cell, ensure_ascii=False, allow_nan=False)
+    return cell if cell is None else str(cell)
+
+
+def check_held(columns: Mapping[str, Any], kind: str) -> None:
+    """Raise ValueError that names the column for text or numbers that a format cannot hold."""
+    pattern = UNWRITABLE.get(kind, HALVES)
+    wrong = [name for name in columns if pattern.search(name)]
+    if wrong:
+        raise ValueError(f"the column name {listed(wrong[:1])} has a character that .{kind} cannot hold")
+    for name, values in columns.items():
+        array = np.asarray(values)
+        if array.dtype.kind in "UO":
+            said = next((cell for cell in array.ravel().tolist() if type(cell) is str and pattern.search(cell)), None)
+            if said is not None:
+                raise ValueError(
+                    f"column {name!r} has the text {listed([said])}, with a character that .{kind} cannot hold; "
+                    "replace it, or choose another format"
+                )
+        if kind in LARGEST and array.dtype.kind == "f":
+            sizes = np.abs(array.astype(np.float64))
+            beyond = np.isfinite(sizes) & (sizes >= LARGEST[kind])
+            if beyond.any():
+                raise ValueError(
+                    f"column {name!r} has the number {array[beyond][0]}, which .{kind} cannot hold; "
+                    "choose another format"
+                )

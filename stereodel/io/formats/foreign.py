@@ -1,28 +1,44 @@
-"""Files that GDAL is given: of a known format, and without a reference to other files or to hosts.
+"""Files of strangers: unpacked within limits, and given to GDAL where they refer to no other file and no host.
 
 GDAL goes by content, not by name, and knows formats that are nothing but references, such as virtual ones and services.
-So the format is recognised here first, and every other is refused.
+So the format is recognised here first, and every other is refused. What is packed, by gzip, bzip2 or zip, is unpacked
+in pieces and within the limits of `stereodel.constants`.
 """
 
 from __future__ import annotations
 
-import functools
+import bz2
+import gzip
+import io
 import os
 import re
 import sqlite3
+import struct
+import zlib
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import closing, contextmanager, nullcontext
+from functools import reduce
 from pathlib import Path
+from shutil import copyfileobj
 from tempfile import TemporaryDirectory
 from threading import Lock
 from typing import Any, Final
-from zipfile import ZipFile
+from zipfile import BadZipFile, ZipFile
 
 from stereodel._extras import optional
-from stereodel.constants import MOST_COLUMNS, UNPACKED_RATIO
+from stereodel.constants import MOST_COLUMNS, MOST_MEMBERS, UNPACKED_RATIO, UNPACKED_SIZE
 from stereodel.io.formats.names import listed
-from stereodel.io.formats.packed import ZIP, check_size, extract, pack_anew
+
+ZIP: Final = b"PK\x03\x04"
+MARKS: Final[dict[bytes, Callable[..., Any]]] = {b"\x1f\x8b": gzip.open, b"BZh": bz2.open}
+"""First bytes of packed files, and what unpacks them."""
+
+PIECE: Final = 1 << 20
+"""Bytes that are unpacked at a time."""
+
+DAMAGED: Final = (OSError, EOFError, zlib.error, BadZipFile, NotImplementedError, RuntimeError, struct.error)
+"""What unpacking raises for damaged, encrypted and unknown contents."""
 
 HEAD: Final = 1 << 20
 """Bytes from which a format is recognised; GDAL looks at fewer."""
@@ -35,8 +51,9 @@ ROOT: Final = re.compile(
 )
 """The name of the first element of an XML file, without its prefix."""
 
+ROOTS: Final = {b"kml": "kml", b"gpx": "gpx", b"FeatureCollection": "gml"}
 BINARY: Final = {b"SQLite format 3\0": "sqlite", b"fgb": "fgb", b"\x00\x00\x27\x0a": "shp", ZIP: "zip"}
-"""First bytes of the binary formats."""
+"""Names of first elements, and first bytes of the binary formats."""
 
 MAIN: Final = (".shp", ".gpkg", ".sqlite", ".fgb", ".kml", ".gml", ".gpx")
 """Endings of the files in a zip archive that are read."""
@@ -50,7 +67,6 @@ NAMED: Final = (".xlsx", ".ods", ".kmz")
 CELL: Final = re.compile(rb"\br\s*=\s*[\"']([A-Za-z]{1,3})[0-9]")
 """The column in the name of a cell of a spreadsheet."""
 
-SHARED: Final = "sharedStrings.xml"
 TEXT: Final = re.compile(rb"<si\b.*?</si>", re.DOTALL)
 OF_TEXT: Final = re.compile(rb"\bt\s*=\s*[\"']s[\"'][^<]*<v[^>]*>\s*([0-9]{1,9})")
 """The texts of a spreadsheet, and the number of its text in a cell."""
@@ -84,6 +100,47 @@ STORED: Final = "type = 'table' AND name IN ('gpkg_spatial_ref_sys', 'spatial_re
 """Tables of coordinate systems."""
 
 _settings = Lock()
+
+
+def unpacked(content: bytes) -> bytes:
+    """What gzip or bzip2 packed; other bytes as they are."""
+    opened = next((opened for mark, opened in MARKS.items() if content.startswith(mark)), None)
+    if opened is None:
+        return content
+    pieces, size = [], 0
+    try:
+        with opened(io.BytesIO(content)) as stream:
+            while piece := stream.read(PIECE):
+                pieces.append(piece)
+                size += len(piece)
+                check_size(size, len(content))
+    except DAMAGED as error:
+        raise ValueError(f"the compressed file is damaged: {error}") from error
+    return b"".join(pieces)
+
+
+@contextmanager
+def _archive(path: Path) -> Iterator[ZipFile]:
+    """A zip archive with members whose number and size stay within the limits."""
+    try:
+        with ZipFile(path) as archive:
+            members = archive.infolist()
+            if len(members) > MOST_MEMBERS:
+                raise ValueError(f"the archive has {len(members)} members; {MOST_MEMBERS} are the most")
+            check_size(sum(member.file_size for member in members), path.stat().st_size)
+            yield archive
+    except DAMAGED as error:
+        raise ValueError(f"the archive is damaged: {error}") from error
+
+
+def check_size(size: int, packed: int) -> None:
+    """A ValueError for a file of `packed` bytes that holds far more, `size`."""
+    most = max(UNPACKED_SIZE, UNPACKED_RATIO * packed)
+    if size > most:
+        raise ValueError(
+            f"the file would unpack to more than {most} bytes, {UNPACKED_RATIO} times its size; "
+            "if you trust it, unpack it first, or save it in another format"
+        )
 
 
 @contextmanager
@@ -130,8 +187,9 @@ def _kind_of(path: Path) -> str:
     """The format of a file, by its first bytes."""
     with path.open("rb") as file:
         head = file.read(HEAD)
-    root = ROOT.match(head.removeprefix(b"\xef\xbb\xbf"))
-    kind = next((kind for mark, kind in BINARY.items() if head.startswith(mark)), root and _kind_of_root(root[1], head))
+    kind = next((kind for mark, kind in BINARY.items() if head.startswith(mark)), None)
+    if root := ROOT.match(head.removeprefix(b"\xef\xbb\xbf")):
+        kind = ROOTS.get(root[1], "gml" if b"opengis.net/gml" in head else None)
     if kind is None or REFERRING.search(head):
         raise ValueError("the file is damaged, or of a format that is not read; write it as GeoPackage, say")
     if kind == "sqlite":
@@ -143,13 +201,6 @@ def _kind_of(path: Path) -> str:
     if kind == "gml" and schema.is_file() and INCLUDED.search(schema.read_bytes()):
         raise ValueError(f"the schema beside it, {schema.name}, includes another file, which is not opened")
     return kind
-
-
-def _kind_of_root(name: bytes, head: bytes) -> str | None:
-    """The format of an XML file by the name of its root."""
-    if name in (b"kml", b"gpx"):
-        return name.decode()
-    return "gml" if name == b"FeatureCollection" or b"opengis.net/gml" in head else None
 
 
 def _kind_of_folder(path: Path) -> str:
@@ -164,7 +215,7 @@ def _kind_of_folder(path: Path) -> str:
 def _check_tables(path: Path) -> None:
     """A ValueError for a database with a table that is kept elsewhere."""
     try:
-        with closing(sqlite3.connect(f"{path.absolute().as_uri()}?mode=ro&immutable=1", uri=True)) as base:
+        with _base(path) as base:
             tables = base.execute(f"SELECT name, sql FROM sqlite_master WHERE {MADE}").fetchall()
             for (name,) in base.execute(f"SELECT name FROM sqlite_master WHERE {STORED}").fetchall():
                 check_crs(" ".join(map(str, base.execute(f"SELECT * FROM {name}").fetchall())))
@@ -175,12 +226,17 @@ def _check_tables(path: Path) -> None:
             raise ValueError(f"the table {name!r} is not stored in the file, but made, and could be any other file")
 
 
+def _base(path: Path) -> closing[sqlite3.Connection]:
+    """A database, only to be read."""
+    return closing(sqlite3.connect(f"{path.absolute().as_uri()}?mode=ro&immutable=1", uri=True))
+
+
 def check_stored(path: Path, layers: Iterable[str]) -> None:
     """A ValueError for a layer of a database that is computed, and may be of any size."""
     with path.open("rb") if path.is_file() else nullcontext() as file:
         if file is None or BINARY.get(file.read(16)) != "sqlite":
             return
-    with closing(sqlite3.connect(f"{path.absolute().as_uri()}?mode=ro&immutable=1", uri=True)) as base:
+    with _base(path) as base:
         every = "SELECT lower(name), type, sql FROM sqlite_master WHERE type IN ('table', 'view')"
         known = {name: (kind, sql) for name, kind, sql in base.execute(every)}
     for layer in layers:
@@ -194,10 +250,18 @@ def check_stored(path: Path, layers: Iterable[str]) -> None:
 def _of_archive(path: Path, folder: Path) -> tuple[Path, str]:
     """A zip archive as what GDAL reads: a copy without packing, or the one file that is in it, and its format."""
     if path.suffix.lower() in NAMED:
-        pack_anew(path, copy := folder / f"{path.stem}{path.suffix.lower()}")
+        copy = folder / f"{path.stem}{path.suffix.lower()}"
+        # Member by member, so that the table of contents says what is in it.
+        with _archive(path) as archive, ZipFile(copy, "w") as plain:
+            for member in archive.infolist():
+                with archive.open(member) as source, plain.open(member.filename, "w") as into:
+                    copyfileobj(source, into, PIECE)
         _check_cells(copy, path.stat().st_size)
         return copy, "zip"
-    found = [file for file in extract(path, folder, (*MAIN, *BESIDE)) if file.suffix.lower() in MAIN]
+    with _archive(path) as archive:
+        names = [name for name in archive.namelist() if not name.startswith("__MACOSX/")]
+        files = [Path(archive.extract(name, folder)) for name in names if name.lower().endswith((*MAIN, *BESIDE))]
+    found = [file for file in files if file.suffix.lower() in MAIN]
     kinds = {_kind_of(file) for file in found}
     if not found:
         raise ValueError(f"the archive holds no file that is read; such files end in {', '.join(MAIN)}")
@@ -217,22 +281,24 @@ def _check_cells(path: Path, packed: int) -> None:
     """
     with ZipFile(path) as archive:
         names, letters = archive.namelist(), 0
-        shared = [len(each) for name in names if name.endswith(SHARED) for each in TEXT.findall(archive.read(name))]
+        shared = [
+            len(each)
+            for name in names
+            if name.endswith("sharedStrings.xml")
+            for each in TEXT.findall(archive.read(name))
+        ]
         for name in names:
             if "worksheets/" in name:
                 sheet = archive.read(name)
                 cells = CELL.findall(sheet)
-                width = max(map(_number, set(cells)), default=0)
+                # The number of a column, 1 for A.
+                numbers = (reduce(lambda number, letter: 26 * number + letter - 64, c.upper(), 0) for c in set(cells))
+                width = max(numbers, default=0)
                 if b"\0" in sheet or width * sheet.count(b"<row") > UNPACKED_RATIO * len(cells) + MOST_COLUMNS:
                     raise ValueError("the spreadsheet is nearly empty, with cells far apart; save it as CSV")
                 counts = Counter(map(int, OF_TEXT.findall(sheet)))
                 letters += sum(shared[number] * count for number, count in counts.items() if number < len(shared))
     check_size(letters, packed)
-
-
-def _number(letters: bytes) -> int:
-    """The number of a spreadsheet's column, 1 for A."""
-    return functools.reduce(lambda number, letter: 26 * number + letter - 64, letters.upper(), 0)
 
 
 @contextmanager

@@ -1,0 +1,314 @@
+"""Diagrams, triangulations and contours as rows of maps: columns, and geometries as well-known binary or in a frame."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any, Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from stereodel import data
+from stereodel._arrays import FloatArray, Geometries, Indices, Packed, as_choice, as_scalar
+from stereodel._extras import optional
+from stereodel._spaces import SPHERE, surface_of
+from stereodel._tasks.progress import Progress
+from stereodel.constants import UNIT_ROUNDOFF
+from stereodel.curves.borders import Box, Pieces, frame_of
+from stereodel.curves.clip import chains_of, closed_along, points_along, together
+from stereodel.curves.ragged import Ragged
+from stereodel.curves.trace import Arcs, great
+from stereodel.interpolation import Contour
+from stereodel.io.formats import wkb
+from stereodel.io.formats.map_rows import MapRows, packed, shapely
+from stereodel.io.formats.names import beside
+from stereodel.io.maps.clipping import clipped
+from stereodel.io.maps.meshes_as_rows import (
+    Columns,
+    Mesh,
+    diagram_of,
+    places_of,
+    point_columns,
+    triangle_sides,
+    triangles_of,
+    triangulation_of,
+    usual_kind,
+    voronoi_sides,
+)
+from stereodel.io.maps.on_map import polygons_on_map, repaired, steps_of
+from stereodel.io.maps.tiles import Net, sphere_lines, sphere_polygons
+from stereodel.io.reading import shapes_of
+from stereodel.sphere.latitudes import KINDS, Latitude
+from stereodel.sphere.vectors import units
+from stereodel.triangulation import PlanarVoronoi
+
+What = Literal["cells", "triangles", "edges", "ridges", "sites"]
+WHAT = ("cells", "triangles", "edges", "ridges", "sites")
+LARGEST_SEGMENT = 90.0
+
+
+def to_geodataframe(
+    mesh: Mesh | list[Contour],
+    *,
+    what: What | None = None,
+    columns: Mapping[str, npt.ArrayLike] | None = None,
+    latitude: Latitude | None = None,
+    radius: float = 1.0,
+    max_segment: float = 1.0,
+    bounds: npt.ArrayLike | None = None,
+    crs: Any = None,
+    clip: Any = None,
+) -> Any:
+    """Cells, triangles, edges, ridges, sites or contours as a GeoDataFrame.
+
+    Parameters
+    ----------
+    mesh : SphericalVoronoi, SphericalDelaunay, PlanarVoronoi, PlanarDelaunay, or list of Contour
+        Diagram and triangulation are computed from each other where `what` requires it. Contours come from `contours`;
+        of the options only `latitude`, `max_segment` and `crs` apply to them.
+    what : {"cells", "triangles", "edges", "ridges", "sites"}, optional
+        Voronoi cells, Delaunay triangles, Delaunay edges, Voronoi ridges or the points themselves. By default the cells
+        of a diagram and the triangles of a triangulation.
+    columns : mapping of str to (n,) array_like, optional
+        Further columns for cells and sites, one value for each point, such as ``read_points(path).columns``.
+    latitude : {"spherical", "geodetic", "authalic"}, optional
+        Kind of latitude of the results, as in `xyz_to_lonlat`; by default that of the input points. Sphere only.
+    radius : float, optional
+        Radius of the sphere. Areas are steradians times its square, lengths radians times it; with
+        `stereodel.earth.AUTHALIC_RADIUS_KM`, they are in km² and km. In the plane, the length of one coordinate unit.
+    max_segment : float, optional
+        Longest chord in degrees, in (0, 90], measured along the great circle and in longitude. Sphere only.
+    bounds : (4,) array_like, optional
+        (xmin, ymin, xmax, ymax) to which cells and ridges of the plane are cut; by default the rectangle of the points
+        extended on all sides by a tenth of its longer side.
+    crs : optional
+        Coordinate reference system of plane coordinates, in any form that GeoPandas accepts. On the sphere it is
+        EPSG:4326.
+    clip : "land", path-like, GeoDataFrame, geometry or GeoJSON, optional
+        Polygons to which cells or triangles of the sphere are clipped, in degrees or with a coordinate system of their
+        own; "land" is the land of Natural Earth, 1:50 000 000. What lies outside has no row; ``area`` is the area
+        inside.
+
+    Returns
+    -------
+    geopandas.GeoDataFrame
+        ``point`` (index of the point) and ``area`` for cells; ``triangle``, ``a``, ``b``, ``c`` (indices of its
+        corners) and ``area`` for triangles; ``a``, ``b`` and ``length`` for edges and ridges; ``point`` for sites;
+        ``level`` and ``closed`` for contours, whose lines have higher values on their left; then `columns`, then
+        ``geometry``, longitude before latitude. Duplicates and cells outside the bounds have no row. A column of
+        `columns` whose name is taken gets a number appended, with a warning.
+
+    Raises
+    ------
+    ImportError
+        Without GeoPandas (the extra ``geo``).
+    TypeError, ValueError
+        If `mesh` is of another type, an option is out of range, or a column has the wrong length.
+
+    Notes
+    -----
+    Polygons are valid, counterclockwise, cut at ±180° and closed along ±90° around the poles. Those of the sphere tile
+    [−180, 180] × [−90, 90] without gaps or overlaps, since every arc is sampled once for the two faces that share it
+    and chords are halved where straight lines on the map would cross. Cells and triangles narrower than a micrometre
+    are the exception: they are valid or empty, and may overlap others by the distance between chords and arcs.
+    `closing` triangles are not part of the sphere's surface and have no row; nor do edges that belong to them alone.
+
+    Polygons are clipped on the map, where the lines of `clip` are straight, as in a GIS, and arcs are chords no longer
+    than `max_segment`. Crossings are rounded to doubles separately for each of two neighbours. The area of a clipped
+    polygon is the share of the polygon on the map that remains, measured on the sphere, times the area of the whole
+    cell or triangle, which comes from its arcs.
+
+    Examples
+    --------
+    >>> from stereodel import SphericalVoronoi
+    >>> from stereodel.io import to_geodataframe
+    >>> diagram = SphericalVoronoi.from_lonlat([[0, 0], [90, 0], [180, 0], [-90, 0], [0, 90], [0, -90]])
+    >>> frame = to_geodataframe(diagram, columns={"name": ["A", "B", "C", "D", "N", "S"]}, max_segment=5)
+    >>> print(frame.assign(kind=frame.geom_type)[["point", "name", "area", "kind"]].round(3))
+       point name   area          kind
+    0      0    A  2.094       Polygon
+    1      1    B  2.094       Polygon
+    2      2    C  2.094  MultiPolygon
+    3      3    D  2.094       Polygon
+    4      4    N  2.094       Polygon
+    5      5    S  2.094       Polygon
+    """
+    optional("geopandas", "geo")
+    return rows_of(**locals()).frame()
+
+
+def rows_of(
+    mesh: Mesh | list[Contour],
+    *,
+    what: What | None = None,
+    columns: Mapping[str, npt.ArrayLike] | None = None,
+    latitude: Latitude | None = None,
+    radius: float = 1.0,
+    max_segment: float = 1.0,
+    bounds: npt.ArrayLike | None = None,
+    crs: Any = None,
+    clip: Any = None,
+    progress: Progress | None = None,
+) -> MapRows:
+    """The rows of `to_geodataframe` for writing to files, without creating a Shapely geometry for each."""
+    # The parameters stand in both functions: documentation, type checkers and, for options of `write`, error messages
+    # read them from the signatures.
+    as_scalar(max_segment, "max_segment", low=0.0, high=LARGEST_SEGMENT, open_low=True)
+    if isinstance(mesh, list):
+        if what is not None or columns or bounds is not None or clip is not None:
+            raise ValueError(
+                "what, columns, bounds and clip are options of triangulations and diagrams, not of contours"
+            )
+        return _of_contours(mesh, max_segment, latitude, crs)
+    wanted = as_choice(what or usual_kind(mesh), WHAT, "what")
+    chosen: Latitude = as_choice(latitude or mesh.latitude or "spherical", KINDS, "latitude")
+    scale = as_scalar(radius, "radius", low=0.0, open_low=True)
+    box = None if mesh.surface is SPHERE else frame_of(mesh.points, bounds)
+    if clip is not None and (box or wanted not in ("cells", "triangles")):
+        raise ValueError("clip is for cells and triangles of the sphere; what is in the plane is cut to bounds")
+    optional("shapely", "geo")
+    found: Columns
+    if wanted == "sites":
+        found, binary = {"point": np.arange(len(mesh.points))}, wkb.points(places_of(mesh, mesh.points, chosen))
+    elif wanted in ("cells", "triangles"):
+        found, binary = _faces(mesh, wanted, max_segment, chosen, box, progress)
+        found["area"] = found["area"] * scale**2
+    else:
+        found, binary = _lines(mesh, wanted, max_segment, chosen, box)
+        found["length"] = found["length"] * scale
+    if clip is not None:
+        shapes = shapes_of(data.land() if isinstance(clip, str) and clip == "land" else clip)
+        binary, share = clipped(binary, shapes.rings, shapes.ring_polygon, chosen)
+        found["area"] = found["area"] * share
+    given = point_columns(columns, len(mesh.points))
+    if "point" in found:
+        named = beside([*found, "geometry"], given)
+        found |= {name: values[found["point"]] for name, values in named.items()}
+    elif given:
+        raise ValueError(f"columns belong to points, which {wanted} have none of; use what='cells' or what='sites'")
+    layer = MapRows(found, binary, crs if box else "EPSG:4326")
+    kept = wkb.is_there(binary)
+    return layer if kept.all() else layer.take(kept)
+
+
+def _faces(
+    mesh: Mesh, what: str, max_segment: float, latitude: Latitude, box: Box | None, progress: Progress | None
+) -> tuple[Columns, Packed]:
+    """Cells or triangles: columns, areas among them, and polygons; None where there is none."""
+    if what == "cells":
+        diagram = diagram_of(mesh)
+        columns: Columns = {"point": np.arange(len(diagram.points)), "area": diagram.areas()}
+        if box is not None:
+            return columns, packed(plane_cells(diagram, box))
+        cells = sphere_polygons(ridge_net(diagram), voronoi_sides(diagram), max_segment, latitude, progress)
+        kept = np.flatnonzero(diagram.is_kept)
+        if len(kept) == 1:
+            cells[kept] = packed(np.array([shapely.box(-180.0, -90.0, 180.0, 90.0)]))
+        return columns, cells
+    triangulation, number = triangles_of(mesh)
+    simplices = triangulation.simplices[number]
+    corners = mesh.points[simplices]
+    columns = {"triangle": number} | {name: simplices[:, k] for k, name in enumerate("abc")}
+    columns["area"] = mesh.surface.areas(*corners.transpose(1, 0, 2))
+    if box is not None:
+        return columns, packed(shapely.polygons(corners))
+    sides, pairs = triangle_sides(simplices)
+    return columns, sphere_polygons(Net(units(mesh.points), pairs), sides, max_segment, latitude, progress)
+
+
+def _lines(mesh: Mesh, what: str, max_segment: float, latitude: Latitude, box: Box | None) -> tuple[Columns, Packed]:
+    """Edges or ridges: columns, lengths among them, and lines."""
+    if box is not None:
+        if what == "edges":
+            pairs = triangulation_of(mesh).edges
+            ends = mesh.points[pairs]
+        else:
+            diagram = diagram_of(mesh)
+            ends, ridge = diagram.segments((box.left, box.bottom, box.right, box.top))
+            pairs = diagram.ridge_points[ridge]
+        length, lines = mesh.surface.distances(ends[:, 0], ends[:, 1]), shapely.linestrings(ends)
+    else:
+        if what == "edges":
+            triangulation, number = triangles_of(mesh)
+            _, pairs = triangle_sides(triangulation.simplices[number])
+            arcs = Net(units(mesh.points), pairs).arcs()
+        else:
+            pairs, arcs = diagram_of(mesh).ridge_points, ridge_net(diagram_of(mesh)).arcs()
+        length = np.radians(mesh.surface.distances(arcs.start, arcs.end))
+        lines = sphere_lines(arcs, max_segment, latitude)
+    return {"a": pairs[:, 0], "b": pairs[:, 1], "length": length}, packed(lines)
+
+
+def ridge_net(diagram: Any) -> Net:
+    """The ridges of a diagram on the sphere, each kept clear of the first of its two sites."""
+    sites, site = units(diagram.points), diagram.ridge_points[:, 0]
+    return Net(diagram.vertices, diagram.ridge_vertices, diagram.ridge_normals, sites, site)
+
+
+def _of_contours(contours: Sequence[Contour], max_segment: float, latitude: Latitude | None, crs: Any) -> MapRows:
+    """A row for each contour: its level, whether it is closed, and its line, cut at ±180° on the sphere."""
+    for number, contour in enumerate(contours):
+        if not isinstance(contour, Contour):
+            raise TypeError(f"mesh[{number}] must be a Contour, not {type(contour).__name__}")
+    kind = None if latitude is None else as_choice(latitude, KINDS, "latitude")
+    columns: Columns = {
+        "level": np.array([contour.level for contour in contours], dtype=np.float64),
+        "closed": np.array([contour.closed for contour in contours], dtype=np.bool_),
+    }
+    nothing = contours[0].points[:0] if contours else np.zeros((0, 3))
+    points = Ragged.of([contour.points for contour in contours], nothing)
+    if surface_of(points.values) is not SPHERE:
+        return MapRows(columns, packed(shapely.linestrings(points.values, indices=points.row)), crs)
+    first = steps_of(points)
+    arcs = great(points.values[first], points.values[first + 1])
+    lines = Ragged(np.arange(len(first)), points.offsets - np.arange(len(points) + 1))
+    kind = kind or next((contour.latitude for contour in contours if contour.latitude), None) or "spherical"
+    return MapRows(columns, packed(sphere_lines(arcs, max_segment, kind, lines)), "EPSG:4326")
+
+
+def plane_cells(diagram: PlanarVoronoi, box: Box) -> Geometries:
+    """A Polygon for each point, empty where its cell is outside; neighbours share points, as ridges are cut once."""
+    count = len(diagram.points)
+    segments, ridge = _segments(diagram, box)
+    # The ridges are already cut: only the endpoints of these arcs are used.
+    none = np.zeros((len(ridge), 0))
+    arcs = Arcs(segments[:, 0], segments[:, 1], none, none, none, none, none, ridge)
+    low, high = [box.left, box.bottom], [box.right, box.top]
+    opens, shuts = ((segments == low) | (segments == high)).any(axis=2).T
+    pieces = Pieces(arcs, opens, shuts, np.ones(len(ridge), dtype=bool), np.zeros(len(ridge), dtype=bool))
+    samples = Ragged(segments.reshape(-1, 2), 2 * np.arange(len(ridge) + 1))
+    chains = chains_of(voronoi_sides(diagram), pieces)
+    points = points_along(chains.pieces, samples)
+    joined, owner = closed_along(box, points.take(~chains.whole), chains.row[~chains.whole])
+    loops, owner = together(points.take(chains.whole), joined), np.append(chains.row[chains.whole], owner)
+    if not len(ridge) and count:
+        # One cell fills the rectangle: that of the site nearest to any place in it.
+        middle = (box.corners[0] + box.corners[2]) / 2
+        loops = Ragged.of([box.once()])
+        owner = np.argmin(np.sum((diagram.points - middle) ** 2, axis=1), keepdims=True)
+    there = loops.sizes > 3
+    cells, _ = polygons_on_map(loops.take(there), owner[there], count)
+    return repaired(cells, ~shapely.is_valid(cells))
+
+
+def _segments(diagram: PlanarVoronoi, box: Box) -> tuple[FloatArray, Indices]:
+    """The parts of ridges in the rectangle, in order, whose endpoints are vertices or lie exactly on its border.
+
+    A vertex within rounding error of the border is placed on it for all its ridges; parts along the border are left
+    out.
+    """
+    low, high = np.array([box.left, box.bottom]), np.array([box.right, box.top])
+    pieces, ridge = diagram.segments((box.left, box.bottom, box.right, box.top))
+    ends = diagram.ridge_vertices[ridge]
+    vertices = diagram.vertices[ends] if len(diagram.vertices) else np.full_like(pieces, np.nan)
+    size = max(map(abs, (box.left, box.right, box.bottom, box.top)))
+    at_vertex = (ends >= 0) & (np.abs(pieces - vertices).max(axis=-1) <= 8 * UNIT_ROUNDOFF * size)
+    pieces = np.clip(np.where(at_vertex[..., None], vertices, pieces), low, high)
+    # Other endpoints move to the nearest side.
+    gaps = np.concatenate([pieces - low, high - pieces], axis=-1)
+    row, end = np.nonzero(~at_vertex)
+    side = np.argmin(gaps[row, end], axis=-1)
+    pieces[row, end, side % 2] = np.concatenate([low, high])[side]
+    on_side = ((pieces[:, 0] == low) & (pieces[:, 1] == low)) | ((pieces[:, 0] == high) & (pieces[:, 1] == high))
+    inward = ~on_side.any(axis=1) & (pieces[:, 0] != pieces[:, 1]).any(axis=1)
+    return pieces[inward], ridge[inward]
