@@ -10,8 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import AnyIndices, FloatArray, as_choice, as_values, locked
-from stereodel._calls import by_name
-from stereodel._docs import shared
+from stereodel._docs import by_name, shared
 from stereodel._double_double import ROWS, DoubleDouble, unit
 from stereodel._spaces import SPHERE, surface_of
 from stereodel.sphere.latitudes import Latitude

@@ -20,8 +20,7 @@ from stereodel._arrays import (
     locked,
     private,
 )
-from stereodel._calls import by_name
-from stereodel._docs import shared
+from stereodel._docs import by_name, shared
 from stereodel._spaces import SPHERE, PlaneOrSphere, surface_of
 from stereodel._threads import thread_count
 from stereodel.constants import REBUILD_INSERTING, REBUILD_REMOVING
