@@ -8,7 +8,6 @@ import numpy as np
 
 from stereodel import data
 from stereodel.curves.ragged import Ragged
-from stereodel.data.natural_earth import Lines
 from stereodel.globe.lines import SphereLines
 from stereodel.globe.regions import SphereRegions
 from stereodel.sphere.latitudes import Latitude
@@ -65,5 +64,5 @@ def ridges(voronoi: SphericalVoronoi) -> SphereLines:
     return SphereLines.great(start, end, voronoi.ridge_normals())
 
 
-def _lines(lines: Lines, latitude: Latitude) -> SphereLines:
+def _lines(lines: data.EarthLines, latitude: Latitude) -> SphereLines:
     return SphereLines.of_lonlat(Ragged(lines.lonlat, lines.offsets.astype(np.intp)), latitude)
