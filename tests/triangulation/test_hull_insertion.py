@@ -11,9 +11,8 @@ from stereodel.predicates import in_bubble
 from stereodel.triangulation import HullInsertion, SphericalDelaunay, check_delaunay
 from stereodel.triangulation.hull_insertion import insertion_order, spanning_points
 from stereodel.triangulation.sites import GHOST, PlaneSites, RaySites
-from stereodel.triangulation.topology import canonical
 from tests import sets
-from tests.spaces import space_of
+from tests.spaces import canonical, space_of
 
 SOME = [
     *sets.named("sphere", "unit", "cap", "octahedron", "cube", "rim and pole", "rim and poles", "closed hemisphere"),
