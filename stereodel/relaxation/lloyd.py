@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import AnyIndices, FloatArray, as_count, as_scalar, as_weights, as_workers, locked, read_only
+from stereodel._arrays import AnyIndices, FloatArray, as_amounts, as_count, as_scalar, as_workers, locked, read_only
 from stereodel._docs import shared
 from stereodel._double_double import unit
 from stereodel._spaces import PLANE, SPHERE, surface_of
@@ -386,7 +386,7 @@ def _values(density: Density | None, nodes: FloatArray, site: AnyIndices, count:
     if density is None:
         return np.ones(nodes.shape[:2]), np.ones(len(nodes))
     flat = nodes.reshape(-1, nodes.shape[-1])
-    values = as_weights(density(flat), "density(points)")
+    values = as_amounts(density(flat), "density(points)", "weight")
     if values.shape != (len(flat),):
         raise ValueError(
             f"density(points) must return a number for each point, shape {(len(flat),)}, got {values.shape}"
