@@ -170,8 +170,8 @@ def coastlines(resolution: str = "50m") -> EarthLines:
     """
     if resolution == "10m":
         outlines = land("10m")
-        lines = [coast for ring in np.split(outlines.lonlat, outlines.ring_offsets[1:-1]) for coast in _coasts(ring)]
-        return EarthLines(locked(np.concatenate(lines)), _offsets([len(line) for line in lines]))
+        rings = np.split(outlines.lonlat, outlines.ring_offsets[1:-1])
+        return EarthLines(*_joined([coast for ring in rings for coast in _coasts(ring)]))
     columns = _columns("coastlines", resolution)
     degrees = [stored.decimals(columns[key], DEGREE_DIGITS) for key in ("lon", "lat")]
     return EarthLines(locked(np.stack(degrees, axis=-1)), _offsets(stored.integers(columns["sizes"])))
@@ -239,9 +239,8 @@ def borders(resolution: str = "50m") -> Borders:
     owners = _owners(columns)
     shared = [arc for arc in sorted(owners) if arc >= 0 and ~arc in owners]
     arcs = _arcs(columns, DEGREE_DIGITS)
-    lines = [arcs[arc] for arc in shared]
     sides = np.array([(owners[arc], owners[~arc]) for arc in shared], dtype=np.int32)
-    return Borders(locked(np.concatenate(lines)), _offsets([len(line) for line in lines]), locked(sides))
+    return Borders(*_joined([arcs[arc] for arc in shared]), locked(sides))
 
 
 @cache
@@ -288,6 +287,10 @@ def _offsets(sizes: Any) -> IntArray:
     return locked(np.concatenate([[0], np.cumsum(sizes)]).astype(np.int32))
 
 
+def _joined(lines: list[FloatArray]) -> tuple[FloatArray, IntArray]:
+    return locked(np.concatenate(lines)), _offsets([len(line) for line in lines])
+
+
 def _lonlat(columns: dict[str, Bytes], digits: int) -> FloatArray:
     """Coordinates, stored as steps from one point to the next, which are small numbers."""
     steps = np.stack([stored.integers(columns[key]) for key in ("lon", "lat")], axis=-1)
@@ -312,8 +315,7 @@ def _polygons(
     used = stored.integers(columns[f"{kind}_arcs"]).tolist()
     bounds = _offsets(stored.integers(columns[f"{kind}_rings"]))
     rings = [_ring(arcs, used[i:j]) for i, j in pairwise(bounds.tolist())]
-    polygons = _offsets(stored.integers(columns[f"{kind}_polygons"]))
-    return locked(np.concatenate(rings)), _offsets([len(ring) for ring in rings]), polygons
+    return *_joined(rings), _offsets(stored.integers(columns[f"{kind}_polygons"]))
 
 
 def _coasts(ring: FloatArray) -> list[FloatArray]:

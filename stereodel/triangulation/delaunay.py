@@ -60,10 +60,9 @@ FAMILY: Final = {
 
 
 class _kept(Generic[_T]):  # noqa: N801  # a decorator, like `property`
-    """What follows from a state, computed once.
+    """What follows from a state. Of threads that compute it at the same time, the first decides what all have.
 
-    Threads that ask at the same time may all compute it; the first that comes, in one step, decides what all have. As
-    `functools.cached_property`, which promises the last, and up to Python 3.11 lets other states wait meanwhile.
+    `functools.cached_property` promises the last, and up to Python 3.11 lets other states wait meanwhile.
     """
 
     def __init__(self, compute: Callable[[_State], _T]) -> None:
@@ -130,9 +129,8 @@ class _State:
 class Triangulation:
     """A triangulation that depends only on the set of points; see the two subclasses.
 
-    The first change makes a mesh of the kernel, which from then on has the points: changes and states come from it
-    alone, and its lock lets one thread at a time change it while the others wait. A query takes a state once and asks
-    nothing else, so it never mixes two; it holds no lock while it works on the arrays, which never change.
+    The first change makes a mesh of the kernel, from which changes and states come from then on; its lock lets one
+    thread at a time change it. A query takes a state once, so it never mixes two, and holds no lock while it works.
     """
 
     surface: ClassVar[PlaneOrSphere]
@@ -167,12 +165,9 @@ class Triangulation:
         self._last = 0, _State(self.surface, self._workers, points, made)
 
     def _now(self) -> _State:
-        """The present state; waits while another thread changes the triangulation.
-
-        The order matters. Without a mesh no change had ended when this was asked. With one, the number of its changes
-        is read after `_last`: if it is that of the state, no change had ended since. States that two threads read at
-        the same time hold the same arrays; whichever they leave in `_last`, its number tells whether it is out of date.
-        """
+        """The present state; waits while another thread changes the triangulation."""
+        # The order matters: the number of changes is read after `_last`. If it is that of the state, no change had
+        # ended since. Whichever of two threads leaves its state, its number tells whether it is out of date.
         mesh = self._mesh
         changes, state = self._last
         if mesh is not None and mesh.changes != changes:
@@ -414,12 +409,7 @@ class Triangulation:
     def _as_queries(self, queries: npt.ArrayLike, workers: int | None) -> tuple[FloatArray, FloatArray, int]:
         array = self.surface.as_queries(queries)
         flat = array.reshape(-1, array.shape[-1])
-        return array, flat, self._thread_count(workers, len(flat))
-
-    def _thread_count(self, workers: int | None = None, size: int | None = None) -> int:
-        """How many threads a task of `size` points takes, by default of all points."""
-        chosen = self._workers if workers is None else workers
-        return thread_count(chosen, len(self.points) if size is None else size)
+        return array, flat, threads_of(self, workers, len(flat))
 
     def __copy__(self) -> Self:
         """An object of its own that shares the present state, and makes its own mesh when it is changed."""
@@ -478,7 +468,8 @@ def as_triangulation(
 
 def threads_of(triangulation: Triangulation, workers: int | None, size: int | None = None) -> int:
     """How many threads a task of `size` points takes, by default of all points; without `workers` as for the points."""
-    return triangulation._thread_count(workers, size)
+    chosen = triangulation._workers if workers is None else workers
+    return thread_count(chosen, len(triangulation.points) if size is None else size)
 
 
 def flat_order(triangulation: Triangulation) -> IntArray:
