@@ -242,7 +242,7 @@ class Delaunay(GrowingPoints, scipy.spatial.Delaunay):
         ----------
         xi : (..., 2) array_like
         bruteforce : bool, optional
-            Whether points just outside are compared with every triangle at the hull, not just the nearest few.
+            Without effect: points just outside are compared with the nearest triangles alone.
         tol : float, optional
             How far below 0 barycentric coordinates may be, for points outside the hull. Default: 100 times the
             spacing of doubles at 1; 0 for exact answers.
@@ -269,5 +269,5 @@ class Delaunay(GrowingPoints, scipy.spatial.Delaunay):
         queries = flat[finite]
         exact = np.asarray(self._triangulation.find_simplex(queries), dtype=np.int32)
         result = np.full(len(flat), -1, dtype=np.int32)
-        result[finite] = self._near_misses.improve(queries, exact, slack, exhaustive=bool(bruteforce))
+        result[finite] = self._near_misses.improve(queries, exact, slack)
         return result.reshape(array.shape[:-1])

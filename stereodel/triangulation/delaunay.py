@@ -126,6 +126,11 @@ class _State:
         return self.points, self.simplices, self.neighbors
 
 
+def _of_now(name: str, doc: str) -> Any:
+    """A property: what the present state has by that name."""
+    return property(lambda triangulation: getattr(triangulation._now(), name), doc=doc)
+
+
 class Triangulation:
     """A triangulation that depends only on the set of points; see the two subclasses.
 
@@ -185,55 +190,28 @@ class Triangulation:
             self.__dict__.setdefault("_mesh", made)
         return cast("Mesh", self._mesh)
 
-    @property
-    def dimension(self) -> int:
-        """Dimension of the point set: -1 without points, 0, 1, or 2 when there are triangles."""
-        return self._now().dimension
-
-    @property
-    def points(self) -> FloatArray:
-        """The points, in the order given, inserted ones at the end."""
-        return self._now().points
-
-    @property
-    def simplices(self) -> IntArray:
-        """Triangles (m, 3) int32, counterclockwise, smallest index first."""
-        return self._now().simplices
-
-    @property
-    def neighbors(self) -> IntArray:
-        """Triangle opposite each corner, (m, 3) int32, -1 where there is none."""
-        return self._now().neighbors
-
-    @property
-    def duplicates(self) -> IntArray:
-        """Pairs [dropped, kept] of equal points, (k, 2) int32."""
-        return self._now().duplicates
+    dimension: int = _of_now(
+        "dimension", "Dimension of the point set: -1 without points, 0, 1, or 2 when there are triangles."
+    )
+    points: FloatArray = _of_now("points", "The points, in the order given, inserted ones at the end.")
+    simplices: IntArray = _of_now("simplices", "Triangles (m, 3) int32, counterclockwise, smallest index first.")
+    neighbors: IntArray = _of_now("neighbors", "Triangle opposite each corner, (m, 3) int32, -1 where there is none.")
+    duplicates: IntArray = _of_now("duplicates", "Pairs [dropped, kept] of equal points, (k, 2) int32.")
+    edges: IntArray = _of_now("edges", "Edges (e, 2) int32 with i < j, in lexicographic order.")
+    vertex_neighbor_vertices: tuple[IntArray, IntArray] = _of_now(
+        "vertex_neighbor_vertices",
+        "Neighbours of each point: ``indices[indptr[k]:indptr[k + 1]]`` of the tuple (indptr, indices).",
+    )
+    convex_hull: IntArray = _of_now(
+        "convex_hull",
+        "Directed edges (h, 2) int32 around the triangles, which lie on the left, in lexicographic order.",
+    )
+    circumcenters: FloatArray = _of_now("circumcenters", "Centre of each triangle's circle, (m, 2) or (m, 3).")
 
     @property
     def inconclusive(self) -> dict[str, int]:
         """Number of tests that each stage left open, in construction and changes."""
         return dict(self._now().inconclusive)
-
-    @property
-    def edges(self) -> IntArray:
-        """Edges (e, 2) int32 with i < j, in lexicographic order."""
-        return self._now().edges
-
-    @property
-    def vertex_neighbor_vertices(self) -> tuple[IntArray, IntArray]:
-        """Neighbours of each point: ``indices[indptr[k]:indptr[k + 1]]`` of the tuple (indptr, indices)."""
-        return self._now().vertex_neighbor_vertices
-
-    @property
-    def convex_hull(self) -> IntArray:
-        """Directed edges (h, 2) int32 around the triangles, which lie on the left, in lexicographic order."""
-        return self._now().convex_hull
-
-    @property
-    def circumcenters(self) -> FloatArray:
-        """Centre of each triangle's circle, (m, 2) or (m, 3)."""
-        return self._now().circumcenters
 
     @property
     def latitude(self) -> Latitude | None:
