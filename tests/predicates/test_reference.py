@@ -2,7 +2,6 @@
 
 import itertools
 from fractions import Fraction
-from math import gcd
 
 import numpy as np
 import pytest
@@ -21,7 +20,6 @@ from tests.reference import (
     ray,
     sign,
     sign_of_roots,
-    to_integers,
     turn_ray,
 )
 from tests.spaces import SPHERE
@@ -67,25 +65,6 @@ def test_sums_of_roots_that_cancel(c, n, k, m, nudge):
 def test_known_signs(terms, expected):
     assert sign_of_roots(terms) == expected
     assert sign_of_roots([(-c, n) for c, n in terms]) == -expected
-
-
-@given(st.lists(FINITE, min_size=1, max_size=6))
-def test_integers_are_one_multiple(values):
-    integers = to_integers(values)
-    scale = next((Fraction(i) / Fraction(v) for i, v in zip(integers, values, strict=True) if v), Fraction(1))
-    assert scale > 0
-    assert [Fraction(v) * scale for v in values] == integers
-
-
-@given(st.tuples(FINITE, FINITE, FINITE).filter(any))
-def test_primitive_vectors(vector):
-    integers = ray(vector)[:3]
-    assert gcd(*integers) == 1
-    assert [sign(x) for x in integers] == [sign(x) for x in vector]
-    (x, y, z), (u, v, w) = (map(Fraction, t) for t in (vector, integers))
-    assert x * v == y * u
-    assert y * w == z * v
-    assert x * w == z * u
 
 
 SMALL = SPHERE.places(6)

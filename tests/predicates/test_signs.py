@@ -10,8 +10,9 @@ from hypothesis import strategies as st
 from stereodel import _kernel, in_bubble, incircle, orient2d, orient3d
 from stereodel import _kernel_probe as probe
 from tests import sets
+from tests.exact import fractions
 from tests.kernel.stages import OPEN, shares_of
-from tests.reference import bubble_ray, incircle_integer, orient2d_integer, ray, to_integers
+from tests.reference import bubble_ray, incircle_integer, orient2d_integer, ray
 
 PREDICATES = {
     "orient2d": (orient2d, _kernel.plane.turn, 2, "abc"),
@@ -92,16 +93,11 @@ ANY = st.floats(allow_nan=False, allow_infinity=False)
 SMALL = st.integers(-3, 3).map(float)
 
 
-def in_integers(oracle, points):
-    flat = to_integers([float(x) for p in points for x in p[:2]])
-    return oracle(*zip(flat[::2], flat[1::2], strict=True))
-
-
 @given(st.lists((st.tuples(ANY, ANY, ANY) | st.tuples(SMALL, SMALL, SMALL)).filter(any), min_size=4, max_size=4))
 def test_any_doubles(four):
     flat = [p[:2] for p in four]
-    assert orient2d(*flat[:3]) == in_integers(orient2d_integer, four[:3])
-    assert incircle(*flat) == in_integers(incircle_integer, four)
+    assert orient2d(*flat[:3]) == orient2d_integer(*fractions(four[:3]))
+    assert incircle(*flat) == incircle_integer(*fractions(flat))
     assert in_bubble(*four) == bubble_ray(*map(ray, four))
 
 
@@ -111,7 +107,7 @@ def test_orientation_on_the_grid_where_doubles_fail(scale):
     steps = np.arange(-8, 8) * 2.0**-53
     a = np.stack(np.meshgrid(0.5 + steps, 0.5 + steps), axis=-1).reshape(-1, 2) * scale
     b, c = np.array([12.0, 12.0]) * scale, np.array([24.0, 24.0]) * scale
-    expected = [in_integers(orient2d_integer, (p, b, c)) for p in a.tolist()]
+    expected = [orient2d_integer(*fractions((p, b, c))) for p in a.tolist()]
     assert orient2d(a, b, c).tolist() == orient2d(b, c, a).tolist() == expected
     assert orient2d(c, b, a).tolist() == [-s for s in expected]
 
@@ -122,7 +118,7 @@ def test_incircle_near_a_circle_and_on_it(scale):
     a, b, c, *others = on_circle
     for d in others:
         nudges = np.array([[0, 0], [1, 0], [-1, 0], [0, 1], [0, -1]]) * np.spacing(4 * scale)
-        expected = [in_integers(incircle_integer, (a, b, c, p)) for p in (d + nudges).tolist()]
+        expected = [incircle_integer(*fractions((a, b, c, p))) for p in (d + nudges).tolist()]
         assert incircle(a, b, c, d + nudges).tolist() == expected
         assert expected[0] == 0
         assert incircle(b, a, c, d + nudges).tolist() == [-s for s in expected]

@@ -160,13 +160,6 @@ def test_the_first_points_that_span(points, expected):
     assert spanning_points(asked(points), range(len(points))) == expected
 
 
-@pytest.mark.parametrize(
-    "one", [*sets.named("plane", "none", "all the same", "tiny"), *sets.named("sphere", "lengths")]
-)
-def test_the_order_of_insertion_takes_each_point_once(one):
-    assert sorted(insertion_order(one.points)) == list(range(len(one.points)))
-
-
 def test_the_order_of_insertion_goes_short_ways():
     points = np.random.default_rng(0).random((4096, 2))
     steps = np.linalg.norm(np.diff(points[insertion_order(points)], axis=0), axis=1)
