@@ -15,7 +15,7 @@ from stereodel._docs import shared
 from stereodel._double_double import unit
 from stereodel._spaces import PLANE, SPHERE, surface_of
 from stereodel.constants import BALANCED
-from stereodel.relaxation.cells import (
+from stereodel.relaxation.cell_triangles import (
     MIDPOINTS,
     RADON,
     RoundCells,
@@ -260,7 +260,7 @@ def lloyd(
     if surface_of(given) is SPHERE:
         if bounds is not None:
             raise ValueError("bounds are for points of the plane; on the sphere leave them out")
-        ground, here = _Sphere(density, as_workers(workers)), unit(given).hi
+        ground, here = _WholeSphere(density, as_workers(workers)), unit(given).hi
     else:
         ground, here = _Polygon(as_polygon(bounds), density, as_workers(workers)), given
         ground.check_inside(given)
@@ -330,7 +330,7 @@ class _Polygon(_Ground):
         return PLANE.distances(one, other)
 
 
-class _Sphere(_Ground):
+class _WholeSphere(_Ground):
     def step(self, points: FloatArray) -> Step:
         cells = RoundCells(points, self._workers)
         if self._density is None:

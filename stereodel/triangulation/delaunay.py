@@ -49,6 +49,8 @@ FAMILY: Final = {
         vertex_neighbor_vertices : tuple of two int32 arrays, (n + 1,) and (2e,)
             ``indptr, indices``: edges join point k to ``indices[indptr[k]:indptr[k + 1]]``, in order; a dropped
             duplicate to none.
+        surface : object
+            The plane or the sphere; its `name` is "plane" or "sphere".
         """,
     "changes": """
         Arrays are read-only; `insert` and `remove` replace them. Several threads may query at the same time. While one
