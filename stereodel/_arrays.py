@@ -60,8 +60,12 @@ def as_floats(values: npt.ArrayLike, name: str) -> FloatArray:
 
 def _refuse(wrong: BoolArray, array: FloatArray, name: str, expected: str) -> None:
     if np.count_nonzero(wrong):  # for few values four times as fast as wrong.any()
-        index = tuple(int(i) for i in np.argwhere(wrong)[0])
+        index = _first(wrong)
         raise ValueError(f"{entry(name, index)} is {array[index]}; {expected}")
+
+
+def _first(wrong: BoolArray) -> tuple[int, ...]:
+    return tuple(int(i) for i in np.argwhere(wrong)[0])
 
 
 def as_values(values: npt.ArrayLike, size: int, name: str = "values", *, axis: int = 0) -> FloatArray:
@@ -157,9 +161,8 @@ def as_directions(
     zero = array[..., 0] == 0.0  # column by column: ten times as fast as array.any(axis=-1)
     if np.count_nonzero(zero):
         zero &= (array[..., 1] == 0.0) & (array[..., 2] == 0.0)
-    if np.count_nonzero(zero):
-        index = tuple(int(i) for i in np.argwhere(zero)[0])
-        raise ValueError(f"{entry(name, index)} is the zero vector, which has no direction")
+        if np.count_nonzero(zero):
+            raise ValueError(f"{entry(name, _first(zero))} is the zero vector, which has no direction")
     return array
 
 
@@ -173,11 +176,16 @@ def as_direction_or_lonlat(value: npt.ArrayLike, name: str) -> FloatArray:
     raise ValueError(f"{name} must be (lon, lat) in degrees or a direction (x, y, z), got shape {array.shape}")
 
 
+def _four(values: npt.ArrayLike, name: str, what: str) -> FloatArray:
+    array = as_floats(values, name)
+    if array.shape != (4,):
+        raise ValueError(f"{name} must be {what}, got shape {array.shape}")
+    return array
+
+
 def as_quaternion(value: npt.ArrayLike, name: str) -> FloatArray:
     """Four numbers (w, x, y, z), not all zero, shape (4,)."""
-    array = as_floats(value, name)
-    if array.shape != (4,):
-        raise ValueError(f"{name} must be four numbers (w, x, y, z), got shape {array.shape}")
+    array = _four(value, name, "four numbers (w, x, y, z)")
     if not array.any():
         raise ValueError(f"{name} is the zero quaternion, which is not a rotation")
     return array
@@ -196,11 +204,9 @@ def as_lonlat(values: npt.ArrayLike, name: str = "lonlat") -> FloatArray:
     array = as_vectors(values, 2, name)
     outside = np.abs(array[..., 1]) > 90.0
     if outside.any():
-        index = tuple(int(i) for i in np.argwhere(outside)[0])
-        where = entry(name, (*index, 1))
-        raise ValueError(
-            f"{where} is latitude {array[index][1]}, outside [-90, 90]; the order is (longitude, latitude)"
-        )
+        where = (*_first(outside), 1)
+        said = f"{entry(name, where)} is latitude {array[where]}"
+        raise ValueError(f"{said}, outside [-90, 90]; the order is (longitude, latitude)")
     return array
 
 
@@ -262,21 +268,10 @@ def as_choice(value: Any, choices: tuple[_Word, ...], name: str) -> _Word:
     return choices[choices.index(value)]
 
 
-def as_lengths(values: npt.ArrayLike, name: str) -> FloatArray:
-    """Finite numbers that are not negative, of any shape."""
-    return _not_negative(values, name, "length")
-
-
-def as_weights(values: npt.ArrayLike, name: str) -> FloatArray:
-    """Finite numbers that are not negative, of any shape."""
-    return _not_negative(values, name, "weight")
-
-
-def _not_negative(values: npt.ArrayLike, name: str, what: str) -> FloatArray:
+def as_amounts(values: npt.ArrayLike, name: str, what: str) -> FloatArray:
+    """Finite numbers of any shape that are not negative, as no such thing is."""
     array = as_floats(values, name)
-    if (array < 0).any():
-        index = tuple(int(i) for i in np.argwhere(array < 0)[0])
-        raise ValueError(f"{entry(name, index)} is {array[index]}; a {what} cannot be negative")
+    _refuse(array < 0, array, name, f"a {what} cannot be negative")
     return array
 
 
@@ -337,6 +332,10 @@ def as_frame(values: npt.ArrayLike, name: str) -> Pixels:
     array = np.asarray(values)
     if array.ndim != 3 or array.shape[2] != 3 or array.size == 0:
         raise ValueError(f"{name} must have shape (h, w, 3), got {array.shape}")
+    return _of_bytes(array, name)
+
+
+def _of_bytes(array: npt.NDArray[Any], name: str) -> Pixels:
     if array.dtype != np.uint8:
         raise TypeError(f"{name} must be of uint8, not {array.dtype}; scale the numbers to 0 to 255 and cast them")
     return array
@@ -345,9 +344,7 @@ def as_frame(values: npt.ArrayLike, name: str) -> Pixels:
 def as_pixels(values: npt.ArrayLike, name: str, *, most: int) -> Pixels:
     """A picture of at most `most` pixels, (h, w), (h, w, 3) or (h, w, 4) uint8, as a copy with four channels."""
     refuse_masked(values, name)
-    array = np.asarray(values)
-    if array.dtype != np.uint8:
-        raise TypeError(f"{name} must be of uint8, not {array.dtype}; scale the numbers to 0 to 255 and cast them")
+    array = _of_bytes(np.asarray(values), name)
     if array.ndim not in (2, 3) or array.shape[2:] not in ((), (3,), (4,)) or array.size == 0:
         raise ValueError(f"{name} must have shape (h, w), (h, w, 3) or (h, w, 4) and be not empty, got {array.shape}")
     height, width = array.shape[:2]
@@ -361,10 +358,7 @@ def as_pixels(values: npt.ArrayLike, name: str, *, most: int) -> Pixels:
 
 def as_edges(values: npt.ArrayLike, name: str) -> tuple[float, float, float, float]:
     """(west, south, east, north) in degrees: not empty, at most once round, latitudes in [-90, 90]."""
-    array = as_floats(values, name)
-    if array.shape != (4,):
-        raise ValueError(f"{name} must be (west, south, east, north) in degrees, got shape {array.shape}")
-    west, south, east, north = array.tolist()
+    west, south, east, north = _four(values, name, "(west, south, east, north) in degrees").tolist()
     if not 0 < east - west <= 360:
         raise ValueError(f"{name} runs from longitude {west:g} to {east:g}; east must be up to 360 more than west")
     if not -90 <= south < north <= 90:
@@ -374,10 +368,7 @@ def as_edges(values: npt.ArrayLike, name: str) -> tuple[float, float, float, flo
 
 def as_bounds(values: npt.ArrayLike, name: str = "bounds") -> tuple[float, float, float, float]:
     """(xmin, ymin, xmax, ymax) of a rectangle of the plane that is not empty."""
-    array = as_floats(values, name)
-    if array.shape != (4,):
-        raise ValueError(f"{name} must be (xmin, ymin, xmax, ymax), got shape {array.shape}")
-    left, bottom, right, top = array.tolist()
+    left, bottom, right, top = _four(values, name, "(xmin, ymin, xmax, ymax)").tolist()
     if not (left < right and bottom < top):
         raise ValueError(
             f"{name} (xmin, ymin, xmax, ymax) is {(left, bottom, right, top)}; xmin < xmax and ymin < ymax is needed"

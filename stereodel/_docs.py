@@ -1,13 +1,15 @@
-"""Docstrings of families: what several objects have in common is written once and put into each when it is defined."""
+"""Decorators of what is public: docstrings that share parts, and calls whose message says what to write instead."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from inspect import cleandoc
+from functools import wraps
+from inspect import cleandoc, signature
 from textwrap import indent
-from typing import TypeVar
+from typing import ParamSpec, TypeVar
 
+_P = ParamSpec("_P")
 _T = TypeVar("_T")
 _LINE = re.compile(r"^( *)\{(\w+)\}$", re.MULTILINE)
 
@@ -44,3 +46,36 @@ def shared(**parts: str) -> Callable[[_T], _T]:
         texts[name] = filled(text)
 
     return fill
+
+
+def by_name(advice: str) -> Callable[[Callable[_P, _T]], Callable[_P, _T]]:
+    """Decorate a function whose options are often given by position; the message of a TypeError ends with `advice`.
+
+    Examples
+    --------
+    >>> @by_name("magnification= is a keyword")
+    ... def lens(focus, *, magnification): ...
+    >>> lens((10, 50), 4)
+    Traceback (most recent call last):
+        ...
+    TypeError: lens() takes 1 argument by position, got 2; magnification= is a keyword
+    """
+
+    def decorated(function: Callable[_P, _T]) -> Callable[_P, _T]:
+        parameters = signature(function).parameters.values()
+        positional = [p for p in parameters if p.kind in (p.POSITIONAL_ONLY, p.POSITIONAL_OR_KEYWORD)]
+        limit, own = len(positional), int(positional[0].name in ("self", "cls"))
+
+        @wraps(function)
+        def called(*args: _P.args, **options: _P.kwargs) -> _T:
+            if len(args) > limit:
+                expected, given = limit - own, len(args) - own
+                raise TypeError(
+                    f"{function.__name__}() takes {expected} argument{'s' if expected > 1 else ''} by position, "
+                    f"got {given}; {advice}"
+                )
+            return function(*args, **options)
+
+        return called
+
+    return decorated

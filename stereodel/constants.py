@@ -60,91 +60,68 @@ MATRIX_MAGNIFICATION: Final = 1e6
 LIMB_DEPTH: Final = 1e-12
 """Radians behind the limb of a sphere, or the rim of a cap, up to which a point counts as visible.
 
-A hundred times the rounding error of a rotated unit vector, so that a curve on the limb itself is drawn entirely; on
-the page it is within 1e-24 of the limb, and of the rim of a cap of a millionth of a degree within 6e-5 radii.
+A hundred times the rounding of a rotated unit vector: a curve on the limb itself is drawn entirely.
 """
 
 RIM_FINENESS: Final = 1e-3
 """Largest deviation of a chart's rim from its circle, relative to that of the curves that end on it.
 
-If it were as coarse as they are, it would cross them, and outlines of regions would cross themselves: their ears would
-cover a thousandth of the disc too much. With a rim 32 times as fine, which still has few points, the excess is below a
-millionth.
+As coarse as they are, it would cross them, and outlines of regions would cross themselves.
 """
 
 CHART_ROUNDING: Final = 2.0**-50
-"""Rounding error of coordinates on a chart, relative to its size: four units in the last place of 1.
-
-A loop whose area is less than that times its length has no well-defined interior and is not a region.
-"""
+"""Rounding of coordinates on a chart, relative to its size; a loop of less area than that times its length is none."""
 
 THIN_RING: Final = 2.0**-8
 """Area of a region, relative to the square of its border's size, up to which its side is found on the sphere.
 
-A disc has 2⁻⁴ or more. Of a strip, it is half its width over its length, and chords and arcs that deviate by more than
-the width of a strip have its area negative: those of `LONGEST_EDGE`, by 2° at most.
+A disc has 2⁻⁴ or more. Chords that deviate by more than the width of a strip have its area negative.
 """
 
 NARROW_PASSAGE: Final = 4.0
 """Distance along a border of two crossings, relative to the root of the blur, below which a thin region passes once.
 
-Curves a distance d apart cross a circle of radius 1 that they touch at places up to √(8d) apart: computed crossings of
-two sides that are closer than the blur may be in reverse order.
+Curves a distance d apart cross a circle of radius 1 that they touch up to √(8d) apart, perhaps in reverse order.
 """
 
 TOUCHING: Final = 2.0**-10
-"""Distance of a hole's corner from a shell, relative to the hole's size, above which they do not touch there.
-
-Rims that are sampled differently are less than a pixel apart, a ten-thousandth of the disc.
-"""
+"""Distance of a hole's corner from a shell, relative to the hole's size, above which they do not touch there."""
 
 ON_BALL: Final = 1e-9
-"""Distance from a sphere, relative to its radius, within which a drawn arc is taken to lie on it, and a plane to touch.
-
-Far below a pixel, and far above the rounding errors of arcs computed through a conformal map.
-"""
+"""Distance from a sphere, relative to its radius, within which a drawn arc is taken to lie on it: far below a pixel."""
 
 SPARE_PIECE: Final = 1e-9
-"""Excess of an arc over a whole number of longest Bézier arcs, as a fraction of one, that adds no further Bézier.
-
-A whole turn, whose end is a rounded sum, has twelve pieces of 30° and not thirteen; their relative error grows by 6e-9.
-"""
+"""Excess of an arc over a whole number of longest Bézier arcs, as a fraction of one, that adds no further Bézier."""
 
 ONE_HARMONIC: Final = 2.0**-50
 """Size of the second harmonic of a function of an angle, relative to its largest coefficient, that counts as zero.
 
-It is the leading coefficient of the quartic of its roots. A few rounding errors of the coefficients are as large; taken
-at face value they would move two of the roots arbitrarily. The function itself changes as little as its coefficients.
+It is the leading coefficient of the quartic of its roots: rounding at face value would move two of them arbitrarily.
 """
 
 ROOT_ON_CIRCLE: Final = 1e-4
 """Largest distance from 1 of the modulus of a computed root of the quartic of an angle, for its angle to be a root.
 
-Coefficients are off by 2⁻⁵³: a single root by about as much, a double one (two curves that touch) by the square root, a
-fourfold one by the fourth root, 1.03e-4. An angle accepted without being a root only causes a cut that separates
-nothing.
+A fourfold root is off by the fourth root of 2⁻⁵³, 1.03e-4. One too many only cuts where nothing is separated.
 """
 
 TOUCHING_SLOPE: Final = 1e-6
 """Slope of a function of an angle, relative to its largest coefficient, below which a root is left as it was found.
 
-There two roots are within 1e-6 rad of each other, and Newton's step, value over slope, is rounding: more than 1e-10.
+There two roots are within 1e-6 rad of each other, and Newton's step is rounding.
 """
 
 KIND_TOLERANCE: Final = 2.0**-40
 """Largest distance of a `MoebiusMap` from one of its `kind`: in radians for points and images, relative for S.
 
-A product of about a thousand maps with rounded parameters is that close to the exact one.
+A product of about a thousand maps with rounded parameters is that close.
 """
 
 LARGEST_MAGNIFICATION: Final = 1e100
 """Largest S (and largest 1/S) of a `MoebiusMap`: S·|t|² of any point stays in the range of double-double arithmetic."""
 
 SMALL_ANGLE: Final = 1e-9
-"""Sine |s| of half a map's angle below which its powers come from series: θ/s is 1 + s²/6 to a double there.
-
-The angle tθ of a power is then below 1e-3 (`LARGEST_EXPONENT`), so that the first term left out, z³/720, is below 2⁻⁶⁹.
-"""
+"""Sine |s| of half a map's angle below which its powers come from series: θ/s is 1 + s²/6 to a double there."""
 
 LARGEST_EXPONENT: Final = 1e6
 """Largest exponent (and its negative) of `MoebiusMap.power`: the angle of a rotation's power is known to 1e-9 rad."""
@@ -165,7 +142,7 @@ NO_MIDDLE: Final = 1e-9
 """Length of the mean of unit vectors below which it has no direction: rounding leaves n/2 roundoffs for n vectors."""
 
 THIN_TRIANGLE: Final = 2.0**-12
-"""Twice the area of a triangle, relative to the square of its size, below which weights are computed in double-double.
+"""Twice the area of a triangle, relative to the square of its size, below which weights are in double-double.
 
 A doubled area is off by about 2⁻⁵¹ in these units, so that weights keep 39 bits above it.
 """
@@ -174,15 +151,12 @@ LEAST_WEIGHT: Final = 2.0**-200
 """Least barycentric coordinate in smooth interpolation: at a corner the sum of the two others must not be zero."""
 
 NEEDLE: Final = 2.0**-4
-"""Length of a side, relative to the longest (a power of two near it), below which slopes start from another corner.
-
-The two long sides are then nearly the same, and their difference has lost four bits.
-"""
+"""Length of a side, relative to the longest, below which slopes start from another corner: four bits are lost."""
 
 UNDETERMINED: Final = 1e-12
 """Fraction of a column's square that must remain after the preceding columns for its unknown to be determined.
 
-In fits of gradients, neighbours within 1e-6 rad of a line do not determine the slope across it. Rounding leaves 1e-15.
+In fits of gradients, neighbours within 1e-6 rad of a line leave the slope across it open. Rounding leaves 1e-15.
 """
 
 QUADRATURE_CHORD: Final = 0.2
@@ -192,15 +166,12 @@ The area of the whole sphere, cut into such triangles, then has a relative error
 """
 
 SEEN_FACE_ON: Final = 2.0**-240
-"""Sine of the angle between a circle's axis and the view's, below which an orthographic image is a circle to a double.
-
-Smaller sines have squares beyond the range of double-double arithmetic.
-"""
+"""Sine of the angle between a circle's axis and the view's below which its orthographic image is a circle."""
 
 CLOSE_SITES: Final = 1e-4
 """Distance of two unit vectors below which their difference is formed in twice the precision.
 
-Lengths differ from one by 2⁻⁵², so above it a bisecting plane is turned by less than 1e-11 rad.
+Lengths differ from one by 2⁻⁵²: above it a bisecting plane is turned by less than 1e-11 rad.
 """
 
 BALANCED: Final = 1e-6
@@ -212,45 +183,34 @@ Quadrature leaves less than 1e-7 for the whole sphere. In a hemisphere the mean 
 AT_POLE: Final = 2.0**-50
 """Components of a point of a map's border, a unit vector, that count as zero; distance from the axis at a pole.
 
-A few rounding errors of a computed point, 6 nanometres on Earth. Without it, rounding noise of an arc along the 180th
-meridian would cut its cells into hundreds of pieces of zero width.
+Without it, rounding of an arc along the 180th meridian would cut its cells into hundreds of pieces without width.
 """
 
 THIN_CELL: Final = 1e-13
-"""Width of a cell, radians, below which its chords are not halved to keep its sides apart on a map: 0.6 micrometres.
-
-Points on a map are rounded to 2e-16 rad, and the two sides of such a cell are arcs between rounded points.
-"""
+"""Width of a cell, radians, below which its chords are not halved to keep its sides apart on a map: 0.6 micrometres."""
 
 BORDER_STEPS: Final = 2**14
 """Most chords of one cell's border that are halved at once where straight lines on a map cross each other.
 
-A cell 90° long and 0.1 m wide takes 2¹² of them. A cell that takes more exists mainly because of rounding.
+A cell 90° long and 0.1 m wide takes 2¹² of them.
 """
 
 FINER_WARPS: Final = (2.0**-4, 2.0**-8, 2.0**-12)
 """Fractions of the tolerance, one of which is used if the chords of a warped polygon cross: 1/16 of its width or less.
 
-Polygons narrower than 2⁻⁸ of the tolerance, 4 m on Earth, and parts that touch at a corner may cross however fine the
-chords are. What a crossing adds or takes away is within the tolerance.
+Polygons narrower than 2⁻⁸ of the tolerance may cross however fine the chords are, within the tolerance.
 """
 
 DEGREE_ROUNDING: Final = 2.0**-43
-"""Deviation of a chord from its arc, in degrees, that may be due to rounding: four units in the last place of 180°.
-
-Three numbers that are rounded to half a unit, and their mean, make less than two.
-"""
+"""Deviation of a chord from its arc, in degrees, that may be due to rounding: four units in the last place of 180°."""
 
 WHOLE_TURNS: Final = 2.0**-43
-"""Step of longitudes, degrees, to which whole turns are added without rounding: the last place of 512 to 1024.
-
-Less than 2e-15 rad, or 13 nanometres on Earth.
-"""
+"""Step of longitudes, degrees, to which whole turns are added without rounding: the last place of 512 to 1024."""
 
 CHORD_CLEARANCE: Final = 0.125
 """Largest deviation of a chord of a cell's border, relative to its distance from the two sites on its sides.
 
-Well below 1, so that every point lies in its own cell on a map, however close it is to the next one.
+Well below 1, so that every point lies in its own cell on a map.
 """
 
 LARGEST_CAP: Final = 170.0
@@ -262,14 +222,11 @@ The scale at its edge is 132 times that at the centre; a view of the whole spher
 PAGE_TOLERANCE: Final = 5e-5
 """Largest deviation of a chord from its curve on a globe drawn by matplotlib, relative to the visible radius.
 
-A twentieth of a pixel at a radius of 1000 pixels, like `FLATNESS`; matplotlib draws one path at any resolution.
+A twentieth of a pixel at a radius of 1000 pixels, like `FLATNESS`.
 """
 
 FINEST_POINTS: Final = 0.02
-"""Corners of filled regions in vector files that are closer along an outline, in points, become one.
-
-A dot of a printer at 3600 dots per inch, which is also the tolerance of `Globe.page`.
-"""
+"""Corners of filled regions in vector files that are closer along an outline, in points, become one: a printed dot."""
 
 FINEST_PLACE: Final = 1e-3
 """Step of the coordinates in vector files, points: 0.35 micrometres. A shorter line is not drawn."""
@@ -277,7 +234,7 @@ FINEST_PLACE: Final = 1e-3
 FINEST_OUTLINE: Final = 5e-4
 """Largest deviation of a letter's quadratic outline from the cubic one of the font, relative to the type size.
 
-Half a unit of such fonts, which have a thousand units: their points are rounded by as much.
+Half a unit of such fonts, which round their points by as much.
 """
 
 MOST_FRAMES: Final = 100_000
@@ -287,10 +244,7 @@ MOST_FRAME_PIXELS: Final = 2**26
 """Largest number of pixels of a frame: twice 8K. It takes 0.2 GB in each drawing process, and again for encoding."""
 
 MOST_TEXELS: Final = 2**27
-"""Pixels of the largest picture that is read or warped, 16384 × 8192: with its smaller copies it takes 1.4 GB.
-
-Pillow has a similar limit, slightly higher.
-"""
+"""Pixels of the largest picture that is read or warped, 16384 × 8192: with its smaller copies it takes 1.4 GB."""
 
 MOST_PIXELS_ACROSS: Final = 2**20
 """Largest globe in pixels across: columns and rows of a window of it stay whole in single precision."""
@@ -299,10 +253,7 @@ LONGEST_EDGE: Final = 30.0
 """Longest piece of a map's edge approximated by one great-circle arc, in degrees: far below 180."""
 
 MOST_PIECES: Final = 64
-"""Largest number of equal pieces into which an edge is cut for a lens; an edge that needs more is halved first.
-
-Where a lens magnifies a billion times, a long edge through its focus is then a few hundred pieces, not ten million.
-"""
+"""Largest number of equal pieces into which an edge is cut for a lens; an edge that needs more is halved first."""
 
 MOST_PLACES: Final = 2**30
 """Largest number of nodes of a grid; one value at each takes 8 GB."""
@@ -313,7 +264,7 @@ GRID_ROUNDING: Final = 1e-9
 OPPOSITE: Final = 1e-9
 """Distance of a point from another's antipode, radii, below which no great circle is taken to join the two.
 
-Above it rounding rotates the circle between them by less than 1e-6 rad, which is invisible.
+Above it rounding rotates the circle between them by less than 1e-6 rad.
 """
 
 CHART_TOLERANCE: Final = 1e-4
@@ -323,28 +274,19 @@ A tenth of a pixel at a radius of 1000 pixels; pages of globes give it in points
 """
 
 REACH_MARGIN: Final = 1e-6
-"""Fraction of its radius by which a view is enlarged to find what cannot become visible.
-
-Rounding then omits nothing that touches the border; a superfluous edge costs a microsecond.
-"""
+"""Fraction of its radius by which a view is enlarged to find what cannot become visible, whatever rounding does."""
 
 GRID_SAMPLES: Final = 97
-"""Number of samples along a line of a grid, before a lens and again after it, between which it may end once.
-
-A part that begins and ends between two of them is shorter than 4° of its circle, on the sphere and in its image.
-"""
+"""Number of samples along a line of a grid, before a lens and again after it, between which it may end once: 4°."""
 
 MOST_GRID_LINES: Final = 2**16
-"""Meridians (and parallels) of one stride that a picture may take: each has 200 samples, all together 1 GB.
+"""Meridians (and parallels) of one stride that a picture may take: all together 1 GB.
 
-Near a pole of a picture there are about 35 for each least distance between lines in its radius: 16 000 for hair lines.
+Near a pole of a picture there are about 35 for each least distance between lines in its radius.
 """
 
 GROUND_PIXEL: Final = 2.0**-10
-"""Side of the pixel with which an image below a label is sampled for its colour, in page units: radii of the disc.
-
-A point, 1/72 inch, is four times as large on a globe 17 cm across.
-"""
+"""Side of the pixel with which an image below a label is sampled for its colour, in page units: 1/4 point."""
 
 AREA_SUM_ERROR: Final = 2e-12
 """How far the areas of all cells of a sphere may add up to another area, in terms of it: what each cell may be off."""
@@ -353,10 +295,7 @@ UNPACKED_SIZE: Final = 2**20
 """Bytes to which any packed file may unpack, however small it is: that of a million bytes reads in a second."""
 
 UNPACKED_RATIO: Final = 50
-"""How many times its size a packed file may unpack to; tables of measurements pack to a half or a thirtieth.
-
-Repetition alone packs to a thousandth (gzip) or a millionth (bzip2): a kilobyte would fill the memory.
-"""
+"""How many times its size a packed file may unpack to; tables of measurements pack to a half or a thirtieth."""
 
 MOST_MEMBERS: Final = 10_000
 """Members that a zip archive may have; spreadsheets and zipped shapefiles have a dozen."""
@@ -367,14 +306,11 @@ FEW_CELLS: Final = 2**20
 EMPTY_RATIO: Final = 50
 """How many cells columns of properties may have for each property that a feature has.
 
-With keys of their own, as in exports of OpenStreetMap, cells would grow with the square of the file.
+With keys of their own, as of OpenStreetMap, cells would grow with the square of the file.
 """
 
 MOST_LINE: Final = 2**22
-"""Characters that a line of a table of text may have: of longer ones the csv module makes eleven times as many bytes.
-
-A country's border as text has a tenth of them.
-"""
+"""Characters that a line of a table of text may have: ten times a country's border as text."""
 
 MOST_COLUMNS: Final = 2**15
 """Columns that a table of text may have: each takes 30 µs, however few its rows are. Databases hold fewer."""

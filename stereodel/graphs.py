@@ -6,7 +6,8 @@ Delaunay triangulation.
 
 from __future__ import annotations
 
-from typing import Literal
+from collections.abc import Callable
+from typing import Literal, Protocol
 
 import numpy as np
 import numpy.typing as npt
@@ -45,10 +46,6 @@ _SHARED = LONLAT | {
             Points of the plane, directions, or a triangulation of them.
         {instead}
         """,
-    "workers": """
-        workers : int, optional
-            Threads; -1 for all processors. By default those of the triangulation. Does not affect the result.
-        """,
     "raises": """
         Raises
         ------
@@ -58,12 +55,14 @@ _SHARED = LONLAT | {
         """,
     "graph": """
         {points}
-        {workers}
+        workers : int, optional
+            Threads; -1 for all processors. By default those of the triangulation. Does not affect the result.
 
         Returns
         -------
         (e, 2) array of int32
-            Edges i < j, in lexicographic order; read-only.
+            Edges i < j, in lexicographic order; read-only. Dropped duplicates have none. All decisions are those of
+            exact arithmetic on the given doubles.
 
         {raises}
         """,
@@ -76,14 +75,36 @@ _SHARED = LONLAT | {
 }
 
 
-@shared(**_SHARED)
-def gabriel_graph(
-    points: npt.ArrayLike | Triangulation | None = None,
-    *,
-    lonlat: npt.ArrayLike | None = None,
-    latitude: Latitude | None = None,
-    workers: int | None = None,
-) -> IntArray:
+class _Graph(Protocol):
+    def __call__(
+        self,
+        points: npt.ArrayLike | Triangulation | None = None,
+        *,
+        lonlat: npt.ArrayLike | None = None,
+        latitude: Latitude | None = None,
+        workers: int | None = None,
+    ) -> IntArray: ...
+
+
+def _graph(edges: Callable[[Triangulation, int], IntArray]) -> _Graph:
+    """The function of points, by name and docstring that of the edges of a triangulation, found by so many threads."""
+
+    def graph(
+        points: npt.ArrayLike | Triangulation | None = None,
+        *,
+        lonlat: npt.ArrayLike | None = None,
+        latitude: Latitude | None = None,
+        workers: int | None = None,
+    ) -> IntArray:
+        triangulation = as_triangulation(points, lonlat=lonlat, latitude=latitude)
+        return locked(edges(triangulation, threads_of(triangulation, workers)))
+
+    graph.__name__, graph.__qualname__, graph.__doc__ = edges.__name__, edges.__qualname__, edges.__doc__
+    return shared(**_SHARED)(graph)
+
+
+@_graph
+def gabriel_graph(triangulation: Triangulation, threads: int) -> IntArray:
     """Edges whose diametral circle contains no other point, neither inside nor on it.
 
     {graph}
@@ -94,8 +115,7 @@ def gabriel_graph(
     holds p exactly if (â − p̂)·(b̂ − p̂) ≤ 0. Antipodal directions have none and are joined only if they are the only
     ones. The disc is closed: a point on the circle excludes the edge, so a square has its sides and no diagonal. Hence
     the graph is a subgraph of every Delaunay triangulation of the points, however ties are decided, and does not depend
-    on the order of the points. Dropped duplicates have no edges. All decisions are those of exact arithmetic on the
-    given doubles.
+    on the order of the points.
 
     Source: K. Gabriel, R. Sokal, "A new statistical approach to geographic variation analysis" (1969); D. Matula,
     R. Sokal, "Properties of Gabriel graphs relevant to geographic variation research and the clustering of points in
@@ -109,17 +129,11 @@ def gabriel_graph(
     >>> gabriel_graph([[0, 0], [3, 0], [0, 4]]).tolist()
     [[0, 1], [0, 2]]
     """
-    return locked(_proximity_edges(as_triangulation(points, lonlat=lonlat, latitude=latitude), "gabriel", workers))
+    return _proximity_edges(triangulation, "gabriel", threads)
 
 
-@shared(**_SHARED)
-def urquhart_graph(
-    points: npt.ArrayLike | Triangulation | None = None,
-    *,
-    lonlat: npt.ArrayLike | None = None,
-    latitude: Latitude | None = None,
-    workers: int | None = None,
-) -> IntArray:
+@_graph
+def urquhart_graph(triangulation: Triangulation, threads: int) -> IntArray:
     """Delaunay edges that are not strictly the longest edge of a triangle.
 
     {graph}
@@ -129,8 +143,7 @@ def urquhart_graph(
     A triangle with two or three equally long longest edges loses none: so the relative neighbourhood graph is always
     a part. All facets count on the sphere, those that are closing too. The graph depends on the triangulation where
     more than three points lie on one empty circle; their triangulation depends on the points alone, so no order of the
-    points changes it. Without triangles it is the Gabriel graph. Dropped duplicates have no edges. All decisions are
-    those of exact arithmetic on the given doubles.
+    points changes it. Without triangles it is the Gabriel graph.
 
     Source: R. Urquhart, "Algorithms for computation of relative neighbourhood graph" (1980): close to the relative
     neighbourhood graph, and found in linear time.
@@ -141,17 +154,11 @@ def urquhart_graph(
     >>> urquhart_graph([[0, 0], [4, 0], [1, 2], [4, 3]]).tolist()
     [[0, 2], [1, 3], [2, 3]]
     """
-    return locked(_proximity_edges(as_triangulation(points, lonlat=lonlat, latitude=latitude), "urquhart", workers))
+    return _proximity_edges(triangulation, "urquhart", threads)
 
 
-@shared(**_SHARED)
-def relative_neighborhood_graph(
-    points: npt.ArrayLike | Triangulation | None = None,
-    *,
-    lonlat: npt.ArrayLike | None = None,
-    latitude: Latitude | None = None,
-    workers: int | None = None,
-) -> IntArray:
+@_graph
+def relative_neighborhood_graph(triangulation: Triangulation, threads: int) -> IntArray:
     """Pairs of points without a third that is strictly nearer to both than they are to each other.
 
     {graph}
@@ -159,8 +166,7 @@ def relative_neighborhood_graph(
     Notes
     -----
     Equally near points exclude nothing: an equilateral triangle has its three sides. Distances on the sphere
-    are angles. The graph depends on the points alone. Dropped duplicates have no edges. All decisions are those of
-    exact arithmetic on the given doubles.
+    are angles. The graph depends on the points alone.
 
     Source: G. Toussaint, "The relative neighbourhood graph of a finite planar set" (1980). It is sought among the
     edges of the Urquhart graph. A third point in the lune of ab is reached from a along Delaunay edges between points
@@ -172,36 +178,22 @@ def relative_neighborhood_graph(
     >>> relative_neighborhood_graph([[0, 0], [4, 0], [1, 2], [4, 3]]).tolist()
     [[0, 2], [1, 3], [2, 3]]
     """
-    return locked(_proximity_edges(as_triangulation(points, lonlat=lonlat, latitude=latitude), "relative", workers))
+    return _proximity_edges(triangulation, "relative", threads)
 
 
-@shared(**_SHARED)
-def minimum_spanning_tree(
-    points: npt.ArrayLike | Triangulation | None = None,
-    *,
-    lonlat: npt.ArrayLike | None = None,
-    latitude: Latitude | None = None,
-    workers: int | None = None,
-) -> IntArray:
+@_graph
+def minimum_spanning_tree(triangulation: Triangulation, threads: int) -> IntArray:
     """The spanning tree of least total length.
 
-    {points}
-    {workers}
-
-    Returns
-    -------
-    (k - 1, 2) array of int32
-        Edges i < j between k distinct points, in lexicographic order; read-only. None for fewer than two.
-
-    {raises}
+    {graph}
 
     Notes
     -----
     Lengths are distances in the plane, angles on the sphere; any increasing function of them, as the chord, has the
     same tree. Edges are compared exactly, equally long ones by their ends: the one with the lexicographically lower
     first end comes first (on the sphere in the order of the unit vectors), then the one with the lower second end. So
-    of several trees of the same length the points alone determine which is chosen; their order does not matter.
-    Dropped duplicates have no edges.
+    of several trees of the same length the points alone determine which is chosen; their order does not matter. Of
+    k distinct points it has k - 1 edges.
 
     Source: J. Kruskal, "On the shortest spanning subtree of a graph and the traveling salesman problem" (1956), on the
     edges of the Urquhart graph, which holds every minimum spanning tree (M. Shamos, D. Hoey, "Closest-point problems",
@@ -213,9 +205,8 @@ def minimum_spanning_tree(
     >>> minimum_spanning_tree([[0, 0], [2, 0], [2, 1], [0, 1]]).tolist()
     [[0, 1], [0, 3], [1, 2]]
     """
-    triangulation = as_triangulation(points, lonlat=lonlat, latitude=latitude)
-    edges = _proximity_edges(triangulation, "urquhart", workers)
-    return locked(triangulation.surface.kernel.spanning_tree(triangulation.points, edges))
+    edges = _proximity_edges(triangulation, "urquhart", threads)
+    return triangulation.surface.kernel.spanning_tree(triangulation.points, edges)
 
 
 @shared(**_SHARED)
@@ -337,13 +328,13 @@ def _hull_points(triangulation: Triangulation) -> FloatArray:
 
 
 def _proximity_edges(
-    triangulation: Triangulation, kind: Literal["gabriel", "urquhart", "relative"], workers: int | None
+    triangulation: Triangulation, kind: Literal["gabriel", "urquhart", "relative"], threads: int
 ) -> IntArray:
     """Edges (e, 2) with i < j, in lexicographic order."""
     points, space = triangulation.points, triangulation.surface.kernel
     if triangulation.dimension == 2:
         mesh = points, triangulation.simplices, triangulation.neighbors
-        return space.proximity(*mesh, kind, threads_of(triangulation, workers), True)
+        return space.proximity(*mesh, kind, threads, True)
     order = flat_order(triangulation)
     if triangulation.surface is PLANE or len(order) < 3:
         return as_edges(order[:-1], order[1:])

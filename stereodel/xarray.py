@@ -6,14 +6,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import FloatArray
 from stereodel._extras import of_extra
-from stereodel.interpolation.labelled import Places, is_labelled
 from stereodel.interpolation.methods import Method, as_method
 from stereodel.interpolation.weights import WeightedInterpolator
 from stereodel.sphere.latitudes import Latitude
@@ -102,9 +101,8 @@ class StereodelAccessor:
         >>> grid.dims, grid.sel(month=0, lon=9.2, lat=45.5).round(2).item()
         (('month', 'lat', 'lon'), 12.8)
         """
-        sites = Places.of(*self._source(source))
-        places = Places.of(_as_axis(lon, "lon"), _as_axis(lat, "lat"))
-        points, wanted = sites.labels.dims, places.labels.dims
+        sites, places = _places(*self._source(source)), _places(_as_axis(lon, "lon"), _as_axis(lat, "lat"))
+        points, wanted = sites.dims, places.dims
         common = set(wanted) & (set(self._values.dims) - set(points))
         if common:
             raise ValueError(f"lon and lat have the dimension {common.pop()!r}, which the values also have; rename it")
@@ -125,7 +123,7 @@ class StereodelAccessor:
                 "allow_rechunk": True,
             },
         )
-        return found.assign_coords(places.labels.coords)
+        return found.assign_coords(places.coords)
 
     def _source(self, names: tuple[Hashable, Hashable] | None) -> tuple[xarray.DataArray, xarray.DataArray]:
         lon, lat = (self._found("lon"), self._found("lat")) if names is None else names
@@ -155,8 +153,25 @@ class StereodelAccessor:
 xarray.register_dataarray_accessor("stereodel")(StereodelAccessor)
 
 
+class _Places(NamedTuple):
+    """Longitudes and latitudes (..., 2), dimensions and coordinates of the leading shape."""
+
+    pairs: FloatArray
+    dims: tuple[Hashable, ...]
+    coords: dict[Hashable, Any]
+
+
+def _places(lon: xarray.DataArray, lat: xarray.DataArray) -> _Places:
+    """A grid, with the latitude first, if both have different dimensions."""
+    two, one = xarray.broadcast(*xarray.align(lat, lon, join="exact"))
+    coords: dict[Hashable, Any] = dict(two.coords)
+    for given, name in ((lon, "lon"), (lat, "lat")):
+        coords[name if given.name is None else given.name] = (given.dims, given.values, given.attrs)
+    return _Places(np.stack([one.values, two.values], axis=-1), two.dims, coords)
+
+
 def _as_axis(values: Any, name: str) -> xarray.DataArray:
-    if is_labelled(values):
+    if isinstance(values, xarray.DataArray):
         return values
     array = np.asarray(values)
     if array.ndim > 1:

@@ -20,7 +20,6 @@ from stereodel import HullInsertion, PlanarDelaunay, PlanarVoronoi, SphericalDel
 from stereodel import _kernel_probe as probe
 from stereodel.predicates import orient2d
 from stereodel.triangulation import check_delaunay
-from stereodel.triangulation.topology import canonical
 from tests.reference import ray, sign_of_roots
 
 
@@ -126,6 +125,13 @@ def space_of(points):
 
 def dot(a, b):
     return sum(x * y for x, y in zip(a[:3], b[:3], strict=True))
+
+
+def canonical(simplices):
+    """The same triangles and orientations, (m, 3), smallest index first in each row, rows in lexicographic order."""
+    turns = (np.argmin(simplices, axis=1)[:, None] + np.arange(3)) % 3
+    turned = np.take_along_axis(np.asarray(simplices, dtype=np.int32), turns, axis=1)
+    return np.ascontiguousarray(turned[np.lexsort(turned.T[::-1])])
 
 
 def rows(simplices, names=None):

@@ -253,17 +253,8 @@ def command(python, line, folder):
     return ran.returncode, ran.stdout, ran.stderr
 
 
-def test_the_command_without_its_libraries_lists_what_there_is(environment, tmp_path):
-    from stereodel.cli import app
-
+def test_the_command_without_its_libraries(environment, tmp_path):
     python = environment()
-    for line in ("", "--help"):
-        code, listed, error = command(python, line, tmp_path)
-        assert (code, error) == (0, "")
-        *listed, missing = listed.splitlines()
-        rows = {row.split()[0] for row in listed if row.startswith("  ")}
-        assert rows == {command.name for command in app.registered_commands}
-        assert asked_for(missing.partition(": ")[2]) == "cli"
     code, listed, error = command(python, "doctor", tmp_path)
     assert (code, error) == (1, "")
     for name in EXTRAS:
@@ -271,7 +262,7 @@ def test_the_command_without_its_libraries_lists_what_there_is(environment, tmp_
         assert row.split()[1] == "lacks"
         assert "pip install" in row
     assert command(python, "--version", tmp_path) == (0, f"stereodel {stereodel.__version__}\n", "")
-    for line in ("voronoi cities.csv", "voronoi --help", "--verse"):
+    for line in ("", "--help", "voronoi cities.csv", "voronoi --help", "--verse"):
         code, output, error = command(python, line, tmp_path)
         assert (code, output) == (1, "")
         assert asked_for(error.strip().removeprefix("error: ")) == "cli"

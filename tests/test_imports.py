@@ -17,13 +17,12 @@ ROOT = Path(__file__).resolve().parent.parent
 PACKAGE = ROOT / "stereodel"
 
 BASE = {"constants", "earth"}
-BASE |= {"_arrays", "_calls", "_docs", "_extras", "_numbers", "_double_double", "_threads", "_values"}
+BASE |= {"_arrays", "_docs", "_extras", "_numbers", "_double_double", "_threads", "_values"}
 MATHEMATICS = BASE | {"sphere", "projections", "conformal", "predicates", "triangulation"}
 KERNEL = BASE | {"_kernel", "_spaces"}
 MAY_IMPORT = {
     "constants": set(),
     "earth": set(),
-    "_calls": set(),
     "_docs": set(),
     "_files": set(),
     "_extras": set(),

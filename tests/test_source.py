@@ -17,7 +17,7 @@ TOLERANCE = 1e-3
 """A number below it decides something, as nothing that is drawn or measured in degrees or pixels is so small."""
 
 # Bounds of errors stand beside the arithmetic that they bound; the threshold of SciPy's signature beside that.
-MAY_HOLD_SMALL_NUMBERS = ("constants.py", "predicates/", "spatial/spherical_voronoi.py")
+MAY_HOLD_SMALL_NUMBERS = ("constants.py", "spatial/spherical_voronoi.py")
 
 
 def value_of(node):

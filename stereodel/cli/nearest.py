@@ -74,7 +74,7 @@ def _pairs(sites: FloatArray, queries: FloatArray, count: int, max_distance: flo
     from stereodel import angular_distance
     from stereodel.curves.ragged import Ragged, spans
     from stereodel.earth import MEAN_RADIUS_KM
-    from stereodel.triangulation.dispatch import as_triangulation
+    from stereodel.triangulation.delaunay import as_triangulation
 
     # Sites that share a place are all at a query point or none is: search distinct places, and one more than wanted.
     groups = _by_place(sites) if exclude_self else Ragged(np.arange(len(sites)), np.arange(len(sites) + 1))

@@ -10,7 +10,7 @@ import typer
 from stereodel.cli import options
 
 if TYPE_CHECKING:
-    from stereodel import PlanarDelaunay, SphericalDelaunay
+    from stereodel.triangulation.delaunay import Triangulation
     from stereodel._arrays import Column
     from stereodel.io import PointTable
 
@@ -35,7 +35,7 @@ def command(
     from stereodel.cli.application import NothingToDoError, reporting, say
     from stereodel.cli.destinations import MESHES, TABLES, save, save_mesh
     from stereodel.io.rows_of import rows_of
-    from stereodel.triangulation.dispatch import as_triangulation
+    from stereodel.triangulation.delaunay import as_triangulation
 
     destination = output.of(TABLES + MESHES, points)
     kind = destination.kind
@@ -67,9 +67,9 @@ def command(
     say(f"{output.out}: {count} triangles of {len(table)} points")
 
 
-def _corner_rows(triangulation: PlanarDelaunay | SphericalDelaunay, what: str, table: PointTable) -> dict[str, Column]:
+def _corner_rows(triangulation: Triangulation, what: str, table: PointTable) -> dict[str, Column]:
     """Row numbers of the corners of all triangles except those that close the far side, or of their edges."""
-    from stereodel.triangulation.dispatch import open_triangles
+    from stereodel.triangulation.delaunay import open_triangles
     from stereodel.triangulation.topology import edges_of
 
     simplices = triangulation.simplices[open_triangles(triangulation)]

@@ -52,7 +52,7 @@ def command(
     from stereodel.io.maps.meshes_as_rows import diagram_of
     from stereodel.io.reading import naming
     from stereodel.io.rows_of import rows_of
-    from stereodel.triangulation.dispatch import as_triangulation
+    from stereodel.triangulation.delaunay import as_triangulation
 
     destination = output.of(TABLES + MESHES, points, clip)
     kind = destination.kind

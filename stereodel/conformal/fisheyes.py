@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy.typing as npt
 
-from stereodel._calls import by_name
+from stereodel._docs import by_name
 from stereodel.conformal.moebius import MoebiusMap
 from stereodel.sphere import Rotation, as_direction
 

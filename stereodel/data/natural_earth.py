@@ -6,7 +6,6 @@ their union: its outline is that of the countries, point by point. At 1 : 10 mil
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
 from itertools import pairwise
@@ -20,8 +19,11 @@ from stereodel.data import stored
 
 
 @dataclass(frozen=True, eq=False)
-class Lines:
-    """Polylines, straight in longitude and latitude: line i is ``lonlat[offsets[i]:offsets[i + 1]]``."""
+class EarthLines:
+    """Polylines, straight in longitude and latitude: line i is ``lonlat[offsets[i]:offsets[i + 1]]``.
+
+    It is closed where its ends are equal.
+    """
 
     lonlat: FloatArray
     """(n, 2): longitude and geodetic latitude in degrees."""
@@ -39,7 +41,7 @@ class Lines:
 
 
 @dataclass(frozen=True, eq=False)
-class Polygons:
+class EarthPolygons:
     """Polygons as GeoJSON has them: sides straight in longitude and latitude, cut along ±180°.
 
     Ring i is ``lonlat[ring_offsets[i]:ring_offsets[i + 1]]``, its first point again at its end; polygon j has the rings
@@ -100,17 +102,7 @@ _SHARED = {
 
 
 @dataclass(frozen=True, eq=False)
-class Coastlines(Lines):
-    """Coastlines as polylines: line i is ``lonlat[offsets[i]:offsets[i + 1]]``, closed where its ends are equal."""
-
-
-@dataclass(frozen=True, eq=False)
-class Land(Polygons):
-    """Land, with the lakes in it except the Caspian Sea."""
-
-
-@dataclass(frozen=True, eq=False)
-class Borders(Lines):
+class Borders(EarthLines):
     """Borders between countries, each piece once, in the order of the countries; coasts are not among them."""
 
     sides: IntArray
@@ -118,7 +110,7 @@ class Borders(Lines):
 
 
 @dataclass(frozen=True, eq=False)
-class Rivers(Lines):
+class Rivers(EarthLines):
     """Rivers as polylines, in the order of their ranks; a river has one or more, and goes on through lakes."""
 
     name: Texts
@@ -130,12 +122,7 @@ class Rivers(Lines):
 
 
 @dataclass(frozen=True, eq=False)
-class Lakes(Polygons):
-    """Lakes, natural ones and reservoirs, without those of `Land` that are holes."""
-
-
-@dataclass(frozen=True, eq=False)
-class Countries(Polygons):
+class Countries(EarthPolygons):
     """Countries: country k has the polygons from ``country_offsets[k]`` up to ``country_offsets[k + 1]``.
 
     They are those of Natural Earth, which draws who controls a place, not who claims it.
@@ -157,19 +144,21 @@ class Countries(Polygons):
     @property
     def __geo_interface__(self) -> dict[str, Any]:
         """A GeoJSON FeatureCollection, a feature for each country: `geopandas.GeoDataFrame.from_features` takes it."""
-        return {"type": "FeatureCollection", "features": list(self._features())}
-
-    def _features(self) -> Iterator[dict[str, Any]]:
-        polygons = [[ring.tolist() for ring in rings] for rings in self.polygons()]
-        for k, (start, end) in enumerate(pairwise(self.country_offsets.tolist())):
-            codes = {key: str(getattr(self, key)[k]) for key in ("name", "alpha2", "alpha3", "continent")}
-            geometry = {"type": "MultiPolygon", "coordinates": polygons[start:end]}
-            yield {"type": "Feature", "properties": codes, "geometry": geometry}
+        polygons = super().__geo_interface__["coordinates"]
+        features = [
+            {
+                "type": "Feature",
+                "properties": {key: str(getattr(self, key)[k]) for key in ("name", "alpha2", "alpha3", "continent")},
+                "geometry": {"type": "MultiPolygon", "coordinates": polygons[start:end]},
+            }
+            for k, (start, end) in enumerate(pairwise(self.country_offsets.tolist()))
+        ]
+        return {"type": "FeatureCollection", "features": features}
 
 
 @cache
 @shared(**_SHARED)
-def coastlines(resolution: str = "50m") -> Coastlines:
+def coastlines(resolution: str = "50m") -> EarthLines:
     """Coastlines of Natural Earth (public domain).
 
     {parameters}
@@ -181,17 +170,17 @@ def coastlines(resolution: str = "50m") -> Coastlines:
     """
     if resolution == "10m":
         outlines = land("10m")
-        lines = [coast for ring in np.split(outlines.lonlat, outlines.ring_offsets[1:-1]) for coast in _coasts(ring)]
-        return Coastlines(locked(np.concatenate(lines)), _offsets([len(line) for line in lines]))
+        rings = np.split(outlines.lonlat, outlines.ring_offsets[1:-1])
+        return EarthLines(*_joined([coast for ring in rings for coast in _coasts(ring)]))
     columns = _columns("coastlines", resolution)
     degrees = [stored.decimals(columns[key], DEGREE_DIGITS) for key in ("lon", "lat")]
-    return Coastlines(locked(np.stack(degrees, axis=-1)), _offsets(stored.integers(columns["sizes"])))
+    return EarthLines(locked(np.stack(degrees, axis=-1)), _offsets(stored.integers(columns["sizes"])))
 
 
 @cache
 @shared(**_SHARED)
-def land(resolution: str = "50m") -> Land:
-    """Land as polygons, after Natural Earth (public domain).
+def land(resolution: str = "50m") -> EarthPolygons:
+    """Land as polygons, with the lakes in it except the Caspian Sea, after Natural Earth (public domain).
 
     {parameters}
 
@@ -201,7 +190,7 @@ def land(resolution: str = "50m") -> Land:
     >>> len(table.polygons()), table.lonlat.shape
     (127, (5137, 2))
     """
-    return Land(*_polygons(_columns("land", resolution), "land"))
+    return EarthPolygons(*_polygons(_columns("land", resolution), "land"))
 
 
 @cache
@@ -250,9 +239,8 @@ def borders(resolution: str = "50m") -> Borders:
     owners = _owners(columns)
     shared = [arc for arc in sorted(owners) if arc >= 0 and ~arc in owners]
     arcs = _arcs(columns, DEGREE_DIGITS)
-    lines = [arcs[arc] for arc in shared]
     sides = np.array([(owners[arc], owners[~arc]) for arc in shared], dtype=np.int32)
-    return Borders(locked(np.concatenate(lines)), _offsets([len(line) for line in lines]), locked(sides))
+    return Borders(*_joined([arcs[arc] for arc in shared]), locked(sides))
 
 
 @cache
@@ -275,10 +263,10 @@ def rivers(resolution: str = "50m") -> Rivers:
 
 @cache
 @shared(**_SHARED)
-def lakes(resolution: str = "50m") -> Lakes:
-    """Lakes as polygons, after Natural Earth (public domain).
+def lakes(resolution: str = "50m") -> EarthPolygons:
+    """Lakes as polygons, natural ones and reservoirs, after Natural Earth (public domain).
 
-    The latter two resolutions lie on a grid of 0.036° by 0.018°.
+    The latter two resolutions lie on a grid of 0.036° by 0.018°. Holes of `land` are not among them.
 
     {parameters}
 
@@ -287,7 +275,7 @@ def lakes(resolution: str = "50m") -> Lakes:
     >>> [len(lakes(resolution).polygons()) for resolution in ("10m", "50m", "110m")]
     [1352, 280, 25]
     """
-    return Lakes(*_polygons(_columns("lakes", resolution), "lakes", WATER_DIGITS))
+    return EarthPolygons(*_polygons(_columns("lakes", resolution), "lakes", WATER_DIGITS))
 
 
 def _columns(kind: str, resolution: str) -> dict[str, Bytes]:
@@ -297,6 +285,10 @@ def _columns(kind: str, resolution: str) -> dict[str, Bytes]:
 
 def _offsets(sizes: Any) -> IntArray:
     return locked(np.concatenate([[0], np.cumsum(sizes)]).astype(np.int32))
+
+
+def _joined(lines: list[FloatArray]) -> tuple[FloatArray, IntArray]:
+    return locked(np.concatenate(lines)), _offsets([len(line) for line in lines])
 
 
 def _lonlat(columns: dict[str, Bytes], digits: int) -> FloatArray:
@@ -323,8 +315,7 @@ def _polygons(
     used = stored.integers(columns[f"{kind}_arcs"]).tolist()
     bounds = _offsets(stored.integers(columns[f"{kind}_rings"]))
     rings = [_ring(arcs, used[i:j]) for i, j in pairwise(bounds.tolist())]
-    polygons = _offsets(stored.integers(columns[f"{kind}_polygons"]))
-    return locked(np.concatenate(rings)), _offsets([len(ring) for ring in rings]), polygons
+    return *_joined(rings), _offsets(stored.integers(columns[f"{kind}_polygons"]))
 
 
 def _coasts(ring: FloatArray) -> list[FloatArray]:

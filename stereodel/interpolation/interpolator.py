@@ -10,11 +10,9 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import AnyIndices, FloatArray, as_choice, as_values, locked
-from stereodel._calls import by_name
-from stereodel._docs import shared
+from stereodel._docs import by_name, shared
 from stereodel._double_double import ROWS, DoubleDouble, unit
 from stereodel._spaces import SPHERE, surface_of
-from stereodel.interpolation.labelled import labels_of_one, places_of
 from stereodel.sphere.latitudes import Latitude
 from stereodel.sphere.lonlat import BY_NAME, IN_ROWS, LONLAT, as_asked
 from stereodel.triangulation.delaunay import Triangulation, as_triangulation
@@ -136,7 +134,6 @@ class Interpolator(ABC):
         self._values = locked(flat.copy())
         self.values = self._values.reshape(len(flat), *shape)
         self._value_shape = shape
-        self._labels = labels_of_one(values)
         self._sites = PrecisePoints(self.triangulation.points)
         self._nearest_outside = extrapolate is not None and bool(as_choice(extrapolate, ("nearest",), "extrapolate"))
 
@@ -188,19 +185,15 @@ class Interpolator(ABC):
         Parameters
         ----------
         queries : array_like of shape (..., 2) or (..., 3)
-            Points of the plane, or directions. A tuple of two xarray.DataArrays, x and y, gives points if they share
-            dimensions, and a grid if each has its own.
+            Points of the plane, or directions.
         {asked}
-            Two DataArrays in a tuple, longitude and latitude, as for `queries`.
         workers : int, optional
             Number of threads of the search for triangles and points; see `PlanarDelaunay.find_simplex`.
 
         Returns
         -------
         array of the leading shape, then the shape of one value
-            NaN outside, unless `extrapolate` is given, and where a NaN of `values` takes part. For DataArrays, a
-            DataArray with their dimensions and coordinates, and with the name, attributes and remaining dimensions of
-            `values` if those are a DataArray.
+            NaN outside, unless `extrapolate` is given, and where a NaN of `values` takes part.
 
         Raises
         ------
@@ -211,9 +204,7 @@ class Interpolator(ABC):
         array, flat = self._as_queries(queries, lonlat)
         with np.errstate(all="ignore"):
             result = self._evaluate(flat, workers)
-        found = result.reshape(array.shape[:-1] + self._value_shape)
-        places = places_of(queries, lonlat)
-        return found if places is None else places.array(found, self._labels)
+        return result.reshape(array.shape[:-1] + self._value_shape)
 
     def gradient(
         self,
@@ -246,9 +237,6 @@ class Interpolator(ABC):
         return result.reshape(array.shape[:-1] + self._value_shape + array.shape[-1:])
 
     def _as_queries(self, queries: npt.ArrayLike | None, lonlat: npt.ArrayLike | None) -> tuple[FloatArray, FloatArray]:
-        places = places_of(queries, lonlat)
-        if places is not None:
-            queries, lonlat = (places.pairs, None) if lonlat is None else (None, places.pairs)
         array = self.triangulation.surface.as_queries(as_asked(queries, lonlat, self.latitude))
         return array, array.reshape(-1, array.shape[-1])
 

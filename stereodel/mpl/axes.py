@@ -353,9 +353,9 @@ def _view_of(view: MapView | Sequence[float] | None, lens: MoebiusMap) -> MapVie
     return view
 
 
-def _path(of: data.Coastlines | data.Borders | data.Land) -> Path:
-    offsets = of.ring_offsets if isinstance(of, data.Land) else of.offsets
-    return compound(Ragged(of.lonlat, offsets.astype(np.intp)), closed=isinstance(of, data.Land))
+def _path(of: data.EarthLines | data.EarthPolygons) -> Path:
+    offsets = of.ring_offsets if isinstance(of, data.EarthPolygons) else of.offsets
+    return compound(Ragged(of.lonlat, offsets.astype(np.intp)), closed=isinstance(of, data.EarthPolygons))
 
 
 def _in_degrees(arc: SphereArc) -> FloatArray:

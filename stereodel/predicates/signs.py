@@ -10,9 +10,25 @@ import numpy.typing as npt
 
 from stereodel import _kernel
 from stereodel._arrays import FloatArray, SignArray, as_directions, as_vectors
+from stereodel._docs import shared
 from stereodel._threads import thread_count
 
+_SHARED = {
+    "signs": """
+        Returns
+        -------
+        int8 ndarray of the broadcast leading shape, or int for single points
+        """,
+    "raises": """
+        Raises
+        ------
+        ValueError, TypeError
+            For values that are not finite real numbers, zero vectors as directions, or another last axis.
+        """,
+}
 
+
+@shared(**_SHARED)
 def orient2d(a: npt.ArrayLike, b: npt.ArrayLike, c: npt.ArrayLike) -> SignArray | int:
     """Orientation of the triangle abc, exactly.
 
@@ -21,15 +37,10 @@ def orient2d(a: npt.ArrayLike, b: npt.ArrayLike, c: npt.ArrayLike) -> SignArray 
     a, b, c : array_like, (..., 2)
         Points of the plane, y up; leading shapes are broadcast together.
 
-    Returns
-    -------
-    int8 ndarray of the broadcast leading shape, or int for single points
+    {signs}
         1 counterclockwise, −1 clockwise, 0 collinear.
 
-    Raises
-    ------
-    ValueError, TypeError
-        For values that are not finite real numbers, or another last axis than 2.
+    {raises}
 
     Notes
     -----
@@ -45,6 +56,7 @@ def orient2d(a: npt.ArrayLike, b: npt.ArrayLike, c: npt.ArrayLike) -> SignArray 
     return _over_rows(_kernel.plane.turn, *points)
 
 
+@shared(**_SHARED)
 def incircle(a: npt.ArrayLike, b: npt.ArrayLike, c: npt.ArrayLike, d: npt.ArrayLike) -> SignArray | int:
     """Side of d on the circle through a, b, c, exactly.
 
@@ -53,16 +65,11 @@ def incircle(a: npt.ArrayLike, b: npt.ArrayLike, c: npt.ArrayLike, d: npt.ArrayL
     a, b, c, d : array_like, (..., 2)
         Points of the plane; leading shapes are broadcast together.
 
-    Returns
-    -------
-    int8 ndarray of the broadcast leading shape, or int for single points
+    {signs}
         1 inside, −1 outside, 0 on the circle, for abc counterclockwise; reversed for abc clockwise. For collinear
         abc the sign of det[x y x²+y² 1] remains: 0 if d is collinear with them or a repetition.
 
-    Raises
-    ------
-    ValueError, TypeError
-        For values that are not finite real numbers, or another last axis than 2.
+    {raises}
 
     Notes
     -----
@@ -77,6 +84,7 @@ def incircle(a: npt.ArrayLike, b: npt.ArrayLike, c: npt.ArrayLike, d: npt.ArrayL
     return _over_rows(_kernel.plane.in_circle, *points)
 
 
+@shared(**_SHARED)
 def orient3d(a: npt.ArrayLike, b: npt.ArrayLike, c: npt.ArrayLike, d: npt.ArrayLike) -> SignArray | int:
     """Side of d on the plane through a, b, c, exactly.
 
@@ -85,15 +93,10 @@ def orient3d(a: npt.ArrayLike, b: npt.ArrayLike, c: npt.ArrayLike, d: npt.ArrayL
     a, b, c, d : array_like, (..., 3)
         Points of space (for directions see `in_bubble`); leading shapes are broadcast together.
 
-    Returns
-    -------
-    int8 ndarray of the broadcast leading shape, or int for single points
+    {signs}
         Sign of det(b−a, c−a, d−a): 1 if a, b, c appear counterclockwise from d, −1 if clockwise, 0 if coplanar.
 
-    Raises
-    ------
-    ValueError, TypeError
-        For values that are not finite real numbers, or another last axis than 3.
+    {raises}
 
     Notes
     -----
@@ -108,6 +111,7 @@ def orient3d(a: npt.ArrayLike, b: npt.ArrayLike, c: npt.ArrayLike, d: npt.ArrayL
     return _over_rows(_kernel.orient3d, *points)
 
 
+@shared(**_SHARED)
 def in_bubble(a: npt.ArrayLike, b: npt.ArrayLike, c: npt.ArrayLike, p: npt.ArrayLike) -> SignArray | int:
     """Side of p on the circle of the sphere through a, b, c, exactly.
 
@@ -116,16 +120,11 @@ def in_bubble(a: npt.ArrayLike, b: npt.ArrayLike, c: npt.ArrayLike, p: npt.Array
     a, b, c, p : array_like, (..., 3)
         Directions, of any length; leading shapes are broadcast together.
 
-    Returns
-    -------
-    int8 ndarray of the broadcast leading shape, or int for single points
+    {signs}
         1 if p lies in the open bubble that the plane abc cuts off on the side from which a, b, c appear
         counterclockwise (p sees that hull facet from outside), −1 beyond it, 0 on the circle.
 
-    Raises
-    ------
-    ValueError, TypeError
-        For values that are not finite real numbers, zero vectors, or another last axis than 3.
+    {raises}
 
     Notes
     -----

@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import FloatArray, as_lengths, as_points, as_scalar, as_vectors
+from stereodel._arrays import FloatArray, as_amounts, as_points, as_scalar, as_vectors
 from stereodel._double_double import DoubleDouble, by_blocks, dot
 from stereodel.projections.stereographic import Stereographic
 
@@ -148,7 +148,7 @@ class RectangleLift:
         distance d are separated by 2 arcsin(d/D), of two corners, to 4 arctan(d/D), of pairs symmetric about the
         centroid; both bounds follow from these, as arcsin t ≥ t and arctan t ≤ t.
         """
-        distance = as_lengths(d, "d")
+        distance = as_amounts(d, "d", "length")
         if (distance > self.diagonal).any():
             raise ValueError(f"d is {distance.max()}, but no two points are farther apart than {self.diagonal}")
         fraction = distance / self.diagonal

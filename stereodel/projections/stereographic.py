@@ -8,7 +8,7 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import FloatArray, IntArray, as_choice, as_directions, as_lengths, as_vectors
+from stereodel._arrays import FloatArray, IntArray, as_amounts, as_choice, as_directions, as_vectors
 from stereodel._double_double import DoubleDouble, by_blocks, dot, stack, where
 from stereodel.constants import STORED_ERROR
 from stereodel.projections.azimuthal import TangentPlane
@@ -124,7 +124,7 @@ class Stereographic(TangentPlane):
 
         Claim P9, Figure 6: the smaller the sphere, the larger the angular radius.
         """
-        return np.asarray(np.degrees(2 * np.arctan2(as_lengths(distance, "distance"), self.unit_distance)))
+        return np.asarray(np.degrees(2 * np.arctan2(as_amounts(distance, "distance", "length"), self.unit_distance)))
 
     def image_of(self, circle: SphereCircle) -> PlaneCircle | PlaneLine:
         """The image of a circle: a circle, or a line when it passes through the antipode of the centre.

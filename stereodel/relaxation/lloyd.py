@@ -2,21 +2,29 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import AnyIndices, FloatArray, as_count, as_scalar, as_weights, as_workers, locked, read_only
+from stereodel._arrays import AnyIndices, FloatArray, as_amounts, as_count, as_scalar, as_workers, locked, read_only
 from stereodel._docs import shared
 from stereodel._double_double import unit
-from stereodel._spaces import SPHERE, surface_of
+from stereodel._spaces import PLANE, SPHERE, surface_of
 from stereodel.constants import BALANCED
-from stereodel.relaxation.flat_cells import as_polygon, check_inside, flat_cells, outside
-from stereodel.relaxation.quadrature import MIDPOINTS, RADON, flat_nodes, spherical_nodes
-from stereodel.relaxation.round_cells import RoundCells
+from stereodel.relaxation.cell_triangles import (
+    MIDPOINTS,
+    RADON,
+    RoundCells,
+    as_polygon,
+    flat_cells,
+    flat_nodes,
+    outside,
+    spherical_nodes,
+)
 from stereodel.sphere.latitudes import Latitude
 from stereodel.sphere.lonlat import LONLAT, as_sites, as_told, refuse_lonlat
 from stereodel.triangulation.delaunay import Triangulation, as_triangulation
@@ -138,9 +146,7 @@ class Relaxation:
         else:
             degrees[triangulation.convex_hull] = 0
             triangles, site = flat_cells(self.points, self.bounds, None)
-            one, other = triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
-            double = one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0]
-            areas = np.bincount(site, double, len(self.points)).astype(np.float64)
+            areas = np.bincount(site, PLANE.areas(*triangles.transpose(1, 0, 2)), len(self.points)).astype(np.float64)
         counts = np.unique_counts(degrees[degrees > 0])
         neighbors = dict(zip(counts.values.tolist(), counts.counts.tolist(), strict=True))
         held = areas[areas > 0]
@@ -248,122 +254,114 @@ def lloyd(
         given, kind = points.points, points.latitude
     else:
         given, kind = as_sites(points, lonlat, latitude)
-    limit, threads = as_scalar(tolerance, "tolerance", low=0.0), as_workers(workers)
     share = as_scalar(factor, "factor", low=0.0, high=2.0, open_low=True, open_high=True)
-    course = Course(as_count(steps, "steps", low=0), limit, callback)
+    limit, last = as_scalar(tolerance, "tolerance", low=0.0), as_count(steps, "steps", low=0)
+    ground: _Ground
     if surface_of(given) is SPHERE:
         if bounds is not None:
             raise ValueError("bounds are for points of the plane; on the sphere leave them out")
-        relaxed = _relax(
-            unit(given).hi,
-            lambda p: _step_on_sphere(p, density, threads),
-            lambda p, to: _on_sphere(p, to, share),
-            _ways_on_sphere,
-            course,
-        )
-        return replace(relaxed, latitude=kind)
-    polygon = as_polygon(bounds)
-    check_inside(given, polygon)
-    relaxed = _relax(
-        given,
-        lambda p: _step_in_plane(p, polygon, density, threads),
-        lambda p, to: _in_plane(p, to, share, polygon),
-        _ways_in_plane,
-        course,
-    )
-    return replace(relaxed, bounds=read_only(polygon))
-
-
-class Course(NamedTuple):
-    """Number of steps, stopping rule and callback."""
-
-    steps: int
-    tolerance: float
-    callback: Callable[[Progress], object] | None
-
-
-def _relax(
-    points: FloatArray,
-    step: Callable[[FloatArray], Step],
-    advance: Callable[[FloatArray, FloatArray], FloatArray],
-    ways: Callable[[FloatArray, FloatArray], FloatArray],
-    course: Course,
-) -> Relaxation:
-    here = step(points)
-    energies, moves, converged = [here.energy], [], False
-    for number in range(1, course.steps + 1):
-        before, points = points, advance(points, here.centroids)
-        moves.append(float(ways(before, points).max(initial=0.0)))
-        here = step(points)
-        energies.append(here.energy)
-        if course.callback is not None:
-            course.callback(Progress(number, energies[-1], moves[-1]))
-        if converged := moves[-1] <= course.tolerance:
+        ground, here = _WholeSphere(density, as_workers(workers)), unit(given).hi
+    else:
+        ground, here = _Polygon(as_polygon(bounds), density, as_workers(workers)), given
+        ground.check_inside(given)
+    now = ground.step(here)
+    energies, moves, converged = [now.energy], [], False
+    for number in range(1, last + 1):
+        before, here = here, now.centroids if share == 1.0 else ground.advanced(here, now.centroids, share)
+        moves.append(float(ground.ways(before, here).max(initial=0.0)))
+        now = ground.step(here)
+        energies.append(now.energy)
+        if callback is not None:
+            callback(Progress(number, energies[-1], moves[-1]))
+        if converged := moves[-1] <= limit:
             break
-    return Relaxation(locked(points.copy()), locked(np.array(energies)), locked(np.array(moves)), converged)
+    found = locked(here.copy()), locked(np.array(energies)), locked(np.array(moves))
+    return Relaxation(*found, converged, kind, ground.bounds)
 
 
-def _in_plane(points: FloatArray, centroids: FloatArray, factor: float, polygon: FloatArray) -> FloatArray:
-    """Points moved part of the way to their centroids, or beyond, within the polygon."""
-    if factor == 1.0:
-        return centroids
-    reached = points + factor * (centroids - points)
-    return np.where(outside(reached, polygon)[:, None], centroids, reached)
+class _Ground(ABC):
+    """What Lloyd's method asks of the plane or the sphere."""
+
+    bounds: FloatArray | None = None
+
+    def __init__(self, density: Density | None, workers: int | None) -> None:
+        self._density, self._workers = density, workers
+
+    @abstractmethod
+    def step(self, points: FloatArray) -> Step:
+        """The energy of points and the centroids of their cells."""
+
+    @abstractmethod
+    def advanced(self, points: FloatArray, centroids: FloatArray, factor: float) -> FloatArray:
+        """Points moved part of the way to their centroids, or beyond."""
+
+    @abstractmethod
+    def ways(self, one: FloatArray, other: FloatArray) -> FloatArray:
+        """How far points are from others, row by row."""
 
 
-def _on_sphere(points: FloatArray, centroids: FloatArray, factor: float) -> FloatArray:
-    """The same along great circles."""
-    if factor == 1.0:
-        return centroids
-    step = centroids - points
-    tangent = step - points * np.einsum("ni,ni->n", points, step)[:, None]
-    length = np.linalg.norm(tangent, axis=1, keepdims=True)
-    angle = factor * np.arctan2(length, np.einsum("ni,ni->n", points, centroids)[:, None])
-    still = length == 0
-    reached = points * np.cos(angle) + tangent / np.where(still, 1.0, length) * np.sin(angle)
-    return np.where(still, points, unit(reached).hi)
+class _Polygon(_Ground):
+    """A convex polygon of the plane."""
+
+    def __init__(self, polygon: FloatArray, density: Density | None, workers: int | None) -> None:
+        super().__init__(density, workers)
+        self.bounds: FloatArray = read_only(polygon)
+
+    def check_inside(self, points: FloatArray) -> None:
+        wrong = outside(points, self.bounds)
+        if wrong.any():
+            k = int(np.argmax(wrong))
+            raise ValueError(f"points[{k}] is {points[k].tolist()}, outside bounds")
+
+    def step(self, points: FloatArray) -> Step:
+        triangles, site = flat_cells(points, self.bounds, self._workers)
+        nodes, weights = flat_nodes(triangles, MIDPOINTS if self._density is None else RADON)
+        values, scale = _values(self._density, nodes + points[site][:, None], site, len(points))
+        weights = weights * values
+        mass, moments = _sums(nodes, weights, site, len(points))
+        energy = _total(weights * (nodes**2).sum(axis=-1), scale)
+        return Step(energy, points + moments / np.where(mass > 0, mass, 1.0)[:, None])
+
+    def advanced(self, points: FloatArray, centroids: FloatArray, factor: float) -> FloatArray:
+        reached = points + factor * (centroids - points)
+        return np.where(outside(reached, self.bounds)[:, None], centroids, reached)
+
+    def ways(self, one: FloatArray, other: FloatArray) -> FloatArray:
+        return PLANE.distances(one, other)
 
 
-def _ways_in_plane(one: FloatArray, other: FloatArray) -> FloatArray:
-    return np.hypot(*(other - one).T)
+class _WholeSphere(_Ground):
+    def step(self, points: FloatArray) -> Step:
+        cells = RoundCells(points, self._workers)
+        if self._density is None:
+            mass, moments, centroids = cells.areas(), cells.moments(), cells.centroids()
+            # |x − p|² = 2 (1 − x·p) for unit vectors
+            energy = 2 * float((mass - np.einsum("ni,ni->n", moments, points)).sum())
+        else:
+            triangles, site = cells.triangles()
+            nodes, weights = spherical_nodes(triangles, RADON)
+            values, scale = _values(self._density, nodes, site, len(points))
+            weights = weights * values
+            mass, moments = _sums(nodes, weights, site, len(points))
+            energy = _total(weights * ((nodes - points[site][:, None]) ** 2).sum(axis=-1), scale)
+            lengths = np.linalg.norm(moments, axis=1, keepdims=True)
+            centroids = moments / np.where(lengths > 0, lengths, 1.0)
+        # A cell without mass, or whose mean has no direction, leaves its point where it is.
+        pulled = (np.linalg.norm(moments, axis=1) > BALANCED * mass) & (mass > 0)
+        return Step(energy, np.where(pulled[:, None], centroids, points))
 
+    def advanced(self, points: FloatArray, centroids: FloatArray, factor: float) -> FloatArray:
+        """Along great circles."""
+        step = centroids - points
+        tangent = step - points * np.einsum("ni,ni->n", points, step)[:, None]
+        length = np.linalg.norm(tangent, axis=1, keepdims=True)
+        angle = factor * np.arctan2(length, np.einsum("ni,ni->n", points, centroids)[:, None])
+        still = length == 0
+        reached = points * np.cos(angle) + tangent / np.where(still, 1.0, length) * np.sin(angle)
+        return np.where(still, points, unit(reached).hi)
 
-def _ways_on_sphere(one: FloatArray, other: FloatArray) -> FloatArray:
-    return np.degrees(2 * np.arcsin(np.minimum(np.linalg.norm(other - one, axis=1) / 2, 1.0)))
-
-
-def _step_in_plane(points: FloatArray, polygon: FloatArray, density: Density | None, workers: int | None) -> Step:
-    triangles, site = flat_cells(points, polygon, workers)
-    nodes, weights = flat_nodes(triangles, MIDPOINTS if density is None else RADON)
-    values, scale = _values(density, nodes + points[site][:, None], site, len(points))
-    weights = weights * values
-    mass, moments = _sums(nodes, weights, site, len(points))
-    energy = _total(weights * (nodes**2).sum(axis=-1), scale)
-    return Step(energy, points + moments / np.where(mass > 0, mass, 1.0)[:, None])
-
-
-def _step_on_sphere(points: FloatArray, density: Density | None, workers: int | None) -> Step:
-    cells = RoundCells(points, workers)
-    if density is None:
-        mass, moments = cells.areas(), cells.moments()
-        # |x − p|² = 2 (1 − x·p) for unit vectors
-        energy = 2 * float((mass - np.einsum("ni,ni->n", moments, points)).sum())
-        return Step(energy, _where_pulled(points, mass, moments, cells.centroids()))
-    triangles, site = cells.triangles()
-    nodes, weights = spherical_nodes(triangles, RADON)
-    values, scale = _values(density, nodes, site, len(points))
-    weights = weights * values
-    mass, moments = _sums(nodes, weights, site, len(points))
-    energy = _total(weights * ((nodes - points[site][:, None]) ** 2).sum(axis=-1), scale)
-    lengths = np.linalg.norm(moments, axis=1, keepdims=True)
-    return Step(energy, _where_pulled(points, mass, moments, moments / np.where(lengths > 0, lengths, 1.0)))
-
-
-def _where_pulled(points: FloatArray, mass: FloatArray, moments: FloatArray, centroids: FloatArray) -> FloatArray:
-    """The centroids of cells with positive mass and a defined centroid, and the points of the others."""
-    return np.where(
-        (np.linalg.norm(moments, axis=1) > BALANCED * mass)[:, None] & (mass > 0)[:, None], centroids, points
-    )
+    def ways(self, one: FloatArray, other: FloatArray) -> FloatArray:
+        return np.degrees(2 * np.arcsin(np.minimum(np.linalg.norm(other - one, axis=1) / 2, 1.0)))
 
 
 def _sums(nodes: FloatArray, weights: FloatArray, site: AnyIndices, count: int) -> tuple[FloatArray, FloatArray]:
@@ -388,7 +386,7 @@ def _values(density: Density | None, nodes: FloatArray, site: AnyIndices, count:
     if density is None:
         return np.ones(nodes.shape[:2]), np.ones(len(nodes))
     flat = nodes.reshape(-1, nodes.shape[-1])
-    values = as_weights(density(flat), "density(points)")
+    values = as_amounts(density(flat), "density(points)", "weight")
     if values.shape != (len(flat),):
         raise ValueError(
             f"density(points) must return a number for each point, shape {(len(flat),)}, got {values.shape}"

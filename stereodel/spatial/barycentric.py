@@ -10,9 +10,6 @@ from stereodel._arrays import BoolArray, FloatArray, Indices, IntArray
 from stereodel.constants import INSIDE_TOLERANCE, TRANSFORM_CONDITION
 from stereodel.triangulation import PlanarDelaunay
 
-_PAIRS_AT_ONCE = 2**20
-"""Queries times triangles that are compared in one step: 50 MB."""
-
 
 def transforms(corners: FloatArray) -> FloatArray:
     """Maps to barycentric coordinates, (m, 3, 2), of triangles (m, 3, 2); NaN for degenerate ones.
@@ -53,13 +50,13 @@ class NearMisses:
         self._transform = transform
         self._degenerate = np.isnan(transform[:, 0, 0])
 
-    def improve(self, queries: FloatArray, found: IntArray, tol: float, *, exhaustive: bool) -> IntArray:
+    def improve(self, queries: FloatArray, found: IntArray, tol: float) -> IntArray:
         """Replace exact answers (k,), -1 outside, by triangles that hold the queries (k, 2) within `tol`.
 
         A triangle that is not degenerate holds what has no barycentric coordinate below -tol; towards a degenerate
         neighbour, below -√tol. Asked are the triangles of the query moved by 8·tol, by less, so that a larger `tol`
-        loses nothing, and by 8·√tol, which is beyond degenerate triangles, and their neighbors; if `exhaustive`, all at
-        the hull, in ascending order. Where none does the exact answer stays.
+        loses nothing, and by 8·√tol, which is beyond degenerate triangles, and their neighbors. Where none does the
+        exact answer stays.
         """
         doubtful = self._doubtful(queries, found, tol)
         if len(doubtful) == 0:
@@ -68,11 +65,6 @@ class NearMisses:
         near = [self._moved(queries[doubtful], share) for share in shares]
         result = found.copy()
         result[doubtful] = self._first_holding(queries[doubtful], self._with_neighbors(near), found[doubtful], tol)
-        if exhaustive:
-            outside = doubtful[found[doubtful] < 0]
-            step = max(1, _PAIRS_AT_ONCE // len(self._rim))
-            for some in (outside[i : i + step] for i in range(0, len(outside), step)):
-                result[some] = self._first_holding(queries[some], self._rim[None], result[some], tol)
         return result
 
     def _doubtful(self, queries: FloatArray, found: IntArray, tol: float) -> Indices:
@@ -122,13 +114,6 @@ class NearMisses:
         """Whether there is a degenerate triangle opposite each corner, (m, 3)."""
         neighbors = self._triangulation.neighbors
         return self._degenerate[neighbors] & (neighbors >= 0)
-
-    @cached_property
-    def _rim(self) -> IntArray:
-        """Triangles with a corner on the hull, in ascending order."""
-        on_hull = np.zeros(len(self._triangulation.points), dtype=np.bool_)
-        on_hull[self._triangulation.convex_hull] = True
-        return np.flatnonzero(on_hull[self._triangulation.simplices].any(axis=1)).astype(np.int32)
 
 
 def coordinates(transform: FloatArray, points: FloatArray) -> FloatArray:

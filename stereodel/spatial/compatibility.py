@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
@@ -18,29 +17,19 @@ WITHOUT_EFFECT = frozenset({"QJ", "Qs", "Qt", "Qx", "Q11", "Q12", "Q14", "Pp"})
 KNOWN = WITHOUT_EFFECT | {"Qbb", "Qc", "Qz"}
 
 
-@dataclass(frozen=True)
-class Options:
-    """What is left of Qhull's options.
+def as_options(qhull_options: Any, furthest_site: Any, incremental: bool) -> frozenset[str]:
+    """Options to Qhull; TypeError or ValueError for what has no meaning here or that Qhull refuses.
 
-    scaled: "Qbb", the height of the paraboloid is scaled to the size of the coordinates.
-    at_infinity: "Qz", there is a point at infinity, with an empty Voronoi region.
-    coplanar: "Qc", points that are not vertices are listed.
+    Left of them are "Qbb", the height of the paraboloid is scaled to the size of the coordinates; "Qz", there is a
+    point at infinity, with an empty Voronoi region; "Qc", points that are not vertices are listed.
     """
-
-    scaled: bool
-    at_infinity: bool
-    coplanar: bool
-
-
-def as_options(qhull_options: Any, furthest_site: Any, incremental: bool) -> Options:
-    """The options of a constructor; TypeError or ValueError for what has no meaning here or that Qhull refuses."""
     if furthest_site:
         raise ValueError("furthest_site=True is not supported; use the class of scipy.spatial for furthest sites")
     if not isinstance(qhull_options, str | None):
         raise TypeError(f"qhull_options must be a string or None, got {qhull_options!r}")
     if qhull_options is None:
-        return Options(scaled=not incremental, at_infinity=not incremental, coplanar=True)
-    words = set(qhull_options.split())
+        return frozenset({"Qc"} if incremental else {"Qbb", "Qc", "Qz"})
+    words = frozenset(qhull_options.split())
     if unknown := sorted(words - KNOWN):
         raise ValueError(
             f"qhull_options has {', '.join(map(repr, unknown))}; known here are {', '.join(sorted(KNOWN))}. "
@@ -48,7 +37,7 @@ def as_options(qhull_options: Any, furthest_site: Any, incremental: bool) -> Opt
         )
     if incremental and (refused := sorted(words & {"Qbb", "Qz"})):
         raise ValueError(f"qhull_options {', '.join(map(repr, refused))} cannot be used with incremental=True")
-    return Options("Qbb" in words, "Qz" in words, "Qc" in words)
+    return words
 
 
 def other_dimensions(kind: type) -> str:
@@ -69,7 +58,7 @@ class GrowingPoints:
         incremental: bool = False,
         qhull_options: str | None = None,
     ) -> None:
-        self._options: Options = as_options(qhull_options, furthest_site, bool(incremental))
+        self._options = as_options(qhull_options, furthest_site, bool(incremental))
         self._incremental = bool(incremental)
         self._triangulation = PlanarDelaunay(as_points(points, 2, hint=other_dimensions(type(self))))
 
@@ -100,7 +89,7 @@ class GrowingPoints:
         ----------
         points : (k, 2) array_like
         restart : bool, optional
-            Whether to start from scratch, which changes only the order of rows.
+            Without effect: the triangles are those of a fresh start in either case.
 
         Raises
         ------
@@ -112,16 +101,10 @@ class GrowingPoints:
         if not self._incremental:
             raise RuntimeError("incremental mode not enabled or already closed; construct with incremental=True")
         added = as_points(points, 2, hint=other_dimensions(type(self)))
-        if restart:
-            self._triangulation = PlanarDelaunay(np.concatenate([self._triangulation.points, added]))
-        else:
-            self._triangulation.insert(added)
-        self._forget()
+        self._triangulation.insert(added)
+        kept = "_options", "_incremental", "_triangulation"  # all else is computed anew when it is asked for
+        self.__dict__ = {name: value for name, value in vars(self).items() if name in kept}
 
     def close(self) -> None:
         """End the incremental mode: no more points can be added."""
         self._incremental = False
-
-    def _forget(self) -> None:
-        for name in [name for name in vars(self) if isinstance(getattr(type(self), name, None), cached_property)]:
-            del vars(self)[name]

@@ -15,7 +15,7 @@ import scipy.spatial
 from stereodel._arrays import FloatArray, IntArray, as_scalar, as_vectors
 from stereodel.constants import INSIDE_TOLERANCE
 from stereodel.spatial.barycentric import NearMisses, transforms
-from stereodel.spatial.compatibility import GrowingPoints, Options
+from stereodel.spatial.compatibility import GrowingPoints
 from stereodel.triangulation.topology import adjacency_of
 
 _INFINITY_ABOVE = 1.1
@@ -29,13 +29,13 @@ class Paraboloid(NamedTuple):
     shift: float
 
     @classmethod
-    def over(cls, points: FloatArray, options: Options) -> Paraboloid:
+    def over(cls, points: FloatArray, options: frozenset[str]) -> Paraboloid:
         """Qhull's paraboloid: with "Qbb", heights run from 0 to the largest absolute coordinate."""
-        if not options.scaled or len(points) == 0:
+        if "Qbb" not in options or len(points) == 0:
             return cls(1.0, 0.0)
         with np.errstate(over="ignore"):
             heights = (points**2).sum(axis=1)
-        low, high = float(heights.min()), float(heights.max()) * (_INFINITY_ABOVE if options.at_infinity else 1.0)
+        low, high = float(heights.min()), float(heights.max()) * (_INFINITY_ABOVE if "Qz" in options else 1.0)
         if not low < high < np.inf:
             return cls(1.0, 0.0)
         scale = float(np.abs(points).max()) / (high - low)
@@ -154,7 +154,7 @@ class Delaunay(GrowingPoints, scipy.spatial.Delaunay):
     @cached_property
     def coplanar(self) -> IntArray:
         """Rows [point, triangle, vertex] of points equal to a vertex, (ncoplanar, 3); none without the option "Qc"."""
-        dropped, kept = self._triangulation.duplicates.T if self._options.coplanar else np.zeros((2, 0), dtype=np.int32)
+        dropped, kept = self._triangulation.duplicates.T if "Qc" in self._options else np.zeros((2, 0), dtype=np.int32)
         return np.column_stack([dropped, self._triangle_of_vertex[kept], kept])
 
     @cached_property
@@ -242,7 +242,7 @@ class Delaunay(GrowingPoints, scipy.spatial.Delaunay):
         ----------
         xi : (..., 2) array_like
         bruteforce : bool, optional
-            Whether points just outside are compared with every triangle at the hull, not just the nearest few.
+            Without effect: points just outside are compared with the nearest triangles alone.
         tol : float, optional
             How far below 0 barycentric coordinates may be, for points outside the hull. Default: 100 times the
             spacing of doubles at 1; 0 for exact answers.
@@ -269,5 +269,5 @@ class Delaunay(GrowingPoints, scipy.spatial.Delaunay):
         queries = flat[finite]
         exact = np.asarray(self._triangulation.find_simplex(queries), dtype=np.int32)
         result = np.full(len(flat), -1, dtype=np.int32)
-        result[finite] = self._near_misses.improve(queries, exact, slack, exhaustive=bool(bruteforce))
+        result[finite] = self._near_misses.improve(queries, exact, slack)
         return result.reshape(array.shape[:-1])

@@ -99,7 +99,7 @@ class Voronoi(GrowingPoints, scipy.spatial.Voronoi):
         kept = self._diagram.is_kept
         number = np.cumsum(kept) - 1 + self._empty
         result: Indices = number[self._diagram.point_region].astype(np.intp)
-        if not self._options.coplanar:
+        if "Qc" not in self._options:
             result[~kept] = -1
         return result
 
@@ -111,4 +111,4 @@ class Voronoi(GrowingPoints, scipy.spatial.Voronoi):
     @property
     def _empty(self) -> int:
         """Number of regions of points at infinity."""
-        return int(self._options.at_infinity)
+        return int("Qz" in self._options)

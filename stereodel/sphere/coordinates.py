@@ -20,7 +20,7 @@ from stereodel._arrays import (
     as_lonlat,
     as_plane_or_sphere,
 )
-from stereodel._calls import by_name
+from stereodel._docs import by_name
 from stereodel._double_double import DoubleDouble, by_blocks, stack, unit
 from stereodel._threads import thread_count
 from stereodel.sphere.degrees import angle_degrees, sin_cos_degrees

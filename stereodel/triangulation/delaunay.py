@@ -20,8 +20,7 @@ from stereodel._arrays import (
     locked,
     private,
 )
-from stereodel._calls import by_name
-from stereodel._docs import shared
+from stereodel._docs import by_name, shared
 from stereodel._spaces import SPHERE, PlaneOrSphere, surface_of
 from stereodel._threads import thread_count
 from stereodel.constants import REBUILD_INSERTING, REBUILD_REMOVING
@@ -50,6 +49,8 @@ FAMILY: Final = {
         vertex_neighbor_vertices : tuple of two int32 arrays, (n + 1,) and (2e,)
             ``indptr, indices``: edges join point k to ``indices[indptr[k]:indptr[k + 1]]``, in order; a dropped
             duplicate to none.
+        surface : object
+            The plane or the sphere; its `name` is "plane" or "sphere".
         """,
     "changes": """
         Arrays are read-only; `insert` and `remove` replace them. Several threads may query at the same time. While one
@@ -61,10 +62,9 @@ FAMILY: Final = {
 
 
 class _kept(Generic[_T]):  # noqa: N801  # a decorator, like `property`
-    """What follows from a state, computed once.
+    """What follows from a state. Of threads that compute it at the same time, the first decides what all have.
 
-    Threads that ask at the same time may all compute it; the first that comes, in one step, decides what all have. As
-    `functools.cached_property`, which promises the last, and up to Python 3.11 lets other states wait meanwhile.
+    `functools.cached_property` promises the last, and up to Python 3.11 lets other states wait meanwhile.
     """
 
     def __init__(self, compute: Callable[[_State], _T]) -> None:
@@ -128,12 +128,16 @@ class _State:
         return self.points, self.simplices, self.neighbors
 
 
+def _of_now(name: str, doc: str) -> Any:
+    """A property: what the present state has by that name."""
+    return property(lambda triangulation: getattr(triangulation._now(), name), doc=doc)
+
+
 class Triangulation:
     """A triangulation that depends only on the set of points; see the two subclasses.
 
-    The first change makes a mesh of the kernel, which from then on has the points: changes and states come from it
-    alone, and its lock lets one thread at a time change it while the others wait. A query takes a state once and asks
-    nothing else, so it never mixes two; it holds no lock while it works on the arrays, which never change.
+    The first change makes a mesh of the kernel, from which changes and states come from then on; its lock lets one
+    thread at a time change it. A query takes a state once, so it never mixes two, and holds no lock while it works.
     """
 
     surface: ClassVar[PlaneOrSphere]
@@ -168,12 +172,9 @@ class Triangulation:
         self._last = 0, _State(self.surface, self._workers, points, made)
 
     def _now(self) -> _State:
-        """The present state; waits while another thread changes the triangulation.
-
-        The order matters. Without a mesh no change had ended when this was asked. With one, the number of its changes
-        is read after `_last`: if it is that of the state, no change had ended since. States that two threads read at
-        the same time hold the same arrays; whichever they leave in `_last`, its number tells whether it is out of date.
-        """
+        """The present state; waits while another thread changes the triangulation."""
+        # The order matters: the number of changes is read after `_last`. If it is that of the state, no change had
+        # ended since. Whichever of two threads leaves its state, its number tells whether it is out of date.
         mesh = self._mesh
         changes, state = self._last
         if mesh is not None and mesh.changes != changes:
@@ -191,55 +192,28 @@ class Triangulation:
             self.__dict__.setdefault("_mesh", made)
         return cast("Mesh", self._mesh)
 
-    @property
-    def dimension(self) -> int:
-        """Dimension of the point set: -1 without points, 0, 1, or 2 when there are triangles."""
-        return self._now().dimension
-
-    @property
-    def points(self) -> FloatArray:
-        """The points, in the order given, inserted ones at the end."""
-        return self._now().points
-
-    @property
-    def simplices(self) -> IntArray:
-        """Triangles (m, 3) int32, counterclockwise, smallest index first."""
-        return self._now().simplices
-
-    @property
-    def neighbors(self) -> IntArray:
-        """Triangle opposite each corner, (m, 3) int32, -1 where there is none."""
-        return self._now().neighbors
-
-    @property
-    def duplicates(self) -> IntArray:
-        """Pairs [dropped, kept] of equal points, (k, 2) int32."""
-        return self._now().duplicates
+    dimension: int = _of_now(
+        "dimension", "Dimension of the point set: -1 without points, 0, 1, or 2 when there are triangles."
+    )
+    points: FloatArray = _of_now("points", "The points, in the order given, inserted ones at the end.")
+    simplices: IntArray = _of_now("simplices", "Triangles (m, 3) int32, counterclockwise, smallest index first.")
+    neighbors: IntArray = _of_now("neighbors", "Triangle opposite each corner, (m, 3) int32, -1 where there is none.")
+    duplicates: IntArray = _of_now("duplicates", "Pairs [dropped, kept] of equal points, (k, 2) int32.")
+    edges: IntArray = _of_now("edges", "Edges (e, 2) int32 with i < j, in lexicographic order.")
+    vertex_neighbor_vertices: tuple[IntArray, IntArray] = _of_now(
+        "vertex_neighbor_vertices",
+        "Neighbours of each point: ``indices[indptr[k]:indptr[k + 1]]`` of the tuple (indptr, indices).",
+    )
+    convex_hull: IntArray = _of_now(
+        "convex_hull",
+        "Directed edges (h, 2) int32 around the triangles, which lie on the left, in lexicographic order.",
+    )
+    circumcenters: FloatArray = _of_now("circumcenters", "Centre of each triangle's circle, (m, 2) or (m, 3).")
 
     @property
     def inconclusive(self) -> dict[str, int]:
         """Number of tests that each stage left open, in construction and changes."""
         return dict(self._now().inconclusive)
-
-    @property
-    def edges(self) -> IntArray:
-        """Edges (e, 2) int32 with i < j, in lexicographic order."""
-        return self._now().edges
-
-    @property
-    def vertex_neighbor_vertices(self) -> tuple[IntArray, IntArray]:
-        """Neighbours of each point: ``indices[indptr[k]:indptr[k + 1]]`` of the tuple (indptr, indices)."""
-        return self._now().vertex_neighbor_vertices
-
-    @property
-    def convex_hull(self) -> IntArray:
-        """Directed edges (h, 2) int32 around the triangles, which lie on the left, in lexicographic order."""
-        return self._now().convex_hull
-
-    @property
-    def circumcenters(self) -> FloatArray:
-        """Centre of each triangle's circle, (m, 2) or (m, 3)."""
-        return self._now().circumcenters
 
     @property
     def latitude(self) -> Latitude | None:
@@ -415,12 +389,7 @@ class Triangulation:
     def _as_queries(self, queries: npt.ArrayLike, workers: int | None) -> tuple[FloatArray, FloatArray, int]:
         array = self.surface.as_queries(queries)
         flat = array.reshape(-1, array.shape[-1])
-        return array, flat, self._thread_count(workers, len(flat))
-
-    def _thread_count(self, workers: int | None = None, size: int | None = None) -> int:
-        """How many threads a task of `size` points takes, by default of all points."""
-        chosen = self._workers if workers is None else workers
-        return thread_count(chosen, len(self.points) if size is None else size)
+        return array, flat, threads_of(self, workers, len(flat))
 
     def __copy__(self) -> Self:
         """An object of its own that shares the present state, and makes its own mesh when it is changed."""
@@ -479,7 +448,8 @@ def as_triangulation(
 
 def threads_of(triangulation: Triangulation, workers: int | None, size: int | None = None) -> int:
     """How many threads a task of `size` points takes, by default of all points; without `workers` as for the points."""
-    return triangulation._thread_count(workers, size)
+    chosen = triangulation._workers if workers is None else workers
+    return thread_count(chosen, len(triangulation.points) if size is None else size)
 
 
 def flat_order(triangulation: Triangulation) -> IntArray:

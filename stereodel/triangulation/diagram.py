@@ -34,6 +34,8 @@ FAMILY: Final = {
             Voronoi vertex of each Delaunay triangle.
         is_kept : (n,) array of bool
             Whether a point has a cell of its own and is not a dropped duplicate.
+        surface : object
+            The plane or the sphere; its `name` is "plane" or "sphere".
         """,
 }
 """What the docstrings of both diagrams have in common."""

@@ -209,18 +209,14 @@ class HullInsertion:
         size = len(self.points)
         self.points = read_only(np.concatenate([self.points, array]))
         self._sites.extend(self.points[size:])
-        fresh = [p for p in range(size, len(self.points)) if self._is_first(p)]
+        kept = {p: self._first.setdefault(self._sites.keys[p], p) for p in range(size, len(self.points))}
+        self._duplicates += [(p, first) for p, first in kept.items() if p != first]
+        fresh = [p for p, first in kept.items() if p == first]
         if self._spatial:
             fresh = [fresh[k] for k in insertion_order(self.points[fresh]).tolist()]
         self._waiting += fresh
         if len(self.start) < 3:
             self._begin()
-
-    def _is_first(self, point: int) -> bool:
-        kept = self._first.setdefault(self._sites.keys[point], point)
-        if kept != point:
-            self._duplicates.append((point, kept))
-        return kept == point
 
     def _begin(self) -> None:
         """Start the surface once three points span; until then all wait."""

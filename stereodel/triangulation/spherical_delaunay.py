@@ -7,8 +7,7 @@ from typing import cast
 import numpy.typing as npt
 
 from stereodel._arrays import BoolArray, FloatArray
-from stereodel._calls import by_name
-from stereodel._docs import shared
+from stereodel._docs import by_name, shared
 from stereodel._spaces import SPHERE
 from stereodel.sphere.latitudes import Latitude
 from stereodel.sphere.lonlat import IN_ROWS, LONLAT, as_sites, as_told

@@ -7,8 +7,7 @@ import numpy.typing as npt
 
 from stereodel import _kernel
 from stereodel._arrays import FloatArray, IntArray, as_scalar, locked
-from stereodel._calls import by_name
-from stereodel._docs import shared
+from stereodel._docs import by_name, shared
 from stereodel._spaces import SPHERE
 from stereodel.sphere import SphereArc, SphereCircle
 from stereodel.sphere.latitudes import Latitude

@@ -43,14 +43,6 @@ def as_rows(rows: list[Facet] | list[Edge], width: int) -> IntArray:
     return np.array(rows, dtype=np.int32).reshape(-1, width)
 
 
-def canonical(simplices: AnyIndices) -> IntArray:
-    """The same triangles and orientations, (m, 3), smallest index first in each row, rows in lexicographic order."""
-    # Each row turned so that its smallest index comes first, which keeps the orientation; then rows sorted.
-    turns = (np.argmin(simplices, axis=1)[:, None] + np.arange(3)) % 3
-    rows = np.take_along_axis(np.asarray(simplices, dtype=np.int32), turns, axis=1)
-    return np.ascontiguousarray(rows[np.lexsort(rows.T[::-1])])
-
-
 def neighbors_of(simplices: AnyIndices) -> IntArray:
     """Triangle opposite each corner, (m, 3), -1 where there is none."""
     # Edge number 3t + k is opposite corner k of triangle t. Both sides of an edge have the same packed ends and are

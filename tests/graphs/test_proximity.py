@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from stereodel import SphericalDelaunay, lonlat_to_xyz
+from stereodel import lonlat_to_xyz
 from stereodel.graphs import (
     gabriel_graph,
     minimum_spanning_tree,
@@ -118,13 +118,3 @@ def test_lengths_of_directions_do_not_matter(graph, length):
     circle = lonlat_to_xyz([(0, 0), (100, 0), (220, 0)])
     for points in (circle, lonlat_to_xyz([(0, 0), (100, 0), (220, 10), (40, 60), (50, -70)])):
         np.testing.assert_array_equal(graph(length * points), graph(points))
-
-
-def test_points_or_triangulation():
-    points = np.random.default_rng(4).normal(size=(50, 3))
-    for graph in FROM_THE_INSIDE:
-        assert np.array_equal(graph(points), graph(SphericalDelaunay(points)))
-    with pytest.raises(ValueError, match="points must have shape"):
-        gabriel_graph(np.zeros((4, 5)))
-    with pytest.raises(ValueError, match="workers"):
-        gabriel_graph(points, workers=0)

@@ -1,4 +1,4 @@
-"""Other doors to the interpolators: DataArrays in, DataArrays out; `griddata` as SciPy has it."""
+"""Other doors to the interpolators: the accessor of DataArrays; `griddata` as SciPy has it."""
 
 import dask
 import dask.array
@@ -131,32 +131,10 @@ def test_what_cannot_be_found_is_said(stations):
         stations.stereodel.interpolate(lon=xr.DataArray(LON, dims="time"), lat=1.0)
     with pytest.raises(ValueError, match=r"lon has shape \(3, 5\); give a DataArray"):
         stations.stereodel.interpolate(lon=GRID[..., 0], lat=LAT)
-
-
-@pytest.mark.parametrize("kind", KINDS.values())
-def test_interpolators_answer_as_they_are_asked(kind, stations, lonlat):
-    values = stations.transpose("station", "level", "time")
-    function = kind.from_lonlat(lonlat, values)
-    lon, lat = xr.DataArray(LON, dims="lon", name="lon"), xr.DataArray(LAT, dims="lat")
-    found = function(lonlat=(lon, lat))
-    assert found.dims == ("lat", "lon", "level", "time")
-    assert np.array_equal(found, kind.from_lonlat(lonlat, values.values)(lonlat=GRID), equal_nan=True)
-    assert found.attrs == {"units": "K"}
-    assert set(found.coords) == {"lon", "lat", "time", "source"}
-    assert function.gradient(lonlat=(lon, lat)).shape == (3, 5, 3, 4, 3)
-    plain = kind.from_lonlat(lonlat, values.values)(lonlat=(lon, lat))
-    assert plain.dims == ("lat", "lon", "value_0", "value_1")
-    assert np.array_equal(plain, found, equal_nan=True)
-
-
-def test_places_of_the_plane_and_weights(lonlat):
-    linear = LinearInterpolator(lonlat, lonlat[:, 0])
-    x, y = xr.DataArray(LON, dims="x"), xr.DataArray(LAT, dims="y")
-    assert linear((x, y)).dims == ("y", "x")
-    assert np.allclose(linear((x, y)), GRID[..., 0])
-    assert linear.weights((x, y)).shape == (3, 5)
     with pytest.raises(ValueError, match=r"cannot align|conflict|join"):
-        linear((xr.DataArray(LON, {"p": LON}, "p"), xr.DataArray(LON, {"p": LON + 1}, "p")))
+        stations.stereodel.interpolate(
+            lon=xr.DataArray(LON, {"p": LON}, "p"), lat=xr.DataArray(LON, {"p": LON + 1}, "p")
+        )
 
 
 def test_the_accessor_is_there_by_one_import():

@@ -12,10 +12,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from stereodel import _kernel, check_delaunay
-from stereodel.triangulation.topology import canonical, neighbors_of
+from stereodel.triangulation.topology import neighbors_of
 from tests import sets
 from tests.examples import examples
-from tests.spaces import BOTH, SPHERE, readable, space_of
+from tests.spaces import BOTH, SPHERE, canonical, readable, space_of
 from tests.threads import at_once, begun, until
 
 

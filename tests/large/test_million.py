@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from stereodel.triangulation import PlanarDelaunay, SphericalDelaunay, check_delaunay
-from stereodel.triangulation.topology import canonical
 from tests import sets
+from tests.spaces import canonical
 
 SIZE = 1_000_000
 

@@ -2,7 +2,6 @@
 
 import itertools
 from fractions import Fraction
-from math import gcd
 
 import numpy as np
 import pytest
@@ -10,9 +9,20 @@ from hypothesis import given
 from hypothesis import strategies as st
 from mpmath import mp, mpf, workdps
 
+from stereodel import in_bubble
 from tests import sets
 from tests.exact import cross, dot, minus, unit
-from tests.reference import bubble_ray, bubble_tie, incircle_tie, ray, sign, sign_of_roots, to_integers
+from tests.reference import (
+    bubble_ray,
+    bubble_tie,
+    compare_directions,
+    incircle_tie,
+    ray,
+    sign,
+    sign_of_roots,
+    turn_ray,
+)
+from tests.spaces import SPHERE
 
 COEFFICIENT = st.integers(-(10**20), 10**20)
 TERMS = st.lists(st.tuples(COEFFICIENT, st.integers(1, 10**30)), max_size=4)
@@ -57,23 +67,41 @@ def test_known_signs(terms, expected):
     assert sign_of_roots([(-c, n) for c, n in terms]) == -expected
 
 
-@given(st.lists(FINITE, min_size=1, max_size=6))
-def test_integers_are_one_multiple(values):
-    integers = to_integers(values)
-    scale = next((Fraction(i) / Fraction(v) for i, v in zip(integers, values, strict=True) if v), Fraction(1))
-    assert scale > 0
-    assert [Fraction(v) * scale for v in values] == integers
+SMALL = SPHERE.places(6)
 
 
-@given(st.tuples(FINITE, FINITE, FINITE).filter(any))
-def test_primitive_vectors(vector):
-    integers = ray(vector)[:3]
-    assert gcd(*integers) == 1
-    assert [sign(x) for x in integers] == [sign(x) for x in vector]
-    (x, y, z), (u, v, w) = (map(Fraction, t) for t in (vector, integers))
-    assert x * v == y * u
-    assert y * w == z * v
-    assert x * w == z * u
+def sign_of(value, zero="1e-250"):
+    return 0 if abs(value) < mpf(zero) else int(mp.sign(value))
+
+
+def bubble(a, b, c, p):
+    a, *others = map(unit, (a, b, c, p))
+    u, v, w = (minus(other, a) for other in others)
+    return dot(u, cross(v, w))
+
+
+@given(SMALL, SMALL, SMALL, SMALL)
+def test_small_integers(a, b, c, p):
+    """Ties and parallel vectors are frequent here."""
+    with workdps(300):
+        assert bubble_ray(*map(ray, (a, b, c, p))) == sign_of(bubble(a, b, c, p))
+        assert turn_ray(ray(a), ray(b), ray(c)) == sign_of(dot(unit(a), cross(unit(b), unit(c))))
+        steps = [sign_of(x - y) for x, y in zip(unit(a), unit(b), strict=True)]
+    expected = next((step for step in steps if step), 0)
+    assert compare_directions(ray(a), ray(b)) == expected == -compare_directions(ray(b), ray(a))
+    if compare_directions(ray(a), ray(b)) <= 0 and compare_directions(ray(b), ray(c)) <= 0:
+        assert compare_directions(ray(a), ray(c)) <= 0
+
+
+def test_what_doubles_cannot_see():
+    assert compare_directions(ray([1.0, 1e-200, 0.0]), ray([1.0, 0.0, 0.0])) == -1
+    assert compare_directions(ray([-0.0, 1.0, 5e-324]), ray([0.0, 1.0, 0.0])) == -1
+    assert compare_directions(ray([0.0, 2.0, -0.0]), ray([-0.0, 3.0, 0.0])) == 0
+    a, b, c = [1.0, 0.0, 0.0], [1.0, 5e-324, 0.0], [1.0, 0.0, 5e-324]
+    with workdps(2500):
+        for p in ([1.0, 1e-323, 0.0], [1.0, 5e-324, 5e-324], [1e300, -1e-10, 0.0], [-1.0, 0.0, 0.0]):
+            expected = sign_of(bubble(a, b, c, p), "1e-2400")
+            assert bubble_ray(*map(ray, (a, b, c, p))) == in_bubble(a, b, c, p) == expected
 
 
 CIRCLE = [(3, 4), (5, 0), (-4, 3), (0, -5), (-3, -4)]

@@ -1,4 +1,4 @@
-"""The predicates on arrays: shapes, threads, what the kernel refuses, and each stage of orient3d."""
+"""The predicates on arrays: any doubles, shapes, threads, what is refused, flat regions, each stage of orient3d."""
 
 from fractions import Fraction
 
@@ -9,7 +9,10 @@ from hypothesis import strategies as st
 
 from stereodel import _kernel, in_bubble, incircle, orient2d, orient3d
 from stereodel import _kernel_probe as probe
+from tests import sets
+from tests.exact import fractions
 from tests.kernel.stages import OPEN, shares_of
+from tests.reference import bubble_ray, incircle_integer, orient2d_integer, ray
 
 PREDICATES = {
     "orient2d": (orient2d, _kernel.plane.turn, 2, "abc"),
@@ -86,6 +89,67 @@ def test_threads_do_not_matter(name):
     assert (kernel(*points) == kernel(*points, workers=3)).all()
 
 
+ANY = st.floats(allow_nan=False, allow_infinity=False)
+SMALL = st.integers(-3, 3).map(float)
+
+
+@given(st.lists((st.tuples(ANY, ANY, ANY) | st.tuples(SMALL, SMALL, SMALL)).filter(any), min_size=4, max_size=4))
+def test_any_doubles(four):
+    flat = [p[:2] for p in four]
+    assert orient2d(*flat[:3]) == orient2d_integer(*fractions(four[:3]))
+    assert incircle(*flat) == incircle_integer(*fractions(flat))
+    assert in_bubble(*four) == bubble_ray(*map(ray, four))
+
+
+@pytest.mark.parametrize("scale", [1.0, 1e150, 1e-150, 2.0**-1074, 2.0**-1040, 1e-300])
+def test_orientation_on_the_grid_where_doubles_fail(scale):
+    """Points one ulp apart about 0.5, seen from a line through 12 and 24 (Kettner and others, 2008)."""
+    steps = np.arange(-8, 8) * 2.0**-53
+    a = np.stack(np.meshgrid(0.5 + steps, 0.5 + steps), axis=-1).reshape(-1, 2) * scale
+    b, c = np.array([12.0, 12.0]) * scale, np.array([24.0, 24.0]) * scale
+    expected = [orient2d_integer(*fractions((p, b, c))) for p in a.tolist()]
+    assert orient2d(a, b, c).tolist() == orient2d(b, c, a).tolist() == expected
+    assert orient2d(c, b, a).tolist() == [-s for s in expected]
+
+
+@pytest.mark.parametrize("scale", [1.0, 2.0**498, 2.0**-498])
+def test_incircle_near_a_circle_and_on_it(scale):
+    on_circle = np.array([[3, 4], [5, 0], [-4, 3], [0, -5], [-3, -4], [4, -3], [-5, 0]], dtype=float) * scale
+    a, b, c, *others = on_circle
+    for d in others:
+        nudges = np.array([[0, 0], [1, 0], [-1, 0], [0, 1], [0, -1]]) * np.spacing(4 * scale)
+        expected = [incircle_integer(*fractions((a, b, c, p))) for p in (d + nudges).tolist()]
+        assert incircle(a, b, c, d + nudges).tolist() == expected
+        assert expected[0] == 0
+        assert incircle(b, a, c, d + nudges).tolist() == [-s for s in expected]
+
+
+@pytest.mark.parametrize("spread", [1.0, 1e-3, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14])
+def test_the_curvature_form_decides_where_flatness_defeats_the_plain_one(spread):
+    """Row P6: the filter leaves next to nothing open, while below 1e-8 the plain determinant is a coin."""
+    rng = np.random.default_rng(0)
+    a, b, c, p = rng.normal(size=3) + spread * rng.normal(size=(4, 2000, 3))
+    signs = probe.bubble(a, b, c, p, stage="filter" if spread > 1e-14 else "double_double")
+    assert (signs == OPEN).mean() < 2e-3
+    if spread <= 1e-10:
+        a, b, c, p = map(sets.unit, (a, b, c, p))
+        plain = np.linalg.det(np.stack([b - a, c - a, p - a], axis=1))
+        assert 0.2 < (np.sign(plain) != signs).mean() < 0.8
+
+
+@pytest.mark.parametrize("bad", [[np.nan, 0], [0, np.inf, 1], [1, 2, 3, 4], "ab", [1j, 0]])
+@EACH
+def test_bad_points_are_named(name, bad):
+    predicate, _, width, names = PREDICATES[name]
+    with pytest.raises((ValueError, TypeError), match=rf"^{names[-1]}"):
+        predicate(*np.eye(4)[: len(names) - 1, :width] + 1, bad)
+
+
+def test_the_zero_vector_has_no_side():
+    with pytest.raises(ValueError, match=r"^p\[1\] is the zero vector"):
+        in_bubble(*np.eye(3), [[0, 0, 1], [0, 0, 0]])
+
+
 # The stages of orient3d ----------------------------------------------------------------------------------------------
 
 
@@ -140,10 +204,6 @@ def test_products_that_underflow_decide_nothing():
     c, d = unit * np.array([[4.0, 3.0, 4.0]]), unit * np.array([[0.0, 5.0, 7.0]])
     assert exact_volume(*(p[0].tolist() for p in (a, b, c, d))) == 1
     assert [signs[0] for signs in stages((a, b, c, d)).values()] == [1, OPEN, OPEN, 1]
-
-
-ANY = st.floats(allow_nan=False, allow_infinity=False)
-SMALL = st.integers(-3, 3).map(float)
 
 
 @given(*[st.tuples(ANY, ANY, ANY) | st.tuples(SMALL, SMALL, SMALL)] * 4)

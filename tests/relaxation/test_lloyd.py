@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from stereodel import PlanarDelaunay, Rotation, SphericalDelaunay, check_delaunay
 from stereodel.relaxation import lloyd
-from stereodel.relaxation.quadrature import MIDPOINTS, RADON, flat_nodes
+from stereodel.relaxation.cell_triangles import MIDPOINTS, RADON, flat_nodes
 from tests.exact import fractions, nearer
 from tests.examples import examples
 from tests.strategies import GRID_DIRECTIONS

@@ -60,12 +60,10 @@ def test_no_coordinate_is_below_the_tolerance(seed, tol):
     outward = (ends[:, 1] - ends[:, 0])[:, ::-1] * [1, -1]
     queries = (ends.mean(axis=1)[:, None] + outward[:, None] * rng.uniform(0, 3 * tol, (1, 40, 1))).reshape(-1, 2)
     every = barycentric.coordinates(tri.transform, queries[:, None]).min(axis=2)
-    exhaustive = tri.find_simplex(queries, bruteforce=True, tol=tol)
-    np.testing.assert_array_equal(exhaustive >= 0, (every >= -tol).any(axis=1))
-    for found in (exhaustive, tri.find_simplex(queries, tol=tol)):
-        inside = found >= 0
-        assert (every[np.flatnonzero(inside), found[inside]] >= -tol).all()
-        np.testing.assert_array_equal(found[exhaustive < 0], -1)
+    found = tri.find_simplex(queries, tol=tol)
+    inside = found >= 0
+    assert (every[np.flatnonzero(inside), found[inside]] >= -tol).all()
+    assert not inside[(every < -tol).all(axis=1)].any()
 
 
 def test_points_of_triangles_without_transform_are_given_to_a_neighbor_with_one():
@@ -94,17 +92,6 @@ def test_leeway_towards_a_triangle_without_transform():
     assert -3e-8 < barycentric.coordinates(tri.transform[other], inside).min() < -1e-15
 
 
-def test_brute_force_asks_every_triangle_at_the_hull():
-    side = np.linspace(0, 1, 20)
-    tri = Delaunay(np.column_stack([axis.ravel() for axis in np.meshgrid(side, side)]))
-    corners = tri.points[tri.convex_hull[:, 0]]
-    queries = np.repeat(corners, 20, axis=0) + 1e-15 * np.random.default_rng(0).normal(size=(20 * len(corners), 2))
-    quick, found = tri.find_simplex(queries), tri.find_simplex(queries, True)
-    assert ((found >= 0) & (quick < 0)).any()
-    assert not ((found < 0) & (quick >= 0)).any()
-    assert coordinates(tri, found[found >= 0], queries[found >= 0]).min() > -3e-14
-
-
 @pytest.mark.parametrize("corners", [5, 40, 200])
 def test_a_larger_tolerance_loses_nothing(corners):
     turn = np.linspace(0, 2 * np.pi, corners, endpoint=False)
@@ -114,14 +101,6 @@ def test_a_larger_tolerance_loses_nothing(corners):
     for less, more in itertools.pairwise(inside):
         assert not (less & ~more).any()
     assert inside[-1].all()
-
-
-def test_chunks_do_not_matter(monkeypatch):
-    tri = Delaunay(random_points())
-    queries = hull_queries(tri)
-    whole = tri.find_simplex(queries, True)
-    monkeypatch.setattr(barycentric, "_PAIRS_AT_ONCE", 100)
-    np.testing.assert_array_equal(tri.find_simplex(queries, True), whole)
 
 
 @pytest.mark.parametrize("shape", [(), (0,), (5,), (2, 3)])

@@ -11,9 +11,8 @@ from stereodel.predicates import in_bubble
 from stereodel.triangulation import HullInsertion, SphericalDelaunay, check_delaunay
 from stereodel.triangulation.hull_insertion import insertion_order, spanning_points
 from stereodel.triangulation.sites import GHOST, PlaneSites, RaySites
-from stereodel.triangulation.topology import canonical
 from tests import sets
-from tests.spaces import space_of
+from tests.spaces import canonical, space_of
 
 SOME = [
     *sets.named("sphere", "unit", "cap", "octahedron", "cube", "rim and pole", "rim and poles", "closed hemisphere"),
@@ -159,13 +158,6 @@ def test_bad_points(bad):
 def test_the_first_points_that_span(points, expected):
     points = np.array(points, dtype=float)
     assert spanning_points(asked(points), range(len(points))) == expected
-
-
-@pytest.mark.parametrize(
-    "one", [*sets.named("plane", "none", "all the same", "tiny"), *sets.named("sphere", "lengths")]
-)
-def test_the_order_of_insertion_takes_each_point_once(one):
-    assert sorted(insertion_order(one.points)) == list(range(len(one.points)))
 
 
 def test_the_order_of_insertion_goes_short_ways():

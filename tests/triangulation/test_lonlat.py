@@ -1,19 +1,23 @@
 """Objects made from longitude and latitude remember which latitude it was, for queries and for results."""
 
-import copy
 import pickle
 
 import numpy as np
 import pytest
 
 from stereodel import (
+    Gnomonic,
     HullInsertion,
     PlanarDelaunay,
     PlanarVoronoi,
     SphericalDelaunay,
     SphericalVoronoi,
     angular_distance,
+    fisheye,
+    great_circle_points,
     lonlat_to_xyz,
+    solid_angle,
+    xyz_to_lonlat,
 )
 from stereodel.graphs import (
     gabriel_graph,
@@ -57,14 +61,6 @@ def test_sites_are_remembered(make, latitude):
     assert made.latitude == latitude
     assert np.array_equal(made.points, lonlat_to_xyz(lonlat, latitude=latitude))
     assert same(made.lonlat, lonlat)
-
-
-@pytest.mark.parametrize("make", MADE)
-def test_survives_copies_and_pickles(make):
-    made = make(places(20), latitude="authalic")
-    for twin in (copy.copy(made), copy.deepcopy(made), pickle.loads(pickle.dumps(made))):
-        assert twin.latitude == "authalic"
-        assert np.array_equal(twin.lonlat, made.lonlat)
 
 
 @pytest.mark.parametrize("latitude", KINDS)
@@ -245,3 +241,33 @@ def test_areas_need_a_radius(radius):
     for diagram in (PlanarVoronoi(PLANE), SphericalVoronoi(ROUND)):
         with pytest.raises(ValueError, match="radius"):
             diagram.areas(radius=radius)
+
+
+LON, LAT = np.array([0.0, 90.0, 40.0, -50.0]), np.array([0.0, 10.0, 60.0, 20.0])
+ROWS = r"give rows \(longitude, latitude\), as np\.column_stack\(\[lon, lat\]\) makes them"
+BY_NAME = r"give longitude and latitude by name, lonlat=np\.column_stack\(\[lon, lat\]\)"
+XYZ = r"shape \(\.\.\., 3\), got \(2,\), which means the plane; make directions of longitude .* by lonlat_to_xyz"
+FIRST_CALLS = [
+    (lambda: NAMED.nearest(10, 50), rf"nearest\(\) takes 1 argument by position, got 2; {BY_NAME}"),
+    (lambda: NAMED.find_simplex(10, 50), BY_NAME),
+    (lambda: FUNCTION(LON, LAT), BY_NAME),
+    (lambda: lonlat_to_xyz(10, 50), r"give longitude and latitude as one pair \(lon, lat\), or rows"),
+    (lambda: fisheye((10, 50), 4), r"fisheye\(\) takes 1 argument by position, got 2; magnification= is a keyword"),
+    (lambda: SphericalDelaunay.from_lonlat(LON, LAT), ROWS),
+    (lambda: SphericalVoronoi.from_lonlat(LON, LAT), ROWS),
+    (lambda: LinearInterpolator.from_lonlat(LON, LAT, LAT), rf"takes 2 arguments by position, got 3; {ROWS}"),
+    (lambda: SphericalDelaunay.from_lonlat(LON), ROWS),
+    (lambda: SphericalDelaunay.from_lonlat(np.stack([LON, LAT])), ROWS),
+    (lambda: angular_distance((10, 50), (20, 60)), f"a must have {XYZ}"),
+    (lambda: great_circle_points((10, 50), (20, 60), 3), f"a must have {XYZ}"),
+    (lambda: solid_angle((0, 0), (90, 0), (0, 90)), f"a must have {XYZ}"),
+    (lambda: xyz_to_lonlat((10, 50)), f"xyz must have {XYZ}"),
+    (lambda: Gnomonic((0, 0)).forward((10, 50)), f"xyz must have {XYZ}"),
+    (lambda: fisheye((10, 50), magnification=4)((10, 50)), "for longitude and latitude call its method lonlat"),
+]
+
+
+@pytest.mark.parametrize(("call", "message"), FIRST_CALLS)
+def test_calls_that_a_newcomer_writes_first(call, message):
+    with pytest.raises((TypeError, ValueError), match=message):
+        call()

@@ -158,28 +158,6 @@ def test_a_state_that_is_late_is_not_believed(space):
 
 
 @BOTH
-def test_copies_go_their_own_ways(space):
-    """A copy shares the state, and makes a mesh of its own."""
-    start, more = points_of(space, 60), points_of(space, 8, seed=1)
-    triangulation = space.delaunay(start)
-    triangulation.insert(more[:2])
-    twin, third = copy.copy(triangulation), copy.copy(triangulation)
-    triangulation.insert(more[2:4])
-    twin.remove([0, 61])
-    for t, points in (
-        (triangulation, np.vstack([start, more[:4]])),
-        (twin, np.vstack([start[1:], more[:1]])),
-        (third, np.vstack([start, more[:2]])),
-    ):
-        assert np.array_equal(t.points, points)
-        assert np.array_equal(t.edges, space.delaunay(points).edges)
-        assert t.dimension == 2
-        assert len(t.duplicates) == 0
-        assert sum(t.inconclusive.values()) >= 0
-        check_delaunay(t)
-
-
-@BOTH
 def test_two_changes_of_copies_at_a_time(space):
     start = points_of(space, 300)
     more = points_of(space, 40, seed=1)

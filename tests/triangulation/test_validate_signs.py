@@ -10,14 +10,11 @@ from mpmath import mpf, workdps
 
 from stereodel.triangulation.validate_signs import PlaneSigns, SphereSigns, _nearly_unit, ray_integers
 from tests import sets
-from tests.exact import cross, dot, minus, unit
+from tests.exact import cross, dot, fractions, minus, unit
+from tests.reference import incircle_integer, orient2d_integer, sign
 from tests.spaces import SPHERE
 
 ULP = 2.0**-52
-
-
-def sign(x):
-    return int(x > 0) - int(x < 0)
 
 
 def bubble_oracle(quadruple):
@@ -30,15 +27,11 @@ def bubble_oracle(quadruple):
 
 
 def turn_oracle(triple):
-    a, b, c = [[Fraction(x) for x in p] for p in triple]
-    return sign((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
+    return orient2d_integer(*fractions(triple))
 
 
 def circle_oracle(quadruple):
-    *abc, d = [[Fraction(x) for x in p] for p in quadruple]
-    rows = [[x - y for x, y in zip(p, d, strict=True)] for p in abc]
-    turns = cross(*zip(*rows, strict=True))
-    return sign(sum((x * x + y * y) * turn for (x, y), turn in zip(rows, turns, strict=True)))
+    return incircle_integer(*fractions(quadruple))
 
 
 def bubble(quadruple):

@@ -158,30 +158,6 @@ def test_vertices_are_circumcentres_of_their_simplices(points):
     assert (height[:, 0] >= (centers[:, 0] @ units.T).max(axis=1) - 1e-14).all()
 
 
-def test_against_scipy_in_the_plane():
-    points = np.random.default_rng(0).random((300, 2))
-    ours, theirs = PlanarVoronoi(points), spatial.Voronoi(points)
-    assert sorted(np.sort(theirs.ridge_points).tolist()) == ours.ridge_points.tolist()
-    distance, match = spatial.cKDTree(theirs.vertices).query(ours.vertices)
-    assert distance.max() < 1e-9
-    assert len(np.unique(match)) == len(theirs.vertices)
-    for i, region in enumerate(ours.regions):
-        named = sorted(-1 if v < 0 else int(match[v]) for v in region)
-        assert named == sorted(theirs.regions[theirs.point_region[i]])
-
-
-@pytest.mark.parametrize("name", ["unit", "cube"])
-def test_against_scipy_on_the_sphere(name):
-    points = sets.unit(sets.sphere(name).points)
-    ours, theirs = SphericalVoronoi(points), spatial.SphericalVoronoi(points)
-    theirs.sort_vertices_of_regions()
-    distance, match = spatial.cKDTree(theirs.vertices).query(ours.vertices)
-    assert distance.max() < 1e-12
-    if name == "unit":
-        assert {frozenset(match[r].tolist()) for r in ours.regions} == {frozenset(r) for r in theirs.regions}
-    assert ours.areas() == pytest.approx(theirs.calculate_areas(), abs=1e-12)
-
-
 @pytest.mark.parametrize("shift", [0.0, 2.0**40])
 def test_a_grid_has_one_vertex_in_each_square(shift):
     diagram = PlanarVoronoi(GRID + shift)

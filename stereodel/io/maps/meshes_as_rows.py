@@ -22,7 +22,7 @@ from stereodel.triangulation import PlanarDelaunay, PlanarVoronoi, SphericalDela
 from stereodel.triangulation.delaunay import Triangulation, open_triangles
 from stereodel.triangulation.diagram import Diagram
 
-Mesh = PlanarDelaunay | PlanarVoronoi | SphericalDelaunay | SphericalVoronoi
+Mesh = Triangulation | Diagram[Any]
 Columns = dict[str, npt.NDArray[Any]]
 
 
