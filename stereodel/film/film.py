@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import inspect
 import os
 import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import KW_ONLY, dataclass, replace
-from functools import partial
 from pathlib import Path
 from typing import Any, Final, Generic, TypeVar, cast
 
@@ -29,7 +27,7 @@ from stereodel.film.frames import KeptFrames, frame_names, store_frame
 from stereodel.film.shots import GlobePages, Motion, Samples, Shot
 from stereodel.film.writers import Reel, format_of, frame_seconds
 from stereodel.globe.globe import Globe
-from stereodel.render.figure import run_script
+from stereodel.render.figure import run_script, source_of
 
 T = TypeVar("T")
 
@@ -309,16 +307,14 @@ class Film(Generic[T]):
         The script is the file that defines `draw`. Its options are the output folder, by default ``out`` next to the
         script's folder, the width, and whether to draw labels.
         """
-        draw = self.draw.func if isinstance(self.draw, partial) else self.draw
-        name = Path(inspect.getfile(draw)).stem
+        run_script(self, argv, source_of(self.draw).stem, f"{self.size}", {})
 
-        def save(film: Film[T], out: Path, *, size: int | None, text: bool) -> list[str]:
-            out.mkdir(parents=True, exist_ok=True)
-            film = replace(film, size=film.size if size is None else size, text=text)
-            jobs = None if main_script_here() else 1  # the documentation runs scripts as text
-            return [film.save(out / f"{name}.gif", jobs=jobs, progress=False).name]
-
-        run_script(self, save, argv, name=name, source=draw, kind="a looping GIF", usual_size=f"{self.size}")
+    def _files(self, folder: Path, *, size: int | None, text: bool) -> list[str]:
+        """See `stereodel.render.figure.Drawing`."""
+        folder.mkdir(parents=True, exist_ok=True)
+        film = replace(self, size=self.size if size is None else size, text=text)
+        jobs = None if main_script_here() else 1  # the documentation runs scripts as text
+        return [film.save(folder / f"{source_of(self.draw).stem}.gif", jobs=jobs, progress=False).name]
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,7 @@ import re
 import numpy as np
 import pypdfium2
 
-from stereodel.render.rows import LabelLayer
+from stereodel.render.pixel_rows import LabelLayer
 
 DPI = 600
 """Pixels per inch of all pictures: what vector files hold is no finer in print."""

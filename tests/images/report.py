@@ -12,7 +12,7 @@ import imageio.v3 as iio
 import numpy as np
 
 from stereodel._files import replacing
-from stereodel.render.rows import LabelLayer
+from stereodel.render.pixel_rows import LabelLayer
 from tools.baselines import PIXEL_LEVELS, SIZE, compare, levels_apart, read_picture
 
 SHOWN = 8

@@ -8,7 +8,7 @@ stored.
 import numpy as np
 import pytest
 
-from stereodel.render.rows import LabelLayer
+from stereodel.render.pixel_rows import LabelLayer
 from tests.images.report import in_short, report_failure, report_pass
 from tests.images.scripts import ROOT, SCRIPTS, STORE, by_script, cases, thorough_but_for
 from tools.baselines import ARRAYS, SIZE, case_names

@@ -12,7 +12,7 @@ import pytest
 from stereodel.drawing.page import Fill, Label, Page, Stroke
 from stereodel.drawing.page.style import BLACK
 from stereodel.render.figure import Figure, caption_of, captioned, parted
-from stereodel.render.rows import LabelLayer
+from stereodel.render.pixel_rows import LabelLayer
 from tests.images.scripts import SCRIPTS
 from tools.build import load_drawing
 

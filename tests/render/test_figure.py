@@ -11,7 +11,7 @@ import pytest
 from stereodel.drawing.page import Dots, Label, Page
 from stereodel.drawing.page.style import BLACK
 from stereodel.render.figure import Figure, default_folder
-from stereodel.render.rows import pixel_hash
+from stereodel.render.pixel_rows import pixel_hash
 
 
 def geometry():

@@ -14,11 +14,12 @@ from PIL import Image
 from stereodel.data import blue_marble
 from stereodel.drawing import Page, Scene, View
 from stereodel.drawing.page import Dots
-from stereodel.render.png import SIGNATURE, png_chunks
+from stereodel.render.pixel_rows import SIGNATURE, png_chunks
 
 
 def written(picture, parts=(), page_width=72.0):
-    return b"".join(png_chunks(np.split(picture, parts), picture.shape[1], len(picture), page_width=page_width))
+    height, width = picture.shape[:2]
+    return b"".join(png_chunks(np.split(picture, parts), width, height, page_width=page_width, texts={}))
 
 
 def decoded(data):
@@ -126,10 +127,10 @@ def test_files_are_no_larger_than_those_of_pillow(draw, share):
 )
 def test_rows_that_do_not_fit_are_refused(rows):
     with pytest.raises(ValueError, match=r"rows has shape .*at most \(2, 4, 3\) of uint8 are left"):
-        list(png_chunks([rows], 4, 2, page_width=72.0))
+        list(png_chunks([rows], 4, 2, page_width=72.0, texts={}))
 
 
 def test_a_file_without_all_its_rows_is_not_finished():
     rows = np.zeros((1, 4, 3), dtype=np.uint8)
     with pytest.raises(ValueError, match="1 rows of the picture are missing"):
-        list(png_chunks([rows], 4, 2, page_width=72.0))
+        list(png_chunks([rows], 4, 2, page_width=72.0, texts={}))

@@ -14,9 +14,9 @@ import trimesh
 from stereodel.drawing import CircleArc, Scene, Solid, View
 from stereodel.drawing.page.style import LINES, LineStyle
 from stereodel.render import Figure, gl
-from stereodel.render.bodies import bodies_of
-from stereodel.render.glb import CAMERA, glb_bytes, linear
-from stereodel.render.surfaces import CURVE_ERROR
+from stereodel.render.space.bodies import bodies_of, linear
+from stereodel.render.space.save_solid import CAMERA, glb_bytes
+from stereodel.render.space.surfaces import CURVE_ERROR
 from stereodel.sphere import SphereCircle, lonlat_to_xyz
 from tests.figures.scripts import FIGURES, FOLDER, script
 from tools.gltf import issues
@@ -201,7 +201,7 @@ def test_the_camera_sees_the_page(solid):
 def test_indices_are_short_where_they_may_be(monkeypatch, solid):
     kinds = []
     for largest in (2**16 - 1, 100):
-        monkeypatch.setattr("stereodel.render.glb.SHORT", largest)
+        monkeypatch.setattr("stereodel.render.space.save_solid.SHORT", largest)
         tree, _ = parts(glb_bytes(solid))
         indices = [tree["accessors"][mesh["primitives"][0]["indices"]] for mesh in tree["meshes"]]
         kinds.append({accessor["componentType"] for accessor in indices})

@@ -8,10 +8,10 @@ from scipy.spatial import cKDTree
 
 from stereodel.drawing.scene.space_curves import CircleArc, Segment
 from stereodel.drawing.scene.visibility import SphereRegion
-from stereodel.render.surfaces import (
+from stereodel.render.space.surfaces import (
     BALL_LEVELS,
     CURVE_ERROR,
-    Surface,
+    TriangleMesh,
     ball,
     ball_level,
     dashed,
@@ -156,6 +156,6 @@ def test_a_polygon_need_not_be_convex(order):
 
 def test_surfaces_are_joined_one_after_the_other():
     parts = [tube(line, 0.02, CURVE_ERROR) for line in LINES.values()]
-    both = Surface.joined(parts)
+    both = TriangleMesh.joined(parts)
     assert volume(both) == pytest.approx(sum(map(volume, parts)))
     assert is_closed(both)

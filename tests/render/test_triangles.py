@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from stereodel.render.triangles import FLATNESS, discs, flatten, region, ribbon, ribbons
+from stereodel.render.tessellation import FLATNESS, discs, flatten, region, ribbon, ribbons
 from tests.globe.sights import distance, winding
 
 POINTS = arrays(np.float64, st.tuples(st.integers(3, 12), st.just(2)), elements=st.floats(0, 100, width=32))

@@ -16,7 +16,7 @@ from stereodel.drawing.page.lengths import pixel_height
 from stereodel.drawing.page.style import BLACK
 from stereodel.drawing.scene.scene import Scene
 from stereodel.drawing.scene.view import View
-from stereodel.render.rows import LabelLayer, agg_rows
+from stereodel.render.pixel_rows import LabelLayer, agg_rows
 from stereodel.render.save import save_vector
 from stereodel.sphere import SphereCircle, graticule
 

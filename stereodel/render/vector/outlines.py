@@ -29,9 +29,11 @@ STRAIGHTENED: Final = 4
 MOVE, LINE, CURVE, CLOSE = 1, 2, 4, 79
 """Kinds of points of an outline, as in `matplotlib.path.Path`; three points in a row make a curve."""
 
+RECTANGLE: Final = np.array([MOVE, LINE, LINE, LINE, CLOSE], dtype=np.uint8)
+
 
 @dataclass(frozen=True, eq=False)
-class Outline:
+class Outlines:
     """Runs of straight lines and cubics.
 
     points: (n, 2).
@@ -42,16 +44,16 @@ class Outline:
     points: FloatArray
     kinds: Bytes
 
-    def __add__(self, other: Outline) -> Outline:
+    def __add__(self, other: Outlines) -> Outlines:
         """The runs of both."""
-        return Outline(np.concatenate([self.points, other.points]), np.concatenate([self.kinds, other.kinds]))
+        return Outlines(np.concatenate([self.points, other.points]), np.concatenate([self.kinds, other.kinds]))
 
 
 @dataclass(frozen=True, eq=False)
 class Filled:
     """A region in one colour (even-odd or nonzero rule), which may be shaded as a ball."""
 
-    outline: Outline
+    outline: Outlines
     color: Color
     name: str = ""
     ball: Ball | None = None
@@ -71,7 +73,7 @@ class Discs(Filled):
 class Drawn:
     """Lines of one style, width and dash in points."""
 
-    outline: Outline
+    outline: Outlines
     color: Color
     width: float
     dash: tuple[float, float] | None = None
@@ -86,7 +88,7 @@ class Shown:
     pixels: Pixels
     extent: tuple[float, float, float, float]
     """Left, right, bottom and top of the picture."""
-    outline: Outline
+    outline: Outlines
     name: str = ""
 
 
@@ -141,12 +143,20 @@ def shapes(page: Page, dpi: float, pictures: Sequence[Pixels] = ()) -> Iterator[
                 assert_never(other)
 
 
+def ground(page: Page) -> Iterator[Filled]:
+    """The background, unless it is transparent."""
+    if page.background[3]:
+        left, right, bottom, top = page.extent
+        corners = np.array([(left, top), (right, top), (right, bottom), (left, bottom), (left, top)])
+        yield Filled(Outlines(corners, RECTANGLE), page.background, "ground")
+
+
 def has_length(stroke: Stroke, points_per_unit: float) -> bool:
     """Whether a line is longer than a point on paper; the rest of a line that touches the limb from behind is not."""
     return bool(np.ptp(stroke.path.reshape(-1, 2), axis=0).max() * points_per_unit > FINEST_PLACE)
 
 
-def outline(runs: Iterable[tuple[Beziers, bool]], points_per_unit: float, shut: int = CLOSE) -> Outline:
+def outline(runs: Iterable[tuple[Beziers, bool]], points_per_unit: float, shut: int = CLOSE) -> Outlines:
     """Runs of Bézier curves, each closed, by a piece of the kind `shut`, or open; straight ones become lines.
 
     Agg, and PDFium, which is built on it, hollow out closed lines that are smaller than they are wide. With round ends
@@ -167,7 +177,7 @@ def outline(runs: Iterable[tuple[Beziers, bool]], points_per_unit: float, shut: 
         if closed:
             points.append(path[:1, 0])
             kinds.append(shut)
-    return Outline(np.concatenate([np.zeros((0, 2)), *points]), np.array(kinds, dtype=np.uint8))
+    return Outlines(np.concatenate([np.zeros((0, 2)), *points]), np.array(kinds, dtype=np.uint8))
 
 
 def _lines(lines: Polylines, points_per_unit: float) -> Iterator[Shape]:
@@ -183,7 +193,7 @@ def _lines(lines: Polylines, points_per_unit: float) -> Iterator[Shape]:
         # Ends are round, so closed lines need not be closed: see `outline`.
         kinds = np.full(len(long.values), LINE, dtype=np.uint8)
         kinds[long.offsets[:-1]] = MOVE
-        yield Drawn(Outline(long.values, kinds), lines.color, lines.width, name=lines.name)
+        yield Drawn(Outlines(long.values, kinds), lines.color, lines.width, name=lines.name)
     if len(alone):
         yield _discs(alone, lines.width / 2, points_per_unit, lines.color, lines.name)
 
@@ -219,11 +229,11 @@ def thinned_loops(loops: Ragged, spacing: float) -> Ragged:
     return loops.take(loops.sizes > 3)
 
 
-def _loops(loops: Ragged) -> Outline:
+def _loops(loops: Ragged) -> Outlines:
     kinds = np.full(len(loops.values), LINE, dtype=np.uint8)
     kinds[loops.offsets[:-1]] = MOVE
     kinds[loops.offsets[1:] - 1] = CLOSE
-    return Outline(loops.values, kinds)
+    return Outlines(loops.values, kinds)
 
 
 def _painted(picture: Picture, page: Page, dpi: float) -> Shown:

@@ -16,7 +16,7 @@ from stereodel.drawing.page import Beziers, Fill, Label, Page
 from stereodel.drawing.page.fonts import families_of, font_properties, quiet_fonts
 from stereodel.drawing.page.lengths import pixel_height
 from stereodel.drawing.page.style import TYPE
-from stereodel.render.shapes import Drawn, Filled, Outline, Shape, Shown, shapes
+from stereodel.render.vector.outlines import Drawn, Filled, Outlines, Shape, Shown, shapes
 
 with of_extra("draw"):
     import matplotlib as mpl
@@ -87,7 +87,7 @@ def _artist(shape: Shape, axes: Axes) -> PathPatch | AxesImage:
             return image
 
 
-def _path(outline: Outline) -> Path:
+def _path(outline: Outlines) -> Path:
     return Path(outline.points, outline.kinds)
 
 

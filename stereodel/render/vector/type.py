@@ -12,7 +12,7 @@ import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from functools import cache, cached_property
-from typing import Any, Final, Literal, NamedTuple
+from typing import Any, Final, Literal, NamedTuple, cast
 from unicodedata import bidirectional, category, normalize
 
 import numpy as np
@@ -21,9 +21,8 @@ from stereodel._arrays import FloatArray
 from stereodel._extras import of_extra
 from stereodel.constants import FINEST_OUTLINE
 from stereodel.drawing.page import Label, Page
-from stereodel.render.canvas import drawn, matplotlib_settings
-from stereodel.render.mends import characters, font_of
-from stereodel.render.shapes import CLOSE, CURVE, LINE, MOVE, Outline
+from stereodel.render.vector.agg import drawn, matplotlib_settings
+from stereodel.render.vector.outlines import CLOSE, CURVE, LINE, MOVE, RECTANGLE, Outlines
 
 with of_extra("draw"):
     from fontTools.pens.basePen import BasePen
@@ -32,7 +31,9 @@ with of_extra("draw"):
     from fontTools.subset import Options, Subsetter
     from fontTools.ttLib import TTFont, newTable
     from fontTools.ttLib.tables._c_m_a_p import CmapSubtable
+    from matplotlib import _text_helpers
     from matplotlib.backend_bases import RendererBase
+    from matplotlib.textpath import text_to_path
 
 FINER: Final = 64
 """Pixels per point of the canvas on which type is set: matplotlib rounds sizes in formulas to whole pixels."""
@@ -104,29 +105,28 @@ class Line:
         turn = np.radians(self.rotation)
         return np.array([[np.cos(turn), -np.sin(turn), self.x], [np.sin(turn), np.cos(turn), self.y]])
 
-    def placed(self, outline: Outline) -> Outline:
+    def placed(self, outline: Outlines) -> Outlines:
         """An outline of the line's coordinates on the page, in points."""
         matrix = self.matrix
-        return Outline(outline.points @ matrix[:, :2].T + matrix[:, 2], outline.kinds)
+        return Outlines(outline.points @ matrix[:, :2].T + matrix[:, 2], outline.kinds)
 
     @property
-    def outline(self) -> Outline:
+    def outline(self) -> Outlines:
         """The outlines of all glyphs and bars, in points on the page."""
-        nothing = Outline(np.zeros((0, 2)), np.zeros(0, dtype=np.uint8))
+        nothing = Outlines(np.zeros((0, 2)), np.zeros(0, dtype=np.uint8))
         letters = (moved(glyph_outline(g.font, g.index), g.size, (g.x, g.y)) for g in self.glyphs)
         return self.placed(sum((*letters, self.bar_outline), start=nothing))
 
     @property
-    def bar_outline(self) -> Outline:
+    def bar_outline(self) -> Outlines:
         """The bars in the line's coordinates."""
         corners = [[(x, y), (x + w, y), (x + w, y + h), (x, y + h), (x, y)] for x, y, w, h in self.bars]
-        kinds = np.tile(np.array([MOVE, LINE, LINE, LINE, CLOSE], dtype=np.uint8), len(corners))
-        return Outline(np.array(corners).reshape(-1, 2), kinds)
+        return Outlines(np.array(corners).reshape(-1, 2), np.tile(RECTANGLE, len(corners)))
 
 
-def moved(outline: Outline, scale: float, shift: tuple[float, float]) -> Outline:
+def moved(outline: Outlines, scale: float, shift: tuple[float, float]) -> Outlines:
     """An outline scaled and shifted."""
-    return Outline(scale * outline.points + np.array(shift), outline.kinds)
+    return Outlines(scale * outline.points + np.array(shift), outline.kinds)
 
 
 def lines_of(page: Page) -> Iterator[tuple[Label, list[Line]]]:
@@ -170,9 +170,14 @@ class _Recorder(RendererBase):
 
 
 def _words(text: str, properties: Any) -> Iterator[Glyph]:
-    size = properties.get_size_in_points()
-    for font, index, written, x, y in characters(text, font_of(properties)):
-        yield Glyph(_face(font), index, written, size, x * size, y * size)
+    """Matplotlib's own layout: its public interface gives outlines of characters, but not the characters."""
+    size, maker = properties.get_size_in_points(), cast(Any, text_to_path)
+    item: Any
+    for item in _text_helpers.layout(text, maker._get_font(properties)):
+        # Before matplotlib 3.11 all characters were on the baseline, and the name was different.
+        index = item.glyph_index if hasattr(item, "glyph_index") else item.glyph_idx
+        x, y = (size * (place / maker.FONT_SCALE) for place in (item.x, getattr(item, "y", 0.0)))
+        yield Glyph(_face(item.ft_object), index, item.char, size, x, y)
 
 
 def _formula(renderer: Any, text: str, properties: Any) -> tuple[Iterable[Glyph], tuple[Any, ...]]:
@@ -206,14 +211,14 @@ def _font(face: Face) -> Any:
 
 
 @cache
-def glyph_outline(face: Face, index: int) -> Outline:
+def glyph_outline(face: Face, index: int) -> Outlines:
     """The outline of a glyph of a font, at size 1."""
     font = _font(face)
     glyphs = font.getGlyphSet()
     pen = _Pen(glyphs)
     glyphs[font.getGlyphName(index)].draw(pen)
     points = np.array(pen.points, dtype=np.float64).reshape(-1, 2) / font["head"].unitsPerEm
-    return Outline(points, np.array(pen.kinds, dtype=np.uint8))
+    return Outlines(points, np.array(pen.kinds, dtype=np.uint8))
 
 
 class _Pen(BasePen):  # type: ignore[misc]

@@ -39,7 +39,7 @@ BISECTIONS: Final = 24
 
 
 @dataclass(frozen=True, eq=False)
-class Surface:
+class TriangleMesh:
     """Triangles (m, 3) that share corners (n, 3), whose normals are unit vectors outward."""
 
     points: FloatArray
@@ -53,7 +53,7 @@ class Surface:
         return 1 - float(np.sum(a * units(np.cross(b - a, c - a)), axis=1).min())
 
     @classmethod
-    def joined(cls, surfaces: Sequence[Surface]) -> Surface:
+    def joined(cls, surfaces: Sequence[TriangleMesh]) -> TriangleMesh:
         """Several surfaces as one; at least one of them."""
         first = np.cumsum([0, *(len(surface.points) for surface in surfaces)])
         faces = [surface.faces + start for surface, start in zip(surfaces, first[:-1], strict=True)]
@@ -62,7 +62,7 @@ class Surface:
 
 
 @cache
-def ball(level: int) -> Surface:
+def ball(level: int) -> TriangleMesh:
     """The unit ball: an icosahedron, its sides halved `level` times, corners on the sphere.
 
     >>> len(ball(2).faces), round(ball(2).depth, 4)
@@ -73,7 +73,7 @@ def ball(level: int) -> Surface:
 
     made: Any = icosphere(subdivisions=level, radius=1.0)
     points = units(np.array(made.vertices, dtype=np.float64))
-    return Surface(points, points, np.array(made.faces, dtype=np.intp))
+    return TriangleMesh(points, points, np.array(made.faces, dtype=np.intp))
 
 
 def ball_level(error: float) -> int:
@@ -84,7 +84,7 @@ def ball_level(error: float) -> int:
 # Tubes
 
 
-def tube(curve: Curve, radius: float, error: float) -> Surface | None:
+def tube(curve: Curve, radius: float, error: float) -> TriangleMesh | None:
     """The points within `radius` of a curve, with round ends; None for a curve of length zero.
 
     curve: before any view, so that both radii of an arc have the same length.
@@ -109,9 +109,9 @@ def tube(curve: Curve, radius: float, error: float) -> Surface | None:
     normals, points = rings.reshape(-1, 3), (middle[:, None] + radius * rings).reshape(-1, 3)
     faces = _sleeve(len(middle), sides, closed=curve.closed)
     if curve.closed:
-        return Surface(points, normals, faces)
+        return TriangleMesh(points, normals, faces)
     tips = np.array([-along[0], along[-1]])
-    return Surface(
+    return TriangleMesh(
         np.concatenate([points, middle[[0, -1]] + radius * tips]),
         np.concatenate([normals, tips]),
         np.concatenate([faces, _tips(len(middle), sides)]),
@@ -187,7 +187,7 @@ def _tips(rings: int, sides: int) -> Indices:
 # Flat polygons and regions of a sphere
 
 
-def polygon(corners: FloatArray, normal: FloatArray) -> Surface:
+def polygon(corners: FloatArray, normal: FloatArray) -> TriangleMesh:
     """A flat simple polygon, corners (n, 3) in either order, visible from the side of its normal."""
     with of_extra("draw"):
         import mapbox_earcut
@@ -199,7 +199,7 @@ def polygon(corners: FloatArray, normal: FloatArray) -> Surface:
     a, b, c = (flat[faces[:, i]] for i in range(3))
     clockwise = _doubled_areas(a, b, c) < 0
     faces[clockwise] = faces[clockwise][:, ::-1]
-    return Surface(corners, np.tile(normal, (len(corners), 1)), faces)
+    return TriangleMesh(corners, np.tile(normal, (len(corners), 1)), faces)
 
 
 def _doubled_areas(a: FloatArray, b: FloatArray, c: FloatArray) -> FloatArray:
@@ -208,7 +208,7 @@ def _doubled_areas(a: FloatArray, b: FloatArray, c: FloatArray) -> FloatArray:
     return np.asarray(ux * vy - uy * vx)
 
 
-def patch(region: SphereRegion, level: int) -> Surface:
+def patch(region: SphereRegion, level: int) -> TriangleMesh:
     """A region on the unit sphere as triangles, with corners on the sphere and sides along the boundary.
 
     The points of a ball of that level and those of the boundary are triangulated together, without points of the ball
@@ -262,7 +262,7 @@ def _left_of(simplices: AnyIndices, neighbors: AnyIndices, count: int) -> BoolAr
     return inside
 
 
-def _only(points: FloatArray, faces: AnyIndices) -> Surface:
+def _only(points: FloatArray, faces: AnyIndices) -> TriangleMesh:
     """Triangles of the unit sphere with only the points that they use."""
     used, numbers = np.unique(faces, return_inverse=True)
-    return Surface(points[used], points[used], numbers.reshape(-1, 3))
+    return TriangleMesh(points[used], points[used], numbers.reshape(-1, 3))
