@@ -362,20 +362,22 @@ class _Tasks(Sequence[Any]):
         return self.shots[number], self.kept.path(number)
 
 
+@dataclass
 class _Counted:
     """A reel that counts its frames as they are read in order."""
 
-    def __init__(self, reel: Reel, told: Progress) -> None:
-        self._reel, self._told, self._next = reel, told, 0
+    reel: Reel
+    told: Progress
+    read: int = 0
 
     def __len__(self) -> int:
-        return len(self._reel)
+        return len(self.reel)
 
     def __getitem__(self, number: int) -> Pixels:
-        if number == self._next:
-            self._next += 1
-            self._told("writing", self._next, len(self))
-        return self._reel[number]
+        if number == self.read:
+            self.read += 1
+            self.told("writing", self.read, len(self))
+        return self.reel[number]
 
 
 def _as_it_is(picture: Pixels) -> Pixels:

@@ -31,9 +31,6 @@ DOT_LEVEL: Final = 2
 LEAST_SIDES: Final = 6
 """Least number of sides of a tube's cross-section."""
 
-CAP_ANGLES: Final = np.radians([45.0])
-"""Latitudes of the rings between the end of a tube and the tip of its hemispherical cap."""
-
 BISECTIONS: Final = 24
 """Rounds of halving sides of a region that are missing in its triangulation, down to 1e-8 radii."""
 
@@ -63,11 +60,7 @@ class TriangleMesh:
 
 @cache
 def ball(level: int) -> TriangleMesh:
-    """The unit ball: an icosahedron, its sides halved `level` times, corners on the sphere.
-
-    >>> len(ball(2).faces), round(ball(2).depth, 4)
-    (320, 0.0178)
-    """
+    """The unit ball: an icosahedron, its sides halved `level` times, corners on the sphere."""
     with of_extra("render"):
         from trimesh.creation import icosphere
 
@@ -88,12 +81,7 @@ def tube(curve: Curve, radius: float, error: float) -> TriangleMesh | None:
     """The points within `radius` of a curve, with round ends; None for a curve of length zero.
 
     curve: before any view, so that both radii of an arc have the same length.
-    error: largest distance of the curve from its chords. Cross-sections have enough sides for the same accuracy, and at
-        least six.
-
-    >>> bar = tube(Segment.between([0, 0, 0], [0, 0, 5]), 0.1, 0.001)
-    >>> bar.points[:, 2].min().round(9).tolist(), bar.points[:, 2].max().round(9).tolist()
-    (-0.1, 5.1)
+    error: largest distance of the curve from its chords, and of cross-sections from theirs.
     """
     found = _frames(curve, error)
     if found is None:
@@ -103,9 +91,10 @@ def tube(curve: Curve, radius: float, error: float) -> TriangleMesh | None:
     turn = 2 * np.pi * np.arange(sides)[:, None] / sides
     rings = np.cos(turn) * side[:, None] + np.sin(turn) * np.cross(along, side)[:, None]
     if not curve.closed:
-        begin, end = _cap_rings(rings[0], -along[0])[::-1], _cap_rings(rings[-1], along[-1])
-        rings = np.concatenate([begin, rings, end])
-        middle = np.concatenate([np.repeat(middle[:1], len(begin), 0), middle, np.repeat(middle[-1:], len(end), 0)])
+        # A ring at 45° between each end of a tube and the tip of its cap.
+        begin, end = np.sqrt(0.5) * (rings[0] - along[0]), np.sqrt(0.5) * (rings[-1] + along[-1])
+        rings = np.concatenate([begin[None], rings, end[None]])
+        middle = np.concatenate([middle[:1], middle, middle[-1:]])
     normals, points = rings.reshape(-1, 3), (middle[:, None] + radius * rings).reshape(-1, 3)
     faces = _sleeve(len(middle), sides, closed=curve.closed)
     if curve.closed:
@@ -168,12 +157,6 @@ def _sleeve(rings: int, sides: int, *, closed: bool) -> Indices:
     here, after = ring * sides + np.arange(sides), ring * sides + np.roll(np.arange(sides), -1)
     there, there_after = (here + sides) % (rings * sides), (after + sides) % (rings * sides)
     return np.stack([here, after, there, after, there_after, there], axis=-1).reshape(-1, 3)
-
-
-def _cap_rings(ring: FloatArray, outward: FloatArray) -> FloatArray:
-    """Normals (k, sides, 3) on the rings of a hemisphere, starting at its rim."""
-    cosine, sine = np.cos(CAP_ANGLES)[:, None, None], np.sin(CAP_ANGLES)[:, None, None]
-    return np.asarray(cosine * ring + sine * outward)
 
 
 def _tips(rings: int, sides: int) -> Indices:

@@ -100,7 +100,6 @@ def shapes(page: Page, dpi: float, pictures: Sequence[Pixels] = ()) -> Iterator[
 
     dpi: pixels per inch of each `Picture`.
     pictures: an image of the whole page for each of `page.pictured`.
-    Raises ValueError if the number of pictures is wrong.
     """
     count = len(page.pictured)
     if len(pictures) != count:
@@ -126,13 +125,8 @@ def shapes(page: Page, dpi: float, pictures: Sequence[Pixels] = ()) -> Iterator[
             case Polygons() as polygons:
                 yield from _by_color(polygons, FINEST_POINTS / scale)
             case Fill() as fill:
-                yield Filled(
-                    outline([(path, True) for path in fill.paths], scale),
-                    fill.color,
-                    fill.name,
-                    fill.ball,
-                    even_odd=True,
-                )
+                runs = [(path, True) for path in fill.paths]
+                yield Filled(outline(runs, scale), fill.color, fill.name, fill.ball, even_odd=True)
             case Picture() as picture:
                 yield _painted(picture, page, dpi)
             case Dots() as dots:
@@ -210,8 +204,7 @@ def _by_color(polygons: Polygons, spacing: float) -> Iterator[Filled]:
 def thinned_loops(loops: Ragged, spacing: float) -> Ragged:
     """Loops with at most one point per interval of length `spacing`, without those that then enclose nothing.
 
-    Points that deviate from a straight line by less than a twentieth of `spacing` in total are thinned, too, since arcs
-    of the limb consist of very many chords.
+    Points off a straight line by less than a twentieth of `spacing` go too: arcs of the limb have very many chords.
     """
     loops = thinned(loops, spacing)
     for _ in range(STRAIGHTENED):
@@ -241,16 +234,13 @@ def _painted(picture: Picture, page: Page, dpi: float) -> Shown:
     side = 72 / (dpi * page.points_per_unit)
     corner = np.array([page.extent[0], page.extent[3]])
     cells = (np.concatenate(picture.outline).reshape(-1, 2) - corner) / (side, -side)
-    (left, top), (right, bottom) = (
-        np.floor(cells.min(axis=0) + PIXEL_ROUNDING),
-        np.ceil(cells.max(axis=0) - PIXEL_ROUNDING),
-    )
+    left, top = np.floor(cells.min(axis=0) + PIXEL_ROUNDING)
+    right, bottom = np.ceil(cells.max(axis=0) - PIXEL_ROUNDING)
     place = (corner[0] + left * side, corner[1] - top * side, side, side)
     extent = (place[0], corner[0] + right * side, corner[1] - bottom * side, place[1])
     pixels = picture.painter.paint(place, (int(right - left), int(bottom - top)))
-    return Shown(
-        pixels, extent, outline([(path, True) for path in picture.outline], page.points_per_unit), picture.name
-    )
+    border = outline([(path, True) for path in picture.outline], page.points_per_unit)
+    return Shown(pixels, extent, border, picture.name)
 
 
 def _dots(dots: Dots, points_per_unit: float) -> Iterator[Discs]:
@@ -263,16 +253,11 @@ def _dots(dots: Dots, points_per_unit: float) -> Iterator[Discs]:
 
 
 def _discs(centers: FloatArray, radius: float, points_per_unit: float, color: Color, name: str) -> Discs:
-    """Discs of a radius in points."""
-    runs = outline([(_disc(center, radius / points_per_unit), True) for center in centers], points_per_unit)
-    return Discs(runs, color, name, centers=centers, radius=radius)
-
-
-def _disc(center: FloatArray, radius: float) -> Beziers:
+    """Discs of a radius in points, as circles of eight cubics."""
     t = np.arange(9) * (np.pi / 4)
     ends = np.stack([np.cos(t), np.sin(t)], axis=1)
     ends[-1] = ends[0]
     reach = CIRCLE_KAPPA * np.stack([-ends[:, 1], ends[:, 0]], axis=1)
     unit = np.stack([ends[:-1], ends[:-1] + reach[:-1], ends[1:] - reach[1:], ends[1:]], axis=1)
-    path: Beziers = center + radius * unit
-    return path
+    circles = [(center + radius / points_per_unit * unit, True) for center in centers]
+    return Discs(outline(circles, points_per_unit), color, name, centers=centers, radius=radius)

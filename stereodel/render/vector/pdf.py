@@ -216,12 +216,12 @@ def _shows(line: Line, fonts: dict[Face, Subset], named: dict[Face, str]) -> Ite
 def _font(objects: _Objects, font: Subset) -> str:
     """A font with glyphs by index, and their characters."""
     face = font.face
-    scale = 1000 / face["head"].unitsPerEm
     head, across = face["head"], face["hhea"]
+    scale = 1000 / head.unitsPerEm
     box = numbers(scale * side for side in (head.xMin, head.yMin, head.xMax, head.yMax))
     data = font.file()
     descriptor = objects.add(
-        f"<< /Type /FontDescriptor /FontName /{font.name} /Flags {4 + 64 * font.italic} /FontBBox [{box}] "
+        f"<< /Type /FontDescriptor /FontName /{font.name} /Flags {4 + 32 * (head.macStyle & 2)} /FontBBox [{box}] "
         f"/ItalicAngle {number(face['post'].italicAngle)} /Ascent {number(scale * across.ascent)} "
         f"/Descent {number(scale * across.descent)} /CapHeight {number(scale * across.ascent)} /StemV {UPRIGHT} "
         f"/FontFile2 {objects.stream(data, f'/Length1 {len(data)}')} >>"

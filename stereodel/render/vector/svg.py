@@ -80,11 +80,8 @@ class _SvgSheet:
         self.names.add(name)
         return name
 
-    def runs(self, outline: Outlines) -> list[str]:
-        return runs(self.paper.placed(outline))
-
     def path(self, outline: Outlines) -> str:
-        return "".join(self.runs(outline))
+        return "".join(runs(self.paper.placed(outline)))
 
     def discs(self, discs: Discs) -> list[str]:
         """Each disc as two semicircles."""
@@ -125,7 +122,7 @@ class _SvgSheet:
                 )
                 # Transparent lines of separate paths would be darker where they cross.
                 whole = shape.color[3] < 1
-                yield from self.split(self.name(shape.name), paint, self.runs(shape.outline), whole=whole)
+                yield from self.split(self.name(shape.name), paint, runs(self.paper.placed(shape.outline)), whole=whole)
             case Shown():
                 name = self.name(shape.name)
                 clip = self.name(f"{name}-outline")
@@ -234,7 +231,8 @@ def _sheet(fonts: Iterable[Subset], shaped: Iterable[Subset]) -> str:
     """The fonts of a file, with a class for each font whose glyphs are positioned."""
     rules = []
     for number_, font in enumerate(fonts, start=1):
-        kind = f"font-style:{'italic' if font.italic else 'normal'};font-weight:{'bold' if font.bold else 'normal'}"
+        look = font.face["head"].macStyle
+        kind = f"font-style:{'italic' if look & 2 else 'normal'};font-weight:{'bold' if look & 1 else 'normal'}"
         family = escape(_quoted(font.family))
         rules += [_brought(font, kind), f".type-{number_}{{font-family:'{font.name}',{family},{SERIF};{kind}}}"]
     rules += [_brought(font, "font-style:normal;font-weight:normal") for font in shaped]

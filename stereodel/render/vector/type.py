@@ -114,7 +114,8 @@ class Line:
     def outline(self) -> Outlines:
         """The outlines of all glyphs and bars, in points on the page."""
         nothing = Outlines(np.zeros((0, 2)), np.zeros(0, dtype=np.uint8))
-        letters = (moved(glyph_outline(g.font, g.index), g.size, (g.x, g.y)) for g in self.glyphs)
+        drawn = ((glyph_outline(glyph.font, glyph.index), glyph) for glyph in self.glyphs)
+        letters = (Outlines(o.points * glyph.size + np.array((glyph.x, glyph.y)), o.kinds) for o, glyph in drawn)
         return self.placed(sum((*letters, self.bar_outline), start=nothing))
 
     @property
@@ -122,11 +123,6 @@ class Line:
         """The bars in the line's coordinates."""
         corners = [[(x, y), (x + w, y), (x + w, y + h), (x, y + h), (x, y)] for x, y, w, h in self.bars]
         return Outlines(np.array(corners).reshape(-1, 2), np.tile(RECTANGLE, len(corners)))
-
-
-def moved(outline: Outlines, scale: float, shift: tuple[float, float]) -> Outlines:
-    """An outline scaled and shifted."""
-    return Outlines(scale * outline.points + np.array(shift), outline.kinds)
 
 
 def lines_of(page: Page) -> Iterator[tuple[Label, list[Line]]]:
@@ -205,9 +201,8 @@ def _opened(face: Face) -> Any:
     return TTFont(face.path, fontNumber=face.number, recalcTimestamp=False)
 
 
-@cache
-def _font(face: Face) -> Any:
-    return _opened(face)
+_font = cache(_opened)
+"""Fonts that are only read."""
 
 
 @cache
@@ -264,16 +259,6 @@ class Subset:
         return str(self.face["name"].getBestFamilyName())
 
     @property
-    def italic(self) -> bool:
-        """Whether the font is italic."""
-        return bool(self.face["head"].macStyle & 2)
-
-    @property
-    def bold(self) -> bool:
-        """Whether the font is bold."""
-        return bool(self.face["head"].macStyle & 1)
-
-    @property
     def name(self) -> str:
         """The PostScript name, with a six-letter prefix that distinguishes subsets, as PDF requires."""
         digest = hashlib.sha256(repr(sorted(self.glyphs.items())).encode()).digest()
@@ -300,12 +285,9 @@ class Subset:
 
     def file(self, flavor: Literal["woff"] | None = None) -> bytes:
         """The font file, TrueType or WOFF; glyphs keep their indices."""
-        font = _opened(self.font)
         options = Options(layout_features=[], hinting=False, notdef_outline=True, retain_gids=True)
         options.drop_tables += (*TABLES, *VARIATIONS)
-        subsetter = Subsetter(options)
-        subsetter.populate(gids=sorted(self.glyphs))
-        subsetter.subset(font)
+        font = _subset(self.font, options, gids=sorted(self.glyphs))
         font["cmap"] = _character_map({ord(code): font.getGlyphName(index) for index, code in self.codes.items()})
         return _bytes(font, flavor)
 
@@ -316,13 +298,9 @@ class ShapedSubset(Subset):
 
     def file(self, flavor: Literal["woff"] | None = None) -> bytes:
         """The font file, TrueType or WOFF."""
-        font = _opened(self.font)
         options = Options(hinting=False, notdef_outline=True)
         options.drop_tables += (*VARIATIONS, "FFTM")
-        subsetter = Subsetter(options)
-        subsetter.populate(text="".join(self.glyphs.values()))
-        subsetter.subset(font)
-        return _bytes(font, flavor)
+        return _bytes(_subset(self.font, options, text="".join(self.glyphs.values())), flavor)
 
 
 def subsets(lines: Iterable[Line], kind: type[Subset] = Subset) -> dict[Face, Subset]:
@@ -332,6 +310,13 @@ def subsets(lines: Iterable[Line], kind: type[Subset] = Subset) -> dict[Face, Su
         for glyph in line.glyphs:
             used.setdefault(glyph.font, kind(glyph.font)).glyphs.setdefault(glyph.index, glyph.text)
     return used
+
+
+def _subset(face: Face, options: Any, **kept: Any) -> Any:
+    font, subsetter = _opened(face), Subsetter(options)
+    subsetter.populate(**kept)
+    subsetter.subset(font)
+    return font
 
 
 def _bytes(font: Any, flavor: Literal["woff"] | None) -> bytes:
