@@ -43,10 +43,7 @@ DARK: Final = 0.5
 
 
 def script_of(function: Callable[..., Any], name: str) -> Path | None:
-    """The script that draws a picture: the file of its name in the folder of its drawing function.
-
-    None for pictures without a script: from the command line, a session, or a program with another name.
-    """
+    """The script that draws a picture, the file of its name in the folder of its drawing function; None without one."""
     try:
         script = source_of(function).with_name(f"{name}.py")
     except (TypeError, OSError):
@@ -98,17 +95,12 @@ def _broken(text: str, size: float, room: float) -> Iterator[str]:
     line = ""
     for word in text.split():
         longer = f"{line} {word}".strip()
-        if line and _width(longer, size) > room:
+        low, high = label_box(Label(longer, (0.0, 0.0), size=size, formulas=False), 1.0)
+        if line and high[0] - low[0] > room:
             yield line
             longer = word
         line = longer
     yield line
-
-
-def _width(text: str, size: float) -> float:
-    """Width of a line in points."""
-    low, high = label_box(Label(text, (0.0, 0.0), size=size, formulas=False), 1.0)
-    return float(high[0] - low[0])
 
 
 Geometry = Mapping[str, Any]
@@ -276,10 +268,7 @@ class Drawing(Protocol):
 def run_script(
     drawing: Drawing, argv: Sequence[str] | None, name: str, usual_size: str, flags: Mapping[str, str]
 ) -> None:
-    """Write the files and report where, by default in `out` next to the script's folder; errors become a message.
-
-    flags: additional Boolean options of `_files`, with their help.
-    """
+    """Write the files, by default into `out` next to the script's folder; `flags`: more options, and help."""
     parser = argparse.ArgumentParser(description=f"Draw {name}.")
     out = default_folder(drawing.draw)
     parser.add_argument("--out", type=Path, help=f"folder to write to ({out}, and in it one for each style)")

@@ -133,12 +133,6 @@ class Description:
     problem: str = ""
     multisamples: bool = True
 
-    @property
-    def mesa(self) -> str:
-        """Version of Mesa, e.g. 22.3.6; empty if it is not Mesa."""
-        _, found, rest = self.version.partition("Mesa ")
-        return rest.split()[0] if found else ""
-
 
 def choose(platform: str | None = None) -> tuple[str, str]:
     """The platform to use, and the reason: "argument", the name of the environment variable, or "found".
@@ -389,8 +383,7 @@ class _OpenGL:
                 self._offscreen._renderer._update_context(self.pyrender.Scene(), flags)
 
     def _rendered(self, scene: Any, options: dict[str, Any]) -> Pixels:
-        color, _ = self._offscreen.render(scene, **options)
-        return color
+        return self._offscreen.render(scene, **options)[0]
 
     def _sample_by_sample(self, scene: Any, options: dict[str, Any]) -> Pixels:
         """The average, rounded half up, of the scene drawn once for each sample position, moved to the pixel centre."""
@@ -404,10 +397,10 @@ class _OpenGL:
             total += self._rendered(scene, options)
         return (total // 4).astype(np.uint8)
 
-    def strings(self) -> tuple[str, str]:
+    def strings(self) -> list[str]:
         """GL_VERSION and GL_RENDERER."""
         self._offscreen._platform.make_current()
-        return self._gl.glGetString(self._gl.GL_VERSION).decode(), self._gl.glGetString(self._gl.GL_RENDERER).decode()
+        return [self._gl.glGetString(name).decode() for name in (self._gl.GL_VERSION, self._gl.GL_RENDERER)]
 
     def close(self) -> None:
         """Release all resources."""

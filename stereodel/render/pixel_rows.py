@@ -273,8 +273,7 @@ def _chunk(kind: bytes, data: bytes) -> bytes:
 
 def _text_chunk(key: bytes, text: str) -> bytes:
     """A text chunk: Latin-1 if possible, which every program reads, otherwise UTF-8."""
-    try:
+    if max(text) <= "\xff":
         return _chunk(b"tEXt", key + b"\0" + text.encode("latin-1"))
-    except UnicodeEncodeError:
-        # Not compressed, no language, no translated keyword.
-        return _chunk(b"iTXt", key + b"\0\0\0\0\0" + text.encode())
+    # Not compressed, no language, no translated keyword.
+    return _chunk(b"iTXt", key + b"\0\0\0\0\0" + text.encode())

@@ -20,19 +20,7 @@ from stereodel._arrays import BoolArray, FloatArray, Indices, Pixels, SingleArra
 from stereodel.constants import FLATNESS
 from stereodel.curves.fill import triangles
 from stereodel.curves.ragged import Ragged, spans
-from stereodel.drawing.page import (
-    Ball,
-    Beziers,
-    Dots,
-    Fill,
-    Item,
-    Label,
-    Page,
-    Picture,
-    Polygons,
-    Polylines,
-    Stroke,
-)
+from stereodel.drawing.page import Ball, Beziers, Dots, Fill, Item, Label, Page, Picture, Polygons, Polylines, Stroke
 from stereodel.drawing.page.colors import Color
 from stereodel.render.gl import Disc, Triangles, Window
 from stereodel.render.vector.outlines import has_length
@@ -120,7 +108,8 @@ class _PixelMap:
             case Stroke():
                 return [_flat(self._stroke(item), item.color)] if has_length(item, self.points_per_unit) else []
             case Polylines():
-                return [_flat(self._polylines(item), item.color)]
+                width = item.width * self.pixels_per_point
+                return [_flat(ribbons(self._place(item.points), item.offsets, width), item.color)]
             case Polygons():
                 return [self._polygons(item)]
             case Fill():
@@ -152,9 +141,6 @@ class _PixelMap:
         dash = stroke.dash and (stroke.dash[0] * self.pixels_per_point, stroke.dash[1] * self.pixels_per_point)
         width = stroke.width * self.pixels_per_point
         return ribbon(points, width, closed=stroke.closed, round_caps=stroke.cap == "round", dash=dash or None)
-
-    def _polylines(self, lines: Polylines) -> Corners:
-        return ribbons(self._place(lines.points), lines.offsets, lines.width * self.pixels_per_point)
 
     def _polygons(self, polygons: Polygons) -> Batch:
         loops = Ragged(self._place(polygons.points), polygons.offsets)

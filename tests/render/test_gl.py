@@ -134,8 +134,7 @@ def test_describe_names_platform_and_versions():
     assert found.problem == ""
     assert found.platform in gl.PLATFORMS
     assert "llvmpipe" in found.renderer
-    assert found.mesa
-    assert found.mesa in found.version
+    assert "Mesa " in found.version
 
 
 @pytest.mark.parametrize("change", [lambda p: p[::-1], lambda p: p[:, ::-1], lambda p: 0 * p, lambda p: p[..., ::-1]])

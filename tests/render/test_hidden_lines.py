@@ -146,9 +146,6 @@ def disagreements(placed, reach):
     return wrong, seen, hidden, covered
 
 
-"""Scripts, how far they reach about the ball's middle, and which of their balls are drawn."""
-
-
 def random_scene(seed):
     """Arcs of circles on a ball, and segments and circles in it and about it; a view of it."""
     rng = np.random.default_rng(seed)

@@ -5,6 +5,7 @@ import os
 import struct
 import subprocess
 import sys
+from dataclasses import replace
 
 import imageio.v3 as iio
 import numpy as np
@@ -310,35 +311,25 @@ def test_pages_look_the_same_after_a_picture_in_space(solid):
 # Figures
 
 
-def figure_of(*, solid=True):
-    def geometry():
-        return {"sites": SITES}
-
-    def draw(g):
-        return scene().page(VIEW, width=100.0)
-
-    def in_space(g):
-        assert g["sites"] is SITES
-        return scene().solid(VIEW, width=100.0)
-
-    return Figure("small", geometry, draw, renderer="agg", in_space=in_space if solid else None)
+FLAT = Figure("small", lambda: {"style": "solid"}, lambda g: scene(**g).page(VIEW, width=100.0), renderer="agg")
+SPATIAL = replace(FLAT, in_space=lambda g: scene(**g).solid(VIEW, width=100.0))
 
 
 def test_a_figure_in_space_writes_a_glb(tmp_path, capsys):
-    figure_of().main(["--out", str(tmp_path), "--size", "50"])
+    SPATIAL.main(["--out", str(tmp_path), "--size", "50"])
     assert sorted(path.suffix for path in tmp_path.iterdir()) == [".glb", ".pdf", ".png", ".svg"]
     assert (tmp_path / "small.glb").read_bytes() == glb_bytes(scene().solid(VIEW, width=100.0))
-    figure_of().main(["--out", str(tmp_path), "--size", "50", "--solid", "--no-text"])
+    SPATIAL.main(["--out", str(tmp_path), "--size", "50", "--solid", "--no-text"])
     assert "small_solid.png" in capsys.readouterr().out
-    assert np.array_equal(iio.imread(tmp_path / "small_solid.png"), figure_of().solid().pixels(size=50, text=False))
+    assert np.array_equal(iio.imread(tmp_path / "small_solid.png"), SPATIAL.solid().pixels(size=50, text=False))
 
 
 def test_a_flat_figure_says_so(tmp_path, capsys):
     with pytest.raises(SystemExit):
-        figure_of(solid=False).main(["--out", str(tmp_path), "--solid"])
+        FLAT.main(["--out", str(tmp_path), "--solid"])
     assert "--solid" in capsys.readouterr().err
     with pytest.raises(ValueError, match="figure 'small' shows nothing in space; give it in_space="):
-        figure_of(solid=False).save(tmp_path, size=50, solid=True)
+        FLAT.save(tmp_path, size=50, solid=True)
 
 
 def test_linear_light_is_that_of_the_standard():

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 from typing import Any, Final
 
@@ -140,38 +141,28 @@ def draw_solid(solid: Solid, *, size: int | None, text: bool, platform: str | No
 def lit_rows(solid: Solid, width: int, platform: str | None = None) -> Iterator[Pixels]:
     """A picture `width` pixels wide, without its labels, in blocks of rows (k, width, 3)."""
     scene, large = to_trimesh(solid), (SUPERSAMPLING * width, SUPERSAMPLING * pixel_height(solid.page, width))
-    ground = over_white(solid.page.background)
-    return gl.space_bands(
-        lambda pyrender: lit(pyrender, scene, ground),
-        page_box(solid, scene),
-        *large,
-        platform=platform,
-        finish=averaged,
-    )
+    make = partial(_lit, scene=scene, ground=over_white(solid.page.background))
+    return gl.space_bands(make, page_box(solid, scene), *large, platform=platform, finish=averaged)
 
 
-def lit(pyrender: Any, scene: Any, ground: Color) -> Any:
+def _lit(pyrender: Any, scene: Any, ground: Color) -> Any:
     """A trimesh scene as a pyrender scene with lamps."""
     made = pyrender.Scene(bg_color=[*map(float, ground[:3]), 1.0], ambient_light=[AMBIENT] * 3)
     for toward, share in LAMPS:
         lamp = pyrender.DirectionalLight(intensity=np.pi * (1 - AMBIENT) * share)
-        made.add(lamp, pose=_facing(np.array(toward)))
+        # It shines along its −z.
+        z = np.array(toward) / np.sqrt(np.sum(np.array(toward) ** 2))
+        x = np.cross([0.0, 1.0, 0.0], z)
+        x /= np.sqrt(np.sum(x**2))
+        pose = np.eye(4)
+        pose[:3, :3] = np.column_stack([x, np.cross(z, x), z])
+        made.add(lamp, pose=pose)
     nodes = scene.graph.geometry_nodes
     parts = [part for name in scene.geometry for part in _parts(pyrender, scene, name, nodes[name])]
     # Opaque bodies first, then transparent ones from back to front.
     for number, (_, primitive) in enumerate(sorted(parts, key=lambda part: part[0])):
         made.add(pyrender.Mesh([primitive]), name=gl.node_name(number))
     return made
-
-
-def _facing(toward: FloatArray) -> FloatArray:
-    """The pose of a lamp in a direction: it shines along its −z."""
-    z = toward / np.sqrt(np.sum(toward**2))
-    x = np.cross([0.0, 1.0, 0.0], z)
-    x /= np.sqrt(np.sum(x**2))
-    pose = np.eye(4)
-    pose[:3, :3] = np.column_stack([x, np.cross(z, x), z])
-    return pose
 
 
 def _parts(pyrender: Any, scene: Any, name: str, nodes: list[str]) -> Iterator[tuple[int, Any]]:
@@ -183,46 +174,30 @@ def _parts(pyrender: Any, scene: Any, name: str, nodes: list[str]) -> Iterator[t
         yield 0, _primitive(pyrender, mesh, color, poses)
     elif layer == Layer.BALL:
         for pose in poses:
-            yield layer, _primitive(pyrender, mesh, color, pose[None], opacity=_glass(mesh, pose, color[3]))
+            # Toward the limb the path through glass is longer and more light is reflected.
+            normals = mesh.vertex_normals @ pose[:3, :3].T
+            facing = np.abs(normals[:, 2]) / np.sqrt(np.sum(normals**2, axis=1))
+            opacity = color[3] + (1 - color[3]) * (1 - facing) ** GLASS_RIM
+            yield layer, _primitive(pyrender, mesh, color, pose[None], opacity=opacity)
     else:
         if layer == Layer.TINT:
-            yield Layer.FAR_TINT, _primitive(pyrender, mesh, color, poses, inward=True)
+            yield Layer.FAR_TINT, _primitive(pyrender, mesh, color, poses, side=-1)
         yield layer, _primitive(pyrender, mesh, color, poses)
 
 
 def _primitive(
-    pyrender: Any,
-    mesh: Any,
-    color: Color,
-    poses: FloatArray,
-    *,
-    inward: bool = False,
-    opacity: FloatArray | None = None,
+    pyrender: Any, mesh: Any, color: Color, poses: FloatArray, side: int = 1, opacity: FloatArray | None = None
 ) -> Any:
-    side = -1 if inward else 1
     base = [*(np.array(color[:3]) ** GAMMA).tolist(), color[3] if opacity is None else 1.0]
+    mode = "OPAQUE" if color[3] == 1 else "BLEND"
     material = pyrender.MetallicRoughnessMaterial(
-        baseColorFactor=base,
-        metallicFactor=0.0,
-        roughnessFactor=ROUGHNESS,
-        alphaMode="OPAQUE" if color[3] == 1 else "BLEND",
+        baseColorFactor=base, metallicFactor=0.0, roughnessFactor=ROUGHNESS, alphaMode=mode
     )
     tints = None if opacity is None else np.column_stack([np.ones((len(opacity), 3)), opacity])
+    normals, faces = side * mesh.vertex_normals, mesh.faces[:, ::side]
     return pyrender.Primitive(
-        mesh.vertices,
-        normals=side * mesh.vertex_normals,
-        color_0=tints,
-        indices=mesh.faces[:, ::side],
-        material=material,
-        poses=poses,
+        mesh.vertices, normals=normals, color_0=tints, indices=faces, material=material, poses=poses
     )
-
-
-def _glass(mesh: Any, pose: FloatArray, opacity: float) -> FloatArray:
-    """Opacity at the points of a glass ball: toward the limb the path is longer and more light is reflected."""
-    normals = mesh.vertex_normals @ pose[:3, :3].T
-    facing = np.abs(normals[:, 2]) / np.sqrt(np.sum(normals**2, axis=1))
-    return np.asarray(opacity + (1 - opacity) * (1 - facing) ** GLASS_RIM)
 
 
 OUTPUTS.update(save_solid=save_solid, draw_solid=draw_solid, to_trimesh=to_trimesh)

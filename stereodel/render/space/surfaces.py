@@ -179,25 +179,17 @@ def polygon(corners: FloatArray, normal: FloatArray) -> TriangleMesh:
     flat = corners @ np.column_stack([side, np.cross(normal, side)])
     rings = np.array([len(corners)], dtype=np.uint32)
     faces = mapbox_earcut.triangulate_float64(flat, rings).astype(np.intp).reshape(-1, 3)
-    a, b, c = (flat[faces[:, i]] for i in range(3))
-    clockwise = _doubled_areas(a, b, c) < 0
+    (ux, uy), (vx, vy) = ((flat[faces[:, i]] - flat[faces[:, 0]]).T for i in (1, 2))
+    clockwise = ux * vy - uy * vx < 0
     faces[clockwise] = faces[clockwise][:, ::-1]
     return TriangleMesh(corners, np.tile(normal, (len(corners), 1)), faces)
 
 
-def _doubled_areas(a: FloatArray, b: FloatArray, c: FloatArray) -> FloatArray:
-    """Twice the areas of flat triangles, positive if counterclockwise."""
-    (ux, uy), (vx, vy) = (b - a).T, (c - a).T
-    return np.asarray(ux * vy - uy * vx)
-
-
 def patch(region: SphereRegion, level: int) -> TriangleMesh:
-    """A region on the unit sphere as triangles, with corners on the sphere and sides along the boundary.
+    """A region on the unit sphere, left of its boundary, as triangles; ValueError if the boundary crosses itself.
 
     The points of a ball of that level and those of the boundary are triangulated together, without points of the ball
-    that would separate neighbours on the boundary. The region is what lies on the left of the boundary.
-
-    Raises ValueError if the boundary crosses itself.
+    that would separate neighbours on the boundary.
     """
     arcs = [arc.scaled(1 / region.radius, np.zeros(3)) for arc in region.boundary]
     steps = [np.linspace(a.start, a.stop, _pieces(a.stop - a.start, _speed(a), CURVE_ERROR) + 1) for a in arcs]
@@ -206,8 +198,9 @@ def patch(region: SphereRegion, level: int) -> TriangleMesh:
         mesh = SphericalDelaunay(np.concatenate([rim, _away_from(rim, ball(level).points)]))
         crossed = ~_has_edges(mesh.simplices, len(rim))
         if not crossed.any():
-            inside = _left_of(mesh.simplices, mesh.neighbors, len(rim))
-            return _only(mesh.points, mesh.simplices[inside])
+            inside = mesh.simplices[_left_of(mesh.simplices, mesh.neighbors, len(rim))]
+            used, numbers = np.unique(inside, return_inverse=True)
+            return TriangleMesh(mesh.points[used], mesh.points[used], numbers.reshape(-1, 3))
         parts = np.split(crossed, np.cumsum([len(t) - 1 for t in steps])[:-1])
         steps = [np.sort([*t, *((t[:-1] + t[1:])[part] / 2)]) for t, part in zip(steps, parts, strict=True)]
     raise ValueError("the boundary of a region crosses itself; give the arcs of a loop that does not")
@@ -243,9 +236,3 @@ def _left_of(simplices: AnyIndices, neighbors: AnyIndices, count: int) -> BoolAr
         front = reached[(reached >= 0) & ~inside[reached]]
         inside[front] = True
     return inside
-
-
-def _only(points: FloatArray, faces: AnyIndices) -> TriangleMesh:
-    """Triangles of the unit sphere with only the points that they use."""
-    used, numbers = np.unique(faces, return_inverse=True)
-    return TriangleMesh(points[used], points[used], numbers.reshape(-1, 3))

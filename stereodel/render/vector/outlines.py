@@ -62,11 +62,10 @@ class Filled:
 
 @dataclass(frozen=True, eq=False)
 class Discs(Filled):
-    """Discs of one colour, for formats that describe them more briefly than by outlines."""
+    """Discs of one colour and radius in points, for formats that describe them more briefly than by outlines."""
 
     centers: FloatArray = field(default_factory=lambda: np.zeros((0, 2)))
     radius: float = 0.0
-    """In points."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,11 +82,10 @@ class Drawn:
 
 @dataclass(frozen=True, eq=False)
 class Shown:
-    """An image clipped to an outline."""
+    """An image clipped to an outline; `extent` has its left, right, bottom and top."""
 
     pixels: Pixels
     extent: tuple[float, float, float, float]
-    """Left, right, bottom and top of the picture."""
     outline: Outlines
     name: str = ""
 

@@ -54,16 +54,11 @@ class Paper:
     scale: FloatArray
 
     @classmethod
-    def downward(cls, page: Page) -> Paper:
-        """With the origin in the upper left corner, as in SVG."""
-        scale = page.points_per_unit
-        return cls(np.array([page.extent[0], page.extent[3]]), np.array([scale, -scale]))
-
-    @classmethod
-    def upward(cls, page: Page) -> Paper:
-        """With the origin in the lower left corner, as in PDF."""
-        scale = page.points_per_unit
-        return cls(np.array([page.extent[0], page.extent[2]]), np.array([scale, scale]))
+    def of(cls, page: Page, *, downward: bool) -> Paper:
+        """With the origin in the upper left corner, as in SVG, or the lower left one, as in PDF."""
+        left, _, bottom, top = page.extent
+        down = -1 if downward else 1
+        return cls(np.array([left, top if downward else bottom]), page.points_per_unit * np.array([1, down]))
 
     def points(self, places: Any) -> FloatArray:
         """Places (..., 2) of the page, in points."""

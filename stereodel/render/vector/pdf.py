@@ -86,7 +86,7 @@ class _PdfSheet:
     """A page being written."""
 
     def __init__(self, page: Page) -> None:
-        self.page, self.paper, self.objects = page, Paper.upward(page), _Objects()
+        self.page, self.paper, self.objects = page, Paper.of(page, downward=False), _Objects()
         # Resources that the content names, by kind and name.
         self.resources: dict[str, dict[str, str]] = {"Font": {}, "XObject": {}, "Pattern": {}, "ExtGState": {}}
 

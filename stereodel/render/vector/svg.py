@@ -45,7 +45,7 @@ class _SvgSheet:
     """A page being written."""
 
     def __init__(self, page: Page) -> None:
-        self.page, self.paper = page, Paper.downward(page)
+        self.page, self.paper = page, Paper.of(page, downward=True)
         self.names: set[str] = set()
 
     def text(self, pictures: Sequence[Pixels]) -> str:
@@ -195,9 +195,13 @@ class _SvgSheet:
     def line(self, line: Line, fonts: dict[Face, Subset]) -> str:
         """A line of type with each character positioned, grouped by font and size."""
         x, y = line.x, self.page.height - line.y
-        spans = []
-        order = list(fonts)
-        for (font, size, _), group in groupby(line.glyphs, key=lambda glyph: _together(glyph, fonts)):
+        spans, order = [], list(fonts)
+
+        def together(glyph: Glyph) -> tuple[Face, float, int]:
+            # Characters beyond 16 bits would count as two positions.
+            return glyph.font, glyph.size, id(glyph) * (fonts[glyph.font].codes[glyph.index] > "\uffff")
+
+        for (font, size, _), group in groupby(line.glyphs, key=together):
             glyphs = list(group)
             text = "".join(fonts[font].codes[glyph.index] for glyph in glyphs)
             heights = [number(y - glyph.y) for glyph in glyphs]
@@ -221,27 +225,21 @@ def _parted(found: list[str]) -> list[str]:
     return ["".join(part) for part in parts]
 
 
-def _together(glyph: Glyph, fonts: dict[Face, Subset]) -> tuple[Face, float, int]:
-    """Key of characters in one element; characters beyond 16 bits would count as two positions."""
-    code = ord(fonts[glyph.font].codes[glyph.index])
-    return glyph.font, glyph.size, id(glyph) if code > 0xFFFF else 0
-
-
 def _sheet(fonts: Iterable[Subset], shaped: Iterable[Subset]) -> str:
     """The fonts of a file, with a class for each font whose glyphs are positioned."""
+
+    def brought(font: Subset, kind: str) -> str:
+        data = base64.b64encode(font.file("woff")).decode()
+        return f"@font-face{{font-family:'{font.name}';{kind};src:url(data:font/woff;base64,{data})}}"
+
     rules = []
     for number_, font in enumerate(fonts, start=1):
         look = font.face["head"].macStyle
         kind = f"font-style:{'italic' if look & 2 else 'normal'};font-weight:{'bold' if look & 1 else 'normal'}"
         family = escape(_quoted(font.family))
-        rules += [_brought(font, kind), f".type-{number_}{{font-family:'{font.name}',{family},{SERIF};{kind}}}"]
-    rules += [_brought(font, "font-style:normal;font-weight:normal") for font in shaped]
+        rules += [brought(font, kind), f".type-{number_}{{font-family:'{font.name}',{family},{SERIF};{kind}}}"]
+    rules += [brought(font, "font-style:normal;font-weight:normal") for font in shaped]
     return "<style>" + "\n".join(rules) + "</style>"
-
-
-def _brought(font: Subset, kind: str) -> str:
-    data = base64.b64encode(font.file("woff")).decode()
-    return f"@font-face{{font-family:'{font.name}';{kind};src:url(data:font/woff;base64,{data})}}"
 
 
 def _quoted(family: str) -> str:
