@@ -60,12 +60,9 @@ def test_figures_have_the_captions_of_their_scripts(name, tmp_path):
     assert (texts["Title"], texts["Description"]) == (title, description)
 
 
-def test_what_is_no_script_has_no_caption():
+def test_what_is_no_script_has_no_caption_and_docstrings_may_be_of_a_line_or_without_a_rule():
     assert Figure("nothing", dict, lambda _: Page((0.0, 1.0, 0.0, 1.0))).page().title == ""
     assert Figure("nothing", dict, lambda _: page()).page().title == "A title"
-
-
-def test_docstrings_of_a_line_and_without_a_rule():
     assert parted("One line.") == ("One line.", "")
     assert parted("Title\n\nText with ``code`` = 5.") == ("Title", "Text with “code” = 5.")
     assert parted("") == ("", "")

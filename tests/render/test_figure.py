@@ -73,19 +73,21 @@ def test_a_style_has_a_folder_of_its_own(figure, tmp_path, monkeypatch):
     assert (tmp_path / "here" / "small.svg").is_file()
 
 
-def test_a_style_that_there_is_not_is_explained(figure, capsys):
+@pytest.mark.parametrize(
+    ("option", "value", "message"),
+    [
+        ("--style", "dark,bright", "style is 'bright'; give dark or a file .toml"),
+        *(
+            ("--size", size, f"{size!r} is not a whole number of pixels")
+            for size in ("0", "-5", "many", "1e3", "100000")
+        ),
+    ],
+)
+def test_bad_options_are_explained(figure, tmp_path, capsys, option, value, message):
     with pytest.raises(SystemExit) as stopped:
-        figure.main(["--style", "dark,bright"])
+        figure.main(["--out", str(tmp_path), option, value])
     assert stopped.value.code == 2
-    assert "style is 'bright'; give dark or a file .toml" in capsys.readouterr().err
-
-
-@pytest.mark.parametrize("size", ["0", "-5", "many", "1e3", "100000"])
-def test_bad_sizes_are_explained(figure, tmp_path, capsys, size):
-    with pytest.raises(SystemExit) as stopped:
-        figure.main(["--out", str(tmp_path), "--size", size])
-    assert stopped.value.code == 2
-    assert "pixels" in capsys.readouterr().err
+    assert message in capsys.readouterr().err
     assert list(tmp_path.iterdir()) == []
 
 

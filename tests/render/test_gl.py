@@ -43,17 +43,14 @@ def in_new_process(code, **environment):
     )
 
 
-def test_arguments_come_before_our_variable_and_that_before_pyopengls(bare_environment):
+def test_arguments_come_before_our_variable_that_before_pyopengls_and_else_osmesa_is_tried_first(bare_environment):
+    for usable, expected in (({"osmesa", "egl"}, "osmesa"), ({"egl"}, "egl")):
+        bare_environment.setattr(gl, "can_open", usable.__contains__)
+        assert choose() == (expected, "found")
     for variable, platform in (("PYOPENGL_PLATFORM", "osmesa"), ("STEREODEL_GL", "egl")):
         bare_environment.setenv(variable, platform)
         assert choose() == (platform, variable)
     assert choose("osmesa") == ("osmesa", "argument")
-
-
-@pytest.mark.parametrize(("usable", "expected"), [({"osmesa", "egl"}, "osmesa"), ({"egl"}, "egl")])
-def test_osmesa_is_tried_first(bare_environment, usable, expected):
-    bare_environment.setattr(gl, "can_open", lambda platform: platform in usable)
-    assert choose() == (expected, "found")
 
 
 def test_without_any_library_the_message_names_the_packages(bare_environment):
@@ -64,16 +61,13 @@ def test_without_any_library_the_message_names_the_packages(bare_environment):
     assert "libosmesa6" in describe().problem
 
 
-@pytest.mark.parametrize("variable", VARIABLES)
-def test_a_platform_with_windows_is_refused(bare_environment, variable):
-    bare_environment.setenv(variable, "glx")
-    with pytest.raises(OpenGLError, match=f"{variable} is 'glx'"):
-        choose()
-
-
-def test_an_unknown_argument_is_named():
+def test_a_platform_with_windows_and_an_unknown_argument_are_refused(bare_environment):
     with pytest.raises(ValueError, match=r'platform must be "osmesa" or "egl", got \'metal\''):
         choose("metal")
+    for variable in reversed(VARIABLES):
+        bare_environment.setenv(variable, "glx")
+        with pytest.raises(OpenGLError, match=f"{variable} is 'glx'"):
+            choose()
 
 
 def test_colours_come_out_as_given():

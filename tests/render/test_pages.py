@@ -87,8 +87,9 @@ def test_flat_colours_are_exact():
     assert picture[2, 198].tolist() == [255, 255, 255]
 
 
-def test_a_ground_that_is_seen_through_is_laid_over_white():
+def test_an_empty_page_is_its_ground_laid_over_white():
     assert (render(Page(EXTENT, background=(0.0, 0.0, 0.0, 0.5)), size=10) == 128).all()
+    assert (render(Page(EXTENT, background=(0.0, 0.0, 1.0, 1.0)), size=20) == [0, 0, 255]).all()
 
 
 @pytest.mark.parametrize("width", [0.3, 1.0, 4.0])
@@ -167,10 +168,6 @@ def test_a_ball_is_painted_in_its_turn():
     over, under = (render(Page(EXTENT, items), size=200) for items in ((ball, line), (line, ball)))
     assert over[50, 100].tolist() == [0, 0, 0]
     assert (under[50, 60:140] > 90).all()
-
-
-def test_an_empty_page_is_its_ground():
-    assert (render(Page(EXTENT, background=(0.0, 0.0, 1.0, 1.0)), size=20) == [0, 0, 255]).all()
 
 
 @pytest.mark.parametrize("radius", [0.05, 0.5, 1.0, 3.0])

@@ -57,9 +57,6 @@ def parts(data):
     return json.loads(data[20 : 20 + size]), data[28 + size :]
 
 
-# Files
-
-
 @pytest.mark.parametrize(
     "name", ["fig03_bubbles", *(pytest.param(n, marks=pytest.mark.thorough) for n in IN_SPACE if n[3:5] != "03")]
 )
@@ -93,9 +90,12 @@ def test_what_has_no_size_is_no_body():
     assert np.array_equal(solid.pixels(size=20), Scene().solid(VIEW).pixels(size=20))
 
 
-def test_a_file_of_nothing_is_refused(tmp_path):
+def test_a_file_of_nothing_and_one_of_another_kind_are_refused(solid, tmp_path):
+    with pytest.raises(ValueError, match=r"path must end in \.glb or \.png, got 'a\.svg'"):
+        solid.save(tmp_path / "a.svg")
     with pytest.raises(ValueError, match="scenes hold no body"):
         Scene(style="none").solid(VIEW).save(tmp_path / "empty.glb")
+    assert list(tmp_path.iterdir()) == []
     assert (Scene(style="none").solid(VIEW).pixels(size=9) == 255).all()
 
 
@@ -209,15 +209,6 @@ def test_indices_are_short_where_they_may_be(monkeypatch, solid):
     assert kinds == [{5123}, {5123, 5125}]
 
 
-def test_the_ending_says_what_is_written(solid, tmp_path):
-    with pytest.raises(ValueError, match=r"path must end in \.glb or \.png, got 'a\.svg'"):
-        solid.save(tmp_path / "a.svg")
-    assert list(tmp_path.iterdir()) == []
-
-
-# Pictures
-
-
 def test_a_picture_is_that_of_the_page_with_light(tmp_path):
     solid = scene(sheet=False).solid(VIEW, width=200.0)
     bare, page = solid.pixels(size=300, text=False), solid.page.pixels(size=300, text=False)
@@ -296,19 +287,13 @@ def test_a_sheet_covers_what_is_beyond_it():
 
 
 def test_windows_fit_together(solid, monkeypatch):
+    """And pages look the same after a picture in space."""
+    page = solid.page.pixels(size=100)
     whole = solid.pixels(size=150, text=False).astype(int)
+    assert np.array_equal(solid.page.pixels(size=100), page)
     monkeypatch.setattr(gl, "BAND", 64)
     monkeypatch.setattr(gl, "COLUMNS", 70)
     assert np.abs(solid.pixels(size=150, text=False) - whole).max() <= 2
-
-
-def test_pages_look_the_same_after_a_picture_in_space(solid):
-    before = solid.page.pixels(size=100)
-    solid.pixels(size=100)
-    assert np.array_equal(solid.page.pixels(size=100), before)
-
-
-# Figures
 
 
 FLAT = Figure("small", lambda: {"style": "solid"}, lambda g: scene(**g).page(VIEW, width=100.0), renderer="agg")
