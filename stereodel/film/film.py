@@ -283,8 +283,7 @@ class Film(Generic[T]):
         kind.check(target.name, sides, times)
         crew = Crew(None if jobs is None else as_count(jobs, "jobs"), lifetime=LIFETIME)
         kept = KeptFrames.beside(target, frame_names(self._camera, self.shots))
-        missing = kept.missing()
-        unwritten: set[str] = set()
+        missing, unwritten = kept.missing(), set[str]()
         with crew, reporting(shown=progress, lines=True) as told:
             drawn = crew.each(self._camera, _Tasks(self.shots, kept, missing))
             for done, (number, outcome) in enumerate(drawn, 1):

@@ -509,16 +509,14 @@ def _environment(**variables: str) -> Iterator[None]:
 
     Child processes must not inherit the choice of this process.
     """
-    before = {name: os.environ.get(name) for name in variables}
+    before = {name: os.environ[name] for name in variables if name in os.environ}
     os.environ.update(variables)
     try:
         yield
     finally:
-        for name, value in before.items():
-            if value is None:
-                del os.environ[name]
-            else:
-                os.environ[name] = value
+        for name in variables:
+            del os.environ[name]
+        os.environ.update(before)
 
 
 def _import_pyrender(platform: str) -> Any:

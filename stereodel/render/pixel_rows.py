@@ -147,7 +147,10 @@ class LabelLayer:
             with matplotlib_settings():
                 canvas = drawn(replace(page, items=page.labels), self._dpi, (self.width, self.height))
                 ruler = _RowCanvas(1, 1, self._dpi)
-                self._placed = [(text, *_rows_of(text, ruler, self.height)) for text in canvas.axes[0].texts]
+                for text in canvas.axes[0].texts:
+                    # Ink may extend beyond the box of a line of type, but never by its height.
+                    box, reach = text.get_window_extent(ruler), text.get_fontsize() * ruler.dpi / 72
+                    self._placed.append((text, self.height - box.y1 - reach, self.height - box.y0 + reach))
 
     def over(self, rows: Pixels, top: int = 0) -> Pixels:
         """Rows (k, width, 3) of the picture, the first of them row `top`, with the labels on them; rounded half up."""
@@ -208,14 +211,6 @@ class _RowCanvas(RendererAgg):
 
     def draw_path(self, gc: Any, path: Any, transform: Any, rgbFace: Any = None) -> None:
         super().draw_path(gc, path, transform + Affine2D().translate(0.0, -self.below), rgbFace)  # type: ignore[no-untyped-call]
-
-
-def _rows_of(text: Text, ruler: _RowCanvas, height: int) -> tuple[float, float]:
-    """The range of rows of a text."""
-    box = text.get_window_extent(ruler)
-    # Ink may extend beyond the box of a line of type, but never by its height.
-    reach = text.get_fontsize() * ruler.dpi / 72
-    return height - box.y1 - reach, height - box.y0 + reach
 
 
 # PNG

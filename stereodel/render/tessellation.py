@@ -106,14 +106,14 @@ class _PixelMap:
         """The batches of an item; where they overlap, the first is visible."""
         match item:
             case Stroke():
-                return [_flat(self._stroke(item), item.color)] if has_length(item, self.points_per_unit) else []
+                return [_colored(self._stroke(item), item.color)] if has_length(item, self.points_per_unit) else []
             case Polylines():
                 width = item.width * self.pixels_per_point
-                return [_flat(ribbons(self._place(item.points), item.offsets, width), item.color)]
+                return [_colored(ribbons(self._place(item.points), item.offsets, width), item.color)]
             case Polygons():
                 return [self._polygons(item)]
             case Fill():
-                return [_colored(region(self._outlines(item.paths)), np.array(item.color), self._disc(item.ball))]
+                return [_colored(region(self._outlines(item.paths)), item.color, self._disc(item.ball))]
             case Dots():
                 return self._dots(item)
             case Picture():
@@ -150,9 +150,9 @@ class _PixelMap:
     def _dots(self, dots: Dots) -> list[Batch]:
         centers = self._place(dots.centers)
         inner, outer = (r * self.pixels_per_point for r in (dots.radius - dots.rim_width, dots.radius))
-        found = [_flat(discs(centers, inner), dots.color)]
+        found = [_colored(discs(centers, inner), dots.color)]
         if dots.rim_width:
-            found.append(_flat(discs(centers, outer), dots.rim))
+            found.append(_colored(discs(centers, outer), dots.rim))
         return found
 
     def _picture(self, picture: Picture) -> Batch:
@@ -163,15 +163,12 @@ class _PixelMap:
             place = (left, bottom + window.height * height, width, height)
             return picture.painter.paint(place, (window.width, window.height))
 
-        return replace(_flat(region(self._outlines(picture.outline)), (1.0, 1.0, 1.0, 1.0)), texture=texture)
+        return replace(_colored(region(self._outlines(picture.outline)), (1.0, 1.0, 1.0, 1.0)), texture=texture)
 
 
-def _flat(corners: Corners, color: Color) -> Batch:
-    return _colored(corners, np.array(color), None)
-
-
-def _colored(corners: Corners, colors: FloatArray, ball: Disc | None) -> Batch:
+def _colored(corners: Corners, colors: Color | FloatArray, ball: Disc | None = None) -> Batch:
     """Triangles with colours broadcast to their corners (n, 3, 4)."""
+    colors = np.asarray(colors)
     if ball is None:
         # Levels of 1/255, rounded half up, so that rounding inside OpenGL has nothing to decide.
         colors = np.floor(255 * colors + 0.5) / 255

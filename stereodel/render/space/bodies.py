@@ -24,17 +24,8 @@ from stereodel.drawing.scene.scene_items import (
 )
 from stereodel.drawing.scene.solid import PlacedScene, Solid
 from stereodel.drawing.scene.visibility import lies_on_ball
-from stereodel.render.space.surfaces import (
-    CURVE_ERROR,
-    DOT_LEVEL,
-    TriangleMesh,
-    ball,
-    ball_level,
-    dashed,
-    patch,
-    polygon,
-    tube,
-)
+from stereodel.render.space import surfaces
+from stereodel.render.space.surfaces import CURVE_ERROR, TriangleMesh
 from stereodel.sphere.vectors import turned
 
 BALL_POINTS: Final = 0.1
@@ -78,26 +69,27 @@ def bodies_of(placed: PlacedScene, points_per_unit: float) -> Iterator[Body]:
     above its predecessors.
     """
     layout, point = placed.layout, 1 / (points_per_unit * placed.layout.scale)
-    level = ball_level(BALL_POINTS * point / layout.radius)
+    level = surfaces.ball_level(BALL_POINTS * point / layout.radius)
     names = dict.fromkeys(item.name for item in placed.items if isinstance(item, SceneLines))
     heights = {name: 1 + CURVE_ERROR * number for number, name in enumerate(names)}
     above = 1.0
     for item in placed.items:
         match item:
             case SceneBall():
-                yield Body("ball", item.color, Layer.BALL, ball(level), _sphere(layout, 1.0))
+                yield Body("ball", item.color, Layer.BALL, surfaces.ball(level), _sphere(layout, 1.0))
             case SceneLines():
                 yield from _tubes(item, layout, point, heights[item.name])
             case SceneDots() if len(item.points):
                 radius = np.full((len(item.points), 1), point * (item.style.radius - item.style.rim_width))
-                yield Body(item.name, item.style.color, Layer.DOT, ball(DOT_LEVEL), np.hstack([item.points, radius]))
+                places = np.hstack([item.points, radius])
+                yield Body(item.name, item.style.color, Layer.DOT, surfaces.ball(surfaces.DOT_LEVEL), places)
             case SceneRegion():
-                surface = patch(item.region, level)
+                surface = surfaces.patch(item.region, level)
                 above /= 1 - surface.depth
                 yield Body(item.name, item.color, Layer.TINT, surface, _sphere(layout, above))
             case SceneSheet():
                 normal, _, layer = item.plane(layout)
-                surface = polygon(item.corners, turned(normal, layout.matrix.T))
+                surface = surfaces.polygon(item.corners, turned(normal, layout.matrix.T))
                 if len(surface.faces):
                     yield Body(item.name, item.color, layer, surface, UNMOVED)
 
@@ -116,9 +108,9 @@ def _tubes(item: SceneLines, layout: Layout, point: float, above: float) -> Iter
     ]
     dash = item.style.dash
     if dash:
-        curves = [piece for curve in curves for piece in dashed(curve, dash[0] * point, dash[1] * point)]
+        curves = [piece for curve in curves for piece in surfaces.dashed(curve, dash[0] * point, dash[1] * point)]
     radius, error = item.style.width * point / 2, CURVE_ERROR * layout.radius
-    tubes = [made for curve in curves if (made := tube(curve, radius, error)) is not None]
+    tubes = [made for curve in curves if (made := surfaces.tube(curve, radius, error)) is not None]
     if tubes:
         yield Body(item.name, item.style.color, Layer.LINE, TriangleMesh.joined(tubes), UNMOVED)
 

@@ -35,18 +35,14 @@ CAMERA: Final = "page"
 SPACE: Final = 1.0
 """Page units between the camera and the scene, and behind the scene."""
 
-VERTICES: Final = 34962
-INDICES: Final = 34963
-"""Targets of buffers: constants of the glTF specification."""
-
 STRIDE: Final = 12
 """Size in bytes of a point or normal: three single-precision numbers."""
 
 SHORT: Final = 2**16 - 1
 """Number of points that two bytes can index; the last value is reserved."""
 
-UNSIGNED_SHORT: Final = 5123
-"""Type of indices of two bytes in glTF."""
+VERTICES, INDICES, UNSIGNED_SHORT = 34962, 34963, 5123
+"""Constants of the glTF specification: targets of buffers, and the type of indices of two bytes."""
 
 GAMMA: Final = 2.2
 """Exponent by which pyrender decodes colours, in place of sRGB."""

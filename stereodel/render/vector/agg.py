@@ -93,11 +93,10 @@ def _turned(fill: Fill) -> Fill:
 
     Runs do not cross, so a run inside an even number of others must be counterclockwise, any other clockwise.
     """
-    turned = []
-    for number, path in enumerate(fill.paths):
-        others = fill.paths[:number] + fill.paths[number + 1 :]
-        depth = sum(bool(Path(_corners(other)).contains_point(tuple(path[0, 0]))) for other in others)
-        corners = _corners(path)
+    turned, outlines = [], [_corners(path) for path in fill.paths]
+    for path, corners in zip(fill.paths, outlines, strict=True):
+        others = [Path(other) for other in outlines if other is not corners]
+        depth = sum(other.contains_point(tuple(path[0, 0])) for other in others)
         x, y = (corners - corners[0]).T
         counterclockwise = float(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1))) > 0
         turned.append(path if counterclockwise == (depth % 2 == 0) else path[::-1, ::-1])

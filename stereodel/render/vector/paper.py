@@ -101,8 +101,7 @@ def commands(outline: Outlines, pattern: Mapping[int, str]) -> str:
 
     pattern: commands for `MOVE`, `LINE`, `CURVE` and `CLOSE`, with a placeholder for each number.
     """
-    steps, kinds = _seen(np.rint(outline.points * PLACES).astype(np.int64), outline.kinds)
-    third = np.flatnonzero(kinds == CURVE)[2::3]  # of the points of a curve, which are one command
+    steps, kinds, third = _seen(outline)  # the three points of a curve are one command
     begins = np.delete(np.arange(len(kinds)), np.concatenate([third - 1, third]))
     text = list(map(_written, steps.ravel().tolist()))
     parts = []
@@ -117,24 +116,22 @@ def runs(outline: Outlines) -> list[str]:
 
     Positions are rounded before they are subtracted, so that errors do not accumulate.
     """
-    steps, kinds = _seen(np.rint(outline.points * PLACES).astype(np.int64), outline.kinds)
-    third = np.flatnonzero(kinds == CURVE)[2::3]
+    steps, kinds, third = _seen(outline)
     before = np.arange(len(kinds)) - 1
     before[third - 1], before[third] = third - 3, third - 3
     away = steps - np.where((kinds == MOVE)[:, None], 0, steps[before])
     text = list(map(_written, away.ravel().tolist()))
     parts: list[list[str]] = []
-    # The control points of a curve follow its letter, as does its end.
-    inner = np.zeros(len(kinds), dtype=bool)
-    inner[third], inner[third - 1] = True, True
-    for place, (kind, follows) in enumerate(zip(kinds.tolist(), inner.tolist(), strict=True)):
+    # The second control point of a curve follows its letter, as does its end.
+    inner = {*third.tolist(), *(third - 1).tolist()}
+    for place, kind in enumerate(kinds.tolist()):
         if kind == MOVE:
             parts.append([])
         if kind == CLOSE:
             parts[-1].append("Z")
             continue
         x, y = text[2 * place : 2 * place + 2]
-        parts[-1].append(_beside(parts[-1][-1], x) if follows else f"{LETTERS[kind]}{x}")
+        parts[-1].append(_beside(parts[-1][-1], x) if place in inner else f"{LETTERS[kind]}{x}")
         parts[-1].append(_beside(x, y))
     return ["".join(run) for run in parts]
 
@@ -145,8 +142,9 @@ def _beside(before: str, number: str) -> str:
     return number if apart else f" {number}"
 
 
-def _seen(steps: Indices, kinds: Bytes) -> tuple[Indices, Bytes]:
-    """The visible part of a path in whole steps."""
+def _seen(outline: Outlines) -> tuple[Indices, Bytes, Indices]:
+    """The visible part of a path in whole steps, kinds of its points, and where its curves end."""
+    steps, kinds = np.rint(outline.points * PLACES).astype(np.int64), outline.kinds
     move, line = kinds == MOVE, kinds == LINE
     still = np.zeros(len(kinds), dtype=bool)
     still[1:] = (steps[1:] == steps[:-1]).all(axis=1)
@@ -160,4 +158,4 @@ def _seen(steps: Indices, kinds: Bytes) -> tuple[Indices, Bytes]:
     back = np.flatnonzero(line[:-1] & (kinds[1:] == CLOSE) & (steps[:-1] == steps[first[run[1:]]]).all(axis=1))
     kept[back] = False
     kept &= moves[run]
-    return steps[kept], kinds[kept]
+    return steps[kept], kinds[kept], np.flatnonzero(kinds[kept] == CURVE)[2::3]
