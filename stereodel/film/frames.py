@@ -24,7 +24,7 @@ import numpy as np
 
 from stereodel import _kernel
 from stereodel._arrays import Pixels
-from stereodel._extras import installed_version, libraries, of_extra
+from stereodel._extras import installed_version, libraries, optional
 from stereodel._files import replacing
 from stereodel.render.gl import VARIABLE
 
@@ -72,9 +72,7 @@ class KeptFrames:
         return len(self.names)
 
     def __getitem__(self, number: int) -> Pixels:
-        with of_extra("film"):
-            import imageio.v3 as iio
-
+        iio = optional("imageio.v3", "film")
         try:
             return np.asarray(iio.imread(self.path(number)))
         except OSError as error:
@@ -91,11 +89,8 @@ class KeptFrames:
 
 def store_frame(picture: Pixels, path: str | os.PathLike[str]) -> None:
     """Write a picture losslessly and atomically, fast rather than small."""
-    with of_extra("film"):
-        import imageio.v3 as iio
-
     with replacing(path) as temporary:
-        iio.imwrite(temporary, picture, extension=".png", compress_level=1)
+        optional("imageio.v3", "film").imwrite(temporary, picture, extension=".png", compress_level=1)
 
 
 def frame_names(drawing: Any, shots: Iterable[Any]) -> list[str]:

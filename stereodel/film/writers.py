@@ -25,7 +25,7 @@ from typing import Any, Final, Protocol
 import numpy as np
 
 from stereodel._arrays import FloatArray, Pixels, as_floats, as_frame
-from stereodel._extras import of_extra, optional
+from stereodel._extras import optional
 from stereodel.constants import FRAME_ROUNDING
 
 
@@ -309,10 +309,9 @@ def write_webp(reel: Reel, path: Path, seconds: FloatArray) -> None:
 
 def _one_at_a_time(reel: Reel) -> Any:
     """A multi-frame image for Pillow, which reads the frames in order and keeps none."""
-    with of_extra("film"):
-        from PIL import Image
+    pillow = optional("PIL.Image", "film")
 
-    class Frames(Image.Image):
+    class Frames(pillow.Image):  # type: ignore[name-defined, misc]
         def __init__(self) -> None:
             super().__init__()
             self.n_frames = len(reel)
@@ -323,7 +322,7 @@ def _one_at_a_time(reel: Reel) -> Any:
         def seek(self, frame: int) -> None:
             """Go to the next frame; earlier frames are gone, and Pillow's return to the first has no effect."""
             if frame > self._number:
-                shown = Image.fromarray(next(self._frames))
+                shown = pillow.fromarray(next(self._frames))
                 self.im, self._mode, self._size, self._number = shown.im, shown.mode, shown.size, frame
 
     return Frames()

@@ -6,6 +6,7 @@ import signal
 import subprocess
 import sys
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -297,3 +298,40 @@ def test_a_kept_frame_that_cannot_be_read_is_named(balls, out):
     with pytest.raises(OSError, match=rf"{frame.name} cannot be read .*remove it and try again"):
         save(replace(film, shots=[1.0]), out / "balls.gif")
     assert not (out / "balls.gif").exists()
+
+
+def test_as_a_script_it_writes_a_looping_gif_beside_its_folder(balls, out, capsys):
+    """With the script's name; folder, size and text are options."""
+    film = Film(partial(balls.ball), [2.5, 3.0, 3.5], seconds=(0.1, 0.2, 1.0), size=80)
+    film.main([])
+    assert [path.name for path in out.iterdir()] == ["balls.gif"]
+    assert f"balls: balls.gif in {out}" in capsys.readouterr().out
+    with Image.open(out / "balls.gif") as gif:
+        times = [gif.seek(k) or gif.info["duration"] for k in range(gif.n_frames)]
+        assert (times, gif.info["loop"]) == ([100, 200, 1000], 0)
+    film.main(["--out", str(out / "new"), "--size", "60", "--no-text"])
+    bare = frames(out / "new" / "balls.gif")
+    assert bare.shape == (3, 30, 60, 3)
+    assert (bare[0, :, :20] == 255).all()
+    assert (film.picture(0)[:, :26] < 128).any()
+
+
+AS_TEXT = """
+import sys, types
+sys.modules["__main__"] = main = types.ModuleType("__main__")
+exec(compile(open({path!r}).read(), {path!r}, "exec"), main.__dict__)
+"""
+
+
+def test_a_program_may_run_a_script_as_text(tmp_path):
+    """As the documentation does; no other process could import what draws."""
+    script = tmp_path / "anim_dots.py"
+    script.write_text(
+        "from stereodel.drawing import Page\n"
+        "from stereodel.film import Film\n"
+        "def draw(x):\n"
+        "    return Page((0.0, 1.0, 0.0, 1.0), background=(x, 0.0, 0.0, 1.0))\n"
+        f"Film(draw, [0.0, 1.0], fps=5, size=20).main(['--out', {str(tmp_path)!r}])\n"
+    )
+    subprocess.run([sys.executable, "-c", AS_TEXT.format(path=str(script))], check=True)
+    assert (tmp_path / "anim_dots.gif").is_file()

@@ -9,7 +9,7 @@ from typing import Any, Final
 import numpy as np
 
 from stereodel._arrays import FloatArray
-from stereodel._extras import of_extra
+from stereodel._extras import optional
 from stereodel.drawing.page import colorimetry
 from stereodel.drawing.page.colors import Color
 from stereodel.drawing.scene.scene_items import (
@@ -122,9 +122,7 @@ def linear(color: Color) -> list[float]:
 
 def to_trimesh(solid: Solid) -> Any:
     """Implementation of `Solid.to_trimesh`: unique names, and equal meshes once."""
-    with of_extra("render"):
-        import trimesh
-
+    trimesh = optional("trimesh", "render")
     scene: Any = trimesh.Scene()
     base: str = scene.graph.base_frame
     taken, meshes = {base}, dict[tuple[str, Color, bytes, bytes], str]()

@@ -8,12 +8,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 
 from stereodel._arrays import AnyIndices, BoolArray, FloatArray, Indices
-from stereodel._extras import of_extra
+from stereodel._extras import optional
 from stereodel.drawing.scene.space_curves import CircleArc, Curve, Segment
 from stereodel.drawing.scene.visibility import SphereRegion
 from stereodel.sphere.vectors import units
@@ -61,10 +61,7 @@ class TriangleMesh:
 @cache
 def ball(level: int) -> TriangleMesh:
     """The unit ball: an icosahedron, its sides halved `level` times, corners on the sphere."""
-    with of_extra("render"):
-        from trimesh.creation import icosphere
-
-    made: Any = icosphere(subdivisions=level, radius=1.0)
+    made = optional("trimesh.creation", "render").icosphere(subdivisions=level, radius=1.0)
     points = units(np.array(made.vertices, dtype=np.float64))
     return TriangleMesh(points, points, np.array(made.faces, dtype=np.intp))
 
@@ -172,13 +169,11 @@ def _tips(rings: int, sides: int) -> Indices:
 
 def polygon(corners: FloatArray, normal: FloatArray) -> TriangleMesh:
     """A flat simple polygon, corners (n, 3) in either order, visible from the side of its normal."""
-    with of_extra("draw"):
-        import mapbox_earcut
-
     side = np.cross(normal, np.eye(3)[np.argmin(np.abs(normal))])
     flat = corners @ np.column_stack([side, np.cross(normal, side)])
     rings = np.array([len(corners)], dtype=np.uint32)
-    faces = mapbox_earcut.triangulate_float64(flat, rings).astype(np.intp).reshape(-1, 3)
+    found = optional("mapbox_earcut", "draw").triangulate_float64(flat, rings)
+    faces = found.astype(np.intp).reshape(-1, 3)
     (ux, uy), (vx, vy) = ((flat[faces[:, i]] - flat[faces[:, 0]]).T for i in (1, 2))
     clockwise = ux * vy - uy * vx < 0
     faces[clockwise] = faces[clockwise][:, ::-1]
