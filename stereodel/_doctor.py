@@ -11,7 +11,7 @@ from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING, Final
 
 import stereodel
-from stereodel._extras import EXTRAS, installing, lacking
+from stereodel._extras import EXTRAS, installed_version, installing, lacking
 from stereodel._interrupts import stop_if_interrupted
 
 if TYPE_CHECKING:
@@ -89,27 +89,23 @@ def _choice(found: Mapping[str, gl.Description]) -> tuple[str, str, str]:
 
 def _versions() -> list[tuple[str, str]]:
     """Versions of the library, of what it always needs, and of the system."""
-    from stereodel.render.provenance import library_version
-
     return [
         ("stereodel", stereodel.__version__),
         ("python", platform.python_version()),
-        ("numpy", library_version("numpy")),
+        ("numpy", installed_version("numpy")),
         ("system", platform.platform()),
     ]
 
 
 def _extras() -> list[tuple[str, str, str]]:
     """Each extra with the versions of its packages, or those it lacks, its purpose, and how to install them."""
-    from stereodel.render.provenance import library_version
-
     rows = []
     for name, extra in EXTRAS.items():
         if missing := ", ".join(each.name for each in lacking(name)):
             rows.append((name, "lacks", f"{missing}, for {extra.purpose}: {installing(name)}"))
         else:
             rows.append(
-                (name, "works", ", ".join(f"{each.name} {library_version(each.name)}" for each in extra.brings))
+                (name, "works", ", ".join(f"{each.name} {installed_version(each.name)}" for each in extra.brings))
             )
     return rows
 

@@ -86,6 +86,16 @@ def lacking(extra: str) -> list[Library]:
     return [library for library in libraries(extra) if find_spec(library.module) is None]
 
 
+def installed_version(distribution: str) -> str:
+    """Version of an installed distribution, or that it is missing."""
+    from importlib.metadata import PackageNotFoundError, version
+
+    try:
+        return version(distribution)
+    except PackageNotFoundError:
+        return "not installed"
+
+
 def installing(extra: str) -> str:
     """The command that brings an extra into this environment, as it was made: by `make` in a checkout, or by pip.
 

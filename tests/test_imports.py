@@ -55,11 +55,11 @@ MAY_IMPORT = {
     "_doctor": {"__init__", "_extras", "_interrupts", "render"},
     "__main__": {"__init__", "_doctor", "_extras", "_interrupts", "cli"},
     "drawing": MATHEMATICS | {"curves"},
-    "render": MATHEMATICS | {"_files", "_kernel", "curves", "drawing"},
+    "render": MATHEMATICS | {"_files", "curves", "drawing"},
     "mpl": MATHEMATICS | {"curves", "data", "drawing", "io"},
     "globe": MATHEMATICS | {"_files", "_kernel", "curves", "data", "drawing", "io"},
     "web": BASE | {"_files", "curves", "data", "sphere", "triangulation"},
-    "film": MATHEMATICS | {"_files", "_tasks", "drawing", "globe", "render"},
+    "film": MATHEMATICS | {"_files", "_kernel", "_tasks", "drawing", "globe", "render"},
     "cli": MATHEMATICS
     | {"__init__", "_files", "curves", "data", "drawing", "earth", "film", "globe", "interpolation", "io"}
     | {"_doctor", "_interrupts", "_tasks", "partitioned", "web"},
@@ -179,8 +179,12 @@ def test_pages_and_scenes_are_drawn_by_what_enters_itself_in_their_table_on_use(
     assert all(callable(output(work)) for work in OUTPUTS)
 
 
-def test_pages_know_nothing_of_scenes():
+def test_pages_know_nothing_of_scenes_and_vector_files_nothing_of_pixels():
     assert [edge for edge in EDGES if "drawing.page" in edge[0] and "drawing.scene" in edge[1]] == []
+    above = [target for source, target in EDGES if "render.vector." in source and "stereodel.render" in target]
+    assert all(target.startswith("stereodel.render.vector.") for target in above)
+    within = [edge for edge in EDGES if "render." in edge[0] and "render.space" in edge[1]]
+    assert all(source.startswith("stereodel.render.space.") for source, _ in within)
 
 
 def circle(edges):
@@ -217,7 +221,7 @@ def test_opengl_has_one_door():
     doors = {
         name for name, path in MODULES.items() if {t.split(".")[0] for t in imported(path)} & {"OpenGL", "pyrender"}
     }
-    assert doors == {"stereodel.render.gl", "stereodel.render.mends"}
+    assert doors == {"stereodel.render.gl"}
 
 
 def test_what_only_pixels_need_is_imported_on_use():

@@ -37,12 +37,12 @@ import numpy.typing as npt
 from matplotlib import ft2font
 
 from stereodel._arrays import BoolArray, FloatArray, Pixels
+from stereodel._extras import installed_version
 from stereodel._files import replacing
 from stereodel.drawing.page import Label, Page
 from stereodel.film import Film
 from stereodel.render.figure import Figure
-from stereodel.render.provenance import library_version
-from stereodel.render.rows import LabelLayer, pixel_hash
+from stereodel.render.pixel_rows import LabelLayer, pixel_hash
 from tools.build import BuildError, find_scripts, load_drawing
 
 Arrays = Mapping[str, npt.NDArray[Any]]
@@ -187,7 +187,8 @@ def ink_hashes(page: Page, width_px: int) -> list[str]:
 
 def set_with() -> str:
     """What the pixels of type depend on beside the page: versions of matplotlib and of its FreeType, and processor."""
-    return f"matplotlib {library_version('matplotlib')}, FreeType {ft2font.__freetype_version__}, {platform.machine()}"
+    matplotlib = installed_version("matplotlib")
+    return f"matplotlib {matplotlib}, FreeType {ft2font.__freetype_version__}, {platform.machine()}"
 
 
 def array_differences(expected: Arrays, actual: Arrays, *, tolerance: float = GOLDEN_ERROR) -> dict[str, str]:

@@ -27,9 +27,9 @@ from stereodel._tasks.crew import Crew
 from stereodel._tasks.kept import Kept, Note
 from stereodel._threads import thread_count
 from stereodel.film import Film
+from stereodel.film.frames import library_digest, library_versions
 from stereodel.render.figure import STYLE_HELP, style_names, styled_folder
 from stereodel.render.gl import OpenGLError, describe
-from stereodel.render.provenance import library_digest, library_versions
 
 SCRIPTS = ("fig", "claim_", "globe_", "earth_", "sky_", "anim_")
 """Beginnings of the names of scripts: the paper's figures, claims that it does not draw, globes through lenses,

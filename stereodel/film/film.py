@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import inspect
 import os
 import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import KW_ONLY, dataclass, replace
-from functools import partial
 from pathlib import Path
 from typing import Any, Final, Generic, TypeVar, cast
 
@@ -29,7 +27,7 @@ from stereodel.film.frames import KeptFrames, frame_names, store_frame
 from stereodel.film.shots import GlobePages, Motion, Samples, Shot
 from stereodel.film.writers import Reel, format_of, frame_seconds
 from stereodel.globe.globe import Globe
-from stereodel.render.figure import run_script
+from stereodel.render.figure import run_script, source_of
 
 T = TypeVar("T")
 
@@ -285,8 +283,7 @@ class Film(Generic[T]):
         kind.check(target.name, sides, times)
         crew = Crew(None if jobs is None else as_count(jobs, "jobs"), lifetime=LIFETIME)
         kept = KeptFrames.beside(target, frame_names(self._camera, self.shots))
-        missing = kept.missing()
-        unwritten: set[str] = set()
+        missing, unwritten = kept.missing(), set[str]()
         with crew, reporting(shown=progress, lines=True) as told:
             drawn = crew.each(self._camera, _Tasks(self.shots, kept, missing))
             for done, (number, outcome) in enumerate(drawn, 1):
@@ -309,16 +306,14 @@ class Film(Generic[T]):
         The script is the file that defines `draw`. Its options are the output folder, by default ``out`` next to the
         script's folder, the width, and whether to draw labels.
         """
-        draw = self.draw.func if isinstance(self.draw, partial) else self.draw
-        name = Path(inspect.getfile(draw)).stem
+        run_script(self, argv, source_of(self.draw).stem, f"{self.size}", {})
 
-        def save(film: Film[T], out: Path, *, size: int | None, text: bool) -> list[str]:
-            out.mkdir(parents=True, exist_ok=True)
-            film = replace(film, size=film.size if size is None else size, text=text)
-            jobs = None if main_script_here() else 1  # the documentation runs scripts as text
-            return [film.save(out / f"{name}.gif", jobs=jobs, progress=False).name]
-
-        run_script(self, save, argv, name=name, source=draw, kind="a looping GIF", usual_size=f"{self.size}")
+    def _files(self, folder: Path, *, size: int | None, text: bool) -> list[str]:
+        """See `stereodel.render.figure.Drawing`."""
+        folder.mkdir(parents=True, exist_ok=True)
+        film = replace(self, size=self.size if size is None else size, text=text)
+        jobs = None if main_script_here() else 1  # the documentation runs scripts as text
+        return [film.save(folder / f"{source_of(self.draw).stem}.gif", jobs=jobs, progress=False).name]
 
 
 @dataclass(frozen=True)
@@ -366,20 +361,22 @@ class _Tasks(Sequence[Any]):
         return self.shots[number], self.kept.path(number)
 
 
+@dataclass
 class _Counted:
     """A reel that counts its frames as they are read in order."""
 
-    def __init__(self, reel: Reel, told: Progress) -> None:
-        self._reel, self._told, self._next = reel, told, 0
+    reel: Reel
+    told: Progress
+    read: int = 0
 
     def __len__(self) -> int:
-        return len(self._reel)
+        return len(self.reel)
 
     def __getitem__(self, number: int) -> Pixels:
-        if number == self._next:
-            self._next += 1
-            self._told("writing", self._next, len(self))
-        return self._reel[number]
+        if number == self.read:
+            self.read += 1
+            self.told("writing", self.read, len(self))
+        return self.reel[number]
 
 
 def _as_it_is(picture: Pixels) -> Pixels:

@@ -1,17 +1,20 @@
 """Finished frames as lossless files in a folder, from which an interrupted film resumes.
 
-The name of a file is a digest of everything that its frame depends on, so it is reused only where it is valid.
+The name of a file is a digest of everything that its frame depends on, so it is reused only where it is valid: besides
+what is drawn, the library itself, and the libraries that draw.
 """
 
 from __future__ import annotations
 
 import hashlib
+import json
 import os
 import pickle
 import pickletools
+import platform
 import re
 import sys
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -19,13 +22,20 @@ from typing import Any, Final
 
 import numpy as np
 
+from stereodel import _kernel
 from stereodel._arrays import Pixels
-from stereodel._extras import of_extra
+from stereodel._extras import installed_version, libraries, optional
 from stereodel._files import replacing
-from stereodel.render.provenance import library_digest
+from stereodel.render.gl import VARIABLE
 
 OURS: Final = re.compile(r"\.?[0-9a-f]{32}\.png(\.\d+\.tmp)?")
 """Names of frames, and of unfinished frames left by terminated processes."""
+
+DRAWN_WITH: Final = ("numpy", "scipy", *(library.name for library in libraries("film") if library.name != "rich"))
+"""Distributions whose version can change a picture."""
+
+NOT_DRAWN_WITH: Final = {"numpy", "scipy", "matplotlib", "mapbox_earcut", "pillow"}
+"""Modules and packages of the library that no picture depends on."""
 
 
 @dataclass(frozen=True)
@@ -62,9 +72,7 @@ class KeptFrames:
         return len(self.names)
 
     def __getitem__(self, number: int) -> Pixels:
-        with of_extra("film"):
-            import imageio.v3 as iio
-
+        iio = optional("imageio.v3", "film")
         try:
             return np.asarray(iio.imread(self.path(number)))
         except OSError as error:
@@ -81,11 +89,8 @@ class KeptFrames:
 
 def store_frame(picture: Pixels, path: str | os.PathLike[str]) -> None:
     """Write a picture losslessly and atomically, fast rather than small."""
-    with of_extra("film"):
-        import imageio.v3 as iio
-
     with replacing(path) as temporary:
-        iio.imwrite(temporary, picture, extension=".png", compress_level=1)
+        optional("imageio.v3", "film").imwrite(temporary, picture, extension=".png", compress_level=1)
 
 
 def frame_names(drawing: Any, shots: Iterable[Any]) -> list[str]:
@@ -96,8 +101,11 @@ def frame_names(drawing: Any, shots: Iterable[Any]) -> list[str]:
     """
     pickled = _pickled(drawing, "draw")
     common = hashlib.sha256(library_digest() + pickled)
-    for path in _modules_named(pickled):
-        common.update(path.read_bytes())
+    words = {argument for _, argument, _ in pickletools.genops(pickled) if isinstance(argument, str)}
+    for name in sorted(words & set(sys.modules)):
+        source = getattr(sys.modules[name], "__file__", None)
+        if source and not name.startswith("stereodel.") and Path(source).suffix == ".py":
+            common.update(Path(source).read_bytes())
     names = []
     for number, shot in enumerate(shots):
         digest = common.copy()
@@ -116,10 +124,19 @@ def _pickled(thing: Any, name: str) -> bytes:
         ) from error
 
 
-def _modules_named(pickled: bytes) -> Iterator[Path]:
-    """Source files of the modules outside the library whose functions and classes a pickle refers to."""
-    words = {argument for _, argument, _ in pickletools.genops(pickled) if isinstance(argument, str)}
-    for name in sorted(words & set(sys.modules)):
-        source = getattr(sys.modules[name], "__file__", None)
-        if source and not name.startswith("stereodel.") and Path(source).suffix == ".py":
-            yield Path(source)
+def library_versions() -> dict[str, str]:
+    """Version of Python and of every library that a picture depends on."""
+    return {"python": platform.python_version(), **{name: installed_version(name) for name in DRAWN_WITH}}
+
+
+def library_digest() -> bytes:
+    """SHA-256 of the library's modules, its kernel and data, the versions of others, and the renderer asked for."""
+    library = Path(__file__).resolve().parent.parent
+    skipped = {library / name for name in NOT_DRAWN_WITH}
+    files = [path for path in sorted(library.rglob("*.py")) if skipped.isdisjoint((path, *path.parents))]
+    files += [Path(_kernel.__file__), library / "data" / "sources.json"]  # with the checksums of the real data
+    digest = hashlib.sha256(json.dumps(library_versions()).encode())
+    digest.update(f"{os.environ.get(VARIABLE, '')} {os.environ.get('PYOPENGL_PLATFORM', '')}".encode())
+    for path in files:
+        digest.update(path.name.encode() + b"\0" + path.read_bytes() + b"\0")
+    return digest.digest()

@@ -226,26 +226,19 @@ class _Leg:
     def __init__(self, start: Stop, end: Stop, pace: float) -> None:
         self._start, self._end = start, end
         self._lens = flight(start.focus, end.focus, magnification=start.magnification, arrival=end.magnification)
-        wide = flight(
-            start.focus, end.focus, magnification=WIDE * start.magnification, arrival=WIDE * end.magnification
-        )
-        self._middle_length = wide.length
+        near, far = WIDE * start.magnification, WIDE * end.magnification
+        self._middle_length = flight(start.focus, end.focus, magnification=near, arrival=far).length
         self._times = np.linspace(0.0, 1.0, STEPS + 1)
-        self._way = self._measured()
+        # Distance travelled up to each of the times.
+        places = self._middles(self._times)
+        zoom = np.diff(np.arcsinh(np.linalg.norm(places, axis=1)))
+        turn = np.radians(angular_distance(places[1:], places[:-1]))
+        self._way = np.concatenate([[0.0], np.cumsum(np.hypot(zoom, TURN * turn))])
         self.seconds = pace * float(self._way[-1])
 
     def __call__(self, share: float) -> Shot:
         t = float(np.interp(eased(share) * self._way[-1], self._way, self._times))
         return self._lens(t), self._view(t)
-
-    def _measured(self) -> FloatArray:
-        """Distance travelled up to each of the times."""
-        places = self._middles(self._times)
-        sizes = np.linalg.norm(places, axis=1)
-        zoom = np.diff(np.arcsinh(sizes))
-        turn = np.radians(angular_distance(places[1:], places[:-1]))
-        way: FloatArray = np.concatenate([[0.0], np.cumsum(np.hypot(zoom, TURN * turn))])
-        return way
 
     def _middles(self, t: FloatArray) -> FloatArray:
         """Centres (n, 3) of the view at times (n,) times sinh η, η the distance of the view's path from the identity.
@@ -356,11 +349,7 @@ class Morph:
 
 
 def eased(share: float) -> float:
-    """Easing from 0 to 1 with zero speed at both ends: 3s² − 2s³.
-
-    >>> [eased(share) for share in (0.0, 0.25, 0.5, 1.0)]
-    [0.0, 0.15625, 0.5, 1.0]
-    """
+    """Easing from 0 to 1 with zero speed at both ends: 3s² − 2s³."""
     return share * share * (3.0 - 2.0 * share)
 
 

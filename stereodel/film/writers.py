@@ -25,18 +25,15 @@ from typing import Any, Final, Protocol
 import numpy as np
 
 from stereodel._arrays import FloatArray, Pixels, as_floats, as_frame
-from stereodel._extras import of_extra, optional
+from stereodel._extras import optional
 from stereodel.constants import FRAME_ROUNDING
 
 
 class Reel(Protocol):
     """Frames (h, w, 3) by number, such as a list, or a folder of image files read on access."""
 
-    def __len__(self) -> int:
-        """Number of frames."""
-
-    def __getitem__(self, number: int, /) -> Pixels:
-        """The frame of this number."""
+    def __len__(self) -> int: ...
+    def __getitem__(self, number: int, /) -> Pixels: ...
 
 
 Writer = Callable[[Reel, Path, FloatArray], None]
@@ -46,7 +43,6 @@ Writer = Callable[[Reel, Path, FloatArray], None]
 class Format:
     """A file format: its writer and its limits.
 
-    write: called as ``write(reel, path, seconds)``.
     largest: largest width or height in pixels.
     shortest: shortest duration of a frame in seconds.
     library: module of the extra ``film`` that encodes.
@@ -92,13 +88,7 @@ def frames_of(reel: Reel) -> Iterator[Pixels]:
 
 
 def frame_seconds(seconds: float | Sequence[float], count: int) -> FloatArray:
-    """Durations of `count` frames in seconds, (count,), from one number for all or one for each.
-
-    Raises ValueError if the number of entries is neither one nor `count`, or a duration is not positive.
-
-    >>> frame_seconds(0.5, 3).tolist()
-    [0.5, 0.5, 0.5]
-    """
+    """Positive durations of `count` frames in seconds, (count,), from one number for all or one for each."""
     times = as_floats(seconds, "seconds")
     if times.ndim and times.shape != (count,):
         raise ValueError(f"seconds has {times.size} entries for {count} frames; give one number, or one for each")
@@ -108,13 +98,10 @@ def frame_seconds(seconds: float | Sequence[float], count: int) -> FloatArray:
 
 
 def whole_ticks(seconds: FloatArray, per_second: int) -> list[int]:
-    """Durations in whole clock ticks, such that the sum of the first n is rounded correctly for every n.
-
-    >>> whole_ticks(np.full(6, 1 / 30), 100)
-    [3, 4, 3, 3, 4, 3]
-    """
+    """Durations in whole clock ticks, such that the sum of the first n is rounded correctly for every n."""
     ends = np.floor(np.cumsum(seconds) * per_second + 0.5).astype(np.int64)
-    return [int(tick) for tick in np.diff(ends, prepend=0)]
+    ticks: list[int] = np.diff(ends, prepend=0).tolist()
+    return ticks
 
 
 # By FFmpeg's libraries
@@ -125,12 +112,10 @@ SAMPLED: Final = 24
 
 @dataclass(frozen=True)
 class _Encoder:
-    """Settings of FFmpeg's libraries for a format.
+    """Settings of FFmpeg's libraries for a format: FFmpeg's names of it, the encoder, and its pixel format.
 
-    container, codec, pixels: FFmpeg's names of the file format, the encoder, and the encoder's pixel format.
     filters: filters applied to each frame before encoding: their names and options.
     options, muxing: options of the encoder and of the file format.
-    threads: number of the encoder's threads.
     """
 
     container: str
@@ -178,11 +163,7 @@ class _Encoder:
 
 
 class _Chain:
-    """A chain of FFmpeg's filters: frames in, frames out.
-
-    first: a frame of the same size and pixel format as those to come.
-    palette: second input of the last filter, the output of `palettegen`.
-    """
+    """A chain of FFmpeg's filters for frames like `first`; `palette` is the second input of the last filter."""
 
     def __init__(self, first: Any, filters: Sequence[tuple[str, str]], palette: Any = None) -> None:
         av = optional("av", "film")
@@ -202,10 +183,8 @@ class _Chain:
             second.push(None)
 
     def _buffer(self, like: Any) -> Any:
-        """The source filter for frames like `like`."""
-        return self._graph.add_buffer(
-            width=like.width, height=like.height, format=like.format, time_base=like.time_base
-        )
+        sides = {"width": like.width, "height": like.height}
+        return self._graph.add_buffer(**sides, format=like.format, time_base=like.time_base)
 
     def __call__(self, frame: Any) -> Iterator[Any]:
         """Frames that come out after `frame` goes in; None marks the end of the input."""
@@ -323,27 +302,16 @@ WEBP_QUALITY: Final = 90
 
 def write_webp(reel: Reel, path: Path, seconds: FloatArray) -> None:
     """Write frames as an animated WebP that loops forever; durations are rounded to milliseconds."""
-    with of_extra("film"):
-        pass
-
+    options = {"duration": whole_ticks(seconds, 1000), "loop": 0, "quality": WEBP_QUALITY, "method": 4}
     with path.open("wb") as file:
-        _one_at_a_time(reel).save(
-            file,
-            format="webp",
-            save_all=True,
-            duration=whole_ticks(seconds, 1000),
-            loop=0,
-            quality=WEBP_QUALITY,
-            method=4,
-        )
+        _one_at_a_time(reel).save(file, format="webp", save_all=True, **options)
 
 
 def _one_at_a_time(reel: Reel) -> Any:
     """A multi-frame image for Pillow, which reads the frames in order and keeps none."""
-    with of_extra("film"):
-        from PIL import Image
+    pillow = optional("PIL.Image", "film")
 
-    class Frames(Image.Image):
+    class Frames(pillow.Image):  # type: ignore[name-defined, misc]
         def __init__(self) -> None:
             super().__init__()
             self.n_frames = len(reel)
@@ -354,7 +322,7 @@ def _one_at_a_time(reel: Reel) -> Any:
         def seek(self, frame: int) -> None:
             """Go to the next frame; earlier frames are gone, and Pillow's return to the first has no effect."""
             if frame > self._number:
-                shown = Image.fromarray(next(self._frames))
+                shown = pillow.fromarray(next(self._frames))
                 self.im, self._mode, self._size, self._number = shown.im, shown.mode, shown.size, frame
 
     return Frames()

@@ -13,8 +13,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
-from types import MappingProxyType
-from typing import Any, Final, Literal, Protocol, Self, TypeVar
+from typing import Any, Final, Literal, Protocol, Self
 
 import numpy as np
 
@@ -44,15 +43,9 @@ DARK: Final = 0.5
 
 
 def script_of(function: Callable[..., Any], name: str) -> Path | None:
-    """The script that draws a picture: the file of its name in the folder of its drawing function.
-
-    None for pictures without a script: from the command line, a session, or a program with another name.
-    """
-    inner = function
-    while isinstance(inner, partial | StyledDraw):
-        inner = inner.func if isinstance(inner, partial) else inner.draw
+    """The script that draws a picture, the file of its name in the folder of its drawing function; None without one."""
     try:
-        script = Path(inspect.getfile(inner)).with_name(f"{name}.py")
+        script = source_of(function).with_name(f"{name}.py")
     except (TypeError, OSError):
         return None
     return script if script.is_file() else None
@@ -64,11 +57,7 @@ def caption_of(script: Path) -> tuple[str, str]:
 
 
 def parted(docstring: str) -> tuple[str, str]:
-    r"""Title and description of a docstring, as plain text.
-
-    >>> parted("Figure 1: A ball\n================\n\nRound, as\nballs are.\n\nChosen by us: its size.")
-    ('Figure 1: A ball', 'Round, as balls are.\n\nChosen by us: its size.')
-    """
+    """Title and description of a docstring, as plain text."""
     title, _, rest = re.sub("``(.+?)``", "“\\1”", docstring).partition("\n")
     rest = re.sub(r"\A\s*([=\-~^])\1+\s*$", "", rest, count=1, flags=re.MULTILINE)
     paragraphs = [" ".join(part.split()) for part in re.split(r"\n\s*\n", rest)]
@@ -76,13 +65,7 @@ def parted(docstring: str) -> tuple[str, str]:
 
 
 def captioned(page: Page) -> Page:
-    """A page with its title and description below the picture; its width is unchanged, its height grows as needed.
-
-    >>> page = Page((0.0, 2.0, 0.0, 1.0), width=200.0, title="A title", description="A line " * 12)
-    >>> taller = captioned(page)
-    >>> taller.width, [label.text for label in taller.labels]
-    (200.0, ['A title', 'A line A line A line A line A line A line A line', 'A line A line A line A line A line'])
-    """
+    """A page with its title and description below the picture; its width is unchanged, its height grows as needed."""
     if not page.title and not page.description:
         return page
     red, green, blue, _ = page.background
@@ -112,17 +95,12 @@ def _broken(text: str, size: float, room: float) -> Iterator[str]:
     line = ""
     for word in text.split():
         longer = f"{line} {word}".strip()
-        if line and _width(longer, size) > room:
+        low, high = label_box(Label(longer, (0.0, 0.0), size=size, formulas=False), 1.0)
+        if line and high[0] - low[0] > room:
             yield line
             longer = word
         line = longer
     yield line
-
-
-def _width(text: str, size: float) -> float:
-    """Width of a line in points."""
-    low, high = label_box(Label(text, (0.0, 0.0), size=size, formulas=False), 1.0)
-    return float(high[0] - low[0])
 
 
 Geometry = Mapping[str, Any]
@@ -262,53 +240,37 @@ class Figure:
 
     def main(self, argv: Sequence[str] | None = None) -> None:
         """Run as a script: write the files and report where; errors become a message and exit code 1."""
-        kind = "PNG, SVG and PDF" if self.in_space is None else "PNG, SVG, PDF and GLB"
         flags = {"caption": "set title and text of the script below the picture"}
         if self.in_space is not None:
             flags["solid"] = f"draw {self.name}_solid.png too, with light and shade"
-        run_script(
-            self,
-            lambda figure, out, **options: figure.save(out, **options)["files"],
-            argv,
-            name=self.name,
-            source=self.draw,
-            kind=kind,
-            usual_size="17 cm at 300 dpi",
-            flags=flags,
-        )
+        run_script(self, argv, self.name, "17 cm at 300 dpi", flags)
+
+    def _files(self, folder: Path, **options: Any) -> list[str]:
+        """See `Drawing`."""
+        files: list[str] = self.save(folder, **options)["files"]
+        return files
 
 
 class Drawing(Protocol):
-    """What a script draws."""
+    """What a script draws: figures and films."""
+
+    @property
+    def draw(self) -> Callable[..., Any]:
+        """A function of the script."""
 
     def styled(self, *styles: Style) -> Self:
         """The same in other styles."""
 
-
-D = TypeVar("D", bound=Drawing)
+    def _files(self, folder: Path, *, size: int | None, text: bool) -> list[str]:
+        """Write the files into a folder, with the options of the script; their names."""
 
 
 def run_script(
-    drawing: D,
-    save: Callable[..., Sequence[str]],
-    argv: Sequence[str] | None,
-    *,
-    name: str,
-    source: Callable[..., Any],
-    kind: str,
-    usual_size: str,
-    flags: Mapping[str, str] = MappingProxyType({}),
+    drawing: Drawing, argv: Sequence[str] | None, name: str, usual_size: str, flags: Mapping[str, str]
 ) -> None:
-    """Write the files and report where; errors become a message and exit code 1.
-
-    save: writes the files of a drawing into a folder, with the options of the script; gives their names.
-    name: of the drawing, for messages.
-    source: a function defined in the script; files go to `out` next to the script's folder by default.
-    kind, usual_size: kind of files and default width, for the help.
-    flags: additional Boolean options of `save`, with their help.
-    """
-    parser = argparse.ArgumentParser(description=f"Draw {name} as {kind}.")
-    out = default_folder(source)
+    """Write the files, by default into `out` next to the script's folder; `flags`: more options, and help."""
+    parser = argparse.ArgumentParser(description=f"Draw {name}.")
+    out = default_folder(drawing.draw)
     parser.add_argument("--out", type=Path, help=f"folder to write to ({out}, and in it one for each style)")
     parser.add_argument("--size", type=pixel_count, help=f"width in pixels ({usual_size})")
     parser.add_argument("--text", action=argparse.BooleanOptionalAction, default=True, help="draw the labels")
@@ -321,7 +283,7 @@ def run_script(
     try:
         shown = drawing.styled(*options.style) if options.style else drawing
         chosen = {flag: getattr(options, flag) for flag in flags}
-        files = save(shown, folder, size=options.size, text=options.text, **chosen)
+        files = shown._files(folder, size=options.size, text=options.text, **chosen)
     except (OSError, RuntimeError, ValueError) as error:
         raise SystemExit(f"{name}: {error}") from None
     print(f"{name}: {', '.join(files)} in {folder} ({time.perf_counter() - begun:.1f} s)")
@@ -329,13 +291,9 @@ def run_script(
 
 def pixel_count(text: str) -> int:
     """A width in pixels from the command line."""
-    try:
-        size = int(text)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number of pixels") from None
-    if not 1 <= size <= LARGEST_SIZE:
-        raise argparse.ArgumentTypeError(f"{size} pixels is outside 1 to {LARGEST_SIZE}")
-    return size
+    if not text.isdecimal() or not 1 <= int(text) <= LARGEST_SIZE:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number of pixels, 1 to {LARGEST_SIZE}")
+    return int(text)
 
 
 def style_names(text: str) -> tuple[str, ...]:
@@ -353,5 +311,11 @@ def styled_folder(out: Path, styles: tuple[str, ...]) -> Path:
 
 def default_folder(source: Callable[..., Any]) -> Path:
     """`out` next to the folder of the script that defines a function, whatever the current folder."""
-    function = source.func if isinstance(source, partial) else source
-    return Path(inspect.getfile(function)).resolve().parent.parent / "out"
+    return source_of(source).resolve().parent.parent / "out"
+
+
+def source_of(function: Callable[..., Any]) -> Path:
+    """The file that defines a function, also of one in styles or with some arguments given."""
+    while isinstance(function, partial | StyledDraw):
+        function = function.func if isinstance(function, partial) else function.draw
+    return Path(inspect.getfile(function))

@@ -24,20 +24,18 @@ import atexit
 import ctypes
 import os
 import sys
-from collections.abc import Callable, Iterator
+import types
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from typing import Any, Final
 
 import numpy as np
 
 from stereodel._arrays import FloatArray, IntArray, Pixels
-from stereodel._extras import MissingExtraError
+from stereodel._extras import MissingExtraError, of_extra
 from stereodel.drawing.page.colors import Color
-from stereodel.render import trial
-from stereodel.render.mends import import_pyrender, mend_offscreen
-from stereodel.render.pieces import Triangles, Window
 
 VARIABLE: Final = "STEREODEL_GL"
 """Environment variable that chooses the platform."""
@@ -74,17 +72,51 @@ SAMPLES: Final = ((0.375, 0.125), (0.875, 0.375), (0.125, 0.625), (0.625, 0.875)
 
 NEAREST: Final = 0x2600
 CLAMP_TO_EDGE: Final = 0x812F
-"""Texture filters: constants of OpenGL's C header."""
+EGL_EXTENSIONS: Final = 0x3055
+"""Constants of the C headers: filters of textures, and the name of the extension string."""
 
 SHADERS: Final = os.path.join(os.path.dirname(__file__), "shaders")
 """Our own shaders, under the names that pyrender requests."""
 
-EGL_EXTENSIONS: Final = 0x3055
-"""Name of the extension string in EGL's C header."""
+TRIAL: Final = 8
+"""Pixels across and down of the picture that `describe` draws."""
+
+Disc = tuple[float, float, float, float]
+"""Centre x, y and radius along x and y, in pixels, which may differ slightly."""
 
 
 class OpenGLError(OSError):
     """There is no usable OpenGL, or it was set up differently before; the message says what to do."""
+
+
+@dataclass(frozen=True, eq=False)
+class Triangles:
+    """Coloured triangles in painter's order.
+
+    points: (n, 2), pixels from the lower left corner, x right, y up.
+    colors: (n, 4), sRGB and opacity in [0, 1].
+    slots: (n,), index of the item of each vertex; must not decrease along `faces`.
+    faces: (m, 3), either orientation.
+    textures: by index of an item, an image of the window, (h, w, 4) from the top, that multiplies the item's colours.
+    balls: by index of an item, the ball that shades it, see `stereodel.drawing.page.Ball`.
+    """
+
+    points: FloatArray
+    colors: FloatArray
+    slots: IntArray
+    faces: IntArray
+    textures: Mapping[int, Pixels] = field(default_factory=dict)
+    balls: Mapping[int, Disc] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Window:
+    """A part of a picture, in pixels from its lower left corner, x right, y up."""
+
+    left: int
+    bottom: int
+    width: int
+    height: int
 
 
 @dataclass(frozen=True)
@@ -100,12 +132,6 @@ class Description:
     renderer: str = ""
     problem: str = ""
     multisamples: bool = True
-
-    @property
-    def mesa(self) -> str:
-        """Version of Mesa, e.g. 22.3.6; empty if it is not Mesa."""
-        _, found, rest = self.version.partition("Mesa ")
-        return rest.split()[0] if found else ""
 
 
 def choose(platform: str | None = None) -> tuple[str, str]:
@@ -131,28 +157,11 @@ def choose(platform: str | None = None) -> tuple[str, str]:
 
 def can_open(platform: str) -> bool:
     """Whether a shared library of the platform can be loaded."""
-    return any(_loads(name) for name in LIBRARIES[platform])
-
-
-def draw(
-    triangles: Triangles,
-    width: int,
-    height: int,
-    *,
-    background: Color = (1.0, 1.0, 1.0, 1.0),
-    platform: str | None = None,
-) -> Pixels:
-    """Draw triangles with 4 samples per pixel: (height, width, 3) uint8, sRGB, rows from the top.
-
-    Colours are drawn as given, shaded only by `Triangles.balls`; those of a triangle's corners are interpolated
-    linearly. Earlier items are covered or show through. The opacity of the background is ignored.
-
-    OpenGLError if there is no usable OpenGL, or this process already draws on another platform; ValueError if the
-    picture has no pixels, or too many items for the depth buffer.
-    """
-    return np.concatenate(
-        list(bands(lambda window: triangles, width, height, background=background, platform=platform))
-    )
+    for name in LIBRARIES[platform]:
+        with suppress(OSError):
+            ctypes.CDLL(name)
+            return True
+    return False
 
 
 def bands(
@@ -164,49 +173,44 @@ def bands(
     platform: str | None = None,
     finish: Callable[[Pixels], Pixels] = lambda pixels: pixels,
 ) -> Iterator[Pixels]:
-    """Draw a picture from the top, `BAND` rows at a time, in the memory of a band and the triangles of a window.
+    """A picture from the top, `BAND` rows (k, width, 3) at a time, in the memory of a band and a window's triangles.
 
-    Yields (rows, width, 3) uint8; errors are those of `draw`.
+    OpenGLError if there is no usable OpenGL, or this process already draws on another platform; ValueError if the
+    picture has no pixels, or too many items for the depth buffer.
 
     part: function of a window that returns all triangles of the picture that touch it, in order; others have no effect.
+    background: its opacity is ignored.
     finish: function of the pixels of a window that returns those to yield.
     """
-    if min(width, height) < 1:
-        raise ValueError(f"a picture has at least one pixel each way, got {width} by {height}")
     context = DOOR.context(platform)
-    for windows in _windows(width, height):
-        yield np.concatenate([finish(context.draw(part(w), w, background)) for w in windows], axis=1)
+    return _bands(lambda window: finish(context.draw(part(window), window, background)), width, height)
 
 
 def space_bands(
     make: Callable[[Any], Any],
-    box: tuple[float, float, float, float, float, float],
+    box: Sequence[Sequence[float]],
     width: int,
     height: int,
     *,
-    numbered: bool = False,
     platform: str | None = None,
-    finish: Callable[[Pixels], Pixels] = lambda pixels: pixels,
+    finish: Callable[[Pixels], Pixels],
 ) -> Iterator[Pixels]:
-    """Draw bodies in space from the top, `BAND` rows at a time, with pyrender's own lighting and depth test.
+    """As `bands`, bodies in space with pyrender's own lighting and depth test.
 
     make: function of the module pyrender that returns a scene without a camera. Its meshes are drawn in the order of
         their nodes' names, see `node_name`, which matters for transparent ones.
-    box: left, right, bottom, top, and the smallest and largest z of the scene, which is viewed along −z from far away.
-    numbered: whether to draw each mesh, without lighting, in the colour of its number, from 1, in 24 bits, red first,
-        on black; without multisampling, so that each pixel shows the mesh at its centre.
-    finish: as for `bands`, which yields the same and raises the same errors.
+    box: left and right, bottom and top, smallest and largest z of the scene, viewed along −z from far away.
     """
     context = DOOR.context(platform)
-    scene, camera = make(context.pyrender), None
-    for windows in _windows(width, height):
-        parts = []
-        for window in windows:
-            if camera is not None:
-                scene.remove_node(camera)
-            camera = _aim(context.pyrender, scene, box, width, height, window)
-            parts.append(finish(context.draw_space(scene, window, numbered=numbered)))
-        yield np.concatenate(parts, axis=1)
+    scene = make(context.pyrender)
+
+    def drawn(window: Window) -> Pixels:
+        camera = aim(context.pyrender, scene, box, width, height, window)
+        pixels = context.draw_scene(scene, window, context.pyrender.RenderFlags.NONE)
+        scene.remove_node(camera)
+        return finish(pixels)
+
+    return _bands(drawn, width, height)
 
 
 def node_name(number: int) -> str:
@@ -214,24 +218,19 @@ def node_name(number: int) -> str:
     return f"{number:08d}"
 
 
-def _windows(width: int, height: int) -> Iterator[list[Window]]:
-    """The windows of a picture, row by row from the top."""
+def _bands(drawn: Callable[[Window], Pixels], width: int, height: int) -> Iterator[Pixels]:
+    if min(width, height) < 1:
+        raise ValueError(f"a picture has at least one pixel each way, got {width} by {height}")
     for top in range(0, height, BAND):
         rows = min(BAND, height - top)
         lefts = range(0, width, COLUMNS)
-        yield [Window(left, height - top - rows, min(COLUMNS, width - left), rows) for left in lefts]
+        windows = [Window(left, height - top - rows, min(COLUMNS, width - left), rows) for left in lefts]
+        yield np.concatenate([drawn(window) for window in windows], axis=1)
 
 
-def _aim(
-    pyrender: Any,
-    scene: Any,
-    box: tuple[float, float, float, float, float, float],
-    width: int,
-    height: int,
-    window: Window,
-) -> Any:
-    """Add a camera for a window of a picture of a box."""
-    left, right, bottom, top, low, high = box
+def aim(pyrender: Any, scene: Any, box: Sequence[Sequence[float]], width: int, height: int, window: Window) -> Any:
+    """Add a camera for a window of a picture of a box; its node."""
+    (left, right), (bottom, top), (low, high) = box
     across, up = (right - left) / width, (top - bottom) / height
     distance = FAR * max(right - left, top - bottom)
     pose = np.eye(4)
@@ -252,7 +251,50 @@ def describe(platform: str | None = None) -> Description:
     >>> describe("osmesa").platform
     'osmesa'
     """
-    return DOOR.describe(platform)
+    found = Description("", "")
+    try:
+        found = Description(*DOOR.choice(platform))
+        context = DOOR.context(platform)
+        version, renderer = context.strings()
+        found = replace(found, version=version, renderer=renderer, multisamples=context.multisamples)
+        problem = trial_problem(context.draw(trial_triangles(), Window(0, 0, TRIAL, TRIAL), (1.0, 1.0, 1.0, 1.0)))
+        return replace(found, problem=problem and f"{context.platform} draws wrongly: {problem}")
+    except (OpenGLError, MissingExtraError, ValueError) as error:
+        return replace(found, problem=str(error))
+
+
+def trial_triangles() -> Triangles:
+    """A texture of distinct colours behind a translucent rectangle of two triangles.
+
+    So a misplaced texel, a missing triangle, an edge without four samples and a seam along the diagonal are detected.
+    """
+    corners = np.array([(0, 0), (8, 0), (8, 8), (0, 8), (1.25, 2), (6.5, 2), (6.5, 7), (1.25, 7)], dtype=float)
+    colors = np.repeat([[1.0, 1.0, 1.0, 1.0], [0.0, 0.0, 0.0, 0.5]], 4, axis=0)
+    faces = np.array([[0, 1, 2], [0, 2, 3], [4, 5, 6], [4, 6, 7]], dtype=np.int32)
+    texels = np.dstack([_texels(), np.full((TRIAL, TRIAL), 255, dtype=np.uint8)])
+    return Triangles(corners, colors, np.repeat(np.arange(2, dtype=np.int32), 4), faces, {0: texels})
+
+
+def trial_problem(picture: Pixels) -> str:
+    """Errors in the picture of `trial_triangles`, more than two levels of 255; empty if there are none.
+
+    Blending is rounded once, and the average of the samples once.
+    """
+    share = np.zeros((TRIAL, TRIAL, 1))
+    share[1:6, :, 0] = [0.0, 0.75, 1.0, 1.0, 1.0, 1.0, 0.5, 0.0]  # of the samples of each column, in the veil's rows
+    expected = np.rint(_texels() * (1 - share / 2)).astype(np.uint8)
+    wrong = (np.abs(expected.astype(np.int16) - picture) > 2).any(axis=-1)
+    if not wrong.any():
+        return ""
+    found, wanted = (tuple(pixels[wrong][0].tolist()) for pixels in (picture, expected))
+    count = f"{np.count_nonzero(wrong)} of {wrong.size} pixels of a trial picture are wrong"
+    return f"{count}, the first is {found} in place of {wanted}"
+
+
+def _texels() -> Pixels:
+    """Red encodes the column, green the row."""
+    row, column = np.indices((TRIAL, TRIAL))
+    return np.stack([32 * column, 32 * row, np.full_like(row, 90)], axis=-1).astype(np.uint8)
 
 
 class Door:
@@ -262,31 +304,23 @@ class Door:
     """
 
     def __init__(self) -> None:
-        self._context: _Context | None = None
+        self._context: _OpenGL | None = None
         self._chosen: tuple[str, str] | None = None
 
-    def context(self, platform: str | None = None) -> _Context:
+    def context(self, platform: str | None = None) -> _OpenGL:
         """The context; OpenGLError if there can be none, or another platform was chosen before."""
-        name, reason = self._choice(platform)
+        name, reason = self.choice(platform)
         if self._context is None:
-            self._context = _Context(name)
+            self._context = _OpenGL(name)
             self._chosen = name, reason
             atexit.register(self.close)
         if self._context.platform != name:
             raise OpenGLError(f"this process draws on {self._context.platform} already; use {name} in a new process")
         return self._context
 
-    def describe(self, platform: str | None = None) -> Description:
-        """See `describe` of this module."""
-        found = Description("", "")
-        try:
-            found = Description(*self._choice(platform))
-            context = self.context(platform)
-            version, renderer = context.strings()
-            found = replace(found, version=version, renderer=renderer, multisamples=context.multisamples)
-            return replace(found, problem=context.trial_problem())
-        except (OpenGLError, MissingExtraError, ValueError) as error:
-            return replace(found, problem=str(error))
+    def choice(self, platform: str | None) -> tuple[str, str]:
+        """As `choose`, but the first choice of a process is kept."""
+        return self._chosen if platform is None and self._chosen is not None else choose(platform)
 
     def close(self) -> None:
         """Release the context."""
@@ -294,16 +328,12 @@ class Door:
             self._context.close()
             self._context = None
 
-    def _choice(self, platform: str | None) -> tuple[str, str]:
-        # The first choice of a process is kept.
-        return self._chosen if platform is None and self._chosen is not None else choose(platform)
-
 
 DOOR: Final = Door()
 """The instance of this process."""
 
 
-class _Context:
+class _OpenGL:
     """A pyrender renderer on a platform."""
 
     def __init__(self, platform: str) -> None:
@@ -330,18 +360,13 @@ class _Context:
         """The pixels of a window of triangles, rows from the top."""
         scene = _scene(self.pyrender, triangles, window, background)
         flags = self.pyrender.RenderFlags.FLAT | self.pyrender.RenderFlags.SKIP_CULL_FACES
-        return self._drawn(scene, window, own=True, flags=flags)
+        return self.draw_scene(scene, window, flags, own=True)
 
-    def draw_space(self, scene: Any, window: Window, *, numbered: bool) -> Pixels:
-        """The pixels of a window of a pyrender scene with a camera, rows from the top."""
-        if not numbered:
-            return self._drawn(scene, window, own=False, flags=self.pyrender.RenderFlags.NONE)
-        nodes = sorted(scene.mesh_nodes, key=lambda node: node.name)
-        colors = {node: [k >> 16 & 255, k >> 8 & 255, k & 255] for k, node in enumerate(nodes, start=1)}
-        return self._drawn(scene, window, own=False, flags=self.pyrender.RenderFlags.SEG, seg_node_map=colors)
+    def draw_scene(self, scene: Any, window: Window, flags: int, *, own: bool = False, **more: Any) -> Pixels:
+        """The pixels of a window of a pyrender scene with a camera, rows from the top, with our own shaders or not.
 
-    def _drawn(self, scene: Any, window: Window, *, own: bool, flags: int, **more: Any) -> Pixels:
-        """Draw with our own shaders or those of pyrender; numbered scenes with one sample per pixel."""
+        flags, more: as for pyrender's renderer. Pictures of the numbers of bodies (SEG) have one sample per pixel.
+        """
         self._offscreen.viewport_width, self._offscreen.viewport_height = window.width, window.height
         self._offscreen._renderer._program_cache.shader_dir = self._shaders[own]
         once = self.multisamples or bool(flags & self.pyrender.RenderFlags.SEG)
@@ -357,15 +382,8 @@ class _Context:
             with suppress(Exception):
                 self._offscreen._renderer._update_context(self.pyrender.Scene(), flags)
 
-    def trial_problem(self) -> str:
-        """A description of errors in a test picture with known pixels; empty if there are none."""
-        whole = Window(0, 0, trial.SIDE, trial.SIDE)
-        wrong = trial.trial_problem(self.draw(trial.trial_triangles(), whole, (1.0, 1.0, 1.0, 1.0)))
-        return wrong and f"{self.platform} draws wrongly: {wrong}"
-
     def _rendered(self, scene: Any, options: dict[str, Any]) -> Pixels:
-        color, _ = self._offscreen.render(scene, **options)
-        return color
+        return self._offscreen.render(scene, **options)[0]
 
     def _sample_by_sample(self, scene: Any, options: dict[str, Any]) -> Pixels:
         """The average, rounded half up, of the scene drawn once for each sample position, moved to the pixel centre."""
@@ -379,16 +397,57 @@ class _Context:
             total += self._rendered(scene, options)
         return (total // 4).astype(np.uint8)
 
-    def strings(self) -> tuple[str, str]:
+    def strings(self) -> list[str]:
         """GL_VERSION and GL_RENDERER."""
         self._offscreen._platform.make_current()
-        return self._gl.glGetString(self._gl.GL_VERSION).decode(), self._gl.glGetString(self._gl.GL_RENDERER).decode()
+        return [self._gl.glGetString(name).decode() for name in (self._gl.GL_VERSION, self._gl.GL_RENDERER)]
 
     def close(self) -> None:
         """Release all resources."""
         # A context that failed before fails again here, as do some drivers at the end of a process.
         with suppress(Exception):
             self._offscreen.delete()
+
+
+def mend_offscreen(offscreen: Any, opengl: Any, *, multisamples: bool) -> None:
+    """Make an `OffscreenRenderer` sample each pixel four times, cache shaders, draw in order, and read only colours.
+
+    multisamples: whether OpenGL can sample a pixel four times; otherwise it takes one sample, at the centre, although
+        pyrender asks for four of whatever cannot give them.
+    """
+    if not multisamples:
+        module: Any = sys.modules["pyrender.renderer"]
+        module.glRenderbufferStorageMultisample = lambda target, samples, *rest: (
+            opengl.glRenderbufferStorageMultisample(target, 0, *rest)
+        )
+    # OSMesa has framebuffer objects, which multisampling needs, though pyrender denies it.
+    offscreen._platform.supports_framebuffers = lambda: True
+    renderer = offscreen._renderer
+    make, programs = renderer._program_cache.get_program, {}
+
+    def program(**names: Any) -> Any:
+        # PyOpenGL returns a different handle for OSMesa's context each time, and pyrender, which caches programs by
+        # that handle, compiles them for each picture and keeps them all: 0.9 MB of memory per picture.
+        key = repr(names)
+        if key not in programs:
+            programs[key] = make(**names)
+        return programs[key]
+
+    def colors(scene: Any, flags: int) -> tuple[Pixels, None]:
+        # pyrender would also read the depths and turn them into lengths, which takes longer than drawing.
+        width, height = renderer._main_fb_dims
+        box = (0, 0, width, height)
+        opengl.glBindFramebuffer(opengl.GL_READ_FRAMEBUFFER, renderer._main_fb_ms)
+        opengl.glBindFramebuffer(opengl.GL_DRAW_FRAMEBUFFER, renderer._main_fb)
+        opengl.glBlitFramebuffer(*box, *box, opengl.GL_COLOR_BUFFER_BIT, opengl.GL_LINEAR)
+        opengl.glBindFramebuffer(opengl.GL_READ_FRAMEBUFFER, renderer._main_fb)
+        data = opengl.glReadPixels(*box, opengl.GL_RGB, opengl.GL_UNSIGNED_BYTE)
+        return np.frombuffer(data, dtype=np.uint8).reshape(height, width, 3)[::-1], None
+
+    renderer._program_cache.get_program = program
+    renderer._read_main_framebuffer = colors
+    # pyrender draws meshes in the order of a set, and transparent ones by the positions of their nodes.
+    renderer._sorted_mesh_nodes = lambda scene: sorted(scene.mesh_nodes, key=lambda node: node.name or "")
 
 
 def _scene(pyrender: Any, triangles: Triangles, window: Window, background: Color) -> Any:
@@ -450,33 +509,18 @@ def _environment(**variables: str) -> Iterator[None]:
 
     Child processes must not inherit the choice of this process.
     """
-    before = {name: os.environ.get(name) for name in variables}
+    before = {name: os.environ[name] for name in variables if name in os.environ}
     os.environ.update(variables)
     try:
         yield
     finally:
-        for name, value in before.items():
-            if value is None:
-                del os.environ[name]
-            else:
-                os.environ[name] = value
+        for name in variables:
+            del os.environ[name]
+        os.environ.update(before)
 
 
 def _import_pyrender(platform: str) -> Any:
-    """Import pyrender on a platform, without its viewer."""
-    _require_platform(platform)
-    # Mesa must not use a graphics card, whose pixels differ.
-    os.environ.setdefault("LIBGL_ALWAYS_SOFTWARE", "1")
-    try:
-        return import_pyrender()
-    except MissingExtraError:
-        raise
-    except (ImportError, OSError, AttributeError) as error:
-        raise OpenGLError(_missing(f"pyrender cannot be imported for {platform}: {error}", platform)) from error
-
-
-def _require_platform(platform: str) -> None:
-    """Raise OpenGLError if PyOpenGL was imported for another platform."""
+    """Import pyrender on a platform, without its viewer, whose windowing library fails without a display."""
     module = sys.modules.get("OpenGL.platform")
     loaded = type(getattr(module, "PLATFORM", None)).__name__
     if module is not None and loaded.removesuffix("Platform").lower() != platform:
@@ -484,6 +528,20 @@ def _require_platform(platform: str) -> None:
             f"this process has imported OpenGL with {loaded} and cannot change to {platform}; "
             f'draw before anything else imports it, or set PYOPENGL_PLATFORM="{platform}" before the program starts'
         )
+    # Mesa must not use a graphics card, whose pixels differ.
+    os.environ.setdefault("LIBGL_ALWAYS_SOFTWARE", "1")
+    if "pyrender" not in sys.modules:
+        viewer: Any = types.ModuleType("pyrender.viewer")
+        viewer.Viewer = type("Viewer", (), {})
+        sys.modules["pyrender.viewer"] = viewer
+    try:
+        with of_extra("render"):
+            import pyrender
+    except MissingExtraError:
+        raise
+    except (ImportError, OSError, AttributeError) as error:
+        raise OpenGLError(_missing(f"pyrender cannot be imported for {platform}: {error}", platform)) from error
+    return pyrender
 
 
 def _software_device() -> int:
@@ -497,14 +555,6 @@ def _software_device() -> int:
         if b"EGL_MESA_device_software" in extensions:
             return number
     raise OpenGLError(_missing("EGL has no software device", "egl"))
-
-
-def _loads(library: str) -> bool:
-    try:
-        ctypes.CDLL(library)
-    except OSError:
-        return False
-    return True
 
 
 def _told(error: Exception) -> str:

@@ -27,10 +27,9 @@ from stereodel.drawing.page.fonts import missing_characters, warn_of_missing
 from stereodel.drawing.page.lengths import as_width, pixel_height, print_pixels
 from stereodel.drawing.page.page import OUTPUTS
 from stereodel.render.gl import OpenGLError
-from stereodel.render.pdf import pdf
-from stereodel.render.png import png_chunks
-from stereodel.render.rows import PixelDigest, Renderer, bare_rows, labelled
-from stereodel.render.svg import svg
+from stereodel.render.pixel_rows import PixelDigest, Renderer, bare_rows, labelled, png_chunks
+from stereodel.render.vector.pdf import pdf
+from stereodel.render.vector.svg import svg
 
 ENDINGS: Final = (".png", ".svg", ".pdf")
 
@@ -71,16 +70,20 @@ def save_page(
         if kind not in ENDINGS:
             raise ValueError(f"path must end in {', '.join(ENDINGS[:-1])} or {ENDINGS[-1]}, got {target.name!r}")
     shown, width, digest = page if text else page.without_labels(), as_width(page, size), ""
+    clear = replace(shown, background=(*page.background[:3], 0.0)) if transparent else shown
     warn_of_missing(missing_characters(shown.labels))
     try:
         pictures = region_pictures(page, width, platform) if any(kind != ".png" for _, kind in files) else []
         for target, kind in files:
-            if kind == ".png" and transparent:
-                _write_see_through(shown, target, width, renderer, platform)
-            elif kind == ".png":
-                digest = _write_png(shown, target, width, renderer, platform)
+            if kind != ".png":
+                save_vector(clear, target, pictures=pictures)
+            elif transparent:
+                rows = _see_through(shown, width, renderer, platform)
+                _write(rows, shown, target, width, channels=4)
             else:
-                save_vector(_without_ground(shown) if transparent else shown, target, pictures=pictures)
+                passed = PixelDigest((pixel_height(page, width), width, 3))
+                write_png(passed.passed(bare_rows(shown, width, renderer, platform)), shown, target, width)
+                digest = str(passed)
     except OpenGLError as error:
         raise OpenGLError(f"{error}; .svg and .pdf of lines and plain fills need no OpenGL") from error
     return width, digest
@@ -93,57 +96,34 @@ def region_pictures(page: Page, width: int, platform: str | None = None) -> list
     return [draw_page(part, size=size, text=False, renderer="gl", platform=platform) for part in alone]
 
 
-def _write_png(page: Page, target: Path, width: int, renderer: Renderer, platform: str | None) -> str:
-    """Write a page as PNG and return the hash of its pixels without text."""
-    digest = PixelDigest((pixel_height(page, width), width, 3))
-    write_png(digest.passed(bare_rows(page, width, renderer, platform)), page, target, width)
-    return str(digest)
-
-
-def _without_ground(page: Page) -> Page:
-    return replace(page, background=(*page.background[:3], 0.0))
-
-
-def _write_see_through(page: Page, target: Path, width: int, renderer: Renderer, platform: str | None) -> None:
-    """Write a page as PNG with transparent background: colour and opacity follow from pictures on two backgrounds."""
+def _see_through(page: Page, width: int, renderer: Renderer, platform: str | None) -> Iterable[Pixels]:
+    """Rows (k, width, 4) on a transparent background, not premultiplied, which follow from white and black ones."""
     white, black = (
         draw_page(replace(page, background=(*ground, 1.0)), size=width, text=True, renderer=renderer, platform=platform)
         for ground in ((1.0, 1.0, 1.0), (0.0, 0.0, 0.0))
     )
-    texts = {"Title": page.title, "Description": page.description}
-    rows = (unmixed(white[top : top + BAND], black[top : top + BAND]) for top in range(0, len(white), BAND))
-    with replacing(target) as temporary, temporary.open("wb") as file:
-        file.writelines(png_chunks(rows, width, len(white), page_width=page.width, texts=texts, channels=4))
-
-
-def unmixed(white: Pixels, black: Pixels) -> Pixels:
-    """Pixels (..., 4), not premultiplied, from their composites on white and on black, (..., 3).
-
-    >>> half = unmixed(np.array([[255, 127, 127]], dtype=np.uint8), np.array([[128, 0, 0]], dtype=np.uint8))
-    >>> half.tolist()
-    [[255, 0, 0, 128]]
-    """
-    through = np.sum(white.astype(np.int32) - black, axis=-1, keepdims=True)
-    opacity = np.clip(255 - (through + 1) // 3, 0, 255)
-    # Rounding must not make a colour brighter than white.
-    color = np.minimum((255 * black.astype(np.int32) + opacity // 2) // np.maximum(opacity, 1), 255)
-    found: Pixels = np.concatenate([np.where(opacity > 0, color, 0), opacity], axis=-1).astype(np.uint8)
-    return found
+    for top in range(0, len(white), BAND):
+        on_white, on_black = (picture[top : top + BAND].astype(np.int32) for picture in (white, black))
+        through = np.sum(on_white - on_black, axis=-1, keepdims=True)
+        opacity = np.clip(255 - (through + 1) // 3, 0, 255)
+        # Rounding must not make a colour brighter than white.
+        color = np.minimum((255 * on_black + opacity // 2) // np.maximum(opacity, 1), 255)
+        yield np.concatenate([np.where(opacity > 0, color, 0), opacity], axis=-1).astype(np.uint8)
 
 
 def write_png(rows: Iterable[Pixels], page: Page, target: Path, width: int) -> None:
     """Write rows of a picture `width` pixels wide as PNG, with the labels of its page over them."""
-    lettered, texts = labelled(rows, page, width), {"Title": page.title, "Description": page.description}
+    _write(labelled(rows, page, width), page, target, width)
+
+
+def _write(rows: Iterable[Pixels], page: Page, target: Path, width: int, channels: int = 3) -> None:
+    texts, height = {"Title": page.title, "Description": page.description}, pixel_height(page, width)
     with replacing(target) as temporary, temporary.open("wb") as file:
-        file.writelines(png_chunks(lettered, width, pixel_height(page, width), page_width=page.width, texts=texts))
+        file.writelines(png_chunks(rows, width, height, page_width=page.width, texts=texts, channels=channels))
 
 
 def save_vector(page: Page, path: str | os.PathLike[str], *, pictures: Sequence[Pixels] = ()) -> Path:
-    """Write a page as SVG or PDF, by the extension, with an image of the whole page for each of `page.pictured`.
-
-    ValueError if the extension is not .svg or .pdf, or the number of images is wrong; OSError if the file cannot be
-    written.
-    """
+    """Write a page as SVG or PDF, by the extension, with an image of the whole page for each of `page.pictured`."""
     target = Path(path)
     match target.suffix.lower():
         case ".svg":

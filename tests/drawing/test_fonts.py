@@ -19,7 +19,7 @@ from stereodel.drawing.page.fonts import MissingCharactersWarning, as_font, fami
 from stereodel.drawing.page.labels import label_box
 from stereodel.globe import Globe
 from stereodel.globe.pages import Panel, panels
-from stereodel.render.type import lines_of
+from stereodel.render.vector.type import lines_of
 
 STIX, SHIPPED = "STIXGeneral", "DejaVu Sans"
 CJK = str(Path(__file__).resolve().parents[1] / "fixtures" / "fonts" / "noto-sans-cjk-subset.otf")

@@ -6,6 +6,7 @@ import signal
 import subprocess
 import sys
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -73,13 +74,17 @@ def frames(path):
         return np.stack([np.asarray(image.convert("RGB")) for _ in map(image.seek, range(image.n_frames))])
 
 
+def save(film, path):
+    return film.save(path, jobs=1, progress=False)
+
+
 def test_the_file_shows_the_frames(balls, out):
     film = Film(balls.ball, (1.0, 1.5, 2.0, 2.5), fps=10, size=80)
-    file = film.save(out / "balls.png", jobs=1, progress=False)
+    file = save(film, out / "balls.png")
     assert [path.name for path in out.iterdir()] == [file.name]
     assert np.array_equal(frames(file), [film.picture(number) for number in range(4)])
     assert (len(film), film.duration, film.page(2).width) == (4, pytest.approx(0.4), 160.0)
-    bare = replace(film, text=False).save(out / "bare.png", jobs=1, progress=False)
+    bare = save(replace(film, text=False), out / "bare.png")
     assert not np.array_equal(frames(bare), frames(file))
 
 
@@ -106,20 +111,20 @@ def test_a_process_draws_so_many_frames_and_then_another_goes_on(balls, out, mon
 
 def test_equal_shots_are_drawn_once(balls, out):
     film = Film(balls.ball, (1.0, 2.0, 2.0, 2.0, 1.0), size=80)
-    assert len(frames(film.save(out / "held.png", jobs=1, progress=False))) == 5
+    assert len(frames(save(film, out / "held.png"))) == 5
     assert [x for _, x in drawn(balls)] == [1.0, 2.0]
 
 
 def test_a_frame_that_fails_is_named_and_the_others_are_kept(balls, out):
     film = Film(balls.ball, (1.0, 1.5, -1.0, 2.0), size=80)
     with pytest.raises(FrameError, match="frame 2: ValueError: no ball there") as caught:
-        film.save(out / "balls.png", jobs=1, progress=False)
+        save(film, out / "balls.png")
     assert str(caught.value.__cause__) == "no ball there"
     assert [path.name for path in out.iterdir()] == ["balls.png.frames"]
     good = Film(balls.ball, (1.0, 1.5, 2.5, 2.0), size=80)
-    whole = good.save(out / "balls.png", jobs=1, progress=False)
+    whole = save(good, out / "balls.png")
     assert [x for _, x in drawn(balls)] == [1.0, 1.5, -1.0, 2.5, 2.0]
-    assert whole.read_bytes() == good.save(out / "again.png", jobs=1, progress=False).read_bytes()
+    assert whole.read_bytes() == save(good, out / "again.png").read_bytes()
 
 
 # Whoever runs the tests in the background has SIGINT ignored, and programs inherit that.
@@ -209,9 +214,9 @@ def test_an_interruption_costs_nothing(balls, out, how):
 
     before = len(drawn(balls))
     film = Film(balls.slow_ball, [k / 10 for k in range(10, 30)], size=80)
-    resumed = film.save(out / "balls.gif", jobs=1, progress=False)
+    resumed = save(film, out / "balls.gif")
     assert len(drawn(balls)) - before == 20 - finished
-    whole = film.save(out / "whole.gif", jobs=1, progress=False)
+    whole = save(film, out / "whole.gif")
     assert resumed.read_bytes() == whole.read_bytes()
     assert sorted(path.name for path in out.iterdir()) == ["balls.gif", "whole.gif"]
 
@@ -271,7 +276,7 @@ def test_what_cannot_be_is_refused_before_anything_is_drawn(
 def test_frames_of_several_sizes_are_named(balls, out):
     film = Film(balls.wide, [2.0, 4.0], size=40)
     with pytest.raises(ValueError, match="frame 1 has 40 by 10 pixels and differs from the first with 40 by 20"):
-        film.save(out / "wide.gif", jobs=1, progress=False)
+        save(film, out / "wide.gif")
 
 
 def test_what_is_not_of_a_film_stays_in_its_folder(balls, out):
@@ -280,16 +285,53 @@ def test_what_is_not_of_a_film_stays_in_its_folder(balls, out):
     (kept / "notes.txt").write_text("mine")
     (kept / f".{'0' * 32}.png.17.tmp").write_text("half a frame")
     (kept / f"{'0' * 32}.png").write_text("a frame of another film")
-    Film(balls.ball, [1.0], size=40).save(out / "balls.gif", jobs=1, progress=False)
+    save(Film(balls.ball, [1.0], size=40), out / "balls.gif")
     assert [path.name for path in kept.iterdir()] == ["notes.txt"]
 
 
 def test_a_kept_frame_that_cannot_be_read_is_named(balls, out):
     film = Film(balls.ball, [1.0, -1.0], size=40)
     with pytest.raises(FrameError):
-        film.save(out / "balls.gif", jobs=1, progress=False)
+        save(film, out / "balls.gif")
     (frame,) = (out / "balls.gif.frames").iterdir()
     frame.write_bytes(frame.read_bytes()[:60])
     with pytest.raises(OSError, match=rf"{frame.name} cannot be read .*remove it and try again"):
-        replace(film, shots=[1.0]).save(out / "balls.gif", jobs=1, progress=False)
+        save(replace(film, shots=[1.0]), out / "balls.gif")
     assert not (out / "balls.gif").exists()
+
+
+def test_as_a_script_it_writes_a_looping_gif_beside_its_folder(balls, out, capsys):
+    """With the script's name; folder, size and text are options."""
+    film = Film(partial(balls.ball), [2.5, 3.0, 3.5], seconds=(0.1, 0.2, 1.0), size=80)
+    film.main([])
+    assert [path.name for path in out.iterdir()] == ["balls.gif"]
+    assert f"balls: balls.gif in {out}" in capsys.readouterr().out
+    with Image.open(out / "balls.gif") as gif:
+        times = [gif.seek(k) or gif.info["duration"] for k in range(gif.n_frames)]
+        assert (times, gif.info["loop"]) == ([100, 200, 1000], 0)
+    film.main(["--out", str(out / "new"), "--size", "60", "--no-text"])
+    bare = frames(out / "new" / "balls.gif")
+    assert bare.shape == (3, 30, 60, 3)
+    assert (bare[0, :, :20] == 255).all()
+    assert (film.picture(0)[:, :26] < 128).any()
+
+
+AS_TEXT = """
+import sys, types
+sys.modules["__main__"] = main = types.ModuleType("__main__")
+exec(compile(open({path!r}).read(), {path!r}, "exec"), main.__dict__)
+"""
+
+
+def test_a_program_may_run_a_script_as_text(tmp_path):
+    """As the documentation does; no other process could import what draws."""
+    script = tmp_path / "anim_dots.py"
+    script.write_text(
+        "from stereodel.drawing import Page\n"
+        "from stereodel.film import Film\n"
+        "def draw(x):\n"
+        "    return Page((0.0, 1.0, 0.0, 1.0), background=(x, 0.0, 0.0, 1.0))\n"
+        f"Film(draw, [0.0, 1.0], fps=5, size=20).main(['--out', {str(tmp_path)!r}])\n"
+    )
+    subprocess.run([sys.executable, "-c", AS_TEXT.format(path=str(script))], check=True)
+    assert (tmp_path / "anim_dots.gif").is_file()

@@ -12,7 +12,7 @@ from stereodel.curves.fill import triangles
 from stereodel.drawing import StereographicView, View
 from stereodel.drawing.page import Dots, Polygons, Polylines, Stroke
 from stereodel.globe import Globe, Panel, Raster, hemispheres, panels
-from stereodel.render.rows import LabelLayer
+from stereodel.render.pixel_rows import LabelLayer
 from stereodel.sphere import SphereCircle
 from tests.examples import examples
 from tests.globe.sights import places, sizes, views

@@ -16,7 +16,7 @@ from stereodel.drawing.scene.view import StereographicView, View
 from stereodel.globe import Globe, Raster
 from stereodel.globe.layers import Image
 from stereodel.globe.raster import RasterOnDisc
-from stereodel.render.rows import SUPERSAMPLING
+from stereodel.render.pixel_rows import SUPERSAMPLING
 from stereodel.render.save import save_vector
 from tests.globe.supersampling import noise, zone_plate
 

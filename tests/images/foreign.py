@@ -5,7 +5,7 @@ import re
 import numpy as np
 import pypdfium2
 
-from stereodel.render.rows import LabelLayer
+from stereodel.render.pixel_rows import LabelLayer
 
 DPI = 600
 """Pixels per inch of all pictures: what vector files hold is no finer in print."""
@@ -52,13 +52,7 @@ def by_pdfium(file, shape, dpi=DPI):
 def disagreements(page, ours, theirs, limits=FIGURES):
     """Where the picture of a page is another one in a file, a line for each kind of place; empty where it is the same.
 
-    Parameters
-    ----------
-    page : Page
-    ours, theirs : (h, w, 3) uint8 array
-        As `page.pixels` draws it, and as another program shows the file.
-    limits : dict
-        Of the means of tiles, by what they show.
+    ours, theirs: (h, w, 3), as `page.pixels` draws it, and as another program shows the file.
     """
     if ours.shape != theirs.shape:
         return [f"{theirs.shape[1]} × {theirs.shape[0]} pixels, expected {ours.shape[1]} × {ours.shape[0]}"]

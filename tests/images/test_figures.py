@@ -1,14 +1,14 @@
 """The nets over every figure and animation: what is drawn is what was stored.
 
 T0 compares the arrays, T1 the hash of the pixels, T2 the pixels where T1 differs, T3 the type, label by label
-(`tools.baselines`). What fails is shown in out/report/index.html. `make baselines` alone changes what is
+(`tools.baselines`). What fails is shown in out/report, a file each. `make baselines` alone changes what is
 stored.
 """
 
 import numpy as np
 import pytest
 
-from stereodel.render.rows import LabelLayer
+from stereodel.render.pixel_rows import LabelLayer
 from tests.images.report import in_short, report_failure, report_pass
 from tests.images.scripts import ROOT, SCRIPTS, STORE, by_script, cases, thorough_but_for
 from tools.baselines import ARRAYS, SIZE, case_names
@@ -29,7 +29,7 @@ def test_a_script_draws_what_was_stored(script):
         else:
             report_pass(case.name, REPORT)
     if wrong:
-        pytest.fail("\n".join([*wrong, f"see {REPORT / 'index.html'}"]), pytrace=False)
+        pytest.fail("\n".join([*wrong, f"see {REPORT}"]), pytrace=False)
 
 
 @by_script

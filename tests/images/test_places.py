@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 from stereodel.drawing import Fill, Polygons
-from stereodel.render.light import brightness
 from tests.images.scripts import SCRIPTS, cases
+from tests.render.test_pages import brightness
 from tools.baselines import SIZE
 
 pytestmark = pytest.mark.images

@@ -1,17 +1,23 @@
-"""Figures: three files, whole or not at all; scripts that explain themselves."""
+"""Figures: files whole or not at all; scripts that explain themselves; captions in files and below pictures."""
 
+import ast
 import re
+import xml.etree.ElementTree as ET
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
 import imageio.v3 as iio
 import numpy as np
+import pypdf
 import pytest
 
-from stereodel.drawing.page import Dots, Label, Page
+from stereodel.drawing.page import Dots, Fill, Label, Page, Stroke
 from stereodel.drawing.page.style import BLACK
-from stereodel.render.figure import Figure, default_folder
-from stereodel.render.rows import pixel_hash
+from stereodel.render.figure import Figure, caption_of, captioned, default_folder, parted
+from stereodel.render.pixel_rows import LabelLayer, pixel_hash
+from tests.images.scripts import SCRIPTS
+from tools.build import load_drawing
 
 
 def geometry():
@@ -73,19 +79,21 @@ def test_a_style_has_a_folder_of_its_own(figure, tmp_path, monkeypatch):
     assert (tmp_path / "here" / "small.svg").is_file()
 
 
-def test_a_style_that_there_is_not_is_explained(figure, capsys):
+@pytest.mark.parametrize(
+    ("option", "value", "message"),
+    [
+        ("--style", "dark,bright", "style is 'bright'; give dark or a file .toml"),
+        *(
+            ("--size", size, f"{size!r} is not a whole number of pixels")
+            for size in ("0", "-5", "many", "1e3", "100000")
+        ),
+    ],
+)
+def test_bad_options_are_explained(figure, tmp_path, capsys, option, value, message):
     with pytest.raises(SystemExit) as stopped:
-        figure.main(["--style", "dark,bright"])
+        figure.main(["--out", str(tmp_path), option, value])
     assert stopped.value.code == 2
-    assert "style is 'bright'; give dark or a file .toml" in capsys.readouterr().err
-
-
-@pytest.mark.parametrize("size", ["0", "-5", "many", "1e3", "100000"])
-def test_bad_sizes_are_explained(figure, tmp_path, capsys, size):
-    with pytest.raises(SystemExit) as stopped:
-        figure.main(["--out", str(tmp_path), "--size", size])
-    assert stopped.value.code == 2
-    assert "pixels" in capsys.readouterr().err
+    assert message in capsys.readouterr().err
     assert list(tmp_path.iterdir()) == []
 
 
@@ -99,3 +107,98 @@ def test_a_folder_that_cannot_be_made_is_a_message(figure, tmp_path):
 def test_an_unknown_renderer_is_refused():
     with pytest.raises(ValueError, match="renderer is 'svg', but must be one of 'gl', 'agg'"):
         Figure("small", geometry, draw, renderer="svg")
+
+
+# Captions
+
+
+DESCRIPTION = (
+    "The first paragraph is longer than a line can be, at this width. " * 3 + "\n\nThe second costs $5 — or $6."
+)
+
+
+def page(**fields):
+    line = np.linspace([1.0, 1.0], [1.0, -5.0], 4)[None]  # leaves the page below
+    items = (Stroke(line, BLACK, 2.0, name="line"), Label("label", (0.5, 0.5)))
+    return Page((0.0, 2.0, 0.0, 1.0), items, width=300.0, **{"title": "A title", "description": DESCRIPTION, **fields})
+
+
+@pytest.mark.parametrize("script", SCRIPTS, ids=lambda script: script.stem)
+def test_each_script_has_a_title_and_a_text(script):
+    docstring = ast.get_docstring(ast.parse(script.read_text(encoding="utf-8")))
+    title, description = caption_of(script)
+    assert title == docstring.splitlines()[0]
+    assert len(description) > 80
+    assert "``" not in description
+    assert "==" not in description
+    assert "  " not in description
+    words = docstring.replace("``", "").split()[len(title.split()) + 1 :]
+    assert description.translate(str.maketrans("", "", "“”")).split() == words
+
+
+@pytest.mark.parametrize("name", ["fig04_triangles", "fig10_earth"])
+def test_figures_have_the_captions_of_their_scripts(name, tmp_path):
+    """Whether what draws them stands in the script, or in a module beside it."""
+    (script,) = [script for script in SCRIPTS if script.stem == name]
+    figure = load_drawing(script)
+    title, description = caption_of(script)
+    shown = figure.page()
+    assert (shown.title, shown.description) == (title, description)
+    figure.save(tmp_path, size=100)
+    root = ET.parse(tmp_path / f"{name}.svg").getroot()
+    assert [(child.tag.partition("}")[2], child.text) for child in root[:2]] == [
+        ("title", title),
+        ("desc", description),
+    ]
+    told = pypdf.PdfReader(tmp_path / f"{name}.pdf").metadata
+    assert (told["/Title"], told["/Subject"]) == (title, description)
+    texts = iio.immeta(tmp_path / f"{name}.png")
+    assert (texts["Title"], texts["Description"]) == (title, description)
+
+
+def test_what_is_no_script_has_no_caption_and_docstrings_may_be_of_a_line_or_without_a_rule():
+    assert Figure("nothing", dict, lambda _: Page((0.0, 1.0, 0.0, 1.0))).page().title == ""
+    assert Figure("nothing", dict, lambda _: page()).page().title == "A title"
+    assert parted("One line.") == ("One line.", "")
+    assert parted("Title\n\nText with ``code`` = 5.") == ("Title", "Text with “code” = 5.")
+    assert parted("") == ("", "")
+
+
+def test_a_caption_stands_below_the_picture_within_its_width():
+    below = captioned(page())
+    texts = [label.text.replace(r"\$", "$") for label in below.labels if label.name == "caption"]
+    assert texts[0] == "A title"
+    assert " ".join(texts[1:]) == " ".join(DESCRIPTION.split())
+    assert len(texts) > 4
+    assert (below.width, below.points_per_unit, below.extent[3]) == (300.0, 150.0, 1.0)
+    captions = replace(below, items=tuple(item for item in below.items if item.name == "caption"))
+    rows, columns = np.nonzero(LabelLayer(captions, 600).rows()[..., 3])
+    assert 300 < rows.min() < 340
+    assert below.height * 2 - 40 < rows.max() < below.height * 2 - 16
+    assert 24 <= columns.min() <= 27
+    assert 600 - 24 - 60 < columns.max() <= 600 - 24
+    # Baselines go down evenly, and what leaves the picture below is covered.
+    heights = [label.anchor[1] for label in captions.labels]
+    assert (np.diff(heights) < 0).all()
+    picture = below.pixels(size=600, text=False, renderer="agg")
+    assert (picture[310:] == 255).all()
+    assert np.array_equal(picture[:300], page().pixels(size=600, text=False, renderer="agg"))
+
+
+def test_type_is_white_on_dark_grounds_and_nothing_needs_no_room():
+    dark = captioned(page(background=(0.1, 0.1, 0.3, 1.0)))
+    assert {label.color[:3] for label in dark.labels if label.name == "caption"} == {(1.0, 1.0, 1.0)}
+    (ground,) = [item for item in dark.items if isinstance(item, Fill)]
+    assert ground.color == (0.1, 0.1, 0.3, 1.0)
+    bare = page(title="", description="")
+    assert captioned(bare) is bare
+
+
+def test_scripts_set_captions_on_request(tmp_path):
+    figure = Figure("small", dict, lambda _: page(), renderer="agg")
+    figure.main(["--out", str(tmp_path), "--size", "100", "--caption"])
+    assert iio.imread(tmp_path / "small.png").shape[0] == round(100 * captioned(page()).height / 300)
+    (sheet,) = pypdf.PdfReader(tmp_path / "small.pdf").pages
+    assert "The second costs $5 — or $6." in sheet.extract_text()
+    figure.main(["--out", str(tmp_path), "--size", "100", "--caption", "--no-text"])
+    assert iio.imread(tmp_path / "small.png").shape[0] == 50

@@ -19,7 +19,8 @@ from stereodel.drawing.page import Stroke
 from stereodel.drawing.scene.scene_items import SceneBall, SceneLines
 from stereodel.drawing.scene.solid import PlacedScene, Solid
 from stereodel.render import gl
-from stereodel.render.glb import depths, to_trimesh
+from stereodel.render.space.bodies import to_trimesh
+from stereodel.render.space.save_solid import page_box
 from stereodel.sphere import SphereArc, SphereCircle
 from tests.figures.scripts import path_points
 
@@ -69,21 +70,19 @@ def alone(placed, reach):
 
 def seen_numbers(page, layout, ball, lines):
     """Number of what is seen at each pixel, rows from the bottom: 0 nothing, 1 the ball, from 2 on the lines."""
-    scene = to_trimesh(Solid(page, (PlacedScene(layout, (ball, *lines)),)))
-    nodes = scene.graph.nodes_geometry
-
-    def make(pyrender):
-        made = pyrender.Scene()
-        for number, node in enumerate(nodes):
-            pose, name = scene.graph.get(node)
-            mesh = scene.geometry[name]
-            primitive = pyrender.Primitive(mesh.vertices, indices=mesh.faces, poses=pose[None])
-            made.add(pyrender.Mesh([primitive]), name=gl.node_name(number))
-        return made
-
+    solid = Solid(page, (PlacedScene(layout, (ball, *lines)),))
+    scene, context = to_trimesh(solid), gl.DOOR.context()
+    nodes, pyrender = scene.graph.nodes_geometry, context.pyrender
     assert len(nodes) == 1 + len(lines)
-    box = (*page.extent, *depths(scene))
-    pixels = np.concatenate(list(gl.space_bands(make, box, SIZE, SIZE, numbered=True))).astype(int)
+    made, colors = pyrender.Scene(), {}
+    for number, node in enumerate(nodes, start=1):
+        pose, name = scene.graph.get(node)
+        mesh = scene.geometry[name]
+        primitive = pyrender.Primitive(mesh.vertices, indices=mesh.faces, poses=pose[None])
+        colors[made.add(pyrender.Mesh([primitive]), name=gl.node_name(number))] = [*number.to_bytes(3)]
+    window = gl.Window(0, 0, SIZE, SIZE)
+    gl.aim(pyrender, made, page_box(solid, scene), SIZE, SIZE, window)
+    pixels = context.draw_scene(made, window, pyrender.RenderFlags.SEG, seg_node_map=colors).astype(int)
     return (pixels @ [2**16, 2**8, 1])[::-1]
 
 
@@ -145,9 +144,6 @@ def disagreements(placed, reach):
         covered += int((asked & drawn & ~own & any_line).sum())
         hidden += int((asked & ~drawn).sum())
     return wrong, seen, hidden, covered
-
-
-"""Scripts, how far they reach about the ball's middle, and which of their balls are drawn."""
 
 
 def random_scene(seed):

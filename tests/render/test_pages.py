@@ -13,7 +13,7 @@ import pytest
 
 from stereodel import render as rendering
 from stereodel.drawing.page import Ball, Dots, Fill, Label, Page, Polylines, Stroke
-from stereodel.render.light import LIGHT, SHADE, ball_gradient, brightness
+from stereodel.render.vector import paper
 
 render, rasterize = Page.pixels, partial(Page.pixels, renderer="agg")
 
@@ -22,6 +22,15 @@ BLACK = (0.0, 0.0, 0.0, 1.0)
 GRAY = (0.5, 0.5, 0.5, 1.0)
 EXTENT = (0.0, 4.0, 0.0, 2.0)
 SHADER = (Path(rendering.__file__).parent / "shaders" / "flat.frag").read_text(encoding="utf-8")
+LIGHT = np.array([float(n) for n in re.search(r"LIGHT = normalize\(vec3\(([^)]*)\)\)", SHADER)[1].split(",")])
+LIGHT /= np.linalg.norm(LIGHT)
+SHADE = float(re.search(r"SHADE = ([\d.]+);", SHADER)[1])
+
+
+def brightness(x, y):
+    """Factor on the colour of pixels at a place of the unit disc."""
+    normal = np.stack([x, y, np.sqrt(np.maximum(0.0, 1 - x**2 - y**2))], axis=-1)
+    return 1 - SHADE * ((1 - normal @ LIGHT) / 2) ** 2
 
 
 def lines(*points):
@@ -78,8 +87,9 @@ def test_flat_colours_are_exact():
     assert picture[2, 198].tolist() == [255, 255, 255]
 
 
-def test_a_ground_that_is_seen_through_is_laid_over_white():
+def test_an_empty_page_is_its_ground_laid_over_white():
     assert (render(Page(EXTENT, background=(0.0, 0.0, 0.0, 0.5)), size=10) == 128).all()
+    assert (render(Page(EXTENT, background=(0.0, 0.0, 1.0, 1.0)), size=20) == [0, 0, 255]).all()
 
 
 @pytest.mark.parametrize("width", [0.3, 1.0, 4.0])
@@ -145,10 +155,7 @@ def test_the_light_of_a_ball_is_that_of_its_normals(shape):
     x, y = np.meshgrid((np.arange(width) + 0.5) * 4 / width, 2 - (np.arange(height) + 0.5) * 2 / height)
     x, y = (x - ball.center[0]) / ball.radius, (y - ball.center[1]) / ball.radius
     inside = x**2 + y**2 < 0.97
-    normal = np.stack([x, y, np.sqrt(np.maximum(0.0, 1 - x**2 - y**2))], axis=-1)
-    light = 1 - SHADE * ((1 - normal @ LIGHT) / 2) ** 2
-    np.testing.assert_allclose(light[inside], brightness(x, y)[inside], atol=1e-12)
-    exact = 255 * np.array(color[:3]) * light[..., None]
+    exact = 255 * np.array(color[:3]) * brightness(x, y)[..., None]
     # Four samples are rounded, and so is their mean.
     apart = (picture - exact)[inside]
     assert np.abs(apart).max() < 1
@@ -161,10 +168,6 @@ def test_a_ball_is_painted_in_its_turn():
     over, under = (render(Page(EXTENT, items), size=200) for items in ((ball, line), (line, ball)))
     assert over[50, 100].tolist() == [0, 0, 0]
     assert (under[50, 60:140] > 90).all()
-
-
-def test_an_empty_page_is_its_ground():
-    assert (render(Page(EXTENT, background=(0.0, 0.0, 1.0, 1.0)), size=20) == [0, 0, 255]).all()
 
 
 @pytest.mark.parametrize("radius", [0.05, 0.5, 1.0, 3.0])
@@ -188,19 +191,12 @@ def disc(size):
 
 def gradient_level(x, y):
     """What the gradient shows at places of the disc: of the circles through each the largest, by its equation."""
-    light = ball_gradient()
-    place = np.stack([x, y], axis=-1) - light.focus
-    step = np.subtract(light.center, light.focus)
-    a, b, c = step @ step - light.radius**2, place @ step, (place**2).sum(axis=-1)
+    place = np.stack([x, y], axis=-1) - paper.FOCUS
+    step = np.subtract(paper.CENTER, paper.FOCUS)
+    a, b, c = step @ step - paper.RADIUS**2, place @ step, (place**2).sum(axis=-1)
     share = (b - np.sqrt(b**2 - a * c)) / a
-    assert np.abs(np.linalg.norm(place - share[:, None] * step, axis=1) - share * light.radius).max() < 1e-9
-    return np.interp(share, light.offsets, light.brightness)
-
-
-def test_the_light_is_that_of_the_shader():
-    direction = [float(n) for n in re.search(r"LIGHT = normalize\(vec3\(([^)]*)\)\)", SHADER)[1].split(",")]
-    assert pytest.approx(direction / np.linalg.norm(direction), abs=1e-15) == LIGHT
-    assert float(re.search(r"SHADE = ([\d.]+);", SHADER)[1]) == SHADE
+    assert np.abs(np.linalg.norm(place - share[:, None] * step, axis=1) - share * paper.RADIUS).max() < 1e-9
+    return np.interp(share, paper.OFFSETS, paper.BRIGHTNESS)
 
 
 def test_the_gradient_of_files_is_near_to_the_light_of_pixels():

@@ -14,11 +14,12 @@ from PIL import Image
 from stereodel.data import blue_marble
 from stereodel.drawing import Page, Scene, View
 from stereodel.drawing.page import Dots
-from stereodel.render.png import SIGNATURE, png_chunks
+from stereodel.render.pixel_rows import SIGNATURE, png_chunks
 
 
 def written(picture, parts=(), page_width=72.0):
-    return b"".join(png_chunks(np.split(picture, parts), picture.shape[1], len(picture), page_width=page_width))
+    height, width = picture.shape[:2]
+    return b"".join(png_chunks(np.split(picture, parts), width, height, page_width=page_width, texts={}))
 
 
 def decoded(data):
@@ -116,20 +117,15 @@ def test_files_are_no_larger_than_those_of_pillow(draw, share):
 
 
 @pytest.mark.parametrize(
-    "rows",
+    ("shape", "kind", "message"),
     [
-        np.zeros((1, 5, 3), dtype=np.uint8),
-        np.zeros((1, 4, 4), dtype=np.uint8),
-        np.zeros((3, 4, 3), dtype=np.uint8),
-        np.zeros((1, 4, 3)),
+        *(
+            (shape, kind, r"rows has shape .*at most \(2, 4, 3\) of uint8 are left")
+            for shape, kind in (((1, 5, 3), "u1"), ((1, 4, 4), "u1"), ((3, 4, 3), "u1"), ((1, 4, 3), "f8"))
+        ),
+        ((1, 4, 3), "u1", "1 rows of the picture are missing"),
     ],
 )
-def test_rows_that_do_not_fit_are_refused(rows):
-    with pytest.raises(ValueError, match=r"rows has shape .*at most \(2, 4, 3\) of uint8 are left"):
-        list(png_chunks([rows], 4, 2, page_width=72.0))
-
-
-def test_a_file_without_all_its_rows_is_not_finished():
-    rows = np.zeros((1, 4, 3), dtype=np.uint8)
-    with pytest.raises(ValueError, match="1 rows of the picture are missing"):
-        list(png_chunks([rows], 4, 2, page_width=72.0))
+def test_rows_that_do_not_fit_or_are_missing_are_refused(shape, kind, message):
+    with pytest.raises(ValueError, match=message):
+        list(png_chunks([np.zeros(shape, kind)], 4, 2, page_width=72.0, texts={}))

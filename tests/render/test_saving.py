@@ -13,13 +13,13 @@ from stereodel.drawing import Label, Page, Scene, View
 from stereodel.drawing.page import Dots, Fill, Polygons, Polylines, Stroke
 from stereodel.drawing.page.style import BLACK, BLUE, VERMILION, with_opacity
 from stereodel.drawing.scene.space_curves import CircleArc
-from stereodel.render import canvas as canvases
-from stereodel.render import gl, rows
+from stereodel.render import gl, pixel_rows
 from stereodel.render import save as saving
 from stereodel.render.figure import Figure
-from stereodel.render.pieces import Piece, Pieces, Window
-from stereodel.render.rows import LabelLayer, PixelDigest, labelled, pixel_hash
-from stereodel.render.triangles import triangulate
+from stereodel.render.gl import Window
+from stereodel.render.pixel_rows import LabelLayer, PixelDigest, labelled, pixel_hash
+from stereodel.render.tessellation import Batch, Batches, triangulate
+from stereodel.render.vector import agg
 from stereodel.sphere import SphereCircle
 from tests.render.test_pages import box
 
@@ -95,7 +95,7 @@ def test_pixels_far_from_the_corner_are_those_near_it(far):
     rng = np.random.default_rng(6)
     corners, colors = rng.uniform(2, 38, (60, 3, 2)), np.repeat(rng.integers(0, 256, (60, 1, 4)) / 255, 3, axis=1)
     pieces, moved = (
-        Pieces(enumerate(Piece(c[None] + move, k[None]) for c, k in zip(corners, colors, strict=True)))
+        Batches(enumerate(Batch(c[None] + move, k[None]) for c, k in zip(corners, colors, strict=True)))
         for move in ((0, 0), far)
     )
     near, away = Window(0, 0, 40, 40), Window(*far, 40, 40)
@@ -107,12 +107,12 @@ def test_pixels_far_from_the_corner_are_those_near_it(far):
 
 def by_matplotlib(page, size):
     """The labels on a canvas for the whole page."""
-    with canvases.matplotlib_settings():
-        canvas = canvases.drawn(replace(page, items=page.labels), *canvases.pixel_grid(page, size))
+    with agg.matplotlib_settings():
+        canvas = agg.drawn(replace(page, items=page.labels), *agg.pixel_grid(page, size))
         canvas.set_facecolor((1.0, 1.0, 1.0, 0.0))
-        agg = FigureCanvasAgg(canvas)
-        agg.draw()
-    return np.array(agg.buffer_rgba())
+        whole = FigureCanvasAgg(canvas)
+        whole.draw()
+    return np.array(whole.buffer_rgba())
 
 
 @pytest.mark.parametrize("cuts", [(1,), (100, 101, 150), (64, 128, 192, 256)])
@@ -152,8 +152,8 @@ def test_a_stage_hands_rows_on_as_they_come():
 def test_agg_draws_large_pictures_in_parts(monkeypatch):
     page = replace(globe_page(), items=tuple(i for i in globe_page().items if isinstance(i, (Stroke, Polylines, Dots))))
     whole = page.pixels(size=300, renderer="agg")
-    monkeypatch.setattr(rows, "AT_ONCE", 300 * 70)
-    assert [len(part) for part in rows.agg_rows(page, 300)] == [70, 70, 70, 70, 20]
+    monkeypatch.setattr(pixel_rows, "AT_ONCE", 300 * 70)
+    assert [len(part) for part in pixel_rows.agg_rows(page, 300)] == [70, 70, 70, 70, 20]
     apart = np.abs(page.pixels(size=300, renderer="agg").astype(int) - whole)
     # Agg cuts lines at the edge of its canvas and rounds the new corners to a 256th of a pixel.
     assert (apart > 0).mean() < 0.01
@@ -162,7 +162,7 @@ def test_agg_draws_large_pictures_in_parts(monkeypatch):
 
 @pytest.mark.parametrize("renderer", ["gl", "agg"])
 def test_a_figure_is_written_in_rows_and_knows_its_hash(small_windows, monkeypatch, tmp_path, renderer):
-    monkeypatch.setattr(rows, "AT_ONCE", 150 * 40)
+    monkeypatch.setattr(pixel_rows, "AT_ONCE", 150 * 40)
     figure = Figure("globe", dict, lambda g: globe_page(), renderer=renderer)
     record = figure.save(tmp_path, size=150)
     assert np.array_equal(decoded(tmp_path / "globe.png"), figure.pixels(size=150))
@@ -192,7 +192,7 @@ def test_a_failure_on_the_way_leaves_no_half_file(small_windows, tmp_path, monke
             raise error
         return part
 
-    monkeypatch.setattr(rows.LabelLayer, "over", fails)
+    monkeypatch.setattr(LabelLayer, "over", fails)
     monkeypatch.setattr(gl, "BAND", 64)
     with pytest.raises(error):
         globe_page().save(path, size=100)

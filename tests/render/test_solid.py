@@ -5,6 +5,7 @@ import os
 import struct
 import subprocess
 import sys
+from dataclasses import replace
 
 import imageio.v3 as iio
 import numpy as np
@@ -14,9 +15,9 @@ import trimesh
 from stereodel.drawing import CircleArc, Scene, Solid, View
 from stereodel.drawing.page.style import LINES, LineStyle
 from stereodel.render import Figure, gl
-from stereodel.render.bodies import bodies_of
-from stereodel.render.glb import CAMERA, glb_bytes, linear
-from stereodel.render.surfaces import CURVE_ERROR
+from stereodel.render.space.bodies import bodies_of, linear
+from stereodel.render.space.save_solid import CAMERA, glb_bytes
+from stereodel.render.space.surfaces import CURVE_ERROR
 from stereodel.sphere import SphereCircle, lonlat_to_xyz
 from tests.figures.scripts import FIGURES, FOLDER, script
 from tools.gltf import issues
@@ -56,9 +57,6 @@ def parts(data):
     return json.loads(data[20 : 20 + size]), data[28 + size :]
 
 
-# Files
-
-
 @pytest.mark.parametrize(
     "name", ["fig03_bubbles", *(pytest.param(n, marks=pytest.mark.thorough) for n in IN_SPACE if n[3:5] != "03")]
 )
@@ -92,9 +90,12 @@ def test_what_has_no_size_is_no_body():
     assert np.array_equal(solid.pixels(size=20), Scene().solid(VIEW).pixels(size=20))
 
 
-def test_a_file_of_nothing_is_refused(tmp_path):
+def test_a_file_of_nothing_and_one_of_another_kind_are_refused(solid, tmp_path):
+    with pytest.raises(ValueError, match=r"path must end in \.glb or \.png, got 'a\.svg'"):
+        solid.save(tmp_path / "a.svg")
     with pytest.raises(ValueError, match="scenes hold no body"):
         Scene(style="none").solid(VIEW).save(tmp_path / "empty.glb")
+    assert list(tmp_path.iterdir()) == []
     assert (Scene(style="none").solid(VIEW).pixels(size=9) == 255).all()
 
 
@@ -201,20 +202,11 @@ def test_the_camera_sees_the_page(solid):
 def test_indices_are_short_where_they_may_be(monkeypatch, solid):
     kinds = []
     for largest in (2**16 - 1, 100):
-        monkeypatch.setattr("stereodel.render.glb.SHORT", largest)
+        monkeypatch.setattr("stereodel.render.space.save_solid.SHORT", largest)
         tree, _ = parts(glb_bytes(solid))
         indices = [tree["accessors"][mesh["primitives"][0]["indices"]] for mesh in tree["meshes"]]
         kinds.append({accessor["componentType"] for accessor in indices})
     assert kinds == [{5123}, {5123, 5125}]
-
-
-def test_the_ending_says_what_is_written(solid, tmp_path):
-    with pytest.raises(ValueError, match=r"path must end in \.glb or \.png, got 'a\.svg'"):
-        solid.save(tmp_path / "a.svg")
-    assert list(tmp_path.iterdir()) == []
-
-
-# Pictures
 
 
 def test_a_picture_is_that_of_the_page_with_light(tmp_path):
@@ -295,50 +287,34 @@ def test_a_sheet_covers_what_is_beyond_it():
 
 
 def test_windows_fit_together(solid, monkeypatch):
+    """And pages look the same after a picture in space."""
+    page = solid.page.pixels(size=100)
     whole = solid.pixels(size=150, text=False).astype(int)
+    assert np.array_equal(solid.page.pixels(size=100), page)
     monkeypatch.setattr(gl, "BAND", 64)
     monkeypatch.setattr(gl, "COLUMNS", 70)
     assert np.abs(solid.pixels(size=150, text=False) - whole).max() <= 2
 
 
-def test_pages_look_the_same_after_a_picture_in_space(solid):
-    before = solid.page.pixels(size=100)
-    solid.pixels(size=100)
-    assert np.array_equal(solid.page.pixels(size=100), before)
-
-
-# Figures
-
-
-def figure_of(*, solid=True):
-    def geometry():
-        return {"sites": SITES}
-
-    def draw(g):
-        return scene().page(VIEW, width=100.0)
-
-    def in_space(g):
-        assert g["sites"] is SITES
-        return scene().solid(VIEW, width=100.0)
-
-    return Figure("small", geometry, draw, renderer="agg", in_space=in_space if solid else None)
+FLAT = Figure("small", lambda: {"style": "solid"}, lambda g: scene(**g).page(VIEW, width=100.0), renderer="agg")
+SPATIAL = replace(FLAT, in_space=lambda g: scene(**g).solid(VIEW, width=100.0))
 
 
 def test_a_figure_in_space_writes_a_glb(tmp_path, capsys):
-    figure_of().main(["--out", str(tmp_path), "--size", "50"])
+    SPATIAL.main(["--out", str(tmp_path), "--size", "50"])
     assert sorted(path.suffix for path in tmp_path.iterdir()) == [".glb", ".pdf", ".png", ".svg"]
     assert (tmp_path / "small.glb").read_bytes() == glb_bytes(scene().solid(VIEW, width=100.0))
-    figure_of().main(["--out", str(tmp_path), "--size", "50", "--solid", "--no-text"])
+    SPATIAL.main(["--out", str(tmp_path), "--size", "50", "--solid", "--no-text"])
     assert "small_solid.png" in capsys.readouterr().out
-    assert np.array_equal(iio.imread(tmp_path / "small_solid.png"), figure_of().solid().pixels(size=50, text=False))
+    assert np.array_equal(iio.imread(tmp_path / "small_solid.png"), SPATIAL.solid().pixels(size=50, text=False))
 
 
 def test_a_flat_figure_says_so(tmp_path, capsys):
     with pytest.raises(SystemExit):
-        figure_of(solid=False).main(["--out", str(tmp_path), "--solid"])
+        FLAT.main(["--out", str(tmp_path), "--solid"])
     assert "--solid" in capsys.readouterr().err
     with pytest.raises(ValueError, match="figure 'small' shows nothing in space; give it in_space="):
-        figure_of(solid=False).save(tmp_path, size=50, solid=True)
+        FLAT.save(tmp_path, size=50, solid=True)
 
 
 def test_linear_light_is_that_of_the_standard():

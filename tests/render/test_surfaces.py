@@ -4,14 +4,15 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+import trimesh
 from scipy.spatial import cKDTree
 
 from stereodel.drawing.scene.space_curves import CircleArc, Segment
 from stereodel.drawing.scene.visibility import SphereRegion
-from stereodel.render.surfaces import (
+from stereodel.render.space.surfaces import (
     BALL_LEVELS,
     CURVE_ERROR,
-    Surface,
+    TriangleMesh,
     ball,
     ball_level,
     dashed,
@@ -22,31 +23,17 @@ from stereodel.render.surfaces import (
 from stereodel.sphere import SphereCircle, lonlat_to_xyz, solid_angle
 
 
-def volume(surface):
-    a, b, c = (surface.points[surface.faces[:, k]] for k in range(3))
-    return float(np.sum(a * np.cross(b, c))) / 6
-
-
-def areas(surface):
-    """Vectors along the normals of the triangles, as long as their areas."""
-    a, b, c = (surface.points[surface.faces[:, k]] for k in range(3))
-    return np.cross(b - a, c - a) / 2
-
-
-def total_area(surface):
-    return np.sqrt(np.sum(areas(surface) ** 2, axis=1)).sum()
+def mesh(surface):
+    return trimesh.Trimesh(surface.points, surface.faces, process=False)
 
 
 def is_closed(surface):
-    """Each side of a triangle is that of one other, which has it the other way round."""
-    sides = {(int(u), int(v)) for face in surface.faces for u, v in zip(face, np.roll(face, -1), strict=True)}
-    return len(sides) == 3 * len(surface.faces) and {(v, u) for u, v in sides} == sides
+    return mesh(surface).is_watertight and mesh(surface).is_winding_consistent
 
 
 def faces_out(surface):
     """Triangles and normals of their corners look the same way."""
-    flat = areas(surface)
-    return all((np.sum(flat * surface.normals[surface.faces[:, k]], axis=1) > 0).all() for k in range(3))
+    return (np.sum(mesh(surface).face_normals[:, None] * surface.normals[surface.faces], axis=2) > 0).all()
 
 
 ARC = CircleArc.great([1.0, 0.2, 0.1], [-0.3, 1.0, 0.4])
@@ -68,7 +55,7 @@ def test_a_tube_is_what_lies_within_its_radius(name, radius):
     assert radius - near.query((a + b) / 2)[0].min() < max(2.1 * CURVE_ERROR, 0.3 * radius)
     step = line.direction if isinstance(line, Segment) else line.u
     length = (line.stop - line.start) * np.sqrt(np.sum(step**2)) + (0 if line.closed else 4 / 3 * radius)
-    assert 0.8 < volume(made) / (np.pi * radius**2 * length) < 1.0
+    assert 0.8 < mesh(made).volume / (np.pi * radius**2 * length) < 1.0
 
 
 @pytest.mark.parametrize("line", [ARC.part(0.5, 0.5), Segment.between([1, 1, 1], [1, 1, 1])])
@@ -118,7 +105,7 @@ def cap(radius_deg, radius=0.5):
 def test_a_patch_of_a_circle_is_its_cap(angle):
     made = patch(cap(angle), 4)
     around = 2 * np.pi * np.sin(np.radians(angle)) * CURVE_ERROR
-    assert total_area(made) == pytest.approx(2 * np.pi * (1 - np.cos(np.radians(angle))), rel=0.003, abs=around)
+    assert mesh(made).area == pytest.approx(2 * np.pi * (1 - np.cos(np.radians(angle))), rel=0.003, abs=around)
     middle = lonlat_to_xyz((30.0, 32.0))
     assert (made.points @ middle).min() == pytest.approx(np.cos(np.radians(angle)), abs=1e-12)
     assert np.array_equal(made.points, made.normals)
@@ -127,12 +114,12 @@ def test_a_patch_of_a_circle_is_its_cap(angle):
 
 def test_a_patch_of_a_thin_triangle_has_its_area():
     thin, corners = region((0, 0), (60, 0.6), (60, 0.9))
-    assert total_area(patch(thin, 4)) == pytest.approx(solid_angle(*corners), rel=0.01)
+    assert mesh(patch(thin, 4)).area == pytest.approx(solid_angle(*corners), rel=0.01)
 
 
 def test_a_boundary_the_other_way_round_is_the_rest_of_the_sphere():
     corners = [(0, 0), (40, 0), (20, 50)]
-    inner, outer = (total_area(patch(region(*c)[0], 5)) for c in (corners, corners[::-1]))
+    inner, outer = (mesh(patch(region(*c)[0], 5)).area for c in (corners, corners[::-1]))
     assert inner + outer == pytest.approx(4 * np.pi, rel=1e-3)
     assert inner < outer
 
@@ -150,12 +137,12 @@ def test_a_polygon_need_not_be_convex(order):
     corners = star @ np.array([across, np.cross(normal, across)]) + 0.7 * normal
     made = polygon(corners, normal)
     assert len(made.faces) == 3
-    assert (areas(made) @ normal).sum() == pytest.approx(2.5)
-    assert total_area(made) == pytest.approx(2.5)
+    assert mesh(made).area_faces @ (mesh(made).face_normals @ normal) == pytest.approx(2.5)
+    assert mesh(made).area == pytest.approx(2.5)
 
 
 def test_surfaces_are_joined_one_after_the_other():
     parts = [tube(line, 0.02, CURVE_ERROR) for line in LINES.values()]
-    both = Surface.joined(parts)
-    assert volume(both) == pytest.approx(sum(map(volume, parts)))
+    both = TriangleMesh.joined(parts)
+    assert mesh(both).volume == pytest.approx(sum(mesh(part).volume for part in parts))
     assert is_closed(both)

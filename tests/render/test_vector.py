@@ -16,7 +16,7 @@ from stereodel.drawing.page.lengths import pixel_height
 from stereodel.drawing.page.style import BLACK
 from stereodel.drawing.scene.scene import Scene
 from stereodel.drawing.scene.view import View
-from stereodel.render.rows import LabelLayer, agg_rows
+from stereodel.render.pixel_rows import LabelLayer, agg_rows
 from stereodel.render.save import save_vector
 from stereodel.sphere import SphereCircle, graticule
 
@@ -25,10 +25,18 @@ rasterize = partial(Page.pixels, renderer="agg")
 SVG = "{http://www.w3.org/2000/svg}"
 
 
+def tree_of(page, folder):
+    return ET.parse(save_vector(page, folder / "page.svg")).getroot()
+
+
+def sheet_of(page, folder):
+    (sheet,) = pypdf.PdfReader(save_vector(page, folder / "page.pdf")).pages
+    return sheet
+
+
 def path_of(page, folder, name):
     """What the path of a name in the SVG of a page draws."""
-    root = ET.parse(save_vector(page, folder / "page.svg")).getroot()
-    (path,) = (path for path in root.iter(f"{SVG}path") if path.get("id") == name)
+    (path,) = (path for path in tree_of(page, folder).iter(f"{SVG}path") if path.get("id") == name)
     return path.get("d")
 
 
@@ -53,7 +61,7 @@ def test_bytes_are_the_same_twice_and_under_any_user_settings(tmp_path, kind):
 
 
 def test_svg_has_the_exact_size_and_a_group_for_each_name(tmp_path):
-    root = ET.parse(save_vector(globe(), tmp_path / "globe.svg")).getroot()
+    root = tree_of(globe(), tmp_path)
     assert root.get("width") == "200pt"
     assert float(root.get("height").removesuffix("pt")) == pytest.approx(globe().height, abs=1e-4)
     names = [element.get("id") for element in root.iter() if element.get("id")]
@@ -66,8 +74,7 @@ def test_ids_are_unique_whatever_items_are_called(tmp_path):
     names = ["title", "a b", "a b", "a-b", "a-b-2", "", "item", "ground", "label-halo", 'x"<&']
     lines = [Stroke(line, BLACK, 1.0 + k, name=name) for k, name in enumerate(names)]
     page = Page((0, 4, 0, 4), (*lines, Label("text", (2.0, 2.0), halo=1.0)), title="Lines")
-    root = ET.parse(save_vector(page, tmp_path / "page.svg")).getroot()
-    found = [element.get("id") for element in root.iter() if element.get("id")]
+    found = [element.get("id") for element in tree_of(page, tmp_path).iter() if element.get("id")]
     assert len(found) == len(names) + 4
     assert len(found) == len(set(found))
     assert not any(" " in name for name in found)
@@ -75,7 +82,7 @@ def test_ids_are_unique_whatever_items_are_called(tmp_path):
 
 
 def test_pdf_has_the_exact_size_and_text_that_can_be_searched(tmp_path):
-    (page,) = pypdf.PdfReader(save_vector(globe(), tmp_path / "globe.pdf")).pages
+    page = sheet_of(globe(), tmp_path)
     assert [float(side) for side in page.mediabox] == pytest.approx([0.0, 0.0, 200.0, globe().height], abs=1e-3)
     assert page.extract_text() == "φ north"
     fonts = [font.get_object()["/BaseFont"].partition("+")[2] for font in page["/Resources"]["/Font"].values()]
@@ -107,18 +114,15 @@ def test_lines_of_no_length_are_not_drawn(tmp_path):
 
 def test_ligatures_are_found_as_letters(tmp_path):
     page = Page((0, 4, 0, 4), (Label("fi & <fl>", (2.0, 2.0)),))
-    (sheet,) = pypdf.PdfReader(save_vector(page, tmp_path / "page.pdf")).pages
-    assert sheet.extract_text() == "fi & <fl>"
-    root = ET.parse(save_vector(page, tmp_path / "page.svg")).getroot()
-    text = "".join(next(root.iter(f"{SVG}text")).itertext())
+    assert sheet_of(page, tmp_path).extract_text() == "fi & <fl>"
+    text = "".join(next(tree_of(page, tmp_path).iter(f"{SVG}text")).itertext())
     assert normalize("NFKC", text) == "fi & <fl>"
 
 
 def test_words_that_no_font_has_are_written_all_the_same(tmp_path, no_other_fonts):
     """As boxes, as matplotlib does; with the letters that were meant."""
     page = Page((0, 4, 0, 4), (Label("a\u6f22\U0001f30d\u6f22", (2.0, 2.0)), Label("two\nlines", (1.0, 1.0))))
-    (sheet,) = pypdf.PdfReader(save_vector(page, tmp_path / "page.pdf")).pages
-    assert sheet.extract_text().splitlines() == ["a\u6f22\U0001f30d\u6f22", "two", "lines"]
+    assert sheet_of(page, tmp_path).extract_text().splitlines() == ["a\u6f22\U0001f30d\u6f22", "two", "lines"]
 
 
 def square(low, high):
@@ -178,7 +182,7 @@ def test_numbers_have_no_exponent(tmp_path):
     faint = (1e-7, 0.5, 1.0, 1e-5)
     turned = Label("turned", (2.0, 2.0), rotation=90.0, color=faint)
     page = Page((0, 4, 0, 4), (Stroke(bent(9.0), faint, 1.0), turned), width=72.0)
-    (sheet,) = pypdf.PdfReader(save_vector(page, tmp_path / "page.pdf")).pages
+    sheet = sheet_of(page, tmp_path)
     assert not re.search(rb"\de[-+]?\d", sheet.get_contents().get_data())
     assert "e-" not in str(sheet["/Resources"]["/ExtGState"])
     assert sheet.extract_text(orientations=90) == "turned"
@@ -191,8 +195,8 @@ def test_many_dots_and_lines_are_small_files_of_paths_that_programs_open(tmp_pat
     offsets = np.arange(0, 60_001, 2)
     dots, lines = Dots(places, 0.4, BLACK, name="dots"), Polylines(corners, offsets, BLACK, 0.1, "lines")
     veil = replace(lines, color=(0.0, 0.0, 0.0, 0.5), name="veil")
-    file = save_vector(Page((0, 4, 0, 4), (dots, lines, veil), width=400.0), tmp_path / "page.svg")
-    named = {element.get("id"): element for element in ET.parse(file).getroot()}
+    page = Page((0, 4, 0, 4), (dots, lines, veil), width=400.0)
+    named = {element.get("id"): element for element in tree_of(page, tmp_path)}
     text = {name: [path.get("d") for path in named[name].iter(f"{SVG}path")] for name in ("dots", "lines", "veil")}
     assert sum(map(len, text["dots"])) < 550_000
     assert max(map(len, text["dots"] + text["lines"])) < 201_000

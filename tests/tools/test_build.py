@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from stereodel._tasks.kept import Kept
-from stereodel.render import provenance
+from stereodel.film.frames import DRAWN_WITH
 from tools import build
 
 SCRIPT = """
@@ -96,7 +96,7 @@ def test_notes_say_what_was_drawn_with_what(scripts, tmp_path):
     assert record["pixel_hash"] == "abc"
     assert record["renderer"] == "none"
     assert record["seconds"] >= 0
-    assert set(record["versions"]) == {"python", *provenance.LIBRARIES}
+    assert set(record["versions"]) == {"python", *DRAWN_WITH}
     assert record["files"] == {"fig01_one.txt": (out / "fig01_one.txt").stat().st_size}
 
 

@@ -1,7 +1,7 @@
 """The seven kinds of items on a page, each with all that differs by kind but its rendering.
 
-A new kind is one class here, and a case in each of the two renderers, `stereodel.render.shapes` (outlines) and
-`stereodel.render.triangles`, where the type checker finds a kind that is missing.
+A new kind is one class here, and a case in each of the two renderers, `stereodel.render.vector.outlines` (outlines) and
+`stereodel.render.tessellation`, where the type checker finds a kind that is missing.
 """
 
 from __future__ import annotations

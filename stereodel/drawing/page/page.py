@@ -24,7 +24,7 @@ from stereodel.drawing.page.items import Arrays, Item, Label, Polygons
 
 OUTPUTS: Final[dict[str, str | Callable[..., Any]]] = {
     **dict.fromkeys(("save_page", "draw_page"), "stereodel.render.save"),
-    **dict.fromkeys(("save_solid", "draw_solid", "to_trimesh"), "stereodel.render.solid"),
+    **dict.fromkeys(("save_solid", "draw_solid", "to_trimesh"), "stereodel.render.space.save_solid"),
 }
 """What draws and writes pages and scenes in space: a function, or the module that enters it here when it is loaded.
 

@@ -29,9 +29,11 @@ STRAIGHTENED: Final = 4
 MOVE, LINE, CURVE, CLOSE = 1, 2, 4, 79
 """Kinds of points of an outline, as in `matplotlib.path.Path`; three points in a row make a curve."""
 
+RECTANGLE: Final = np.array([MOVE, LINE, LINE, LINE, CLOSE], dtype=np.uint8)
+
 
 @dataclass(frozen=True, eq=False)
-class Outline:
+class Outlines:
     """Runs of straight lines and cubics.
 
     points: (n, 2).
@@ -42,16 +44,16 @@ class Outline:
     points: FloatArray
     kinds: Bytes
 
-    def __add__(self, other: Outline) -> Outline:
+    def __add__(self, other: Outlines) -> Outlines:
         """The runs of both."""
-        return Outline(np.concatenate([self.points, other.points]), np.concatenate([self.kinds, other.kinds]))
+        return Outlines(np.concatenate([self.points, other.points]), np.concatenate([self.kinds, other.kinds]))
 
 
 @dataclass(frozen=True, eq=False)
 class Filled:
     """A region in one colour (even-odd or nonzero rule), which may be shaded as a ball."""
 
-    outline: Outline
+    outline: Outlines
     color: Color
     name: str = ""
     ball: Ball | None = None
@@ -60,18 +62,17 @@ class Filled:
 
 @dataclass(frozen=True, eq=False)
 class Discs(Filled):
-    """Discs of one colour, for formats that describe them more briefly than by outlines."""
+    """Discs of one colour and radius in points, for formats that describe them more briefly than by outlines."""
 
     centers: FloatArray = field(default_factory=lambda: np.zeros((0, 2)))
     radius: float = 0.0
-    """In points."""
 
 
 @dataclass(frozen=True, eq=False)
 class Drawn:
     """Lines of one style, width and dash in points."""
 
-    outline: Outline
+    outline: Outlines
     color: Color
     width: float
     dash: tuple[float, float] | None = None
@@ -81,12 +82,11 @@ class Drawn:
 
 @dataclass(frozen=True, eq=False)
 class Shown:
-    """An image clipped to an outline."""
+    """An image clipped to an outline; `extent` has its left, right, bottom and top."""
 
     pixels: Pixels
     extent: tuple[float, float, float, float]
-    """Left, right, bottom and top of the picture."""
-    outline: Outline
+    outline: Outlines
     name: str = ""
 
 
@@ -98,7 +98,6 @@ def shapes(page: Page, dpi: float, pictures: Sequence[Pixels] = ()) -> Iterator[
 
     dpi: pixels per inch of each `Picture`.
     pictures: an image of the whole page for each of `page.pictured`.
-    Raises ValueError if the number of pictures is wrong.
     """
     count = len(page.pictured)
     if len(pictures) != count:
@@ -124,13 +123,8 @@ def shapes(page: Page, dpi: float, pictures: Sequence[Pixels] = ()) -> Iterator[
             case Polygons() as polygons:
                 yield from _by_color(polygons, FINEST_POINTS / scale)
             case Fill() as fill:
-                yield Filled(
-                    outline([(path, True) for path in fill.paths], scale),
-                    fill.color,
-                    fill.name,
-                    fill.ball,
-                    even_odd=True,
-                )
+                runs = [(path, True) for path in fill.paths]
+                yield Filled(outline(runs, scale), fill.color, fill.name, fill.ball, even_odd=True)
             case Picture() as picture:
                 yield _painted(picture, page, dpi)
             case Dots() as dots:
@@ -141,12 +135,20 @@ def shapes(page: Page, dpi: float, pictures: Sequence[Pixels] = ()) -> Iterator[
                 assert_never(other)
 
 
+def ground(page: Page) -> Iterator[Filled]:
+    """The background, unless it is transparent."""
+    if page.background[3]:
+        left, right, bottom, top = page.extent
+        corners = np.array([(left, top), (right, top), (right, bottom), (left, bottom), (left, top)])
+        yield Filled(Outlines(corners, RECTANGLE), page.background, "ground")
+
+
 def has_length(stroke: Stroke, points_per_unit: float) -> bool:
     """Whether a line is longer than a point on paper; the rest of a line that touches the limb from behind is not."""
     return bool(np.ptp(stroke.path.reshape(-1, 2), axis=0).max() * points_per_unit > FINEST_PLACE)
 
 
-def outline(runs: Iterable[tuple[Beziers, bool]], points_per_unit: float, shut: int = CLOSE) -> Outline:
+def outline(runs: Iterable[tuple[Beziers, bool]], points_per_unit: float, shut: int = CLOSE) -> Outlines:
     """Runs of Bézier curves, each closed, by a piece of the kind `shut`, or open; straight ones become lines.
 
     Agg, and PDFium, which is built on it, hollow out closed lines that are smaller than they are wide. With round ends
@@ -167,7 +169,7 @@ def outline(runs: Iterable[tuple[Beziers, bool]], points_per_unit: float, shut: 
         if closed:
             points.append(path[:1, 0])
             kinds.append(shut)
-    return Outline(np.concatenate([np.zeros((0, 2)), *points]), np.array(kinds, dtype=np.uint8))
+    return Outlines(np.concatenate([np.zeros((0, 2)), *points]), np.array(kinds, dtype=np.uint8))
 
 
 def _lines(lines: Polylines, points_per_unit: float) -> Iterator[Shape]:
@@ -183,7 +185,7 @@ def _lines(lines: Polylines, points_per_unit: float) -> Iterator[Shape]:
         # Ends are round, so closed lines need not be closed: see `outline`.
         kinds = np.full(len(long.values), LINE, dtype=np.uint8)
         kinds[long.offsets[:-1]] = MOVE
-        yield Drawn(Outline(long.values, kinds), lines.color, lines.width, name=lines.name)
+        yield Drawn(Outlines(long.values, kinds), lines.color, lines.width, name=lines.name)
     if len(alone):
         yield _discs(alone, lines.width / 2, points_per_unit, lines.color, lines.name)
 
@@ -200,8 +202,7 @@ def _by_color(polygons: Polygons, spacing: float) -> Iterator[Filled]:
 def thinned_loops(loops: Ragged, spacing: float) -> Ragged:
     """Loops with at most one point per interval of length `spacing`, without those that then enclose nothing.
 
-    Points that deviate from a straight line by less than a twentieth of `spacing` in total are thinned, too, since arcs
-    of the limb consist of very many chords.
+    Points off a straight line by less than a twentieth of `spacing` go too: arcs of the limb have very many chords.
     """
     loops = thinned(loops, spacing)
     for _ in range(STRAIGHTENED):
@@ -219,11 +220,11 @@ def thinned_loops(loops: Ragged, spacing: float) -> Ragged:
     return loops.take(loops.sizes > 3)
 
 
-def _loops(loops: Ragged) -> Outline:
+def _loops(loops: Ragged) -> Outlines:
     kinds = np.full(len(loops.values), LINE, dtype=np.uint8)
     kinds[loops.offsets[:-1]] = MOVE
     kinds[loops.offsets[1:] - 1] = CLOSE
-    return Outline(loops.values, kinds)
+    return Outlines(loops.values, kinds)
 
 
 def _painted(picture: Picture, page: Page, dpi: float) -> Shown:
@@ -231,16 +232,13 @@ def _painted(picture: Picture, page: Page, dpi: float) -> Shown:
     side = 72 / (dpi * page.points_per_unit)
     corner = np.array([page.extent[0], page.extent[3]])
     cells = (np.concatenate(picture.outline).reshape(-1, 2) - corner) / (side, -side)
-    (left, top), (right, bottom) = (
-        np.floor(cells.min(axis=0) + PIXEL_ROUNDING),
-        np.ceil(cells.max(axis=0) - PIXEL_ROUNDING),
-    )
+    left, top = np.floor(cells.min(axis=0) + PIXEL_ROUNDING)
+    right, bottom = np.ceil(cells.max(axis=0) - PIXEL_ROUNDING)
     place = (corner[0] + left * side, corner[1] - top * side, side, side)
     extent = (place[0], corner[0] + right * side, corner[1] - bottom * side, place[1])
     pixels = picture.painter.paint(place, (int(right - left), int(bottom - top)))
-    return Shown(
-        pixels, extent, outline([(path, True) for path in picture.outline], page.points_per_unit), picture.name
-    )
+    border = outline([(path, True) for path in picture.outline], page.points_per_unit)
+    return Shown(pixels, extent, border, picture.name)
 
 
 def _dots(dots: Dots, points_per_unit: float) -> Iterator[Discs]:
@@ -253,16 +251,11 @@ def _dots(dots: Dots, points_per_unit: float) -> Iterator[Discs]:
 
 
 def _discs(centers: FloatArray, radius: float, points_per_unit: float, color: Color, name: str) -> Discs:
-    """Discs of a radius in points."""
-    runs = outline([(_disc(center, radius / points_per_unit), True) for center in centers], points_per_unit)
-    return Discs(runs, color, name, centers=centers, radius=radius)
-
-
-def _disc(center: FloatArray, radius: float) -> Beziers:
+    """Discs of a radius in points, as circles of eight cubics."""
     t = np.arange(9) * (np.pi / 4)
     ends = np.stack([np.cos(t), np.sin(t)], axis=1)
     ends[-1] = ends[0]
     reach = CIRCLE_KAPPA * np.stack([-ends[:, 1], ends[:, 0]], axis=1)
     unit = np.stack([ends[:-1], ends[:-1] + reach[:-1], ends[1:] - reach[1:], ends[1:]], axis=1)
-    path: Beziers = center + radius * unit
-    return path
+    circles = [(center + radius / points_per_unit * unit, True) for center in centers]
+    return Discs(outline(circles, points_per_unit), color, name, centers=centers, radius=radius)

@@ -1,8 +1,7 @@
 """Pages as PDF: exact curves, text as text, balls shaded by gradients.
 
-The same shapes and glyphs as in `stereodel.render.svg`, in points from the lower left corner, with three decimals. The
-used glyphs of fonts are embedded, with their characters. The file has one page, in version 1.4 of the format (described
-in ISO 32000-1, 2008).
+The same shapes and glyphs as in SVG, in points from the lower left corner, with three decimals. The used glyphs of
+fonts are embedded, with their characters. The file has one page, in version 1.4 of the format (ISO 32000-1, 2008).
 """
 
 from __future__ import annotations
@@ -19,10 +18,21 @@ from stereodel._arrays import FloatArray, Pixels
 from stereodel.drawing.page import Ball, Label, Page
 from stereodel.drawing.page.colors import Color
 from stereodel.drawing.page.style import PRINT_DPI
-from stereodel.render.light import ball_gradient
-from stereodel.render.paper import Paper, commands, exact, number, numbers
-from stereodel.render.shapes import CLOSE, CURVE, LINE, MOVE, Drawn, Filled, Outline, Shape, Shown, shapes
-from stereodel.render.type import Face, Line, Subset, lines_of, subsets
+from stereodel.render.vector.outlines import (
+    CLOSE,
+    CURVE,
+    LINE,
+    MOVE,
+    Drawn,
+    Filled,
+    Outlines,
+    Shape,
+    Shown,
+    ground,
+    shapes,
+)
+from stereodel.render.vector.paper import BRIGHTNESS, OFFSETS, Paper, commands, exact, number, numbers
+from stereodel.render.vector.type import Face, Line, Subset, lines_of, subsets
 
 PATH: Final = {MOVE: "%s %s m\n", LINE: "%s %s l\n", CURVE: "%s %s %s %s %s %s c\n", CLOSE: "h\n"}
 """Operators of paths."""
@@ -35,12 +45,8 @@ UPRIGHT: Final = 80
 
 
 def pdf(page: Page, pictures: Sequence[Pixels] = ()) -> bytes:
-    """A page as the bytes of a PDF file; `pictures` hold the whole page for each of `page.pictured`, which clips it.
-
-    >>> pdf(Page((0.0, 2.0, 0.0, 1.0), width=144.0))[:8]
-    b'%PDF-1.4'
-    """
-    return _Sheet(page).file(pictures)
+    """A page as the bytes of a PDF file; `pictures` hold the whole page for each of `page.pictured`, which clips it."""
+    return _PdfSheet(page).file(pictures)
 
 
 class _Objects:
@@ -76,11 +82,11 @@ class _Objects:
         return bytes(file)
 
 
-class _Sheet:
+class _PdfSheet:
     """A page being written."""
 
     def __init__(self, page: Page) -> None:
-        self.page, self.paper, self.objects = page, Paper.upward(page), _Objects()
+        self.page, self.paper, self.objects = page, Paper.of(page, downward=False), _Objects()
         # Resources that the content names, by kind and name.
         self.resources: dict[str, dict[str, str]] = {"Font": {}, "XObject": {}, "Pattern": {}, "ExtGState": {}}
 
@@ -89,11 +95,8 @@ class _Sheet:
         lettering = list(lines_of(page))
         fonts = subsets(line for _, lines in lettering for line in lines)
         named = {path: self.named("Font", _font(self.objects, font)) for path, font in fonts.items()}
-        left, right, bottom, top = page.extent
-        corners = np.array([(left, top), (right, top), (right, bottom), (left, bottom), (left, top)])
-        ground = Outline(corners, np.array([MOVE, LINE, LINE, LINE, CLOSE], dtype=np.uint8))
         parts = [
-            *([self.shape(Filled(ground, page.background))] if page.background[3] else []),
+            *map(self.shape, ground(page)),
             *(self.shape(shape) for shape in shapes(page, PRINT_DPI, pictures)),
             *(self.label(label, lines, fonts, named) for label, lines in lettering),
         ]
@@ -128,7 +131,7 @@ class _Sheet:
         settings = f"<< /Type /ExtGState /CA {exact(color[3])} /ca {exact(color[3])} >>"
         return f"/{self.named('ExtGState', settings)} gs\n"
 
-    def path(self, outline: Outline) -> str:
+    def path(self, outline: Outlines) -> str:
         return commands(self.paper.placed(outline), PATH)
 
     def shape(self, shape: Shape) -> str:
@@ -154,24 +157,19 @@ class _Sheet:
 
     def gradient(self, ball: Ball, color: Color) -> str:
         """A colour shaded by a ball: a pattern that is linear between colours."""
-        light, base = ball_gradient(), np.array(color[:3])
-        ends = [
-            self.paper.points(np.array(ball.center) + ball.radius * np.array(place))
-            for place in (light.focus, light.center)
-        ]
-        radius = light.radius * ball.radius * self.page.points_per_unit
-        colors = [_rgb(tuple(level * base)) for level in light.brightness]
+        focus, center, radius = self.paper.shading(ball)
+        colors = [_rgb(level * np.array(color[:3])) for level in BRIGHTNESS]
         parts = " ".join(
             f"<< /FunctionType 2 /Domain [0 1] /N 1 /C0 [{one}] /C1 [{other}] >>" for one, other in pairwise(colors)
         )
-        bounds = exact(*light.offsets[1:-1])
+        bounds = exact(*OFFSETS[1:-1])
         function = (
             f"<< /FunctionType 3 /Domain [0 1] /Functions [{parts}] /Bounds [{bounds}] "
             f"/Encode [{' '.join(['0 1'] * (len(colors) - 1))}] >>"
         )
         return (
             "<< /Type /Pattern /PatternType 2 /Shading << /ShadingType 3 /ColorSpace /DeviceRGB "
-            f"/Coords [{numbers(ends[0])} 0 {numbers(ends[1])} {number(radius)}] /Extend [true true] "
+            f"/Coords [{numbers(focus)} 0 {numbers(center)} {number(radius)}] /Extend [true true] "
             f"/Function {function} >> >>"
         )
 
@@ -218,12 +216,12 @@ def _shows(line: Line, fonts: dict[Face, Subset], named: dict[Face, str]) -> Ite
 def _font(objects: _Objects, font: Subset) -> str:
     """A font with glyphs by index, and their characters."""
     face = font.face
-    scale = 1000 / face["head"].unitsPerEm
     head, across = face["head"], face["hhea"]
+    scale = 1000 / head.unitsPerEm
     box = numbers(scale * side for side in (head.xMin, head.yMin, head.xMax, head.yMax))
     data = font.file()
     descriptor = objects.add(
-        f"<< /Type /FontDescriptor /FontName /{font.name} /Flags {4 + 64 * font.italic} /FontBBox [{box}] "
+        f"<< /Type /FontDescriptor /FontName /{font.name} /Flags {4 + 32 * (head.macStyle & 2)} /FontBBox [{box}] "
         f"/ItalicAngle {number(face['post'].italicAngle)} /Ascent {number(scale * across.ascent)} "
         f"/Descent {number(scale * across.descent)} /CapHeight {number(scale * across.ascent)} /StemV {UPRIGHT} "
         f"/FontFile2 {objects.stream(data, f'/Length1 {len(data)}')} >>"

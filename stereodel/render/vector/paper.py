@@ -1,23 +1,45 @@
-"""Numbers in vector files: positions on paper in thousandths of a point, and paths."""
+"""Numbers in vector files: positions on paper in thousandths of a point, paths, and the light on a ball.
+
+Pixels of a ball are shaded individually (`shaders/flat.frag`), with ellipses as lines of equal brightness, and no
+gradient of SVG or PDF has that form. Their radial gradients have circles about (1 − s) f + s c with radii s r, which
+shrink to a focus f. With f on the axis toward the light, c farther from the light, and s = 1 at the far edge of the
+disc, the brightness at some values of s was fitted to that of pixels by least squares over the disc; of a grid of f and
+c, the pair with the smallest maximum difference is written below.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 
 from stereodel._arrays import Bytes, FloatArray, Indices
 from stereodel.constants import FINEST_PLACE
-from stereodel.drawing.page import Page
-from stereodel.render.shapes import CLOSE, CURVE, LINE, MOVE, Outline
+from stereodel.drawing.page import Ball, Page
+from stereodel.render.vector.outlines import CLOSE, CURVE, LINE, MOVE, Outlines
 
 PLACES = round(1 / FINEST_PLACE)
 """Steps of coordinates in a point."""
 
 LETTERS = {MOVE: "M", LINE: "l", CURVE: "c"}
 """Letters of commands in SVG."""
+
+FOCUS: Final = (-0.5065010061498, 0.6512155793355)
+CENTER: Final = (-0.0755619216634, 0.0971510421386)
+RADIUS: Final = 1.1230769230769
+"""Focus and last circle of the gradient of a ball of radius 1 about the origin, x right, y up."""
+
+OFFSETS: Final = tuple((1 - np.linspace(1, 0, 16) ** 2).tolist())
+"""Values of s at which the gradient has a colour, linear in between; denser outward, where the light falls fastest."""
+
+BRIGHTNESS: Final = (
+    *(0.999774020676, 0.999819360051, 0.999717811412, 0.998594678003, 0.996769412056, 0.993667249597),
+    *(0.987585330386, 0.978637510039, 0.965910292070, 0.948961894674, 0.927751505350, 0.900897965188),
+    *(0.869737269067, 0.836397025612, 0.792378351642, 0.777423867800),
+)
+"""Factors on a colour there."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,33 +54,29 @@ class Paper:
     scale: FloatArray
 
     @classmethod
-    def downward(cls, page: Page) -> Paper:
-        """With the origin in the upper left corner, as in SVG."""
-        scale = page.points_per_unit
-        return cls(np.array([page.extent[0], page.extent[3]]), np.array([scale, -scale]))
-
-    @classmethod
-    def upward(cls, page: Page) -> Paper:
-        """With the origin in the lower left corner, as in PDF."""
-        scale = page.points_per_unit
-        return cls(np.array([page.extent[0], page.extent[2]]), np.array([scale, scale]))
+    def of(cls, page: Page, *, downward: bool) -> Paper:
+        """With the origin in the upper left corner, as in SVG, or the lower left one, as in PDF."""
+        left, _, bottom, top = page.extent
+        down = -1 if downward else 1
+        return cls(np.array([left, top if downward else bottom]), page.points_per_unit * np.array([1, down]))
 
     def points(self, places: Any) -> FloatArray:
         """Places (..., 2) of the page, in points."""
         placed: FloatArray = (np.asarray(places) - self.corner) * self.scale
         return placed
 
-    def placed(self, outline: Outline) -> Outline:
+    def placed(self, outline: Outlines) -> Outlines:
         """An outline of the page, in points."""
-        return Outline(self.points(outline.points), outline.kinds)
+        return Outlines(self.points(outline.points), outline.kinds)
+
+    def shading(self, ball: Ball) -> tuple[FloatArray, FloatArray, float]:
+        """Focus, centre and radius of the gradient of a ball, in points."""
+        focus, center = self.points(np.array(ball.center) + ball.radius * np.array([FOCUS, CENTER]))
+        return focus, center, RADIUS * ball.radius * float(self.scale[0])
 
 
 def number(value: float) -> str:
-    """A number to three decimals, as short as possible.
-
-    >>> [number(value) for value in (12.0, 0.25, -0.0004, 1 / 3, -1.5)]
-    ['12', '.25', '0', '.333', '-1.5']
-    """
+    """A number to three decimals, as short as possible: .25, 0, -1.5."""
     return _written(round(float(value) * PLACES))
 
 
@@ -68,11 +86,7 @@ def numbers(values: Iterable[float]) -> str:
 
 
 def exact(*values: float) -> str:
-    """Numbers other than positions, to six decimals, separated by spaces; without exponents, which PDF lacks.
-
-    >>> exact(0.5, 1.0, 6.1e-17, 2 / 3, -10.0)
-    '0.5 1 0 0.666667 -10'
-    """
+    """Numbers other than positions, to six decimals, separated by spaces; without exponents, which PDF lacks."""
     return " ".join(f"{round(float(value), 6) + 0.0:.6f}".rstrip("0").rstrip(".") for value in values)
 
 
@@ -82,18 +96,12 @@ def _written(steps: int) -> str:
     return f"{sign}{whole or ''}.{rest:03d}".rstrip("0") if rest else f"{sign}{whole}"
 
 
-def commands(outline: Outline, pattern: Mapping[int, str]) -> str:
+def commands(outline: Outlines, pattern: Mapping[int, str]) -> str:
     """An outline in points as path commands, without pieces of length zero and those drawn by closing.
 
     pattern: commands for `MOVE`, `LINE`, `CURVE` and `CLOSE`, with a placeholder for each number.
-
-    >>> square = np.array([(0, 0), (1, 0), (1, 0.0001), (1, 1), (0, 1), (0, 0), (0, 0)], dtype=float)
-    >>> kinds = np.array([MOVE, LINE, LINE, LINE, LINE, LINE, CLOSE], dtype=np.uint8)
-    >>> commands(Outline(square, kinds), {MOVE: "M%s %s", LINE: "L%s %s", CLOSE: "Z"})
-    'M0 0L1 0L1 1L0 1Z'
     """
-    steps, kinds = _seen(np.rint(outline.points * PLACES).astype(np.int64), outline.kinds)
-    third = np.flatnonzero(kinds == CURVE)[2::3]  # of the points of a curve, which are one command
+    steps, kinds, third = _seen(outline)  # the three points of a curve are one command
     begins = np.delete(np.arange(len(kinds)), np.concatenate([third - 1, third]))
     text = list(map(_written, steps.ravel().tolist()))
     parts = []
@@ -103,33 +111,27 @@ def commands(outline: Outline, pattern: Mapping[int, str]) -> str:
     return "".join(parts)
 
 
-def runs(outline: Outline) -> list[str]:
+def runs(outline: Outlines) -> list[str]:
     """The runs of an outline in points as compact relative SVG commands.
 
     Positions are rounded before they are subtracted, so that errors do not accumulate.
-
-    >>> square = np.array([(10, 5), (11, 5), (11, 5.25), (10.5, 5.25), (10, 5)], dtype=float)
-    >>> runs(Outline(square, np.array([MOVE, LINE, LINE, LINE, CLOSE], dtype=np.uint8)))
-    ['M10 5l1 0l0 .25l-.5 0Z']
     """
-    steps, kinds = _seen(np.rint(outline.points * PLACES).astype(np.int64), outline.kinds)
-    third = np.flatnonzero(kinds == CURVE)[2::3]
+    steps, kinds, third = _seen(outline)
     before = np.arange(len(kinds)) - 1
     before[third - 1], before[third] = third - 3, third - 3
     away = steps - np.where((kinds == MOVE)[:, None], 0, steps[before])
     text = list(map(_written, away.ravel().tolist()))
     parts: list[list[str]] = []
-    # The control points of a curve follow its letter, as does its end.
-    inner = np.zeros(len(kinds), dtype=bool)
-    inner[third], inner[third - 1] = True, True
-    for place, (kind, follows) in enumerate(zip(kinds.tolist(), inner.tolist(), strict=True)):
+    # The second control point of a curve follows its letter, as does its end.
+    inner = {*third.tolist(), *(third - 1).tolist()}
+    for place, kind in enumerate(kinds.tolist()):
         if kind == MOVE:
             parts.append([])
         if kind == CLOSE:
             parts[-1].append("Z")
             continue
         x, y = text[2 * place : 2 * place + 2]
-        parts[-1].append(_beside(parts[-1][-1], x) if follows else f"{LETTERS[kind]}{x}")
+        parts[-1].append(_beside(parts[-1][-1], x) if place in inner else f"{LETTERS[kind]}{x}")
         parts[-1].append(_beside(x, y))
     return ["".join(run) for run in parts]
 
@@ -140,8 +142,9 @@ def _beside(before: str, number: str) -> str:
     return number if apart else f" {number}"
 
 
-def _seen(steps: Indices, kinds: Bytes) -> tuple[Indices, Bytes]:
-    """The visible part of a path in whole steps."""
+def _seen(outline: Outlines) -> tuple[Indices, Bytes, Indices]:
+    """The visible part of a path in whole steps, kinds of its points, and where its curves end."""
+    steps, kinds = np.rint(outline.points * PLACES).astype(np.int64), outline.kinds
     move, line = kinds == MOVE, kinds == LINE
     still = np.zeros(len(kinds), dtype=bool)
     still[1:] = (steps[1:] == steps[:-1]).all(axis=1)
@@ -155,4 +158,4 @@ def _seen(steps: Indices, kinds: Bytes) -> tuple[Indices, Bytes]:
     back = np.flatnonzero(line[:-1] & (kinds[1:] == CLOSE) & (steps[:-1] == steps[first[run[1:]]]).all(axis=1))
     kept[back] = False
     kept &= moves[run]
-    return steps[kept], kinds[kept]
+    return steps[kept], kinds[kept], np.flatnonzero(kinds[kept] == CURVE)[2::3]

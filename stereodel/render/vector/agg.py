@@ -16,7 +16,7 @@ from stereodel.drawing.page import Beziers, Fill, Label, Page
 from stereodel.drawing.page.fonts import families_of, font_properties, quiet_fonts
 from stereodel.drawing.page.lengths import pixel_height
 from stereodel.drawing.page.style import TYPE
-from stereodel.render.shapes import Drawn, Filled, Outline, Shape, Shown, shapes
+from stereodel.render.vector.outlines import Drawn, Filled, Shape, Shown, shapes
 
 with of_extra("draw"):
     import matplotlib as mpl
@@ -66,12 +66,13 @@ def drawn(page: Page, dpi: float, pixels: tuple[int, int] | None = None) -> Canv
 
 
 def _artist(shape: Shape, axes: Axes) -> PathPatch | AxesImage:
+    path = Path(shape.outline.points, shape.outline.kinds)
     match shape:
         case Filled():
-            return PathPatch(_path(shape.outline), facecolor=shape.color, linewidth=0.0, edgecolor="none")
+            return PathPatch(path, facecolor=shape.color, linewidth=0.0, edgecolor="none")
         case Drawn():
             return PathPatch(
-                _path(shape.outline),
+                path,
                 fill=False,
                 edgecolor=shape.color,
                 linewidth=shape.width,
@@ -83,12 +84,8 @@ def _artist(shape: Shape, axes: Axes) -> PathPatch | AxesImage:
             image = AxesImage(axes, extent=shape.extent, origin="upper", interpolation="none")
             image.set_data(shape.pixels)
             image.set(transform=axes.transData)
-            image.set_clip_path(_path(shape.outline), axes.transData)
+            image.set_clip_path(path, axes.transData)
             return image
-
-
-def _path(outline: Outline) -> Path:
-    return Path(outline.points, outline.kinds)
 
 
 def _turned(fill: Fill) -> Fill:
@@ -96,11 +93,10 @@ def _turned(fill: Fill) -> Fill:
 
     Runs do not cross, so a run inside an even number of others must be counterclockwise, any other clockwise.
     """
-    turned = []
-    for number, path in enumerate(fill.paths):
-        others = fill.paths[:number] + fill.paths[number + 1 :]
-        depth = sum(_polygon_contains(_corners(other), path[0, 0]) for other in others)
-        corners = _corners(path)
+    turned, outlines = [], [_corners(path) for path in fill.paths]
+    for path, corners in zip(fill.paths, outlines, strict=True):
+        others = [Path(other) for other in outlines if other is not corners]
+        depth = sum(other.contains_point(tuple(path[0, 0])) for other in others)
         x, y = (corners - corners[0]).T
         counterclockwise = float(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1))) > 0
         turned.append(path if counterclockwise == (depth % 2 == 0) else path[::-1, ::-1])
@@ -113,10 +109,6 @@ def _corners(path: Beziers) -> FloatArray:
     p0, p1, p2, p3 = (path[:, i, None] for i in range(4))
     points = (1 - s) ** 3 * p0 + 3 * s * (1 - s) ** 2 * p1 + 3 * s**2 * (1 - s) * p2 + s**3 * p3
     return points.reshape(-1, 2)
-
-
-def _polygon_contains(corners: FloatArray, point: FloatArray) -> bool:
-    return bool(Path(corners).contains_point((point[0], point[1])))
 
 
 def _draw_label(axes: Axes, label: Label) -> None:

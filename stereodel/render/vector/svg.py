@@ -22,10 +22,9 @@ from stereodel._extras import of_extra
 from stereodel.drawing.page import Ball, Label, Page
 from stereodel.drawing.page.colors import Color
 from stereodel.drawing.page.style import PRINT_DPI
-from stereodel.render.light import ball_gradient
-from stereodel.render.paper import Paper, exact, number, numbers, runs
-from stereodel.render.shapes import CLOSE, LINE, MOVE, Discs, Drawn, Filled, Outline, Shape, Shown, shapes
-from stereodel.render.type import Face, Glyph, Line, ShapedSubset, Subset, lines_of, subsets
+from stereodel.render.vector.outlines import Discs, Drawn, Filled, Outlines, Shape, Shown, ground, shapes
+from stereodel.render.vector.paper import BRIGHTNESS, OFFSETS, Paper, exact, number, numbers, runs
+from stereodel.render.vector.type import Face, Glyph, Line, ShapedSubset, Subset, lines_of, subsets
 
 with of_extra("draw"):
     from PIL import Image
@@ -38,20 +37,15 @@ SERIF: Final = "'STIX Two Text','Times New Roman',Times,serif"
 
 
 def svg(page: Page, pictures: Sequence[Pixels] = ()) -> str:
-    """A page as the text of an SVG file; `pictures` hold the whole page for each of `page.pictured`, which clips it.
-
-    >>> text = svg(Page((0.0, 2.0, 0.0, 1.0), width=144.0, title="Nothing"))
-    >>> print(text.split("viewBox=")[1].splitlines()[0])
-    "0 0 144 72" role="img" aria-labelledby="title">
-    """
-    return _Sheet(page).text(pictures)
+    """A page as the text of an SVG file; `pictures` hold the whole page for each of `page.pictured`, which clips it."""
+    return _SvgSheet(page).text(pictures)
 
 
-class _Sheet:
+class _SvgSheet:
     """A page being written."""
 
     def __init__(self, page: Page) -> None:
-        self.page, self.paper = page, Paper.downward(page)
+        self.page, self.paper = page, Paper.of(page, downward=True)
         self.names: set[str] = set()
 
     def text(self, pictures: Sequence[Pixels]) -> str:
@@ -63,16 +57,13 @@ class _Sheet:
         lettering = list(lines_of(page))
         fonts = subsets(line for _, lines in lettering for line in lines if not line.words)
         shaped = subsets((line for _, lines in lettering for line in lines if line.words), ShapedSubset)
-        left, right, bottom, top = page.extent
-        corners = np.array([(left, top), (right, top), (right, bottom), (left, bottom), (left, top)])
-        ground = Outline(corners, np.array([MOVE, LINE, LINE, LINE, CLOSE], dtype=np.uint8))
         lines = [
             '<?xml version="1.0" encoding="UTF-8"?>',
             f'<svg xmlns="http://www.w3.org/2000/svg" width="{sides[0]}pt" height="{sides[1]}pt" '
             f'viewBox="0 0 {sides[0]} {sides[1]}"{labels}>',
             *(f'<{name} id="{name}">{escape(text)}</{name}>' for name, text in told),
             *([_sheet(fonts.values(), shaped.values())] if fonts or shaped else []),
-            *(self.shape(Filled(ground, page.background, "ground")) if page.background[3] else ()),
+            *(line for shape in ground(page) for line in self.shape(shape)),
             *(line for shape in shapes(page, PRINT_DPI, pictures) for line in self.shape(shape)),
             *(line for label, its in lettering for line in self.label(label, its, fonts, shaped)),
             "</svg>",
@@ -89,11 +80,8 @@ class _Sheet:
         self.names.add(name)
         return name
 
-    def runs(self, outline: Outline) -> list[str]:
-        return runs(self.paper.placed(outline))
-
-    def path(self, outline: Outline) -> str:
-        return "".join(self.runs(outline))
+    def path(self, outline: Outlines) -> str:
+        return "".join(runs(self.paper.placed(outline)))
 
     def discs(self, discs: Discs) -> list[str]:
         """Each disc as two semicircles."""
@@ -134,7 +122,7 @@ class _Sheet:
                 )
                 # Transparent lines of separate paths would be darker where they cross.
                 whole = shape.color[3] < 1
-                yield from self.split(self.name(shape.name), paint, self.runs(shape.outline), whole=whole)
+                yield from self.split(self.name(shape.name), paint, runs(self.paper.placed(shape.outline)), whole=whole)
             case Shown():
                 name = self.name(shape.name)
                 clip = self.name(f"{name}-outline")
@@ -149,15 +137,10 @@ class _Sheet:
 
     def gradient(self, name: str, ball: Ball, color: Color) -> str:
         """A colour shaded by a ball."""
-        light = ball_gradient()
-        (cx, cy), (fx, fy) = (
-            self.paper.points(np.array(ball.center) + ball.radius * np.array(place)).tolist()
-            for place in (light.center, light.focus)
-        )
-        radius = light.radius * ball.radius * self.page.points_per_unit
+        (fx, fy), (cx, cy), radius = self.paper.shading(ball)
         stops = "".join(
             f'<stop offset="{exact(offset)}" stop-color="{_hex((red, green, blue, 1.0))}"/>'
-            for offset, level in zip(light.offsets, light.brightness, strict=True)
+            for offset, level in zip(OFFSETS, BRIGHTNESS, strict=True)
             for red, green, blue in [[level * value for value in color[:3]]]
         )
         return (
@@ -184,9 +167,9 @@ class _Sheet:
                 yield f'<path d="{self.typed(line.placed(line.bar_outline))}"/>'
         yield "</g>"
 
-    def typed(self, outline: Outline) -> str:
+    def typed(self, outline: Outlines) -> str:
         """A path from an outline in points from the lower left corner."""
-        return "".join(runs(Outline(outline.points * [1, -1] + [0, self.page.height], outline.kinds)))
+        return "".join(runs(Outlines(outline.points * [1, -1] + [0, self.page.height], outline.kinds)))
 
     def words(self, line: Line, fonts: dict[Face, Subset]) -> str:
         """A line of type that programs shape themselves by the rules of its script, from its left end."""
@@ -212,9 +195,13 @@ class _Sheet:
     def line(self, line: Line, fonts: dict[Face, Subset]) -> str:
         """A line of type with each character positioned, grouped by font and size."""
         x, y = line.x, self.page.height - line.y
-        spans = []
-        order = list(fonts)
-        for (font, size, _), group in groupby(line.glyphs, key=lambda glyph: _together(glyph, fonts)):
+        spans, order = [], list(fonts)
+
+        def together(glyph: Glyph) -> tuple[Face, float, int]:
+            # Characters beyond 16 bits would count as two positions.
+            return glyph.font, glyph.size, id(glyph) * (fonts[glyph.font].codes[glyph.index] > "\uffff")
+
+        for (font, size, _), group in groupby(line.glyphs, key=together):
             glyphs = list(group)
             text = "".join(fonts[font].codes[glyph.index] for glyph in glyphs)
             heights = [number(y - glyph.y) for glyph in glyphs]
@@ -238,26 +225,21 @@ def _parted(found: list[str]) -> list[str]:
     return ["".join(part) for part in parts]
 
 
-def _together(glyph: Glyph, fonts: dict[Face, Subset]) -> tuple[Face, float, int]:
-    """Key of characters in one element; characters beyond 16 bits would count as two positions."""
-    code = ord(fonts[glyph.font].codes[glyph.index])
-    return glyph.font, glyph.size, id(glyph) if code > 0xFFFF else 0
-
-
 def _sheet(fonts: Iterable[Subset], shaped: Iterable[Subset]) -> str:
     """The fonts of a file, with a class for each font whose glyphs are positioned."""
+
+    def brought(font: Subset, kind: str) -> str:
+        data = base64.b64encode(font.file("woff")).decode()
+        return f"@font-face{{font-family:'{font.name}';{kind};src:url(data:font/woff;base64,{data})}}"
+
     rules = []
     for number_, font in enumerate(fonts, start=1):
-        kind = f"font-style:{'italic' if font.italic else 'normal'};font-weight:{'bold' if font.bold else 'normal'}"
+        look = font.face["head"].macStyle
+        kind = f"font-style:{'italic' if look & 2 else 'normal'};font-weight:{'bold' if look & 1 else 'normal'}"
         family = escape(_quoted(font.family))
-        rules += [_brought(font, kind), f".type-{number_}{{font-family:'{font.name}',{family},{SERIF};{kind}}}"]
-    rules += [_brought(font, "font-style:normal;font-weight:normal") for font in shaped]
+        rules += [brought(font, kind), f".type-{number_}{{font-family:'{font.name}',{family},{SERIF};{kind}}}"]
+    rules += [brought(font, "font-style:normal;font-weight:normal") for font in shaped]
     return "<style>" + "\n".join(rules) + "</style>"
-
-
-def _brought(font: Subset, kind: str) -> str:
-    data = base64.b64encode(font.file("woff")).decode()
-    return f"@font-face{{font-family:'{font.name}';{kind};src:url(data:font/woff;base64,{data})}}"
 
 
 def _quoted(family: str) -> str:

@@ -12,7 +12,7 @@ import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from functools import cache, cached_property
-from typing import Any, Final, Literal, NamedTuple
+from typing import Any, Final, Literal, NamedTuple, cast
 from unicodedata import bidirectional, category, normalize
 
 import numpy as np
@@ -21,9 +21,8 @@ from stereodel._arrays import FloatArray
 from stereodel._extras import of_extra
 from stereodel.constants import FINEST_OUTLINE
 from stereodel.drawing.page import Label, Page
-from stereodel.render.canvas import drawn, matplotlib_settings
-from stereodel.render.mends import characters, font_of
-from stereodel.render.shapes import CLOSE, CURVE, LINE, MOVE, Outline
+from stereodel.render.vector.agg import drawn, matplotlib_settings
+from stereodel.render.vector.outlines import CLOSE, CURVE, LINE, MOVE, RECTANGLE, Outlines
 
 with of_extra("draw"):
     from fontTools.pens.basePen import BasePen
@@ -32,7 +31,9 @@ with of_extra("draw"):
     from fontTools.subset import Options, Subsetter
     from fontTools.ttLib import TTFont, newTable
     from fontTools.ttLib.tables._c_m_a_p import CmapSubtable
+    from matplotlib import _text_helpers
     from matplotlib.backend_bases import RendererBase
+    from matplotlib.textpath import text_to_path
 
 FINER: Final = 64
 """Pixels per point of the canvas on which type is set: matplotlib rounds sizes in formulas to whole pixels."""
@@ -104,29 +105,24 @@ class Line:
         turn = np.radians(self.rotation)
         return np.array([[np.cos(turn), -np.sin(turn), self.x], [np.sin(turn), np.cos(turn), self.y]])
 
-    def placed(self, outline: Outline) -> Outline:
+    def placed(self, outline: Outlines) -> Outlines:
         """An outline of the line's coordinates on the page, in points."""
         matrix = self.matrix
-        return Outline(outline.points @ matrix[:, :2].T + matrix[:, 2], outline.kinds)
+        return Outlines(outline.points @ matrix[:, :2].T + matrix[:, 2], outline.kinds)
 
     @property
-    def outline(self) -> Outline:
+    def outline(self) -> Outlines:
         """The outlines of all glyphs and bars, in points on the page."""
-        nothing = Outline(np.zeros((0, 2)), np.zeros(0, dtype=np.uint8))
-        letters = (moved(glyph_outline(g.font, g.index), g.size, (g.x, g.y)) for g in self.glyphs)
+        nothing = Outlines(np.zeros((0, 2)), np.zeros(0, dtype=np.uint8))
+        drawn = ((glyph_outline(glyph.font, glyph.index), glyph) for glyph in self.glyphs)
+        letters = (Outlines(o.points * glyph.size + np.array((glyph.x, glyph.y)), o.kinds) for o, glyph in drawn)
         return self.placed(sum((*letters, self.bar_outline), start=nothing))
 
     @property
-    def bar_outline(self) -> Outline:
+    def bar_outline(self) -> Outlines:
         """The bars in the line's coordinates."""
         corners = [[(x, y), (x + w, y), (x + w, y + h), (x, y + h), (x, y)] for x, y, w, h in self.bars]
-        kinds = np.tile(np.array([MOVE, LINE, LINE, LINE, CLOSE], dtype=np.uint8), len(corners))
-        return Outline(np.array(corners).reshape(-1, 2), kinds)
-
-
-def moved(outline: Outline, scale: float, shift: tuple[float, float]) -> Outline:
-    """An outline scaled and shifted."""
-    return Outline(scale * outline.points + np.array(shift), outline.kinds)
+        return Outlines(np.array(corners).reshape(-1, 2), np.tile(RECTANGLE, len(corners)))
 
 
 def lines_of(page: Page) -> Iterator[tuple[Label, list[Line]]]:
@@ -170,9 +166,14 @@ class _Recorder(RendererBase):
 
 
 def _words(text: str, properties: Any) -> Iterator[Glyph]:
-    size = properties.get_size_in_points()
-    for font, index, written, x, y in characters(text, font_of(properties)):
-        yield Glyph(_face(font), index, written, size, x * size, y * size)
+    """Matplotlib's own layout: its public interface gives outlines of characters, but not the characters."""
+    size, maker = properties.get_size_in_points(), cast(Any, text_to_path)
+    item: Any
+    for item in _text_helpers.layout(text, maker._get_font(properties)):
+        # Before matplotlib 3.11 all characters were on the baseline, and the name was different.
+        index = item.glyph_index if hasattr(item, "glyph_index") else item.glyph_idx
+        x, y = (size * (place / maker.FONT_SCALE) for place in (item.x, getattr(item, "y", 0.0)))
+        yield Glyph(_face(item.ft_object), index, item.char, size, x, y)
 
 
 def _formula(renderer: Any, text: str, properties: Any) -> tuple[Iterable[Glyph], tuple[Any, ...]]:
@@ -200,20 +201,19 @@ def _opened(face: Face) -> Any:
     return TTFont(face.path, fontNumber=face.number, recalcTimestamp=False)
 
 
-@cache
-def _font(face: Face) -> Any:
-    return _opened(face)
+_font = cache(_opened)
+"""Fonts that are only read."""
 
 
 @cache
-def glyph_outline(face: Face, index: int) -> Outline:
+def glyph_outline(face: Face, index: int) -> Outlines:
     """The outline of a glyph of a font, at size 1."""
     font = _font(face)
     glyphs = font.getGlyphSet()
     pen = _Pen(glyphs)
     glyphs[font.getGlyphName(index)].draw(pen)
     points = np.array(pen.points, dtype=np.float64).reshape(-1, 2) / font["head"].unitsPerEm
-    return Outline(points, np.array(pen.kinds, dtype=np.uint8))
+    return Outlines(points, np.array(pen.kinds, dtype=np.uint8))
 
 
 class _Pen(BasePen):  # type: ignore[misc]
@@ -259,16 +259,6 @@ class Subset:
         return str(self.face["name"].getBestFamilyName())
 
     @property
-    def italic(self) -> bool:
-        """Whether the font is italic."""
-        return bool(self.face["head"].macStyle & 2)
-
-    @property
-    def bold(self) -> bool:
-        """Whether the font is bold."""
-        return bool(self.face["head"].macStyle & 1)
-
-    @property
     def name(self) -> str:
         """The PostScript name, with a six-letter prefix that distinguishes subsets, as PDF requires."""
         digest = hashlib.sha256(repr(sorted(self.glyphs.items())).encode()).digest()
@@ -295,12 +285,9 @@ class Subset:
 
     def file(self, flavor: Literal["woff"] | None = None) -> bytes:
         """The font file, TrueType or WOFF; glyphs keep their indices."""
-        font = _opened(self.font)
         options = Options(layout_features=[], hinting=False, notdef_outline=True, retain_gids=True)
         options.drop_tables += (*TABLES, *VARIATIONS)
-        subsetter = Subsetter(options)
-        subsetter.populate(gids=sorted(self.glyphs))
-        subsetter.subset(font)
+        font = _subset(self.font, options, gids=sorted(self.glyphs))
         font["cmap"] = _character_map({ord(code): font.getGlyphName(index) for index, code in self.codes.items()})
         return _bytes(font, flavor)
 
@@ -311,13 +298,9 @@ class ShapedSubset(Subset):
 
     def file(self, flavor: Literal["woff"] | None = None) -> bytes:
         """The font file, TrueType or WOFF."""
-        font = _opened(self.font)
         options = Options(hinting=False, notdef_outline=True)
         options.drop_tables += (*VARIATIONS, "FFTM")
-        subsetter = Subsetter(options)
-        subsetter.populate(text="".join(self.glyphs.values()))
-        subsetter.subset(font)
-        return _bytes(font, flavor)
+        return _bytes(_subset(self.font, options, text="".join(self.glyphs.values())), flavor)
 
 
 def subsets(lines: Iterable[Line], kind: type[Subset] = Subset) -> dict[Face, Subset]:
@@ -327,6 +310,13 @@ def subsets(lines: Iterable[Line], kind: type[Subset] = Subset) -> dict[Face, Su
         for glyph in line.glyphs:
             used.setdefault(glyph.font, kind(glyph.font)).glyphs.setdefault(glyph.index, glyph.text)
     return used
+
+
+def _subset(face: Face, options: Any, **kept: Any) -> Any:
+    font, subsetter = _opened(face), Subsetter(options)
+    subsetter.populate(**kept)
+    subsetter.subset(font)
+    return font
 
 
 def _bytes(font: Any, flavor: Literal["woff"] | None) -> bytes:

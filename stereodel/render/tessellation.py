@@ -9,44 +9,92 @@ horizontal cuts are exact, so nothing shows between the slabs.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
-from typing import assert_never
+from functools import cached_property
+from typing import Final, assert_never
 
 import numpy as np
 
-from stereodel._arrays import BoolArray, FloatArray, Indices, Pixels
+from stereodel._arrays import BoolArray, FloatArray, Indices, Pixels, SingleArray
 from stereodel.constants import FLATNESS
 from stereodel.curves.fill import triangles
 from stereodel.curves.ragged import Ragged, spans
-from stereodel.drawing.page import (
-    Ball,
-    Beziers,
-    Dots,
-    Fill,
-    Item,
-    Label,
-    Page,
-    Picture,
-    Polygons,
-    Polylines,
-    Stroke,
-)
+from stereodel.drawing.page import Ball, Beziers, Dots, Fill, Item, Label, Page, Picture, Polygons, Polylines, Stroke
 from stereodel.drawing.page.colors import Color
-from stereodel.render.pieces import Corners, Disc, Piece, Pieces, Window
-from stereodel.render.shapes import has_length
+from stereodel.render.gl import Disc, Triangles, Window
+from stereodel.render.vector.outlines import has_length
 
+Corners = FloatArray
+"""Triangles by their corners, (n, 3, 2)."""
 
-def triangulate(page: Page, width: int, height: int) -> Pieces:
-    """All items of a page except labels as triangles of a picture of `width` by `height` pixels."""
-    left, right, bottom, top = page.extent
-    scale = np.array([width / (right - left), height / (top - bottom)])
-    canvas = _Canvas(np.array([left, bottom]), scale, page.points_per_unit, width / page.width)
-    return Pieces((number, piece) for number, item in enumerate(page.items) for piece in canvas.pieces(item))
+MARGIN: Final = 1.0
+"""Pixels by which a window is widened to find its triangles: coordinates up to 2²⁴ are rounded by 1/2."""
 
 
 @dataclass(frozen=True, eq=False)
-class _Canvas:
+class Batch:
+    """Triangles of one item by their corners (n, 3, 2), pixels, and a colour at each corner (n, 3, 4).
+
+    An item with a texture, which is made when a window is drawn, has one batch; all batches of an item have one ball.
+    """
+
+    corners: Corners
+    colors: FloatArray
+    texture: Callable[[Window], Pixels] | None = None
+    ball: Disc | None = None
+
+    @cached_property
+    def boxes(self) -> SingleArray:
+        """Bounding box of each triangle, (n, 4)."""
+        a, b, c = (self.corners[:, i] for i in range(3))
+        low, high = np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
+        return np.concatenate([low, high], axis=1, dtype=np.float32)
+
+
+class Batches:
+    """The triangles of a picture in painter's order; `numbered` has the index of each batch's item, not decreasing."""
+
+    def __init__(self, numbered: Iterable[tuple[int, Batch]]) -> None:
+        kept = [(number, batch) for number, batch in numbered if len(batch.corners)]
+        self._numbers = np.array([number for number, _ in kept], dtype=np.int32)
+        self._batches = [batch for _, batch in kept]
+        around = [(*batch.boxes[:, :2].min(axis=0), *batch.boxes[:, 2:].max(axis=0)) for batch in self._batches]
+        self._boxes = np.array(around, dtype=np.float32).reshape(-1, 4)
+
+    def within(self, window: Window) -> Triangles:
+        """All triangles that touch a window, in order, and possibly others."""
+        hit = np.flatnonzero(_touching(self._boxes, window))
+        chosen = [(self._batches[i], np.flatnonzero(_touching(self._batches[i].boxes, window))) for i in hit]
+        corners = np.concatenate([np.zeros((0, 3, 2)), *(batch.corners[rows] for batch, rows in chosen)])
+        colors = np.concatenate([np.zeros((0, 3, 4)), *(batch.colors[rows] for batch, rows in chosen)])
+        slots = np.repeat(self._numbers[hit], [3 * len(rows) for _, rows in chosen])
+        faces = np.arange(3 * len(corners), dtype=np.int32).reshape(-1, 3)
+        drawn = [
+            (int(self._numbers[i]), self._batches[i]) for i, (_, rows) in zip(hit, chosen, strict=True) if len(rows)
+        ]
+        textures = {number: batch.texture(window) for number, batch in drawn if batch.texture is not None}
+        balls = {number: batch.ball for number, batch in drawn if batch.ball is not None}
+        return Triangles(corners.reshape(-1, 2), colors.reshape(-1, 4), slots, faces, textures, balls)
+
+
+def _touching(boxes: SingleArray, window: Window) -> BoolArray:
+    left, bottom, right, top = boxes.T
+    across = (left < window.left + window.width + MARGIN) & (right > window.left - MARGIN)
+    touching: BoolArray = across & (bottom < window.bottom + window.height + MARGIN) & (top > window.bottom - MARGIN)
+    return touching
+
+
+def triangulate(page: Page, width: int, height: int) -> Batches:
+    """All items of a page except labels as triangles of a picture of `width` by `height` pixels."""
+    left, right, bottom, top = page.extent
+    scale = np.array([width / (right - left), height / (top - bottom)])
+    pixels = _PixelMap(np.array([left, bottom]), scale, page.points_per_unit, width / page.width)
+    return Batches((number, batch) for number, item in enumerate(page.items) for batch in pixels.batches(item))
+
+
+@dataclass(frozen=True, eq=False)
+class _PixelMap:
     """The map from page coordinates and points to pixels."""
 
     origin: FloatArray
@@ -54,17 +102,18 @@ class _Canvas:
     points_per_unit: float
     pixels_per_point: float
 
-    def pieces(self, item: Item) -> list[Piece]:
-        """The pieces of an item; where they overlap, the first is visible."""
+    def batches(self, item: Item) -> list[Batch]:
+        """The batches of an item; where they overlap, the first is visible."""
         match item:
             case Stroke():
-                return [_flat(self._stroke(item), item.color)] if has_length(item, self.points_per_unit) else []
+                return [_colored(self._stroke(item), item.color)] if has_length(item, self.points_per_unit) else []
             case Polylines():
-                return [_flat(self._polylines(item), item.color)]
+                width = item.width * self.pixels_per_point
+                return [_colored(ribbons(self._place(item.points), item.offsets, width), item.color)]
             case Polygons():
                 return [self._polygons(item)]
             case Fill():
-                return [_colored(region(self._outlines(item.paths)), np.array(item.color), self._disc(item.ball))]
+                return [_colored(region(self._outlines(item.paths)), item.color, self._disc(item.ball))]
             case Dots():
                 return self._dots(item)
             case Picture():
@@ -93,23 +142,20 @@ class _Canvas:
         width = stroke.width * self.pixels_per_point
         return ribbon(points, width, closed=stroke.closed, round_caps=stroke.cap == "round", dash=dash or None)
 
-    def _polylines(self, lines: Polylines) -> Corners:
-        return ribbons(self._place(lines.points), lines.offsets, lines.width * self.pixels_per_point)
-
-    def _polygons(self, polygons: Polygons) -> Piece:
+    def _polygons(self, polygons: Polygons) -> Batch:
         loops = Ragged(self._place(polygons.points), polygons.offsets)
         corners, owner = triangles(loops, polygons.owner)
         return _colored(corners, polygons.colors[owner, None], self._disc(polygons.ball))
 
-    def _dots(self, dots: Dots) -> list[Piece]:
+    def _dots(self, dots: Dots) -> list[Batch]:
         centers = self._place(dots.centers)
         inner, outer = (r * self.pixels_per_point for r in (dots.radius - dots.rim_width, dots.radius))
-        pieces = [_flat(discs(centers, inner), dots.color)]
+        found = [_colored(discs(centers, inner), dots.color)]
         if dots.rim_width:
-            pieces.append(_flat(discs(centers, outer), dots.rim))
-        return pieces
+            found.append(_colored(discs(centers, outer), dots.rim))
+        return found
 
-    def _picture(self, picture: Picture) -> Piece:
+    def _picture(self, picture: Picture) -> Batch:
         width, height = 1 / self.scale
 
         def texture(window: Window) -> Pixels:
@@ -117,34 +163,23 @@ class _Canvas:
             place = (left, bottom + window.height * height, width, height)
             return picture.painter.paint(place, (window.width, window.height))
 
-        return replace(_flat(region(self._outlines(picture.outline)), (1.0, 1.0, 1.0, 1.0)), texture=texture)
+        return replace(_colored(region(self._outlines(picture.outline)), (1.0, 1.0, 1.0, 1.0)), texture=texture)
 
 
-def _flat(corners: Corners, color: Color) -> Piece:
-    return _colored(corners, np.array(color), None)
-
-
-def _colored(corners: Corners, colors: FloatArray, ball: Disc | None) -> Piece:
+def _colored(corners: Corners, colors: Color | FloatArray, ball: Disc | None = None) -> Batch:
     """Triangles with colours broadcast to their corners (n, 3, 4)."""
+    colors = np.asarray(colors)
     if ball is None:
         # Levels of 1/255, rounded half up, so that rounding inside OpenGL has nothing to decide.
         colors = np.floor(255 * colors + 0.5) / 255
-    return Piece(corners, np.broadcast_to(colors, (len(corners), 3, 4)), ball=ball)
+    return Batch(corners, np.broadcast_to(colors, (len(corners), 3, 4)), ball=ball)
 
 
 def flatten(path: Beziers, tolerance: float = FLATNESS) -> FloatArray:
-    """Points along a run of cubics whose chords are within `tolerance`.
+    """Points (m, 2) along a run of cubics, first to last, whose chords are within `tolerance`; neighbours may coincide.
 
     A cubic cut into n equal parts of its parameter is off by at most (3/4) M/n², M = max |Pᵢ − 2Pᵢ₊₁ + Pᵢ₊₂|
     (Wang's formula).
-
-    path: (k, 4, 2).
-    tolerance: in the units of `path`.
-    Returns (m, 2), first to last point, m ≥ 2; neighbours may coincide.
-
-    >>> line = np.array([[[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [3.0, 0.0]]])
-    >>> flatten(line).tolist()
-    [[0.0, 0.0], [3.0, 0.0]]
     """
     bend = np.linalg.norm(path[:, :-2] - 2 * path[:, 1:-1] + path[:, 2:], axis=-1).max(axis=-1)
     parts = np.maximum(1, np.ceil(np.sqrt(0.75 * bend / tolerance))).astype(np.intp)
@@ -163,18 +198,15 @@ def ribbon(
     round_caps: bool = True,
     dash: tuple[float, float] | None = None,
 ) -> Corners:
-    """A polyline of constant width with round joins.
+    """A polyline (m, 2) of constant width with round joins, as triangles that overlap.
 
-    points: (m, 2).
-    width: in pixels, as `dash`.
     closed: whether the end is joined to the start.
-    round_caps: whether ends, including those of dashes, are semicircles; otherwise they are cut straight.
-    dash: (float, float), length of dash and gap; the first dash begins at the first point.
-    Returns (n, 3, 2), triangles, which overlap; a single point is a disc if caps are round, and nothing otherwise.
+    round_caps: whether ends, also of dashes, are semicircles, and a point is a disc; else they are cut straight.
+    dash: length of dash and gap; the first dash begins at the first point.
     """
     if closed:
         points = np.concatenate([points, points[:1]])
-    points = _without_repeats(points)
+    points = points[_moves(points)]
     if len(points) < 2:
         return discs(points, width / 2) if round_caps else np.zeros((0, 3, 2))
     drawn = np.ones(len(points) - 1, dtype=bool)
@@ -185,21 +217,12 @@ def ribbon(
 
 
 def ribbons(points: FloatArray, offsets: Indices, width: float) -> Corners:
-    """Polylines of one constant width, with round joins and ends.
+    """Polylines of one constant width, with round joins and ends, closed where their ends are equal; points are discs.
 
-    points: (n, 2), in pixels, as `width`.
-    offsets: (m + 1,), line i is ``points[offsets[i]:offsets[i + 1]]``, closed if its ends are equal; a single point is
-        a disc.
-    Returns (k, 3, 2), triangles, which overlap.
-
-    >>> square = np.array([[0.0, 0.0], [9.0, 0.0], [9.0, 9.0], [0.0, 9.0], [0.0, 0.0]])
-    >>> both = ribbons(np.concatenate([square, square + 20]), np.array([0, 5, 10]), 1.0)
-    >>> len(both) == 2 * len(ribbon(square[:-1], 1.0, closed=True))
-    True
+    offsets: (m + 1,), line i is ``points[offsets[i]:offsets[i + 1]]``.
     """
     line = np.repeat(np.arange(len(offsets) - 1), np.diff(offsets))
-    kept = np.ones(len(points), dtype=bool)
-    kept[1:] = np.any(points[1:] != points[:-1], axis=1) | (line[1:] != line[:-1])
+    kept = _moves(points) | (np.diff(line, prepend=-1) > 0)
     points, line = points[kept], line[kept]
     drawn = line[1:] == line[:-1]
     first = np.flatnonzero(np.concatenate([[True], ~drawn])[: len(points)])
@@ -239,10 +262,9 @@ def region(runs: Sequence[FloatArray]) -> Corners:
     return _halved(quads)
 
 
-def _without_repeats(points: FloatArray) -> FloatArray:
-    keep = np.ones(len(points), dtype=bool)
-    keep[1:] = np.any(points[1:] != points[:-1], axis=1)
-    return points[keep]
+def _moves(points: FloatArray) -> BoolArray:
+    """Which points are not where the one before is."""
+    return np.concatenate([[True], np.any(points[1:] != points[:-1], axis=1)])[: len(points)]
 
 
 def _halved(quads: FloatArray) -> Corners:
@@ -258,9 +280,8 @@ def _dashed(points: FloatArray, dash: float, gap: float) -> tuple[FloatArray, Bo
     at = np.unique(np.concatenate([along, cuts[cuts < along[-1]]]))
     cut = np.stack([np.interp(at, along, points[:, axis]) for axis in (0, 1)], axis=1)
     drawn = (at[:-1] + at[1:]) / 2 % (dash + gap) < dash
-    # Cuts closer than the spacing of doubles coincide.
-    apart = np.any(cut[1:] != cut[:-1], axis=1)
-    return cut[np.concatenate([[True], apart])], drawn[apart]
+    apart = _moves(cut)  # cuts closer than the spacing of doubles coincide
+    return cut[apart], drawn[apart[1:]]
 
 
 def _rectangles(points: FloatArray, drawn: BoolArray, radius: float) -> Corners:
@@ -316,16 +337,9 @@ def _crossing_heights(low: FloatArray, high: FloatArray) -> FloatArray:
     heights = [np.zeros(0)]
     left, right = np.minimum(low[:, 0], high[:, 0]), np.maximum(low[:, 0], high[:, 0])
     for i in range(len(low) - 1):
-        j = (
-            i
-            + 1
-            + np.flatnonzero(
-                (low[i + 1 :, 1] < high[i, 1])
-                & (high[i + 1 :, 1] > low[i, 1])
-                & (left[i + 1 :] <= right[i])
-                & (right[i + 1 :] >= left[i])
-            )
-        )
+        later = slice(i + 1, None)
+        level = (low[later, 1] < high[i, 1]) & (high[later, 1] > low[i, 1])
+        j = i + 1 + np.flatnonzero(level & (left[later] <= right[i]) & (right[later] >= left[i]))
         bottom, top = np.maximum(low[i, 1], low[j, 1]), np.minimum(high[i, 1], high[j, 1])
         mine = np.full(len(j), i)
         gap0 = _abscissa(low, high, mine, bottom) - _abscissa(low, high, j, bottom)

@@ -8,12 +8,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 
 from stereodel._arrays import AnyIndices, BoolArray, FloatArray, Indices
-from stereodel._extras import of_extra
+from stereodel._extras import optional
 from stereodel.drawing.scene.space_curves import CircleArc, Curve, Segment
 from stereodel.drawing.scene.visibility import SphereRegion
 from stereodel.sphere.vectors import units
@@ -31,15 +31,12 @@ DOT_LEVEL: Final = 2
 LEAST_SIDES: Final = 6
 """Least number of sides of a tube's cross-section."""
 
-CAP_ANGLES: Final = np.radians([45.0])
-"""Latitudes of the rings between the end of a tube and the tip of its hemispherical cap."""
-
 BISECTIONS: Final = 24
 """Rounds of halving sides of a region that are missing in its triangulation, down to 1e-8 radii."""
 
 
 @dataclass(frozen=True, eq=False)
-class Surface:
+class TriangleMesh:
     """Triangles (m, 3) that share corners (n, 3), whose normals are unit vectors outward."""
 
     points: FloatArray
@@ -53,7 +50,7 @@ class Surface:
         return 1 - float(np.sum(a * units(np.cross(b - a, c - a)), axis=1).min())
 
     @classmethod
-    def joined(cls, surfaces: Sequence[Surface]) -> Surface:
+    def joined(cls, surfaces: Sequence[TriangleMesh]) -> TriangleMesh:
         """Several surfaces as one; at least one of them."""
         first = np.cumsum([0, *(len(surface.points) for surface in surfaces)])
         faces = [surface.faces + start for surface, start in zip(surfaces, first[:-1], strict=True)]
@@ -62,18 +59,11 @@ class Surface:
 
 
 @cache
-def ball(level: int) -> Surface:
-    """The unit ball: an icosahedron, its sides halved `level` times, corners on the sphere.
-
-    >>> len(ball(2).faces), round(ball(2).depth, 4)
-    (320, 0.0178)
-    """
-    with of_extra("render"):
-        from trimesh.creation import icosphere
-
-    made: Any = icosphere(subdivisions=level, radius=1.0)
+def ball(level: int) -> TriangleMesh:
+    """The unit ball: an icosahedron, its sides halved `level` times, corners on the sphere."""
+    made = optional("trimesh.creation", "render").icosphere(subdivisions=level, radius=1.0)
     points = units(np.array(made.vertices, dtype=np.float64))
-    return Surface(points, points, np.array(made.faces, dtype=np.intp))
+    return TriangleMesh(points, points, np.array(made.faces, dtype=np.intp))
 
 
 def ball_level(error: float) -> int:
@@ -84,16 +74,11 @@ def ball_level(error: float) -> int:
 # Tubes
 
 
-def tube(curve: Curve, radius: float, error: float) -> Surface | None:
+def tube(curve: Curve, radius: float, error: float) -> TriangleMesh | None:
     """The points within `radius` of a curve, with round ends; None for a curve of length zero.
 
     curve: before any view, so that both radii of an arc have the same length.
-    error: largest distance of the curve from its chords. Cross-sections have enough sides for the same accuracy, and at
-        least six.
-
-    >>> bar = tube(Segment.between([0, 0, 0], [0, 0, 5]), 0.1, 0.001)
-    >>> bar.points[:, 2].min().round(9).tolist(), bar.points[:, 2].max().round(9).tolist()
-    (-0.1, 5.1)
+    error: largest distance of the curve from its chords, and of cross-sections from theirs.
     """
     found = _frames(curve, error)
     if found is None:
@@ -103,15 +88,16 @@ def tube(curve: Curve, radius: float, error: float) -> Surface | None:
     turn = 2 * np.pi * np.arange(sides)[:, None] / sides
     rings = np.cos(turn) * side[:, None] + np.sin(turn) * np.cross(along, side)[:, None]
     if not curve.closed:
-        begin, end = _cap_rings(rings[0], -along[0])[::-1], _cap_rings(rings[-1], along[-1])
-        rings = np.concatenate([begin, rings, end])
-        middle = np.concatenate([np.repeat(middle[:1], len(begin), 0), middle, np.repeat(middle[-1:], len(end), 0)])
+        # A ring at 45° between each end of a tube and the tip of its cap.
+        begin, end = np.sqrt(0.5) * (rings[0] - along[0]), np.sqrt(0.5) * (rings[-1] + along[-1])
+        rings = np.concatenate([begin[None], rings, end[None]])
+        middle = np.concatenate([middle[:1], middle, middle[-1:]])
     normals, points = rings.reshape(-1, 3), (middle[:, None] + radius * rings).reshape(-1, 3)
     faces = _sleeve(len(middle), sides, closed=curve.closed)
     if curve.closed:
-        return Surface(points, normals, faces)
+        return TriangleMesh(points, normals, faces)
     tips = np.array([-along[0], along[-1]])
-    return Surface(
+    return TriangleMesh(
         np.concatenate([points, middle[[0, -1]] + radius * tips]),
         np.concatenate([normals, tips]),
         np.concatenate([faces, _tips(len(middle), sides)]),
@@ -170,12 +156,6 @@ def _sleeve(rings: int, sides: int, *, closed: bool) -> Indices:
     return np.stack([here, after, there, after, there_after, there], axis=-1).reshape(-1, 3)
 
 
-def _cap_rings(ring: FloatArray, outward: FloatArray) -> FloatArray:
-    """Normals (k, sides, 3) on the rings of a hemisphere, starting at its rim."""
-    cosine, sine = np.cos(CAP_ANGLES)[:, None, None], np.sin(CAP_ANGLES)[:, None, None]
-    return np.asarray(cosine * ring + sine * outward)
-
-
 def _tips(rings: int, sides: int) -> Indices:
     """Triangles from the outermost rings of a tube to its two tips, whose points follow those of the rings."""
     ring, after = np.arange(sides), np.roll(np.arange(sides), -1)
@@ -187,34 +167,24 @@ def _tips(rings: int, sides: int) -> Indices:
 # Flat polygons and regions of a sphere
 
 
-def polygon(corners: FloatArray, normal: FloatArray) -> Surface:
+def polygon(corners: FloatArray, normal: FloatArray) -> TriangleMesh:
     """A flat simple polygon, corners (n, 3) in either order, visible from the side of its normal."""
-    with of_extra("draw"):
-        import mapbox_earcut
-
     side = np.cross(normal, np.eye(3)[np.argmin(np.abs(normal))])
     flat = corners @ np.column_stack([side, np.cross(normal, side)])
     rings = np.array([len(corners)], dtype=np.uint32)
-    faces = mapbox_earcut.triangulate_float64(flat, rings).astype(np.intp).reshape(-1, 3)
-    a, b, c = (flat[faces[:, i]] for i in range(3))
-    clockwise = _doubled_areas(a, b, c) < 0
+    found = optional("mapbox_earcut", "draw").triangulate_float64(flat, rings)
+    faces = found.astype(np.intp).reshape(-1, 3)
+    (ux, uy), (vx, vy) = ((flat[faces[:, i]] - flat[faces[:, 0]]).T for i in (1, 2))
+    clockwise = ux * vy - uy * vx < 0
     faces[clockwise] = faces[clockwise][:, ::-1]
-    return Surface(corners, np.tile(normal, (len(corners), 1)), faces)
+    return TriangleMesh(corners, np.tile(normal, (len(corners), 1)), faces)
 
 
-def _doubled_areas(a: FloatArray, b: FloatArray, c: FloatArray) -> FloatArray:
-    """Twice the areas of flat triangles, positive if counterclockwise."""
-    (ux, uy), (vx, vy) = (b - a).T, (c - a).T
-    return np.asarray(ux * vy - uy * vx)
-
-
-def patch(region: SphereRegion, level: int) -> Surface:
-    """A region on the unit sphere as triangles, with corners on the sphere and sides along the boundary.
+def patch(region: SphereRegion, level: int) -> TriangleMesh:
+    """A region on the unit sphere, left of its boundary, as triangles; ValueError if the boundary crosses itself.
 
     The points of a ball of that level and those of the boundary are triangulated together, without points of the ball
-    that would separate neighbours on the boundary. The region is what lies on the left of the boundary.
-
-    Raises ValueError if the boundary crosses itself.
+    that would separate neighbours on the boundary.
     """
     arcs = [arc.scaled(1 / region.radius, np.zeros(3)) for arc in region.boundary]
     steps = [np.linspace(a.start, a.stop, _pieces(a.stop - a.start, _speed(a), CURVE_ERROR) + 1) for a in arcs]
@@ -223,8 +193,9 @@ def patch(region: SphereRegion, level: int) -> Surface:
         mesh = SphericalDelaunay(np.concatenate([rim, _away_from(rim, ball(level).points)]))
         crossed = ~_has_edges(mesh.simplices, len(rim))
         if not crossed.any():
-            inside = _left_of(mesh.simplices, mesh.neighbors, len(rim))
-            return _only(mesh.points, mesh.simplices[inside])
+            inside = mesh.simplices[_left_of(mesh.simplices, mesh.neighbors, len(rim))]
+            used, numbers = np.unique(inside, return_inverse=True)
+            return TriangleMesh(mesh.points[used], mesh.points[used], numbers.reshape(-1, 3))
         parts = np.split(crossed, np.cumsum([len(t) - 1 for t in steps])[:-1])
         steps = [np.sort([*t, *((t[:-1] + t[1:])[part] / 2)]) for t, part in zip(steps, parts, strict=True)]
     raise ValueError("the boundary of a region crosses itself; give the arcs of a loop that does not")
@@ -260,9 +231,3 @@ def _left_of(simplices: AnyIndices, neighbors: AnyIndices, count: int) -> BoolAr
         front = reached[(reached >= 0) & ~inside[reached]]
         inside[front] = True
     return inside
-
-
-def _only(points: FloatArray, faces: AnyIndices) -> Surface:
-    """Triangles of the unit sphere with only the points that they use."""
-    used, numbers = np.unique(faces, return_inverse=True)
-    return Surface(points[used], points[used], numbers.reshape(-1, 3))

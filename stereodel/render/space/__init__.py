@@ -1,0 +1,1 @@
+"""Pictures in space: bodies, GLB files, and PNG with light and shade."""

@@ -1,0 +1,1 @@
+"""Pages as outlines: SVG, PDF, and matplotlib's Agg."""
