@@ -97,6 +97,11 @@ class Chart:
         return self.view.matrix
 
     @cached_property
+    def turns(self) -> tuple[FloatArray, FloatArray]:
+        """Matrices of the rotations before and after the fisheye; the last row of the first is the focus."""
+        return self.lens.right.matrix, self.lens.left.matrix
+
+    @cached_property
     def source(self) -> Rim:
         """The circle before the lens whose interior is seen."""
         return self.before(float(np.radians(self.view.angular_radius)))
@@ -114,14 +119,15 @@ class Chart:
         magnification. The sine is the length of the vector, which no lens changes.
         """
         size, cosine, sine = self.lens.magnification, float(np.cos(radius)), float(np.sin(radius))
-        normal = turned(self.matrix[2], self.lens.left.matrix.T)
+        right, left = self.turns
+        normal = turned(self.matrix[2], left.T)
         (n_plus, n_minus), (c_plus, c_minus) = _halves(normal[2], np.hypot(*normal[:2])), _halves(cosine, sine)
         plus = n_plus - c_minus if n_plus + c_minus < 2 else c_plus - n_minus
         minus = c_minus - n_minus if c_minus + n_minus < 2 else n_plus - c_plus
         plus, minus = plus * size, minus / size
         axis, offset = np.array([normal[0], normal[1], (plus + minus) / 2]), (plus - minus) / 2
         length = float(np.sqrt(np.sum(axis**2)))
-        return Rim(turned(axis / length, self.lens.right.matrix.T), offset / length, sine / length)
+        return Rim(turned(axis / length, right.T), offset / length, sine / length)
 
     @property
     def slack(self) -> float:

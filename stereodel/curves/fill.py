@@ -10,7 +10,7 @@ from stereodel._arrays import BoolArray, FloatArray, Indices
 from stereodel._extras import of_extra
 from stereodel.constants import TOUCHING
 from stereodel.curves.clip import signed_areas, with_first_again
-from stereodel.curves.ragged import Ragged, cycles, spans
+from stereodel.curves.ragged import Ragged, cycles, offsets_of, spans
 
 
 def triangles(loops: Ragged, owner: Indices) -> tuple[FloatArray, Indices]:
@@ -26,12 +26,19 @@ def triangles(loops: Ragged, owner: Indices) -> tuple[FloatArray, Indices]:
     fanned, fans, row = _fans(loops)
     fanned &= shells
     fanned[holder[holder >= 0]] = False
+    # The other shells, each followed by its holes.
+    rings = np.flatnonzero(np.where(shells, ~fanned, holder >= 0))
+    shell = np.where(shells, np.arange(len(loops)), holder)[rings]
+    order = np.lexsort((rings, holder[rings] >= 0, shell))
+    several, (number, counts) = loops.take(rings[order]), np.unique(shell, return_counts=True)
+    bounds = offsets_of(counts)
     corners, owners = [fans[fanned[row]]], [owner[row[fanned[row]]]]
-    for shell in np.flatnonzero(shells & ~fanned).tolist():
-        rings = loops.take(np.append(shell, np.flatnonzero(holder == shell)))
-        found = triangulate_float64(rings.values, rings.offsets[1:].astype(np.uint32)).reshape(-1, 3)
-        corners.append(rings.values[found])
-        owners.append(np.full(len(found), owner[shell]))
+    for which, first, end in zip(number.tolist(), bounds[:-1].tolist(), bounds[1:].tolist(), strict=True):
+        ends = several.offsets[first + 1 : end + 1]
+        points = several.values[several.offsets[first] : ends[-1]]
+        found = triangulate_float64(points, (ends - several.offsets[first]).astype(np.uint32)).reshape(-1, 3)
+        corners.append(points[found])
+        owners.append(np.full(len(found), owner[which]))
     return np.concatenate(corners), np.concatenate(owners)
 
 

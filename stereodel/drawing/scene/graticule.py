@@ -228,7 +228,7 @@ class _Lines:
         even = begin + np.linspace(0.0, 1.0, GRID_SAMPLES) * (stop - begin)
         # A lens takes a circle to a circle, and tan(t/2) about its nearest point to the focus to a multiple of itself:
         # the factor is the root of the ratio of the scales there and opposite.
-        _, _, nearest = arcs.waves(self.chart.lens.focus)
+        _, _, nearest = arcs.waves(self.chart.turns[0][2])
         every = np.arange(len(arcs))
         near, far = (self.chart.lens.scale_factor(arcs.points(every, nearest + turn)) for turn in (0.0, np.pi))
         half = np.linspace(-np.pi / 2, np.pi / 2, GRID_SAMPLES)[1:-1]
@@ -275,7 +275,7 @@ class _Lines:
         A fisheye moves places along great circles through its focus and keeps azimuths: the component of a vector along
         the great circle stays along it, the component across stays across.
         """
-        right, left = self.chart.lens.right.matrix, self.chart.lens.left.matrix
+        right, left = self.chart.turns
         p, d, q = turned(place, right), turned(direction, right), turned(image, left.T)
         aside = np.hypot(p[..., 0], p[..., 1])
         at_focus = aside == 0
@@ -328,7 +328,7 @@ class _Window:
             radius = self._reach(apart / max(breadth, UNIT_ROUNDOFF) / self._widest)
             if radius is None or radius < self._away:
                 return None
-            around = _box_around(self._peak, radius)
+            around = _box_around(self._at_peak, radius)
             south, north = max(box[0], around[0]), min(box[1], around[1])
             if south > north:
                 return None
@@ -349,7 +349,7 @@ class _Window:
     @cached_property
     def _seen(self) -> _Box:
         cap = self.chart.source
-        return _box_around(cap.normal, cap.radius)
+        return _box_around(xyz_to_lonlat(cap.normal), cap.radius)
 
     @cached_property
     def _away(self) -> float:
@@ -359,7 +359,7 @@ class _Window:
         apart = 2 * np.arcsin(min(1.0, chord / 2)) - cap.radius
         return float(apart) * (1 - REACH_MARGIN) - 8 * UNIT_ROUNDOFF
 
-    @property
+    @cached_property
     def _widest(self) -> float:
         """The largest scale of the view, reached at its edge."""
         view, radius = self.chart.view, np.radians(self.chart.view.angular_radius)
@@ -369,8 +369,12 @@ class _Window:
     @property
     def _peak(self) -> FloatArray:
         """The place where the scale is largest."""
-        focus: FloatArray = self.chart.lens.right.matrix[2]
+        focus = self.chart.turns[0][2]
         return focus if self.chart.lens.magnification >= 1 else -focus
+
+    @cached_property
+    def _at_peak(self) -> FloatArray:
+        return xyz_to_lonlat(self._peak)
 
 
 def _meridians(lons: FloatArray) -> Arcs:
@@ -391,10 +395,10 @@ def _parallels(lats: FloatArray, latitude: Latitude) -> Arcs:
     return Arcs(start, start, axis, start[:, 2], radius, zero, np.full(len(lats), 2 * np.pi), np.arange(len(lats)))
 
 
-def _box_around(center: FloatArray, radius: float) -> _Box:
-    """South, north, west and east of a cap of the sphere, degrees; `radius` in radians."""
+def _box_around(lonlat: FloatArray, radius: float) -> _Box:
+    """South, north, west and east, degrees, of a cap about a place in degrees; `radius` in radians."""
     reach = float(np.degrees(radius * (1 + REACH_MARGIN) + 8 * UNIT_ROUNDOFF))
-    lon, lat = xyz_to_lonlat(center).tolist()
+    lon, lat = lonlat.tolist()
     south, north = max(-90.0, lat - reach), min(90.0, lat + reach)
     if abs(lat) + reach >= 90.0:
         return (south, north, -180.0, 180.0)
