@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from stereodel._arrays import FloatArray
 from stereodel._double_double import DoubleDouble
-from stereodel.conformal.biquaternions import Complex, Parts, from_spinors
+from stereodel.conformal.group import Complex, Parts, from_spinors
 from stereodel.constants import MATRIX_ERROR, MATRIX_MAGNIFICATION, STORED_ERROR
 from stereodel.sphere import Rotation, xyz_to_lonlat
 from stereodel.sphere.coordinates import tangent_frame

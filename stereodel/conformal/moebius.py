@@ -19,9 +19,8 @@ from stereodel import _kernel
 from stereodel._arrays import FloatArray, as_complex_matrix, as_directions, as_lonlat, as_matrix, as_scalar, as_vectors
 from stereodel._double_double import DoubleDouble, dot, stack, unit
 from stereodel._threads import thread_count
-from stereodel.conformal.biquaternions import Z_AXIS, Biquaternion, parts
 from stereodel.conformal.forms import from_lorentz, from_moebius, lorentz_matrix, stereographic_pipeline
-from stereodel.conformal.subgroups import Kind, fixed_points_of, kind_of, multiplier_of, power
+from stereodel.conformal.group import Z_AXIS, Biquaternion, Kind, fixed_points_of, kind_of, multiplier_of, parts, power
 from stereodel.constants import LARGEST_EXPONENT, LARGEST_MAGNIFICATION, STORED_ERROR
 from stereodel.sphere import Rotation, SphereArc, SphereCircle
 from stereodel.sphere.arcs import swept_angle

@@ -10,10 +10,8 @@ import numpy.typing as npt
 
 from stereodel._arrays import FloatArray, as_choice, as_floats
 from stereodel.interpolation.interpolator import Interpolator
-from stereodel.interpolation.linear import LinearInterpolator
-from stereodel.interpolation.natural_neighbor import NaturalNeighborInterpolator
-from stereodel.interpolation.nearest import NearestInterpolator
 from stereodel.interpolation.smooth import SmoothInterpolator
+from stereodel.interpolation.weighted import LinearInterpolator, NaturalNeighborInterpolator, NearestInterpolator
 from stereodel.sphere.latitudes import Latitude
 from stereodel.triangulation.dispatch import as_triangulation
 

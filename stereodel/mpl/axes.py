@@ -36,7 +36,7 @@ from stereodel.mpl.frame import Disc, Limb
 from stereodel.mpl.geometries import paths_of
 from stereodel.mpl.plots import GlobePlots
 from stereodel.mpl.transforms import EDGES, Edges, LonLatToPage, compound
-from stereodel.sphere import SphereArc, graticules, xyz_to_lonlat
+from stereodel.sphere import SphereArc, graticule, xyz_to_lonlat
 
 __all__ = ["FisheyeAxes"]
 
@@ -252,7 +252,7 @@ class FisheyeAxes(GlobePlots):
 
         Returns the artist; `kwargs` are those of `matplotlib.patches.PathPatch`.
         """
-        path = compound(Ragged.of([_in_degrees(arc) for arc in graticules.graticule(spacing)]), closed=False)
+        path = compound(Ragged.of([_in_degrees(arc) for arc in graticule(spacing)]), closed=False)
         self._graticule = self._lines(path, self.transStraight, LINES["graticule"], {"zorder": 1.5} | kwargs)
         return self._graticule
 

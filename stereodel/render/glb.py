@@ -12,7 +12,7 @@ import numpy as np
 
 from stereodel._arrays import FloatArray
 from stereodel._extras import of_extra
-from stereodel.drawing.page import colorimetry
+from stereodel.drawing.page import colors
 from stereodel.drawing.page.colors import Color
 from stereodel.drawing.scene.scene_items import Layer
 from stereodel.drawing.scene.solid import PlacedScene, Solid
@@ -42,7 +42,7 @@ def linear(color: Color) -> list[float]:
     >>> [round(part, 6) for part in linear((1.0, 0.5, 0.0, 0.25))]
     [1.0, 0.214041, 0.0, 0.25]
     """
-    return [*colorimetry.linear(color[:3]).tolist(), float(color[3])]
+    return [*colors.linear(color[:3]).tolist(), float(color[3])]
 
 
 def to_trimesh(solid: Solid) -> Any:

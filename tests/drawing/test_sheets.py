@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from stereodel.drawing import styled
 from stereodel.drawing.page import style
-from stereodel.drawing.page.colorimetry import contrast, luminance, to_oklab, with_luminance
+from stereodel.drawing.page.colors import contrast, luminance, to_oklab, with_luminance
 from stereodel.drawing.page.lengths import as_length
 from stereodel.drawing.page.sheets import GROUND, StyledDraw, StyleSheet, dark_color, dark_page
 from tests.drawing.pages import RED, page

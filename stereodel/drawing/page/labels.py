@@ -17,12 +17,11 @@ import numpy as np
 
 from stereodel._arrays import FloatArray
 from stereodel._extras import of_extra
-from stereodel.drawing.page.colors import ColorLike, as_color
+from stereodel.drawing.page.colors import Color, ColorLike, as_color, contrast
 from stereodel.drawing.page.fonts import families_of, font_properties, quiet_fonts, set_text
-from stereodel.drawing.page.ground import away_from, legible
 from stereodel.drawing.page.items import Item, Label, painted
 from stereodel.drawing.page.page import Page
-from stereodel.drawing.page.style import BLACK, HALO_OPACITY, TYPE
+from stereodel.drawing.page.style import BLACK, HALO_OPACITY, TYPE, WHITE
 
 GAP: Final = 1.0
 """Least distance between labels, points."""
@@ -45,6 +44,9 @@ MOST: Final = 0.75
 
 VEIL: Final = 0.6
 """Opacity of a halo on several colours: black type on a white one has contrast 7.4 even where the ground is black."""
+
+LEGIBLE: Final = 7.0
+"""Least contrast of small type, a ratio of luminances plus 0.05 (Web Content Accessibility Guidelines, level AAA)."""
 
 TITLE_SIZE: Final = 12.0
 """Type size of a title in points."""
@@ -222,6 +224,21 @@ def _tinted(label: Item, page: Page) -> Item:
         return replace(label, halo_color=(*away_from(label.color), VEIL))
     red, green, blue = legible(colors[counts.argmax()], label.color).tolist()
     return replace(label, halo_color=(red, green, blue, HALO_OPACITY))
+
+
+def away_from(ink: Color) -> tuple[float, float, float]:
+    """White or black, whichever contrasts more with the ink."""
+    return max(WHITE[:3], BLACK[:3], key=lambda far: float(contrast(far, ink[:3])))
+
+
+def legible(ground: FloatArray, ink: Color) -> FloatArray:
+    """A colour mixed with white or black, whichever is farther from the ink, until type on it is legible."""
+    away = away_from(ink)
+    for share in np.linspace(0.0, 1.0, 21):
+        mixed: FloatArray = ground + share * (away - ground)
+        if contrast(mixed, ink[:3]) >= LEGIBLE:
+            break
+    return mixed
 
 
 def with_title(page: Page, title: str, *, ink: ColorLike = BLACK, size: float = TITLE_SIZE) -> Page:

@@ -21,8 +21,7 @@ from typing import Any, Final
 import numpy as np
 
 from stereodel._arrays import FloatArray, as_scalar
-from stereodel.drawing.page.colorimetry import FLARE, contrast, luminance, with_luminance
-from stereodel.drawing.page.colors import Color, as_color
+from stereodel.drawing.page.colors import FLARE, Color, as_color, contrast, luminance, with_luminance
 from stereodel.drawing.page.fonts import FontLike, as_font, in_font
 from stereodel.drawing.page.items import LEGEND, Item
 from stereodel.drawing.page.labels import haloed

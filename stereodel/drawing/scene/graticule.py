@@ -378,7 +378,7 @@ class _Window:
 
 
 def _meridians(lons: FloatArray) -> Arcs:
-    """Half great circles from the south pole to the north pole, as `stereodel.sphere.graticules.meridian`."""
+    """Half great circles from the south pole to the north pole, as `stereodel.sphere.arcs.meridian`."""
     south = np.tile([0.0, 0.0, -1.0], (len(lons), 1))
     # Counterclockwise about lon − 90 is northwards at lon.
     axis = lonlat_to_xyz(np.stack([lons - 90.0, np.zeros(len(lons))], axis=1))
@@ -387,7 +387,7 @@ def _meridians(lons: FloatArray) -> Arcs:
 
 
 def _parallels(lats: FloatArray, latitude: Latitude) -> Arcs:
-    """Whole circles eastwards from longitude 0, as `stereodel.sphere.graticules.parallel`."""
+    """Whole circles eastwards from longitude 0, as `stereodel.sphere.arcs.parallel`."""
     zero = np.zeros(len(lats))
     start = lonlat_to_xyz(np.stack([zero, lats], axis=1), latitude=latitude)
     axis = np.tile([0.0, 0.0, 1.0], (len(lats), 1))
