@@ -13,7 +13,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Protocol
 
 import numpy as np
 import numpy.typing as npt
@@ -22,6 +21,7 @@ from stereodel._arrays import BoolArray, FloatArray, Indices, as_floats
 from stereodel.constants import AT_POLE, CHART_ROUNDING, LIMB_DEPTH, RIM_FINENESS
 from stereodel.curves.ragged import Ragged, offsets_of, spans
 from stereodel.curves.trace import Arcs
+from stereodel.curves.view import MapView
 from stereodel.sphere import xyz_to_lonlat
 from stereodel.sphere.latitudes import Latitude
 
@@ -55,52 +55,6 @@ class Pieces:
         return np.searchsorted(edge, np.arange(edge[-1] + 2 if len(edge) else 1))
 
 
-class Outline(Protocol):
-    """The border of a chart, for curves that are already cut."""
-
-    @property
-    def length(self) -> float:
-        """Total length of the border."""
-
-    @property
-    def slack(self) -> float:
-        """Bound on rounding errors of coordinates."""
-
-    @property
-    def blur(self) -> float:
-        """Bound on the distance between chords and curves, relative to the length of the border over 2π."""
-
-    def flat(self, chains: Ragged) -> FloatArray:
-        """Coordinates (n, 2) on the chart of points (n, 3) in chains."""
-
-    def place(self, flat: FloatArray) -> FloatArray:
-        """Positions of border points (n, 2) along the border, counterclockwise."""
-
-    def between(self, start: FloatArray, stop: FloatArray) -> Ragged:
-        """Points of the border to draw strictly between positions (k,), in either direction."""
-
-    def once(self) -> FloatArray:
-        """The whole border, its first point repeated at the end."""
-
-
-class Border(Outline, Protocol):
-    """The border of a chart, and where arcs cross it."""
-
-    def cut(self, arcs: Arcs) -> Pieces:
-        """Arcs cut where they cross the border."""
-
-
-class DiscView(Protocol):
-    """A map of a cap about (0, 0, 1), in its own axes, onto the unit disc of a page."""
-
-    @property
-    def angular_radius(self) -> float:
-        """Angular radius of the cap in degrees."""
-
-    def flattened(self, axes: FloatArray) -> FloatArray:
-        """Page coordinates (..., 2) of unit vectors (..., 3)."""
-
-
 @dataclass(frozen=True, eq=False)
 class Cap:
     """The edge of a view, at its angular radius from (0, 0, 1): the limb of a ball, the rim of a flat map.
@@ -109,7 +63,7 @@ class Cap:
     cross the rim. With the nonzero rule such crossings are harmless, and the rim may be as coarse as the chains.
     """
 
-    view: DiscView
+    view: MapView
     tolerance: float
     fineness: float = RIM_FINENESS
     length: float = TURN
@@ -314,6 +268,10 @@ class Antimeridian(Box):
         pole = (np.abs(y) <= AT_POLE) & (np.abs(x) <= AT_POLE)
         lonlat[pole, 0] = lonlat[beside[pole], 0]
         return lonlat
+
+
+Outline = Cap | Box
+"""The border of a chart, for curves that are already cut."""
 
 
 def _on_border(points: FloatArray, slack: float = 0.0) -> BoolArray:

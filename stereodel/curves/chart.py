@@ -8,43 +8,20 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Protocol
 
 import numpy as np
 
 from stereodel._arrays import BoolArray, FloatArray, Indices
 from stereodel.conformal import MoebiusMap
 from stereodel.constants import CHART_TOLERANCE, REACH_MARGIN, RIM_FINENESS, UNIT_ROUNDOFF
-from stereodel.curves import borders, clip
+from stereodel.curves import clip
 from stereodel.curves.borders import Cap, Pieces
 from stereodel.curves.ragged import Ragged
 from stereodel.curves.trace import Arcs, Edges
+from stereodel.curves.view import MapView
 from stereodel.sphere.vectors import turned
 
 Place = tuple[float, float]
-
-
-class ChartView(borders.DiscView, Protocol):
-    """A map of a cap of the sphere, seen from a direction, onto the unit disc of a page."""
-
-    @property
-    def matrix(self) -> FloatArray:
-        """Rows right, up, toward the viewer: unit vectors, a rotation matrix (3, 3)."""
-
-    @property
-    def edge(self) -> float:
-        """Cosine of the angular radius of the cap."""
-
-    @property
-    def round(self) -> bool:
-        """Whether the page shows a ball."""
-
-    @property
-    def stretch(self) -> float:
-        """Bound on the ratio of the deviation of chords on the page to that in space."""
-
-    def breadth(self, axes: FloatArray, across: FloatArray) -> FloatArray:
-        """Ratio of the distance between two close lines on the page to that on the sphere."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,7 +60,7 @@ class Chart:
     """
 
     lens: MoebiusMap
-    view: ChartView
+    view: MapView
     at: Place = (0.0, 0.0)
     scale: float = 1.0
     tolerance: float = CHART_TOLERANCE

@@ -9,7 +9,7 @@ import numpy as np
 
 from stereodel._arrays import as_choice
 from stereodel.conformal import MoebiusMap
-from stereodel.drawing.scene.view import View
+from stereodel.curves.view import View
 from stereodel.globe.images import check_photo, read_photo, write_photo
 from stereodel.globe.raster import FACES, PANORAMA_FORMS, PLANET_RADIUS, SHARES, PanoramaForm, Raster, panorama_size
 

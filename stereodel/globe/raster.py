@@ -27,8 +27,7 @@ from stereodel._arrays import (
 from stereodel._threads import thread_count
 from stereodel.conformal import MoebiusMap
 from stereodel.constants import MOST_PIXELS_ACROSS, MOST_TEXELS
-from stereodel.curves.chart import ChartView
-from stereodel.drawing.scene.view import MapView, View
+from stereodel.curves.view import MapView, View
 from stereodel.globe.images import read_photo
 from stereodel.sphere import lonlat_to_xyz, xyz_to_lonlat
 from stereodel.sphere.latitudes import KINDS, Latitude
@@ -213,7 +212,7 @@ class Raster:
     def painted(
         self,
         lens: MoebiusMap,
-        view: ChartView,
+        view: MapView,
         place: tuple[float, float, float, float],
         pixels: tuple[int, int],
         *,
@@ -414,7 +413,7 @@ class RasterOnDisc:
 
     raster: Raster
     lens: MoebiusMap
-    view: ChartView
+    view: MapView
     at: tuple[float, float] = (0.0, 0.0)
     scale: float = 1.0
     opacity: float = 1.0

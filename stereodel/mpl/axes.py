@@ -30,8 +30,8 @@ from stereodel._arrays import FloatArray, IntArray, as_choice, as_edges, as_lonl
 from stereodel.conformal import MoebiusMap, fisheye
 from stereodel.constants import PAGE_TOLERANCE
 from stereodel.curves.ragged import Ragged
+from stereodel.curves.view import MapView, View
 from stereodel.drawing.page.style import LINES, LineStyle
-from stereodel.drawing.scene.view import MapView, View
 from stereodel.mpl.frame import Disc, Limb
 from stereodel.mpl.geometries import paths_of
 from stereodel.mpl.plots import GlobePlots

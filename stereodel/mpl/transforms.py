@@ -19,7 +19,7 @@ from stereodel.curves.chart import Chart
 from stereodel.curves.ragged import Ragged
 from stereodel.curves.seams import stitched
 from stereodel.curves.trace import sides_of, unwrapped
-from stereodel.drawing.scene.view import MapView
+from stereodel.curves.view import MapView
 from stereodel.mpl.insides import on_the_left
 from stereodel.sphere import lonlat_to_xyz, xyz_to_lonlat
 from stereodel.sphere.vectors import turned

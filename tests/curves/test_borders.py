@@ -9,7 +9,7 @@ from stereodel import MoebiusMap, SphereCircle, fisheye, lonlat_to_xyz
 from stereodel.curves.borders import Antimeridian, Box, Cap, crossings
 from stereodel.curves.ragged import Ragged
 from stereodel.curves.trace import great
-from stereodel.drawing.scene.view import StereographicView, View
+from stereodel.curves.view import StereographicView, View
 from tests import sets
 from tests.curves.oracle import units, whole_circles
 from tests.examples import examples

@@ -6,8 +6,8 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from matplotlib.path import Path as Polygon
 
+from stereodel.curves.view import View
 from stereodel.drawing.scene.space_curves import CircleArc
-from stereodel.drawing.scene.view import View
 from stereodel.drawing.scene.visibility import SphereRegion, limb, page_area
 from stereodel.sphere import SphereCircle
 

@@ -7,8 +7,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from stereodel.constants import LIMB_DEPTH
+from stereodel.curves.view import View
 from stereodel.drawing.scene.space_curves import CircleArc, Segment
-from stereodel.drawing.scene.view import View
 from stereodel.drawing.scene.visibility import Place, lies_on_ball, place_of, split_by_ball
 from stereodel.sphere import SphereArc, SphereCircle
 

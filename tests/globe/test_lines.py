@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from stereodel import MoebiusMap, fisheye, lonlat_to_xyz, xyz_to_lonlat
 from stereodel.curves.chart import Chart
 from stereodel.curves.ragged import Ragged, thinned
-from stereodel.drawing.scene.view import StereographicView, View
+from stereodel.curves.view import StereographicView, View
 from stereodel.globe.lines import SphereLines
 from stereodel.sphere import SphereArc
 from stereodel.sphere.vectors import turned

@@ -8,7 +8,7 @@ import pytest
 from PIL import Image, ImageCms
 
 from stereodel import fisheye
-from stereodel.drawing.scene.view import View
+from stereodel.curves.view import View
 from stereodel.globe import Raster, save_panorama
 from stereodel.globe.images import read_photo, write_photo
 from tests.globe.supersampling import zone_plate

@@ -9,7 +9,7 @@ from stereodel import MoebiusMap, SphericalVoronoi, fisheye, lonlat_to_xyz, xyz_
 from stereodel.curves.chart import Chart
 from stereodel.curves.clip import signed_areas
 from stereodel.curves.trace import Edges
-from stereodel.drawing.scene.view import StereographicView, View
+from stereodel.curves.view import StereographicView, View
 from stereodel.globe.regions import SphereRegions
 from stereodel.sphere import SphereCircle
 from tests.examples import examples

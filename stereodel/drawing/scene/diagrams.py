@@ -7,10 +7,10 @@ import numpy.typing as npt
 
 from stereodel._arrays import as_lonlat
 from stereodel.curves.borders import frame_of
+from stereodel.curves.view import View
 from stereodel.drawing.page import Page
 from stereodel.drawing.scene.scene import Scene
 from stereodel.drawing.scene.sketch import Sketch
-from stereodel.drawing.scene.view import View
 from stereodel.triangulation import PlanarDelaunay, PlanarVoronoi, SphericalDelaunay, SphericalVoronoi
 from stereodel.triangulation.topology import edges_of
 

@@ -18,8 +18,9 @@ import numpy.typing as npt
 from stereodel._arrays import BoolArray, FloatArray, Indices, as_scalar, as_steps
 from stereodel.conformal import MoebiusMap
 from stereodel.constants import GRID_SAMPLES, MOST_GRID_LINES, REACH_MARGIN, UNIT_ROUNDOFF
-from stereodel.curves.chart import Chart, ChartView
+from stereodel.curves.chart import Chart
 from stereodel.curves.trace import Arcs, exact, joined, numbered
+from stereodel.curves.view import MapView
 from stereodel.drawing.scene.space_curves import CircleArc
 from stereodel.sphere import graticule_patch, lonlat_to_xyz, xyz_to_lonlat
 from stereodel.sphere.latitudes import Latitude
@@ -142,7 +143,7 @@ class Graticule:
         strides = _strides(np.arange(count), _quarter(steps))
         return cls(arcs, count, float(np.radians(2 * half_width)) / steps, np.tile(strides, 2))
 
-    def drawn(self, lens: MoebiusMap, view: ChartView, least: float) -> list[CircleArc]:
+    def drawn(self, lens: MoebiusMap, view: MapView, least: float) -> list[CircleArc]:
         """The visible lines: the images of `thinned` lines under the lens."""
         thin = self.thinned(Chart(lens, view), least)
         parts = replace(thin, edge=np.arange(len(thin))).through(lens)

@@ -13,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import as_directions, as_indices, as_points, as_scalar, as_vectors
+from stereodel.curves.view import View
 from stereodel.drawing.page import Item, Label, Page
 from stereodel.drawing.page import style as styles
 from stereodel.drawing.page.colors import ColorLike, as_color
@@ -33,7 +34,6 @@ from stereodel.drawing.scene.scene_items import (
 )
 from stereodel.drawing.scene.solid import PlacedScene, Solid
 from stereodel.drawing.scene.space_curves import CircleArc, Curve, Segment
-from stereodel.drawing.scene.view import View
 from stereodel.drawing.scene.visibility import SphereRegion
 from stereodel.sphere import SphereArc, SphereCircle
 from stereodel.sphere.vectors import units

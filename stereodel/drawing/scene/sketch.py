@@ -16,6 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import FloatArray, as_vectors
+from stereodel.curves.view import View
 from stereodel.drawing.page import Beziers, Dots, Fill, Item, Label, Page, Stroke
 from stereodel.drawing.page.colors import ColorLike, as_color
 from stereodel.drawing.page.fonts import FontLike, as_font, in_font
@@ -24,7 +25,6 @@ from stereodel.drawing.page.lengths import LengthLike, as_length
 from stereodel.drawing.page.style import PRINT_WIDTH, WHITE, DotStyle, LineStyle, dot, fill, line
 from stereodel.drawing.scene.scene import Scene
 from stereodel.drawing.scene.space_curves import CircleArc, Segment, page_path
-from stereodel.drawing.scene.view import View
 
 Point = Sequence[float] | FloatArray
 

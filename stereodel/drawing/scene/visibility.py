@@ -24,8 +24,8 @@ from stereodel.curves.borders import Cap
 from stereodel.curves.clip import chains_of, followers
 from stereodel.curves.ragged import Ragged, cycles
 from stereodel.curves.trace import Arcs
+from stereodel.curves.view import View
 from stereodel.drawing.scene.space_curves import CircleArc, Curve
-from stereodel.drawing.scene.view import View
 
 K = TypeVar("K")
 
