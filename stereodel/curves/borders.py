@@ -11,7 +11,7 @@ ring always leave as often as they enter.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -128,15 +128,23 @@ class Box:
     right: float
     bottom: float
     top: float
-    length: float = field(init=False)
-    slack: float = field(init=False)
     blur: float = 0.0
 
-    def __post_init__(self) -> None:
+    @property
+    def length(self) -> float:
+        """Around the rectangle."""
+        return 2 * (self.right - self.left + (self.top - self.bottom))
+
+    @property
+    def slack(self) -> float:
+        """Bound on rounding errors of coordinates."""
+        return CHART_ROUNDING * max(map(abs, (self.left, self.right, self.bottom, self.top)))
+
+    @property
+    def _marks(self) -> FloatArray:
+        """Positions of the corners (4, 1)."""
         width, height = self.right - self.left, self.top - self.bottom
-        object.__setattr__(self, "length", 2 * (width + height))
-        reach = max(map(abs, (self.left, self.right, self.bottom, self.top)))
-        object.__setattr__(self, "slack", CHART_ROUNDING * reach)
+        return np.array([[0], [height], [height + width], [2 * height + width]])
 
     @property
     def corners(self) -> FloatArray:
@@ -151,22 +159,13 @@ class Box:
     def place(self, flat: FloatArray) -> FloatArray:
         """Positions of border points along the border; other points use the nearest side."""
         x, y = np.clip(flat, [self.left, self.bottom], [self.right, self.top]).T
-        width, height = self.right - self.left, self.top - self.bottom
         away = np.abs([x - self.right, y - self.top, x - self.left, y - self.bottom])
-        along = np.array(
-            [
-                y - self.bottom,
-                height + self.right - x,
-                height + width + self.top - y,
-                2 * height + width + x - self.left,
-            ]
-        )
+        along = self._marks + away[[3, 0, 1, 2]]
         return along[np.argmin(away, axis=0), np.arange(len(x))] % self.length
 
     def between(self, start: FloatArray, stop: FloatArray) -> Ragged:
         """The corners strictly between pairs of positions, in either direction."""
-        height, width = self.top - self.bottom, self.right - self.left
-        marks = np.array([0, height, height + width, 2 * height + width]) + self.length * np.arange(-2, 3)[:, None]
+        marks = self._marks.T + self.length * np.arange(-2, 3)[:, None]
         ahead = (marks.ravel() - start[:, None]) * np.where(stop < start, -1, 1)[:, None]
         way, mark = np.nonzero((ahead > 0) & (ahead < np.abs(stop - start)[:, None]))
         order = np.lexsort((ahead[way, mark], way))
@@ -178,13 +177,7 @@ class Box:
 
 
 def frame_of(points: FloatArray, bounds: npt.ArrayLike | None = None) -> Box:
-    """The rectangle bounds = (xmin, ymin, xmax, ymax), by default the bounding box of points (n, 2) with a margin.
-
-    Raises
-    ------
-    ValueError
-        Unless xmin < xmax and ymin < ymax.
-    """
+    """The rectangle bounds = (xmin, ymin, xmax, ymax), by default the bounding box of points (n, 2) with a margin."""
     if bounds is not None:
         given = as_floats(bounds, "bounds")
         if given.shape != (4,) or not (given[:2] < given[2:]).all():

@@ -19,7 +19,7 @@ from stereodel._arrays import BoolArray, FloatArray, Indices
 from stereodel.conformal import MoebiusMap
 from stereodel.conformal.distortions import largest_scale
 from stereodel.constants import LONGEST_EDGE, MOST_PIECES, WHOLE_TURNS
-from stereodel.curves.ragged import Ragged, offsets_of, spans
+from stereodel.curves.ragged import Ragged, Rows, offsets_of, spans
 from stereodel.sphere import SphereArc, lonlat_to_xyz
 from stereodel.sphere.latitudes import Latitude
 from stereodel.sphere.vectors import crossed, turned
@@ -29,7 +29,7 @@ APEX = np.array([0.36, 0.48, 0.8])
 
 
 @dataclass(frozen=True, eq=False)
-class Arcs:
+class Arcs(Rows):
     """Arcs of circles of the unit sphere: center + cos t·u + sin t·v for t from `begin` to `stop`, at most one turn.
 
     The circle is axis·x = offset, counterclockwise about its axis: center = offset·axis, v = axis × u.
@@ -48,10 +48,6 @@ class Arcs:
 
     def __len__(self) -> int:
         return len(self.edge)
-
-    def take(self, chosen: Indices | BoolArray) -> Arcs:
-        """Some of the arcs."""
-        return Arcs(*(getattr(self, name)[chosen] for name in self.__dataclass_fields__))
 
     def turned(self, matrix: FloatArray) -> Arcs:
         """The arcs in other axes, the rows of a rotation matrix."""
@@ -79,12 +75,9 @@ class Arcs:
         return pieces
 
     def through(self, lens: MoebiusMap) -> Arcs:
-        """The images under a lens.
-
-        Arcs are cut where they are nearest to and farthest from the focus. By symmetry the images of these points are
-        opposite on the image circle, so between them an image sweeps at most half a turn, which its endpoints
-        determine.
-        """
+        """The images under a lens, cut at the apsides."""
+        # Arcs are cut where they are nearest to and farthest from the focus. By symmetry the images of these points are
+        # opposite on the image circle; between them an image sweeps at most half a turn, which its ends determine.
         if lens.magnification == 1:
             return self.turned(lens.left.matrix @ lens.right.matrix)
         # Both apsides, each within a turn from `begin`; those beyond `stop` are not on the arc.
@@ -293,12 +286,12 @@ class Edges:
         parts = cut.arcs(self.latitude)
         whole = np.ones(len(self), dtype=bool)
         whole[long] = False
-        both = joined(self.arcs.take(whole), parts)
+        both = Arcs.joined(self.arcs.take(whole), parts)
         return both.take(np.argsort(both.edge, kind="stable"))
 
 
 @dataclass(frozen=True, eq=False)
-class _Stretches:
+class _Stretches(Rows):
     """Parts of edges straight in degrees, from a (k, 2) to b, on the sphere from p (k, 3) to q."""
 
     edge: Indices
@@ -318,10 +311,6 @@ class _Stretches:
         count, (a, b) = len(edges), edges.lonlat.swapaxes(0, 1)
         return cls(number, np.zeros(count), np.ones(count), pieces, a, b, edges.arcs.start, edges.arcs.end)
 
-    def take(self, chosen: Indices | BoolArray) -> _Stretches:
-        """Some of them."""
-        return _Stretches(*(getattr(self, name)[chosen] for name in self.__dataclass_fields__))
-
     def halved(self, lens: MoebiusMap, tolerance: float, latitude: Latitude) -> _Stretches:
         """Parts halved, in order, until none needs more than `MOST_PIECES`: few where nothing is magnified."""
         done, rest = [], self
@@ -335,10 +324,10 @@ class _Stretches:
             center, share = lonlat_to_xyz(middle, latitude=latitude), rest.share / 2
             first = replace(rest, share=share, b=middle, q=center)
             second = replace(rest, share=share, before=rest.before + share, a=middle, p=center)
-            halves = _together([first, second])
+            halves = _Stretches.joined(first, second)
             length, bend = measures_in_lonlat(halves.a, halves.b, halves.p, halves.q)
             rest = replace(halves, pieces=_wanted(lens, tolerance, halves.p, length, bend))
-        found = _together(done)
+        found = _Stretches.joined(*done)
         return found.take(np.lexsort([found.before, found.edge]))
 
     def arcs(self, latitude: Latitude) -> Arcs:
@@ -353,11 +342,6 @@ class _Stretches:
         return replace(great(p, q), edge=self.edge[row])
 
 
-def _together(parts: Sequence[_Stretches]) -> _Stretches:
-    names = _Stretches.__dataclass_fields__
-    return _Stretches(*(np.concatenate([getattr(part, name) for part in parts]) for name in names))
-
-
 def _wanted(lens: MoebiusMap, tolerance: float, start: FloatArray, length: FloatArray, bend: FloatArray) -> FloatArray:
     """Numbers of great circles with images within `tolerance` of those of edges, by the largest scale along them.
 
@@ -367,29 +351,9 @@ def _wanted(lens: MoebiusMap, tolerance: float, start: FloatArray, length: Float
     return np.asarray(np.maximum(wanted, length / np.radians(LONGEST_EDGE)))
 
 
-def joined(a: Arcs, b: Arcs) -> Arcs:
-    """The arcs of both."""
-    return Arcs(*(np.concatenate([getattr(a, name), getattr(b, name)]) for name in Arcs.__dataclass_fields__))
-
-
 def numbered(arcs: Arcs) -> Arcs:
     """The same arcs, each an edge of its own."""
     return replace(arcs, edge=np.arange(len(arcs)))
-
-
-def straight(
-    a: FloatArray,
-    b: FloatArray,
-    lens: MoebiusMap,
-    tolerance: float,
-    latitude: Latitude = "spherical",
-    ends: tuple[FloatArray, FloatArray] | None = None,
-) -> Arcs:
-    """Edges straight in degrees from a (k, 2) to b, as arcs whose images are within `tolerance`, in radii, of theirs.
-
-    `ends` are their endpoints on the sphere, if already known.
-    """
-    return Edges.straight(a, b, latitude, ends).arcs_under(lens, tolerance)
 
 
 def unwrapped(lines: Ragged, *, turns: bool = True) -> Ragged:

@@ -19,7 +19,7 @@ from stereodel._arrays import BoolArray, FloatArray, Indices, as_scalar, as_step
 from stereodel.conformal import MoebiusMap
 from stereodel.constants import GRID_SAMPLES, MOST_GRID_LINES, REACH_MARGIN, UNIT_ROUNDOFF
 from stereodel.curves.chart import Chart
-from stereodel.curves.trace import Arcs, exact, joined, numbered
+from stereodel.curves.trace import Arcs, exact, numbered
 from stereodel.curves.view import MapView
 from stereodel.drawing.scene.space_curves import CircleArc
 from stereodel.sphere import graticule_patch, lonlat_to_xyz, xyz_to_lonlat
@@ -124,7 +124,7 @@ class Graticule:
     @classmethod
     def _numbered(cls, east: Indices, north: Indices, steps: int, latitude: Latitude) -> Graticule:
         """Meridians and parallels of a graticule by number, counted from those through (0, 0)."""
-        arcs = joined(_meridians(east * 180.0 / steps), _parallels(north * 180.0 / steps, latitude))
+        arcs = Arcs.joined(_meridians(east * 180.0 / steps), _parallels(north * 180.0 / steps, latitude))
         numbers = np.concatenate([east, north])
         return cls(numbered(arcs), len(east), np.pi / steps, _strides(numbers, _quarter(steps)))
 

@@ -14,7 +14,7 @@ from stereodel.curves import clip
 from stereodel.curves.borders import Antimeridian, Pieces
 from stereodel.curves.ragged import Ragged
 from stereodel.curves.seams import left_inside, stitched
-from stereodel.curves.trace import Edges, sides_of, straight, unwrapped
+from stereodel.curves.trace import Edges, sides_of, unwrapped
 from stereodel.io.map_shapes import COLLECTION, LINE, MULTILINE, MULTIPOINT, MULTIPOLYGON, POINT, POLYGON, RING
 from stereodel.io.maps.on_map import close_in_longitude, lines_on_map, polygons_on_map, repaired, shapely
 from stereodel.sphere import lonlat_to_xyz, xyz_to_lonlat
@@ -54,7 +54,8 @@ def _lines(geometries: Geometries, lens: MoebiusMap, slack: float) -> Geometries
     lonlat, part = shapely.get_coordinates(parts, return_index=True)
     lines = unwrapped(Ragged.grouped(lonlat, part, len(parts)))
     first, sides = sides_of(lines)
-    pieces = BORDER.cut(straight(lines.values[first], lines.values[first + 1], lens, slack / 4).through(lens))
+    edges = Edges.straight(lines.values[first], lines.values[first + 1])
+    pieces = BORDER.cut(edges.arcs_under(lens, slack / 4).through(lens))
     return lines_on_map(sides, owner, len(geometries), pieces, _sampled(pieces, slack), BORDER)
 
 
