@@ -76,10 +76,8 @@ def from_lorentz(matrix: FloatArray) -> Parts:
 
 
 def from_moebius(matrix: npt.NDArray[np.complex128]) -> Parts:
-    """The parts of ζ ↦ (aζ + b)/(cζ + d), ζ = (x + iy)/(1 − z).
-
-    The spinor (ξ₁, ξ₂) of a point has ζ* = ξ₁/ξ₂: the conjugate matrix acts on it.
-    """
+    """The parts of ζ ↦ (aζ + b)/(cζ + d), ζ = (x + iy)/(1 − z)."""
+    # The spinor (ξ₁, ξ₂) of a point has ζ* = ξ₁/ξ₂: the conjugate matrix acts on it.
     size = np.abs(matrix.view(np.float64)).max()
     (a, b), (c, d) = np.conj(matrix) * 2.0 ** -float(np.frexp(size)[1])
     element = from_spinors(((Complex.of(a), Complex.of(b)), (Complex.of(c), Complex.of(d))))

@@ -166,20 +166,16 @@ def rotation(quaternion: DoubleDouble) -> Biquaternion:
 
 def boost(axis: DoubleDouble, magnification: DoubleDouble) -> Biquaternion:
     """The fisheye of magnification S along a unit vector (3,)."""
-    root = magnification.sqrt()
+    root, zero = magnification.sqrt(), DoubleDouble(np.zeros(3))
     cosh, sinh = (root + 1.0 / root) * 0.5, (root - 1.0 / root) * 0.5
-    zero = DoubleDouble(0.0)
-    vector = axis * -sinh
-    return Biquaternion(stack([cosh, zero, zero, zero]), stack([zero, vector[0], vector[1], vector[2]]))
+    return from_parts(Complex(cosh, zero[0]), Complex(zero, axis * -sinh))
 
 
 def from_parts(scalar: Complex, vector: Complex) -> Biquaternion:
     """The element with a scalar and a vector (3,)."""
-    return Biquaternion(_join(scalar.re, vector.re), _join(scalar.im, vector.im))
-
-
-def _join(scalar: DoubleDouble, vector: DoubleDouble) -> DoubleDouble:
-    return stack([scalar, vector[0], vector[1], vector[2]])
+    pairs = (scalar.re, vector.re), (scalar.im, vector.im)
+    real, imag = (stack([first, *(rest[k] for k in range(3))]) for first, rest in pairs)
+    return Biquaternion(real, imag)
 
 
 Spinors = tuple[tuple[Complex, Complex], tuple[Complex, Complex]]
@@ -187,10 +183,7 @@ Spinors = tuple[tuple[Complex, Complex], tuple[Complex, Complex]]
 
 
 def from_spinors(matrix: Spinors) -> Biquaternion:
-    """The element of a matrix on spinors, of the same determinant.
-
-    Over the Pauli matrices it is α₀ + α·σ, and that is the biquaternion α₀ + i α.
-    """
+    """The element of a matrix on spinors, of the same determinant: over the Pauli matrices α₀ + α·σ, as it α₀ + i α."""
     (a, b), (c, d) = matrix
     scalar, along_z = (a + d) * 0.5, (a - d) * 0.5
     along_x, along_y = (b + c) * 0.5, ((b - c) * 0.5).times_i()
@@ -216,12 +209,9 @@ def power(element: Biquaternion, exponent: float) -> Biquaternion:
 
 
 def principal(element: Biquaternion) -> Biquaternion:
-    """The element or its negative, the same map: that with 0 ≤ Re c, so that the rotation is by at most 180°.
-
-    With Re c = 0 both are by 180°; the last component of the vector that is not zero is then made positive.
-    """
+    """The element or its negative, the same map: that with 0 ≤ Re c, so that the rotation is by at most 180°."""
     scalar = float(element.real.hi[0])
-    if scalar == 0:
+    if scalar == 0:  # both are by 180°: the last component of the vector that is not zero is made positive
         components = [*element.imag.hi[1:], *element.real.hi[1:]]
         scalar = next((float(part) for part in reversed(components) if part != 0), 1.0)
     return element if scalar > 0 else element._replace(real=-element.real, imag=-element.imag)
@@ -246,10 +236,8 @@ Kind = Literal["identity", "rotation", "boost", "parabolic", "loxodromic"]
 
 
 def kind_of(element: Biquaternion) -> Kind:
-    """The kind of a map, or of one within `KIND_TOLERANCE` of it.
-
-    Rounded parameters change c by about 2⁻⁵²|v|, and s² = 1 − c² by twice that where c is 1.
-    """
+    """The kind of a map, or of one within `KIND_TOLERANCE` of it."""
+    # Rounded parameters change c by about 2⁻⁵²|v|, and s² = 1 − c² by twice that where c is 1.
     vector = element.vector
     slack = KIND_TOLERANCE * float(vector.square_size().hi.sum()) ** 0.5
     if slack <= KIND_TOLERANCE**2:

@@ -114,14 +114,11 @@ def bubble_to_bubble(
 
 
 def _to_hemisphere(circle: SphereCircle, point: DoubleDouble, to_north: DoubleDouble, name: str) -> Biquaternion:
-    """The map of a bubble onto the northern hemisphere with a point of it at the pole.
-
-    A stored point and a stored circle are each off by up to STORED_ERROR, and the map, whose scale on the rim is 1/sin
-    α, magnifies that to an error of 2 STORED_ERROR/sin α in the height above the equator. Whether a lower point lies
-    inside is a matter of rounding; if the circle is too small, that includes the centre, whose height is 1. The error
-    of the double-doubles, about 2⁻¹⁰⁰/sin α here, is 2⁻⁵⁰ of that.
-    """
+    """The map of a bubble onto the northern hemisphere with a point of it at the pole."""
     _, cosine, sine = circle.exact_parts()
+    # A stored point and a stored circle are each off by up to STORED_ERROR, which the map, of scale 1/sin α on the rim,
+    # magnifies to 2 STORED_ERROR/sin α in the height above the equator: whether a lower point lies inside is a matter
+    # of rounding; if the circle is too small, of the centre as well. Double-doubles are off by 2⁻⁵⁰ of that.
     noise = 2 * STORED_ERROR / float(sine.hi)
     if noise >= 1:
         raise ValueError(

@@ -8,6 +8,7 @@ d + n_z and d − n_z.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import overload
@@ -164,10 +165,7 @@ class MoebiusMap:
         ndarray, shape (..., 3)
         """
         array = as_vectors(xyz, 3, "xyz", gaps=True, instead="for longitude and latitude call its method lonlat")
-        images, sound = _kernel.moebius_images(*self._for_kernel(array), thread_count(workers, array.size // 3))
-        if not sound:
-            as_directions(array, "xyz")  # raises: the kernel found an invalid row, without a separate pass
-        return images.reshape(array.shape)
+        return self._asked(_kernel.moebius_images, array, workers).reshape(array.shape)
 
     def lonlat(self, lonlat: npt.ArrayLike, *, workers: int | None = None) -> FloatArray:
         """Images of points given by longitude and latitude, in one step.
@@ -193,10 +191,7 @@ class MoebiusMap:
          [ 0.       78.575463]]
         """
         array = as_vectors(lonlat, 2, "lonlat", gaps=True)
-        images, sound = _kernel.moebius_lonlat(*self._for_kernel(array), thread_count(workers, array.size // 2))
-        if not sound:
-            as_lonlat(array)  # raises as above
-        return images.reshape(array.shape)
+        return self._asked(_kernel.moebius_lonlat, array, workers).reshape(array.shape)
 
     @property
     def _size(self) -> DoubleDouble:
@@ -208,14 +203,18 @@ class MoebiusMap:
         Off by less than 2⁻⁴⁸ of itself for a point within 2⁻⁷³ rad of the given one. `workers` as in a call.
         """
         array = as_vectors(xyz, 3, "xyz", gaps=True)
-        scales, sound = _kernel.moebius_scales(*self._for_kernel(array), thread_count(workers, array.size // 3))
-        if not sound:
-            as_directions(array, "xyz")  # raises as above
-        return scales.reshape(array.shape[:-1])
+        return self._asked(_kernel.moebius_scales, array, workers).reshape(array.shape[:-1])
 
-    def _for_kernel(self, array: FloatArray) -> tuple[FloatArray, FloatArray, float, FloatArray]:
+    def _asked(
+        self, function: Callable[..., tuple[FloatArray, bool]], array: FloatArray, workers: int | None
+    ) -> FloatArray:
+        """What the kernel says of rows; it finds invalid ones without a separate pass."""
         left, right = self._six_rows
-        return array.reshape(-1, array.shape[-1]), left, self.magnification, right
+        rows = array.reshape(-1, array.shape[-1])
+        found, sound = function(rows, left, self.magnification, right, thread_count(workers, len(rows)))
+        if not sound:  # one of these raises
+            as_lonlat(array) if array.shape[-1] == 2 else as_directions(array, "xyz")
+        return found
 
     @cached_property
     def _six_rows(self) -> tuple[FloatArray, FloatArray]:

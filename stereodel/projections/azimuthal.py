@@ -5,6 +5,7 @@ The orthographic projection is the globe seen from infinitely far away (the view
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from dataclasses import KW_ONLY, dataclass
 from functools import cached_property
 
@@ -21,7 +22,7 @@ from stereodel.sphere.rotations import transform
 
 
 @dataclass(frozen=True)
-class TangentPlane:
+class TangentPlane(ABC):
     """A projection to a plane that touches a sphere, with axes (east, north) at the point of tangency.
 
     center: (float, float), (lon, lat) in degrees of the point of tangency. At a pole the axes are the limit along
@@ -38,6 +39,22 @@ class TangentPlane:
         center = as_direction_or_lonlat(self.center, "center")
         object.__setattr__(self, "center", tuple(center.tolist()))
         object.__setattr__(self, "radius", as_scalar(self.radius, "radius", low=0.0, open_low=True))
+
+    def forward(self, xyz: npt.ArrayLike) -> FloatArray:
+        """Plane points (..., 2) of directions (..., 3); NaN outside the domain."""
+        return by_blocks(self._forward, as_directions(xyz, "xyz"))
+
+    def inverse(self, xy: npt.ArrayLike) -> FloatArray:
+        """Unit vectors (..., 3) of plane points (..., 2); NaN outside the image of the domain."""
+        return by_blocks(self._inverse, as_vectors(xy, 2, "xy"))
+
+    @abstractmethod
+    def _forward(self, rows: FloatArray) -> FloatArray:
+        """Plane points of directions (n, 3)."""
+
+    @abstractmethod
+    def _inverse(self, rows: FloatArray) -> FloatArray:
+        """Unit vectors of plane points (n, 2)."""
 
     @cached_property
     def frame(self) -> DoubleDouble:
@@ -63,6 +80,8 @@ def nan_where(outside: np.ndarray[tuple[int, ...], np.dtype[np.bool_]], values: 
 class Gnomonic(TangentPlane):
     """Projection from the centre of the sphere to the plane that touches it at `center`: d = R tan χ for χ < 90°.
 
+    At 90° from the centre and beyond, and where it overflows, the image is NaN.
+
     Parameters
     ----------
     center : (float, float)
@@ -81,20 +100,12 @@ class Gnomonic(TangentPlane):
     2.0 1.414213562373
     """
 
-    def forward(self, xyz: npt.ArrayLike) -> FloatArray:
-        """Plane points (..., 2) of directions (..., 3); NaN at 90° from the centre and beyond, and on overflow."""
-        return by_blocks(self._forward, as_directions(xyz, "xyz"))
-
     def _forward(self, rows: FloatArray) -> FloatArray:
         local = self.local(rows)
         far, height = _guarded(local[..., 2])
         with np.errstate(over="ignore", invalid="ignore"):
             image = (local[..., :2] / height[..., None]).round() * self.radius + 0.0
         return nan_where(far | ~np.isfinite(image).all(axis=-1), image)
-
-    def inverse(self, xy: npt.ArrayLike) -> FloatArray:
-        """Unit vectors (..., 3) of plane points (..., 2)."""
-        return by_blocks(self._inverse, as_vectors(xy, 2, "xy"))
 
     def _inverse(self, rows: FloatArray) -> FloatArray:
         heights = np.full((len(rows), 1), self.radius)
@@ -160,7 +171,9 @@ def _shape(a: float, c: float, circle: SphereCircle, spread: float) -> tuple[Con
 
 @dataclass(frozen=True)
 class Orthographic(TangentPlane):
-    """Parallel projection along the axis through `center`: d = R sin χ for χ ≤ 90°.
+    """Parallel projection along the axis through `center`: d = R sin χ for χ ≤ 90°, and to the near side back.
+
+    The image is NaN beyond 90° from the centre, and so is the inverse farther than R from the origin.
 
     Parameters
     ----------
@@ -180,17 +193,9 @@ class Orthographic(TangentPlane):
      [nan nan nan]]
     """
 
-    def forward(self, xyz: npt.ArrayLike) -> FloatArray:
-        """Plane points (..., 2) of directions (..., 3); NaN beyond 90° from the centre."""
-        return by_blocks(self._forward, as_directions(xyz, "xyz"))
-
     def _forward(self, rows: FloatArray) -> FloatArray:
         local = self.local(rows)
         return nan_where(local.hi[..., 2] < 0, local[..., :2].round() * self.radius + 0.0)
-
-    def inverse(self, xy: npt.ArrayLike) -> FloatArray:
-        """Unit vectors (..., 3) of plane points (..., 2) on the near side; NaN farther than R from the origin."""
-        return by_blocks(self._inverse, as_vectors(xy, 2, "xy"))
 
     def _inverse(self, rows: FloatArray) -> FloatArray:
         outside = np.hypot(rows[:, 0], rows[:, 1]) > 2 * self.radius

@@ -23,6 +23,8 @@ from stereodel.sphere.rotations import transform
 class Stereographic(TangentPlane):
     """Projection from the antipode of `center` to a plane: conformal, circles to circles or lines.
 
+    The antipode itself has no image: NaN.
+
     Parameters
     ----------
     center : (float, float)
@@ -63,10 +65,6 @@ class Stereographic(TangentPlane):
         """Distance in the plane of the great circle at 90° from the centre: 2R, or R for the equatorial plane."""
         return 2 * self.radius if self.plane == "tangent" else self.radius
 
-    def forward(self, xyz: npt.ArrayLike) -> FloatArray:
-        """Plane points (..., 2) of directions (..., 3); NaN at the antipode of the centre."""
-        return by_blocks(self._forward, as_directions(xyz, "xyz"))
-
     def _forward(self, rows: FloatArray) -> FloatArray:
         across, above, exponent = _heights(self.local(rows))
         size, shift = np.frexp(self.unit_distance)
@@ -75,9 +73,8 @@ class Stereographic(TangentPlane):
             plane: FloatArray = np.ldexp((across / above[..., None] * size).round(), (shift - exponent)[..., None])
         return plane + 0.0
 
-    def inverse(self, xy: npt.ArrayLike) -> FloatArray:
-        """Unit vectors (..., 3) of plane points (..., 2)."""
-        return by_blocks(lambda rows: self.lift(DoubleDouble(rows)), as_vectors(xy, 2, "xy"))
+    def _inverse(self, rows: FloatArray) -> FloatArray:
+        return self.lift(DoubleDouble(rows))
 
     def in_space(self, xy: npt.ArrayLike) -> FloatArray:
         """Positions in space, (..., 3), of plane points (..., 2), with the sphere of `radius` about the origin.

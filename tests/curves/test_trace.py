@@ -114,8 +114,7 @@ def test_sides_of_lines_and_longitudes_that_go_on():
     assert unwrapped(seam) is seam
 
 
-def test_edges_give_the_same_arcs_for_all_lenses_at_once_and_one_by_one():
-    """What is made ready once gives what `straight` gives each time; some of the edges give theirs."""
+def test_some_edges_have_the_arcs_that_they_have_among_all():
     rng = np.random.default_rng(4)
     a = np.stack([rng.uniform(-180, 180, 40), rng.uniform(-90, 90, 40)], axis=1)
     b = a + rng.uniform(-60, 60, (40, 2))
@@ -124,10 +123,8 @@ def test_edges_give_the_same_arcs_for_all_lenses_at_once_and_one_by_one():
     for size in (0.1, 1.0, 50.0):
         lens = fisheye((10.0, 20.0), magnification=size)
         arcs, part = edges.arcs_under(lens, 1e-3), edges.take(some).arcs_under(lens, 1e-3)
-        again = Edges.straight(a, b).arcs_under(lens, 1e-3)
         kept = np.isin(arcs.edge, np.flatnonzero(some))
         for name in ("start", "end", "axis", "offset", "u", "begin", "stop"):
-            np.testing.assert_array_equal(getattr(arcs, name), getattr(again, name))
             np.testing.assert_array_equal(getattr(arcs, name)[kept], getattr(part, name))
         assert np.bincount(part.edge).tolist() == np.bincount(arcs.edge)[some].tolist()
 
