@@ -21,15 +21,14 @@ import numpy as np
 
 from stereodel._arrays import FloatArray
 from stereodel.constants import LEAST_WEIGHT
-from stereodel.interpolation.triangles import LocatedQueries, cross3, dot, lengths
+from stereodel.interpolation.triangles import LocatedQueries, dot, lengths
+from stereodel.sphere.vectors import crossed
 
 
 class Jet:
-    """An array of values with the derivatives of each by two parameters: one formula gives values and gradients.
+    """Values with their derivatives by two parameters, `slope`: forward-mode automatic differentiation.
 
-    Forward-mode automatic differentiation: each operation also applies its derivative rule.
-
-    slope: the derivatives; the rest of the shape broadcasts against that of `value`.
+    The rest of the shape of `slope` broadcasts against that of `value`.
     """
 
     __array_ufunc__ = None  # so that `ndarray * Jet` calls __rmul__
@@ -201,11 +200,11 @@ class _Side:
 
     @classmethod
     def curved(cls, start: FloatArray, end: FloatArray, edge: FloatArray) -> _Side:
-        normal = cross3(start, edge)
+        normal = crossed(start, edge)
         sine = np.asarray(norm(normal))
         normal /= sine
         cosine = 1.0 + dot(start, edge)
-        return cls(np.arctan2(sine, cosine), sine, cosine, (cross3(normal, start), cross3(normal, end)), normal)
+        return cls(np.arctan2(sine, cosine), sine, cosine, (crossed(normal, start), crossed(normal, end)), normal)
 
 
 def _along(gradients: FloatArray, vectors: FloatArray) -> FloatArray:
@@ -249,11 +248,10 @@ class _Corner:
         return of_ends[0] * rests[1] + of_ends[1] * rests[0]
 
     def _line(self, b: Number, share: Number, rests: Pair) -> tuple[Pair, Number, Number, Pair]:
-        """The line from the corner to Q.
+        """The line from the corner to Q: the fractions of its length before and behind the query, its length, divisor.
 
-        Returns fractions of its length before and behind the query; divisor of slopes along the vector from the corner
-            to the chord, at the corner, and of `components`; components of the line's direction at Q, along the side
-            and across.
+        That is of slopes along the vector from the corner to the chord, at the corner, and of the components last
+        returned: those of the line's direction at Q, along the side and across.
         """
         tangent = self.side.tangents[0]
         across = dot(self.to_start, self.side.normal)
@@ -262,7 +260,7 @@ class _Corner:
             along = dot(self.to_start, tangent) + rests[0] * self.side.length
             return (share, b), length, length, (along, across)
         ends = self.to_start, self.to_end
-        sine = norm(self._from_corner(rests, [cross3(self.origin, d) for d in ends]))
+        sine = norm(self._from_corner(rests, [crossed(self.origin, d) for d in ends]))
         cosine = 1.0 + self._from_corner(rests, [dot(self.origin, d) for d in ends])
         square = sine * sine + cosine * cosine
         length = arctan2(sine, cosine)

@@ -112,14 +112,13 @@ class LinearInterpolator(WeightedInterpolator, TriangleInterpolator):
 
     def _shares(self, queries: FloatArray, workers: int | None) -> Shares:
         weights = np.empty((len(queries), 3))
-        outside = self._in_blocks(
+        found = self._in_blocks(
             weights, queries, workers, lambda corners, at: LocatedQueries(self._sites, corners, at).weights()
         )
-        found = np.asarray(self.triangulation.find_simplex(queries, workers=workers))
         inside = found >= 0
         corners = self.triangulation.simplices[found[inside]]
         shares = Shares(offsets_of(3 * inside), corners.ravel(), weights[inside].ravel())
-        return self._with_nearest(shares, queries, outside, workers)
+        return self._with_nearest(shares, queries, np.flatnonzero(~inside), workers)
 
 
 @shared(**FAMILY)

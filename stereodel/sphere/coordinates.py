@@ -162,12 +162,7 @@ def as_direction(point: npt.ArrayLike, name: str = "point") -> FloatArray:
 
 
 def as_sphere_points(points: npt.ArrayLike, name: str = "points") -> FloatArray:
-    """Directions (n, 3) of points given as rows (lon, lat) in degrees or as vectors, which error messages call `name`.
-
-    >>> print(as_sphere_points([(90.0, 0.0), (0.0, -90.0)]))
-    [[ 0.  1.  0.]
-     [ 0.  0. -1.]]
-    """
+    """Directions (n, 3) of points given as rows (lon, lat) in degrees or as vectors; messages call them `name`."""
     rows = as_plane_or_sphere(points, name)
     return rows if rows.shape[1] == 3 else lonlat_to_xyz(as_lonlat(rows, name))
 

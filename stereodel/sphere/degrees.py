@@ -16,11 +16,6 @@ def sin_cos_degrees(angle: FloatArray) -> tuple[DoubleDouble, DoubleDouble]:
     """Sine and cosine of angles in degrees, relative error below 2⁻¹⁰¹, mirrored where the angles are.
 
     They are exact at multiples of 90°, one of the two at odd multiples of 45°.
-
-    >>> import numpy as np
-    >>> sine, cosine = sin_cos_degrees(np.array([30.0, 180.0]))
-    >>> print(sine.round(), cosine.round() + 0.0)
-    [0.5 0. ] [ 0.8660254 -1.       ]
     """
     parts = _kernel.sin_cos_degrees(np.ascontiguousarray(angle).ravel()).reshape(*angle.shape, 4)
     sine, sine_low, cosine, cosine_low = (parts[..., k] for k in range(4))
