@@ -73,10 +73,7 @@ def as_color(value: ColorLike, name: str = "color") -> Color:
 
 
 def as_colors(values: ColorLike | npt.ArrayLike, count: int, name: str = "colors") -> FloatArray:
-    """Colours (n, 4) of `count` items, from one for all or from red, green, blue and optionally opacity of each.
-
-    ValueError if a colour is invalid, a number is outside [0, 1], or the number of colours differs from that of items.
-    """
+    """Colours (n, 4) of `count` items, from one for all or from red, green, blue and optionally opacity of each."""
     if isinstance(values, str) or np.ndim(np.asarray(values, dtype=object)) < 2:
         return np.tile(as_color(cast(ColorLike, values), name), (count, 1))
     array = as_floats(cast(npt.ArrayLike, values), name)
@@ -146,11 +143,7 @@ def luminance(colors: npt.ArrayLike) -> FloatArray:
 
 
 def contrast(a: npt.ArrayLike, b: npt.ArrayLike) -> FloatArray:
-    """Contrast (...) of colours (..., 3), from 1 to 21 for black and white.
-
-    >>> round(float(contrast((0.0, 0.0, 0.0), (1.0, 1.0, 1.0))), 9)
-    21.0
-    """
+    """Contrast (...) of colours (..., 3), from 1 to 21 for black and white."""
     first, second = luminance(a) + FLARE, luminance(b) + FLARE
     return np.asarray(np.maximum(first, second) / np.minimum(first, second))
 
@@ -162,10 +155,7 @@ def to_oklab(colors: npt.ArrayLike) -> FloatArray:
 
 
 def with_luminance(colors: FloatArray, target: FloatArray) -> FloatArray:
-    """Colours (n, 3) of the same hue in OKLab with another luminance (n,), in [0, 1].
-
-    Their chroma is the same as far as sRGB contains it at that luminance.
-    """
+    """Colours (n, 3) of the same hue in OKLab, and chroma as far as sRGB has it, with a luminance (n,) in [0, 1]."""
     hue = to_oklab(colors)[:, 1:]
     light = _with_chroma(hue, target)
     low, high = np.zeros(len(hue)), np.ones(len(hue))

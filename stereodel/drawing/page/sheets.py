@@ -114,10 +114,7 @@ GROUND: Final[Color] = (0.07, 0.07, 0.07, 1.0)
 
 
 def dark_page(page: Page) -> Page:
-    """A page on a dark background; a page that is already dark is unchanged.
-
-    Images, such as rasters on a globe, keep their pixels.
-    """
+    """A page on a dark background; one that is already dark is unchanged, as are the pixels of images."""
     ground = dark_color((*page.background[:3], 1.0))
     if contrast(page.background[:3], WHITE[:3]) > contrast(page.background[:3], BLACK[:3]):
         return page
@@ -125,11 +122,7 @@ def dark_page(page: Page) -> Page:
 
 
 def dark_color(color: Color) -> Color:
-    """The dark counterpart of a colour on white.
-
-    >>> [round(part, 2) for part in dark_color((1.0, 1.0, 1.0, 1.0))]
-    [0.07, 0.07, 0.07, 1.0]
-    """
+    """The dark counterpart of a colour on white."""
     red, green, blue, opacity = dark_colors(np.array([color]))[0].tolist()
     return (red, green, blue, opacity)
 
@@ -172,17 +165,10 @@ READERS: Final[Mapping[str, Mapping[str, Callable[[Any, str], Any]]]] = {
 class StyleSheet:
     """Colours, widths and sizes of the parts of a page, by name; other parts are unchanged.
 
-    Parameters
-    ----------
-    base : tuple of str
-        Styles applied first.
-    background : Color or None
-        Colour of the background; None leaves it.
-    fills, lines, dots : mapping of str to mapping
-        "color" of regions by name; regions with several colours, such as cells, keep them. "color" and "width" of lines
-        by name; "color", "radius", "rim" and "rim_width" of dots by name.
-    labels : mapping
-        "color", "font", "size", "halo" and "halo_color" of all text.
+    base: styles applied first.
+    background: its colour; None leaves it.
+    fills, lines, dots: what changes of parts, by name; regions with several colours, such as cells, keep them.
+    labels: what changes of all text.
     """
 
     base: tuple[str, ...]
@@ -194,15 +180,7 @@ class StyleSheet:
 
     @classmethod
     def of_file(cls, path: str | os.PathLike[str]) -> StyleSheet:
-        """The style in a TOML file.
-
-        Raises
-        ------
-        OSError
-            If the file cannot be read.
-        ValueError
-            If the file is not TOML, or a key or value is invalid; the message names file and key.
-        """
+        """The style in a TOML file; ValueError, naming file and key, if it is not TOML or a key or value is invalid."""
         source = Path(path)
         try:
             table = tomllib.loads(source.read_text(encoding="utf-8"))

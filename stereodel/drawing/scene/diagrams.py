@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import numpy.typing as npt
 
@@ -12,6 +14,8 @@ from stereodel.drawing.page import Page
 from stereodel.drawing.scene.scene import Scene
 from stereodel.drawing.scene.sketch import Sketch
 from stereodel.triangulation import PlanarDelaunay, PlanarVoronoi, SphericalDelaunay, SphericalVoronoi
+from stereodel.triangulation.delaunay import Delaunay
+from stereodel.triangulation.diagram import Diagram
 from stereodel.triangulation.topology import edges_of
 
 MARGIN = 0.02
@@ -47,16 +51,15 @@ def diagram_page(
     >>> page.width
     340.0
     """
-    if isinstance(mesh, SphericalDelaunay | SphericalVoronoi):
-        return _globe(mesh, view)
-    if isinstance(mesh, PlanarDelaunay | PlanarVoronoi):
-        return _plane(mesh, bounds)
-    raise TypeError(f"mesh must be a triangulation or a Voronoi diagram of stereodel, not {type(mesh).__name__}")
+    if not isinstance(mesh, Delaunay | Diagram):
+        raise TypeError(f"mesh must be a triangulation or a Voronoi diagram of stereodel, not {type(mesh).__name__}")
+    given: Any = mesh
+    return _plane(given, bounds) if mesh.points.shape[1] == 2 else _globe(given, view)
 
 
 def _globe(mesh: SphericalDelaunay | SphericalVoronoi, view: npt.ArrayLike) -> Page:
     scene = Scene()
-    if isinstance(mesh, SphericalVoronoi):
+    if isinstance(mesh, Diagram):
         scene.add_arcs(mesh.ridge_arcs(), name="voronoi")
     else:
         scene.add_edges(mesh.points, edges_of(mesh.simplices[~mesh.closing]), name="delaunay")
@@ -67,7 +70,7 @@ def _globe(mesh: SphericalDelaunay | SphericalVoronoi, view: npt.ArrayLike) -> P
 def _plane(mesh: PlanarDelaunay | PlanarVoronoi, bounds: npt.ArrayLike | None) -> Page:
     box = frame_of(mesh.points, bounds)
     sketch = Sketch()
-    if isinstance(mesh, PlanarVoronoi):
+    if isinstance(mesh, Diagram):
         segments, _ = mesh.segments((box.left, box.bottom, box.right, box.top))
         sketch.add_segments(segments, name="voronoi")
     else:

@@ -173,7 +173,7 @@ class Graticule:
             too close; lines that always remain are whole.
         """
         need = as_scalar(least, "least", low=0.0)
-        lines = _Lines(self, chart)
+        lines = _GridLines(self, chart)
         t = lines.parameters()
         row = np.broadcast_to(np.arange(len(t))[:, None], t.shape)
         # Lines that always remain are drawn regardless of their neighbours.
@@ -212,18 +212,16 @@ class Graticule:
 
 
 @dataclass(frozen=True, eq=False)
-class _Lines:
+class _GridLines:
     """The lines of a grid on a page."""
 
     grid: Graticule
     chart: Chart
 
     def parameters(self) -> FloatArray:
-        """Ascending parameters (n, k) at which each line's spacing is evaluated: even steps before and after the lens.
-
-        Even steps before the lens are dense where it shrinks, even steps after it where it magnifies. Added to them are
-        the crossings with the limb of a ball, where all lines merge except those seen end-on.
-        """
+        """Ascending parameters (n, k) at which each line's spacing is evaluated."""
+        # Even steps before the lens are dense where it shrinks, even steps after it where it magnifies; besides, the
+        # crossings with the limb of a ball, where all lines merge except those seen end-on.
         arcs = self.grid.arcs
         begin, stop = arcs.begin[:, None], arcs.stop[:, None]
         even = begin + np.linspace(0.0, 1.0, GRID_SAMPLES) * (stop - begin)
@@ -271,11 +269,9 @@ class _Lines:
         return line, shown, begins
 
     def _turned(self, place: FloatArray, direction: FloatArray, image: FloatArray) -> FloatArray:
-        """Images of unit tangent vectors at places under the lens, normalised.
-
-        A fisheye moves places along great circles through its focus and keeps azimuths: the component of a vector along
-        the great circle stays along it, the component across stays across.
-        """
+        """Images of unit tangent vectors at places under the lens, normalised."""
+        # A fisheye moves places along great circles through its focus and keeps azimuths: the component of a vector
+        # along the great circle stays along it, the component across stays across.
         right, left = self.chart.turns
         p, d, q = turned(place, right), turned(direction, right), turned(image, left.T)
         aside = np.hypot(p[..., 0], p[..., 1])
@@ -298,10 +294,7 @@ class _Window:
     latitude: Latitude
 
     def meridians(self, stride: int, steps: int, apart: float) -> Indices:
-        """Indices of the meridians, multiples of a stride, that may have room somewhere in the picture.
-
-        `apart` is the least scale of the page at which neighbours on the equator have room.
-        """
+        """Numbers of the meridians, by a stride, that may have room in the picture, neighbours at the scale `apart`."""
         box = self._room(apart, meeting=True)
         if box is None:
             return np.zeros(0, dtype=np.intp)
