@@ -192,9 +192,8 @@ def frame_of(points: FloatArray, bounds: npt.ArrayLike | None = None) -> Box:
 
 @dataclass(frozen=True, eq=False)
 class Antimeridian(Box):
-    """The border of the map of longitude and latitude: the 180th meridian from both sides, and both poles.
+    """The border of the map of longitude and latitude: the 180th meridian from both sides, and a side for each pole.
 
-    The sphere is cut along half a great circle, which becomes a rectangle on the map, with a whole side for each pole.
     Everything is visible. Points on the meridian are at 180° unless their arcs determine the side.
     """
 
@@ -243,10 +242,8 @@ class Antimeridian(Box):
         return arcs
 
     def flat(self, chains: Ragged) -> FloatArray:
-        """Longitude and latitude (n, 2); points (n, 5) already contain them.
-
-        An endpoint on the meridian is on the side from which its chain arrives; a pole takes its neighbour's longitude.
-        """
+        """Longitude and latitude (n, 2); points (n, 5) already contain them."""
+        # An endpoint on the meridian is on the side from which its chain arrives; a pole has its neighbour's longitude.
         points = chains.values
         lonlat = points[:, 3:].copy() if points.shape[1] == 5 else xyz_to_lonlat(points, latitude=self.latitude)
         if not len(points):
@@ -273,10 +270,8 @@ def _on_border(points: FloatArray, slack: float = 0.0) -> BoolArray:
 
 
 def above_circle(points: FloatArray, direction: FloatArray, radius: float) -> FloatArray:
-    """Heights of unit vectors (n, 3) along a direction above the circle of an angular radius about it.
-
-    Near the direction from distances to it, whose squares keep the digits that the cosines of a small circle lose.
-    """
+    """Heights of unit vectors (n, 3) along a direction above the circle of an angular radius about it."""
+    # Near the direction from distances to it, whose squares keep the digits that the cosines of a small circle lose.
     height = points @ direction
     aside = np.sum((points - height[:, None] * direction) ** 2, axis=1)
     near = 2 * np.sin(radius / 2) ** 2 - aside / (1 + np.maximum(height, 0.0))

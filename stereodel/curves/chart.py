@@ -89,12 +89,10 @@ class Chart:
         return self.source if self.view.angular_radius == 90.0 else self.before(np.pi / 2)
 
     def before(self, radius: float) -> Rim:
-        """The circle before the lens whose image has this angular radius, in radians, about the centre of the view.
-
-        (normal, cosine) is a vector of Minkowski space, which a fisheye boosts: the sum and the difference of its
-        components along the boost, each of them computed without cancellation, are multiplied and divided by the
-        magnification. The sine is the length of the vector, which no lens changes.
-        """
+        """The circle before the lens whose image has this angular radius, in radians, about the centre of the view."""
+        # (normal, cosine) is a vector of Minkowski space, which a fisheye boosts: the sum and the difference of its
+        # components along the boost, each without cancellation, are multiplied and divided by the magnification. The
+        # sine is the length of the vector, which no lens changes.
         size, cosine, sine = self.lens.magnification, float(np.cos(radius)), float(np.sin(radius))
         right, left = self.turns
         normal = turned(self.matrix[2], left.T)

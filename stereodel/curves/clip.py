@@ -219,11 +219,9 @@ def surround(
     border: Outline,
     left: FloatArray,
 ) -> BoolArray:
-    """Which of some regions (count,) without visible rings contain the whole visible part.
-
-    The areas between rings and the place opposite the centre of the view, on their left, add up to that of the region,
-    or, if it contains the centre, to that less a whole sphere.
-    """
+    """Which of some regions (count,) without visible rings contain the whole visible part."""
+    # The areas between rings and the place opposite the centre of the view, on their left, add up to that of the
+    # region, or, if it contains the centre, to that less a whole sphere.
     chosen = asked[owner]
     if not chosen.any():
         return np.zeros_like(asked)

@@ -43,11 +43,9 @@ def triangles(loops: Ragged, owner: Indices) -> tuple[FloatArray, Indices]:
 
 
 def holders(loops: Ragged, owner: Indices) -> tuple[BoolArray, Indices]:
-    """Which loops (m,) are shells, and for each hole, a clockwise loop, the smallest shell of its region that holds it.
-
-    Shells, and holes without a shell, have −1. They may touch, even along sides, where rounding decides what lies
-    inside: the corner or middle of a side that is farthest from the shell does not touch it.
-    """
+    """Which loops (m,) are shells, and the smallest shell of its region that holds each hole, the others, or −1."""
+    # They may touch, even along sides, where rounding decides what lies inside: the corner or middle of a side that is
+    # farthest from the shell does not touch it.
     area, _ = signed_areas(loops)
     shells, holder = np.flatnonzero(area > 0), np.full(len(loops), -1)
     shell_of = cache(lambda number: _Shell(loops.values[loops.offsets[number] : loops.offsets[number + 1]]))
@@ -64,11 +62,8 @@ def holders(loops: Ragged, owner: Indices) -> tuple[BoolArray, Indices]:
 
 
 def union(loops: Ragged) -> Ragged:
-    """The border, as closed loops, of the union of regions that share border points but do not overlap.
-
-    A side shared by two loops occurs in both directions and cancels. At each point, as many of the remaining sides
-    begin as end.
-    """
+    """The border, as closed loops, of the union of regions that share border points but do not overlap."""
+    # A side of two loops occurs in both directions and cancels. At each point as many of the rest begin as end.
     first = np.delete(np.arange(len(loops.values)), loops.offsets[1:] - 1)
     places, node = np.unique(loops.values, axis=0, return_inverse=True)
     sides = np.stack([node.ravel()[first], node.ravel()[first + 1]], axis=1)

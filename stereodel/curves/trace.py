@@ -100,11 +100,9 @@ class Arcs(Rows):
         return Arcs(start, end, axis, offset, u, np.zeros(len(u)), _swept(axis, u, w), arcs.edge)
 
     def sampled(self, tolerance: float, seen: BoolArray | bool = True) -> Ragged:
-        """Points of each arc, both ends included, whose chords deviate from it by at most `tolerance`, if it is seen.
-
-        A chord of angle a deviates from a circle of radius r by r(1 − cos(a/2)). No chord sweeps more than a quarter
-        turn, so that a circle smaller than the tolerance still has an area, which determines the side of its region.
-        """
+        """Points of each arc, both ends too, whose chords deviate from it by at most `tolerance`, if it is seen."""
+        # A chord of angle a deviates from a circle of radius r by r(1 − cos(a/2)). None sweeps more than a quarter
+        # turn, so that a circle smaller than the tolerance still has an area, which determines the side of its region.
         radius = np.sqrt(np.sum(self.u**2, axis=1))
         step = 2 * np.arccos(np.clip(1 - tolerance / np.maximum(radius, tolerance), np.sqrt(0.5), 1.0))
         steps = np.where(seen, np.ceil((self.stop - self.begin) / step), 1)
@@ -123,10 +121,8 @@ class Arcs(Rows):
 
 
 def fans(apex: FloatArray, rows: Ragged) -> tuple[FloatArray, FloatArray]:
-    """Areas (m,) of triangles between an apex, (3,) or (m, 3), and the steps of rows of points, and sums of the steps.
-
-    Areas on the left of the steps are positive. The place opposite to the apex counts as outside.
-    """
+    """Areas (m,) of triangles between an apex, (3,) or (m, 3), and the steps of rows of points; sums of the steps."""
+    # Areas on the left of the steps are positive. The place opposite to the apex counts as outside.
     first, sides = sides_of(rows)
     a, b = rows.values[first, :3], rows.values[first + 1, :3]
     apex = np.broadcast_to(apex, (len(rows), 3))[sides.row]
@@ -343,10 +339,8 @@ class _Stretches(Rows):
 
 
 def _wanted(lens: MoebiusMap, tolerance: float, start: FloatArray, length: FloatArray, bend: FloatArray) -> FloatArray:
-    """Numbers of great circles with images within `tolerance` of those of edges, by the largest scale along them.
-
-    Long edges are cut because of their length alone: antipodal points do not determine a great circle.
-    """
+    """Numbers of great circles with images within `tolerance` of those of edges, by the largest scale along them."""
+    # Long edges are cut because of their length alone: antipodal points do not determine a great circle.
     wanted = np.sqrt(bend * largest_scale(lens, start, length) / tolerance)
     return np.asarray(np.maximum(wanted, length / np.radians(LONGEST_EDGE)))
 
@@ -360,9 +354,8 @@ def unwrapped(lines: Ragged, *, turns: bool = True) -> Ragged:
     """Lines in degrees whose longitude continues across ±180° instead of jumping, except for steps along a pole.
 
     A step of 360° is a turn around the Earth, as in polygons that go around it, or with `turns` false no step at all.
-    Where a line jumps, longitudes are rounded to `WHOLE_TURNS`, so that a ring around the Earth ends exactly one turn
-    from its start.
     """
+    # Longitudes are rounded to `WHOLE_TURNS`, so that a ring around the Earth ends exactly one turn from its start.
     step = np.diff(lines.values, axis=0, prepend=lines.values[:1])
     step[lines.offsets[:-1][lines.sizes > 0]] = 0.0
     polar = (np.abs(lines.values[:, 1]) == 90) & (step[:, 1] == 0)
@@ -379,11 +372,9 @@ def unwrapped(lines: Ragged, *, turns: bool = True) -> Ragged:
 def measures_in_lonlat(
     start: FloatArray, end: FloatArray, p: FloatArray, q: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Upper bounds in radians of the lengths of edges straight in (lon, lat) and their distances from great circles.
-
-    With steps a in longitude and b in latitude the covariant acceleration is (sin φ cos φ a², −2 sin φ a b) northwards
-    and eastwards; a curve deviates from the great-circle arc between its ends by an eighth of it.
-    """
+    """Upper bounds in radians of the lengths of edges straight in (lon, lat) and their distances from great circles."""
+    # With steps a in longitude and b in latitude the covariant acceleration is (sin φ cos φ a², −2 sin φ a b) north and
+    # east; a curve deviates from the great-circle arc between its ends by an eighth of it.
     a, b = np.abs(np.radians(end - start)).T
     sine = np.maximum(np.abs(p[:, 2]), np.abs(q[:, 2]))
     lowest = np.where(p[:, 2] * q[:, 2] < 0, 0.0, np.minimum(np.abs(p[:, 2]), np.abs(q[:, 2])))

@@ -119,11 +119,9 @@ def _columns(
     axes: FloatArray,
     starts: AnyIndices,
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Weighted ξ, η, |d|², ξ² − η², 2ξη of each pair (5, p), its weight, and the unit of length of each point.
-
-    The unit u is the distance of the third neighbour. Weights are smaller by (u/r)² where r is longer; so columns are
-    made of d/max(u, r), which is one at most, however much longer the longest distance is.
-    """
+    """Weighted ξ, η, |d|², ξ² − η², 2ξη of each pair (5, p), its weight, and the unit of length of each point."""
+    # The unit u is the distance of the third neighbour. Weights are smaller by (u/r)² where r is longer; so columns are
+    # made of d/max(u, r), which is one at most, however much longer the longest distance is.
     differences = sites.minus(others, sites, block[owners])
     size = lengths(differences)[:, 0]
     counts = np.diff(starts, append=len(owners))

@@ -54,12 +54,10 @@ class LocatedQueries:
         return [self.sites.minus(self.corners[:, k], self.queries, rows) for k in range(3)]
 
     def weights(self) -> FloatArray:
-        """Barycentric coordinates (m, 3): not negative, of sum one.
-
-        From differences scaled by a power of two, so that the largest component is between 1/2 and 1. A sum below
-        THIN_TRIANGLE, twice the area of a thin triangle, is computed again in double-double; what cancels even there
-        leaves the nearest corner.
-        """
+        """Barycentric coordinates (m, 3): not negative, of sum one."""
+        # From differences scaled by a power of two, so that the largest component is between 1/2 and 1. A sum below
+        # THIN_TRIANGLE, twice the area of a thin triangle, is computed again in double-double; what cancels even there
+        # leaves the nearest corner.
         offsets = np.stack(self.offsets(), axis=1)
         exponent = np.frexp(np.abs(offsets).max(axis=(1, 2), initial=0.0))[1]
         weights = _areas([np.ldexp(offsets[:, k], -exponent[:, None]) for k in range(3)], self._up())

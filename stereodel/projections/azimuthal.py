@@ -25,9 +25,7 @@ from stereodel.sphere.rotations import transform
 class TangentPlane(ABC):
     """A projection to a plane that touches a sphere, with axes (east, north) at the point of tangency.
 
-    center: (float, float), (lon, lat) in degrees of the point of tangency. At a pole the axes are the limit along
-        `lon`: at the north pole north points toward lon + 180°, at the south pole toward lon. A direction (x, y, z) is
-        accepted too, with lon 0 at the poles.
+    center: (lon, lat) in degrees of the point of tangency or a direction; at a pole the axes are as in `tangent_frame`.
     radius: radius R of the sphere, in the unit of the plane. Points of the sphere are directions whatever R is.
     """
 

@@ -106,7 +106,7 @@ def shapes(page: Page, dpi: float, pictures: Sequence[Pixels] = ()) -> Iterator[
             f"pictures has {len(pictures)} entries, but {count} items of the page have too many colours; give each one"
         )
     rest, scale = iter(pictures), page.points_per_unit
-    for _, group in groupby(page.without_labels().items, key=lambda item: item.alike):
+    for _, group in groupby(page.without_labels().items, key=lambda item: item._alike):
         items = list(group)
         match items[0]:
             case Stroke() as first:

@@ -23,10 +23,8 @@ def sin_cos_degrees(angle: FloatArray) -> tuple[DoubleDouble, DoubleDouble]:
 
 
 def angle_degrees(y: DoubleDouble, x: DoubleDouble) -> FloatArray:
-    """The angle of (x, y) in degrees in [−180, 180], 0 at the origin, within an ulp.
-
-    A guess by the platform's arctangent is corrected in double-double, so the platform's last bits do not show.
-    """
+    """The angle of (x, y) in degrees in [−180, 180], 0 at the origin, within an ulp."""
+    # A guess by the platform's arctangent is corrected in double-double: the platform's last bits do not show.
     guess = np.where((x.hi == 0) & (y.hi == 0), 0.0, np.degrees(np.arctan2(y.hi, x.hi)))
     sine, cosine = sin_cos_degrees(guess)
     across, along = (y * cosine - x * sine).round(), (x * cosine + y * sine).round()

@@ -44,9 +44,9 @@ Look = LineStyle | DotStyle | Color
 class Mark:
     """What every item of a page can do; kinds override what differs."""
 
-    kind: ClassVar[Literal["lines", "dots", "fills", "labels", ""]]
+    _kind: ClassVar[Literal["lines", "dots", "fills", "labels", ""]]
     """Table of a style file with its looks; "" if it has none."""
-    inks: ClassVar[tuple[str, ...]] = ("color",)
+    _inks: ClassVar[tuple[str, ...]] = ("color",)
     """Its fields that are colours."""
 
     def arrays(self) -> Arrays:
@@ -55,13 +55,13 @@ class Mark:
 
     def recoloured(self, change: Recolour) -> Self:
         """The same in other colours."""
-        if not self.inks:
+        if not self._inks:
             return self
-        changed = change(np.array([getattr(self, ink) for ink in self.inks]))
-        return replace(self, **dict(zip(self.inks, map(tuple, changed.tolist()), strict=True)))
+        changed = change(np.array([getattr(self, ink) for ink in self._inks]))
+        return replace(self, **dict(zip(self._inks, map(tuple, changed.tolist()), strict=True)))
 
     def restyled(self, looks: Mapping[str, Any]) -> Self:
-        """The same with other values of its fields, those of its `kind` in a style file."""
+        """The same with other values of its fields, those of its kind in a style file."""
         return replace(self, **looks) if looks else self
 
     def colors_at(self, places: FloatArray) -> FloatArray | None:
@@ -69,12 +69,12 @@ class Mark:
         return None
 
     @property
-    def alike(self) -> Hashable:
+    def _alike(self) -> Hashable:
         """Key of adjacent items that can be drawn as one path."""
         return id(self)
 
     @property
-    def look(self) -> Look | None:
+    def _look(self) -> Look | None:
         """The entry of a legend that looks like it, if there is one."""
         return None
 
@@ -94,7 +94,7 @@ class Stroke(Mark):
     name: str = ""
     """Name of what is drawn: "delaunay", "voronoi", "limb" …; becomes its id in SVG."""
 
-    kind = "lines"
+    _kind = "lines"
 
     def arrays(self) -> Arrays:
         """Path and style, for the regression tests."""
@@ -103,15 +103,13 @@ class Stroke(Mark):
         return {"path": self.path, "style": style}
 
     @property
-    def alike(self) -> Hashable:
-        """Its style; transparent strokes stay separate, as overlaps are darker."""
-        if self.color[3] < 1:
-            return super().alike
+    def _alike(self) -> Hashable:
+        if self.color[3] < 1:  # overlaps are darker
+            return super()._alike
         return (Stroke, self.color, self.width, self.dash, self.cap, self.name)
 
     @property
-    def look(self) -> LineStyle:
-        """Colour, width and dash."""
+    def _look(self) -> LineStyle:
         return LineStyle(self.color, self.width, self.dash)
 
 
@@ -143,7 +141,7 @@ class Fill(Mark):
     name: str = ""
     ball: Ball | None = None
 
-    kind = "fills"
+    _kind = "fills"
 
     def arrays(self) -> Arrays:
         """Paths, colour and ball, for the regression tests."""
@@ -155,8 +153,7 @@ class Fill(Mark):
         return np.where((winding(self.paths, places) % 2 != 0)[:, None], self.color, 0.0)
 
     @property
-    def look(self) -> Color:
-        """Its colour."""
+    def _look(self) -> Color:
         return self.color
 
 
@@ -171,16 +168,15 @@ class Dots(Mark):
     rim_width: float = 0.0
     name: str = ""
 
-    kind = "dots"
-    inks = ("color", "rim")
+    _kind = "dots"
+    _inks = ("color", "rim")
 
     def arrays(self) -> Arrays:
         """Centres and style, for the regression tests."""
         return {"centers": self.centers, "style": np.array([self.radius, *self.color, *self.rim, self.rim_width])}
 
     @property
-    def look(self) -> DotStyle:
-        """Colours and sizes."""
+    def _look(self) -> DotStyle:
         return DotStyle(self.color, self.radius, self.rim, self.rim_width)
 
 
@@ -210,8 +206,8 @@ class Picture(Mark):
     painter: Painter
     name: str = ""
 
-    kind = ""
-    inks = ()
+    _kind = ""
+    _inks = ()
 
     def arrays(self) -> Arrays:
         """Outline, and what defines the painter, for the regression tests."""
@@ -241,15 +237,14 @@ class Polylines(Mark):
     """In points."""
     name: str = ""
 
-    kind = "lines"
+    _kind = "lines"
 
     def arrays(self) -> Arrays:
         """Points and style, for the regression tests."""
         return {"points": self.points, "offsets": self.offsets, "style": np.array([*self.color, self.width])}
 
     @property
-    def look(self) -> LineStyle:
-        """Colour and width."""
+    def _look(self) -> LineStyle:
         return LineStyle(self.color, self.width)
 
 
@@ -290,7 +285,7 @@ class Polygons(Mark):
         """Whether there are so many colours that vector files hold the regions as an image."""
         return len(self.by_color[0]) > FEW_COLORS
 
-    kind = "fills"
+    _kind = "fills"
 
     def arrays(self) -> Arrays:
         """Loops, colours and ball, for the regression tests."""
@@ -303,7 +298,7 @@ class Polygons(Mark):
 
     def restyled(self, looks: Mapping[str, Any]) -> Self:
         """In another colour; several colours, such as those of cells, are kept."""
-        if not looks or self.look is None:
+        if not looks or self._look is None:
             return self
         return replace(self, colors=np.tile(looks["color"], (len(self.colors), 1)))
 
@@ -312,8 +307,7 @@ class Polygons(Mark):
         return colors_within(self.loops, self.owner, self.colors, places)
 
     @property
-    def look(self) -> Color | None:
-        """Its colour, unless it has several."""
+    def _look(self) -> Color | None:
         colors = self.by_color[0]
         return as_color(colors[0].tolist()) if len(colors) == 1 else None
 
@@ -341,8 +335,8 @@ class Label(Mark):
     formulas: bool = True
     """Whether text between two dollar signs is a formula in matplotlib's mathtext; otherwise they are literal."""
 
-    kind = "labels"
-    inks = ("color", "halo_color")
+    _kind = "labels"
+    _inks = ("color", "halo_color")
 
     def arrays(self) -> Arrays:
         """Place, text and style, for the regression tests."""

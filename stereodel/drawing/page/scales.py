@@ -84,9 +84,7 @@ class ColorScale:
     @property
     def ticks(self) -> dict[float, str]:
         """Numbers evenly spaced from about `low` to about `high`, of two or more digits, and their texts."""
-        share = np.linspace(0.0, 1.0, TICKS)
-        numbers = self.low * (self.high / self.low) ** share if self.log else self.low + (self.high - self.low) * share
-        digits = 2
+        numbers, digits = self._at(np.linspace(0.0, 1.0, TICKS)), 2
         while len({f"{number:.{digits}g}" for number in numbers}) < TICKS and digits < 15:
             digits += 1
         written = [np.format_float_positional(float(f"{number:.{digits}g}"), trim="-") for number in numbers]
@@ -121,7 +119,7 @@ class ColorScale:
         bars = [
             _box(x + width * number / STEPS, x + width, y, y + height, (red, green, blue, 1.0))
             # Each step extends to the right end and is covered by the next, which avoids seams.
-            for number, (red, green, blue) in enumerate(self(self._numbers()).tolist())
+            for number, (red, green, blue) in enumerate(self(self._at((np.arange(STEPS) + 0.5) / STEPS)).tolist())
         ]
         marks: list[Item] = []
         for number, text in ticks.items():
@@ -132,11 +130,11 @@ class ColorScale:
             marks.append(Label(title, (x + width / 2, y + height), (0.0, 4.0), "center", "bottom", type_size, ink))
         return (*bars, *marks)
 
-    def _numbers(self) -> FloatArray:
-        """The number in the middle of each step of a legend."""
-        place = (np.arange(STEPS) + 0.5) / STEPS
-        numbers = self.low * (self.high / self.low) ** place if self.log else self.low + (self.high - self.low) * place
-        return np.asarray(numbers)
+    def _at(self, place: FloatArray) -> FloatArray:
+        """The numbers at positions from 0 to 1."""
+        if self.log:
+            return np.asarray(self.low * (self.high / self.low) ** place)
+        return self.low + (self.high - self.low) * place
 
 
 def category_colors(words: Sequence[str], name: str) -> dict[str, Color]:

@@ -128,11 +128,8 @@ def dark_color(color: Color) -> Color:
 
 
 def dark_colors(colors: FloatArray) -> FloatArray:
-    """The dark counterparts (n, 4) of colours (n, 4) on white; opacity is unchanged.
-
-    A transparent colour composited on the dark background equals the counterpart of its composite on white, as far as
-    such a colour exists.
-    """
+    """The dark counterparts (n, 4) of colours (n, 4) on white; opacity is unchanged."""
+    # A transparent colour on the dark background equals the counterpart of what it is on white, as far as one exists.
     several, which = np.unique(colors, axis=0, return_inverse=True)
     opacity = several[:, 3:]
     over_white = 1 - opacity * (1 - several[:, :3])
@@ -214,9 +211,9 @@ class StyleSheet:
 
     def _looks(self, item: Item) -> Changes:
         """What this style changes of an item."""
-        if item.kind == "labels":
+        if item._kind == "labels":
             return self.labels
-        named = {"lines": self.lines, "dots": self.dots, "fills": self.fills}.get(item.kind, {})
+        named = {"lines": self.lines, "dots": self.dots, "fills": self.fills}.get(item._kind, {})
         return named.get(item.name.removeprefix(LEGEND), {})
 
 

@@ -189,11 +189,7 @@ Loop = list[CircleArc]
 
 @dataclass(frozen=True, eq=False)
 class SphereRegion:
-    """The part of a sphere about the origin on the left of a loop of arcs; ValueError if the loop has a gap.
-
-    boundary: a simple loop on the sphere, each arc starting at the end of the one before it, counterclockwise around
-        the region as seen from outside. It may have any size and shape.
-    """
+    """The part of a sphere about the origin on the left of a simple loop of arcs, each starting where the last ends."""
 
     boundary: tuple[CircleArc, ...]
     radius: float
