@@ -352,6 +352,13 @@ class Label(Mark):
         return replace(self, **looks, on_ground=self.on_ground and "halo_color" not in looks)
 
 
+def straight(corners: FloatArray) -> Beziers:
+    """The path from corner to corner (k + 1, 2)."""
+    path: Beziers = corners[:-1, None] + np.diff(corners, axis=0)[:, None] * np.linspace(0.0, 1.0, 4)[:, None]
+    path[1:, 0] = path[:-1, 3]
+    return path
+
+
 Item = Stroke | Polylines | Polygons | Fill | Dots | Picture | Label
 
 

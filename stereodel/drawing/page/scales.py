@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from stereodel._arrays import FloatArray, as_floats, as_scalar
 from stereodel.drawing.page.colors import Color, ColorLike, as_color, color_map
-from stereodel.drawing.page.items import Fill, Item, Label, Stroke
+from stereodel.drawing.page.items import Fill, Item, Label, Stroke, straight
 from stereodel.drawing.page.style import BLACK, LABEL_SIZE
 
 STEPS = 256
@@ -124,7 +124,7 @@ class ColorScale:
         marks: list[Item] = []
         for number, text in ticks.items():
             at, foot = x + width * float(self.place(number)), y - 0.35 * height
-            marks.append(Stroke(np.linspace((at, y), (at, foot), 4)[None], ink, 0.5, cap="butt", name="tick"))
+            marks.append(Stroke(straight(np.array([(at, y), (at, foot)])), ink, 0.5, cap="butt", name="tick"))
             marks.append(Label(text, (at, foot), (0.0, -2.0), "center", "top", type_size, ink))
         if title:
             marks.append(Label(title, (x + width / 2, y + height), (0.0, 4.0), "center", "bottom", type_size, ink))
@@ -153,6 +153,5 @@ def usual_scale(values: FloatArray) -> ColorScale:
 
 
 def _box(left: float, right: float, bottom: float, top: float, color: Color) -> Fill:
-    corners = np.array([(left, bottom), (right, bottom), (right, top), (left, top)])
-    steps = np.roll(corners, -1, axis=0) - corners
-    return Fill((corners[:, None] + steps[:, None] * (np.arange(4) / 3)[:, None],), color, "scale")
+    corners = np.array([(left, bottom), (right, bottom), (right, top), (left, top), (left, bottom)])
+    return Fill((straight(corners),), color, "scale")
