@@ -30,8 +30,6 @@ METHODS: Final[MappingProxyType[Method, type[Interpolator]]] = MappingProxyType(
 
 def as_method(method: str) -> type[Interpolator]:
     """The interpolator of this name."""
-    if method == "cubic":
-        raise ValueError("method is 'cubic', which SciPy has; the smooth interpolant here is 'smooth'")
     return METHODS[as_choice(method, tuple(METHODS), "method")]
 
 

@@ -115,7 +115,7 @@ class Scene:
             Position in painter's order of all parts except those behind the ball.
         """
         self.add_curves(
-            (_circle_arc(arc).scaled(self.radius, self.center) for arc in arcs), name=name, style=style, layer=layer
+            (CircleArc.of(arc).scaled(self.radius, self.center) for arc in arcs), name=name, style=style, layer=layer
         )
 
     def add_edges(
@@ -179,7 +179,9 @@ class Scene:
         self, boundary: Iterable[SphereArc | CircleArc], *, name: str, color: ColorLike | None = None
     ) -> None:
         """Tint the region to the left of a loop of arcs, as seen from outside, of any size and shape."""
-        region = SphereRegion(tuple(_circle_arc(arc).scaled(self.radius, np.zeros(3)) for arc in boundary), self.radius)
+        region = SphereRegion(
+            tuple(CircleArc.of(arc).scaled(self.radius, np.zeros(3)) for arc in boundary), self.radius
+        )
         self._items.append(SceneRegion(region, styles.fill(name, color), name))
 
     def add_cap(
@@ -312,7 +314,3 @@ class Scene:
         """
         page = self.page(view, extent=extent, width=width, background=background)
         return Solid(page, (self.placed(view),))
-
-
-def _circle_arc(arc: SphereArc | CircleArc) -> CircleArc:
-    return arc if isinstance(arc, CircleArc) else CircleArc.of(arc)

@@ -131,8 +131,10 @@ class CircleArc:
         return cls(np.zeros(3), start, np.cross(axis / sine, start), 0.0, sweep_rad)
 
     @classmethod
-    def of(cls, arc: SphereArc) -> CircleArc:
+    def of(cls, arc: SphereArc | CircleArc) -> CircleArc:
         """An arc of a circle of the unit sphere, counterclockwise about its normal."""
+        if isinstance(arc, CircleArc):
+            return arc
         center, u, v, sweep_rad = arc.frame()
         return cls(center, u, v, 0.0, sweep_rad)
 
