@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from typing import overload
 
 import numpy as np
@@ -33,6 +33,12 @@ _FLIP = Rotation(np.array([0.0, 1.0, 0.0, 0.0]))
 
 Circle = tuple[DoubleDouble, DoubleDouble, DoubleDouble]
 """Normal (3,), cos α and sin α, up to one positive factor."""
+
+
+Answer = Callable[..., tuple[FloatArray, bool]]
+Check = Callable[[FloatArray], FloatArray]
+
+_directions: Check = partial(as_directions, name="xyz")
 
 
 def boost_points(points: DoubleDouble, magnification: DoubleDouble) -> DoubleDouble:
@@ -165,7 +171,7 @@ class MoebiusMap:
         ndarray, shape (..., 3)
         """
         array = as_vectors(xyz, 3, "xyz", gaps=True, instead="for longitude and latitude call its method lonlat")
-        return self._asked(_kernel.moebius_images, array, workers).reshape(array.shape)
+        return self._asked(_kernel.moebius_images, array, _directions, workers).reshape(array.shape)
 
     def lonlat(self, lonlat: npt.ArrayLike, *, workers: int | None = None) -> FloatArray:
         """Images of points given by longitude and latitude, in one step.
@@ -191,7 +197,7 @@ class MoebiusMap:
          [ 0.       78.575463]]
         """
         array = as_vectors(lonlat, 2, "lonlat", gaps=True)
-        return self._asked(_kernel.moebius_lonlat, array, workers).reshape(array.shape)
+        return self._asked(_kernel.moebius_lonlat, array, as_lonlat, workers).reshape(array.shape)
 
     @property
     def _size(self) -> DoubleDouble:
@@ -203,17 +209,15 @@ class MoebiusMap:
         Off by less than 2⁻⁴⁸ of itself for a point within 2⁻⁷³ rad of the given one. `workers` as in a call.
         """
         array = as_vectors(xyz, 3, "xyz", gaps=True)
-        return self._asked(_kernel.moebius_scales, array, workers).reshape(array.shape[:-1])
+        return self._asked(_kernel.moebius_scales, array, _directions, workers).reshape(array.shape[:-1])
 
-    def _asked(
-        self, function: Callable[..., tuple[FloatArray, bool]], array: FloatArray, workers: int | None
-    ) -> FloatArray:
-        """What the kernel says of rows; it finds invalid ones without a separate pass."""
+    def _asked(self, function: Answer, array: FloatArray, check: Check, workers: int | None) -> FloatArray:
+        """What the kernel says of rows; it finds invalid ones without a separate pass, and `check` raises."""
         left, right = self._six_rows
         rows = array.reshape(-1, array.shape[-1])
         found, sound = function(rows, left, self.magnification, right, thread_count(workers, len(rows)))
-        if not sound:  # one of these raises
-            as_lonlat(array) if array.shape[-1] == 2 else as_directions(array, "xyz")
+        if not sound:
+            check(array)
         return found
 
     @cached_property

@@ -12,7 +12,7 @@ from stereodel._docs import shared
 from stereodel.constants import UNDETERMINED
 from stereodel.curves.ragged import spans
 from stereodel.interpolation.interpolator import FAMILY, PrecisePoints, as_site_values
-from stereodel.interpolation.triangles import dot, lengths
+from stereodel.interpolation.located import dot, lengths
 from stereodel.sphere.vectors import crossed
 from stereodel.triangulation.dispatch import Triangulation, as_triangulation, open_triangles
 from stereodel.triangulation.topology import adjacency_of, edges_of

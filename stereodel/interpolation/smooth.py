@@ -25,7 +25,7 @@ from stereodel._docs import shared
 from stereodel.constants import LEAST_WEIGHT
 from stereodel.interpolation.gradients import fit_gradients
 from stereodel.interpolation.interpolator import FAMILY, TriangleInterpolator, one_value_a_place
-from stereodel.interpolation.triangles import LocatedQueries, dot, lengths
+from stereodel.interpolation.located import LocatedQueries, dot, lengths
 from stereodel.sphere.vectors import crossed
 from stereodel.triangulation.dispatch import Triangulation
 

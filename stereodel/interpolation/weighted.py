@@ -15,7 +15,7 @@ from stereodel._arrays import AnyIndices, FloatArray, Indices
 from stereodel._docs import shared
 from stereodel.curves.ragged import offsets_of
 from stereodel.interpolation.interpolator import FAMILY, PrecisePoints, TriangleInterpolator
-from stereodel.interpolation.triangles import LocatedQueries
+from stereodel.interpolation.located import LocatedQueries
 from stereodel.interpolation.weights import Shares, WeightedInterpolator
 from stereodel.triangulation import SphericalDelaunay
 from stereodel.triangulation.dispatch import Triangulation, threads_of
