@@ -13,8 +13,8 @@ from __future__ import annotations
 
 import os
 import tomllib
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, fields, replace
+from collections.abc import Callable, Collection, Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Final
 
@@ -151,6 +151,7 @@ def _width(value: Any, name: str) -> float:
 
 
 READERS: Final[Mapping[str, Mapping[str, Callable[[Any, str], Any]]]] = {
+    "fills": {"color": as_color},
     "lines": {"color": as_color, "width": _width},
     "dots": {"color": as_color, "radius": _width, "rim": as_color, "rim_width": _width},
     "labels": {"color": as_color, "font": as_font, "size": as_length, "halo": _width, "halo_color": as_color},
@@ -164,16 +165,12 @@ class StyleSheet:
 
     base: styles applied first.
     background: its colour; None leaves it.
-    fills, lines, dots: what changes of parts, by name; regions with several colours, such as cells, keep them.
-    labels: what changes of all text.
+    looks: what changes, by table and name; of labels all alike, under "". Regions with several colours keep them.
     """
 
     base: tuple[str, ...]
     background: Color | None
-    fills: Mapping[str, Changes]
-    lines: Mapping[str, Changes]
-    dots: Mapping[str, Changes]
-    labels: Changes
+    looks: Mapping[str, Mapping[str, Changes]]
 
     @classmethod
     def of_file(cls, path: str | os.PathLike[str]) -> StyleSheet:
@@ -184,37 +181,25 @@ class StyleSheet:
         except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
             raise ValueError(f"{source}: is not TOML: {error}") from error
         try:
-            return cls._of_table(table)
-        except ValueError as error:
+            _known(table, ("base", "background", *READERS), "")
+            base = table.get("base", ())
+            ground = as_color(table["background"], "background") if "background" in table else None
+            looks = {kind: _parts(table, kind) for kind in READERS}
+        except (ValueError, TypeError) as error:
             raise ValueError(f"{source}: {error}") from error
-
-    @classmethod
-    def _of_table(cls, table: Mapping[str, Any]) -> StyleSheet:
-        _known(table, [entry.name for entry in fields(cls)], "")
-        base = table.get("base", ())
-        return cls(
-            (base,) if isinstance(base, str) else tuple(base),
-            as_color(table["background"], "background") if "background" in table else None,
-            {name: {"color": as_color(value, f"fills.{name}")} for name, value in _table(table, "fills").items()},
-            _parts(table, "lines"),
-            _parts(table, "dots"),
-            _read("labels", _table(table, "labels"), "labels."),
-        )
+        return cls((base,) if isinstance(base, str) else tuple(base), ground, looks)
 
     def __call__(self, page: Page) -> Page:
         """A page in this style."""
         page = _in_styles(page, self.base)
         background = page.background if self.background is None else self.background
         return replace(
-            page, background=background, items=tuple(item.restyled(self._looks(item)) for item in page.items)
+            page, background=background, items=tuple(item.restyled(self._changes(item)) for item in page.items)
         )
 
-    def _looks(self, item: Item) -> Changes:
-        """What this style changes of an item."""
-        if item._kind == "labels":
-            return self.labels
-        named = {"lines": self.lines, "dots": self.dots, "fills": self.fills}.get(item._kind, {})
-        return named.get(item.name.removeprefix(LEGEND), {})
+    def _changes(self, item: Item) -> Changes:
+        name = "" if item._kind == "labels" else item.name.removeprefix(LEGEND)
+        return self.looks.get(item._kind, {}).get(name, {})
 
 
 def _table(parts: Mapping[str, Any], name: str, within: str = "") -> Mapping[str, Any]:
@@ -225,12 +210,16 @@ def _table(parts: Mapping[str, Any], name: str, within: str = "") -> Mapping[str
 
 
 def _parts(table: Mapping[str, Any], kind: str) -> Mapping[str, Changes]:
-    """Tables of changes by the names of the parts."""
-    named = _table(table, kind)
-    return {name: _read(kind, _table(named, name, f"{kind}."), f"{kind}.{name}.") for name in named}
+    """Changes by the names of the parts."""
+    given = _table(table, kind)
+    if kind == "labels":
+        return {"": _read(kind, given, "labels.")}
+    if kind == "fills":
+        return {name: {"color": as_color(value, f"fills.{name}")} for name, value in given.items()}
+    return {name: _read(kind, _table(given, name, f"{kind}."), f"{kind}.{name}.") for name in given}
 
 
-def _known(given: Mapping[str, Any], keys: list[str], within: str) -> None:
+def _known(given: Mapping[str, Any], keys: Collection[str], within: str) -> None:
     for key in given:
         if key not in keys:
             raise ValueError(f"{within}{key} is not a key of styles; give {', '.join(keys)}")
@@ -238,11 +227,5 @@ def _known(given: Mapping[str, Any], keys: list[str], within: str) -> None:
 
 def _read(kind: str, given: Mapping[str, Any], within: str) -> Changes:
     readers = READERS[kind]
-    _known(given, list(readers), within)
-    found = {}
-    for key, value in given.items():
-        try:
-            found[key] = readers[key](value, f"{within}{key}")
-        except TypeError as error:
-            raise ValueError(str(error)) from error
-    return found
+    _known(given, readers, within)
+    return {key: readers[key](value, f"{within}{key}") for key, value in given.items()}
