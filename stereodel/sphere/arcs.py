@@ -98,14 +98,10 @@ class SphereArc(Keyed):
         sweep_rad : float
             The angle swept, in (0, 2π].
         """
-        center, u, v = self._exact_frame()
-        return center.round() + 0.0, u.round() + 0.0, v.round() + 0.0, self.angle_rad
-
-    def _exact_frame(self) -> tuple[DoubleDouble, DoubleDouble, DoubleDouble]:
         normal, offset, _ = self.circle.exact_parts()
         center = normal * offset
         u = on_circle(self.circle, unit(self.start)) - center
-        return center, u, cross(normal, u)
+        return center.round() + 0.0, u.round() + 0.0, cross(normal, u).round() + 0.0, self.angle_rad
 
     def sample(self, n: int) -> FloatArray:
         """Points at n equal steps of angle from start to end, both included, (n, 3); n at least 2."""
@@ -196,17 +192,10 @@ def graticule_patch(center: npt.ArrayLike, half_width: float, spacing: float) ->
     steps = as_steps(width, spacing, "spacing")
     shifts = np.array([(k / steps - 0.5) * width for k in range(steps + 1)])
     lons, lats = lon + shifts, lat + shifts
-    return [_meridian_piece(x, lats, width) for x in lons] + [_parallel_piece(y, lons, width) for y in lats]
-
-
-def _meridian_piece(lon: float, lats: FloatArray, width: float) -> SphereArc:
-    ends = lonlat_to_xyz([[lon, lats[0]], [lon, lats[-1]]])
-    return SphereArc(_meridian_circle(lon), ends[0], ends[1], float(np.radians(width)))
-
-
-def _parallel_piece(lat: float, lons: FloatArray, width: float) -> SphereArc:
-    ends = lonlat_to_xyz([[lons[0], lat], [lons[-1], lat]])
-    return SphereArc(_parallel_circle(lat), ends[0], ends[1], float(np.radians(width)))
+    turn, (west, east), (south, north) = float(np.radians(width)), lons[[0, -1]], lats[[0, -1]]
+    sides = [(_meridian_circle(x), lonlat_to_xyz([[x, south], [x, north]])) for x in lons]
+    sides += [(_parallel_circle(y), lonlat_to_xyz([[west, y], [east, y]])) for y in lats]
+    return [SphereArc(circle, ends[0], ends[1], turn) for circle, ends in sides]
 
 
 def _meridian_circle(lon: float) -> SphereCircle:
