@@ -15,9 +15,9 @@ from stereodel import _kernel
 from stereodel._arrays import AnyIndices, BoolArray, FloatArray, IntArray, locked
 from stereodel._docs import shared
 from stereodel._spaces import space_of
+from stereodel.sphere.arcs import angular_distance, solid_angle
 from stereodel.sphere.latitudes import Latitude
 from stereodel.sphere.lonlat import LONLAT
-from stereodel.sphere.measures import angular_distance, solid_angle
 from stereodel.sphere.vectors import units
 from stereodel.triangulation.dispatch import Triangulation, as_triangulation, flat_order, threads_of
 from stereodel.triangulation.planar_delaunay import PlanarDelaunay
