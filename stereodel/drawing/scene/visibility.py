@@ -14,7 +14,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from enum import Enum
 from itertools import pairwise
-from typing import Final, NamedTuple, TypeVar
+from typing import Final, NamedTuple, TypeGuard, TypeVar
 
 import numpy as np
 
@@ -46,7 +46,7 @@ class Place(Enum):
     BEHIND = "covered by the ball, or on its far side"
 
 
-def lies_on_ball(curve: Curve, radius: float) -> bool:
+def lies_on_ball(curve: Curve, radius: float) -> TypeGuard[CircleArc]:
     """Whether a curve is an arc of a circle on the sphere."""
     if not isinstance(curve, CircleArc):
         return False
@@ -129,18 +129,12 @@ def split_by_ball(curves: Sequence[Curve], radius: float) -> list[list[tuple[Cur
     >>> [(piece.start, piece.stop, place.name) for piece, place in pieces]
     [(0.0, 0.2, 'FRONT'), (0.2, 0.6, 'INSIDE'), (0.6, 1.0, 'BEHIND')]
     """
-    split: list[list[tuple[Curve, Place]]] = []
-    on_ball: list[CircleArc] = []
-    numbers: list[int] = []
-    for number, curve in enumerate(curves):
-        if isinstance(curve, CircleArc) and lies_on_ball(curve, radius):
-            split.append([])
-            on_ball.append(curve)
-            numbers.append(number)
-        else:
-            split.append(_split_in_space(curve, radius))
-    each = np.arange(len(on_ball) + 1)
-    for run in cut_at_limb(on_ball, Ragged(each[:-1], each), radius):
+    on_ball = {number: curve for number, curve in enumerate(curves) if lies_on_ball(curve, radius)}
+    split: list[list[tuple[Curve, Place]]] = [
+        [] if number in on_ball else _split_in_space(curve, radius) for number, curve in enumerate(curves)
+    ]
+    each, numbers = np.arange(len(on_ball) + 1), list(on_ball)
+    for run in cut_at_limb(list(on_ball.values()), Ragged(each[:-1], each), radius):
         split[numbers[run.row]] += [(arc, Place.FRONT if run.seen else Place.BEHIND) for arc in run.arcs]
     return split
 
