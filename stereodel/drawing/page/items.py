@@ -69,11 +69,6 @@ class Mark:
         return None
 
     @property
-    def _alike(self) -> Hashable:
-        """Key of adjacent items that can be drawn as one path."""
-        return id(self)
-
-    @property
     def _look(self) -> Look | None:
         """The entry of a legend that looks like it, if there is one."""
         return None
@@ -101,12 +96,6 @@ class Stroke(Mark):
         dash = self.dash or (0.0, 0.0)
         style = np.array([*self.color, self.width, *dash, self.cap == "round", self.closed])
         return {"path": self.path, "style": style}
-
-    @property
-    def _alike(self) -> Hashable:
-        if self.color[3] < 1:  # overlaps are darker
-            return super()._alike
-        return (Stroke, self.color, self.width, self.dash, self.cap, self.name)
 
     @property
     def _look(self) -> LineStyle:
@@ -364,6 +353,13 @@ Item = Stroke | Polylines | Polygons | Fill | Dots | Picture | Label
 
 def _light(ball: Ball | None) -> Arrays:
     return {} if ball is None else {"ball": np.array([*ball.center, ball.radius])}
+
+
+def alike(item: Item) -> Hashable:
+    """Key of adjacent items that can be drawn as one path: opaque strokes of one style; other overlaps are darker."""
+    if isinstance(item, Stroke) and item.color[3] == 1:
+        return (item.color, item.width, item.dash, item.cap, item.name)
+    return id(item)
 
 
 def painted(items: Iterable[Item], places: FloatArray, background: Color = WHITE) -> FloatArray:
