@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from stereodel import _kernel
 from stereodel._arrays import FloatArray, as_directions, as_points, as_vectors
-from stereodel.sphere.measures import angular_distance, solid_angle
+from stereodel.sphere.arcs import angular_distance, solid_angle
 
 if TYPE_CHECKING:
     from stereodel._kernel.space import Space

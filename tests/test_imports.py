@@ -59,7 +59,7 @@ MAY_IMPORT = {
     "mpl": MATHEMATICS | {"curves", "data", "drawing", "io"},
     "globe": MATHEMATICS | {"_files", "_kernel", "curves", "data", "drawing", "io"},
     "web": BASE | {"_files", "curves", "data", "sphere", "triangulation"},
-    "film": MATHEMATICS | {"_files", "_kernel", "_tasks", "drawing", "globe", "render"},
+    "film": MATHEMATICS | {"_files", "_tasks", "curves", "drawing", "globe", "render"},
     "cli": MATHEMATICS
     | {"__init__", "_files", "curves", "data", "drawing", "earth", "film", "globe", "interpolation", "io"}
     | {"_doctor", "_interrupts", "_tasks", "partitioned", "web"},

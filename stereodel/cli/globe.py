@@ -19,7 +19,7 @@ from stereodel.cli import options
 if TYPE_CHECKING:
     from stereodel._arrays import FloatArray
     from stereodel.conformal import MoebiusMap
-    from stereodel.drawing.scene.view import MapView
+    from stereodel.curves.view import MapView
     from stereodel.film.shots import Motion
     from stereodel.globe import Globe
     from stereodel.io import PointTable

@@ -10,9 +10,9 @@ import typer
 from stereodel.cli import options
 
 if TYPE_CHECKING:
-    from stereodel.triangulation.delaunay import Triangulation
     from stereodel._arrays import Column
     from stereodel.io import PointTable
+    from stereodel.triangulation.delaunay import Triangulation
 
 EXAMPLE = "stereodel triangulate stations.csv -o triangles.geojson"
 

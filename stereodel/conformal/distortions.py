@@ -131,11 +131,9 @@ def _sagitta(circle: SphereCircle) -> float:
 
 
 def _mean_scale(magnification: float, sine: float, cosine: float, sagitta: float) -> float:
-    """The integral of 1/√q(u) from cos α to 1, over 1 − cos α, the sagitta; of D/2 sine and cosine are given.
-
-    With P = b − a cos D, Q = b cos α − a cos D and R = √(P² + sin² D), T likewise of Q, the integral is
-    ln((P + R)/(Q + T))/b. Written as log1p of b (1 − cos α) over positive terms it cancels nowhere.
-    """
+    """The integral of 1/√q(u) from cos α to 1, over 1 − cos α, the sagitta; of D/2 sine and cosine are given."""
+    # With P = b − a cos D, Q = b cos α − a cos D and R = √(P² + sin² D), T likewise of Q, the integral is
+    # ln((P + R)/(Q + T))/b. Written as log1p of b (1 − cos α) over positive terms it cancels nowhere.
     a, b = (magnification + 1 / magnification) / 2, (magnification - 1 / magnification) / 2
     if b == 0:
         return 1.0

@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from stereodel._arrays import FloatArray
 from stereodel._double_double import DoubleDouble
-from stereodel.conformal.biquaternions import Complex, Parts, from_spinors
+from stereodel.conformal.group import Complex, Parts, from_spinors
 from stereodel.constants import MATRIX_ERROR, MATRIX_MAGNIFICATION, STORED_ERROR
 from stereodel.sphere import Rotation, xyz_to_lonlat
 from stereodel.sphere.coordinates import tangent_frame
@@ -76,10 +76,8 @@ def from_lorentz(matrix: FloatArray) -> Parts:
 
 
 def from_moebius(matrix: npt.NDArray[np.complex128]) -> Parts:
-    """The parts of ζ ↦ (aζ + b)/(cζ + d), ζ = (x + iy)/(1 − z).
-
-    The spinor (ξ₁, ξ₂) of a point has ζ* = ξ₁/ξ₂: the conjugate matrix acts on it.
-    """
+    """The parts of ζ ↦ (aζ + b)/(cζ + d), ζ = (x + iy)/(1 − z)."""
+    # The spinor (ξ₁, ξ₂) of a point has ζ* = ξ₁/ξ₂: the conjugate matrix acts on it.
     size = np.abs(matrix.view(np.float64)).max()
     (a, b), (c, d) = np.conj(matrix) * 2.0 ** -float(np.frexp(size)[1])
     element = from_spinors(((Complex.of(a), Complex.of(b)), (Complex.of(c), Complex.of(d))))

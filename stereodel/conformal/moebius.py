@@ -8,8 +8,9 @@ d + n_z and d − n_z.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from typing import overload
 
 import numpy as np
@@ -19,9 +20,8 @@ from stereodel import _kernel
 from stereodel._arrays import FloatArray, as_complex_matrix, as_directions, as_lonlat, as_matrix, as_scalar, as_vectors
 from stereodel._double_double import DoubleDouble, dot, stack, unit
 from stereodel._threads import thread_count
-from stereodel.conformal.biquaternions import Z_AXIS, Biquaternion, parts
 from stereodel.conformal.forms import from_lorentz, from_moebius, lorentz_matrix, stereographic_pipeline
-from stereodel.conformal.subgroups import Kind, fixed_points_of, kind_of, multiplier_of, power
+from stereodel.conformal.group import Z_AXIS, Biquaternion, Kind, fixed_points_of, kind_of, multiplier_of, parts, power
 from stereodel.constants import LARGEST_EXPONENT, LARGEST_MAGNIFICATION, STORED_ERROR
 from stereodel.sphere import Rotation, SphereArc, SphereCircle
 from stereodel.sphere.arcs import swept_angle
@@ -33,6 +33,12 @@ _FLIP = Rotation(np.array([0.0, 1.0, 0.0, 0.0]))
 
 Circle = tuple[DoubleDouble, DoubleDouble, DoubleDouble]
 """Normal (3,), cos α and sin α, up to one positive factor."""
+
+
+Answer = Callable[..., tuple[FloatArray, bool]]
+Check = Callable[[FloatArray], FloatArray]
+
+_directions: Check = partial(as_directions, name="xyz")
 
 
 def boost_points(points: DoubleDouble, magnification: DoubleDouble) -> DoubleDouble:
@@ -165,10 +171,7 @@ class MoebiusMap:
         ndarray, shape (..., 3)
         """
         array = as_vectors(xyz, 3, "xyz", gaps=True, instead="for longitude and latitude call its method lonlat")
-        images, sound = _kernel.moebius_images(*self._for_kernel(array), thread_count(workers, array.size // 3))
-        if not sound:
-            as_directions(array, "xyz")  # raises: the kernel found an invalid row, without a separate pass
-        return images.reshape(array.shape)
+        return self._asked(_kernel.moebius_images, array, _directions, workers).reshape(array.shape)
 
     def lonlat(self, lonlat: npt.ArrayLike, *, workers: int | None = None) -> FloatArray:
         """Images of points given by longitude and latitude, in one step.
@@ -194,10 +197,7 @@ class MoebiusMap:
          [ 0.       78.575463]]
         """
         array = as_vectors(lonlat, 2, "lonlat", gaps=True)
-        images, sound = _kernel.moebius_lonlat(*self._for_kernel(array), thread_count(workers, array.size // 2))
-        if not sound:
-            as_lonlat(array)  # raises as above
-        return images.reshape(array.shape)
+        return self._asked(_kernel.moebius_lonlat, array, as_lonlat, workers).reshape(array.shape)
 
     @property
     def _size(self) -> DoubleDouble:
@@ -209,14 +209,16 @@ class MoebiusMap:
         Off by less than 2⁻⁴⁸ of itself for a point within 2⁻⁷³ rad of the given one. `workers` as in a call.
         """
         array = as_vectors(xyz, 3, "xyz", gaps=True)
-        scales, sound = _kernel.moebius_scales(*self._for_kernel(array), thread_count(workers, array.size // 3))
-        if not sound:
-            as_directions(array, "xyz")  # raises as above
-        return scales.reshape(array.shape[:-1])
+        return self._asked(_kernel.moebius_scales, array, _directions, workers).reshape(array.shape[:-1])
 
-    def _for_kernel(self, array: FloatArray) -> tuple[FloatArray, FloatArray, float, FloatArray]:
+    def _asked(self, function: Answer, array: FloatArray, check: Check, workers: int | None) -> FloatArray:
+        """What the kernel says of rows; it finds invalid ones without a separate pass, and `check` raises."""
         left, right = self._six_rows
-        return array.reshape(-1, array.shape[-1]), left, self.magnification, right
+        rows = array.reshape(-1, array.shape[-1])
+        found, sound = function(rows, left, self.magnification, right, thread_count(workers, len(rows)))
+        if not sound:
+            check(array)
+        return found
 
     @cached_property
     def _six_rows(self) -> tuple[FloatArray, FloatArray]:

@@ -21,7 +21,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import FloatArray, as_scalar
-from stereodel.conformal.fisheyes import fisheye
+from stereodel.conformal.maps import fisheye
 from stereodel.conformal.moebius import MoebiusMap
 from stereodel.sphere import Rotation
 

@@ -11,9 +11,8 @@ ring always leave as often as they enter.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Protocol
 
 import numpy as np
 import numpy.typing as npt
@@ -22,6 +21,7 @@ from stereodel._arrays import BoolArray, FloatArray, Indices, as_floats
 from stereodel.constants import AT_POLE, CHART_ROUNDING, LIMB_DEPTH, RIM_FINENESS
 from stereodel.curves.ragged import Ragged, offsets_of, spans
 from stereodel.curves.trace import Arcs
+from stereodel.curves.view import MapView
 from stereodel.sphere import xyz_to_lonlat
 from stereodel.sphere.latitudes import Latitude
 
@@ -55,52 +55,6 @@ class Pieces:
         return np.searchsorted(edge, np.arange(edge[-1] + 2 if len(edge) else 1))
 
 
-class Outline(Protocol):
-    """The border of a chart, for curves that are already cut."""
-
-    @property
-    def length(self) -> float:
-        """Total length of the border."""
-
-    @property
-    def slack(self) -> float:
-        """Bound on rounding errors of coordinates."""
-
-    @property
-    def blur(self) -> float:
-        """Bound on the distance between chords and curves, relative to the length of the border over 2π."""
-
-    def flat(self, chains: Ragged) -> FloatArray:
-        """Coordinates (n, 2) on the chart of points (n, 3) in chains."""
-
-    def place(self, flat: FloatArray) -> FloatArray:
-        """Positions of border points (n, 2) along the border, counterclockwise."""
-
-    def between(self, start: FloatArray, stop: FloatArray) -> Ragged:
-        """Points of the border to draw strictly between positions (k,), in either direction."""
-
-    def once(self) -> FloatArray:
-        """The whole border, its first point repeated at the end."""
-
-
-class Border(Outline, Protocol):
-    """The border of a chart, and where arcs cross it."""
-
-    def cut(self, arcs: Arcs) -> Pieces:
-        """Arcs cut where they cross the border."""
-
-
-class DiscView(Protocol):
-    """A map of a cap about (0, 0, 1), in its own axes, onto the unit disc of a page."""
-
-    @property
-    def angular_radius(self) -> float:
-        """Angular radius of the cap in degrees."""
-
-    def flattened(self, axes: FloatArray) -> FloatArray:
-        """Page coordinates (..., 2) of unit vectors (..., 3)."""
-
-
 @dataclass(frozen=True, eq=False)
 class Cap:
     """The edge of a view, at its angular radius from (0, 0, 1): the limb of a ball, the rim of a flat map.
@@ -109,7 +63,7 @@ class Cap:
     cross the rim. With the nonzero rule such crossings are harmless, and the rim may be as coarse as the chains.
     """
 
-    view: DiscView
+    view: MapView
     tolerance: float
     fineness: float = RIM_FINENESS
     length: float = TURN
@@ -174,15 +128,23 @@ class Box:
     right: float
     bottom: float
     top: float
-    length: float = field(init=False)
-    slack: float = field(init=False)
     blur: float = 0.0
 
-    def __post_init__(self) -> None:
+    @property
+    def length(self) -> float:
+        """Around the rectangle."""
+        return 2 * (self.right - self.left + (self.top - self.bottom))
+
+    @property
+    def slack(self) -> float:
+        """Bound on rounding errors of coordinates."""
+        return CHART_ROUNDING * max(map(abs, (self.left, self.right, self.bottom, self.top)))
+
+    @property
+    def _marks(self) -> FloatArray:
+        """Positions of the corners (4, 1)."""
         width, height = self.right - self.left, self.top - self.bottom
-        object.__setattr__(self, "length", 2 * (width + height))
-        reach = max(map(abs, (self.left, self.right, self.bottom, self.top)))
-        object.__setattr__(self, "slack", CHART_ROUNDING * reach)
+        return np.array([[0], [height], [height + width], [2 * height + width]])
 
     @property
     def corners(self) -> FloatArray:
@@ -197,22 +159,13 @@ class Box:
     def place(self, flat: FloatArray) -> FloatArray:
         """Positions of border points along the border; other points use the nearest side."""
         x, y = np.clip(flat, [self.left, self.bottom], [self.right, self.top]).T
-        width, height = self.right - self.left, self.top - self.bottom
         away = np.abs([x - self.right, y - self.top, x - self.left, y - self.bottom])
-        along = np.array(
-            [
-                y - self.bottom,
-                height + self.right - x,
-                height + width + self.top - y,
-                2 * height + width + x - self.left,
-            ]
-        )
+        along = self._marks + away[[3, 0, 1, 2]]
         return along[np.argmin(away, axis=0), np.arange(len(x))] % self.length
 
     def between(self, start: FloatArray, stop: FloatArray) -> Ragged:
         """The corners strictly between pairs of positions, in either direction."""
-        height, width = self.top - self.bottom, self.right - self.left
-        marks = np.array([0, height, height + width, 2 * height + width]) + self.length * np.arange(-2, 3)[:, None]
+        marks = self._marks.T + self.length * np.arange(-2, 3)[:, None]
         ahead = (marks.ravel() - start[:, None]) * np.where(stop < start, -1, 1)[:, None]
         way, mark = np.nonzero((ahead > 0) & (ahead < np.abs(stop - start)[:, None]))
         order = np.lexsort((ahead[way, mark], way))
@@ -224,13 +177,7 @@ class Box:
 
 
 def frame_of(points: FloatArray, bounds: npt.ArrayLike | None = None) -> Box:
-    """The rectangle bounds = (xmin, ymin, xmax, ymax), by default the bounding box of points (n, 2) with a margin.
-
-    Raises
-    ------
-    ValueError
-        Unless xmin < xmax and ymin < ymax.
-    """
+    """The rectangle bounds = (xmin, ymin, xmax, ymax), by default the bounding box of points (n, 2) with a margin."""
     if bounds is not None:
         given = as_floats(bounds, "bounds")
         if given.shape != (4,) or not (given[:2] < given[2:]).all():
@@ -245,9 +192,8 @@ def frame_of(points: FloatArray, bounds: npt.ArrayLike | None = None) -> Box:
 
 @dataclass(frozen=True, eq=False)
 class Antimeridian(Box):
-    """The border of the map of longitude and latitude: the 180th meridian from both sides, and both poles.
+    """The border of the map of longitude and latitude: the 180th meridian from both sides, and a side for each pole.
 
-    The sphere is cut along half a great circle, which becomes a rectangle on the map, with a whole side for each pole.
     Everything is visible. Points on the meridian are at 180° unless their arcs determine the side.
     """
 
@@ -296,10 +242,8 @@ class Antimeridian(Box):
         return arcs
 
     def flat(self, chains: Ragged) -> FloatArray:
-        """Longitude and latitude (n, 2); points (n, 5) already contain them.
-
-        An endpoint on the meridian is on the side from which its chain arrives; a pole takes its neighbour's longitude.
-        """
+        """Longitude and latitude (n, 2); points (n, 5) already contain them."""
+        # An endpoint on the meridian is on the side from which its chain arrives; a pole has its neighbour's longitude.
         points = chains.values
         lonlat = points[:, 3:].copy() if points.shape[1] == 5 else xyz_to_lonlat(points, latitude=self.latitude)
         if not len(points):
@@ -316,16 +260,18 @@ class Antimeridian(Box):
         return lonlat
 
 
+Outline = Cap | Box
+"""The border of a chart, for curves that are already cut."""
+
+
 def _on_border(points: FloatArray, slack: float = 0.0) -> BoolArray:
     """Which points are on the 180th meridian or at a pole."""
     return (np.abs(points[:, 1]) <= slack) & (points[:, 0] <= slack)
 
 
 def above_circle(points: FloatArray, direction: FloatArray, radius: float) -> FloatArray:
-    """Heights of unit vectors (n, 3) along a direction above the circle of an angular radius about it.
-
-    Near the direction from distances to it, whose squares keep the digits that the cosines of a small circle lose.
-    """
+    """Heights of unit vectors (n, 3) along a direction above the circle of an angular radius about it."""
+    # Near the direction from distances to it, whose squares keep the digits that the cosines of a small circle lose.
     height = points @ direction
     aside = np.sum((points - height[:, None] * direction) ** 2, axis=1)
     near = 2 * np.sin(radius / 2) ** 2 - aside / (1 + np.maximum(height, 0.0))

@@ -8,43 +8,20 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Protocol
 
 import numpy as np
 
 from stereodel._arrays import BoolArray, FloatArray, Indices
 from stereodel.conformal import MoebiusMap
 from stereodel.constants import CHART_TOLERANCE, REACH_MARGIN, RIM_FINENESS, UNIT_ROUNDOFF
-from stereodel.curves import borders, clip
+from stereodel.curves import clip
 from stereodel.curves.borders import Cap, Pieces
 from stereodel.curves.ragged import Ragged
 from stereodel.curves.trace import Arcs, Edges
+from stereodel.curves.view import MapView
 from stereodel.sphere.vectors import turned
 
 Place = tuple[float, float]
-
-
-class ChartView(borders.DiscView, Protocol):
-    """A map of a cap of the sphere, seen from a direction, onto the unit disc of a page."""
-
-    @property
-    def matrix(self) -> FloatArray:
-        """Rows right, up, toward the viewer: unit vectors, a rotation matrix (3, 3)."""
-
-    @property
-    def edge(self) -> float:
-        """Cosine of the angular radius of the cap."""
-
-    @property
-    def round(self) -> bool:
-        """Whether the page shows a ball."""
-
-    @property
-    def stretch(self) -> float:
-        """Bound on the ratio of the deviation of chords on the page to that in space."""
-
-    def breadth(self, axes: FloatArray, across: FloatArray) -> FloatArray:
-        """Ratio of the distance between two close lines on the page to that on the sphere."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,7 +60,7 @@ class Chart:
     """
 
     lens: MoebiusMap
-    view: ChartView
+    view: MapView
     at: Place = (0.0, 0.0)
     scale: float = 1.0
     tolerance: float = CHART_TOLERANCE
@@ -97,6 +74,11 @@ class Chart:
         return self.view.matrix
 
     @cached_property
+    def turns(self) -> tuple[FloatArray, FloatArray]:
+        """Matrices of the rotations before and after the fisheye; the last row of the first is the focus."""
+        return self.lens.right.matrix, self.lens.left.matrix
+
+    @cached_property
     def source(self) -> Rim:
         """The circle before the lens whose interior is seen."""
         return self.before(float(np.radians(self.view.angular_radius)))
@@ -107,21 +89,20 @@ class Chart:
         return self.source if self.view.angular_radius == 90.0 else self.before(np.pi / 2)
 
     def before(self, radius: float) -> Rim:
-        """The circle before the lens whose image has this angular radius, in radians, about the centre of the view.
-
-        (normal, cosine) is a vector of Minkowski space, which a fisheye boosts: the sum and the difference of its
-        components along the boost, each of them computed without cancellation, are multiplied and divided by the
-        magnification. The sine is the length of the vector, which no lens changes.
-        """
+        """The circle before the lens whose image has this angular radius, in radians, about the centre of the view."""
+        # (normal, cosine) is a vector of Minkowski space, which a fisheye boosts: the sum and the difference of its
+        # components along the boost, each without cancellation, are multiplied and divided by the magnification. The
+        # sine is the length of the vector, which no lens changes.
         size, cosine, sine = self.lens.magnification, float(np.cos(radius)), float(np.sin(radius))
-        normal = turned(self.matrix[2], self.lens.left.matrix.T)
+        right, left = self.turns
+        normal = turned(self.matrix[2], left.T)
         (n_plus, n_minus), (c_plus, c_minus) = _halves(normal[2], np.hypot(*normal[:2])), _halves(cosine, sine)
         plus = n_plus - c_minus if n_plus + c_minus < 2 else c_plus - n_minus
         minus = c_minus - n_minus if c_minus + n_minus < 2 else n_plus - c_plus
         plus, minus = plus * size, minus / size
         axis, offset = np.array([normal[0], normal[1], (plus + minus) / 2]), (plus - minus) / 2
         length = float(np.sqrt(np.sum(axis**2)))
-        return Rim(turned(axis / length, self.lens.right.matrix.T), offset / length, sine / length)
+        return Rim(turned(axis / length, right.T), offset / length, sine / length)
 
     @property
     def slack(self) -> float:

@@ -77,10 +77,7 @@ def chains_of(sides: Ragged, pieces: Pieces) -> Chains:
 
 
 def among(rows: Ragged, chosen: BoolArray) -> Ragged:
-    """Rows with only the chosen edges, renumbered as by `Edges.take`.
-
-    Hidden edges may be left out before lines and rings are clipped, since they contain no ends of chains.
-    """
+    """Rows with only the chosen edges, renumbered as by `Edges.take`: hidden ones have no ends of chains."""
     number = np.cumsum(chosen) - 1
     edge = np.maximum(rows.values, ~rows.values)
     return Ragged(np.where(rows.values < 0, ~number[edge], number[edge]), rows.offsets).kept(chosen[edge])
@@ -116,21 +113,10 @@ def regions(
 ) -> tuple[Ragged, Indices]:
     """The visible parts of regions, interior left of their rings: closed loops on the chart, and the region of each.
 
-    Parameters
-    ----------
-    rings : Ragged
-        Edges of each ring.
-    owner : (r,) array
-        The region of each ring.
-    count : int
-        Number of regions.
-    pieces, samples : Pieces, Ragged
-        The arcs of the edges, cut at the border, and their points.
-    middle : (count,) array, optional
-        Which regions contain the centre of the view. If this is known, edges that are hidden throughout may be left out
-        of the rings.
-    left : (r, 3) array, optional
-        What `Edges.left` says of the rings; without it, chords alone decide.
+    rings, owner, count: edges of each ring; the region of each, (r,); number of regions.
+    pieces, samples: the arcs of the edges, cut at the border, and their points.
+    middle: which regions contain the centre of the view, if known; hidden edges may then be left out of the rings.
+    left: what `Edges.left` says of the rings, (r, 3); without it, chords alone decide.
     """
     left = np.full((len(rings), 3), np.nan) if left is None else left
     loops, region, shown = in_sight(rings, owner, count, pieces, samples, border, left)
@@ -150,10 +136,7 @@ def in_sight(
     border: Outline,
     left: FloatArray,
 ) -> tuple[Ragged, Indices, BoolArray]:
-    """As for `regions`, without regions whose rings are entirely hidden, which `surround` handles.
-
-    Hidden edges may therefore be missing. Also returns which regions have a visible part of a ring (count,).
-    """
+    """As for `regions`, but for those whose rings are hidden, for `surround`; also which have a ring in sight."""
     chains = chains_of(rings, pieces)
     region = owner[chains.row]
     # Parts along the border are dropped: closing the other chains restores them where needed.
@@ -212,10 +195,8 @@ def _known(left: FloatArray) -> FloatArray:
 
 
 def _told(area: FloatArray, length: FloatArray, error: FloatArray, known: FloatArray) -> FloatArray:
-    """Areas (n,), where they are in doubt and thin by what is `_known`.
-
-    What is not thin keeps its side however large the error: a lens may make a dot of nearly the whole sphere.
-    """
+    """Areas (n,), where they are in doubt and thin by what is `_known`."""
+    # What is not thin keeps its side however large the error: a lens may make a dot of nearly the whole sphere.
     on_sphere, thin = known
     doubt = (np.abs(area) < error) & ((np.abs(area) <= THIN_RING * length**2) | (thin > 0)) & ~np.isnan(on_sphere)
     return np.where(doubt, on_sphere, area)
@@ -238,11 +219,9 @@ def surround(
     border: Outline,
     left: FloatArray,
 ) -> BoolArray:
-    """Which of some regions (count,) without visible rings contain the whole visible part.
-
-    The areas between rings and the place opposite the centre of the view, on their left, add up to that of the region,
-    or, if it contains the centre, to that less a whole sphere.
-    """
+    """Which of some regions (count,) without visible rings contain the whole visible part."""
+    # The areas between rings and the place opposite the centre of the view, on their left, add up to that of the
+    # region, or, if it contains the centre, to that less a whole sphere.
     chosen = asked[owner]
     if not chosen.any():
         return np.zeros_like(asked)
@@ -261,10 +240,7 @@ def surround(
 def closed_along(
     border: Outline, chains: Ragged, owner: Indices, least: FloatArray | float = 0.0
 ) -> tuple[Ragged, Indices]:
-    """Loops of chains (k, 2) from border to border, closed along it for each region; and the region of each loop.
-
-    `least` is as in `followers`.
-    """
+    """Loops of chains (k, 2) from border to border, closed along it for each region, and the region of each."""
     if not len(chains):
         return chains, owner
     starts = border.place(chains.values[chains.offsets[:-1]])
@@ -282,16 +258,8 @@ def followers(
 ) -> tuple[Indices, FloatArray]:
     """For each chain its successor in the loop, and the position at which that starts, counted onwards from its end.
 
-    Parameters
-    ----------
-    starts, ends : (n,) arrays
-        Positions of the chains' ends along a border.
-    length : float
-        Length of the border.
-    owner : (n,) array
-        The region of each chain, which has as many starts as ends.
-    least : (n,) array or float
-        Distance between neighbouring positions of a region below which their order does not tell its depth.
+    starts, ends: positions of the chains' ends along a border of this length; owner: the region of each chain.
+    least: distance between neighbouring positions of a region below which their order does not tell its depth.
     """
     # Depth: +1 after an end, −1 after a start; at equal positions the end comes first, so that chains that only touch
     # the border close there. The sums restart at 0 for each region.

@@ -10,7 +10,7 @@ from stereodel._arrays import BoolArray, FloatArray, Indices
 from stereodel._extras import of_extra
 from stereodel.constants import TOUCHING
 from stereodel.curves.clip import signed_areas, with_first_again
-from stereodel.curves.ragged import Ragged, cycles, spans
+from stereodel.curves.ragged import Ragged, cycles, offsets_of, spans
 
 
 def triangles(loops: Ragged, owner: Indices) -> tuple[FloatArray, Indices]:
@@ -26,21 +26,26 @@ def triangles(loops: Ragged, owner: Indices) -> tuple[FloatArray, Indices]:
     fanned, fans, row = _fans(loops)
     fanned &= shells
     fanned[holder[holder >= 0]] = False
+    # The other shells, each followed by its holes.
+    rings = np.flatnonzero(np.where(shells, ~fanned, holder >= 0))
+    shell = np.where(shells, np.arange(len(loops)), holder)[rings]
+    order = np.lexsort((rings, holder[rings] >= 0, shell))
+    several, (number, counts) = loops.take(rings[order]), np.unique(shell, return_counts=True)
+    bounds = offsets_of(counts)
     corners, owners = [fans[fanned[row]]], [owner[row[fanned[row]]]]
-    for shell in np.flatnonzero(shells & ~fanned).tolist():
-        rings = loops.take(np.append(shell, np.flatnonzero(holder == shell)))
-        found = triangulate_float64(rings.values, rings.offsets[1:].astype(np.uint32)).reshape(-1, 3)
-        corners.append(rings.values[found])
-        owners.append(np.full(len(found), owner[shell]))
+    for which, first, end in zip(number.tolist(), bounds[:-1].tolist(), bounds[1:].tolist(), strict=True):
+        ends = several.offsets[first + 1 : end + 1]
+        points = several.values[several.offsets[first] : ends[-1]]
+        found = triangulate_float64(points, (ends - several.offsets[first]).astype(np.uint32)).reshape(-1, 3)
+        corners.append(points[found])
+        owners.append(np.full(len(found), owner[which]))
     return np.concatenate(corners), np.concatenate(owners)
 
 
 def holders(loops: Ragged, owner: Indices) -> tuple[BoolArray, Indices]:
-    """Which loops (m,) are shells, and for each hole, a clockwise loop, the smallest shell of its region that holds it.
-
-    Shells, and holes without a shell, have −1. They may touch, even along sides, where rounding decides what lies
-    inside: the corner or middle of a side that is farthest from the shell does not touch it.
-    """
+    """Which loops (m,) are shells, and the smallest shell of its region that holds each hole, the others, or −1."""
+    # They may touch, even along sides, where rounding decides what lies inside: the corner or middle of a side that is
+    # farthest from the shell does not touch it.
     area, _ = signed_areas(loops)
     shells, holder = np.flatnonzero(area > 0), np.full(len(loops), -1)
     shell_of = cache(lambda number: _Shell(loops.values[loops.offsets[number] : loops.offsets[number + 1]]))
@@ -57,11 +62,8 @@ def holders(loops: Ragged, owner: Indices) -> tuple[BoolArray, Indices]:
 
 
 def union(loops: Ragged) -> Ragged:
-    """The border, as closed loops, of the union of regions that share border points but do not overlap.
-
-    A side shared by two loops occurs in both directions and cancels. At each point, as many of the remaining sides
-    begin as end.
-    """
+    """The border, as closed loops, of the union of regions that share border points but do not overlap."""
+    # A side of two loops occurs in both directions and cancels. At each point as many of the rest begin as end.
     first = np.delete(np.arange(len(loops.values)), loops.offsets[1:] - 1)
     places, node = np.unique(loops.values, axis=0, return_inverse=True)
     sides = np.stack([node.ravel()[first], node.ravel()[first + 1]], axis=1)

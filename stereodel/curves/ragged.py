@@ -8,12 +8,27 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar, Self
 
 import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import BoolArray, Indices
+
+
+class Rows:
+    """Records as arrays of one length, the fields of a dataclass."""
+
+    __dataclass_fields__: ClassVar[dict[str, Any]]
+
+    def take(self, chosen: Indices | BoolArray) -> Self:
+        """Some of them."""
+        return type(self)(*(getattr(self, name)[chosen] for name in self.__dataclass_fields__))
+
+    @classmethod
+    def joined(cls, *parts: Self) -> Self:
+        """Those of all parts."""
+        return cls(*(np.concatenate([getattr(part, name) for part in parts]) for name in cls.__dataclass_fields__))
 
 
 @dataclass(frozen=True, eq=False)
@@ -118,11 +133,9 @@ def spans(starts: Indices, sizes: Indices, step: Indices | int = 1) -> Indices:
 
 
 def cycles(successor: Indices) -> Ragged:
-    """The cycles of a permutation, each starting at its smallest member.
-
-    By pointer doubling: after k rounds each member has the smallest of the 2ᵏ members ahead of it; once all agree on a
-    leader, the cycle is cut before it and the distance to the cut is found in the same way.
-    """
+    """The cycles of a permutation, each starting at its smallest member."""
+    # By pointer doubling: after k rounds each has the smallest of the 2ᵏ members ahead of it as its leader; the cycle
+    # is cut before the last one, and the distance to the cut is found in the same way.
     leader, jump = np.arange(len(successor)), successor
     for _ in range(len(successor).bit_length()):
         leader, jump = np.minimum(leader, leader[jump]), jump[jump]

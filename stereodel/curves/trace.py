@@ -19,7 +19,7 @@ from stereodel._arrays import BoolArray, FloatArray, Indices
 from stereodel.conformal import MoebiusMap
 from stereodel.conformal.distortions import largest_scale
 from stereodel.constants import LONGEST_EDGE, MOST_PIECES, WHOLE_TURNS
-from stereodel.curves.ragged import Ragged, offsets_of, spans
+from stereodel.curves.ragged import Ragged, Rows, offsets_of, spans
 from stereodel.sphere import SphereArc, lonlat_to_xyz
 from stereodel.sphere.latitudes import Latitude
 from stereodel.sphere.vectors import crossed, turned
@@ -29,7 +29,7 @@ APEX = np.array([0.36, 0.48, 0.8])
 
 
 @dataclass(frozen=True, eq=False)
-class Arcs:
+class Arcs(Rows):
     """Arcs of circles of the unit sphere: center + cos t·u + sin t·v for t from `begin` to `stop`, at most one turn.
 
     The circle is axis·x = offset, counterclockwise about its axis: center = offset·axis, v = axis × u.
@@ -48,10 +48,6 @@ class Arcs:
 
     def __len__(self) -> int:
         return len(self.edge)
-
-    def take(self, chosen: Indices | BoolArray) -> Arcs:
-        """Some of the arcs."""
-        return Arcs(*(getattr(self, name)[chosen] for name in self.__dataclass_fields__))
 
     def turned(self, matrix: FloatArray) -> Arcs:
         """The arcs in other axes, the rows of a rotation matrix."""
@@ -79,12 +75,9 @@ class Arcs:
         return pieces
 
     def through(self, lens: MoebiusMap) -> Arcs:
-        """The images under a lens.
-
-        Arcs are cut where they are nearest to and farthest from the focus. By symmetry the images of these points are
-        opposite on the image circle, so between them an image sweeps at most half a turn, which its endpoints
-        determine.
-        """
+        """The images under a lens, cut at the apsides."""
+        # Arcs are cut where they are nearest to and farthest from the focus. By symmetry the images of these points are
+        # opposite on the image circle; between them an image sweeps at most half a turn, which its ends determine.
         if lens.magnification == 1:
             return self.turned(lens.left.matrix @ lens.right.matrix)
         # Both apsides, each within a turn from `begin`; those beyond `stop` are not on the arc.
@@ -107,11 +100,9 @@ class Arcs:
         return Arcs(start, end, axis, offset, u, np.zeros(len(u)), _swept(axis, u, w), arcs.edge)
 
     def sampled(self, tolerance: float, seen: BoolArray | bool = True) -> Ragged:
-        """Points of each arc, both ends included, whose chords deviate from it by at most `tolerance`, if it is seen.
-
-        A chord of angle a deviates from a circle of radius r by r(1 − cos(a/2)). No chord sweeps more than a quarter
-        turn, so that a circle smaller than the tolerance still has an area, which determines the side of its region.
-        """
+        """Points of each arc, both ends too, whose chords deviate from it by at most `tolerance`, if it is seen."""
+        # A chord of angle a deviates from a circle of radius r by r(1 − cos(a/2)). None sweeps more than a quarter
+        # turn, so that a circle smaller than the tolerance still has an area, which determines the side of its region.
         radius = np.sqrt(np.sum(self.u**2, axis=1))
         step = 2 * np.arccos(np.clip(1 - tolerance / np.maximum(radius, tolerance), np.sqrt(0.5), 1.0))
         steps = np.where(seen, np.ceil((self.stop - self.begin) / step), 1)
@@ -130,10 +121,8 @@ class Arcs:
 
 
 def fans(apex: FloatArray, rows: Ragged) -> tuple[FloatArray, FloatArray]:
-    """Areas (m,) of triangles between an apex, (3,) or (m, 3), and the steps of rows of points, and sums of the steps.
-
-    Areas on the left of the steps are positive. The place opposite to the apex counts as outside.
-    """
+    """Areas (m,) of triangles between an apex, (3,) or (m, 3), and the steps of rows of points; sums of the steps."""
+    # Areas on the left of the steps are positive. The place opposite to the apex counts as outside.
     first, sides = sides_of(rows)
     a, b = rows.values[first, :3], rows.values[first + 1, :3]
     apex = np.broadcast_to(apex, (len(rows), 3))[sides.row]
@@ -293,12 +282,12 @@ class Edges:
         parts = cut.arcs(self.latitude)
         whole = np.ones(len(self), dtype=bool)
         whole[long] = False
-        both = joined(self.arcs.take(whole), parts)
+        both = Arcs.joined(self.arcs.take(whole), parts)
         return both.take(np.argsort(both.edge, kind="stable"))
 
 
 @dataclass(frozen=True, eq=False)
-class _Stretches:
+class _Stretches(Rows):
     """Parts of edges straight in degrees, from a (k, 2) to b, on the sphere from p (k, 3) to q."""
 
     edge: Indices
@@ -318,10 +307,6 @@ class _Stretches:
         count, (a, b) = len(edges), edges.lonlat.swapaxes(0, 1)
         return cls(number, np.zeros(count), np.ones(count), pieces, a, b, edges.arcs.start, edges.arcs.end)
 
-    def take(self, chosen: Indices | BoolArray) -> _Stretches:
-        """Some of them."""
-        return _Stretches(*(getattr(self, name)[chosen] for name in self.__dataclass_fields__))
-
     def halved(self, lens: MoebiusMap, tolerance: float, latitude: Latitude) -> _Stretches:
         """Parts halved, in order, until none needs more than `MOST_PIECES`: few where nothing is magnified."""
         done, rest = [], self
@@ -335,10 +320,10 @@ class _Stretches:
             center, share = lonlat_to_xyz(middle, latitude=latitude), rest.share / 2
             first = replace(rest, share=share, b=middle, q=center)
             second = replace(rest, share=share, before=rest.before + share, a=middle, p=center)
-            halves = _together([first, second])
+            halves = _Stretches.joined(first, second)
             length, bend = measures_in_lonlat(halves.a, halves.b, halves.p, halves.q)
             rest = replace(halves, pieces=_wanted(lens, tolerance, halves.p, length, bend))
-        found = _together(done)
+        found = _Stretches.joined(*done)
         return found.take(np.lexsort([found.before, found.edge]))
 
     def arcs(self, latitude: Latitude) -> Arcs:
@@ -353,23 +338,11 @@ class _Stretches:
         return replace(great(p, q), edge=self.edge[row])
 
 
-def _together(parts: Sequence[_Stretches]) -> _Stretches:
-    names = _Stretches.__dataclass_fields__
-    return _Stretches(*(np.concatenate([getattr(part, name) for part in parts]) for name in names))
-
-
 def _wanted(lens: MoebiusMap, tolerance: float, start: FloatArray, length: FloatArray, bend: FloatArray) -> FloatArray:
-    """Numbers of great circles with images within `tolerance` of those of edges, by the largest scale along them.
-
-    Long edges are cut because of their length alone: antipodal points do not determine a great circle.
-    """
+    """Numbers of great circles with images within `tolerance` of those of edges, by the largest scale along them."""
+    # Long edges are cut because of their length alone: antipodal points do not determine a great circle.
     wanted = np.sqrt(bend * largest_scale(lens, start, length) / tolerance)
     return np.asarray(np.maximum(wanted, length / np.radians(LONGEST_EDGE)))
-
-
-def joined(a: Arcs, b: Arcs) -> Arcs:
-    """The arcs of both."""
-    return Arcs(*(np.concatenate([getattr(a, name), getattr(b, name)]) for name in Arcs.__dataclass_fields__))
 
 
 def numbered(arcs: Arcs) -> Arcs:
@@ -377,28 +350,12 @@ def numbered(arcs: Arcs) -> Arcs:
     return replace(arcs, edge=np.arange(len(arcs)))
 
 
-def straight(
-    a: FloatArray,
-    b: FloatArray,
-    lens: MoebiusMap,
-    tolerance: float,
-    latitude: Latitude = "spherical",
-    ends: tuple[FloatArray, FloatArray] | None = None,
-) -> Arcs:
-    """Edges straight in degrees from a (k, 2) to b, as arcs whose images are within `tolerance`, in radii, of theirs.
-
-    `ends` are their endpoints on the sphere, if already known.
-    """
-    return Edges.straight(a, b, latitude, ends).arcs_under(lens, tolerance)
-
-
 def unwrapped(lines: Ragged, *, turns: bool = True) -> Ragged:
     """Lines in degrees whose longitude continues across ±180° instead of jumping, except for steps along a pole.
 
     A step of 360° is a turn around the Earth, as in polygons that go around it, or with `turns` false no step at all.
-    Where a line jumps, longitudes are rounded to `WHOLE_TURNS`, so that a ring around the Earth ends exactly one turn
-    from its start.
     """
+    # Longitudes are rounded to `WHOLE_TURNS`, so that a ring around the Earth ends exactly one turn from its start.
     step = np.diff(lines.values, axis=0, prepend=lines.values[:1])
     step[lines.offsets[:-1][lines.sizes > 0]] = 0.0
     polar = (np.abs(lines.values[:, 1]) == 90) & (step[:, 1] == 0)
@@ -415,11 +372,9 @@ def unwrapped(lines: Ragged, *, turns: bool = True) -> Ragged:
 def measures_in_lonlat(
     start: FloatArray, end: FloatArray, p: FloatArray, q: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Upper bounds in radians of the lengths of edges straight in (lon, lat) and their distances from great circles.
-
-    With steps a in longitude and b in latitude the covariant acceleration is (sin φ cos φ a², −2 sin φ a b) northwards
-    and eastwards; a curve deviates from the great-circle arc between its ends by an eighth of it.
-    """
+    """Upper bounds in radians of the lengths of edges straight in (lon, lat) and their distances from great circles."""
+    # With steps a in longitude and b in latitude the covariant acceleration is (sin φ cos φ a², −2 sin φ a b) north and
+    # east; a curve deviates from the great-circle arc between its ends by an eighth of it.
     a, b = np.abs(np.radians(end - start)).T
     sine = np.maximum(np.abs(p[:, 2]), np.abs(q[:, 2]))
     lowest = np.where(p[:, 2] * q[:, 2] < 0, 0.0, np.minimum(np.abs(p[:, 2]), np.abs(q[:, 2])))

@@ -1,5 +1,6 @@
 """The geometry of pictures before rendering: pages and their items, scenes, sketches, views, styles."""
 
+from stereodel.curves.view import StereographicView, View
 from stereodel.drawing.page import Ball, Dots, Fill, Label, Page, Polygons, Polylines, Stroke
 from stereodel.drawing.page.colors import as_color
 from stereodel.drawing.page.fonts import MissingCharactersWarning
@@ -15,7 +16,6 @@ from stereodel.drawing.scene.scene_items import Layer
 from stereodel.drawing.scene.sketch import Sketch
 from stereodel.drawing.scene.solid import PlacedScene, Solid
 from stereodel.drawing.scene.space_curves import CircleArc, Segment
-from stereodel.drawing.scene.view import StereographicView, View
 
 __all__ = [
     "Ball",

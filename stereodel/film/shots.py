@@ -20,10 +20,10 @@ import numpy as np
 from stereodel._arrays import FloatArray, as_lonlat, as_scalar
 from stereodel.conformal import GroupPath, MoebiusMap, fisheye, flight
 from stereodel.constants import MOST_FRAMES, OPPOSITE
+from stereodel.curves.view import MapView, View
 from stereodel.drawing.page import Page
 from stereodel.drawing.page.colors import Color
 from stereodel.drawing.page.labels import title_height
-from stereodel.drawing.scene.view import MapView, View
 from stereodel.globe.globe import Globe
 from stereodel.sphere import angular_distance, lonlat_to_xyz, xyz_to_lonlat
 

@@ -25,6 +25,7 @@ from stereodel._arrays import (
 from stereodel._extras import of_extra
 from stereodel.conformal import MoebiusMap
 from stereodel.curves.chart import Chart
+from stereodel.curves.view import MapView
 from stereodel.drawing.page import Item, Label, Page, picture_extra
 from stereodel.drawing.page.colors import ColorLike, as_color, as_colors
 from stereodel.drawing.page.fonts import FontLike, as_font
@@ -45,7 +46,6 @@ from stereodel.drawing.page.style import (
     LineStyle,
 )
 from stereodel.drawing.scene.legend import LegendEntry, with_legend
-from stereodel.drawing.scene.view import MapView
 from stereodel.globe.layers import Areas, GridLines, Ground, Image, Limb, LineLayer, MapLayer, Names, Points, laid
 from stereodel.globe.outlines_on_sphere import Rings, SphereLines, SphereRegions, earth_lines, earth_regions
 from stereodel.globe.pages import Panel, default_view, panels

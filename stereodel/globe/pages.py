@@ -8,11 +8,11 @@ from dataclasses import dataclass
 from stereodel._arrays import as_count, as_scalar
 from stereodel.conformal import MoebiusMap
 from stereodel.curves.chart import Chart
+from stereodel.curves.view import MapView, StereographicView, View
 from stereodel.drawing.page import Item, Label, Page
 from stereodel.drawing.page.fonts import FontLike, as_font, in_font
 from stereodel.drawing.page.labels import haloed, with_room
 from stereodel.drawing.page.style import BLACK, PRINT_WIDTH
-from stereodel.drawing.scene.view import MapView, StereographicView, View
 from stereodel.globe.layers import Layered, laid
 from stereodel.sphere import xyz_to_lonlat
 

@@ -13,7 +13,7 @@ from stereodel._arrays import Pixels, as_choice
 from stereodel._extras import of_extra
 from stereodel._files import replacing
 from stereodel.conformal import MoebiusMap
-from stereodel.drawing.scene.view import View
+from stereodel.curves.view import View
 from stereodel.globe.raster import (
     FACES,
     PANORAMA_FORMS,

@@ -30,8 +30,8 @@ from stereodel._extras import of_extra
 from stereodel._threads import thread_count
 from stereodel.conformal import MoebiusMap
 from stereodel.constants import MOST_PIXELS_ACROSS, MOST_TEXELS
-from stereodel.curves.chart import Chart, ChartView
-from stereodel.drawing.scene.view import MapView, View
+from stereodel.curves.chart import Chart
+from stereodel.curves.view import MapView, View
 from stereodel.sphere import lonlat_to_xyz, xyz_to_lonlat
 from stereodel.sphere.latitudes import KINDS, Latitude
 from stereodel.sphere.vectors import turned
@@ -273,7 +273,7 @@ class Raster:
     def painted(
         self,
         lens: MoebiusMap,
-        view: ChartView,
+        view: MapView,
         place: tuple[float, float, float, float],
         pixels: tuple[int, int],
         *,

@@ -2,11 +2,9 @@
 
 from stereodel.interpolation.contours import Contour, contours
 from stereodel.interpolation.gradients import estimate_gradients
-from stereodel.interpolation.linear import LinearInterpolator
 from stereodel.interpolation.methods import griddata
-from stereodel.interpolation.natural_neighbor import NaturalNeighborInterpolator
-from stereodel.interpolation.nearest import NearestInterpolator
 from stereodel.interpolation.smooth import SmoothInterpolator
+from stereodel.interpolation.weighted import LinearInterpolator, NaturalNeighborInterpolator, NearestInterpolator
 from stereodel.interpolation.weights import Weights
 
 __all__ = [

@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from stereodel._arrays import AnyIndices, BoolArray, FloatArray, as_levels, as_values, read_only
 from stereodel._docs import shared
+from stereodel._values import Keyed
 from stereodel.interpolation.interpolator import FAMILY, PrecisePoints, one_value_a_place
 from stereodel.sphere.latitudes import Latitude
 from stereodel.sphere.lonlat import as_told
@@ -16,7 +17,7 @@ from stereodel.triangulation.delaunay import Triangulation, as_triangulation, op
 
 
 @dataclass(frozen=True, eq=False)
-class Contour:
+class Contour(Keyed):
     """A connected component of a contour.
 
     Parameters
@@ -50,14 +51,9 @@ class Contour:
     def __post_init__(self) -> None:
         object.__setattr__(self, "points", read_only(self.points))
 
-    def __eq__(self, other: object) -> bool:
-        if not isinstance(other, Contour):
-            return NotImplemented
-        mine, others = ((each.level, each.closed, each.latitude) for each in (self, other))
-        return mine == others and np.array_equal(self.points, other.points)
-
-    def __hash__(self) -> int:
-        return hash((self.level, self.closed, self.latitude, self.points.tobytes()))
+    @property
+    def _key(self) -> tuple[object, ...]:
+        return (self.level, self.closed, self.latitude, self.points.shape, *self.points.ravel().tolist())
 
     @property
     def lonlat(self) -> FloatArray:
@@ -159,10 +155,7 @@ class _Network:
 
 
 def chains(following: AnyIndices) -> list[tuple[list[int], bool]]:
-    """Split a one-to-one map, -1 where it ends, into chains of indices, and say which are rings.
-
-    Open chains come first, each kind in the order of its lowest number.
-    """
+    """Chains of indices of a one-to-one map, -1 where it ends, open ones first, and which of them are rings."""
     after = following.tolist()
     begins = np.ones(len(after), dtype=np.bool_)
     begins[following[following >= 0]] = False

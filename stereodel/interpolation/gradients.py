@@ -12,7 +12,8 @@ from stereodel._docs import shared
 from stereodel.constants import UNDETERMINED
 from stereodel.curves.ragged import spans
 from stereodel.interpolation.interpolator import FAMILY, PrecisePoints, as_site_values
-from stereodel.interpolation.triangles import cross3, dot, lengths
+from stereodel.interpolation.located import dot, lengths
+from stereodel.sphere.vectors import crossed
 from stereodel.triangulation.delaunay import Triangulation, as_triangulation, open_triangles
 from stereodel.triangulation.topology import adjacency_of, edges_of
 
@@ -118,11 +119,9 @@ def _columns(
     axes: FloatArray,
     starts: AnyIndices,
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Weighted ξ, η, |d|², ξ² − η², 2ξη of each pair (5, p), its weight, and the unit of length of each point.
-
-    The unit u is the distance of the third neighbour. Weights are smaller by (u/r)² where r is longer; so columns are
-    made of d/max(u, r), which is one at most, however much longer the longest distance is.
-    """
+    """Weighted ξ, η, |d|², ξ² − η², 2ξη of each pair (5, p), its weight, and the unit of length of each point."""
+    # The unit u is the distance of the third neighbour. Weights are smaller by (u/r)² where r is longer; so columns are
+    # made of d/max(u, r), which is one at most, however much longer the longest distance is.
     differences = sites.minus(others, sites, block[owners])
     size = lengths(differences)[:, 0]
     counts = np.diff(starts, append=len(owners))
@@ -154,16 +153,14 @@ def _axes(sites: PrecisePoints, block: AnyIndices) -> FloatArray:
     if not sites.curved:
         return np.broadcast_to(np.eye(2), (len(block), 2, 2))
     up = sites.rounded[block]
-    first = cross3(np.eye(3)[np.abs(up).argmin(axis=1)], up)
+    first = crossed(np.eye(3)[np.abs(up).argmin(axis=1)], up)
     first /= np.sqrt(dot(first, first))
-    return np.stack([first, cross3(up, first)], axis=1)
+    return np.stack([first, crossed(up, first)], axis=1)
 
 
 def _solve(normal: FloatArray, right: FloatArray) -> FloatArray:
-    """Solve symmetric systems (b, 5, 5) by elimination in order; unknowns that are not determined are zero.
-
-    A pivot is the part of a column's square that the columns before it do not explain.
-    """
+    """Solve symmetric systems (b, 5, 5) by elimination in order; unknowns that are not determined are zero."""
+    # A pivot is the part of a column's square that the columns before it do not explain.
     squares = np.einsum("bii->bi", normal).copy()
     matrix = np.concatenate([normal, right], axis=2)
     inverse = np.zeros((len(normal), _UNKNOWNS))
@@ -183,35 +180,26 @@ BLOCK = 4096
 """Points in a block, with about 80 000 neighbours of neighbours."""
 
 
-class Adjacency:
-    """The points that an edge joins to each point, as flat arrays."""
-
-    def __init__(self, edges: AnyIndices, size: int) -> None:
-        indptr, ends = adjacency_of(edges, size)
-        self._ends = ends.astype(np.int64)
-        self._starts, self._counts = indptr[:-1].astype(np.int64), np.diff(indptr)
-
-    def around(self, points: AnyIndices) -> tuple[AnyIndices, AnyIndices]:
-        """Pairs of a place in `points` and a point joined to the point there."""
-        counts = self._counts[points]
-        owners = np.repeat(np.arange(len(points)), counts)
-        return owners, self._ends[spans(self._starts[points], counts)]
-
-
 def rings_in_blocks(triangulation: Triangulation) -> Iterator[tuple[AnyIndices, AnyIndices, AnyIndices]]:
-    """Points that have triangles, in blocks, with the neighbours of each and their neighbours.
+    """Points (b,) that have triangles, and pairs: a place among them, in order, and a point of the two rings there.
 
-    Yields points (b,), and pairs owners, others (p,): a place in `points`, in order, and a point of the two rings
-        around the point there, each once. Edges of triangles that close a set within a hemisphere do not count.
+    Each pair comes once. Edges of triangles that close a set within a hemisphere do not count.
     """
     simplices = triangulation.simplices[open_triangles(triangulation)]
     size = len(triangulation.points)
-    adjacency = Adjacency(edges_of(simplices), size)
     used = np.unique(simplices)
+    indptr, ends = adjacency_of(edges_of(simplices), size)
+    starts, counts = indptr[:-1].astype(np.int64), np.diff(indptr)
+
+    def around(points: AnyIndices) -> tuple[AnyIndices, AnyIndices]:
+        """Pairs of a place in `points` and a point that an edge joins to the point there."""
+        number = counts[points]
+        return np.repeat(np.arange(len(points)), number), ends[spans(starts[points], number)].astype(np.int64)
+
     for first in range(0, len(used), BLOCK):
         points = used[first : first + BLOCK]
-        owners, ring = adjacency.around(points)
-        places, second = adjacency.around(ring)
+        owners, ring = around(points)
+        places, second = around(ring)
         # A pair is one number, owner · size + neighbour, so that sorting finds what both rings have twice.
         pairs = np.sort(np.concatenate([owners * size + ring, owners[places] * size + second]))
         owners, others = np.divmod(pairs[np.diff(pairs, prepend=-1) > 0], size)

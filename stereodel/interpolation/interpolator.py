@@ -91,11 +91,9 @@ def as_site_values(triangulation: Triangulation, values: npt.ArrayLike) -> tuple
 
 
 class PrecisePoints:
-    """Points of the plane, or unit vectors in double-double, and their differences to full relative precision.
+    """Points of the plane, or unit vectors in double-double, and their differences to full relative precision."""
 
-    A unit vector rounded to doubles is off by 1e-16, which is negligible for its place but not for its difference from
-    a neighbour 1e-15 away.
-    """
+    # A unit vector rounded to doubles is off by 1e-16: much for its difference from a neighbour 1e-15 away.
 
     def __init__(self, points: FloatArray) -> None:
         self.curved = surface_of(points) is SPHERE
@@ -262,16 +260,16 @@ class TriangleInterpolator(Interpolator):
 
     def _evaluate(self, queries: FloatArray, workers: int | None) -> FloatArray:
         result = np.full((len(queries), self._values.shape[1]), np.nan)
-        outside = self._in_blocks(result, queries, workers, self._within)
-        if self._nearest_outside and len(outside):
+        outside = self._in_blocks(result, queries, workers, self._within) < 0
+        if self._nearest_outside and outside.any():
             result[outside] = self._of_nearest(queries[outside], workers)
         return result
 
     def _evaluate_gradient(self, queries: FloatArray, workers: int | None) -> FloatArray:
         result = np.full((*queries.shape, self._values.shape[1]), np.nan)
-        outside = self._in_blocks(result, queries, workers, self._slope_within)
+        found = self._in_blocks(result, queries, workers, self._slope_within)
         if self._nearest_outside:
-            result[outside] = 0.0
+            result[found < 0] = 0.0
         return result
 
     def _in_blocks(
@@ -281,13 +279,13 @@ class TriangleInterpolator(Interpolator):
         workers: int | None,
         function: Callable[[AnyIndices, FloatArray], FloatArray],
     ) -> AnyIndices:
-        """Fill the rows of `result` for queries inside triangles, and return the other rows."""
+        """Fill the rows of `result` for queries inside triangles, and return the triangle of each, -1 outside."""
         found = np.asarray(self.triangulation.find_simplex(queries, workers=workers))
         inside = np.flatnonzero(found >= 0)
         for first in range(0, len(inside), BLOCK):
             rows = inside[first : first + BLOCK]
             result[rows] = function(self.triangulation.simplices[found[rows]], queries[rows])
-        return np.flatnonzero(found < 0)
+        return found
 
     @abstractmethod
     def _within(self, corners: AnyIndices, queries: FloatArray) -> FloatArray:

@@ -10,10 +10,8 @@ import numpy.typing as npt
 
 from stereodel._arrays import FloatArray, as_choice, as_floats
 from stereodel.interpolation.interpolator import Interpolator
-from stereodel.interpolation.linear import LinearInterpolator
-from stereodel.interpolation.natural_neighbor import NaturalNeighborInterpolator
-from stereodel.interpolation.nearest import NearestInterpolator
 from stereodel.interpolation.smooth import SmoothInterpolator
+from stereodel.interpolation.weighted import LinearInterpolator, NaturalNeighborInterpolator, NearestInterpolator
 from stereodel.sphere.latitudes import Latitude
 from stereodel.triangulation.delaunay import as_triangulation
 
@@ -32,8 +30,6 @@ METHODS: Final[MappingProxyType[Method, type[Interpolator]]] = MappingProxyType(
 
 def as_method(method: str) -> type[Interpolator]:
     """The interpolator of this name."""
-    if method == "cubic":
-        raise ValueError("method is 'cubic', which SciPy has; the smooth interpolant here is 'smooth'")
     return METHODS[as_choice(method, tuple(METHODS), "method")]
 
 

@@ -1,16 +1,32 @@
-"""Once differentiable interpolation from gradients at the points."""
+"""Once differentiable interpolation from values and gradients at the points.
+
+In each triangle by the side-vertex method of G. M. Nielson, "The side-vertex method for interpolation in triangles", J.
+Approx. Theory 25 (1979), carried to the sphere by C. L. Lawson (1984) and by R. J. Renka, "Interpolation of data on the
+surface of a sphere", ACM TOMS 10 (1984), with arcs of great circles for segments. For each corner i:
+
+1. The line from i through the query meets the opposite side jk in Q. Along the side the function is the cubic of the
+   values and slopes at j and k; its slope across the side is linear between those at j and k.
+2. Along the line the function is the cubic of value and slope at i and at Q. Call it S_i. On all sides it has the
+   right values, on the side jk the right slopes too.
+3. The three are mixed with the weights b_j b_k, b_k b_i, b_i b_j divided by their sum: on the side jk that of S_i is 1.
+
+Neighbouring triangles agree in value and slope along their common side, as both depend on its two ends alone.
+"""
 
 from __future__ import annotations
+
+from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import AnyIndices, FloatArray, as_values, locked
 from stereodel._docs import shared
+from stereodel.constants import LEAST_WEIGHT
 from stereodel.interpolation.gradients import fit_gradients
 from stereodel.interpolation.interpolator import FAMILY, TriangleInterpolator, one_value_a_place
-from stereodel.interpolation.side_vertex import side_vertex, side_vertex_slope
-from stereodel.interpolation.triangles import LocatedQueries, dot
+from stereodel.interpolation.located import LocatedQueries, dot, lengths
+from stereodel.sphere.vectors import crossed
 from stereodel.triangulation.delaunay import Triangulation
 
 
@@ -97,3 +113,270 @@ class SmoothInterpolator(TriangleInterpolator):
     def _slope_within(self, corners: AnyIndices, queries: FloatArray) -> FloatArray:
         located = LocatedQueries(self._sites, corners, queries)
         return side_vertex_slope(located, self._values[corners], self._gradients[corners])
+
+
+class Jet:
+    """Values with their derivatives by two parameters, `slope`: forward-mode automatic differentiation.
+
+    The rest of the shape of `slope` broadcasts against that of `value`.
+    """
+
+    __array_ufunc__ = None  # so that `ndarray * Jet` calls __rmul__
+    __slots__ = ("slope", "value")
+
+    def __init__(self, value: FloatArray, slope: FloatArray) -> None:
+        self.value = value
+        self.slope = slope
+
+    def __add__(self, other: Number) -> Jet:
+        b = _lift(other)
+        return Jet(self.value + b.value, self.slope + b.slope)
+
+    def __sub__(self, other: Number) -> Jet:
+        b = _lift(other)
+        return Jet(self.value - b.value, self.slope - b.slope)
+
+    def __mul__(self, other: Number) -> Jet:
+        if not isinstance(other, Jet):
+            return Jet(self.value * other, self.slope * other)
+        return Jet(self.value * other.value, self.slope * other.value + self.value * other.slope)
+
+    def __truediv__(self, other: Number) -> Jet:
+        if not isinstance(other, Jet):
+            return Jet(self.value / other, self.slope / other)
+        quotient = self.value / other.value
+        return Jet(quotient, (self.slope - quotient * other.slope) / other.value)
+
+    def __radd__(self, other: FloatArray | float) -> Jet:
+        return self + other
+
+    def __rsub__(self, other: FloatArray | float) -> Jet:
+        return Jet(other - self.value, -self.slope)
+
+    def __rmul__(self, other: FloatArray | float) -> Jet:
+        return self * other
+
+    def __rtruediv__(self, other: FloatArray | float) -> Jet:
+        return _lift(other) / self
+
+
+Number = Jet | FloatArray | float
+
+
+def _lift(number: Number) -> Jet:
+    return number if isinstance(number, Jet) else Jet(np.asarray(number), np.zeros(1))
+
+
+def sin_cos(angle: Number) -> tuple[Number, Number]:
+    """Sine and cosine."""
+    if not isinstance(angle, Jet):
+        return np.sin(angle), np.cos(angle)
+    sine, cosine = np.sin(angle.value), np.cos(angle.value)
+    return Jet(sine, cosine * angle.slope), Jet(cosine, -sine * angle.slope)
+
+
+def arctan2(y: Number, x: Number) -> Number:
+    """Angle of the vector (x, y)."""
+    if not isinstance(y, Jet) and not isinstance(x, Jet):
+        return np.arctan2(y, x)
+    b, a = _lift(y), _lift(x)
+    square = a.value * a.value + b.value * b.value
+    return Jet(np.arctan2(b.value, a.value), (a.value * b.slope - b.value * a.slope) / square)
+
+
+def sqrt(number: Number) -> Number:
+    """Square root of a positive number."""
+    if not isinstance(number, Jet):
+        return np.sqrt(number)
+    root = np.sqrt(number.value)
+    return Jet(root, number.slope / (2.0 * root))
+
+
+def norm(vector: Number) -> Number:
+    """Length along the last axis, which is kept."""
+    if not isinstance(vector, Jet):
+        return lengths(np.asarray(vector))
+    length = lengths(vector.value)
+    return Jet(length, np.sum(vector.value / length * vector.slope, axis=-1, keepdims=True))
+
+
+def side_vertex(located: LocatedQueries, values: FloatArray, gradients: FloatArray) -> FloatArray:
+    """Values (m, k) at the queries from values (m, 3, k) and tangent gradients (m, 3, d, k) at their corners."""
+    weights = np.maximum(located.weights(), LEAST_WEIGHT)
+    first = np.take_along_axis(values, weights.argmax(axis=1)[:, None, None], axis=1)[:, 0]
+    b = [weights[:, k : k + 1] for k in range(3)]
+    found = np.asarray(first + _mix(located, b, values, first, gradients))
+    return _met(found, first, weights, values, gradients)
+
+
+def side_vertex_slope(located: LocatedQueries, values: FloatArray, gradients: FloatArray) -> FloatArray:
+    """Gradients (m, d, k) at the queries; parameters as for `side_vertex`."""
+    weights = np.maximum(located.weights(), LEAST_WEIGHT)
+    first = np.take_along_axis(values, weights.argmax(axis=1)[:, None, None], axis=1)[:, 0]
+    directions = np.array([[-1.0, 1.0, 0.0], [-1.0, 0.0, 1.0]])  # by the second and the third coordinate
+    b = [Jet(weights[:, k : k + 1], directions[:, k, None, None]) for k in range(3)]
+    mixed = _mix(located, b, values, first, gradients)
+    assert isinstance(mixed, Jet)
+    at_corner = np.take_along_axis(gradients, weights.argmax(axis=1)[:, None, None, None], axis=1)[:, 0]
+    slope = located.slope([np.zeros_like(mixed.slope[0]), *mixed.slope])
+    return _met(slope, at_corner, weights, values, gradients)
+
+
+def _met(
+    found: FloatArray, at_corner: FloatArray, weights: FloatArray, values: FloatArray, gradients: FloatArray
+) -> FloatArray:
+    """Results, replaced at corners by the given values: even the smallest weight times a steep slope is not zero."""
+    rows = np.flatnonzero(weights.max(axis=1) == 1.0)
+    known = np.asarray(np.isfinite(values[rows]).all(axis=1) & np.isfinite(gradients[rows]).all(axis=(1, 2)))
+    found[rows] = np.where(known if found.ndim == 2 else known[:, None], at_corner[rows], found[rows])
+    return found
+
+
+def _mix(
+    located: LocatedQueries,
+    b: list[Jet] | list[FloatArray],
+    values: FloatArray,
+    first: FloatArray,
+    gradients: FloatArray,
+) -> Number:
+    """The difference from the value `first` of one corner."""
+    total: Number = 0.0
+    divisor: Number = 0.0
+    for i in range(3):
+        corner = _Corner(located, i, values, first, gradients)
+        weight = b[i - 2] * b[i - 1]
+        total = total + weight * corner.surface(b[i], b[i - 2], b[i - 1])
+        divisor = divisor + weight
+    return total / divisor
+
+
+Pair = tuple[Number, Number]
+
+
+def hermite(ends: Pair, slopes: Pair, parts: Pair, length: Number) -> Number:
+    """The cubic of given values and slopes at the two ends of a length that is cut into the two parts.
+
+    Parts are fractions of the length; both are given, as 1 − t would lose the digits of a small one.
+    """
+    s, t = parts
+    return (
+        ends[0] * (t * t * (1.0 + 2.0 * s))
+        + ends[1] * (s * s * (1.0 + 2.0 * t))
+        + length * s * t * (t * slopes[0] - s * slopes[1])
+    )
+
+
+def hermite_slope(rise: Number, slopes: Pair, parts: Pair, length: Number) -> Number:
+    """Its derivative, from the difference of the values."""
+    s, t = parts
+    return 6.0 * s * t * (rise / length) + t * (t - 2.0 * s) * slopes[0] + s * (s - 2.0 * t) * slopes[1]
+
+
+@dataclass(frozen=True)
+class _Side:
+    """The side from j to k: length, unit tangents at both ends, unit normal, all (m, 1) or (m, d)."""
+
+    length: FloatArray
+    sine: FloatArray
+    cosine: FloatArray
+    tangents: tuple[FloatArray, FloatArray]
+    normal: FloatArray
+
+    @classmethod
+    def straight(cls, edge: FloatArray) -> _Side:
+        length = np.asarray(norm(edge))
+        tangent = edge / length
+        return cls(length, length, length, (tangent, tangent), np.stack([-tangent[:, 1], tangent[:, 0]], axis=1))
+
+    @classmethod
+    def curved(cls, start: FloatArray, end: FloatArray, edge: FloatArray) -> _Side:
+        normal = crossed(start, edge)
+        sine = np.asarray(norm(normal))
+        normal /= sine
+        cosine = 1.0 + dot(start, edge)
+        return cls(np.arctan2(sine, cosine), sine, cosine, (crossed(normal, start), crossed(normal, end)), normal)
+
+
+def _along(gradients: FloatArray, vectors: FloatArray) -> FloatArray:
+    return np.einsum("mdk,md->mk", gradients, vectors)
+
+
+class _Corner:
+    """S_i of the module's description: corner i, the side jk opposite."""
+
+    def __init__(
+        self, located: LocatedQueries, i: int, values: FloatArray, first: FloatArray, gradients: FloatArray
+    ) -> None:
+        sites = located.sites
+        at, start, end = (located.corners[:, k] for k in (i, i - 2, i - 1))
+        self.curved = sites.curved
+        self.to_start, self.to_end = sites.minus(start, sites, at), sites.minus(end, sites, at)
+        edge = sites.minus(end, sites, start)
+        if self.curved:
+            self.origin, self.foot = sites.rounded[at], sites.rounded[start]
+            self.side = _Side.curved(self.foot, sites.rounded[end], edge)
+        else:
+            self.side = _Side.straight(edge)
+        self.value, self.ends = values[:, i] - first, (values[:, i - 2] - first, values[:, i - 1] - first)
+        # Not of the ends: two values next to each other have lost their difference when a far one is taken off.
+        self.rise = values[:, i - 1] - values[:, i - 2]
+        self.gradient, self.end_gradients = gradients[:, i], (gradients[:, i - 2], gradients[:, i - 1])
+
+    def surface(self, b: Number, b_start: Number, b_end: Number) -> Number:
+        """Values (m, k) where the barycentric coordinates of the corner and of the side's two ends are given."""
+        share = b_start + b_end
+        rests = b_end / share, b_start / share  # parts of the chord jk before and behind the line
+        parts, length, divisor, (along, across) = self._line(b, share, rests)
+        value, slope_along, slope_across = self._on_side(rests)
+        start = self._from_corner(rests, [_along(self.gradient, d) for d in (self.to_start, self.to_end)]) / divisor
+        end = (slope_along * along + slope_across * across) / divisor
+        return hermite((self.value, value), (start, end), parts, length)
+
+    @staticmethod
+    def _from_corner(rests: Pair, of_ends: list[FloatArray]) -> Number:
+        """What is linear in the vector from the corner to the chord, from what it is for the chord's two ends."""
+        return of_ends[0] * rests[1] + of_ends[1] * rests[0]
+
+    def _line(self, b: Number, share: Number, rests: Pair) -> tuple[Pair, Number, Number, Pair]:
+        """The line from the corner to Q: the fractions of its length before and behind the query, its length, divisor.
+
+        That is of slopes along the vector from the corner to the chord, at the corner, and of the components last
+        returned: those of the line's direction at Q, along the side and across.
+        """
+        tangent = self.side.tangents[0]
+        across = dot(self.to_start, self.side.normal)
+        if not self.curved:
+            length = norm(self._from_corner(rests, [self.to_start, self.to_end]))
+            along = dot(self.to_start, tangent) + rests[0] * self.side.length
+            return (share, b), length, length, (along, across)
+        ends = self.to_start, self.to_end
+        sine = norm(self._from_corner(rests, [crossed(self.origin, d) for d in ends]))
+        cosine = 1.0 + self._from_corner(rests, [dot(self.origin, d) for d in ends])
+        square = sine * sine + cosine * cosine
+        length = arctan2(sine, cosine)
+        before = arctan2(share * sine, b + share * cosine)
+        behind = arctan2(b * sine, share * square + b * cosine)
+        turn_sine, turn_cosine = sin_cos(self._angle(rests))
+        along = turn_cosine * (dot(self.to_start, tangent) + rests[0] * self.side.sine) - turn_sine * (
+            dot(self.to_start, self.foot) + rests[0] * (self.side.cosine - 1.0)
+        )
+        stretch = sqrt(square)
+        return (before / length, behind / length), length, sine, (along * stretch, across * stretch)
+
+    def _angle(self, rests: Pair) -> Number:
+        """Length along the curved side up to Q, or with the rests exchanged from Q on."""
+        return arctan2(rests[0] * self.side.sine, rests[1] + rests[0] * self.side.cosine)
+
+    def _on_side(self, rests: Pair) -> tuple[Number, Number, Number]:
+        """Value, slope along and slope across at Q."""
+        side, (first, last) = self.side, self.end_gradients
+        parts = rests
+        if self.curved:
+            parts = self._angle(rests) / side.length, self._angle(rests[::-1]) / side.length
+        slopes = _along(first, side.tangents[0]), _along(last, side.tangents[1])
+        across = _along(first, side.normal) * parts[1] + _along(last, side.normal) * parts[0]
+        return (
+            hermite(self.ends, slopes, parts, side.length),
+            hermite_slope(self.rise, slopes, parts, side.length),
+            across,
+        )

@@ -30,11 +30,11 @@ from stereodel._arrays import FloatArray, as_choice, as_edges, as_lonlat
 from stereodel.conformal import MoebiusMap, fisheye
 from stereodel.constants import PAGE_TOLERANCE
 from stereodel.curves.ragged import Ragged
+from stereodel.curves.view import MapView, View
 from stereodel.drawing.page.style import LINES, LineStyle
-from stereodel.drawing.scene.view import MapView, View
 from stereodel.mpl.plots import GlobePlots
 from stereodel.mpl.transforms import EDGES, Edges, LonLatToPage, compound, paths_of
-from stereodel.sphere import SphereArc, graticules, xyz_to_lonlat
+from stereodel.sphere import SphereArc, graticule, xyz_to_lonlat
 
 __all__ = ["FisheyeAxes"]
 
@@ -286,7 +286,7 @@ class FisheyeAxes(GlobePlots):
 
         Returns the artist; `kwargs` are those of `matplotlib.patches.PathPatch`.
         """
-        path = compound(Ragged.of([_in_degrees(arc) for arc in graticules.graticule(spacing)]), closed=False)
+        path = compound(Ragged.of([_in_degrees(arc) for arc in graticule(spacing)]), closed=False)
         self._graticule = self._lines(path, LINES["graticule"], {"zorder": 1.5} | kwargs)
         return self._graticule
 

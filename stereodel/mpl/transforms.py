@@ -20,7 +20,7 @@ from stereodel.curves.insides import on_the_left
 from stereodel.curves.ragged import Ragged
 from stereodel.curves.seams import stitched
 from stereodel.curves.trace import sides_of, unwrapped
-from stereodel.drawing.scene.view import MapView
+from stereodel.curves.view import MapView
 from stereodel.io.reading import shapes_of
 from stereodel.sphere import lonlat_to_xyz, xyz_to_lonlat
 from stereodel.sphere.vectors import turned

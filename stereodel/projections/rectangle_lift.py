@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from stereodel._arrays import FloatArray, as_amounts, as_points, as_scalar, as_vectors
 from stereodel._double_double import DoubleDouble, by_blocks, dot
-from stereodel.projections.stereographic import Stereographic
+from stereodel.projections.azimuthal import Stereographic
 
 
 @dataclass(frozen=True)

@@ -1,10 +1,17 @@
 """Geometry on the unit sphere: coordinates, rotations, circles, arcs, areas."""
 
-from stereodel.sphere.arcs import SphereArc
+from stereodel.sphere.arcs import (
+    SphereArc,
+    angular_distance,
+    graticule,
+    graticule_patch,
+    great_circle_points,
+    meridian,
+    parallel,
+    solid_angle,
+)
 from stereodel.sphere.circles import SphereCircle
 from stereodel.sphere.coordinates import as_direction, lonlat_to_xyz, xyz_to_lonlat
-from stereodel.sphere.graticules import graticule, graticule_patch, meridian, parallel
-from stereodel.sphere.measures import angular_distance, great_circle_points, solid_angle
 from stereodel.sphere.rotations import Rotation
 
 __all__ = [

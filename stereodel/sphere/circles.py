@@ -181,11 +181,8 @@ def on_circle(circle: SphereCircle, point: DoubleDouble) -> DoubleDouble:
 
 
 def one_plus_minus(height: DoubleDouble, across: DoubleDouble) -> tuple[DoubleDouble, DoubleDouble]:
-    """1 + c and 1 − c of unit vectors with height c along an axis and |t|² = `across`, with small relative errors.
-
-    Near the axis one of the two is |t|² over the other, t the part of the vector across the axis; it is never formed by
-    subtraction, so points and circles next to a pole keep their digits.
-    """
+    """1 + c and 1 − c of unit vectors with height c along an axis and |t|² = `across`, with small relative errors."""
+    # Near the axis one of the two is |t|² over the other, t the part across the axis, and never a difference.
     upper = height.hi >= 0
     large = 1.0 + where(upper, height, -height)
     small = across / large
@@ -193,12 +190,9 @@ def one_plus_minus(height: DoubleDouble, across: DoubleDouble) -> tuple[DoubleDo
 
 
 def light_cone(normal: DoubleDouble, cosine: DoubleDouble, sine: DoubleDouble) -> tuple[DoubleDouble, DoubleDouble]:
-    """n_z + cos α and n_z − cos α of the circle n·x = cos α, n of shape (3,).
-
-    As a vector (n, cos α) of Minkowski space these are its light-cone coordinates, with
-    n_x² + n_y² + (n_z + cos α)(n_z − cos α) = sin² α. Each is written as a difference of whichever of 1 ± n_z and
-    1 ± cos α are small, so that a tiny circle near the axis keeps its relative size.
-    """
+    """n_z + cos α and n_z − cos α of n·x = cos α, n (3,): light-cone coordinates of (n, cos α) in Minkowski space."""
+    # Each is a difference of whichever of 1 ± n_z and 1 ± cos α are small, so a tiny circle near the axis keeps its
+    # relative size.
     n_plus, n_minus = one_plus_minus(normal[2], normal[0] * normal[0] + normal[1] * normal[1])
     d_plus, d_minus = one_plus_minus(cosine, sine * sine)
     plus = n_plus - d_minus if float(n_plus.hi + d_minus.hi) < 2 else d_plus - n_minus

@@ -162,21 +162,15 @@ def as_direction(point: npt.ArrayLike, name: str = "point") -> FloatArray:
 
 
 def as_sphere_points(points: npt.ArrayLike, name: str = "points") -> FloatArray:
-    """Directions (n, 3) of points given as rows (lon, lat) in degrees or as vectors, which error messages call `name`.
-
-    >>> print(as_sphere_points([(90.0, 0.0), (0.0, -90.0)]))
-    [[ 0.  1.  0.]
-     [ 0.  0. -1.]]
-    """
+    """Directions (n, 3) of points given as rows (lon, lat) in degrees or as vectors; messages call them `name`."""
     rows = as_plane_or_sphere(points, name)
     return rows if rows.shape[1] == 3 else lonlat_to_xyz(as_lonlat(rows, name))
 
 
 def tangent_frame(point: npt.ArrayLike, name: str = "point") -> DoubleDouble:
-    """Rows east, north, up at a point, shape (3, 3), errors below 2⁻⁹⁷.
+    """Rows east, north, up at a point, shape (3, 3), errors below 2⁻⁹⁷; messages call the point `name`.
 
-    At a pole the axes are the limit along the longitude of (lon, lat), for a direction along longitude 0: at the north
-    pole north points toward lon + 180°, at the south pole toward lon. Error messages call the point `name`.
+    At a pole the limit along the longitude of (lon, lat), of a direction along 0: north points to lon + 180°, or lon.
     """
     values = as_direction_or_lonlat(point, name)
     if values.shape == (2,):

@@ -16,11 +16,6 @@ def sin_cos_degrees(angle: FloatArray) -> tuple[DoubleDouble, DoubleDouble]:
     """Sine and cosine of angles in degrees, relative error below 2⁻¹⁰¹, mirrored where the angles are.
 
     They are exact at multiples of 90°, one of the two at odd multiples of 45°.
-
-    >>> import numpy as np
-    >>> sine, cosine = sin_cos_degrees(np.array([30.0, 180.0]))
-    >>> print(sine.round(), cosine.round() + 0.0)
-    [0.5 0. ] [ 0.8660254 -1.       ]
     """
     parts = _kernel.sin_cos_degrees(np.ascontiguousarray(angle).ravel()).reshape(*angle.shape, 4)
     sine, sine_low, cosine, cosine_low = (parts[..., k] for k in range(4))
@@ -28,10 +23,8 @@ def sin_cos_degrees(angle: FloatArray) -> tuple[DoubleDouble, DoubleDouble]:
 
 
 def angle_degrees(y: DoubleDouble, x: DoubleDouble) -> FloatArray:
-    """The angle of (x, y) in degrees in [−180, 180], 0 at the origin, within an ulp.
-
-    A guess by the platform's arctangent is corrected in double-double, so the platform's last bits do not show.
-    """
+    """The angle of (x, y) in degrees in [−180, 180], 0 at the origin, within an ulp."""
+    # A guess by the platform's arctangent is corrected in double-double: the platform's last bits do not show.
     guess = np.where((x.hi == 0) & (y.hi == 0), 0.0, np.degrees(np.arctan2(y.hi, x.hi)))
     sine, cosine = sin_cos_degrees(guess)
     across, along = (y * cosine - x * sine).round(), (x * cosine + y * sine).round()

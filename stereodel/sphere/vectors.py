@@ -23,10 +23,8 @@ def determinant(matrix: FloatArray) -> float:
 
 
 def turned(vectors: FloatArray, matrix: FloatArray) -> FloatArray:
-    """Apply the rows of a matrix (3, 3) to vectors (..., 3).
-
-    Written out, because a matrix product may fuse or reorder its sums from one machine to the next.
-    """
+    """Apply the rows of a matrix (3, 3) to vectors (..., 3)."""
+    # Written out, because a matrix product may fuse or reorder its sums from one machine to the next.
     x, y, z = vectors[..., :1], vectors[..., 1:2], vectors[..., 2:]
     return x * matrix[:, 0] + y * matrix[:, 1] + z * matrix[:, 2]
 

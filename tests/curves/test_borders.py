@@ -1,4 +1,4 @@
-"""Borders: how far along, what lies between, where arcs cross; rings leave a chart as often as they enter it."""
+"""Borders: how far along, what lies between, where arcs cross; the circle of what is seen."""
 
 import numpy as np
 import pytest
@@ -7,13 +7,14 @@ from hypothesis import strategies as st
 
 from stereodel import MoebiusMap, SphereCircle, fisheye, lonlat_to_xyz
 from stereodel.curves.borders import Antimeridian, Box, Cap, crossings
+from stereodel.curves.chart import Chart
 from stereodel.curves.ragged import Ragged
 from stereodel.curves.trace import great
-from stereodel.drawing.scene.view import StereographicView, View
+from stereodel.curves.view import StereographicView, View
 from tests import sets
 from tests.curves.oracle import units, whole_circles
 from tests.examples import examples
-from tests.strategies import SEEDS
+from tests.strategies import LONLAT, SEEDS
 
 BOX = Box(-1.0, 3.0, -2.0, 1.0)
 CAP = Cap(View(0, 0), 1e-3)
@@ -195,3 +196,16 @@ def test_rings_leave_a_chart_as_often_as_they_enter_it(seed):
         if isinstance(border, Cap):
             assert np.count_nonzero(pieces.seen != np.roll(pieces.seen, 1)) % 2 == 0
             assert (pieces.opens[1:] == pieces.shuts[:-1]).all()
+
+
+@given(LONLAT, LONLAT, st.floats(-9, 9), st.floats(-7, 2.2) | st.just(None))
+def test_the_circle_of_what_is_seen(focus, toward, power, size):
+    """Its normal and radius are those that twice the precision gives, to a few roundings of the radius."""
+    lens = fisheye(focus, magnification=10.0**power)
+    view = View(*toward) if size is None else StereographicView(*toward, angular_radius=10.0**size)
+    exact = lens.inverse().image_of(SphereCircle.around(view.matrix[2], view.angular_radius))
+    found = Chart(lens, view).source
+    assert found.radius == pytest.approx(np.radians(exact.angular_radius), rel=1e-9)
+    # As far as the double precision of the view's direction lets it be known, which the lens magnifies.
+    assert np.linalg.norm(found.normal - exact.normal) < 1e-14 * max(1.0, 10.0 ** abs(power))
+    assert np.hypot(found.cosine, found.sine) == pytest.approx(1, abs=1e-12)

@@ -12,7 +12,7 @@ from stereodel.curves.borders import Antimeridian, Box, Cap
 from stereodel.curves.fill import triangles
 from stereodel.curves.ragged import Ragged
 from stereodel.curves.trace import great
-from stereodel.drawing.scene.view import StereographicView, View
+from stereodel.curves.view import StereographicView, View
 from stereodel.io.maps.meshes_as_rows import voronoi_sides
 from tests import sets
 from tests.curves.oracle import Star, in_sight, off_lines, ring, rings, rows, units, whole_circles, winding

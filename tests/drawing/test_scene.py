@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
+from stereodel.curves.view import View
 from stereodel.drawing.page import Ball, Dots, Fill, Label, Stroke
 from stereodel.drawing.page.colors import as_color
 from stereodel.drawing.page.style import LINES, LineStyle
 from stereodel.drawing.scene.scene import Scene
 from stereodel.drawing.scene.scene_items import Layer
 from stereodel.drawing.scene.space_curves import CircleArc
-from stereodel.drawing.scene.view import View
 from stereodel.sphere import SphereCircle, graticule, lonlat_to_xyz
 
 PLANE = np.array([[-2.0, -2.0, -1.0], [2.0, -2.0, -1.0], [2.0, 2.0, -1.0], [-2.0, 2.0, -1.0]])

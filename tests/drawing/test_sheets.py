@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from stereodel.drawing import styled
 from stereodel.drawing.page import style
-from stereodel.drawing.page.colorimetry import contrast, luminance, to_oklab, with_luminance
+from stereodel.drawing.page.colors import contrast, luminance, to_oklab, with_luminance
 from stereodel.drawing.page.lengths import as_length
 from stereodel.drawing.page.sheets import GROUND, StyledDraw, StyleSheet, dark_color, dark_page
 from tests.drawing.pages import RED, page
@@ -203,7 +203,7 @@ def test_the_file_of_the_page_on_drawing(tmp_path):
     (text,) = re.findall(r"```toml\n(.*?)```", PAGE, re.DOTALL)
     drawn = styled(page(), write(tmp_path, text))
     assert drawn.items[4].width == 0.6
-    assert StyleSheet.of_file(tmp_path / "mine.toml").lines["graticule"]["color"][3] == 64 / 255
+    assert StyleSheet.of_file(tmp_path / "mine.toml").looks["lines"]["graticule"]["color"][3] == 64 / 255
 
 
 def test_the_order_of_names_and_files_does_not_matter(tmp_path):

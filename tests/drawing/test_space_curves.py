@@ -7,8 +7,8 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
+from stereodel.curves.view import View
 from stereodel.drawing.scene.space_curves import CircleArc, Segment, linear_roots, page_path, trigonometric_roots
-from stereodel.drawing.scene.view import View
 from stereodel.sphere import SphereArc, SphereCircle
 from tests.figures.scripts import path_points
 

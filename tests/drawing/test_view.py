@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from stereodel.drawing.scene.view import StereographicView, View
+from stereodel.curves.view import StereographicView, View
 from stereodel.sphere import lonlat_to_xyz
 
 views = st.builds(View, st.floats(-360, 360), st.floats(-90, 90), st.floats(-180, 180))

@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 
 from stereodel.drawing.page import Dots, Fill, Picture, Polygons, Polylines, Stroke
-from stereodel.drawing.page.colorimetry import contrast, encoded, linear, luminance, to_oklab
-from stereodel.drawing.page.colors import color_map
+from stereodel.drawing.page.colors import color_map, contrast, encoded, linear, luminance, to_oklab
 from stereodel.drawing.page.labels import label_box
 from stereodel.drawing.page.scales import usual_scale
 from stereodel.drawing.page.style import DOTS, LINES, MAP_LINES, fainter

@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import strategies as st
 
 from stereodel import MoebiusMap
-from stereodel.drawing.scene.view import StereographicView, View
+from stereodel.curves.view import StereographicView, View
 
 places = st.tuples(st.floats(-180, 180), st.floats(-90, 90))
 views = st.one_of(

@@ -7,10 +7,9 @@ import pytest
 
 from stereodel import fisheye
 from stereodel.drawing import Label, View, styled
-from stereodel.drawing.page.colorimetry import contrast
-from stereodel.drawing.page.ground import legible
+from stereodel.drawing.page.colors import contrast
 from stereodel.drawing.page.items import painted
-from stereodel.drawing.page.labels import VEIL, label_box, within_disc
+from stereodel.drawing.page.labels import VEIL, label_box, legible, within_disc
 from stereodel.drawing.page.sheets import GROUND, dark_color
 from stereodel.drawing.page.style import HALO_OPACITY, MAP_FILLS
 from stereodel.globe import Globe, Raster

@@ -6,7 +6,7 @@ import pytest
 
 from stereodel.drawing import View
 from stereodel.drawing.page import Label
-from stereodel.drawing.page.colorimetry import to_oklab
+from stereodel.drawing.page.colors import to_oklab
 from stereodel.globe import Globe
 from stereodel.globe.layers import Areas
 

@@ -10,7 +10,7 @@ from stereodel.curves.chart import Chart
 from stereodel.curves.clip import signed_areas
 from stereodel.curves.ragged import Ragged, thinned
 from stereodel.curves.trace import Edges
-from stereodel.drawing.scene.view import StereographicView, View
+from stereodel.curves.view import StereographicView, View
 from stereodel.globe.outlines_on_sphere import SphereLines, SphereRegions
 from stereodel.sphere import SphereArc, SphereCircle
 from stereodel.sphere.vectors import turned

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from stereodel import fisheye, xyz_to_lonlat
-from stereodel.drawing.scene.view import View
+from stereodel.curves.view import View
 from stereodel.globe import Raster
 from tests.globe.supersampling import SAMPLES, checkerboard, grid, interpolated, means, noise, psnr, zone_plate
 from tests.tiers import by_day

@@ -8,7 +8,7 @@ import pytest
 from PIL import Image, ImageCms
 
 from stereodel import fisheye
-from stereodel.drawing.scene.view import View
+from stereodel.curves.view import View
 from stereodel.globe import Raster, save_panorama
 from stereodel.globe.panoramas import write_photo
 from stereodel.globe.raster import read_photo

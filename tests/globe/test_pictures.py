@@ -11,8 +11,8 @@ from PIL import Image as Pillow
 
 from stereodel import MoebiusMap, fisheye
 from stereodel.curves.chart import Chart
+from stereodel.curves.view import StereographicView, View
 from stereodel.drawing.page import Fill, Page, Picture
-from stereodel.drawing.scene.view import StereographicView, View
 from stereodel.globe import Globe, Raster
 from stereodel.globe.layers import Image
 from stereodel.globe.raster import RasterOnDisc

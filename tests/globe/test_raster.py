@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from stereodel import MoebiusMap, Rotation, _kernel, fisheye, lonlat_to_xyz, xyz_to_lonlat
 from stereodel import _kernel_probe as probe
-from stereodel.drawing.scene.view import StereographicView, View
+from stereodel.curves.view import StereographicView, View
 from stereodel.globe import Raster
 from tests.examples import examples
 from tests.globe.sights import disc, places, sizes

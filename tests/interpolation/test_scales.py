@@ -15,7 +15,7 @@ from stereodel.interpolation import (
     SmoothInterpolator,
     estimate_gradients,
 )
-from stereodel.interpolation.triangles import lengths
+from stereodel.interpolation.located import lengths
 
 RNG = np.random.default_rng(0)
 POINTS, QUERIES = RNG.random((60, 2)), 0.2 + 0.6 * RNG.random((40, 2))

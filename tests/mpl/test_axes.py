@@ -16,9 +16,9 @@ from matplotlib.path import Path
 
 import stereodel.mpl
 from stereodel import MoebiusMap, data, fisheye, xyz_to_lonlat
-from stereodel.drawing.scene.view import StereographicView, View
+from stereodel.curves.view import StereographicView, View
 from stereodel.mpl import FisheyeAxes
-from stereodel.sphere.graticules import graticule
+from stereodel.sphere.arcs import graticule
 from tests.globe.sights import disc
 
 PARIS = (2.35, 48.86)

@@ -12,7 +12,7 @@ from pyproj import Transformer
 
 from stereodel import MoebiusMap, fisheye, great_circle_points, lonlat_to_xyz, xyz_to_lonlat
 from stereodel.curves.ragged import Ragged
-from stereodel.drawing.scene.view import StereographicView, View, turned
+from stereodel.curves.view import StereographicView, View, turned
 from stereodel.mpl.transforms import EDGES, LonLatToPage
 from tests.globe.sights import winding
 

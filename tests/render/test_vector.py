@@ -11,11 +11,11 @@ import numpy as np
 import pypdf
 import pytest
 
+from stereodel.curves.view import View
 from stereodel.drawing.page import Dots, Fill, Label, Page, Polygons, Polylines, Stroke
 from stereodel.drawing.page.lengths import pixel_height
 from stereodel.drawing.page.style import BLACK
 from stereodel.drawing.scene.scene import Scene
-from stereodel.drawing.scene.view import View
 from stereodel.render.pixel_rows import LabelLayer, agg_rows
 from stereodel.render.save import save_vector
 from stereodel.sphere import SphereCircle, graticule

@@ -13,7 +13,6 @@ import unicodedata
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
-from difflib import get_close_matches
 from functools import cache, lru_cache
 from pathlib import Path
 from typing import Any, Final
@@ -53,9 +52,7 @@ class MissingCharactersWarning(UserWarning):
 def as_font(font: FontLike | None, name: str = "font") -> tuple[str, ...]:
     """Names of font families, or paths of .ttf, .otf, .ttc or .otc files, in the form stored in labels.
 
-    Families that are not installed are skipped, as in browsers, if at least one is. Errors have the `name` of the
-    argument: FileNotFoundError if a file does not exist, TypeError if `font` is neither text nor path, ValueError if a
-    file is not a font or none of the families is installed.
+    Families that are not installed are skipped, as in browsers, if at least one is. Errors have the argument's `name`.
 
     >>> as_font("DejaVu Serif"), as_font(["Nowhere", "DejaVu Sans"]), as_font(None)
     (('DejaVu Serif',), ('Nowhere', 'DejaVu Sans'), ())
@@ -67,11 +64,8 @@ def as_font(font: FontLike | None, name: str = "font") -> tuple[str, ...]:
     except TypeError as error:
         raise TypeError(f"{name} is {font!r}; give a family, the path of a font's file, or several of them") from error
     if families and not any(_file(family) for family in families):
-        known = sorted({entry.name for entry in _manager().ttflist})
-        close = [match for family in families for match in get_close_matches(family, known)]
-        similar = f" (similar: {', '.join(dict.fromkeys(close))})" if close else ""
         raise ValueError(
-            f"{name} is {', '.join(map(repr, families))}, which this machine does not have{similar}; give a family "
+            f"{name} is {', '.join(map(repr, families))}, which this machine does not have; give a family "
             "that matplotlib.font_manager.get_font_names() lists, or the path of a .ttf or .otf file"
         )
     return families
@@ -91,11 +85,7 @@ def families_of(label: Label) -> list[str]:
 
 
 def set_text(label: Label) -> tuple[str, bool]:
-    r"""The text of a label as it is set, and whether there are formulas in it: an even number of dollar signs.
-
-    >>> set_text(Label("$x$", (0, 0))), set_text(Label("$5", (0, 0))), set_text(Label("$x$", (0, 0), formulas=False))
-    (('$x$', True), ('$5', False), ('$x$', False))
-    """
+    """The text of a label as it is set, and whether there are formulas in it: an even number of dollar signs."""
     if not label.formulas:
         return label.text, False
     dollars = label.text.count("$") - label.text.count(r"\$")

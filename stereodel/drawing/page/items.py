@@ -18,7 +18,6 @@ from stereodel._arrays import FloatArray, Indices, Pixels
 from stereodel.constants import GROUND_PIXEL
 from stereodel.curves.ragged import Ragged
 from stereodel.drawing.page.colors import Color, as_color
-from stereodel.drawing.page.ground import colors_within, winding
 from stereodel.drawing.page.style import WHITE, DotStyle, LineStyle
 
 Beziers = FloatArray
@@ -30,6 +29,8 @@ LEGEND: Final = "legend-"
 FEW_COLORS: Final = 64
 """Largest number of colours of `Polygons` written as paths in vector files; with more, they become an image."""
 
+
+BEZIER_STEPS: Final = np.linspace(0.0, 1.0, 8, endpoint=False)
 
 Arrays = dict[str, npt.NDArray[np.generic]]
 
@@ -43,9 +44,9 @@ Look = LineStyle | DotStyle | Color
 class Mark:
     """What every item of a page can do; kinds override what differs."""
 
-    kind: ClassVar[Literal["lines", "dots", "fills", "labels", ""]]
+    _kind: ClassVar[Literal["lines", "dots", "fills", "labels", ""]]
     """Table of a style file with its looks; "" if it has none."""
-    inks: ClassVar[tuple[str, ...]] = ("color",)
+    _inks: ClassVar[tuple[str, ...]] = ("color",)
     """Its fields that are colours."""
 
     def arrays(self) -> Arrays:
@@ -54,13 +55,13 @@ class Mark:
 
     def recoloured(self, change: Recolour) -> Self:
         """The same in other colours."""
-        if not self.inks:
+        if not self._inks:
             return self
-        changed = change(np.array([getattr(self, ink) for ink in self.inks]))
-        return replace(self, **dict(zip(self.inks, map(tuple, changed.tolist()), strict=True)))
+        changed = change(np.array([getattr(self, ink) for ink in self._inks]))
+        return replace(self, **dict(zip(self._inks, map(tuple, changed.tolist()), strict=True)))
 
     def restyled(self, looks: Mapping[str, Any]) -> Self:
-        """The same with other values of its fields, those of its `kind` in a style file."""
+        """The same with other values of its fields, those of its kind in a style file."""
         return replace(self, **looks) if looks else self
 
     def colors_at(self, places: FloatArray) -> FloatArray | None:
@@ -68,12 +69,7 @@ class Mark:
         return None
 
     @property
-    def alike(self) -> Hashable:
-        """Key of adjacent items that can be drawn as one path."""
-        return id(self)
-
-    @property
-    def look(self) -> Look | None:
+    def _look(self) -> Look | None:
         """The entry of a legend that looks like it, if there is one."""
         return None
 
@@ -93,7 +89,7 @@ class Stroke(Mark):
     name: str = ""
     """Name of what is drawn: "delaunay", "voronoi", "limb" …; becomes its id in SVG."""
 
-    kind = "lines"
+    _kind = "lines"
 
     def arrays(self) -> Arrays:
         """Path and style, for the regression tests."""
@@ -102,15 +98,7 @@ class Stroke(Mark):
         return {"path": self.path, "style": style}
 
     @property
-    def alike(self) -> Hashable:
-        """Its style; transparent strokes stay separate, as overlaps are darker."""
-        if self.color[3] < 1:
-            return super().alike
-        return (Stroke, self.color, self.width, self.dash, self.cap, self.name)
-
-    @property
-    def look(self) -> LineStyle:
-        """Colour, width and dash."""
+    def _look(self) -> LineStyle:
         return LineStyle(self.color, self.width, self.dash)
 
 
@@ -142,7 +130,7 @@ class Fill(Mark):
     name: str = ""
     ball: Ball | None = None
 
-    kind = "fills"
+    _kind = "fills"
 
     def arrays(self) -> Arrays:
         """Paths, colour and ball, for the regression tests."""
@@ -154,8 +142,7 @@ class Fill(Mark):
         return np.where((winding(self.paths, places) % 2 != 0)[:, None], self.color, 0.0)
 
     @property
-    def look(self) -> Color:
-        """Its colour."""
+    def _look(self) -> Color:
         return self.color
 
 
@@ -170,16 +157,15 @@ class Dots(Mark):
     rim_width: float = 0.0
     name: str = ""
 
-    kind = "dots"
-    inks = ("color", "rim")
+    _kind = "dots"
+    _inks = ("color", "rim")
 
     def arrays(self) -> Arrays:
         """Centres and style, for the regression tests."""
         return {"centers": self.centers, "style": np.array([self.radius, *self.color, *self.rim, self.rim_width])}
 
     @property
-    def look(self) -> DotStyle:
-        """Colours and sizes."""
+    def _look(self) -> DotStyle:
         return DotStyle(self.color, self.radius, self.rim, self.rim_width)
 
 
@@ -209,8 +195,8 @@ class Picture(Mark):
     painter: Painter
     name: str = ""
 
-    kind = ""
-    inks = ()
+    _kind = ""
+    _inks = ()
 
     def arrays(self) -> Arrays:
         """Outline, and what defines the painter, for the regression tests."""
@@ -240,15 +226,14 @@ class Polylines(Mark):
     """In points."""
     name: str = ""
 
-    kind = "lines"
+    _kind = "lines"
 
     def arrays(self) -> Arrays:
         """Points and style, for the regression tests."""
         return {"points": self.points, "offsets": self.offsets, "style": np.array([*self.color, self.width])}
 
     @property
-    def look(self) -> LineStyle:
-        """Colour and width."""
+    def _look(self) -> LineStyle:
         return LineStyle(self.color, self.width)
 
 
@@ -289,7 +274,7 @@ class Polygons(Mark):
         """Whether there are so many colours that vector files hold the regions as an image."""
         return len(self.by_color[0]) > FEW_COLORS
 
-    kind = "fills"
+    _kind = "fills"
 
     def arrays(self) -> Arrays:
         """Loops, colours and ball, for the regression tests."""
@@ -302,7 +287,7 @@ class Polygons(Mark):
 
     def restyled(self, looks: Mapping[str, Any]) -> Self:
         """In another colour; several colours, such as those of cells, are kept."""
-        if not looks or self.look is None:
+        if not looks or self._look is None:
             return self
         return replace(self, colors=np.tile(looks["color"], (len(self.colors), 1)))
 
@@ -311,8 +296,7 @@ class Polygons(Mark):
         return colors_within(self.loops, self.owner, self.colors, places)
 
     @property
-    def look(self) -> Color | None:
-        """Its colour, unless it has several."""
+    def _look(self) -> Color | None:
         colors = self.by_color[0]
         return as_color(colors[0].tolist()) if len(colors) == 1 else None
 
@@ -340,8 +324,8 @@ class Label(Mark):
     formulas: bool = True
     """Whether text between two dollar signs is a formula in matplotlib's mathtext; otherwise they are literal."""
 
-    kind = "labels"
-    inks = ("color", "halo_color")
+    _kind = "labels"
+    _inks = ("color", "halo_color")
 
     def arrays(self) -> Arrays:
         """Place, text and style, for the regression tests."""
@@ -357,11 +341,25 @@ class Label(Mark):
         return replace(self, **looks, on_ground=self.on_ground and "halo_color" not in looks)
 
 
+def straight(corners: FloatArray) -> Beziers:
+    """The path from corner to corner (k + 1, 2)."""
+    path: Beziers = corners[:-1, None] + np.diff(corners, axis=0)[:, None] * np.linspace(0.0, 1.0, 4)[:, None]
+    path[1:, 0] = path[:-1, 3]
+    return path
+
+
 Item = Stroke | Polylines | Polygons | Fill | Dots | Picture | Label
 
 
 def _light(ball: Ball | None) -> Arrays:
     return {} if ball is None else {"ball": np.array([*ball.center, ball.radius])}
+
+
+def alike(item: Item) -> Hashable:
+    """Key of adjacent items that can be drawn as one path: opaque strokes of one style; other overlaps are darker."""
+    if isinstance(item, Stroke) and item.color[3] == 1:
+        return (item.color, item.width, item.dash, item.cap, item.name)
+    return id(item)
 
 
 def painted(items: Iterable[Item], places: FloatArray, background: Color = WHITE) -> FloatArray:
@@ -372,3 +370,47 @@ def painted(items: Iterable[Item], places: FloatArray, background: Color = WHITE
         if over is not None:
             colors += over[:, 3:] * (over[:, :3] - colors)
     return colors
+
+
+def colors_within(loops: Ragged, owner: Indices, colors: FloatArray, places: FloatArray) -> FloatArray:
+    """The colour of the region that contains each place, (n, 4); opacity 0 if none does."""
+    last = np.zeros(len(loops.values), dtype=bool)
+    last[loops.offsets[1:] - 1] = True
+    # Only edges at the heights of the places can wind around one.
+    low, high = places[:, 1].min(), places[:, 1].max()
+    start, end = loops.values, np.roll(loops.values, -1, axis=0)
+    near = ~last & (np.minimum(start[:, 1], end[:, 1]) <= high) & (np.maximum(start[:, 1], end[:, 1]) >= low)
+    owner = owner[loops.row[near]]
+    regions, number = np.unique(owner, return_inverse=True)
+    found = np.zeros((len(places), 4))
+    for k, place in enumerate(places):
+        turns = np.bincount(number, _crossings(start[near], end[near], place), minlength=len(regions))
+        for region in regions[np.flatnonzero(turns)]:
+            found[k] = colors[region]
+    return found
+
+
+def winding(paths: Iterable[FloatArray], places: FloatArray) -> FloatArray:
+    """Winding numbers of closed runs of cubics (k, 4, 2) about places (n, 2)."""
+    found = np.zeros(len(places))
+    for corners in map(_corners, paths):
+        following = np.roll(corners, -1, axis=0)
+        found += [_crossings(corners, following, place).sum() for place in places]
+    return found
+
+
+def _crossings(start: FloatArray, end: FloatArray, place: FloatArray) -> FloatArray:
+    """For each edge: +1 if it goes up on the right of a place, −1 if it goes down there, else 0."""
+    up = (start[:, 1] <= place[1]) & (end[:, 1] > place[1])
+    down = (start[:, 1] > place[1]) & (end[:, 1] <= place[1])
+    a, b = start - place, end - place
+    side = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
+    return np.where(up & (side > 0), 1.0, 0.0) - np.where(down & (side < 0), 1.0, 0.0)
+
+
+def _corners(path: FloatArray) -> FloatArray:
+    """Points along a path of Bézier curves."""
+    s = BEZIER_STEPS[None, :, None]
+    p0, p1, p2, p3 = (path[:, i, None] for i in range(4))
+    points = (1 - s) ** 3 * p0 + 3 * s * (1 - s) ** 2 * p1 + 3 * s**2 * (1 - s) * p2 + s**3 * p3
+    return points.reshape(-1, 2)

@@ -17,12 +17,11 @@ import numpy as np
 
 from stereodel._arrays import FloatArray
 from stereodel._extras import of_extra
-from stereodel.drawing.page.colors import ColorLike, as_color
+from stereodel.drawing.page.colors import Color, ColorLike, as_color, contrast
 from stereodel.drawing.page.fonts import families_of, font_properties, quiet_fonts, set_text
-from stereodel.drawing.page.ground import away_from, legible
 from stereodel.drawing.page.items import Item, Label, painted
 from stereodel.drawing.page.page import Page
-from stereodel.drawing.page.style import BLACK, HALO_OPACITY, TYPE
+from stereodel.drawing.page.style import BLACK, HALO_OPACITY, TYPE, WHITE
 
 GAP: Final = 1.0
 """Least distance between labels, points."""
@@ -45,6 +44,9 @@ MOST: Final = 0.75
 
 VEIL: Final = 0.6
 """Opacity of a halo on several colours: black type on a white one has contrast 7.4 even where the ground is black."""
+
+LEGIBLE: Final = 7.0
+"""Least contrast of small type, a ratio of luminances plus 0.05 (Web Content Accessibility Guidelines, level AAA)."""
 
 TITLE_SIZE: Final = 12.0
 """Type size of a title in points."""
@@ -98,11 +100,8 @@ def placed_label(label: Label, offset: tuple[float, float]) -> Label:
 
 
 def within_disc(label: Label, center: tuple[float, float], radius: float, points_per_unit: float) -> Label:
-    """A label moved to another side of its place if it would leave a disc of the page; without halo if all sides do.
-
-    The opposite side is tried first, then those at right angles. A halo outside the disc would interrupt the line
-    around it.
-    """
+    """A label moved to another side of its place if it would leave a disc of the page; without halo if all sides do."""
+    # The opposite side first, then those at right angles. A halo outside the disc would interrupt the line around it.
     right, up = label.offset
     turned = (placed_label(label, offset) for offset in ((-right, -up), (-up, right), (up, -right)))
     inside = (each for each in (label, *turned) if in_disc(each, center, radius, points_per_unit))
@@ -134,30 +133,13 @@ def placed_apart(
     before: Sequence[Label] = (),
     dots: FloatArray | None = None,
 ) -> list[Label]:
-    """Labels at positions where they have room, without those that have none.
+    """Labels in order of priority, at positions where they have room, without those that have none.
 
-    Parameters
-    ----------
-    labels : iterable of Label
-        Labels anchored at their places, in order of priority.
-    distance : float
-        Distance from a place to its label, in points.
-    center, radius : (float, float), float
-        Centre and radius, in page units, of the disc that must contain the labels.
-    points_per_unit : float
-        Scale of the page.
-    before : sequence of Label
-        Labels that are already on the page.
-    dots : (n, 2) array, optional
-        Places on the page that should not be covered.
+    distance: points from a place to its label.
+    center, radius: the disc that must contain the labels, in page units.
+    before: labels that are already on the page.
+    dots: places on the page (n, 2) that should not be covered.
 
-    Returns
-    -------
-    list of Label
-        Labels in the same order, none of which overlaps another or one of `before`.
-
-    Examples
-    --------
     >>> names = [Label(name, (0.0, 0.0)) for name in ("Ulm", "Neu-Ulm", "Wiblingen")]
     >>> placed = placed_apart(names, 8.0, center=(0.0, 0.0), radius=1.0, points_per_unit=100.0)
     >>> [(label.text, label.align) for label in placed]
@@ -201,11 +183,9 @@ def on_its_sides(label: Label, distance: float) -> Iterator[Label]:
 
 
 def haloed(page: Page) -> Page:
-    """A page on which the halos of labels that are `on_ground` have the colour of the ground below the words.
+    """A page on which the halos of labels that are `on_ground` have the colour of the ground, all other items, below.
 
     Where that has several colours, as at a coast, halos are a veil of white, or of black below light type.
-    Labels are above everything else, so that all other items are the ground. Styles change its colours: halos are
-    determined again when a page has been styled.
     """
     return replace(page, items=tuple(_tinted(item, page) for item in page.items))
 
@@ -222,6 +202,21 @@ def _tinted(label: Item, page: Page) -> Item:
         return replace(label, halo_color=(*away_from(label.color), VEIL))
     red, green, blue = legible(colors[counts.argmax()], label.color).tolist()
     return replace(label, halo_color=(red, green, blue, HALO_OPACITY))
+
+
+def away_from(ink: Color) -> tuple[float, float, float]:
+    """White or black, whichever contrasts more with the ink."""
+    return max(WHITE[:3], BLACK[:3], key=lambda far: float(contrast(far, ink[:3])))
+
+
+def legible(ground: FloatArray, ink: Color) -> FloatArray:
+    """A colour mixed with white or black, whichever is farther from the ink, until type on it is legible."""
+    away = away_from(ink)
+    for share in np.linspace(0.0, 1.0, 21):
+        mixed: FloatArray = ground + share * (away - ground)
+        if contrast(mixed, ink[:3]) >= LEGIBLE:
+            break
+    return mixed
 
 
 def with_title(page: Page, title: str, *, ink: ColorLike = BLACK, size: float = TITLE_SIZE) -> Page:
@@ -252,11 +247,7 @@ def with_title(page: Page, title: str, *, ink: ColorLike = BLACK, size: float = 
 
 
 def title_height(title: str, size: float = TITLE_SIZE) -> float:
-    """Points that a page grows by for a title.
-
-    >>> title_height(""), round(title_height("Nothing"), 1)
-    (0.0, 20.8)
-    """
+    """Points that a page grows by for a title."""
     if not title:
         return 0.0
     (_, low), (_, high) = label_box(Label(title, (0.0, 0.0), valign="bottom", size=size), 1.0)

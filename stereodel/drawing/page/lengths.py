@@ -25,8 +25,6 @@ _LENGTH: Final = re.compile(r"\s*(?P<number>[\d.]+(?:e[+-]?\d+)?)\s*(?P<unit>[a-
 def as_length(value: LengthLike, name: str) -> float:
     """A positive length in points, from points or a number with one of the units pt, mm, cm and in.
 
-    ValueError with the `name` of the argument if the unit is unknown, or the length is not positive and finite.
-
     >>> as_length("1in", "width"), as_length("2.54 cm", "width"), as_length(72, "width")
     (72.0, 72.0, 72.0)
     """

@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from stereodel._arrays import FloatArray, as_floats, as_scalar
 from stereodel.drawing.page.colors import Color, ColorLike, as_color, color_map
-from stereodel.drawing.page.items import Fill, Item, Label, Stroke
+from stereodel.drawing.page.items import Fill, Item, Label, Stroke, straight
 from stereodel.drawing.page.style import BLACK, LABEL_SIZE
 
 STEPS = 256
@@ -84,9 +84,7 @@ class ColorScale:
     @property
     def ticks(self) -> dict[float, str]:
         """Numbers evenly spaced from about `low` to about `high`, of two or more digits, and their texts."""
-        share = np.linspace(0.0, 1.0, TICKS)
-        numbers = self.low * (self.high / self.low) ** share if self.log else self.low + (self.high - self.low) * share
-        digits = 2
+        numbers, digits = self._at(np.linspace(0.0, 1.0, TICKS)), 2
         while len({f"{number:.{digits}g}" for number in numbers}) < TICKS and digits < 15:
             digits += 1
         written = [np.format_float_positional(float(f"{number:.{digits}g}"), trim="-") for number in numbers]
@@ -121,22 +119,22 @@ class ColorScale:
         bars = [
             _box(x + width * number / STEPS, x + width, y, y + height, (red, green, blue, 1.0))
             # Each step extends to the right end and is covered by the next, which avoids seams.
-            for number, (red, green, blue) in enumerate(self(self._numbers()).tolist())
+            for number, (red, green, blue) in enumerate(self(self._at((np.arange(STEPS) + 0.5) / STEPS)).tolist())
         ]
         marks: list[Item] = []
         for number, text in ticks.items():
             at, foot = x + width * float(self.place(number)), y - 0.35 * height
-            marks.append(Stroke(np.linspace((at, y), (at, foot), 4)[None], ink, 0.5, cap="butt", name="tick"))
+            marks.append(Stroke(straight(np.array([(at, y), (at, foot)])), ink, 0.5, cap="butt", name="tick"))
             marks.append(Label(text, (at, foot), (0.0, -2.0), "center", "top", type_size, ink))
         if title:
             marks.append(Label(title, (x + width / 2, y + height), (0.0, 4.0), "center", "bottom", type_size, ink))
         return (*bars, *marks)
 
-    def _numbers(self) -> FloatArray:
-        """The number in the middle of each step of a legend."""
-        place = (np.arange(STEPS) + 0.5) / STEPS
-        numbers = self.low * (self.high / self.low) ** place if self.log else self.low + (self.high - self.low) * place
-        return np.asarray(numbers)
+    def _at(self, place: FloatArray) -> FloatArray:
+        """The numbers at positions from 0 to 1."""
+        if self.log:
+            return np.asarray(self.low * (self.high / self.low) ** place)
+        return self.low + (self.high - self.low) * place
 
 
 def category_colors(words: Sequence[str], name: str) -> dict[str, Color]:
@@ -155,6 +153,5 @@ def usual_scale(values: FloatArray) -> ColorScale:
 
 
 def _box(left: float, right: float, bottom: float, top: float, color: Color) -> Fill:
-    corners = np.array([(left, bottom), (right, bottom), (right, top), (left, top)])
-    steps = np.roll(corners, -1, axis=0) - corners
-    return Fill((corners[:, None] + steps[:, None] * (np.arange(4) / 3)[:, None],), color, "scale")
+    corners = np.array([(left, bottom), (right, bottom), (right, top), (left, top), (left, bottom)])
+    return Fill((straight(corners),), color, "scale")

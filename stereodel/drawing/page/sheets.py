@@ -13,16 +13,15 @@ from __future__ import annotations
 
 import os
 import tomllib
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, fields, replace
+from collections.abc import Callable, Collection, Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
 
 from stereodel._arrays import FloatArray, as_scalar
-from stereodel.drawing.page.colorimetry import FLARE, contrast, luminance, with_luminance
-from stereodel.drawing.page.colors import Color, as_color
+from stereodel.drawing.page.colors import FLARE, Color, as_color, contrast, luminance, with_luminance
 from stereodel.drawing.page.fonts import FontLike, as_font, in_font
 from stereodel.drawing.page.items import LEGEND, Item
 from stereodel.drawing.page.labels import haloed
@@ -115,10 +114,7 @@ GROUND: Final[Color] = (0.07, 0.07, 0.07, 1.0)
 
 
 def dark_page(page: Page) -> Page:
-    """A page on a dark background; a page that is already dark is unchanged.
-
-    Images, such as rasters on a globe, keep their pixels.
-    """
+    """A page on a dark background; one that is already dark is unchanged, as are the pixels of images."""
     ground = dark_color((*page.background[:3], 1.0))
     if contrast(page.background[:3], WHITE[:3]) > contrast(page.background[:3], BLACK[:3]):
         return page
@@ -126,21 +122,14 @@ def dark_page(page: Page) -> Page:
 
 
 def dark_color(color: Color) -> Color:
-    """The dark counterpart of a colour on white.
-
-    >>> [round(part, 2) for part in dark_color((1.0, 1.0, 1.0, 1.0))]
-    [0.07, 0.07, 0.07, 1.0]
-    """
+    """The dark counterpart of a colour on white."""
     red, green, blue, opacity = dark_colors(np.array([color]))[0].tolist()
     return (red, green, blue, opacity)
 
 
 def dark_colors(colors: FloatArray) -> FloatArray:
-    """The dark counterparts (n, 4) of colours (n, 4) on white; opacity is unchanged.
-
-    A transparent colour composited on the dark background equals the counterpart of its composite on white, as far as
-    such a colour exists.
-    """
+    """The dark counterparts (n, 4) of colours (n, 4) on white; opacity is unchanged."""
+    # A transparent colour on the dark background equals the counterpart of what it is on white, as far as one exists.
     several, which = np.unique(colors, axis=0, return_inverse=True)
     opacity = several[:, 3:]
     over_white = 1 - opacity * (1 - several[:, :3])
@@ -162,6 +151,7 @@ def _width(value: Any, name: str) -> float:
 
 
 READERS: Final[Mapping[str, Mapping[str, Callable[[Any, str], Any]]]] = {
+    "fills": {"color": as_color},
     "lines": {"color": as_color, "width": _width},
     "dots": {"color": as_color, "radius": _width, "rim": as_color, "rim_width": _width},
     "labels": {"color": as_color, "font": as_font, "size": as_length, "halo": _width, "halo_color": as_color},
@@ -173,74 +163,43 @@ READERS: Final[Mapping[str, Mapping[str, Callable[[Any, str], Any]]]] = {
 class StyleSheet:
     """Colours, widths and sizes of the parts of a page, by name; other parts are unchanged.
 
-    Parameters
-    ----------
-    base : tuple of str
-        Styles applied first.
-    background : Color or None
-        Colour of the background; None leaves it.
-    fills, lines, dots : mapping of str to mapping
-        "color" of regions by name; regions with several colours, such as cells, keep them. "color" and "width" of lines
-        by name; "color", "radius", "rim" and "rim_width" of dots by name.
-    labels : mapping
-        "color", "font", "size", "halo" and "halo_color" of all text.
+    base: styles applied first.
+    background: its colour; None leaves it.
+    looks: what changes, by table and name; of labels all alike, under "". Regions with several colours keep them.
     """
 
     base: tuple[str, ...]
     background: Color | None
-    fills: Mapping[str, Changes]
-    lines: Mapping[str, Changes]
-    dots: Mapping[str, Changes]
-    labels: Changes
+    looks: Mapping[str, Mapping[str, Changes]]
 
     @classmethod
     def of_file(cls, path: str | os.PathLike[str]) -> StyleSheet:
-        """The style in a TOML file.
-
-        Raises
-        ------
-        OSError
-            If the file cannot be read.
-        ValueError
-            If the file is not TOML, or a key or value is invalid; the message names file and key.
-        """
+        """The style in a TOML file; ValueError, naming file and key, if it is not TOML or a key or value is invalid."""
         source = Path(path)
         try:
             table = tomllib.loads(source.read_text(encoding="utf-8"))
         except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
             raise ValueError(f"{source}: is not TOML: {error}") from error
         try:
-            return cls._of_table(table)
-        except ValueError as error:
+            _known(table, ("base", "background", *READERS), "")
+            base = table.get("base", ())
+            ground = as_color(table["background"], "background") if "background" in table else None
+            looks = {kind: _parts(table, kind) for kind in READERS}
+        except (ValueError, TypeError) as error:
             raise ValueError(f"{source}: {error}") from error
-
-    @classmethod
-    def _of_table(cls, table: Mapping[str, Any]) -> StyleSheet:
-        _known(table, [entry.name for entry in fields(cls)], "")
-        base = table.get("base", ())
-        return cls(
-            (base,) if isinstance(base, str) else tuple(base),
-            as_color(table["background"], "background") if "background" in table else None,
-            {name: {"color": as_color(value, f"fills.{name}")} for name, value in _table(table, "fills").items()},
-            _parts(table, "lines"),
-            _parts(table, "dots"),
-            _read("labels", _table(table, "labels"), "labels."),
-        )
+        return cls((base,) if isinstance(base, str) else tuple(base), ground, looks)
 
     def __call__(self, page: Page) -> Page:
         """A page in this style."""
         page = _in_styles(page, self.base)
         background = page.background if self.background is None else self.background
         return replace(
-            page, background=background, items=tuple(item.restyled(self._looks(item)) for item in page.items)
+            page, background=background, items=tuple(item.restyled(self._changes(item)) for item in page.items)
         )
 
-    def _looks(self, item: Item) -> Changes:
-        """What this style changes of an item."""
-        if item.kind == "labels":
-            return self.labels
-        named = {"lines": self.lines, "dots": self.dots, "fills": self.fills}.get(item.kind, {})
-        return named.get(item.name.removeprefix(LEGEND), {})
+    def _changes(self, item: Item) -> Changes:
+        name = "" if item._kind == "labels" else item.name.removeprefix(LEGEND)
+        return self.looks.get(item._kind, {}).get(name, {})
 
 
 def _table(parts: Mapping[str, Any], name: str, within: str = "") -> Mapping[str, Any]:
@@ -251,12 +210,16 @@ def _table(parts: Mapping[str, Any], name: str, within: str = "") -> Mapping[str
 
 
 def _parts(table: Mapping[str, Any], kind: str) -> Mapping[str, Changes]:
-    """Tables of changes by the names of the parts."""
-    named = _table(table, kind)
-    return {name: _read(kind, _table(named, name, f"{kind}."), f"{kind}.{name}.") for name in named}
+    """Changes by the names of the parts."""
+    given = _table(table, kind)
+    if kind == "labels":
+        return {"": _read(kind, given, "labels.")}
+    if kind == "fills":
+        return {name: {"color": as_color(value, f"fills.{name}")} for name, value in given.items()}
+    return {name: _read(kind, _table(given, name, f"{kind}."), f"{kind}.{name}.") for name in given}
 
 
-def _known(given: Mapping[str, Any], keys: list[str], within: str) -> None:
+def _known(given: Mapping[str, Any], keys: Collection[str], within: str) -> None:
     for key in given:
         if key not in keys:
             raise ValueError(f"{within}{key} is not a key of styles; give {', '.join(keys)}")
@@ -264,11 +227,5 @@ def _known(given: Mapping[str, Any], keys: list[str], within: str) -> None:
 
 def _read(kind: str, given: Mapping[str, Any], within: str) -> Changes:
     readers = READERS[kind]
-    _known(given, list(readers), within)
-    found = {}
-    for key, value in given.items():
-        try:
-            found[key] = readers[key](value, f"{within}{key}")
-        except TypeError as error:
-            raise ValueError(str(error)) from error
-    return found
+    _known(given, readers, within)
+    return {key: readers[key](value, f"{within}{key}") for key, value in given.items()}

@@ -241,13 +241,7 @@ TYPE: Final[Mapping[str, Any]] = {
 
 
 def line(name: str, style: LineStyle | None = None) -> LineStyle:
-    """The style of a line: the one given, otherwise that of its name.
-
-    Raises
-    ------
-    ValueError
-        If no style is given and the name has none.
-    """
+    """The style of a line: the one given, otherwise that of its name; ValueError if the name has none."""
     return _look_up(LINES, name, "line", "style") if style is None else style
 
 

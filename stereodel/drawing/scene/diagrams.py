@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import as_lonlat
+from stereodel._spaces import PLANE
 from stereodel.curves.borders import frame_of
+from stereodel.curves.view import View
 from stereodel.drawing.page import Page
 from stereodel.drawing.scene.scene import Scene
 from stereodel.drawing.scene.sketch import Sketch
-from stereodel.drawing.scene.view import View
 from stereodel.triangulation import PlanarDelaunay, PlanarVoronoi, SphericalDelaunay, SphericalVoronoi
+from stereodel.triangulation.delaunay import Triangulation
+from stereodel.triangulation.diagram import Diagram
 from stereodel.triangulation.topology import edges_of
 
 MARGIN = 0.02
@@ -19,7 +24,7 @@ MARGIN = 0.02
 
 
 def diagram_page(
-    mesh: PlanarDelaunay | PlanarVoronoi | SphericalDelaunay | SphericalVoronoi,
+    mesh: Triangulation | Diagram[Any],
     *,
     view: npt.ArrayLike = (0.0, 20.0),
     bounds: npt.ArrayLike | None = None,
@@ -47,16 +52,15 @@ def diagram_page(
     >>> page.width
     340.0
     """
-    if isinstance(mesh, SphericalDelaunay | SphericalVoronoi):
-        return _globe(mesh, view)
-    if isinstance(mesh, PlanarDelaunay | PlanarVoronoi):
-        return _plane(mesh, bounds)
-    raise TypeError(f"mesh must be a triangulation or a Voronoi diagram of stereodel, not {type(mesh).__name__}")
+    if not isinstance(mesh, Triangulation | Diagram):
+        raise TypeError(f"mesh must be a triangulation or a Voronoi diagram of stereodel, not {type(mesh).__name__}")
+    given: Any = mesh
+    return _plane(given, bounds) if mesh.surface is PLANE else _globe(given, view)
 
 
 def _globe(mesh: SphericalDelaunay | SphericalVoronoi, view: npt.ArrayLike) -> Page:
     scene = Scene()
-    if isinstance(mesh, SphericalVoronoi):
+    if isinstance(mesh, Diagram):
         scene.add_arcs(mesh.ridge_arcs(), name="voronoi")
     else:
         scene.add_edges(mesh.points, edges_of(mesh.simplices[~mesh.closing]), name="delaunay")
@@ -67,7 +71,7 @@ def _globe(mesh: SphericalDelaunay | SphericalVoronoi, view: npt.ArrayLike) -> P
 def _plane(mesh: PlanarDelaunay | PlanarVoronoi, bounds: npt.ArrayLike | None) -> Page:
     box = frame_of(mesh.points, bounds)
     sketch = Sketch()
-    if isinstance(mesh, PlanarVoronoi):
+    if isinstance(mesh, Diagram):
         segments, _ = mesh.segments((box.left, box.bottom, box.right, box.top))
         sketch.add_segments(segments, name="voronoi")
     else:

@@ -18,8 +18,9 @@ import numpy.typing as npt
 from stereodel._arrays import BoolArray, FloatArray, Indices, as_scalar, as_steps
 from stereodel.conformal import MoebiusMap
 from stereodel.constants import GRID_SAMPLES, MOST_GRID_LINES, REACH_MARGIN, UNIT_ROUNDOFF
-from stereodel.curves.chart import Chart, ChartView
-from stereodel.curves.trace import Arcs, exact, joined, numbered
+from stereodel.curves.chart import Chart
+from stereodel.curves.trace import Arcs, exact, numbered
+from stereodel.curves.view import MapView
 from stereodel.drawing.scene.space_curves import CircleArc
 from stereodel.sphere import graticule_patch, lonlat_to_xyz, xyz_to_lonlat
 from stereodel.sphere.latitudes import Latitude
@@ -123,7 +124,7 @@ class Graticule:
     @classmethod
     def _numbered(cls, east: Indices, north: Indices, steps: int, latitude: Latitude) -> Graticule:
         """Meridians and parallels of a graticule by number, counted from those through (0, 0)."""
-        arcs = joined(_meridians(east * 180.0 / steps), _parallels(north * 180.0 / steps, latitude))
+        arcs = Arcs.joined(_meridians(east * 180.0 / steps), _parallels(north * 180.0 / steps, latitude))
         numbers = np.concatenate([east, north])
         return cls(numbered(arcs), len(east), np.pi / steps, _strides(numbers, _quarter(steps)))
 
@@ -142,7 +143,7 @@ class Graticule:
         strides = _strides(np.arange(count), _quarter(steps))
         return cls(arcs, count, float(np.radians(2 * half_width)) / steps, np.tile(strides, 2))
 
-    def drawn(self, lens: MoebiusMap, view: ChartView, least: float) -> list[CircleArc]:
+    def drawn(self, lens: MoebiusMap, view: MapView, least: float) -> list[CircleArc]:
         """The visible lines: the images of `thinned` lines under the lens."""
         thin = self.thinned(Chart(lens, view), least)
         parts = replace(thin, edge=np.arange(len(thin))).through(lens)
@@ -172,7 +173,7 @@ class Graticule:
             too close; lines that always remain are whole.
         """
         need = as_scalar(least, "least", low=0.0)
-        lines = _Lines(self, chart)
+        lines = _GridLines(self, chart)
         t = lines.parameters()
         row = np.broadcast_to(np.arange(len(t))[:, None], t.shape)
         # Lines that always remain are drawn regardless of their neighbours.
@@ -211,24 +212,22 @@ class Graticule:
 
 
 @dataclass(frozen=True, eq=False)
-class _Lines:
+class _GridLines:
     """The lines of a grid on a page."""
 
     grid: Graticule
     chart: Chart
 
     def parameters(self) -> FloatArray:
-        """Ascending parameters (n, k) at which each line's spacing is evaluated: even steps before and after the lens.
-
-        Even steps before the lens are dense where it shrinks, even steps after it where it magnifies. Added to them are
-        the crossings with the limb of a ball, where all lines merge except those seen end-on.
-        """
+        """Ascending parameters (n, k) at which each line's spacing is evaluated."""
+        # Even steps before the lens are dense where it shrinks, even steps after it where it magnifies; besides, the
+        # crossings with the limb of a ball, where all lines merge except those seen end-on.
         arcs = self.grid.arcs
         begin, stop = arcs.begin[:, None], arcs.stop[:, None]
         even = begin + np.linspace(0.0, 1.0, GRID_SAMPLES) * (stop - begin)
         # A lens takes a circle to a circle, and tan(t/2) about its nearest point to the focus to a multiple of itself:
         # the factor is the root of the ratio of the scales there and opposite.
-        _, _, nearest = arcs.waves(self.chart.lens.focus)
+        _, _, nearest = arcs.waves(self.chart.turns[0][2])
         every = np.arange(len(arcs))
         near, far = (self.chart.lens.scale_factor(arcs.points(every, nearest + turn)) for turn in (0.0, np.pi))
         half = np.linspace(-np.pi / 2, np.pi / 2, GRID_SAMPLES)[1:-1]
@@ -270,12 +269,10 @@ class _Lines:
         return line, shown, begins
 
     def _turned(self, place: FloatArray, direction: FloatArray, image: FloatArray) -> FloatArray:
-        """Images of unit tangent vectors at places under the lens, normalised.
-
-        A fisheye moves places along great circles through its focus and keeps azimuths: the component of a vector along
-        the great circle stays along it, the component across stays across.
-        """
-        right, left = self.chart.lens.right.matrix, self.chart.lens.left.matrix
+        """Images of unit tangent vectors at places under the lens, normalised."""
+        # A fisheye moves places along great circles through its focus and keeps azimuths: the component of a vector
+        # along the great circle stays along it, the component across stays across.
+        right, left = self.chart.turns
         p, d, q = turned(place, right), turned(direction, right), turned(image, left.T)
         aside = np.hypot(p[..., 0], p[..., 1])
         at_focus = aside == 0
@@ -297,10 +294,7 @@ class _Window:
     latitude: Latitude
 
     def meridians(self, stride: int, steps: int, apart: float) -> Indices:
-        """Indices of the meridians, multiples of a stride, that may have room somewhere in the picture.
-
-        `apart` is the least scale of the page at which neighbours on the equator have room.
-        """
+        """Numbers of the meridians, by a stride, that may have room in the picture, neighbours at the scale `apart`."""
         box = self._room(apart, meeting=True)
         if box is None:
             return np.zeros(0, dtype=np.intp)
@@ -328,7 +322,7 @@ class _Window:
             radius = self._reach(apart / max(breadth, UNIT_ROUNDOFF) / self._widest)
             if radius is None or radius < self._away:
                 return None
-            around = _box_around(self._peak, radius)
+            around = _box_around(self._at_peak, radius)
             south, north = max(box[0], around[0]), min(box[1], around[1])
             if south > north:
                 return None
@@ -349,7 +343,7 @@ class _Window:
     @cached_property
     def _seen(self) -> _Box:
         cap = self.chart.source
-        return _box_around(cap.normal, cap.radius)
+        return _box_around(xyz_to_lonlat(cap.normal), cap.radius)
 
     @cached_property
     def _away(self) -> float:
@@ -359,7 +353,7 @@ class _Window:
         apart = 2 * np.arcsin(min(1.0, chord / 2)) - cap.radius
         return float(apart) * (1 - REACH_MARGIN) - 8 * UNIT_ROUNDOFF
 
-    @property
+    @cached_property
     def _widest(self) -> float:
         """The largest scale of the view, reached at its edge."""
         view, radius = self.chart.view, np.radians(self.chart.view.angular_radius)
@@ -369,12 +363,16 @@ class _Window:
     @property
     def _peak(self) -> FloatArray:
         """The place where the scale is largest."""
-        focus: FloatArray = self.chart.lens.right.matrix[2]
+        focus = self.chart.turns[0][2]
         return focus if self.chart.lens.magnification >= 1 else -focus
+
+    @cached_property
+    def _at_peak(self) -> FloatArray:
+        return xyz_to_lonlat(self._peak)
 
 
 def _meridians(lons: FloatArray) -> Arcs:
-    """Half great circles from the south pole to the north pole, as `stereodel.sphere.graticules.meridian`."""
+    """Half great circles from the south pole to the north pole, as `stereodel.sphere.arcs.meridian`."""
     south = np.tile([0.0, 0.0, -1.0], (len(lons), 1))
     # Counterclockwise about lon − 90 is northwards at lon.
     axis = lonlat_to_xyz(np.stack([lons - 90.0, np.zeros(len(lons))], axis=1))
@@ -383,7 +381,7 @@ def _meridians(lons: FloatArray) -> Arcs:
 
 
 def _parallels(lats: FloatArray, latitude: Latitude) -> Arcs:
-    """Whole circles eastwards from longitude 0, as `stereodel.sphere.graticules.parallel`."""
+    """Whole circles eastwards from longitude 0, as `stereodel.sphere.arcs.parallel`."""
     zero = np.zeros(len(lats))
     start = lonlat_to_xyz(np.stack([zero, lats], axis=1), latitude=latitude)
     axis = np.tile([0.0, 0.0, 1.0], (len(lats), 1))
@@ -391,10 +389,10 @@ def _parallels(lats: FloatArray, latitude: Latitude) -> Arcs:
     return Arcs(start, start, axis, start[:, 2], radius, zero, np.full(len(lats), 2 * np.pi), np.arange(len(lats)))
 
 
-def _box_around(center: FloatArray, radius: float) -> _Box:
-    """South, north, west and east of a cap of the sphere, degrees; `radius` in radians."""
+def _box_around(lonlat: FloatArray, radius: float) -> _Box:
+    """South, north, west and east, degrees, of a cap about a place in degrees; `radius` in radians."""
     reach = float(np.degrees(radius * (1 + REACH_MARGIN) + 8 * UNIT_ROUNDOFF))
-    lon, lat = xyz_to_lonlat(center).tolist()
+    lon, lat = lonlat.tolist()
     south, north = max(-90.0, lat - reach), min(90.0, lat + reach)
     if abs(lat) + reach >= 90.0:
         return (south, north, -180.0, 180.0)
@@ -403,15 +401,7 @@ def _box_around(center: FloatArray, radius: float) -> _Box:
 
 
 def usual_spacing(chart: Chart) -> float:
-    """The spacing of `SPACINGS`, in degrees, that gives about `LINES_ACROSS` lines across a picture.
-
-    Examples
-    --------
-    >>> from stereodel import fisheye
-    >>> from stereodel.drawing import View
-    >>> [usual_spacing(Chart(fisheye((2, 48), magnification=size), View(2, 48))) for size in (1, 20, 1e6)]
-    [15.0, 1.0, 2e-05]
-    """
+    """The spacing of `SPACINGS`, in degrees, that gives about `LINES_ACROSS` lines across a picture."""
     across = max(2 * float(np.degrees(chart.source.radius)), SPACINGS[-1])
     return min(SPACINGS, key=lambda spacing: abs(np.log(across / LINES_ACROSS / spacing)))
 

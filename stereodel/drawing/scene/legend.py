@@ -84,7 +84,7 @@ def with_legend(
     sketch = Sketch()
     scales = {text: style for text, style in entries.items() if isinstance(style, ColorScale)}
     samples = {text: style for text, style in entries.items() if not isinstance(style, ColorScale)}
-    parts = [(item.look, item.name) for item in page.items]
+    parts = [(item._look, item.name) for item in page.items]
     for number, (text, style) in enumerate(samples.items()):
         down, across = divmod(number, count)
         place = np.array([left + indent * point + step * across, bottom - row * (down + 1)])

@@ -13,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import as_directions, as_indices, as_points, as_scalar, as_vectors
+from stereodel.curves.view import View
 from stereodel.drawing.page import Item, Label, Page
 from stereodel.drawing.page import style as styles
 from stereodel.drawing.page.colors import ColorLike, as_color
@@ -33,7 +34,6 @@ from stereodel.drawing.scene.scene_items import (
 )
 from stereodel.drawing.scene.solid import PlacedScene, Solid
 from stereodel.drawing.scene.space_curves import CircleArc, Curve, Segment
-from stereodel.drawing.scene.view import View
 from stereodel.drawing.scene.visibility import SphereRegion
 from stereodel.sphere import SphereArc, SphereCircle
 from stereodel.sphere.vectors import units
@@ -115,7 +115,7 @@ class Scene:
             Position in painter's order of all parts except those behind the ball.
         """
         self.add_curves(
-            (_circle_arc(arc).scaled(self.radius, self.center) for arc in arcs), name=name, style=style, layer=layer
+            (CircleArc.of(arc).scaled(self.radius, self.center) for arc in arcs), name=name, style=style, layer=layer
         )
 
     def add_edges(
@@ -179,7 +179,9 @@ class Scene:
         self, boundary: Iterable[SphereArc | CircleArc], *, name: str, color: ColorLike | None = None
     ) -> None:
         """Tint the region to the left of a loop of arcs, as seen from outside, of any size and shape."""
-        region = SphereRegion(tuple(_circle_arc(arc).scaled(self.radius, np.zeros(3)) for arc in boundary), self.radius)
+        region = SphereRegion(
+            tuple(CircleArc.of(arc).scaled(self.radius, np.zeros(3)) for arc in boundary), self.radius
+        )
         self._items.append(SceneRegion(region, styles.fill(name, color), name))
 
     def add_cap(
@@ -312,7 +314,3 @@ class Scene:
         """
         page = self.page(view, extent=extent, width=width, background=background)
         return Solid(page, (self.placed(view),))
-
-
-def _circle_arc(arc: SphereArc | CircleArc) -> CircleArc:
-    return arc if isinstance(arc, CircleArc) else CircleArc.of(arc)

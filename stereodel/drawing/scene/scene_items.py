@@ -227,10 +227,7 @@ class SceneSheet:
     name: str
 
     def plane(self, layout: Layout) -> tuple[FloatArray, float, Layer]:
-        """Normal toward the viewer and level of the plane in view axes, and the polygon's layer.
-
-        ValueError if the polygon cuts the sphere, so that no painter's order is correct.
-        """
+        """Normal toward the viewer and level of the plane in view axes, and the polygon's layer."""
         corners = layout.axes(self.corners)
         normal = _newell(corners)
         normal = -normal if normal[2] < 0 else normal
@@ -242,7 +239,7 @@ class SceneSheet:
             return normal, level, Layer.SHEET
         if np.all(np.sqrt(np.sum(corners**2, axis=-1)) <= (1 + ON_BALL) * layout.radius):
             return normal, level, Layer.INSIDE_SHEET
-        raise ValueError(
+        raise ValueError(  # no painter's order is correct
             f"the polygon {self.name!r} cuts the ball; give one that touches it, avoids it or is inside it"
         )
 

@@ -9,22 +9,22 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
-from itertools import pairwise
 from typing import Any, Final
 
 import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import FloatArray, as_vectors
+from stereodel.curves.view import View
 from stereodel.drawing.page import Beziers, Dots, Fill, Item, Label, Page, Stroke
 from stereodel.drawing.page.colors import ColorLike, as_color
 from stereodel.drawing.page.fonts import FontLike, as_font, in_font
+from stereodel.drawing.page.items import straight
 from stereodel.drawing.page.labels import with_title
 from stereodel.drawing.page.lengths import LengthLike, as_length
 from stereodel.drawing.page.style import PRINT_WIDTH, WHITE, DotStyle, LineStyle, dot, fill, line
 from stereodel.drawing.scene.scene import Scene
-from stereodel.drawing.scene.space_curves import CircleArc, Segment, page_path
-from stereodel.drawing.scene.view import View
+from stereodel.drawing.scene.space_curves import CircleArc, page_path
 
 Point = Sequence[float] | FloatArray
 
@@ -358,6 +358,4 @@ def arc_path(center: Point, radius: float, start: float, stop: float) -> Beziers
 
 
 def _run(points: Sequence[Point]) -> Beziers:
-    corners = [np.array([point[0], point[1], 0.0]) for point in points]
-    pieces = [Segment.between(a, b) for a, b in pairwise(corners)]
-    return page_path(pieces, (0.0, 0.0), 1.0)
+    return straight(as_vectors([(point[0], point[1]) for point in points], 2, "points"))

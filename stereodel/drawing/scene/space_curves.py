@@ -131,8 +131,10 @@ class CircleArc:
         return cls(np.zeros(3), start, np.cross(axis / sine, start), 0.0, sweep_rad)
 
     @classmethod
-    def of(cls, arc: SphereArc) -> CircleArc:
+    def of(cls, arc: SphereArc | CircleArc) -> CircleArc:
         """An arc of a circle of the unit sphere, counterclockwise about its normal."""
+        if isinstance(arc, CircleArc):
+            return arc
         center, u, v, sweep_rad = arc.frame()
         return cls(center, u, v, 0.0, sweep_rad)
 
@@ -211,16 +213,12 @@ def linear_roots(constant: float, cosine: float, sine: float) -> list[float]:
 
 
 def trigonometric_roots(constant: float, first: complex, second: complex) -> list[float]:
-    """Roots of constant + 2·Re(first·eⁱᵗ + second·e²ⁱᵗ), radians.
-
-    With z = eⁱᵗ it is a quartic in z, of which the roots of modulus 1 are needed; one or two Newton steps on t make
-    them as accurate as the function allows. A double root may be missed or found twice: the sign does not change there.
-    """
+    """Roots of constant + 2·Re(first·eⁱᵗ + second·e²ⁱᵗ), radians; a double root may be missed or found twice."""
     scale = max(abs(constant), abs(first), abs(second))
     if abs(second) <= ONE_HARMONIC * scale:
         return linear_roots(constant, 2 * first.real, -2 * first.imag)
-    # Times z² the function is second·z⁴ + first·z³ + constant·z² + conj(first)·z + conj(second), as conj(z) = 1/z on
-    # the unit circle. Roots off the circle come in pairs z, 1/conj(z) and are of no use.
+    # With z = eⁱᵗ the function times z² is second·z⁴ + first·z³ + constant·z² + conj(first)·z + conj(second), as
+    # conj(z) = 1/z on the unit circle. Roots off the circle come in pairs z, 1/conj(z) and are of no use.
     roots = np.roots([second, first, constant, np.conj(first), np.conj(second)])
     t = np.angle(roots[np.abs(np.abs(roots) - 1) < ROOT_ON_CIRCLE])
     # Newton's method on t, for which the function is real, recovers the accuracy lost by the companion matrix.

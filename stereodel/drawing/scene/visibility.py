@@ -14,7 +14,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from enum import Enum
 from itertools import pairwise
-from typing import Final, TypeVar
+from typing import Final, NamedTuple, TypeGuard, TypeVar
 
 import numpy as np
 
@@ -24,8 +24,8 @@ from stereodel.curves.borders import Cap
 from stereodel.curves.clip import chains_of, followers
 from stereodel.curves.ragged import Ragged, cycles
 from stereodel.curves.trace import Arcs
+from stereodel.curves.view import View
 from stereodel.drawing.scene.space_curves import CircleArc, Curve
-from stereodel.drawing.scene.view import View
 
 K = TypeVar("K")
 
@@ -46,13 +46,11 @@ class Place(Enum):
     BEHIND = "covered by the ball, or on its far side"
 
 
-def lies_on_ball(curve: Curve, radius: float) -> bool:
-    """Whether a curve is an arc of a circle on the sphere.
-
-    |x|² is linear in cos t and sin t along a circle, so three of its points decide for all.
-    """
+def lies_on_ball(curve: Curve, radius: float) -> TypeGuard[CircleArc]:
+    """Whether a curve is an arc of a circle on the sphere."""
     if not isinstance(curve, CircleArc):
         return False
+    # |x|² is linear in cos t and sin t along a circle: three of its points decide for all.
     lengths = np.sqrt(np.sum(curve.sample([0.0, 2.0, 4.0]) ** 2, axis=-1))
     return bool(np.all(np.abs(lengths - radius) <= ON_BALL * radius))
 
@@ -69,24 +67,17 @@ def place_of(point: FloatArray, radius: float) -> Place:
     return Place.FRONT if point[2] > 0 else Place.BEHIND
 
 
-@dataclass(frozen=True, eq=False)
-class Run:
-    """Consecutive arcs of a sphere that are either all visible or all hidden."""
+class _Run(NamedTuple):
+    """Consecutive arcs of a line on a sphere, all visible or all hidden."""
 
     arcs: list[CircleArc]
     seen: bool
-    whole: bool
-    """Whether it is closed and not cut."""
-    row: int
-    """Index of its line."""
+    whole: bool  # closed and not cut
+    row: int  # number of the line
 
 
-def cut_at_limb(curves: Sequence[CircleArc], lines: Ragged, radius: float) -> list[Run]:
-    """Lines on a sphere about the origin, cut at the limb; parts along the limb are visible.
-
-    lines: indices of the curves of each line, in order; every curve belongs to one line. In a closed line the last
-        curve ends where the first begins.
-    """
+def cut_at_limb(curves: Sequence[CircleArc], lines: Ragged, radius: float) -> list[_Run]:
+    """Lines on a sphere about the origin, each by the numbers of its curves, cut at the limb, which is visible."""
     if not curves:
         return []
     pieces = LIMB.cut(_joined(_as_arcs(curves, radius), lines))
@@ -104,7 +95,7 @@ def cut_at_limb(curves: Sequence[CircleArc], lines: Ragged, radius: float) -> li
                 arcs.append(curves[edge[number]].part(begin[number], stop[number]))
                 before = edge[number]
         if arcs:
-            runs.append(Run(arcs, bool(seen), bool(whole), int(row)))
+            runs.append(_Run(arcs, bool(seen), bool(whole), int(row)))
     return runs
 
 
@@ -123,10 +114,7 @@ def _as_arcs(curves: Sequence[CircleArc], radius: float) -> Arcs:
 
 
 def _joined(arcs: Arcs, lines: Ragged) -> Arcs:
-    """The arcs with each end set to the start of the next arc if they differ only by rounding.
-
-    Crossings of a ring are counted by the sides of its corners, so each corner must have a single side.
-    """
+    """The arcs with each end set to the next start if they differ only by rounding: a corner has a single side."""
     after = lines.values[lines.following]
     meets = np.sqrt(np.sum((arcs.end[lines.values] - arcs.start[after]) ** 2, axis=1)) <= ON_BALL
     arcs.end[lines.values[meets]] = arcs.start[after[meets]]
@@ -141,18 +129,12 @@ def split_by_ball(curves: Sequence[Curve], radius: float) -> list[list[tuple[Cur
     >>> [(piece.start, piece.stop, place.name) for piece, place in pieces]
     [(0.0, 0.2, 'FRONT'), (0.2, 0.6, 'INSIDE'), (0.6, 1.0, 'BEHIND')]
     """
-    split: list[list[tuple[Curve, Place]]] = []
-    on_ball: list[CircleArc] = []
-    numbers: list[int] = []
-    for number, curve in enumerate(curves):
-        if isinstance(curve, CircleArc) and lies_on_ball(curve, radius):
-            split.append([])
-            on_ball.append(curve)
-            numbers.append(number)
-        else:
-            split.append(_split_in_space(curve, radius))
-    each = np.arange(len(on_ball) + 1)
-    for run in cut_at_limb(on_ball, Ragged(each[:-1], each), radius):
+    on_ball = {number: curve for number, curve in enumerate(curves) if lies_on_ball(curve, radius)}
+    split: list[list[tuple[Curve, Place]]] = [
+        [] if number in on_ball else _split_in_space(curve, radius) for number, curve in enumerate(curves)
+    ]
+    each, numbers = np.arange(len(on_ball) + 1), list(on_ball)
+    for run in cut_at_limb(list(on_ball.values()), Ragged(each[:-1], each), radius):
         split[numbers[run.row]] += [(arc, Place.FRONT if run.seen else Place.BEHIND) for arc in run.arcs]
     return split
 
@@ -201,11 +183,7 @@ Loop = list[CircleArc]
 
 @dataclass(frozen=True, eq=False)
 class SphereRegion:
-    """The part of a sphere about the origin on the left of a loop of arcs; ValueError if the loop has a gap.
-
-    boundary: a simple loop on the sphere, each arc starting at the end of the one before it, counterclockwise around
-        the region as seen from outside. It may have any size and shape.
-    """
+    """The part of a sphere about the origin on the left of a simple loop of arcs, each starting where the last ends."""
 
     boundary: tuple[CircleArc, ...]
     radius: float
@@ -245,12 +223,9 @@ class SphereRegion:
         return loops if sum(map(page_area, loops)) > ON_BALL * self.radius * length else []
 
     def _with_limb(self, ring: Loop, *, seen: bool) -> list[Loop]:
-        """A ring that does not cross the limb, with the limb itself if the region contains it.
-
-        The region is inside a ring on the near side if the ring is counterclockwise on the page, and outside if it is
-        clockwise. A ring on the far side appears mirrored: if counterclockwise, the region is outside it and contains
-        the whole near side.
-        """
+        """A ring that does not cross the limb, with the limb itself if the region contains it."""
+        # A ring on the near side has its region inside if it is counterclockwise on the page; one on the far side
+        # appears mirrored: if counterclockwise, the region contains the whole near side.
         shown = [ring] if seen else []
         return [*shown, [limb(self.radius)]] if (page_area(ring) > 0) != seen else shown
 
@@ -268,11 +243,8 @@ def _closed_along_limb(runs: list[Loop], radius: float) -> list[Loop]:
 
 
 def page_area(loop: Sequence[CircleArc]) -> float:
-    """Area that connected arcs enclose on the page, positive counterclockwise.
-
-    It is half the integral of p × dp; along center + q with q = cos t·u + sin t·v that is center × (q₁ − q₀), and
-    u × v (t₁ − t₀), since q × dq = u × v dt.
-    """
+    """Area that connected arcs enclose on the page, positive counterclockwise."""
+    # Half the integral of p × dp: along center + q, q = cos t·u + sin t·v, center × (q₁ − q₀) and u × v (t₁ − t₀).
     area = 0.0
     for arc in loop:
         x, y = arc.sample(arc.stop)[:2] - arc.sample(arc.start)[:2]

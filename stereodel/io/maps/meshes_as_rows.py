@@ -18,7 +18,7 @@ from stereodel.curves.ragged import Ragged
 from stereodel.curves.trace import Arcs, great
 from stereodel.sphere import xyz_to_lonlat
 from stereodel.sphere.latitudes import Latitude
-from stereodel.triangulation import PlanarDelaunay, PlanarVoronoi, SphericalDelaunay, SphericalVoronoi
+from stereodel.triangulation import PlanarVoronoi, SphericalVoronoi
 from stereodel.triangulation.delaunay import Triangulation, open_triangles
 from stereodel.triangulation.diagram import Diagram
 

@@ -15,7 +15,7 @@ from stereodel.curves.borders import Antimeridian, Pieces
 from stereodel.curves.insides import oriented
 from stereodel.curves.ragged import Ragged
 from stereodel.curves.seams import stitched
-from stereodel.curves.trace import Edges, sides_of, straight, unwrapped
+from stereodel.curves.trace import Edges, sides_of, unwrapped
 from stereodel.io.formats.map_rows import (
     COLLECTION,
     LINE,
@@ -124,7 +124,8 @@ def _lines(geometries: Geometries, lens: MoebiusMap, slack: float) -> Geometries
     lonlat, part = shapely.get_coordinates(parts, return_index=True)
     lines = unwrapped(Ragged.grouped(lonlat, part, len(parts)))
     first, sides = sides_of(lines)
-    pieces = BORDER.cut(straight(lines.values[first], lines.values[first + 1], lens, slack / 4).through(lens))
+    edges = Edges.straight(lines.values[first], lines.values[first + 1])
+    pieces = BORDER.cut(edges.arcs_under(lens, slack / 4).through(lens))
     return lines_on_map(sides, owner, len(geometries), pieces, _sampled(pieces, slack), BORDER)
 
 

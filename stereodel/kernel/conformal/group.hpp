@@ -15,7 +15,7 @@ struct StoredMap {
     std::array<double, 4> right;
 };
 
-// real + i imag in SL(2, C), quaternions with complex coefficients (stereodel/conformal/biquaternions.py).
+// real + i imag in SL(2, C), quaternions with complex coefficients (stereodel/conformal/group.py).
 struct Element {
     Quaternion real, imag;
 };

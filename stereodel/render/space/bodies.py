@@ -10,7 +10,7 @@ import numpy as np
 
 from stereodel._arrays import FloatArray
 from stereodel._extras import optional
-from stereodel.drawing.page import colorimetry
+from stereodel.drawing.page import colors
 from stereodel.drawing.page.colors import Color
 from stereodel.drawing.scene.scene_items import (
     Layer,
@@ -117,7 +117,7 @@ def _tubes(item: SceneLines, layout: Layout, point: float, above: float) -> Iter
 
 def linear(color: Color) -> list[float]:
     """An sRGB colour in linear light (IEC 61966-2-1); opacity is unchanged."""
-    return [*colorimetry.linear(color[:3]).tolist(), float(color[3])]
+    return [*colors.linear(color[:3]).tolist(), float(color[3])]
 
 
 def to_trimesh(solid: Solid) -> Any:

@@ -19,6 +19,7 @@ from stereodel.curves.fill import union
 from stereodel.curves.ragged import Ragged, thinned
 from stereodel.drawing.page import Ball, Beziers, Dots, Fill, Label, Page, Picture, Polygons, Polylines, Stroke
 from stereodel.drawing.page.colors import Color
+from stereodel.drawing.page.items import alike
 
 CIRCLE_KAPPA: Final = 4 / 3 * np.tan(np.pi / 16)
 """Distance of the control points of a circle drawn as eight cubics, in radii."""
@@ -105,7 +106,7 @@ def shapes(page: Page, dpi: float, pictures: Sequence[Pixels] = ()) -> Iterator[
             f"pictures has {len(pictures)} entries, but {count} items of the page have too many colours; give each one"
         )
     rest, scale = iter(pictures), page.points_per_unit
-    for _, group in groupby(page.without_labels().items, key=lambda item: item.alike):
+    for _, group in groupby(page.without_labels().items, key=alike):
         items = list(group)
         match items[0]:
             case Stroke() as first:

@@ -6,6 +6,7 @@ Every view shows a cap of the sphere, {x : toward·x ≥ edge}, and maps it onto
 from __future__ import annotations
 
 from dataclasses import KW_ONLY, dataclass
+from typing import ClassVar
 
 import numpy as np
 import numpy.typing as npt
@@ -57,25 +58,14 @@ class View(_Above):
     [[0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]
     """
 
-    @property
-    def angular_radius(self) -> float:
-        """Angular radius of the visible cap in degrees: 90."""
-        return 90.0
-
-    @property
-    def edge(self) -> float:
-        """Cosine of the angular radius of the visible cap: 0."""
-        return 0.0
-
-    @property
-    def stretch(self) -> float:
-        """1: straight lines in space are straight on the page, and no length grows."""
-        return 1.0
-
-    @property
-    def round(self) -> bool:
-        """Whether the page shows a ball: True."""
-        return True
+    angular_radius: ClassVar[float] = 90.0
+    """Angular radius of the visible cap in degrees."""
+    edge: ClassVar[float] = 0.0
+    """Cosine of the angular radius of the visible cap."""
+    stretch: ClassVar[float] = 1.0
+    """Straight lines in space are straight on the page, and no length grows."""
+    round: ClassVar[bool] = True
+    """Whether the page shows a ball."""
 
     def flattened(self, axes: FloatArray) -> FloatArray:
         """Page coordinates (..., 2) of unit vectors (..., 3) in view axes."""
@@ -151,6 +141,8 @@ class StereographicView(_Above):
 
     _: KW_ONLY
     angular_radius: float = 90.0
+    round: ClassVar[bool] = False
+    """Whether the page shows a ball."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -171,11 +163,6 @@ class StereographicView(_Above):
         """
         reach = self._reach
         return (1 + reach**2) / (2 * reach) * (1 + reach)
-
-    @property
-    def round(self) -> bool:
-        """Whether the page shows a ball: False."""
-        return False
 
     @property
     def _reach(self) -> float:

@@ -13,20 +13,12 @@ from stereodel._arrays import AnyIndices, FloatArray
 from stereodel._double_double import DoubleDouble
 from stereodel.constants import NEEDLE, PLAIN_SQUARES, THIN_TRIANGLE
 from stereodel.interpolation.interpolator import PrecisePoints
+from stereodel.sphere.vectors import crossed
 
 
 def cross2(a: FloatArray, b: FloatArray) -> FloatArray:
     """Third component of the product a × b of vectors (..., 2)."""
     return a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
-
-
-def cross3(a: FloatArray, b: FloatArray) -> FloatArray:
-    """Vector product a × b of vectors (..., 3), five times as fast as `np.cross`."""
-    result = np.empty(np.broadcast_shapes(a.shape, b.shape))
-    for k in range(3):
-        i, j = (k + 1) % 3, (k + 2) % 3
-        result[..., k] = a[..., i] * b[..., j] - a[..., j] * b[..., i]
-    return result
 
 
 def dot(a: FloatArray, b: FloatArray) -> FloatArray:
@@ -62,12 +54,10 @@ class LocatedQueries:
         return [self.sites.minus(self.corners[:, k], self.queries, rows) for k in range(3)]
 
     def weights(self) -> FloatArray:
-        """Barycentric coordinates (m, 3): not negative, of sum one.
-
-        From differences scaled by a power of two, so that the largest component is between 1/2 and 1. A sum below
-        THIN_TRIANGLE, twice the area of a thin triangle, is computed again in double-double; what cancels even there
-        leaves the nearest corner.
-        """
+        """Barycentric coordinates (m, 3): not negative, of sum one."""
+        # From differences scaled by a power of two, so that the largest component is between 1/2 and 1. A sum below
+        # THIN_TRIANGLE, twice the area of a thin triangle, is computed again in double-double; what cancels even there
+        # leaves the nearest corner.
         offsets = np.stack(self.offsets(), axis=1)
         exponent = np.frexp(np.abs(offsets).max(axis=(1, 2), initial=0.0))[1]
         weights = _areas([np.ldexp(offsets[:, k], -exponent[:, None]) for k in range(3)], self._up())
@@ -111,12 +101,12 @@ class LocatedQueries:
             area = cross2(d, e)[:, None]
             across = np.stack([e[:, 1], -e[:, 0]], axis=1) / area, np.stack([-d[:, 1], d[:, 0]], axis=1) / area
         else:
-            normal = cross3(d, e)
+            normal = crossed(d, e)
             normal /= lengths(normal)
-            area = dot(normal, cross3(d, e))
+            area = dot(normal, crossed(d, e))
             depth = dot(normal, up)
             reach = dot(normal, self.sites.rounded[a]) / depth / area
-            one, other = cross3(e, normal), cross3(normal, d)
+            one, other = crossed(e, normal), crossed(normal, d)
             across = reach * _tangent(one, normal, up, depth), reach * _tangent(other, normal, up, depth)
         by_first, by_second = (np.ldexp(g, -size)[:, :, None] for g in across)
         result = np.asarray(by_first * first[:, None, :] + by_second * second[:, None, :])
@@ -136,7 +126,7 @@ def _tangent(slope: FloatArray, normal: FloatArray, up: FloatArray, depth: Float
 def _areas(offsets: list[FloatArray], up: FloatArray | None) -> FloatArray:
     """Twice the areas of query and opposite edge, (m, 3), as seen along `up`; rounding below zero is cut off."""
     pairs = [(offsets[k - 2], offsets[k - 1]) for k in range(3)]
-    areas = [cross2(b, c) if up is None else dot(up, cross3(b, c))[:, 0] for b, c in pairs]
+    areas = [cross2(b, c) if up is None else dot(up, crossed(b, c))[:, 0] for b, c in pairs]
     return np.maximum(np.stack(areas, axis=1), 0.0)
 
 
