@@ -57,8 +57,7 @@ class Work:
 
     def run(self, scheduler: str | None) -> None:
         """Compute; errors are reported in the words of the command line."""
-        from stereodel.partitioned import triangulate
-        from stereodel.partitioned.passes import PARTITION
+        from stereodel.partitioned import Execution, triangulate
 
         columns = self.plane or (self.lon and self.lat and (self.lon, self.lat)) or None
         names = {"columns": "--plane" if self.plane else "--lon", "keep": "--keep", "resume": "--overwrite"}
@@ -73,10 +72,12 @@ class Work:
                     keep=self.keep,
                     triangles=False,
                     cells=self.shapes,
-                    partition=self.partition or PARTITION,
-                    executor=executor,
-                    resume=not self.overwrite,
-                    progress=told,
+                    execution=Execution(
+                        self.partition or Execution.partition,
+                        executor=executor,
+                        resume=not self.overwrite,
+                        progress=told,
+                    ),
                 )
             except KeyboardInterrupt:
                 raise KeyboardInterrupt(KEPT) from None

@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from stereodel.partitioned import passes, rounds
 from stereodel.partitioned import run as running
+from stereodel.partitioned import spread, stars
 from tests import sets
 from tests.examples import examples
 from tests.partitioned.answers import differences, in_memory, rows_of, serially, surface_of, write_points
@@ -87,8 +87,8 @@ def test_any_split_gives_the_same(tmp_path_factory, one, cuts, partition, block,
         patch.setattr("stereodel.partitioned.plan.BLOCK", block)
         patch.setattr("stereodel.partitioned.plan.LEAST_SHARE", 1)
         patch.setattr("stereodel.partitioned.plan.LARGEST_SHARE", share)
-        patch.setattr(passes, "is_compact", lambda *_: compact)
-        patch.setattr(rounds, "REACH", rounds.REACH if halo else -1.0)
+        patch.setattr(spread, "is_compact", lambda *_: compact)
+        patch.setattr(stars, "REACH", stars.REACH if halo else -1.0)
         check(
             tmp_path_factory.mktemp("split"),
             columns,
@@ -101,7 +101,7 @@ def test_any_split_gives_the_same(tmp_path_factory, one, cuts, partition, block,
 
 def test_a_circle_through_the_corner_of_a_block_is_open(tmp_path, monkeypatch):
     """Its tie is decided with the point there, though nothing else had that block read."""
-    monkeypatch.setattr(rounds, "REACH", -1.0)
+    monkeypatch.setattr(stars, "REACH", -1.0)
     rows = sets.plane("lattice").rows(250)
     check(tmp_path, XY, rows, in_memory(XY, rows), 40)
 

@@ -13,8 +13,8 @@ import pytest
 
 from stereodel.partitioned import Run
 from stereodel.partitioned import passes as passes_of
-from stereodel.partitioned.sources import PointFile
-from tests.partitioned.answers import differences, in_memory, rows_of, serially, write_points
+from stereodel.partitioned.files import PointFile
+from tests.partitioned.answers import differences, executed, in_memory, rows_of, serially, write_points
 from tests.sets import LONLAT
 from tests.tiers import by_day
 
@@ -109,7 +109,7 @@ def test_what_is_deleted_while_its_pass_runs_is_made_again(tmp_path, points, nam
 
 
 DELETED = [
-    ("spread", 2, "splits.value"),
+    ("spread", 2, "splits"),
     ("collect", 2, "spread/2.points"),
     ("solve", 2, "points/*.points"),
     ("solve", 2, "blocks/lows"),
@@ -118,7 +118,7 @@ DELETED = [
     ("align", 2, "results/triangles/*.parquet"),
 ]
 CHANGED = [
-    ("spread", 3, "splits.*"),
+    ("spread", 3, "splits"),
     ("spread", 5, "spread/*.starts"),
     *(("collect", 2, f"spread/{name}") for name in ("starts", "*.points", "*.numbers")),
     ("collect", 10, "points/*.blocks"),
@@ -128,7 +128,7 @@ CHANGED = [
         for name in ("lows", "highs", "part", "first", "last", "points", "numbers", "sums")
     ),
     ("solve", 10, "stars/*.starts"),
-    *(("align", 2, f"stars/{name}") for name in ("*.rows", "starts", "parts")),
+    *(("align", 2, f"stars/{name}") for name in ("*.rows", "starts", "tasks")),
 ]
 LATER = [pytest.param(*when, os.unlink, "deleted") for when in DELETED]
 LATER += [
@@ -319,7 +319,14 @@ def test_the_source_of_values_that_changes(tmp_path, points):
     run = run_of(folder, tmp_path / "out", index=True)
     harm = partial(move, folder / "003.parquet")
     with pytest.raises(ValueError, match=r"003\.parquet has changed since the run began"):
-        run.interpolate(folder, tmp_path / "found", "id", partition=60, progress=meanwhile("collect", 1, harm))
+        executed(
+            run.interpolate,
+            folder,
+            tmp_path / "found",
+            "id",
+            partition=60,
+            progress=meanwhile("collect", 1, harm),
+        )
 
 
 @pytest.mark.parametrize("number", [12, pytest.param(300, marks=pytest.mark.thorough)])
@@ -413,11 +420,11 @@ def test_late_tasks_of_a_run_that_is_dead(tmp_path, points, monkeypatch):
     late = []
     once = passes_of.Passes.do
 
-    def dying(self, name, function, tasks):
+    def dying(self, name, function, tasks, **options):
         if name == "solve":
-            late.extend(partial(function, task) for task in tasks)
+            late.extend(partial(function, self.store, task, **options) for task in tasks)
             raise KeyboardInterrupt
-        return once(self, name, function, tasks)
+        return once(self, name, function, tasks, **options)
 
     with monkeypatch.context() as patch:
         patch.setattr(passes_of.Passes, "do", dying)

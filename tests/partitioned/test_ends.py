@@ -27,12 +27,12 @@ SIGNALS = (signal.SIGTERM, signal.SIGKILL, signal.SIGINT)
 
 DRIVER = """
 import json, signal, sys
-from stereodel.partitioned import plan, triangulate
+from stereodel.partitioned import Execution, plan, triangulate
 if __name__ == "__main__":
     signal.signal(signal.SIGINT, signal.default_int_handler)
     plan.LEAST_SHARE = 1
     points, out, options = map(json.loads, sys.argv[1:])
-    triangulate(points, out, progress=lambda *told: print(*told, flush=True), **options)
+    triangulate(points, out, execution=Execution(progress=lambda *told: print(*told, flush=True), **options))
 """
 
 

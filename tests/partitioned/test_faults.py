@@ -15,10 +15,9 @@ import pytest
 from stereodel._tasks.crew import Crew
 from stereodel._tasks.kept import locked
 from stereodel.partitioned import run as running
-from stereodel.partitioned import triangulate
 from stereodel.partitioned.run import PASSES
 from tests.disks import small_disk
-from tests.partitioned.answers import differences, in_memory, rows_of, serially, write_points
+from tests.partitioned.answers import differences, in_memory, in_parallel, rows_of, serially, write_points
 from tests.sets import LONLAT, XYZ
 
 
@@ -49,7 +48,7 @@ def test_a_worker_that_is_killed(tmp_path, points, name, monkeypatch):
     monkeypatch.setattr(
         Crew, "each", lambda self, work, tasks: each(self, partial(killed_once, marker, name, work), tasks)
     )
-    run = triangulate(folder, tmp_path / "out", partition=100)
+    run = in_parallel(folder, tmp_path / "out", partition=100)
     assert marker.exists()
     assert differences(run, truth) == []
 
@@ -171,18 +170,13 @@ def test_a_zero_vector(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("space", "name", "message"),
-    [
-        ("sphere", "circle and a pole", r"partition \d+: .*star.* points at once, more than limit=200; give a higher"),
-        ("sphere", "great circle", "all 600 points lie on one great circle: there are no triangles.*limit=200"),
-        ("plane", "line", "all 600 points lie on one line: there are no triangles.*limit=200"),
-    ],
+    ("space", "name"), [("sphere", "circle and a pole"), ("sphere", "great circle"), ("plane", "line")]
 )
-def test_more_points_at_once_than_the_limit(tmp_path, space, name, message):
+def test_more_points_at_once_than_the_limit(tmp_path, space, name):
     """The pole of a circle has a star of all points, which no partition helps."""
     columns, rows = rows_of(name, 600, space)
     folder = write_points(tmp_path / "points", columns, rows)
-    with pytest.raises(MemoryError, match=message):
+    with pytest.raises(MemoryError, match=r"partition \d+: .*star.* points at once, more than limit=200; give"):
         serially(folder, tmp_path / "out", surface=space, partition=50, limit=200)
     run = serially(folder, tmp_path / "out", surface=space, partition=50)  # the limit is no part of the plan
     assert differences(run, in_memory(columns, rows)) == []
@@ -225,8 +219,8 @@ def test_inputs_stay_as_they_are(tmp_path, points):
 def test_results_that_no_input_may_have(tmp_path, points, monkeypatch, wrong, message):
     """Triangles that are too few and areas that do not cover the sphere end the run, with nothing published."""
     folder, _ = points
-    right = running._report
-    monkeypatch.setattr(running, "_report", lambda *given: right(*given) | {"euler": 12, "triangles": 12} | wrong)
+    right = running._statistics
+    monkeypatch.setattr(running, "_statistics", lambda *given: right(*given) | {"euler": 12, "triangles": 12} | wrong)
     with pytest.raises(RuntimeError, match=message):
         serially(folder, tmp_path / "out")
     assert not (tmp_path / "out" / "run.json").exists()
