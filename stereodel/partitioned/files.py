@@ -39,19 +39,13 @@ ENDINGS: Final = (".parquet", ".geoparquet", ".pq")
 
 @dataclass(frozen=True)
 class PointColumns:
-    """Which columns say where a row's point is.
-
-    form: degrees, directions, the plane; geometries of GeoParquet as binary or as pairs of numbers.
-    names: names of the columns: two, three, or one of geometries.
-    latitude: kind of latitude on the sphere, as in `lonlat_to_xyz`.
-    crs: coordinate system of geometries that are not in degrees, in any form that PROJ accepts; sphere only.
-    """
+    """Which columns say where a row's point is."""
 
     form: Form
-    names: tuple[str, ...]
+    names: tuple[str, ...]  # two, three, or one of geometries
     surface: Surface
-    latitude: Latitude
-    crs: str | None = None
+    latitude: Latitude  # as in `lonlat_to_xyz`
+    crs: str | None = None  # of geometries that are not in degrees, in any form that PROJ accepts; sphere only
 
     @property
     def width(self) -> int:
@@ -66,12 +60,7 @@ class PointColumns:
         return self.names if len(self.names) > 1 else ("x", "y")
 
     def points(self, table: Any, rows: Sequence[int]) -> FloatArray:
-        """Points of a table of Arrow: unit vectors or directions (n, 3), or points of the plane (n, 2).
-
-        rows: numbers of its rows in the file, counted from 1, for messages.
-        Raises ValueError for the first row that is not a point, with its value.
-        Raises TypeError if a column holds no numbers, or no geometries.
-        """
+        """Points of a table of Arrow, as unit vectors, directions or of the plane; messages have numbers of `rows`."""
         columns = [(name, table[name]) for name in self.names]
         if self.form in ("wkb", "point"):
             columns = coordinates_of(self.form, *columns[0], rows)
@@ -86,12 +75,7 @@ class PointColumns:
 
 
 def find_columns(schema: Any, names: tuple[str, ...] | None, surface: Surface, latitude: Latitude) -> PointColumns:
-    """Which columns of a file are places: those that the caller names, else what the file says, else by their names.
-
-    schema: schema of the first file.
-    Raises ValueError listing the columns, where a name is not among them, or none or several look like longitude and
-    latitude.
-    """
+    """Which columns of a file are places: those that the caller names, else what the file says, else by their names."""
     there = list(schema.names)
     text = (schema.metadata or {}).get(b"geo")
     geo = json.loads(text) if text else {"columns": {}}
@@ -126,9 +110,7 @@ def _of_geometries(column: Mapping[str, Any], name: str, surface: Surface, latit
     encoding = str(column.get("encoding", "WKB")).lower()
     form: Form = "point" if encoding == "point" else "wkb"
     if encoding != form:
-        raise ValueError(
-            f"the geometries {name!r} are {column['encoding']}, but points are needed; take e.g. centroids"
-        )
+        raise ValueError(f"the geometries {name!r} are {encoding}, but points are needed; take e.g. centroids")
     crs = column.get("crs") if surface == "sphere" else None
     known = crs.get("id", {}) if crs else {}
     in_degrees = crs is None or f"{known.get('authority')}:{known.get('code')}" in DEGREES
@@ -137,9 +119,6 @@ def _of_geometries(column: Mapping[str, Any], name: str, surface: Surface, latit
 
 def coordinates_of(form: Form, name: str, column: Any, rows: Sequence[int]) -> list[tuple[str, Any]]:
     """Two columns, with names for messages, of a column of points: well-known binary, structures or pairs of numbers.
-
-    Raises ValueError for a row without a geometry, or with another than a point.
-    Raises TypeError for a column of something else.
 
     >>> import pyarrow, struct
     >>> coordinates_of("wkb", "g", pyarrow.array([struct.pack("<BIdd", 1, 1, 8.5, 47.4)]), [1])[1][1].to_pylist()
@@ -174,8 +153,7 @@ def _whole(column: Any) -> Any:
 def doubles_of(column: Any, name: str, rows: Sequence[int], *, axis: str = "", gaps: bool = False) -> FloatArray:
     """A column of finite numbers as doubles, NaN where there is none if `gaps`; errors call its numbers `axis`.
 
-    Raises TypeError for what NumPy would make numbers of: booleans, times, text, bytes.
-    Raises ValueError for what is missing or infinite, or a whole number that no double equals, naming its row.
+    NumPy would make numbers of booleans, times, text and bytes, too, and round whole numbers.
     """
     types, column = optional("pyarrow", "partitioned").types, _whole(column)
     if types.is_dictionary(column.type):
@@ -195,20 +173,13 @@ def doubles_of(column: Any, name: str, rows: Sequence[int], *, axis: str = "", g
 
 @dataclass(frozen=True)
 class PointFile:
-    """A file of points.
+    """A file of points."""
 
-    path: where it is, absolute.
-    name: what its file of results is called, relative to the folder of rows, with slashes.
-    rows: number of its rows.
-    size: in bytes.
-    modified: its time stamp in nanoseconds.
-    """
-
-    path: str
-    name: str
+    path: str  # absolute
+    name: str  # of its file of results, relative to the folder of rows, with slashes
     rows: int
-    size: int
-    modified: int
+    size: int  # in bytes
+    modified: int  # in nanoseconds
 
     def check(self) -> None:
         """Raise ValueError unless the file is there as it was, by its size and time stamp."""
@@ -226,17 +197,12 @@ class PointFile:
 
 @dataclass(frozen=True)
 class Source:
-    """Files of points in the order that numbers their rows: what `triangulate` reads, whatever their kind.
-
-    columns: which columns say where points are, the same ones in all files.
-    compact: whether files, cut or grouped in their order, are partitions as they are; by default that is measured.
-    carried: columns that the files of rows repeat from the files of points, before their own.
-    """
+    """Files of points in the order that numbers their rows: what `triangulate` reads, whatever their kind."""
 
     files: tuple[PointFile, ...]
-    columns: PointColumns
-    compact: bool | None = None
-    carried: tuple[str, ...] = ()
+    columns: PointColumns  # the same ones in all files
+    compact: bool | None = None  # whether files, cut or grouped in their order, are partitions; None: that is measured
+    carried: tuple[str, ...] = ()  # columns that the files of rows repeat from the files of points, before their own
 
 
 def opened(path: str | os.PathLike[str]) -> Any:
@@ -250,11 +216,7 @@ def opened(path: str | os.PathLike[str]) -> Any:
 
 
 def read(file: PointFile, columns: PointColumns, first: int, last: int) -> Iterator[FloatArray]:
-    """Points of rows `first` to `last` of a file, a row group at a time.
-
-    Raises ValueError if a row is not a point, naming the file, the row (counted from 1) and the value; if columns are
-    missing.
-    """
+    """Points of rows `first` to `last` of a file, a row group at a time."""
     with unchanged(file) as content:
         for low, table in slices(content, columns.names, first, last):
             yield columns.points(table, range(low + 1, low + 1 + table.num_rows))
@@ -316,10 +278,7 @@ def _group(content: Any, group: int, names: Sequence[str]) -> Any:
 
 
 def paths_of(given: FilesGiven) -> list[tuple[Path, str]]:
-    """Files and the names of their results: relative to the folder, to what a pattern fixes, or to what all share.
-
-    Raises FileNotFoundError where nothing is there.
-    """
+    """Files and the names of their results: relative to the folder, to what a pattern fixes, or to what all share."""
     root = None
     if not isinstance(given, str | os.PathLike):
         paths = [Path(os.path.abspath(path)) for path in given]

@@ -30,6 +30,9 @@ PIXELS: Final = "partition_info.csv"
 KINDS: Final = ("object", "source")
 """Of catalogues whose rows are points of their own; a margin repeats those of other pixels."""
 
+COORDINATES: Final = ("hats_col_ra", "hats_col_dec")
+"""Properties that name the columns of right ascension and declination, in degrees."""
+
 FOLDER_SIZE: Final = 10_000
 """Pixels that share a folder ``Dir``."""
 
@@ -58,24 +61,15 @@ class Pixel:
 
 @dataclass(frozen=True, eq=False)
 class Catalogue:
-    """A HATS catalogue on disk.
+    """A HATS catalogue on disk."""
 
-    folder: where ``hats.properties`` and ``dataset`` are.
-    properties: as the file has them.
-    pixels: in the order of ``partition_info.csv``, which is that of the rows.
-    """
-
-    folder: Path
+    folder: Path  # where ``hats.properties`` and ``dataset`` are
     properties: Mapping[str, str]
-    pixels: tuple[Pixel, ...]
+    pixels: tuple[Pixel, ...]  # in the order of ``partition_info.csv``, which is that of the rows
 
     @classmethod
     def read(cls, folder: Path) -> Self:
-        """The catalogue in a folder, or the primary one of a collection.
-
-        Raises ValueError for a folder that is none, a catalogue of another kind than points, such as a margin, and one
-        without the columns of its points.
-        """
+        """The catalogue in a folder, or the primary one of a collection."""
         described = _described(folder)
         if described is None and (folder / COLLECTION).is_file():
             primary = _properties(folder / COLLECTION).get("hats_primary_table_url", "")
@@ -89,21 +83,13 @@ class Catalogue:
         kind = properties.get("dataproduct_type", "object")
         if kind not in KINDS:
             raise ValueError(f"{described}: is a catalogue of type {kind!r}, not of points; give the one that it is of")
-        for name in ("hats_col_ra", "hats_col_dec"):
+        for name in COORDINATES:
             if not properties.get(name):
                 raise ValueError(f"{described}: {name} is missing; it names the column of the coordinate")
         return cls(folder, properties, tuple(_pixels(folder)))
 
-    @property
-    def columns(self) -> tuple[str, str]:
-        """The columns of right ascension and declination, degrees."""
-        return self.properties["hats_col_ra"], self.properties["hats_col_dec"]
-
     def files(self) -> list[Path]:
-        """The files of all pixels, those of a pixel by name: from the catalogue's folder.
-
-        Raises FileNotFoundError where a pixel's is not there, as in a catalogue that was copied in part.
-        """
+        """The files of all pixels, those of a pixel by name: from the catalogue's folder."""
         suffix, files = self.properties.get("hats_npix_suffix") or ".parquet", []
         for path in (self.folder / pixel.path(suffix) for pixel in self.pixels):
             within = path.rglob("*") if path.is_dir() else [path]
@@ -116,12 +102,7 @@ class Catalogue:
 
 
 def hats_source(given: FilesGiven, names: tuple[str, ...] | None, surface: Surface, latitude: Latitude) -> Source:
-    """A HATS catalogue or collection: its pixels in the order of ``partition_info.csv``.
-
-    Raises ValueError if the folder is not a catalogue of points, has another number of rows than it states, or is for
-    the plane.
-    Raises FileNotFoundError for a pixel without its file.
-    """
+    """A HATS catalogue or collection: its pixels in the order of ``partition_info.csv``."""
     if not isinstance(given, str | os.PathLike):
         raise ValueError(f"source is a list of {len(given)}, but a HATS catalogue is one folder")
     if surface != "sphere":
@@ -132,7 +113,7 @@ def hats_source(given: FilesGiven, names: tuple[str, ...] | None, surface: Surfa
     if stated.isdecimal() and int(stated) != count:
         held = f"but its files hold {count} rows"
         raise ValueError(f"{given}: hats_nrows is {stated}, {held}; the catalogue is incomplete")
-    chosen = names or catalogue.columns
+    chosen = names or tuple(catalogue.properties[name] for name in COORDINATES)
     if not files:
         return Source((), PointColumns("lonlat", chosen, surface, latitude))
     return Source(files, find_columns(opened(files[0].path).schema_arrow, chosen, surface, latitude), compact=True)

@@ -30,26 +30,17 @@ class Sample(NamedTuple):
 
 
 class Index:
-    """What a worker knows of all points; its pages are shared by the workers of a machine.
+    """What a worker knows of all points; its pages are shared by the workers of a machine."""
 
-    lows, highs, (nodes, width): boxes of the blocks, in the order of partitions, then those of the tree above them.
-    levels: the first node of each level.
-    part: the partition of each block.
-    first, last: its first row there, and the row after its last.
-    points, numbers: one point of each block, and its number.
-    sums: CRC-32 of its points and their numbers.
-    sizes: number of its points.
-    """
-
-    lows: FloatArray
+    lows: FloatArray  # boxes of the blocks, in the order of partitions, then those of the tree above them
     highs: FloatArray
-    levels: LongArray
-    part: IntArray
-    first: LongArray
-    last: LongArray
-    points: FloatArray
+    levels: LongArray  # the first node of each level
+    part: IntArray  # the partition of each block
+    first: LongArray  # its first row there
+    last: LongArray  # the row after its last
+    points: FloatArray  # one point of each block
     numbers: npt.NDArray[np.integer]
-    sums: npt.NDArray[np.uint32]
+    sums: npt.NDArray[np.uint32]  # CRC-32 of its points and their numbers
 
     def __init__(self, store: Store) -> None:
         self._store = store

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import shutil
-from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
 from contextlib import suppress
@@ -121,22 +120,22 @@ class Results:
         """Results in the order of the rows that were read: a dataset of pyarrow, with a file for each file of them."""
         return self._dataset("rows")
 
-    def _dataset(self, room: str) -> Any:
+    def _dataset(self, folder: str) -> Any:
         plan = load_plan(self.folder)
-        if not getattr(plan, room):
-            raise ValueError(f"{self.folder} has no {room}: the run was not asked for {room}=")
+        if not getattr(plan, folder):
+            raise ValueError(f"{self.folder} has no {folder}: the run was not asked for {folder}=")
         names = planned(plan, self.partitions)
-        paths = [str(self.folder / name) for name in names if name.startswith(f"{room}/")]
+        paths = [str(self.folder / name) for name in names if name.startswith(f"{folder}/")]
         return optional("pyarrow.dataset", "partitioned").dataset(paths, format="parquet")
 
 
 def planned(plan: Plan, partitions: Sequence[Mapping[str, Any]]) -> dict[str, int]:
     """Files of Parquet that a run leaves, relative to its folder, and how many rows they have."""
     files = {f"rows/{file.name}": file.rows for file in plan.files if plan.rows}
-    for room in ("triangles", "cells"):
-        if getattr(plan, room):
-            parts = partitions or ([NONE] if room == "triangles" else [])
-            files |= {f"{room}/{each['part']}.parquet": each[room] for each in parts}
+    for kind in ("triangles", "cells"):
+        if getattr(plan, kind):
+            parts = partitions or ([NONE] if kind == "triangles" else [])
+            files |= {f"{kind}/{each['part']}.parquet": each[kind] for each in parts}
     return files
 
 
@@ -150,13 +149,19 @@ def check_results(folder: Path, plan: Plan, partitions: Sequence[Mapping[str, An
             digest = (content.metadata.metadata or {}).get(b"stereodel.digest", b"").decode()
             if (content.metadata.num_rows, digest) != (rows, plan.digest):
                 raise ValueError(damaged(path, "changed"))
-    for room in RESULTS:
-        for path in (folder / room).rglob("*.parquet"):
+    for kind in RESULTS:
+        for path in (folder / kind).rglob("*.parquet"):
             if path not in wanted and path.name[0] not in "._":
                 raise ValueError(f"{path} is not of the run that wrote the files beside it; move it elsewhere")
 
 
-def execute(kind: type[Passes], source: Source, plan: Plan, out: str | os.PathLike[str], execution: Execution) -> Path:
+def execute(
+    results: Callable[[Passes, list[int]], Answer],
+    source: Source,
+    plan: Plan,
+    out: str | os.PathLike[str],
+    execution: Execution,
+) -> Path:
     """Do what a plan says, or what is left of it; the folder of results."""
     folder, scratch = Path(out).absolute(), execution.scratch
     real = Path(os.path.realpath(folder))
@@ -169,7 +174,7 @@ def execute(kind: type[Passes], source: Source, plan: Plan, out: str | os.PathLi
         _begin(store, execution.resume)
         if not (folder / REPORT).exists():
             with Crew(execution.jobs, executor=execution.executor) as crew:
-                kind(store, crew, execution.limit, execution.progress).run()
+                Passes(results, store, crew, execution.limit, execution.progress).run()
             _publish(store)
         else:
             check_results(folder, plan, load_json(folder / REPORT)["partitions"])
@@ -180,33 +185,28 @@ def execute(kind: type[Passes], source: Source, plan: Plan, out: str | os.PathLi
 def _begin(store: Store, resume: bool) -> None:
     """Note what is to be done, or find that it was noted before."""
     folder = store.results
-    noted, left = (folder / NAME).exists(), [folder / name for name in (REPORT, FILES, *RESULTS, KEPT)]
-    if not resume and (noted or _is_report(folder / REPORT)):
+    plan, report = folder / NAME, folder / REPORT
+    results = [report, *(folder / name for name in (FILES, *RESULTS, KEPT))]
+    is_ours = report.is_file() and b'"stereodel.digest"' in report.read_bytes()
+    if not resume and (plan.exists() or is_ours):
         with suppress(OSError, ValueError, TypeError, KeyError):  # its plan is lost or damaged
             shutil.rmtree(Store.of(folder, store.scratch.parent, load_plan(folder)).scratch)
         _clear(store)
-        _delete(*left, folder / NAME)  # the plan last: what has one is a run's
-        noted = False
-    if noted:
+        _delete(*results, plan)  # the plan last: what has one is a run's
+    there = [path for path in results if path.exists()]
+    if plan.exists():
         other = load_plan(folder).differs(store.plan)
         if other:
-            raise ValueError(
-                f"{folder} has a run of other files or arguments: {other}; take another folder, or begin anew "
-                "with resume=False"
-            )
-        if not (folder / REPORT).exists() and not (store.made / REPORT).exists():
-            _delete(*left)  # what an earlier deletion left, when it was interrupted
-        return
-    there = [path for path in left if path.exists()]
-    if there and _is_report(folder / REPORT):
-        raise ValueError(damaged(folder / NAME, "deleted"))
-    if there:
+            what = f"{folder} has a run of other files or arguments: {other}"
+            raise ValueError(f"{what}; take another folder, or begin anew with resume=False")
+        if not report.exists() and not (store.made / REPORT).exists():
+            _delete(*results)  # what an earlier deletion left, when it was interrupted
+    elif there and is_ours:
+        raise ValueError(damaged(plan, "deleted"))
+    elif there:
         raise ValueError(f"{folder} has {there[-1].name!r}, which is not of a run; take another folder")
-    store.plan.save(folder)
-
-
-def _is_report(path: Path) -> bool:
-    return path.is_file() and b'"stereodel.digest"' in path.read_bytes()
+    else:
+        store.plan.save(folder)
 
 
 def _delete(*paths: Path) -> None:
@@ -240,13 +240,15 @@ def _clear(store: Store) -> None:
         own.rmdir()
 
 
+Answer = tuple[dict[str, Any], list[Note]]
+"""Statistics of all partitions, and the note of each."""
+
+
 @dataclass(frozen=True)
-class Passes(ABC):
-    """The passes of a run, one after another; those that were done before are not done again.
+class Passes:
+    """The passes of a run, one after another; those that were done before are not done again."""
 
-    A kind of run is a subclass that says in `results` what is done with partitions.
-    """
-
+    results: Callable[[Passes, list[int]], Answer]  # of the partitions that have points
     store: Store
     crew: Crew
     limit: int
@@ -258,7 +260,7 @@ class Passes(ABC):
         if (store.made / REPORT).exists():
             return
         compact, parts = self._collected() if plan.size else (True, [])
-        statistics, notes = self.results(parts)
+        statistics, notes = self.results(self, parts)
         if plan.rows:
             self._aligned()
         _write_files(store)
@@ -273,14 +275,8 @@ class Passes(ABC):
         numbers = {"statistics": statistics | {"compact": compact}, "partitions": partitions}
         save_json(store.made / REPORT, plan.metadata | numbers)
 
-    @abstractmethod
-    def results(self, parts: list[int]) -> tuple[dict[str, Any], list[Note]]:
-        """Compute what is wanted of the partitions that have points: statistics of all, and the note of each."""
-
     def do(self, name: str, function: Callable[..., None], tasks: Sequence[int], **options: Any) -> list[Note]:
         """The notes of the tasks of a pass, in order; noted at the end, as what they wrote may be deleted then.
-
-        function: called with the store and the number of a task.
 
         What counts is what they left on the disk: a task whose files are gone is done again.
         """

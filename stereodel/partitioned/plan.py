@@ -76,54 +76,33 @@ class RowRange(NamedTuple):
 
 @dataclass(frozen=True)
 class Question:
-    """What to compute at targets, from the points of a run that ended.
+    """What to compute at targets, from the points of a run that ended."""
 
-    run: its folder, absolute.
-    digest: digest of its plan.
-    method: nearest points, or how values are interpolated.
-    k: number of nearest points; None: the nearest one, without an axis of its own.
-    values: columns of the points' files that are interpolated.
-    flat: whether the points have no triangles, so that there are no values between them.
-    """
-
-    run: str
-    digest: str
-    method: str
-    k: int | None = None
-    values: tuple[str, ...] = ()
-    flat: bool = False
+    run: str  # its folder, absolute
+    digest: str  # of its plan
+    method: str  # nearest points, or how values are interpolated
+    k: int | None = None  # number of nearest points; None: the nearest one, without an axis of its own
+    values: tuple[str, ...] = ()  # columns of the points' files that are interpolated
+    flat: bool = False  # the points have no triangles, so that there are no values between them
 
 
 @dataclass(frozen=True)
 class Plan:
-    """What a run does; the same of equal files and arguments, so that one that was interrupted goes on.
+    """What a run does; the same of equal files and arguments, so that one that was interrupted goes on."""
 
-    version: version of the library.
-    columns: which columns say where points are.
-    carried: columns of the files that are repeated.
-    partition: points of a partition, about.
-    rows: columns for the points.
-    triangles, cells: whether they are written.
-    compact: whether files are partitions; None: that is measured.
-    index: whether points stay in their partitions, for targets.
-    question: what is computed at the points, if they are targets.
-    block: points of a block at most.
-    share: rows of a task that reads files, about.
-    """
-
-    version: str
+    version: str  # of the library
     files: tuple[PointFile, ...]
-    columns: PointColumns
-    carried: tuple[str, ...]
-    compact: bool | None
-    partition: int
-    rows: tuple[str, ...]
-    triangles: bool = False
+    columns: PointColumns  # that say where points are
+    carried: tuple[str, ...]  # columns of the files that are repeated
+    compact: bool | None  # whether files are partitions; None: that is measured
+    partition: int  # points of a partition, about
+    rows: tuple[str, ...]  # columns of results for the points
+    triangles: bool = False  # whether they are written, as cells are
     cells: bool = False
-    index: bool = False
-    question: Question | None = None
-    block: int = 0
-    share: int = 0
+    index: bool = False  # whether points stay in their partitions, for targets
+    question: Question | None = None  # what is computed at the points, if they are targets
+    block: int = 0  # points of a block at most
+    share: int = 0  # rows of a task that reads files, about
 
     @classmethod
     def of(cls, source: Source, **options: Any) -> Plan:
@@ -241,9 +220,7 @@ def _with_tuples(given: dict[str, Any]) -> dict[str, Any]:
 
 
 def _cut(files: Sequence[PointFile], size: int) -> tuple[tuple[RowRange, ...], ...]:
-    """Rows of files in order, in tasks of about `size`: small files grouped, large ones cut evenly.
-
-    A file that is not half as large again is not cut: its rows may lie anywhere in it.
+    """Rows of files in order, in tasks of about `size`: small files grouped, those half as large again cut evenly.
 
     >>> files = [PointFile("", str(k), rows, 0, 0) for k, rows in enumerate([9, 2, 2, 0, 5])]
     >>> for task in _cut(files, 4):
@@ -279,11 +256,7 @@ def source_of(
     keep: Sequence[str],
     results: Collection[str],
 ) -> Source:
-    """The source that is given, of a kind or of the one that it looks like, with columns carried along beside results.
-
-    Raises ValueError for columns to keep that are not there, have names that results have, or other types in other
-    files; for a file that is there under two names.
-    """
+    """The source that is given, of a kind or of the one that it looks like, with the columns that are carried along."""
     chosen = as_choice(kind, ("auto", *KINDS), "kind")
     if chosen == "auto":
         chosen = "hats" if is_catalogue(given) else "parquet"

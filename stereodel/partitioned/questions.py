@@ -11,7 +11,6 @@ in the order that they have in memory.
 from __future__ import annotations
 
 import os
-from abc import abstractmethod
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -21,12 +20,13 @@ from typing import Any, Final
 import numpy as np
 
 from stereodel._arrays import BoolArray, FloatArray, Indices, LongArray
+from stereodel._tasks.kept import Note
 from stereodel.interpolation import LinearInterpolator, NaturalNeighborInterpolator
 from stereodel.partitioned.files import FilesGiven, doubles_of, slices, unchanged
 from stereodel.partitioned.index import Index, Sample
 from stereodel.partitioned.passes import Execution, Passes, Results, execute, totals
 from stereodel.partitioned.plan import Plan, Question, source_of
-from stereodel.partitioned.rounds import Mesh, Reading, Rounds, Verdict, triangulation
+from stereodel.partitioned.rounds import Mesh, Rounds, Verdict, clock, measured, triangulation
 from stereodel.partitioned.stars import distances, write_rows
 from stereodel.partitioned.store import KEPT, Columns, Store, load_plan
 from stereodel.triangulation import SphericalDelaunay
@@ -96,32 +96,25 @@ class Answers(Results):
     """
 
 
+Certified = tuple[Columns, BoolArray, FloatArray]
+"""Answers at targets, which of them are open, and how deep those reach into each block that was not read."""
+
+
 @dataclass
 class Targets(Rounds[tuple[Indices, Columns]]):
-    """The targets of a partition; what is computed at them is a subclass with `certified`.
-
-    points: near ones next to one another.
-    numbers: their numbers.
-    """
+    """The targets of a partition, and what a question computes at them."""
 
     store: Store
-    points: FloatArray
+    points: FloatArray  # near ones next to one another
     numbers: LongArray
 
-    @property
+    @cached_property
     def question(self) -> Question:
-        """What is computed at them."""
+        """What is computed."""
         return question_of(self.store.plan)
 
-    @abstractmethod
-    def certified(self, mesh: Mesh, sample: Sample, targets: FloatArray, unread: BoolArray) -> Certified:
-        """Answers of a triangulation of some points, whose numbers ascend."""
-
     def all(self) -> Iterator[tuple[Indices, Columns]]:
-        """Rows of targets, and their answers, until all have theirs.
-
-        Raises MemoryError where a single target needs more than `limit` points at once, naming it.
-        """
+        """Rows of targets, and their answers, until all have theirs."""
         waiting = [np.arange(len(self.points))]
         while waiting:
             rows = waiting.pop()
@@ -142,41 +135,30 @@ class Targets(Rounds[tuple[Indices, Columns]]):
         """Answers at some targets that are final."""
         sample = sample.sorted()
         mesh = triangulation(sample.points)
-        columns, is_open, depth = self.certified(mesh, sample, self.points[asked], unread)
+        certified = self._interpolated if self.question.values else self._nearest
+        columns, is_open, depth = certified(mesh, sample.numbers, self.points[asked], unread)
         left, core = asked[is_open], np.zeros_like(unread)
         if len(left) and not unread.all():
             core[sample.blocks[np.asarray(mesh.nearest(self.points[left], workers=1))]] = True
         final = asked[~is_open], {name: column[~is_open] for name, column in columns.items()}
         return Verdict(final, left, depth, core & ~unread, len(left) * int(self.index.sizes.max(initial=0)))
 
-
-Certified = tuple[Columns, BoolArray, FloatArray]
-"""Answers at targets, which of them are open, and how deep those reach into each block that was not read."""
-
-
-class Nearest(Targets):
-    """The nearest points, in the order of distances, equally near ones in that of numbers."""
-
-    def certified(self, mesh: Mesh, sample: Sample, targets: FloatArray, unread: BoolArray) -> Certified:
+    def _nearest(self, mesh: Mesh, numbers: LongArray, targets: FloatArray, unread: BoolArray) -> Certified:
         """A target is open if the disc around it through the last of its nearest points touches an unread block."""
         wanted = self.question.k or 1
-        k = min(wanted, len(sample.numbers))
+        k = min(wanted, len(numbers))
         found = np.asarray(mesh.nearest(targets, k=k, workers=1))
         farthest = np.ascontiguousarray(mesh.points[found[:, -1]])
         is_open, depth = self.index.space.open_discs(targets, farthest, *self.index.tree(unread))
         if k < wanted:
             return {}, np.ones(len(targets), dtype=np.bool_), depth if depth.any() else unread.astype(np.float64)
         away = distances(np.repeat(targets, k, axis=0), mesh.points[found.ravel()]).reshape(found.shape)
-        columns: Columns = {"nearest": sample.numbers[found], "distance": away}
+        columns: Columns = {"nearest": numbers[found], "distance": away}
         if self.question.k is None:
             columns = {name: column[:, 0] for name, column in columns.items()}
         return columns, is_open, depth
 
-
-class Interpolation(Targets):
-    """Values at targets, NaN outside all triangles."""
-
-    def certified(self, mesh: Mesh, sample: Sample, targets: FloatArray, unread: BoolArray) -> Certified:
+    def _interpolated(self, mesh: Mesh, numbers: LongArray, targets: FloatArray, unread: BoolArray) -> Certified:
         """A target is open if its value rests on triangles, or edges of the hull, whose bubbles touch unread blocks."""
         names, natural = self.question.values, self.question.method == "natural"
         values = np.full((len(targets), len(names)), np.nan)
@@ -195,7 +177,7 @@ class Interpolation(Targets):
                 checked=True,
             )
             if not is_open.all():
-                function = INTERPOLATORS[self.question.method](mesh, self._values(sample.numbers))
+                function = INTERPOLATORS[self.question.method](mesh, self._values(numbers))
                 values[~is_open] = function(targets[~is_open], workers=1)
         return dict(zip(names, values.T, strict=True)), is_open, depth
 
@@ -225,10 +207,7 @@ def points_of(question: Question) -> Store:
 
 
 def take_values(store: Store, share: int) -> None:
-    """Values of a share of the points, in their order, as an array that later tasks map.
-
-    Raises ValueError for a value that is not a finite number, naming file and row.
-    """
+    """Values of a share of the points, in their order, as an array that later tasks map."""
     question = question_of(store.plan)
     plan, names = points_of(question).plan, question.values
     values: list[FloatArray] = []
@@ -245,21 +224,19 @@ def take_values(store: Store, share: int) -> None:
 
 def answer(store: Store, part: int, limit: int) -> None:
     """The answers at a partition's targets."""
-    plan, question = store.plan, question_of(store.plan)
+    began, plan, question = clock(), store.plan, question_of(store.plan)
     points, numbers = (np.array(store.load("points", part, name)) for name in ("points", "numbers"))
     columns: Columns = {"number": numbers}
     for name, kind in plan.row_kinds.items():
         columns[name] = np.full((len(numbers), *kind.shape), np.nan if question.flat else 0, dtype=kind.base)
-    reading = Reading()
+    sizes: list[int] = []
     if not question.flat:
-        given = Index(points_of(question)), limit, store, points, numbers
-        targets = (Interpolation if question.values else Nearest)(*given, reading=reading)
-        for rows, found in targets.all():
+        for rows, found in Targets(Index(points_of(question)), limit, store, points, numbers, sizes=sizes).all():
             for name, column in found.items():
                 columns[name][rows] = column
     order = np.argsort(numbers)
     files = write_rows(store, part, {name: column[order] for name, column in columns.items()})
-    store.notes.keep("answer", {"points": len(numbers)} | reading.summary(), files, task=part)
+    store.notes.keep("answer", {"points": len(numbers)} | measured(sizes, began), files, task=part)
 
 
 def indexed(folder: Path) -> Plan:
@@ -287,21 +264,18 @@ def ask(
     places = points_of(question).plan.columns
     source = source_of(targets, kind, columns, places.surface, places.latitude, keep, names)
     plan = Plan.of(source, partition=int(execution.partition), rows=tuple(names), question=question)
-    return Answers(execute(_Answering, source, plan, out, execution))
+    return Answers(execute(_answers, source, plan, out, execution))
 
 
-class _Answering(Passes):
-    """Answers at all targets."""
-
-    def results(self, parts: list[int]) -> tuple[dict[str, Any], list[dict[str, Any]]]:
-        """What is asked at all targets."""
-        store, plan, notes = self.store, self.store.plan, []
-        if parts:
-            question = question_of(plan)
-            if question.values and not question.flat and store.notes.note("answer") is None:
-                self.do("values", take_values, range(len(points_of(question).plan.shares)))
-            notes = self.do("answer", answer, parts, limit=self.limit)
-            if store.notes.note("align") is None:
-                store.gather("stars", parts)
-            store.drop("points", "values")
-        return {"surface": plan.columns.surface, "targets": plan.size} | totals(notes), notes
+def _answers(passes: Passes, parts: list[int]) -> tuple[dict[str, Any], list[Note]]:
+    """What is asked at all targets."""
+    store, plan, notes = passes.store, passes.store.plan, []
+    if parts:
+        question = question_of(plan)
+        if question.values and not question.flat and store.notes.note("answer") is None:
+            passes.do("values", take_values, range(len(points_of(question).plan.shares)))
+        notes = passes.do("answer", answer, parts, limit=passes.limit)
+        if store.notes.note("align") is None:
+            store.gather("stars", parts)
+        store.drop("points", "values")
+    return {"surface": plan.columns.surface, "targets": plan.size} | totals(notes), notes

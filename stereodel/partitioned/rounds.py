@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import time
 from abc import ABC, abstractmethod
-from collections.abc import Generator
+from collections.abc import Generator, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Final, Generic, NamedTuple, TypeVar
 
@@ -36,53 +36,23 @@ def triangulation(points: FloatArray) -> Mesh:
     return PlanarDelaunay(points, workers=1) if points.shape[1] == 2 else SphericalDelaunay(points, workers=1)
 
 
-class Reading:
-    """What rounds read, and how long they took: their number, points in all of them, and in the largest."""
-
-    def __init__(self) -> None:
-        self.rounds = self.read = self.largest = 0
-        self._began = time.perf_counter(), time.process_time()
-
-    def add(self, count: int) -> None:
-        """Note a round with so many points."""
-        self.rounds += 1
-        self.read += count
-        self.largest = max(self.largest, count)
-
-    def summary(self) -> dict[str, Any]:
-        """All of it, with the seconds so far."""
-        seconds, cpu = time.perf_counter() - self._began[0], time.process_time() - self._began[1]
-        numbers = {"rounds": self.rounds, "read": self.read, "largest": self.largest}
-        return numbers | {"seconds": seconds, "cpu": cpu}
-
-
 class Verdict(NamedTuple, Generic[T]):
-    """What a round decides.
+    """What a round decides."""
 
-    answers: those that are final.
-    waiting: what is asked again.
-    depth, (blocks,): how deep the bubbles of that reach into each block that was not read.
-    core: blocks around that, which are read again.
-    budget: points that the first deepest blocks may have.
-    """
-
-    answers: T
-    waiting: Indices
-    depth: FloatArray
-    core: BoolArray
-    budget: int
+    answers: T  # that are final
+    waiting: Indices  # what is asked again
+    depth: FloatArray  # how deep the bubbles of that reach into each block that was not read
+    core: BoolArray  # blocks around that, which are read again
+    budget: int  # points that the first deepest blocks may have
 
 
 @dataclass
 class Rounds(ABC, Generic[T]):
-    """The rounds of one task; what is asked is a subclass.
-
-    limit: points that may be read at once.
-    """
+    """The rounds of one task; what is asked is a subclass."""
 
     index: Index
-    limit: int
-    reading: Reading = field(default_factory=Reading, kw_only=True)
+    limit: int  # points that may be read at once
+    sizes: list[int] = field(default_factory=list, kw_only=True)  # points of each round
 
     @abstractmethod
     def decide(self, sample: Sample, asked: Indices, unread: BoolArray) -> Verdict[T]:
@@ -102,7 +72,7 @@ class Rounds(ABC, Generic[T]):
             count = int(index.sizes[read].sum()) + int(np.count_nonzero(one))
             if count > room:
                 return asked, count
-            self.reading.add(count)
+            self.sizes.append(count)
             sample = index.read(np.flatnonzero(read), np.flatnonzero(one))
             answers, asked, depth, core, least = self.decide(sample, asked, ~read)
             yield answers
@@ -116,3 +86,15 @@ class Rounds(ABC, Generic[T]):
             touched[deepest[before <= budget]] = True
             read = touched | core
         return asked, 0
+
+
+def clock() -> FloatArray:
+    """Seconds that passed, and those of the processor."""
+    return np.array([time.perf_counter(), time.process_time()])
+
+
+def measured(sizes: Sequence[int], began: FloatArray) -> dict[str, Any]:
+    """What the rounds of a task read, and the seconds that it took."""
+    seconds, cpu = (clock() - began).tolist()
+    rounds = {"rounds": len(sizes), "read": sum(sizes), "largest": max(sizes, default=0)}
+    return rounds | {"seconds": seconds, "cpu": cpu}

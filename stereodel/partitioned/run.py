@@ -30,9 +30,6 @@ Row = Literal["area", "degree", "nearest", "distance", "kept"]
 
 DEFAULTS: Final = Execution()
 
-PASSES: Final = ("sample", "spread", "collect", "solve", "align")
-"""Passes of a triangulation, in order; if the files are compact, nothing is spread."""
-
 
 @dataclass(frozen=True)
 class Run(Results):
@@ -308,28 +305,25 @@ def triangulate(
         cells=bool(cells),
         index=bool(index),
     )
-    return Run(execute(_Triangulating, found, plan, out, execution))
+    return Run(execute(_stars, found, plan, out, execution))
 
 
-class _Triangulating(Passes):
+def _stars(passes: Passes, parts: list[int]) -> tuple[dict[str, Any], list[Note]]:
     """Triangles, cells and results for all points."""
-
-    def results(self, parts: list[int]) -> tuple[dict[str, Any], list[Note]]:
-        """Those of all partitions."""
-        store, plan, notes = self.store, self.store.plan, []
-        if parts:
-            store.notes.once("index", lambda: Index.build(store, parts))
-            notes = self.do("solve", solve, parts, limit=self.limit)
-            if plan.rows and store.notes.note("align") is None:
-                store.gather("stars", parts)
-            if not plan.index:
-                store.drop("points", "blocks")
-        elif plan.triangles:
-            none = {name: np.empty(0, dtype=np.int64) for name in "abc"} | {"closing": np.empty(0, dtype=np.bool_)}
-            store.write_table(store.folder("triangles") / f"{NONE['part']}.parquet", none)
-        statistics = _statistics(plan, notes)
-        _check(plan, statistics)
-        return statistics, notes
+    store, plan, notes = passes.store, passes.store.plan, []
+    if parts:
+        store.notes.once("index", lambda: Index.build(store, parts))
+        notes = passes.do("solve", solve, parts, limit=passes.limit)
+        if plan.rows and store.notes.note("align") is None:
+            store.gather("stars", parts)
+        if not plan.index:
+            store.drop("points", "blocks")
+    elif plan.triangles:
+        none = {name: np.empty(0, dtype=np.int64) for name in "abc"} | {"closing": np.empty(0, dtype=np.bool_)}
+        store.write_table(store.folder("triangles") / f"{NONE['part']}.parquet", none)
+    statistics = _statistics(plan, notes)
+    _check(plan, statistics)
+    return statistics, notes
 
 
 def _statistics(plan: Plan, notes: Sequence[Note]) -> dict[str, Any]:
@@ -350,10 +344,7 @@ def _statistics(plan: Plan, notes: Sequence[Note]) -> dict[str, Any]:
 
 
 def _check(plan: Plan, statistics: dict[str, Any]) -> None:
-    """Triangles by Euler's formula, and the areas of all cells of a sphere.
-
-    Raises RuntimeError where they differ, which no input may cause.
-    """
+    """Compare triangles with Euler's formula, and the areas of all cells with a sphere's; no input lets them differ."""
     triangles, euler, area, whole = *(statistics[name] for name in ("triangles", "euler", "area")), 4 * np.pi
     if triangles != euler:
         raise RuntimeError(f"there are {triangles} triangles, but {euler} by Euler's formula")

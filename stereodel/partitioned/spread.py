@@ -45,8 +45,6 @@ def tree_of(sample: FloatArray, leaves: int) -> npt.NDArray[np.void]:
 
     They stand in the order of a heap: the children of inner node k are 2k + 1 and 2k + 2, then come the leaves.
 
-    sample, (n, 2) or (n, 3) array: points of the plane, or unit vectors.
-
     >>> tree = tree_of(np.array([[0.0, 0], [1, 0], [2, 0], [3, 0], [4, 0], [5, 0]]), 3)
     >>> tree["axis"].tolist(), tree["value"].tolist()
     ([0, 0], [3.0, 1.0])
@@ -81,9 +79,6 @@ def is_compact(sample: FloatArray, parts: IntArray) -> bool:
     it in a Delaunay triangulation of a sample of all points: at most `COMPACT` times as many as for a k-d tree with the
     same number of leaves. Pixels of HEALPix and files sorted along a space-filling curve have 1 to 1.5 times as many;
     files in the order of time, of names, or bands of latitude far more.
-
-    sample, (n, 2) or (n, 3) array: points of the plane, or unit vectors.
-    parts, (n,) array of int: the partition of each point.
 
     >>> points = np.random.default_rng(1).uniform(size=(4000, 2))
     >>> squares = (points[:, 0] * 4).astype(np.int32) * 4 + (points[:, 1] * 4).astype(np.int32)
@@ -129,10 +124,7 @@ def is_laid_out(store: Store) -> bool:
 
 
 def points_of(plan: Plan, ranges: Sequence[RowRange]) -> FloatArray:
-    """Points of ranges of rows, one after another.
-
-    Raises ValueError where a file has fewer of the rows than it had.
-    """
+    """Points of ranges of rows, one after another."""
     points = np.empty((sum(last - first for _, first, last in ranges), plan.columns.width))
     filled = 0
     for file, first, last in ranges:

@@ -17,7 +17,7 @@ from stereodel.io.formats.map_rows import MapRows
 from stereodel.io.formats.parquet import write_parquet
 from stereodel.io.maps.rows_of import rows_of
 from stereodel.partitioned.index import Index, Sample
-from stereodel.partitioned.rounds import Mesh, Rounds, Verdict, triangulation
+from stereodel.partitioned.rounds import Mesh, Rounds, Verdict, clock, measured, triangulation
 from stereodel.partitioned.store import Columns, Store, starts_of
 from stereodel.sphere import angular_distance
 from stereodel.triangulation import PlanarDelaunay, PlanarVoronoi, SphericalVoronoi
@@ -33,19 +33,13 @@ CELLS: Final = ("kept", "degree", "area", "nearest", "distance")
 
 
 class Solved(NamedTuple):
-    """Results for points whose stars are final.
-
-    triangles: those whose lowest point is among them.
-    closing: which triangles are.
-    edges: how many edges of the hull begin at them.
-    cells: as polygons, if they are wanted.
-    """
+    """Results for points whose stars are final."""
 
     columns: Columns
-    triangles: LongArray
-    closing: BoolArray
-    edges: int
-    cells: MapRows | None
+    triangles: LongArray  # whose lowest point is among them
+    closing: BoolArray  # which triangles are
+    edges: int  # of the hull that begin at them
+    cells: MapRows | None  # as polygons, if they are wanted
 
 
 @dataclass
@@ -57,10 +51,7 @@ class Stars(Rounds[Solved]):
     size: int = 0
 
     def all(self) -> Iterator[Solved]:
-        """Those of all its points, round by round.
-
-        Raises MemoryError where that takes more than `limit` points at once.
-        """
+        """Those of all its points, round by round."""
         numbers = self.store.load("points", self.part, "numbers").astype(np.int64)
         self.size = len(numbers)
         own = self._core(np.flatnonzero(self.index.part == self.part))
@@ -184,7 +175,8 @@ def distances(a: FloatArray, b: FloatArray) -> FloatArray:
 
 def solve(store: Store, part: int, limit: int) -> None:
     """The stars of a partition's points, in files."""
-    stars, plan = Stars(Index(store), limit, store, part), store.plan
+    began, plan = clock(), store.plan
+    stars = Stars(Index(store), limit, store, part)
     found = list(stars.all())
     order = np.argsort(np.concatenate([each.columns["number"] for each in found]))
     columns = {name: np.concatenate([each.columns[name] for each in found])[order] for name in ("number", *CELLS)}
@@ -210,7 +202,7 @@ def solve(store: Store, part: int, limit: int) -> None:
     if cells:
         summary["cells"] = sum(map(len, cells))
         files.append(_write_cells(store, part, cells))
-    store.notes.keep("solve", summary | stars.reading.summary(), files, task=part)
+    store.notes.keep("solve", summary | measured(stars.sizes, began), files, task=part)
 
 
 def write_rows(store: Store, part: int, columns: Columns, **more: Any) -> list[Path]:

@@ -165,7 +165,6 @@ def load(path: Path, *, checked: bool = True) -> npt.NDArray[Any]:
     """An array of a file: its pages come when they are touched, and are shared by all processes of a machine.
 
     checked: whether its bytes are compared with their CRC-32, once in a process; if not, slices can be, by `sums`.
-    Raises ValueError where the file was deleted, cut short or changed after it was written.
     """
     array, total = _mapped(path)
     if checked:

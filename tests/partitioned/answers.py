@@ -17,6 +17,9 @@ from stereodel import (
 from stereodel.partitioned import Execution, triangulate
 from tests import sets
 
+PASSES = ("sample", "spread", "collect", "solve", "align")
+"""Of a triangulation, in order; if the files are compact, nothing is spread."""
+
 HOW = {field.name for field in fields(Execution)}
 
 

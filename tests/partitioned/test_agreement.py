@@ -5,11 +5,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from stereodel.partitioned import run as running
 from stereodel.partitioned import spread, stars
 from tests import sets
 from tests.examples import examples
-from tests.partitioned.answers import differences, in_memory, rows_of, serially, surface_of, write_points
+from tests.partitioned.answers import PASSES, differences, in_memory, rows_of, serially, surface_of, write_points
 from tests.sets import LONLAT, XY, XYZ
 
 SIZE = 500
@@ -131,7 +130,7 @@ def test_files_in_another_order_are_spread(tmp_path):
     calls = []
     run = check(tmp_path, columns, rows, in_memory(columns, rows), 8, progress=lambda *told: calls.append(told))
     assert not run.statistics["compact"]
-    assert list(dict.fromkeys(name for name, _, _ in calls)) == list(running.PASSES)
+    assert list(dict.fromkeys(name for name, _, _ in calls)) == list(PASSES)
     last = {name: (done, of) for name, done, of in calls}
     assert all(done == of > 0 for done, of in last.values())
 

@@ -14,11 +14,9 @@ import pytest
 from stereodel.partitioned import Run
 from stereodel.partitioned import passes as passes_of
 from stereodel.partitioned.files import PointFile
-from tests.partitioned.answers import differences, executed, in_memory, rows_of, serially, write_points
+from tests.partitioned.answers import PASSES, differences, executed, in_memory, rows_of, serially, write_points
 from tests.sets import LONLAT
 from tests.tiers import by_day
-
-PASSES = ("sample", "spread", "collect", "solve", "align")
 
 
 @pytest.fixture(autouse=True)

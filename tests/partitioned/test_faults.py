@@ -15,9 +15,8 @@ import pytest
 from stereodel._tasks.crew import Crew
 from stereodel._tasks.kept import locked
 from stereodel.partitioned import run as running
-from stereodel.partitioned.run import PASSES
 from tests.disks import small_disk
-from tests.partitioned.answers import differences, in_memory, in_parallel, rows_of, serially, write_points
+from tests.partitioned.answers import PASSES, differences, in_memory, in_parallel, rows_of, serially, write_points
 from tests.sets import LONLAT, XYZ
 
 
