@@ -61,7 +61,7 @@ class Work:
 
         columns = self.plane or (self.lon and self.lat and (self.lon, self.lat)) or None
         names = {"columns": "--plane" if self.plane else "--lon", "keep": "--keep", "resume": "--overwrite"}
-        with reporting() as told, workers(scheduler) as executor, naming_options(**names):
+        with reporting() as progress, workers(scheduler) as executor, naming_options(**names):
             try:
                 run = triangulate(
                     self.points[0] if len(self.points) == 1 else self.points,
@@ -76,7 +76,7 @@ class Work:
                         self.partition or Execution.partition,
                         executor=executor,
                         resume=not self.overwrite,
-                        progress=told,
+                        progress=progress,
                     ),
                 )
             except KeyboardInterrupt:

@@ -131,13 +131,11 @@ def coordinates_of(form: Form, name: str, column: Any, rows: Sequence[int]) -> l
     if column.null_count:
         row = rows[int(np.flatnonzero(column.is_null().to_numpy(zero_copy_only=False))[0])]
         raise ValueError(f"row {row}: a Point is needed, not no geometry; leave such rows out")
-    if form == "wkb" and len(column):
+    if form == "wkb":
         plain = column.cast(pyarrow.large_binary())
         _, offsets, values = plain.buffers()
         starts = np.frombuffer(offsets, np.int64)[plain.offset : plain.offset + len(plain) + 1]
         return [(name, pyarrow.array(axis)) for axis in wkb.xy(np.frombuffer(values, np.uint8), starts, rows).T]
-    if form == "wkb":
-        return [(name, pyarrow.array([], pyarrow.float64()))] * 2
     if types.is_struct(column.type):
         return [(f"{name}.{axis}", column.field(axis)) for axis in ("x", "y")]
     if not types.is_fixed_size_list(column.type) or column.type.list_size < 2:

@@ -131,16 +131,16 @@ class Targets(Rounds[tuple[Indices, Columns]]):
             if len(left):
                 waiting += [left[len(left) // 2 :], left[: len(left) // 2]]
 
-    def decide(self, sample: Sample, asked: Indices, unread: BoolArray) -> Verdict[tuple[Indices, Columns]]:
+    def decide(self, sample: Sample, pending: Indices, unread: BoolArray) -> Verdict[tuple[Indices, Columns]]:
         """Answers at some targets that are final."""
         sample = sample.sorted()
         mesh = triangulation(sample.points)
         certified = self._interpolated if self.question.values else self._nearest
-        columns, is_open, depth = certified(mesh, sample.numbers, self.points[asked], unread)
-        left, core = asked[is_open], np.zeros_like(unread)
+        columns, is_open, depth = certified(mesh, sample.numbers, self.points[pending], unread)
+        left, core = pending[is_open], np.zeros_like(unread)
         if len(left) and not unread.all():
             core[sample.blocks[np.asarray(mesh.nearest(self.points[left], workers=1))]] = True
-        final = asked[~is_open], {name: column[~is_open] for name, column in columns.items()}
+        final = pending[~is_open], {name: column[~is_open] for name, column in columns.items()}
         return Verdict(final, left, depth, core & ~unread, len(left) * int(self.index.sizes.max(initial=0)))
 
     def _nearest(self, mesh: Mesh, numbers: LongArray, targets: FloatArray, unread: BoolArray) -> Certified:
@@ -240,7 +240,7 @@ def answer(store: Store, part: int, limit: int) -> None:
 
 
 def indexed(folder: Path) -> Plan:
-    """The plan of a run that can be asked."""
+    """The plan of a run whose points are kept for targets."""
     plan = load_plan(folder)
     if not plan.index or (plan.size and not (folder / KEPT).is_dir()):
         raise FileNotFoundError(
@@ -268,7 +268,7 @@ def ask(
 
 
 def _answers(passes: Passes, parts: list[int]) -> tuple[dict[str, Any], list[Note]]:
-    """What is asked at all targets."""
+    """Answers at all targets."""
     store, plan, notes = passes.store, passes.store.plan, []
     if parts:
         question = question_of(plan)

@@ -63,12 +63,12 @@ class Stars(Rounds[Solved]):
                 "higher limit, or smaller partitions, which do not help if all points lie on one line or great circle"
             )
 
-    def decide(self, sample: Sample, asked: Indices, unread: BoolArray) -> Verdict[Solved]:
+    def decide(self, sample: Sample, pending: Indices, unread: BoolArray) -> Verdict[Solved]:
         """The stars that are final: of duplicates all together."""
         mesh, numbers = triangulation(sample.points), sample.numbers
         here = np.flatnonzero(self.index.part[sample.blocks] == self.part)
-        if len(here) > len(asked):
-            here = here[np.isin(numbers[here], asked)]
+        if len(here) > len(pending):
+            here = here[np.isin(numbers[here], pending)]
         kept = kept_of(mesh)
         wanted, final = np.zeros((2, len(numbers)), dtype=np.bool_)
         wanted[kept[here]] = True

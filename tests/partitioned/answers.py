@@ -114,3 +114,25 @@ def differences(run, truth):
         atol=2.0**-98 if run.statistics["surface"] == "sphere" else 0.0,
     )
     return wrong if near else [*wrong, "distance"]
+
+
+def clean(out):
+    """Whether a folder has results alone, and no file of a process that was killed."""
+    names = {path.name for path in out.iterdir()} - {"triangles"}
+    return names == {".lock", "files.parquet", "plan.json", "rows", "run.json"} and not list(out.rglob("*.tmp"))
+
+
+def meanwhile(name, done, action):
+    """A function for `progress` that does something once, when so many tasks of a pass are done."""
+    seen = []
+
+    def progress(*state):
+        if state[:2] == (name, done) and not seen:
+            seen.append(state)
+            action()
+
+    return progress
+
+
+def stop():
+    raise KeyboardInterrupt

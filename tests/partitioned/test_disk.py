@@ -14,7 +14,18 @@ import pytest
 from stereodel.partitioned import Run
 from stereodel.partitioned import passes as passes_of
 from stereodel.partitioned.files import PointFile
-from tests.partitioned.answers import PASSES, differences, executed, in_memory, rows_of, serially, write_points
+from tests.partitioned.answers import (
+    PASSES,
+    clean,
+    differences,
+    executed,
+    in_memory,
+    meanwhile,
+    rows_of,
+    serially,
+    stop,
+    write_points,
+)
 from tests.sets import LONLAT
 from tests.tiers import by_day
 
@@ -33,18 +44,6 @@ def points(tmp_path):
         tmp_path / "points", (*columns, "id"), np.column_stack([rows, np.arange(len(rows))]), row_group_size=40
     )
     return tmp_path / "points", in_memory(columns, rows)
-
-
-def meanwhile(name, done, action, seen=None):
-    """A function for `progress` that does something once, when so many tasks of a pass are done."""
-    seen = [] if seen is None else seen
-
-    def progress(*told):
-        if told[:2] == (name, done) and not seen:
-            seen.append(told)
-            action()
-
-    return progress
 
 
 def harmed(folder, pattern, harm=os.unlink):
@@ -74,14 +73,8 @@ def run_of(folder, out, **options):
 def check(run, truth):
     rows = run.rows().to_table()
     assert rows["id"].to_pylist() == list(range(len(rows)))
-    faces, told = truth
-    table = run.triangles().to_table()
-    found = np.column_stack([table[name].to_numpy() for name in ("a", "b", "c", "closing")])
-    assert np.array_equal(found[np.lexsort(found.T[::-1])], faces)
-    assert all(np.array_equal(rows[name].to_numpy(), told[name]) for name in ("area", "degree", "nearest", "kept"))
-    left = {path.name for path in run.folder.iterdir()}
-    assert left == {".lock", "files.parquet", "plan.json", "rows", "run.json", "triangles"}
-    assert not list(run.folder.rglob("*.tmp"))
+    assert differences(run, truth) == []
+    assert clean(run.folder)
 
 
 # What a run made
@@ -99,10 +92,10 @@ AGAIN = [
 @pytest.mark.parametrize(("name", "pattern"), AGAIN)
 def test_what_is_deleted_while_its_pass_runs_is_made_again(tmp_path, points, name, pattern):
     folder, truth = points
-    seen = []
-    action = harmed(tmp_path / "out", f"scratch/*/{pattern}")
-    run = run_of(folder, tmp_path / "out", progress=meanwhile(name, 4, action, seen))
-    assert seen
+    done = []
+    actions = harmed(tmp_path / "out", f"scratch/*/{pattern}"), lambda: done.append(name)
+    run = run_of(folder, tmp_path / "out", progress=meanwhile(name, 4, lambda: [action() for action in actions]))
+    assert done
     check(run, truth)
 
 
@@ -406,10 +399,6 @@ def test_nothing_is_left_of_an_earlier_run_with_other_arguments(tmp_path, points
     check(other, truth)
     check(run_of(folder, tmp_path / "out", scratch=tmp_path / "scratch", partition=90), truth)
     assert list((tmp_path / "scratch").iterdir()) == []
-
-
-def stop():
-    raise KeyboardInterrupt
 
 
 def test_late_tasks_of_a_run_that_is_dead(tmp_path, points, monkeypatch):

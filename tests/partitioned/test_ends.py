@@ -15,7 +15,7 @@ import pytest
 
 import stereodel
 from stereodel.partitioned import Run
-from tests.partitioned.answers import differences, in_memory, rows_of, write_points
+from tests.partitioned.answers import clean, differences, in_memory, rows_of, write_points
 
 SECONDS = 10
 """In which the processes of a run that was killed end, on a machine that does much else."""
@@ -122,12 +122,6 @@ def test_a_driver_that_is_killed(tmp_path, points, name, number):
     assert left(second.pid) == set()
     assert differences(Run(tmp_path / "out"), truth) == []
     assert clean(tmp_path / "out")
-
-
-def clean(out):
-    """Whether a folder has results alone, and no file of a process that was killed."""
-    names = {path.name for path in out.iterdir()} - {"triangles"}
-    return names == {".lock", "files.parquet", "plan.json", "rows", "run.json"} and not list(out.rglob("*.tmp"))
 
 
 @pytest.mark.thorough

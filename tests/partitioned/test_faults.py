@@ -16,7 +16,17 @@ from stereodel._tasks.crew import Crew
 from stereodel._tasks.kept import locked
 from stereodel.partitioned import run as running
 from tests.disks import small_disk
-from tests.partitioned.answers import PASSES, differences, in_memory, in_parallel, rows_of, serially, write_points
+from tests.partitioned.answers import (
+    PASSES,
+    differences,
+    in_memory,
+    in_parallel,
+    meanwhile,
+    rows_of,
+    serially,
+    stop,
+    write_points,
+)
 from tests.sets import LONLAT, XYZ
 
 
@@ -73,13 +83,8 @@ def test_a_full_disk(tmp_path, points, size):
 
 def interrupted(folder, out, name, done):
     """A run that ends when so many tasks of a pass are done."""
-
-    def progress(*told):
-        if told[:2] == (name, done):
-            raise KeyboardInterrupt
-
     with pytest.raises(KeyboardInterrupt):
-        serially(folder, out, partition=60, progress=progress)
+        serially(folder, out, partition=60, progress=meanwhile(name, done, stop))
 
 
 @pytest.mark.parametrize(
@@ -109,33 +114,26 @@ def test_a_run_that_ended_is_not_run_again(tmp_path, points):
     assert {path: path.stat().st_mtime_ns for path in (tmp_path / "out").rglob("*.parquet")} == times
 
 
-def test_other_arguments_are_noticed(tmp_path, points):
+NOTICED = [
+    ({"partition": 61}, None, "partition was 60, and is 61"),
+    ({"rows": ("area",)}, None, r"rows was \('area', 'degree', .*\), and is \('area',\)"),
+    ({"triangles": False}, None, "triangles was True, and is False"),
+    ({}, lambda folder: os.utime(folder / "002.parquet", ns=(1, 1)), r".*002\.parquet has changed since"),
+    ({}, lambda folder: (folder / "002.parquet").rename(folder / "009.parquet"), r"002\.parquet is missing"),
+    ({}, lambda folder: shutil.copy(folder / "001.parquet", folder / "009.parquet"), r"009\.parquet was not there"),
+]
+
+
+@pytest.mark.parametrize(("options", "change", "message"), NOTICED)
+def test_other_arguments_and_files_are_noticed(tmp_path, points, options, change, message):
     folder, truth = points
     interrupted(folder, tmp_path / "out", "solve", 1)
-    for other, message in [
-        ({"partition": 61}, r"partition was 60, and is 61"),
-        ({"partition": 60, "rows": ("area",)}, r"rows was \('area', 'degree', .*\), and is \('area',\)"),
-        ({"partition": 60, "triangles": False}, "triangles was True, and is False"),
-    ]:
-        with pytest.raises(ValueError, match=f"has a run of other files or arguments: {message}; take another folder"):
-            serially(folder, tmp_path / "out", **other)
-    assert differences(serially(folder, tmp_path / "out", partition=60), truth) == []
-
-
-@pytest.mark.parametrize(
-    ("change", "message"),
-    [
-        (lambda folder: os.utime(folder / "002.parquet", ns=(1, 1)), r"002\.parquet has changed since"),
-        (lambda folder: (folder / "002.parquet").rename(folder / "009.parquet"), r"002\.parquet is missing"),
-        (lambda folder: shutil.copy(folder / "001.parquet", folder / "009.parquet"), r"009\.parquet was not there"),
-    ],
-)
-def test_other_files_are_noticed(tmp_path, points, change, message):
-    folder, _ = points
-    interrupted(folder, tmp_path / "out", "solve", 1)
-    change(folder)
-    with pytest.raises(ValueError, match=message):
-        serially(folder, tmp_path / "out", partition=60)
+    if change:
+        change(folder)
+    with pytest.raises(ValueError, match=f"has a run of other files or arguments: {message}; take another folder"):
+        serially(folder, tmp_path / "out", **{"partition": 60} | options)
+    if not change:
+        assert differences(serially(folder, tmp_path / "out", partition=60), truth) == []
 
 
 @pytest.mark.parametrize(

@@ -200,12 +200,6 @@ def test_a_catalogue_that_is_made_by_hand(tmp_path):
     assert rows == [Pixel(1, number).path(".parquet") for number in (0, 1)]
 
 
-def test_pixels_share_folders_of_ten_thousand():
-    assert Pixel(8, 123_456).path("/").as_posix() == "dataset/Norder=8/Dir=120000/Npix=123456"
-    for pixel in (Pixel(0, 0), Pixel(8, 123_456), Pixel(29, 12 * 4**29 - 1)):
-        assert Pixel.of_path(pixel.path(".snappy.parquet")) == pixel
-
-
 @pytest.mark.thorough
 def test_what_is_a_catalogue(collection, copied, tmp_path):
     """With the older name of its properties, and without its list of pixels, too."""

@@ -11,7 +11,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from stereodel import lonlat_to_xyz
-from stereodel.partitioned.files import PointColumns, coordinates_of, find_columns, paths_of, read, sampled
+from stereodel.partitioned.files import PointColumns, find_columns, paths_of, read, sampled
 from stereodel.partitioned.plan import source_of
 from tests.partitioned.answers import differences, in_memory, rows_of, serially, write_points
 from tests.sets import LONLAT, XY, XYZ
@@ -158,28 +158,45 @@ def test_values_and_targets_are_numbers_too(tmp_path, cell):
         run.interpolate(tmp_path / "points", tmp_path / "values", "value")
 
 
-def test_points_of_structures_and_lists(tmp_path):
-    geo = {"primary_column": "g", "columns": {"g": {"encoding": "point"}}}
-    pair = pa.struct([("x", pa.float64()), ("y", pa.float64())])
-    wrong = pa.struct([("x", pa.timestamp("s")), ("y", pa.float64())])
-    for kind, cells, error, message in [
-        (pair, [{"x": 1, "y": 2}, {"x": 3, "y": 4}], None, ""),
-        (pair, [{"x": 1, "y": 2}, None], ValueError, "row 2: a Point is needed, not no geometry"),
-        (pa.list_(pa.float64(), 2), [[1, 2], [3, 4]], None, ""),
-        (pa.list_(pa.float64(), 2), [[1, 2], None], ValueError, "row 2: a Point is needed, not no geometry"),
-        (pa.list_(pa.float64()), [[1, 2], [3, 4]], TypeError, "'g' are list<.*>, not points"),
-        (wrong, [{"x": 1, "y": 2}] * 2, TypeError, r"the column 'g\.x' holds timestamp"),
-        (pa.list_(pa.int64(), 2), [[1, 2], [2**53 + 1, 4]], ValueError, f"row 2: the x {2**53 + 1} is not a double"),
-        (pa.int64(), [1, 2], TypeError, "'g' are int64, not points"),
-    ]:
-        table = pa.table({"g": pa.array(cells, kind)}).replace_schema_metadata({"geo": json.dumps(geo)})
-        pq.write_table(table, tmp_path / "a.parquet")
-        source = of(tmp_path, surface="plane")
-        if error is None:
-            assert points_of(source).tolist() == [[1, 2], [3, 4]]
-            continue
+def wkb(x, y, kind=1, order=1):
+    return struct.pack("<BIdd" if order else ">BIdd", order, kind, x, y)
+
+
+BINARY, PAIRS = pa.binary(), pa.list_(pa.float64(), 2)
+PAIR, WRONG_PAIR = (pa.struct([("x", kind), ("y", pa.float64())]) for kind in (pa.float64(), pa.timestamp("s")))
+GEOMETRIES = [
+    (PAIR, [{"x": 1, "y": 2}, {"x": 3, "y": 4}], None, ""),
+    (PAIRS, [[1, 2], [3, 4]], None, ""),
+    (BINARY, [wkb(1, 2), wkb(3, 4, 1001) + bytes(8)], None, ""),
+    *((kind, [cell, None], ValueError, "row 2: a Point is needed, not no geometry")
+      for kind, cell in ((PAIR, {"x": 1, "y": 2}), (PAIRS, [1, 2]), (BINARY, wkb(1, 2)))),
+    (BINARY, [wkb(1, 2), wkb(1, 2, kind=2)], ValueError, "row 2: a Point is needed, not another geometry"),
+    (BINARY, [wkb(1, 2), wkb(1, 2, order=0)], ValueError, "row 2: a Point is needed, not another geometry"),
+    (BINARY, [bytes([1, 4, *bytes(8)])], ValueError, "row 1: a Point is needed, not another geometry"),
+    (pa.list_(pa.float64()), [[1, 2], [3, 4]], TypeError, "'g' are list<.*>, not points"),
+    (WRONG_PAIR, [{"x": 1, "y": 2}] * 2, TypeError, r"the column 'g\.x' holds timestamp"),
+    (pa.list_(pa.int64(), 2), [[1, 2], [2**53 + 1, 4]], ValueError, f"row 2: the x {2**53 + 1} is not a double"),
+    (pa.int64(), [1, 2], TypeError, "'g' are int64, not points"),
+    (pa.string(), ["a" * 21], TypeError, "the geometries are string, not well-known binary"),
+    (pa.int32(), [1], TypeError, "the geometries are int32, not well-known binary"),
+    (pa.float64(), [None], TypeError, "the geometries are double, not well-known binary"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("kind", "cells", "error", "message"), GEOMETRIES)
+def test_points_of_structures_lists_and_binary(tmp_path, kind, cells, error, message):
+    encoding = "WKB" if kind == BINARY or "binary" in message else "point"
+    geo = {"primary_column": "g", "columns": {"g": {"encoding": encoding}}}
+    table = pa.table({"g": pa.array(cells, kind)}).replace_schema_metadata({"geo": json.dumps(geo)})
+    pq.write_table(table, tmp_path / "a.parquet")
+    source = of(tmp_path, surface="plane")
+    if error is not None:
         with pytest.raises(error, match=message):
             points_of(source)
+        return
+    assert points_of(source).tolist() == [[1, 2], [3, 4]]
+    (file,) = source.files
+    assert next(read(file, source.columns, 1, 2)).tolist() == [[3, 4]]
 
 
 def test_columns_to_keep_have_one_type(tmp_path):
@@ -196,15 +213,6 @@ def test_columns_to_keep_have_one_type(tmp_path):
         source_of(tmp_path, "auto", None, "sphere", "spherical", "id", ())
 
 
-def test_row_groups_one_by_one(tmp_path):
-    _, rows = rows_of("airports", 500)
-    write_points(tmp_path, LONLAT, rows, 1, row_group_size=37)
-    source = of(tmp_path)
-    (file,) = source.files
-    assert [len(part) for part in read(file, source.columns, 30, 120)] == [7, 37, 37, 9]
-    assert np.array_equal(np.concatenate(list(read(file, source.columns, 30, 120))), lonlat_to_xyz(rows[30:120]))
-
-
 def test_a_sample_is_spread_evenly(tmp_path):
     """Over the rows of few groups, in terms of which a bad row is told, too."""
     lat = np.linspace(-90, 90, 1000)
@@ -217,34 +225,6 @@ def test_a_sample_is_spread_evenly(tmp_path):
     assert found.min() >= 200
     assert found.max() < 800
     assert np.diff(found).max() <= 20
-
-
-def wkb(x, y, kind=1, order=1):
-    return struct.pack("<BIdd" if order else ">BIdd", order, kind, x, y)
-
-
-@pytest.mark.parametrize(
-    ("cells", "error", "message"),
-    [
-        ([wkb(1, 2), None], ValueError, "row 2: a Point is needed, not no geometry"),
-        ([wkb(1, 2), wkb(1, 2, kind=2)], ValueError, "row 2: a Point is needed, not another geometry"),
-        ([wkb(1, 2), wkb(1, 2, order=0)], ValueError, "row 2: a Point is needed, not another geometry"),
-        ([b"\x01\x04\x00\x00\x00\x00\x00\x00\x00"], ValueError, "row 1: a Point is needed, not another geometry"),
-        (["a" * 21], TypeError, r"the geometries are \w+, not well-known binary"),
-        ([1], TypeError, r"the geometries are \w+, not well-known binary"),
-        ([None], TypeError, r"the geometries are \w+, not well-known binary"),
-    ],
-)
-def test_geometries_that_are_no_points(cells, error, message):
-    with pytest.raises(error, match=message):
-        coordinates_of("wkb", "g", pa.array(cells), range(1, 9))
-
-
-def test_points_in_binary():
-    cells = pa.array([wkb(1, 2), wkb(3, 4, 1001) + bytes(8), wkb(-5, 6)], pa.binary())
-    for some in (slice(0, 3), slice(1, 2), slice(0, 0)):
-        found = coordinates_of("wkb", "g", cells[some], range(3))
-        assert [axis.to_pylist() for _, axis in found] == [[1, 3, -5][some], [2, 4, 6][some]]
 
 
 @pytest.mark.parametrize(
