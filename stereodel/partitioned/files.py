@@ -17,7 +17,7 @@ from stereodel._arrays import FloatArray
 from stereodel._extras import optional
 from stereodel.io.formats import wkb
 from stereodel.io.formats.names import find_lonlat, has_lonlat, listed
-from stereodel.io.table import degrees, numbers
+from stereodel.io.table import degrees, numbers, transformed
 from stereodel.sphere import lonlat_to_xyz
 from stereodel.sphere.latitudes import Latitude
 
@@ -66,12 +66,20 @@ class PointColumns:
             columns = coordinates_of(self.form, *columns[0], rows)
         named = zip(columns, self.axes, strict=True)
         places = np.column_stack([doubles_of(column, name, rows, axis=axis) for (name, column), axis in named])
-        if self.surface == "sphere" and self.form != "xyz":
-            return lonlat_to_xyz(degrees(places, self.crs, np.asarray(rows)), latitude=self.latitude, workers=1)
-        zero = np.flatnonzero(~places.any(axis=1))
-        if self.form == "xyz" and len(zero):
-            raise ValueError(f"row {rows[zero[0]]}: is the zero vector, which has no direction")
-        return places
+        if self.surface == "plane":
+            return places
+        if self.form == "xyz":
+            zero = np.flatnonzero(~places.any(axis=1))
+            if len(zero):
+                raise ValueError(f"row {rows[zero[0]]}: is the zero vector, which has no direction")
+            return places
+        if self.crs is not None:
+            places = transformed(places, self.crs, np.asarray(rows))
+        try:
+            return lonlat_to_xyz(places, latitude=self.latitude, workers=1)
+        except ValueError:
+            degrees(places, None, np.asarray(rows))  # whose message has the row
+            raise
 
 
 def find_columns(schema: Any, names: tuple[str, ...] | None, surface: Surface, latitude: Latitude) -> PointColumns:

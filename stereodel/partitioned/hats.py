@@ -135,7 +135,8 @@ def _pixels(folder: Path) -> list[Pixel]:
     """The pixels that ``partition_info.csv`` lists; without it those that there are, in the order of the sky."""
     path = folder / PIXELS
     if not path.is_file():
-        found = {Pixel.of_path(each.relative_to(folder)) for each in folder.glob("dataset/Norder=*/Dir=*/Npix=*")}
+        paths = folder.glob("dataset/Norder=[0-9]*/Dir=*/Npix=[0-9]*")
+        found = {Pixel.of_path(each.relative_to(folder)) for each in paths}
         return sorted(found, key=lambda pixel: (pixel.number << 2 * (29 - pixel.order), pixel.order))
     with path.open(encoding="utf-8", newline="") as file:
         rows = csv.DictReader(file)

@@ -101,7 +101,7 @@ Certified = tuple[Columns, BoolArray, FloatArray]
 
 
 @dataclass
-class Targets(Rounds[tuple[Indices, Columns]]):
+class TargetRounds(Rounds[tuple[Indices, Columns]]):
     """The targets of a partition, and what a question computes at them."""
 
     store: Store
@@ -231,7 +231,7 @@ def answer(store: Store, part: int, limit: int) -> None:
         columns[name] = np.full((len(numbers), *kind.shape), np.nan if question.flat else 0, dtype=kind.base)
     sizes: list[int] = []
     if not question.flat:
-        for rows, found in Targets(Index(points_of(question)), limit, store, points, numbers, sizes=sizes).all():
+        for rows, found in TargetRounds(Index(points_of(question)), limit, store, points, numbers, sizes=sizes).all():
             for name, column in found.items():
                 columns[name][rows] = column
     order = np.argsort(numbers)

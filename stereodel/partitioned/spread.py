@@ -25,7 +25,6 @@ GROUPS: Final = 512
 SMALL_PARTS: Final = 2**16
 """Partitions that numbers of 16 bits count, which are sorted in one pass."""
 
-
 SAMPLE: Final = 100_000
 """Rows of a sample, enough for leaves that differ in size by some per cent."""
 
@@ -34,7 +33,6 @@ SAMPLE_OF_A_PART: Final = 64
 
 COMPACT: Final = 2.0
 """How many times as many edges may join two partitions of files as join two leaves of a tree; see `is_compact`."""
-
 
 NODE: Final = np.dtype([("axis", "<i4"), ("value", "<f8")])
 """An inner node of a k-d tree: points whose coordinate is up to the value go to the first child."""

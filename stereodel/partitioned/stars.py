@@ -43,7 +43,7 @@ class Solved(NamedTuple):
 
 
 @dataclass
-class Stars(Rounds[Solved]):
+class StarRounds(Rounds[Solved]):
     """The stars of a partition's points."""
 
     store: Store
@@ -176,7 +176,7 @@ def distances(a: FloatArray, b: FloatArray) -> FloatArray:
 def solve(store: Store, part: int, limit: int) -> None:
     """The stars of a partition's points, in files."""
     began, plan = clock(), store.plan
-    stars = Stars(Index(store), limit, store, part)
+    stars = StarRounds(Index(store), limit, store, part)
     found = list(stars.all())
     order = np.argsort(np.concatenate([each.columns["number"] for each in found]))
     columns = {name: np.concatenate([each.columns[name] for each in found])[order] for name in ("number", *CELLS)}
