@@ -14,6 +14,7 @@ import pytest
 
 from stereodel._tasks.crew import Crew
 from stereodel._tasks.kept import locked
+from stereodel.partitioned import Execution
 from stereodel.partitioned import run as running
 from tests.disks import small_disk
 from tests.partitioned.answers import (
@@ -60,6 +61,14 @@ def test_a_worker_that_is_killed(tmp_path, points, name, monkeypatch):
     run = in_parallel(folder, tmp_path / "out", partition=100)
     assert marker.exists()
     assert differences(run, truth) == []
+
+
+@pytest.mark.parametrize("name", ["partition", "limit", "jobs"])
+def test_what_cannot_be_executed(name):
+    with pytest.raises(ValueError, match=f"{name} is 0, but must be at least 1"):
+        Execution(**{name: 0})
+    with pytest.raises(TypeError, match=f"{name} must be one integer, got 1.5"):
+        Execution(**{name: 1.5})
 
 
 def test_two_runs_on_one_folder(tmp_path, points):
