@@ -30,7 +30,7 @@ from benchmarks.__main__ import machine
 from benchmarks.peers.python_peer import high_water
 from benchmarks.processes import Watch
 from stereodel import SphericalDelaunay, SphericalVoronoi, lonlat_to_xyz
-from stereodel.partitioned import triangulate
+from stereodel.partitioned import Execution, triangulate
 
 RESULTS = pages.HERE / "partitioned.json"
 FILE = 1_000_000
@@ -89,11 +89,13 @@ def in_partitions(points: Path, folder: Path, size: int, partition: int, workers
         run = triangulate(
             points,
             folder / "out",
-            partition=partition,
-            executor=executor,
-            scratch=scratch,
-            resume=False,
-            progress=lambda name, *_: passes.update({name: time.perf_counter()}),
+            execution=Execution(
+                partition,
+                executor=executor,
+                scratch=scratch,
+                resume=False,
+                progress=lambda name, *_: passes.update({name: time.perf_counter()}),
+            ),
         )
     statistics, ends = run.statistics, list(passes.values())
     told = watch.found()

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import stereodel as sd
-from stereodel import conformal, data, drawing, film, globe, interpolation, io, relaxation, render, spatial
+from stereodel import conformal, data, drawing, film, globe, interpolation, io, partitioned, relaxation, render, spatial
 from tests.test_api import PACKAGES
 from tools import names
 
@@ -70,7 +70,7 @@ def examples():
     yield io.Grid(grid.lon, grid.lat, {"v": np.ones((3, 4))}, {"v": "m"})
     yield io.PointTable(LONLAT[:2], {"name": ["a", "b"], "v": np.array([1, None], dtype=object)}, rows=[4, 7])
     yield from (relaxed, relaxed.quality(), relaxation.Progress(1, 2.0, 3.0), spatial.SphericalVoronoi(BALLS))
-    yield render.Figure("empty", dict, len, renderer="agg")
+    yield from (render.Figure("empty", dict, len, renderer="agg"), partitioned.Execution(jobs=2))
 
 
 EXAMPLES = {type(example): example for example in examples()}

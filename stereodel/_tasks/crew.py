@@ -26,9 +26,10 @@ from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExecutor, as_completed, wait
 from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass
+from functools import partial
 from multiprocessing import parent_process
 from multiprocessing.context import SpawnContext, SpawnProcess
-from typing import Any, Final, Generic, Literal, Self, TypeVar
+from typing import Any, Final, Generic, Literal, NoReturn, Self, TypeVar
 
 from stereodel._threads import thread_count
 
@@ -160,14 +161,10 @@ def _outcome(future: Future[Outcome[Any]]) -> Outcome[Any]:
 
 
 class _Place:
-    """A place of one process after another, which do tasks one at a time.
+    """A place of one process after another, which do tasks one at a time."""
 
-    task: the last one that was begun.
-    death: how the last process that died did.
-    """
-
-    task: Future[Outcome[Any]]
-    death = ""
+    task: Future[Outcome[Any]]  # the last one that was begun
+    death = ""  # how the last process that died did
 
     def __init__(self, lifetime: int | None) -> None:
         self._lifetime = lifetime
@@ -176,7 +173,7 @@ class _Place:
         self.task.set_result(Outcome())
 
     def _renew(self) -> None:
-        self._context, self._orders, self._begun = _Context(), b"", 0
+        self._context, self._orders, self._begun = _RecordingContext(), b"", 0
         self._executor = ProcessPoolExecutor(1, self._context, initializer=_begin)
 
     def begin(self, orders: bytes, task: bytes) -> Future[Outcome[Any]]:
@@ -216,7 +213,7 @@ class _Place:
         self._executor.shutdown(cancel_futures=True)
 
 
-class _Context(SpawnContext):
+class _RecordingContext(SpawnContext):
     """A context that keeps the processes that were started."""
 
     def __init__(self) -> None:
@@ -240,12 +237,12 @@ class _Process(SpawnProcess):
         """Start the process while the origin of the main module is hidden."""
         with self.starting:
             main, note = vars(sys.modules["__main__"]), vars(self).pop("_note")  # which is not sent
-            told: dict[str, Any] = {name: main.pop(name) for name in ("__spec__", "__file__") if name in main}
+            origin: dict[str, Any] = {name: main.pop(name) for name in ("__spec__", "__file__") if name in main}
             main["__spec__"] = None
             try:
                 super().start()
             finally:
-                main.update(told)
+                main.update(origin)
             note(self)
 
 
@@ -337,21 +334,16 @@ def _take(orders: bytes) -> None:
             _import_main(main_script)
         _work = pickle.loads(pickled)
     except Exception as error:
-        _work = _Fails(error)
+        _work = partial(_fail, error)
 
 
 def _do(task: bytes) -> Outcome[Any]:
     return _attempt_there(lambda pickled: _work(pickle.loads(pickled)), task)
 
 
-@dataclass(frozen=True)
-class _Fails:
+def _fail(error: Exception, task: Any) -> NoReturn:
     """Work that could not be taken up."""
-
-    error: Exception
-
-    def __call__(self, task: Any) -> Any:
-        raise self.error
+    raise error
 
 
 def _import_main(script: MainScript) -> None:

@@ -43,10 +43,10 @@ class Kept:
         return note if whole else None
 
     def keep(
-        self, name: str, told: Mapping[str, Any], files: Iterable[str | Path] = (), *, task: int | None = None
+        self, name: str, content: Mapping[str, Any], files: Iterable[str | Path] = (), *, task: int | None = None
     ) -> Note:
         """Note that something is done: what there is to say of it, and the files that it wrote."""
-        note = {**told, "files": {str(file): (self.folder / file).stat().st_size for file in files}}
+        note = {**content, "files": {str(file): (self.folder / file).stat().st_size for file in files}}
         note |= {} if task is None else {"task": task}
         save_json(self.path(name, task), note)
         return note

@@ -24,7 +24,7 @@ def reporting(*, shown: bool = True, lines: bool = False) -> Iterator[Progress]:
         yield lambda stage, done, of: None
         return
     if not sys.stderr.isatty():
-        yield _Lines()
+        yield _PrintedLines()
         return
     with of_extra("film"):  # the command has its own door
         from rich import progress
@@ -38,16 +38,15 @@ def reporting(*, shown: bool = True, lines: bool = False) -> Iterator[Progress]:
         found: dict[str, Any] = {}
 
         def show(stage: str, done: int, of: int) -> None:
-            told: dict[str, Any] = {"total": of or None, "completed": done, "counts": f"{done}/{of}" if of else ""}
-            if stage in found:
-                bars.update(found[stage], **told)
-            else:
-                found[stage] = bars.add_task(stage, **told)
+            state: dict[str, Any] = {"total": of or None, "completed": done, "counts": f"{done}/{of}" if of else ""}
+            if stage not in found:
+                found[stage] = bars.add_task(stage, counts="")
+            bars.update(found[stage], **state)
 
         yield show
 
 
-class _Lines:
+class _PrintedLines:
     """Prints a line now and then, and one at the end of each stage, with the seconds since the beginning."""
 
     def __init__(self) -> None:

@@ -50,15 +50,14 @@ def command(
     It gets rows/ with the area in steradians, the number of neighbours, the nearest point and its distance, in as many
     files and rows as the points have. An interrupted command goes on where it stopped.
     """
-    from stereodel.partitioned import triangulate
-    from stereodel.partitioned.passes import PARTITION
+    from stereodel.partitioned import Execution, triangulate
 
     if "-" in points:
         raise ValueError(f"results in the folder {out} are of files, not of stdin")
     if (lon is None) != (lat is None):
         raise ValueError("--lon and --lat are given together")
     names = {**ARGUMENTS, "columns": "--plane" if plane else "--lon"}
-    with reporting() as told, workers(scheduler) as executor, spelling(names):
+    with reporting() as progress, workers(scheduler) as executor, spelling(names):
         try:
             run = triangulate(
                 points[0] if len(points) == 1 else points,
@@ -69,10 +68,9 @@ def command(
                 keep=keep or [],
                 triangles=False,
                 cells=shapes,
-                partition=partition or PARTITION,
-                executor=executor,
-                resume=not overwrite,
-                progress=told,
+                execution=Execution(
+                    partition or Execution.partition, executor=executor, resume=not overwrite, progress=progress
+                ),
             )
         except KeyboardInterrupt:
             raise KeyboardInterrupt(KEPT) from None

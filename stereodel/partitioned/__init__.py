@@ -3,7 +3,8 @@
 Files of points in, files of triangles and of rows for the points out; the extra ``partitioned`` brings what reads them.
 """
 
+from stereodel.partitioned.passes import Execution
+from stereodel.partitioned.questions import Answers
 from stereodel.partitioned.run import Run, triangulate
-from stereodel.partitioned.targets import Answers
 
-__all__ = ["Answers", "Run", "triangulate"]
+__all__ = ["Answers", "Execution", "Run", "triangulate"]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from itertools import pairwise
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -11,47 +11,47 @@ import numpy.typing as npt
 from stereodel import _kernel
 from stereodel._arrays import BoolArray, FloatArray, Indices, IntArray, LongArray
 from stereodel._spaces import space_of
-from stereodel.partitioned.shards import check, load, save, sums
-from stereodel.partitioned.store import Store
+from stereodel.partitioned.store import Store, check, load, save, sums
 
 COLUMNS: Final = ("lows", "highs", "levels", "part", "first", "last", "points", "numbers", "sums")
 
 
-class Index:
-    """What a worker knows of all points; its pages are shared by the workers of a machine.
+class Sample(NamedTuple):
+    """Some of all points, (n, width), their numbers and their blocks."""
 
-    lows, highs, (nodes, width) arrays: boxes of the blocks, in the order of partitions, then those of the tree above
-    them.
-    levels, array of int64: the first node of each level.
-    part, (blocks,) array of int32: the partition of each block.
-    first, last, (blocks,) arrays of int64: its first row there, and the row after its last.
-    numbers, (blocks,) array: one point of each block.
-    sums, (blocks,) array of uint32: CRC-32 of its points and their numbers.
-    sizes, (blocks,) array of int64: number of its points.
-    largest: the most of them.
-    """
-
-    lows: FloatArray
-    highs: FloatArray
-    levels: LongArray
-    part: IntArray
-    first: LongArray
-    last: LongArray
     points: FloatArray
+    numbers: LongArray
+    blocks: Indices
+
+    def sorted(self) -> Sample:
+        """The same in the order of numbers, as points are in memory."""
+        order = np.argsort(self.numbers)
+        return Sample(self.points[order], self.numbers[order], self.blocks[order])
+
+
+class Index:
+    """What a worker knows of all points; its pages are shared by the workers of a machine."""
+
+    lows: FloatArray  # boxes of the blocks, in the order of partitions, then those of the tree above them
+    highs: FloatArray
+    levels: LongArray  # the first node of each level
+    part: IntArray  # the partition of each block
+    first: LongArray  # its first row there
+    last: LongArray  # the row after its last
+    points: FloatArray  # one point of each block
     numbers: npt.NDArray[np.integer]
-    sums: npt.NDArray[np.uint32]
+    sums: npt.NDArray[np.uint32]  # CRC-32 of its points and their numbers
 
     def __init__(self, store: Store) -> None:
         self._store = store
         for name in COLUMNS:
-            setattr(self, name, load(store.room("blocks") / name))
+            setattr(self, name, load(store.folder("blocks") / name))
         self.sizes: LongArray = self.last - self.first
-        self.largest = int(self.sizes.max(initial=0))
         self.space = space_of(self.points)
 
     @staticmethod
-    def build(store: Store, parts: list[int]) -> None:
-        """Write the index, of the blocks of all partitions."""
+    def build(store: Store, parts: list[int]) -> dict[str, Any]:
+        """Write the index, of the blocks of all partitions; how many there are."""
         found = [np.asarray(store.load("points", part, "blocks")) for part in parts]
         blocks = np.concatenate(found)
         lows, highs, levels = space_of(blocks["point"]).box_tree(
@@ -60,29 +60,24 @@ class Index:
         part = np.repeat(np.array(parts, dtype=np.int32), [len(part) for part in found])
         columns = (lows, highs, levels, part, *(blocks[name] for name in ("first", "last", "point", "number", "sum")))
         for name, column in zip(COLUMNS, columns, strict=True):
-            save(store.room("blocks") / name, column)
+            save(store.folder("blocks") / name, column)
+        return {"blocks": len(blocks)}
 
     def __len__(self) -> int:
         return len(self.part)
-
-    def counts(self, chosen: BoolArray) -> IntArray:
-        """How many of the chosen blocks each node of the tree has."""
-        return _kernel.unread_counts(chosen, self.levels)
 
     def near(self, blocks: Indices, reach: float, unread: BoolArray) -> BoolArray:
         """Which of the blocks that were not read are near others: nearer than `reach` diagonals of the smaller box."""
         chosen = np.zeros(len(self), dtype=np.bool_)
         chosen[blocks] = True
-        return self.space.near_blocks(chosen, reach, self.lows, self.highs, self.levels, self.counts(unread))
+        return self.space.near_blocks(chosen, reach, *self.tree(unread))
 
-    def read(self, blocks: Indices, alone: Indices) -> tuple[FloatArray, LongArray, Indices]:
-        """All points of some blocks, and one of each of others: as blocks lie, near points next to one another.
+    def tree(self, unread: BoolArray) -> tuple[FloatArray, FloatArray, LongArray, IntArray]:
+        """The boxes, as the kernel takes them, and how many of the chosen blocks are below each."""
+        return self.lows, self.highs, self.levels, _kernel.unread_counts(unread, self.levels)
 
-        Returns
-        -------
-        points, numbers, blocks
-            The block of each point.
-        """
+    def read(self, blocks: Indices, alone: Indices) -> Sample:
+        """All points of some blocks, and one of each of others: as blocks lie, near points next to one another."""
         points: list[Any] = []
         numbers: list[Any] = []
         for begin, end in _runs(self.part[blocks]):
@@ -92,13 +87,13 @@ class Index:
             for low, high in _runs(own - np.arange(len(own))):
                 here = own[low:high]
                 starts = np.append(self.first[here], self.last[here[-1]])
-                check(self.sums[here], sums(starts, place, number), self._store.shard("points", part, "points"))
+                check(self.sums[here], sums(starts, place, number), self._store.path("points", part, "points"))
                 rows = slice(int(starts[0]), int(starts[-1]))
                 points.append(place[rows])
                 numbers.append(number[rows])
         block = np.concatenate([np.repeat(blocks, self.sizes[blocks]), alone])
         row = np.concatenate([*numbers, self.numbers[alone]])
-        return np.concatenate([*points, self.points[alone]]), row.astype(np.int64), block
+        return Sample(np.concatenate([*points, self.points[alone]]), row.astype(np.int64), block)
 
 
 def _runs(labels: npt.NDArray[Any]) -> list[tuple[int, int]]:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import shutil
-from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
 from contextlib import suppress
@@ -21,20 +20,12 @@ from stereodel._files import ENDING
 from stereodel._tasks.crew import Crew
 from stereodel._tasks.kept import Note, locked, save_json
 from stereodel._tasks.progress import Progress
-from stereodel.partitioned import rows as rows_of
+from stereodel.io.formats.names import anew
 from stereodel.partitioned import spread
+from stereodel.partitioned.align import align, write_file
+from stereodel.partitioned.files import Source, opened
 from stereodel.partitioned.plan import NAME, Plan
-from stereodel.partitioned.shards import anew, load_json, save
-from stereodel.partitioned.solve import write_table
-from stereodel.partitioned.sources import Source, opened
-from stereodel.partitioned.store import DIGITS, KEPT, RESULTS, SCRATCH, Store
-from stereodel.partitioned.tree import Splits, is_compact
-
-PARTITION: Final = 650_000
-"""Points of a partition by default: some 0.3 GB for each worker."""
-
-LIMIT: Final = 8_000_000
-"""Points that a worker may read at once by default: some 4 GB."""
+from stereodel.partitioned.store import DIGITS, KEPT, RESULTS, SCRATCH, Store, damaged, load, load_json, load_plan
 
 REPORT: Final = "run.json"
 """Name of the file that describes a run; it is written last."""
@@ -47,6 +38,62 @@ ATTEMPTS: Final = 4
 
 NONE: Final = {"part": 0, "triangles": 0}
 """The partition of a run without points."""
+
+
+@dataclass(frozen=True)
+class Execution:
+    """How a run in partitions is computed: by whom, where, in portions of how many points.
+
+    Parameters
+    ----------
+    partition : int
+        Points of a partition, about. Half a million to a million are right; more take more memory, fewer read more
+        points beside their own. By default some 0.3 GB for each worker.
+    limit : int
+        Points that a worker may triangulate at once; some 500 bytes each.
+    executor : concurrent.futures.Executor, optional
+        The workers, such as those of ``client.get_executor(pure=False)`` of a client of Dask or an ``MPIPoolExecutor``
+        of mpi4py. They must see the folders of results and scratch. By default processes of this machine.
+    jobs : int, optional
+        Number of these processes, by default one for each processor; with 1 all is done in the process that calls.
+    scratch : path-like, optional
+        A folder for what passes hand on, at most 80 bytes a point, deleted when it is used; by default in the folder of
+        results.
+    resume : bool
+        Whether a run that was interrupted goes on, or the results of one that ended are kept. Otherwise all that it
+        left is deleted first.
+    progress : callable, optional
+        Called with the name of a pass, the number of its tasks that are done, and that of all of them.
+
+    Attributes
+    ----------
+    partition, limit, executor, jobs, scratch, resume, progress
+        As given.
+
+    Raises
+    ------
+    ValueError, TypeError
+        If `partition`, `limit` or `jobs` is not a whole number from 1.
+
+    Examples
+    --------
+    >>> from stereodel.partitioned import Execution
+    >>> Execution(partition=100_000, jobs=2).limit
+    8000000
+    """
+
+    partition: int = 650_000
+    limit: int = 8_000_000
+    executor: Executor | None = None
+    jobs: int | None = None
+    scratch: str | os.PathLike[str] | None = None
+    resume: bool = True
+    progress: Progress | None = None
+
+    def __post_init__(self) -> None:
+        for name in ("partition", "limit", "jobs"):
+            if getattr(self, name) is not None:
+                object.__setattr__(self, name, as_count(getattr(self, name), name))
 
 
 @dataclass(frozen=True)
@@ -74,22 +121,22 @@ class Results:
         """Results in the order of the rows that were read: a dataset of pyarrow, with a file for each file of them."""
         return self._dataset("rows")
 
-    def _dataset(self, room: str) -> Any:
-        plan = Plan.load(self.folder)
-        if not getattr(plan, room):
-            raise ValueError(f"{self.folder} has no {room}: the run was not asked for {room}=")
+    def _dataset(self, folder: str) -> Any:
+        plan = load_plan(self.folder)
+        if not getattr(plan, folder):
+            raise ValueError(f"{self.folder} has no {folder}: the run was not asked for {folder}=")
         names = planned(plan, self.partitions)
-        paths = [str(self.folder / name) for name in names if name.startswith(f"{room}/")]
+        paths = [str(self.folder / name) for name in names if name.startswith(f"{folder}/")]
         return optional("pyarrow.dataset", "partitioned").dataset(paths, format="parquet")
 
 
 def planned(plan: Plan, partitions: Sequence[Mapping[str, Any]]) -> dict[str, int]:
     """Files of Parquet that a run leaves, relative to its folder, and how many rows they have."""
     files = {f"rows/{file.name}": file.rows for file in plan.files if plan.rows}
-    for room in ("triangles", "cells"):
-        if getattr(plan, room):
-            parts = partitions or ([NONE] if room == "triangles" else [])
-            files |= {f"{room}/{each['part']}.parquet": each[room] for each in parts}
+    for kind in ("triangles", "cells"):
+        if getattr(plan, kind):
+            parts = partitions or ([NONE] if kind == "triangles" else [])
+            files |= {f"{kind}/{each['part']}.parquet": each[kind] for each in parts}
     return files
 
 
@@ -98,89 +145,69 @@ def check_results(folder: Path, plan: Plan, partitions: Sequence[Mapping[str, An
     wanted = {folder / name: rows for name, rows in planned(plan, partitions).items()}
     for path, rows in wanted.items():
         if not path.exists():
-            raise ValueError(f"{path} was deleted after it was written; {anew()}")
+            raise ValueError(damaged(path, "deleted"))
         with opened(path) as content:
-            told = (content.metadata.metadata or {}).get(b"stereodel.digest", b"").decode()
-            if (content.metadata.num_rows, told) != (rows, plan.digest):
-                raise ValueError(f"{path} was changed after it was written; {anew()}")
-    for room in RESULTS:
-        for path in (folder / room).rglob("*.parquet"):
+            digest = (content.metadata.metadata or {}).get(b"stereodel.digest", b"").decode()
+            if (content.metadata.num_rows, digest) != (rows, plan.digest):
+                raise ValueError(damaged(path, "changed"))
+    for kind in RESULTS:
+        for path in (folder / kind).rglob("*.parquet"):
             if path not in wanted and path.name[0] not in "._":
                 raise ValueError(f"{path} is not of the run that wrote the files beside it; move it elsewhere")
 
 
-@dataclass(frozen=True)
-class Means:
-    """Who computes, in which folders, and who hears of progress.
-
-    out: folder of results.
-    limit: points that a worker may read at once.
-    executor, jobs, scratch, resume, progress: as in `triangulate`.
-    """
-
-    out: str | os.PathLike[str]
-    limit: int
-    executor: Executor | None
-    jobs: int | None
-    scratch: str | os.PathLike[str] | None
-    resume: bool
-    progress: Progress | None
-
-    def run(self, kind: type[Passes], source: Source, plan: Plan) -> Path:
-        """Do what a plan says, or what is left of it; the folder of results."""
-        folder, limit = Path(self.out).absolute(), as_count(self.limit, "limit")
-        jobs = None if self.jobs is None else as_count(self.jobs, "jobs")
-        _refuse_within(folder, source)
-        folder.mkdir(parents=True, exist_ok=True)
-        store = Store.of(folder, None if self.scratch is None else Path(self.scratch).absolute(), plan)
-        with locked(folder):
-            _begin(store, self.resume)
-            if not (folder / REPORT).exists():
-                with Crew(jobs, executor=self.executor) as crew:
-                    kind(store, crew, limit, self.progress).run()
-                _publish(store)
-            else:
-                check_results(folder, plan, load_json(folder / REPORT)["partitions"])
-            _clear(store)
-        return folder
-
-
-def _refuse_within(folder: Path, source: Source) -> None:
+def execute(
+    results: Callable[[Passes, list[int]], Answer],
+    source: Source,
+    plan: Plan,
+    out: str | os.PathLike[str],
+    execution: Execution,
+) -> Path:
+    """Do what a plan says, or what is left of it; the folder of results."""
+    folder, scratch = Path(out).absolute(), execution.scratch
     real = Path(os.path.realpath(folder))
     for file in source.files:
         if Path(file.path).is_relative_to(folder) or Path(os.path.realpath(file.path)).is_relative_to(real):
             raise ValueError(f"{file.path} lies in out, the folder of results; take another folder")
+    folder.mkdir(parents=True, exist_ok=True)
+    store = Store.of(folder, None if scratch is None else Path(scratch).absolute(), plan)
+    with locked(folder):
+        _begin(store, execution.resume)
+        if not (folder / REPORT).exists():
+            with Crew(execution.jobs, executor=execution.executor) as crew:
+                Passes(results, store, crew, execution.limit, execution.progress).run()
+            _publish(store)
+        else:
+            check_results(folder, plan, load_json(folder / REPORT)["partitions"])
+        _clear(store)
+    return folder
 
 
 def _begin(store: Store, resume: bool) -> None:
     """Note what is to be done, or find that it was noted before."""
     folder = store.results
-    noted, left = (folder / NAME).exists(), [folder / name for name in (REPORT, FILES, *RESULTS, KEPT)]
-    if not resume and (noted or _is_report(folder / REPORT)):
+    plan, report = folder / NAME, folder / REPORT
+    results = [report, *(folder / name for name in (FILES, *RESULTS, KEPT))]
+    is_ours = report.is_file() and b'"stereodel.digest"' in report.read_bytes()
+    if not resume and (plan.exists() or is_ours):
         with suppress(OSError, ValueError, TypeError, KeyError):  # its plan is lost or damaged
-            shutil.rmtree(Store.of(folder, store.scratch.parent, Plan.load(folder)).scratch)
+            shutil.rmtree(Store.of(folder, store.scratch.parent, load_plan(folder)).scratch)
         _clear(store)
-        _delete(*left, folder / NAME)  # the plan last: what has one is a run's
-        noted = False
-    if noted:
-        other = Plan.load(folder).differs(store.plan)
+        _delete(*results, plan)  # the plan last: what has one is a run's
+    there = [path for path in results if path.exists()]
+    if plan.exists():
+        other = load_plan(folder).differs(store.plan)
         if other:
-            raise ValueError(
-                f"{folder} has a run of other files or arguments: {other}; take another folder, or {anew()}"
-            )
-        if not (folder / REPORT).exists() and not (store.made / REPORT).exists():
-            _delete(*left)  # what an earlier deletion left, when it was interrupted
-        return
-    there = [path for path in left if path.exists()]
-    if there and _is_report(folder / REPORT):
-        raise ValueError(f"{folder / NAME} was deleted after it was written; {anew()}")
-    if there:
+            what = f"{folder} has a run of other files or arguments: {other}"
+            raise ValueError(f"{what}; take another folder, or {anew()}")
+        if not report.exists() and not (store.made / REPORT).exists():
+            _delete(*results)  # what an earlier deletion left, when it was interrupted
+    elif there and is_ours:
+        raise ValueError(damaged(plan, "deleted"))
+    elif there:
         raise ValueError(f"{folder} has {there[-1].name!r}, which is not of a run; take another folder")
-    store.plan.save(folder)
-
-
-def _is_report(path: Path) -> bool:
-    return path.is_file() and b'"stereodel.digest"' in path.read_bytes()
+    else:
+        store.plan.save(folder)
 
 
 def _delete(*paths: Path) -> None:
@@ -214,13 +241,15 @@ def _clear(store: Store) -> None:
         own.rmdir()
 
 
+Answer = tuple[dict[str, Any], list[Note]]
+"""Statistics of all partitions, and the note of each."""
+
+
 @dataclass(frozen=True)
-class Passes(ABC):
-    """The passes of a run, one after another; those that were done before are not done again.
+class Passes:
+    """The passes of a run, one after another; those that were done before are not done again."""
 
-    A kind of run is a subclass that says in `results` what is done with partitions.
-    """
-
+    results: Callable[[Passes, list[int]], Answer]  # of the partitions that have points
     store: Store
     crew: Crew
     limit: int
@@ -232,103 +261,98 @@ class Passes(ABC):
         if (store.made / REPORT).exists():
             return
         compact, parts = self._collected() if plan.size else (True, [])
-        report, told = self.results(parts)
+        statistics, notes = self.results(self, parts)
         if plan.rows:
             self._aligned()
         _write_files(store)
-        partitions = [_shown(each) for each in told]
+        hidden = ("files", "task")
+        partitions = [
+            {"part": note["task"]} | {name: value for name, value in note.items() if name not in hidden}
+            for note in notes
+        ]
         for file in plan.files:
             file.check()
         check_results(store.made, plan, partitions)
-        numbers = {"statistics": report | {"compact": compact}, "partitions": partitions}
+        numbers = {"statistics": statistics | {"compact": compact}, "partitions": partitions}
         save_json(store.made / REPORT, plan.metadata | numbers)
 
-    @abstractmethod
-    def results(self, parts: list[int]) -> tuple[dict[str, Any], list[dict[str, Any]]]:
-        """Results of the partitions that have points: numbers of all of them, and what there is to say of each."""
-
-    def do(self, name: str, function: Callable[[int], None], tasks: Sequence[int]) -> list[dict[str, Any]]:
-        """What the tasks of a pass say, in order; noted at the end, as what they wrote may be deleted then.
+    def do(self, name: str, function: Callable[..., None], tasks: Sequence[int], **options: Any) -> list[Note]:
+        """The notes of the tasks of a pass, in order; noted at the end, as what they wrote may be deleted then.
 
         What counts is what they left on the disk: a task whose files are gone is done again.
         """
-        return list(self.store.notes.once(name, lambda: {"told": self._done(name, function, tasks)})["told"])
+        work = partial(function, self.store, **options)
+        return list(self.store.notes.once(name, lambda: {"notes": self._done(name, work, tasks)})["notes"])
 
-    def _done(self, name: str, function: Callable[[int], None], tasks: Sequence[int]) -> list[Note]:
+    def _done(self, name: str, work: Callable[[int], None], tasks: Sequence[int]) -> list[Note]:
         notes = self.store.notes
         for attempt in range(ATTEMPTS):
-            told = {task: note for task in tasks if (note := notes.note(name, task)) is not None}
-            left = [task for task in tasks if task not in told]
+            found = {task: note for task in tasks if (note := notes.note(name, task)) is not None}
+            left = [task for task in tasks if task not in found]
             if left or not attempt:
-                self.tell(name, len(told), len(tasks))
+                self._say(name, len(found), len(tasks))
             if not left:
-                return list(told.values())
-            for done, (_, outcome) in enumerate(self.crew.each(function, left), len(told) + 1):
+                return list(found.values())
+            for done, (_, outcome) in enumerate(self.crew.each(work, left), len(found) + 1):
                 outcome.value()
-                self.tell(name, done, len(tasks))
+                self._say(name, done, len(tasks))
         raise ValueError(f"{notes.path(name, left[0])} or files in it are deleted while the run works there")
 
-    def tell(self, name: str, done: int, of: int) -> None:
-        """Say how many tasks of a pass are done."""
+    def _say(self, name: str, done: int, of: int) -> None:
         if self.progress is not None:
             self.progress(name, done, of)
 
     def _collected(self) -> tuple[bool, list[int]]:
         """Points in partitions: whether those are files, and which of them have points."""
         store, plan = self.store, self.store.plan
-        compact = bool(store.notes.once("layout", lambda: {"compact": self._laid_out()})["compact"])
+        compact = bool(store.notes.once("layout", lambda: {"compact": self._is_laid_out()})["compact"])
         store.drop("sample")
         if compact:
-            told = self.do("collect", partial(spread.take, store), range(len(plan.parts)))
+            notes = self.do("collect", spread.take, range(len(plan.parts)))
         else:
             if store.notes.note("collect") is None:
-                self.do("spread", partial(spread.spread, store), range(len(plan.shares)))
-                spread.gather(store)
-            told = self.do("collect", partial(spread.collect, store), range(spread.splits_of(store).leaves))
+                self.do("spread", spread.spread, range(len(plan.shares)))
+                store.gather("spread", range(len(plan.shares)))
+            notes = self.do("collect", spread.collect, range(len(load(store.scratch / "splits")) + 1))
             store.drop("spread")
-        return compact, [each["task"] for each in told if each["points"]]
+        return compact, [note["task"] for note in notes if note["points"]]
 
-    def _laid_out(self) -> bool:
-        """Whether files are compact; if not, the tree is written."""
-        store, plan = self.store, self.store.plan
-        count = len(plan.parts)
-        if plan.compact or count == 1:
+    def _is_laid_out(self) -> bool:
+        """Whether files are partitions."""
+        count = len(self.store.plan.parts)
+        if self.store.plan.compact or count == 1:
             return True
-        self.do("sample", partial(spread.sample, store), range(count))
-        samples = [np.asarray(store.load("sample", part, "points")) for part in range(count)]
-        points = np.concatenate(samples)
-        labels = np.repeat(np.arange(count, dtype=np.int32), [len(each) for each in samples])
-        compact = plan.compact is None and is_compact(points, labels)
-        if not compact:
-            splits = Splits.of(points, -(-plan.size // plan.partition))
-            for name in ("axis", "value"):
-                save(store.scratch / f"splits.{name}", getattr(splits, name))
-        return compact
+        self.do("sample", spread.sample, range(count))
+        return spread.is_laid_out(self.store)
 
     def _aligned(self) -> None:
         store, plan = self.store, self.store.plan
-        self.do("align", partial(rows_of.align, store), range(len(plan.outputs)))
+        self.do("align", align, range(len(plan.outputs)))
         for number, file in enumerate(plan.files):
             if not file.rows:
-                rows_of.write_file(store, number, [])
+                write_file(store, number, [])
         store.drop("stars")
 
 
-def _shown(told: dict[str, Any]) -> dict[str, Any]:
-    return {"part": told["task"]} | {name: value for name, value in told.items() if name not in ("files", "task")}
+def totals(notes: Sequence[Note]) -> dict[str, Any]:
+    """Numbers of all partitions: what their rounds read."""
+    return {
+        "partitions": len(notes),
+        "rounds": max((note["rounds"] for note in notes), default=0),
+        "read": sum(note["read"] for note in notes),
+        "largest": max((note["largest"] for note in notes), default=0),
+        "cpu": sum(note["cpu"] for note in notes),
+    }
 
 
 def _write_files(store: Store) -> None:
     """Which numbers the points of each file have."""
-    plan = store.plan
-    columns = {
-        "path": [file.path for file in plan.files],
-        "rows_file": [file.name for file in plan.files],
-        "first": plan.firsts[:-1],
-        "rows": np.array([file.rows for file in plan.files], dtype=np.int64),
-        "size": np.array([file.size for file in plan.files], dtype=np.int64),
-        "modified": np.array([file.modified for file in plan.files], dtype=np.int64),
+    files, pyarrow = store.plan.files, optional("pyarrow", "partitioned")
+    columns: dict[str, Any] = {
+        "path": pyarrow.array([file.path for file in files], pyarrow.string()),
+        "rows_file": pyarrow.array([file.name for file in files], pyarrow.string()),
+        "first": store.plan.firsts[:-1],
     }
-    pyarrow = optional("pyarrow", "partitioned")
-    texts = {name: pyarrow.array(columns[name], pyarrow.string()) for name in ("path", "rows_file")}
-    write_table(plan, store.made / FILES, columns | texts)
+    for name in ("rows", "size", "modified"):
+        columns[name] = np.array([getattr(file, name) for file in files], dtype=np.int64)
+    store.write_table(store.made / FILES, columns)

@@ -1,154 +1,103 @@
-"""Rounds: the stars of some points in the triangulation of all points, from those nearby that were read.
+"""Rounds: answers about all points, computed from those nearby that were read.
 
-A round triangulates points and asks which stars are final: those of whose triangles no closed empty bubble touches the
-box of a block that was not read. The other stars are done again with the blocks that their bubbles touch, deepest
-first and twice as many each time, in a triangulation of their own; at least one more block is read each time, so this
-ends. Ties are decided by the points of the tied circle alone, and these lie in the closed bubble, as equal points do:
-all of them were read when a star is final.
+A round triangulates some of the points and finds which answers are final: those that rest on closed empty bubbles, or
+discs, that touch the box of no block that was not read. The others are sought again with the blocks that theirs touch,
+deepest first and twice as many each time; at least one more block is read each time, so this ends. Ties are decided by
+the points of the tied circle alone, and these lie in the closed bubble, as equal points do: all of them were read when
+an answer is final.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import time
+from abc import ABC, abstractmethod
+from collections.abc import Generator, Sequence
 from dataclasses import dataclass, field
-from typing import Final
+from typing import Any, Final, Generic, NamedTuple, TypeVar
 
 import numpy as np
 
-from stereodel._arrays import BoolArray, FloatArray, Indices, LongArray
-from stereodel.partitioned.index import Index
+from stereodel._arrays import BoolArray, FloatArray, Indices
+from stereodel.partitioned.index import Index, Sample
 from stereodel.triangulation import PlanarDelaunay, SphericalDelaunay
-
-REACH: Final = 0.15
-"""What is read beside own blocks at first: what is nearer than so much of the smaller block's diagonal."""
 
 SKELETON: Final = 8192
 """At most so many far points are among those of the first round, one of a block: so that no bubble is large."""
 
-BUDGET: Final = 0.2
-"""How many more points the second round may read, in terms of the own ones; each later one twice as many."""
+LEAST_BUDGET: Final = 8192
+"""Points that the first round after those that are read at first may add at least; later ones twice as many."""
 
-LEAST_BUDGET: Final = 4096
-"""How many it may read at least."""
-
-
-@dataclass
-class Reading:
-    """What the rounds of a partition read: rounds, points in all of them, and in the largest."""
-
-    rounds: int = 0
-    read: int = 0
-    largest: int = 0
-
-    def add(self, count: int) -> None:
-        """Note a round with so many points."""
-        self.rounds += 1
-        self.read += count
-        self.largest = max(self.largest, count)
+T = TypeVar("T")
+Mesh = SphericalDelaunay | PlanarDelaunay
 
 
-def triangulation(points: FloatArray) -> SphericalDelaunay | PlanarDelaunay:
+def triangulation(points: FloatArray) -> Mesh:
     """Of points of the plane (n, 2), or of directions (n, 3), in the worker's own thread."""
     return PlanarDelaunay(points, workers=1) if points.shape[1] == 2 else SphericalDelaunay(points, workers=1)
 
 
-@dataclass(frozen=True, eq=False)
-class Round:
-    """Stars that are final.
+class Verdict(NamedTuple, Generic[T]):
+    """What a round decides."""
 
-    mesh: triangulation of the points read.
-    numbers, (n,) array of int64: numbers of its points.
-    final, (n,) array of bool: own points whose stars are final in this round, and in none before; of duplicates all
-    together.
-    """
-
-    mesh: SphericalDelaunay | PlanarDelaunay
-    numbers: LongArray
-    final: BoolArray
+    answers: T  # that are final
+    pending: Indices  # what has no final answer yet
+    depth: FloatArray  # how deep its bubbles reach into each block that was not read
+    core: BoolArray  # blocks around it, which are read again
+    budget: int  # points that the first deepest blocks may have
 
 
 @dataclass
-class Rounds:
-    """The rounds of some points.
-
-    limit: points that may be read at once.
-    name: what the points are, for messages.
-    """
+class Rounds(ABC, Generic[T]):
+    """The rounds of one task; a subclass says what is computed."""
 
     index: Index
-    limit: int
-    name: str
-    reading: Reading = field(default_factory=Reading)
+    limit: int  # points that may be read at once
+    sizes: list[int] = field(default_factory=list, kw_only=True)  # points of each round
 
-    def of_part(self, part: int) -> Iterator[Round]:
-        """Rounds until the stars of all points of a partition are final.
+    @abstractmethod
+    def decide(self, sample: Sample, pending: Indices, unread: BoolArray) -> Verdict[T]:
+        """What some of the points decide."""
 
-        Raises MemoryError where that takes more than `limit` points at once.
+    def answers(self, pending: Indices, read: BoolArray, room: int) -> Generator[T, None, tuple[Indices, int]]:
+        """Final answers, round by round; what needs more points at once than there is room for, and how many.
+
+        pending: rows or numbers, as `decide` takes them.
+        read: blocks that are read at first.
         """
         index = self.index
-        own = np.flatnonzero(index.part == part)
-        size = int(index.sizes[own].sum())
-        step = max(1, -(-len(index) // SKELETON))
-        alone = np.arange(len(index)) % step == 0  # of these one point is known
-        read = self._around(own, np.zeros(len(index), dtype=np.bool_))
-        touched, pending, budget = np.zeros_like(read), None, LEAST_BUDGET
-        while pending is None or len(pending):
-            mesh, numbers, block = self._mesh(read, alone & ~read, pending)
-            kept = np.arange(len(numbers))
-            kept[mesh.duplicates[:, 0]] = mesh.duplicates[:, 1]
-            here = np.flatnonzero(index.part[block] == part if pending is None else np.isin(numbers, pending))
-            wanted = np.zeros(len(numbers), dtype=np.bool_)
-            wanted[kept[here]] = True
-            is_open, depth = self._open(mesh, wanted, ~read)
-            final = np.zeros(len(numbers), dtype=np.bool_)
-            final[here] = ~is_open[kept[here]]
-            yield Round(mesh, numbers, final)
-            left = here[~final[here]]
-            pending = numbers[left]
-            if len(pending):
-                around = block[mesh.simplices[is_open[mesh.simplices].any(axis=1)].ravel()]
-                core = np.unique(np.concatenate([around, block[left]]))
-                alone |= depth > 0
-                budget = 2 * max(budget, int(BUDGET / 2 * size))
-                deepest = np.argsort(-depth, kind="stable")[: np.count_nonzero(depth)]
-                before = np.cumsum(index.sizes[deepest]) - index.sizes[deepest]
-                touched[deepest[before <= budget]] = True
-                read = self._around(core[read[core]], touched)
+        alone = np.arange(len(index)) % max(1, -(-len(index) // SKELETON)) == 0  # of these one point is read
+        touched, budget = np.zeros(len(index), dtype=np.bool_), 0
+        while len(pending):
+            # Read are all points of some blocks, and one point each of those that are known to matter less.
+            one = alone & ~read
+            count = int(index.sizes[read].sum()) + int(np.count_nonzero(one))
+            if count > room:
+                return pending, count
+            self.sizes.append(count)
+            sample = index.read(np.flatnonzero(read), np.flatnonzero(one))
+            answers, pending, depth, core, least = self.decide(sample, pending, ~read)
+            yield answers
+            # Of a block that a bubble touches one point is read from now on. If nothing is read whole, that may do.
+            new = (depth > 0) & ~alone
+            alone |= new
+            if new.any() and not read.any():
+                continue
+            # The deepest ones are read whole, within a budget that doubles: never again are they left out.
+            budget = 2 * budget or max(LEAST_BUDGET, least)
+            deepest = np.argsort(-depth, kind="stable")[: np.count_nonzero(depth)]
+            before = np.cumsum(index.sizes[deepest]) - index.sizes[deepest]
+            touched[deepest[before <= budget]] = True
+            read = touched | core
+        return pending, 0
 
-    def _around(self, core: Indices, touched: BoolArray) -> BoolArray:
-        """Blocks to read: those around which stars are wanted, those that bubbles touched, and those near the first."""
-        read = touched.copy()
-        read[core] = True
-        return read | self.index.near(core, REACH, ~read)
 
-    def _mesh(
-        self, read: BoolArray, alone: BoolArray, pending: LongArray | None
-    ) -> tuple[SphericalDelaunay | PlanarDelaunay, LongArray, Indices]:
-        """The triangulation of what is read, the numbers of its points and their blocks."""
-        count = int(self.index.sizes[read].sum()) + int(np.count_nonzero(alone))
-        if count > self.limit:
-            star = "some stars" if pending is None else f"the star of point {pending[0]}"
-            raise MemoryError(
-                f"{self.name}: {star} may need {count} points at once, more than limit={self.limit}; "
-                "give a higher limit, or smaller partitions"
-            )
-        points, numbers, block = self.index.read(np.flatnonzero(read), np.flatnonzero(alone))
-        self.reading.add(count)
-        return triangulation(points), numbers, block
+def clock() -> FloatArray:
+    """Seconds that passed, and those of the processor."""
+    return np.array([time.perf_counter(), time.process_time()])
 
-    def _open(
-        self, mesh: SphericalDelaunay | PlanarDelaunay, wanted: BoolArray, unread: BoolArray
-    ) -> tuple[BoolArray, FloatArray]:
-        """Wanted points whose stars are not final, and how deep their bubbles reach into blocks that were not read."""
-        if mesh.dimension < 2:  # all on one line so far: any other point will do
-            return wanted & unread.any(), unread.astype(np.float64)
-        index, faces = self.index, mesh.simplices
-        if isinstance(mesh, PlanarDelaunay):
-            hull = mesh.convex_hull
-            faces = np.concatenate([faces, np.column_stack([hull, np.full(len(hull), -1, dtype=np.int32)])])
-        touching, depth = index.space.open_bubbles(
-            mesh.points, faces, index.lows, index.highs, index.levels, index.counts(unread), wanted
-        )
-        is_open = np.zeros(len(wanted) + 1, dtype=np.bool_)  # the last one for edges of the hull
-        is_open[faces[touching]] = True
-        return is_open[:-1] & wanted, depth
+
+def measured(sizes: Sequence[int], began: FloatArray) -> dict[str, Any]:
+    """What the rounds of a task read, and the seconds that it took."""
+    seconds, cpu = (clock() - began).tolist()
+    rounds = {"rounds": len(sizes), "read": sum(sizes), "largest": max(sizes, default=0)}
+    return rounds | {"seconds": seconds, "cpu": cpu}

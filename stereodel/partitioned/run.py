@@ -1,42 +1,34 @@
-"""Running: the passes of a triangulation over an executor, and what they leave."""
+"""Running: triangulations of points in files, and what they leave."""
 
 from __future__ import annotations
 
 import os
 from collections.abc import Sequence
-from concurrent.futures import Executor
 from dataclasses import dataclass
-from functools import partial
 from typing import Any, Final, Literal
 
 import numpy as np
 
-import stereodel
 from stereodel._arrays import as_choice, as_count
 from stereodel._docs import shared
 from stereodel._extras import optional
-from stereodel._tasks.progress import Progress
+from stereodel._tasks.kept import Note
 from stereodel.constants import AREA_SUM_ERROR
-from stereodel.partitioned import rows as rows_of
-from stereodel.partitioned import targets as targets_of
-from stereodel.partitioned.flat import is_flat
+from stereodel.io.formats.names import listed
+from stereodel.partitioned import questions
+from stereodel.partitioned.files import SURFACES, FilesGiven, Surface, names_of, opened
 from stereodel.partitioned.index import Index
-from stereodel.partitioned.kinds import names_of, source_of
-from stereodel.partitioned.passes import LIMIT, NONE, PARTITION, Means, Passes, Results
-from stereodel.partitioned.places import SURFACES, Surface
-from stereodel.partitioned.plan import Plan
-from stereodel.partitioned.solve import ROWS, solve, solve_flat, write_table
-from stereodel.partitioned.sources import Given
-from stereodel.partitioned.store import Store
-from stereodel.partitioned.targets import Answers
+from stereodel.partitioned.passes import NONE, Execution, Passes, Results, execute, totals
+from stereodel.partitioned.plan import ROWS, Plan, Question, source_of
+from stereodel.partitioned.questions import Answers
+from stereodel.partitioned.stars import solve
 from stereodel.sphere.latitudes import KINDS as LATITUDES
 from stereodel.sphere.latitudes import Latitude
 
 Method = Literal["linear", "natural"]
 Row = Literal["area", "degree", "nearest", "distance", "kept"]
 
-PASSES: Final = ("sample", "spread", "collect", "solve", "align")
-"""Passes of a triangulation, in order; if the files are compact, nothing is spread."""
+DEFAULTS: Final = Execution()
 
 
 @dataclass(frozen=True)
@@ -72,23 +64,17 @@ class Run(Results):
         """Cells, if they were asked for: a dataset of pyarrow with point, area and geometry, well-known binary."""
         return self._dataset("cells")
 
-    @shared(**targets_of.FAMILY)
+    @shared(**questions.FAMILY)
     def nearest(
         self,
-        targets: Given,
+        targets: FilesGiven,
         out: str | os.PathLike[str],
         *,
         k: int | None = None,
         columns: Sequence[str] | None = None,
         kind: str = "auto",
         keep: Sequence[str] = (),
-        partition: int = PARTITION,
-        limit: int = LIMIT,
-        executor: Executor | None = None,
-        jobs: int | None = None,
-        scratch: str | os.PathLike[str] | None = None,
-        resume: bool = True,
-        progress: Progress | None = None,
+        execution: Execution = DEFAULTS,
     ) -> Answers:
         """Nearest points at targets in files, exactly as `SphericalDelaunay.nearest` of all points at once.
 
@@ -122,14 +108,17 @@ class Run(Results):
         ...     print(found.rows().to_table()["nearest"].to_pylist())
         [[4, 0, 1]]
         """
-        means = Means(out, limit, executor, jobs, scratch, resume, progress)
-        wanted = targets_of.Targets(targets, columns, kind, keep, partition)
-        return targets_of.nearest(self.folder, wanted, k, means)
+        plan = questions.indexed(self.folder)
+        if not plan.size:
+            raise ValueError("nearest needs at least one point; this run has none")
+        count = None if k is None else as_count(k, "k", high=plan.size)
+        question = Question(str(self.folder.absolute()), plan.digest, "nearest", k=count)
+        return questions.ask(question, ("nearest", "distance"), targets, out, columns, kind, keep, execution)
 
-    @shared(**targets_of.FAMILY)
+    @shared(**questions.FAMILY)
     def interpolate(
         self,
-        targets: Given,
+        targets: FilesGiven,
         out: str | os.PathLike[str],
         values: str | Sequence[str],
         *,
@@ -137,13 +126,7 @@ class Run(Results):
         columns: Sequence[str] | None = None,
         kind: str = "auto",
         keep: Sequence[str] = (),
-        partition: int = PARTITION,
-        limit: int = LIMIT,
-        executor: Executor | None = None,
-        jobs: int | None = None,
-        scratch: str | os.PathLike[str] | None = None,
-        resume: bool = True,
-        progress: Progress | None = None,
+        execution: Execution = DEFAULTS,
     ) -> Answers:
         """Values at targets in files, as by the interpolators of all points at once.
 
@@ -186,13 +169,25 @@ class Run(Results):
         ...     print(found.rows().to_table()["height"].to_pylist())
         [5.0, nan]
         """
-        means = Means(out, limit, executor, jobs, scratch, resume, progress)
-        wanted = targets_of.Targets(targets, columns, kind, keep, partition)
-        return targets_of.interpolate(self.folder, wanted, values, method, means)
+        plan = questions.indexed(self.folder)
+        chosen = as_choice(method, tuple(questions.INTERPOLATORS), "method")
+        names = names_of(values)
+        if not names:
+            raise ValueError("values is empty; name one or more columns of the files of points")
+        for file in plan.files:
+            file.check()
+            there = opened(file.path).schema_arrow.names
+            missing = [name for name in names if name not in there]
+            if missing:
+                where = f"columns {listed(there)} of {file.path}"
+                raise ValueError(f"values has {missing[0]!r}, which is not one of the {where}")
+        flat = not self.statistics["triangles"]
+        question = Question(str(self.folder.absolute()), plan.digest, chosen, values=names, flat=flat)
+        return questions.ask(question, names, targets, out, columns, kind, keep, execution)
 
 
 def triangulate(
-    source: Given,
+    source: FilesGiven,
     out: str | os.PathLike[str],
     *,
     columns: Sequence[str] | None = None,
@@ -204,13 +199,7 @@ def triangulate(
     triangles: bool = True,
     cells: bool = False,
     index: bool = False,
-    partition: int = PARTITION,
-    limit: int = LIMIT,
-    executor: Executor | None = None,
-    jobs: int | None = None,
-    scratch: str | os.PathLike[str] | None = None,
-    resume: bool = True,
-    progress: Progress | None = None,
+    execution: Execution = DEFAULTS,
 ) -> Run:
     """Triangulate points in files, more of them than memory holds: exactly as all at once, whatever the partitions.
 
@@ -246,23 +235,8 @@ def triangulate(
         `stereodel.io.to_geodataframe`.
     index : bool
         Whether the points are kept in their partitions, for `Run.nearest` and `Run.interpolate`: at most 35 bytes each.
-    partition : int
-        Points of a partition, about. Half a million to a million are right; more take more memory, fewer read more
-        points beside their own.
-    limit : int
-        Points that a worker may triangulate at once; some 500 bytes each.
-    executor : concurrent.futures.Executor, optional
-        Who computes, such as ``client.get_executor(pure=False)`` of a client of Dask or an ``MPIPoolExecutor`` of
-        mpi4py. Its workers see `out` and `scratch`. By default processes of this machine.
-    jobs : int, optional
-        Number of these processes, by default one for each processor; with 1 all is done in the process that calls.
-    scratch : path-like, optional
-        A folder for what passes hand on, at most 80 bytes a point, deleted when it is used; by default in `out`.
-    resume : bool
-        Whether a run that was interrupted goes on, or the results of one that ended are kept. Otherwise all that it
-        left is deleted first.
-    progress : callable, optional
-        Called with the name of a pass, the number of its tasks that are done, and that of all of them.
+    execution : Execution, optional
+        Partitions and memory, processes or a cluster, scratch, resuming and progress.
 
     Returns
     -------
@@ -282,7 +256,7 @@ def triangulate(
     TypeError
         For coordinates of another type than numbers: booleans, times, text, bytes; naming file and column.
     MemoryError
-        Where a star has more points than `limit`, naming partition and point.
+        Where a star has more points than `Execution.limit`, naming partition and point.
     RuntimeError
         Where another run writes to `out`.
     OSError
@@ -300,7 +274,7 @@ def triangulate(
 
     Where files are compact, as pixels of HEALPix or files sorted along a space-filling curve, they are the partitions,
     cut where they are large and grouped where they are small: nothing is copied. That is measured, on a sample: see
-    `stereodel.partitioned.tree.is_compact`. Otherwise points are spread over the leaves of a k-d tree.
+    `stereodel.partitioned.spread.is_compact`. Otherwise points are spread over the leaves of a k-d tree.
 
     Examples
     --------
@@ -325,90 +299,54 @@ def triangulate(
     found = source_of(source, kind, columns, surface, latitude, keep, ROWS)
     plan = Plan.of(
         found,
-        version=stereodel.__version__,
-        partition=as_count(partition, "partition"),
+        partition=execution.partition,
         rows=tuple(name for name in ROWS if name in wanted),
         triangles=bool(triangles),
         cells=bool(cells),
         index=bool(index),
     )
-    means = Means(out, limit, executor, jobs, scratch, resume, progress)
-    return Run(means.run(_Triangulating, found, plan))
+    return Run(execute(_stars, found, plan, out, execution))
 
 
-class _Triangulating(Passes):
+def _stars(passes: Passes, parts: list[int]) -> tuple[dict[str, Any], list[Note]]:
     """Triangles, cells and results for all points."""
-
-    def results(self, parts: list[int]) -> tuple[dict[str, Any], list[dict[str, Any]]]:
-        """What is asked of all points."""
-        store, plan = self.store, self.store.plan
-        told = self._solved(parts) if parts else []
-        report = _report(plan, told)
-        _check(plan, report)
-        if plan.triangles and not told:
-            none = {name: np.empty(0, dtype=np.int64) for name in "abc"} | {"closing": np.empty(0, dtype=np.bool_)}
-            write_table(plan, store.room("triangles") / f"{NONE['part']}.parquet", none)
-        return report, told
-
-    def _solved(self, parts: list[int]) -> list[dict[str, Any]]:
-        """What there is to say of each partition."""
-        store = self.store
-        if store.notes.once("index", partial(self._indexed, parts))["flat"]:
-            told = list(store.notes.once("solve", partial(self._flat, parts))["told"])
-        else:
-            told = self.do("solve", partial(solve, store, limit=self.limit), parts)
-        if store.plan.rows and store.notes.note("align") is None:
-            rows_of.gather(store, [each["task"] for each in told])
-        if not store.plan.index:
+    store, plan, notes = passes.store, passes.store.plan, []
+    if parts:
+        store.notes.once("index", lambda: Index.build(store, parts))
+        notes = passes.do("solve", solve, parts, limit=passes.limit)
+        if plan.rows and store.notes.note("align") is None:
+            store.gather("stars", parts)
+        if not plan.index:
             store.drop("points", "blocks")
-        return told
-
-    def _indexed(self, parts: list[int]) -> dict[str, Any]:
-        """Whether all points lie on one line or great circle; the index is written."""
-        Index.build(self.store, parts)
-        return {"flat": is_flat(_lots(self.store, parts))}
-
-    def _flat(self, parts: list[int]) -> dict[str, Any]:
-        self.tell("solve", 0, 1)
-        told = [solve_flat(self.store, self.limit, parts)]
-        self.tell("solve", 1, 1)
-        return {"told": told}
+    elif plan.triangles:
+        none = {name: np.empty(0, dtype=np.int64) for name in "abc"} | {"closing": np.empty(0, dtype=np.bool_)}
+        store.write_table(store.folder("triangles") / f"{NONE['part']}.parquet", none)
+    statistics = _statistics(plan, notes)
+    _check(plan, statistics)
+    return statistics, notes
 
 
-def _lots(store: Store, parts: Sequence[int]) -> Any:
-    """Points: one of each block, then those of all partitions."""
-    yield np.array(Index(store).points)
-    for part in parts:
-        yield np.asarray(store.load("points", part, "points"))
-
-
-def _report(plan: Plan, told: Sequence[dict[str, Any]]) -> dict[str, Any]:
+def _statistics(plan: Plan, notes: Sequence[Note]) -> dict[str, Any]:
     """Numbers of the whole run."""
-    total = {
-        name: sum(each[name] for each in told) for name in ("dropped", "triangles", "edges", "area", "read", "cpu")
-    }
-    distinct = plan.size - total.pop("dropped")
-    edges = total.pop("edges")
-    euler = 2 * distinct - (4 if plan.places.surface == "sphere" else 2 + edges)
+    names = ("dropped", "triangles", "edges", "area")
+    dropped, triangles, edges, area = (sum(note[name] for note in notes) for name in names)
+    distinct = plan.size - dropped
+    euler = 2 * distinct - (4 if plan.columns.surface == "sphere" else 2 + edges)
     return {
-        "surface": plan.places.surface,
+        "surface": plan.columns.surface,
         "points": plan.size,
         "distinct": distinct,
-        **total,
-        "euler": euler if total["triangles"] else 0,
-        "partitions": len(told),
-        "rounds": max((each["rounds"] for each in told), default=0),
-        "largest": max((each["largest"] for each in told), default=0),
+        "triangles": triangles,
+        "euler": euler if triangles else 0,
+        "area": area,
+        **totals(notes),
     }
 
 
-def _check(plan: Plan, report: dict[str, Any]) -> None:
-    """Triangles by Euler's formula, and the areas of all cells of a sphere.
-
-    Raises RuntimeError where they differ, which no input may cause.
-    """
-    if report["triangles"] != report["euler"]:
-        raise RuntimeError(f"there are {report['triangles']} triangles, but {report['euler']} by Euler's formula")
-    whole = 4 * np.pi
-    if plan.places.surface == "sphere" and plan.size and abs(report["area"] - whole) > AREA_SUM_ERROR * whole:
-        raise RuntimeError(f"the areas of all cells add up to {report['area']}, but the sphere's is {whole}")
+def _check(plan: Plan, statistics: dict[str, Any]) -> None:
+    """Compare triangles with Euler's formula, and the areas of all cells with a sphere's; no input lets them differ."""
+    triangles, euler, area, whole = *(statistics[name] for name in ("triangles", "euler", "area")), 4 * np.pi
+    if triangles != euler:
+        raise RuntimeError(f"there are {triangles} triangles, but {euler} by Euler's formula")
+    if plan.columns.surface == "sphere" and plan.size and abs(area - whole) > AREA_SUM_ERROR * whole:
+        raise RuntimeError(f"the areas of all cells add up to {area}, but the sphere's is {whole}")

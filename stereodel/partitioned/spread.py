@@ -5,18 +5,19 @@ Where the files are compact, they are partitions already: nothing is spread.
 
 from __future__ import annotations
 
-from typing import Any, Final
+from collections.abc import Sequence
+from typing import Final
 
 import numpy as np
+import numpy.typing as npt
 
-from stereodel._arrays import FloatArray, LongArray
+from stereodel._arrays import FloatArray, IntArray, LongArray
 from stereodel._spaces import space_of
-from stereodel.partitioned.plan import Piece, Plan
-from stereodel.partitioned.shards import load, save, sums
-from stereodel.partitioned.sources import read, some
-from stereodel.partitioned.store import Store
-from stereodel.partitioned.tree import SAMPLE, SAMPLE_OF_A_PART, Splits
+from stereodel.partitioned.files import read, sampled
+from stereodel.partitioned.plan import Plan, RowRange
+from stereodel.partitioned.store import Store, load, save, starts_of, sums
 from stereodel.sphere.vectors import units
+from stereodel.triangulation import PlanarDelaunay, SphericalDelaunay
 
 GROUPS: Final = 512
 """Row groups that a sample reads in all, but one of each piece of a file at least: it need not read the whole input."""
@@ -24,109 +25,152 @@ GROUPS: Final = 512
 SMALL_PARTS: Final = 2**16
 """Partitions that numbers of 16 bits count, which are sorted in one pass."""
 
+SAMPLE: Final = 100_000
+"""Rows of a sample, enough for leaves that differ in size by some per cent."""
 
-def block_type(width: int) -> np.dtype[np.void]:
-    """What is noted of a block: its box, its rows, one of its points, the number of that, CRC-32 of all."""
-    corner = ("<f8", (width,))
-    names = [("low", *corner), ("high", *corner), ("first", "<i8"), ("last", "<i8"), ("point", *corner)]
-    return np.dtype([*names, ("number", "<i8"), ("sum", "<u4")])
+SAMPLE_OF_A_PART: Final = 64
+"""The least of them for each partition."""
+
+COMPACT: Final = 2.0
+"""How many times as many edges may join two partitions of files as join two leaves of a tree; see `is_compact`."""
+
+NODE: Final = np.dtype([("axis", "<i4"), ("value", "<f8")])
+"""An inner node of a k-d tree: points whose coordinate is up to the value go to the first child."""
+
+
+def tree_of(sample: FloatArray, leaves: int) -> npt.NDArray[np.void]:
+    """The k-d tree whose leaves have about equally many points of a sample, cut across the longest axis: inner nodes.
+
+    They stand in the order of a heap: the children of inner node k are 2k + 1 and 2k + 2, then come the leaves.
+
+    >>> tree = tree_of(np.array([[0.0, 0], [1, 0], [2, 0], [3, 0], [4, 0], [5, 0]]), 3)
+    >>> tree["axis"].tolist(), tree["value"].tolist()
+    ([0, 0], [3.0, 1.0])
+    """
+    inner = leaves - 1
+    below = np.ones(2 * leaves - 1, dtype=np.int64)
+    for node in reversed(range(inner)):
+        below[node] = below[2 * node + 1] + below[2 * node + 2]
+    tree = np.zeros(inner, dtype=NODE)
+    rows = {0: sample}
+    for node in range(inner):
+        points, axis, value = rows.pop(node), 0, 0.0
+        if len(points):
+            axis = int(np.argmax(0.5 * points.max(axis=0) - 0.5 * points.min(axis=0)))  # halves do not overflow
+            last = max(0, len(points) * int(below[2 * node + 1]) // int(below[node]) - 1)
+            value = np.partition(points[:, axis], last)[last]
+        tree[node] = axis, value
+        first = points[:, axis] <= value
+        rows[2 * node + 1], rows[2 * node + 2] = points[first], points[~first]
+    return tree
+
+
+def leaves_of(points: FloatArray, tree: npt.NDArray[np.void]) -> IntArray:
+    """Leaf of each point; directions of any length are taken as unit vectors."""
+    return space_of(points).part_of(points, *(np.ascontiguousarray(tree[name]) for name in ("axis", "value")))
+
+
+def is_compact(sample: FloatArray, parts: IntArray) -> bool:
+    """Whether partitions are about as compact as the leaves of a tree, so that few points beside each are read.
+
+    What a partition reads beyond its own points lies along its border. That is as long as the number of edges across
+    it in a Delaunay triangulation of a sample of all points: at most `COMPACT` times as many as for a k-d tree with the
+    same number of leaves. Pixels of HEALPix and files sorted along a space-filling curve have 1 to 1.5 times as many;
+    files in the order of time, of names, or bands of latitude far more.
+
+    >>> points = np.random.default_rng(1).uniform(size=(4000, 2))
+    >>> squares = (points[:, 0] * 4).astype(np.int32) * 4 + (points[:, 1] * 4).astype(np.int32)
+    >>> is_compact(points, squares), is_compact(points, np.arange(4000, dtype=np.int32) % 16)
+    (True, False)
+    """
+    count = len(np.unique(parts))
+    if count < 2:
+        return True
+    mesh = PlanarDelaunay(sample) if sample.shape[1] == 2 else SphericalDelaunay(sample)
+    ends = mesh.edges
+    leaves = leaves_of(sample, tree_of(sample, count))
+    across, usual = (np.count_nonzero(labels[ends[:, 0]] != labels[ends[:, 1]]) for labels in (parts, leaves))
+    return bool(across <= COMPACT * usual)
 
 
 def sample(store: Store, part: int) -> None:
     """Points of some rows, evenly spread over those that would be a partition."""
     plan = store.plan
-    pieces = plan.parts[part]
-    rows = sum(piece.last - piece.first for piece in pieces)
+    ranges = plan.parts[part]
+    rows = sum(last - first for _, first, last in ranges)
     total = max(SAMPLE, SAMPLE_OF_A_PART * len(plan.parts))
     groups = -(-GROUPS // len(plan.parts))
-    points = np.concatenate(
-        [
-            points
-            for file, first, last in pieces
-            for points in some(
-                plan.files[file], plan.places, first, last, -(-total * (last - first) // plan.size), groups
-            )
-        ]
-    )
-    files = store.save("sample", part, {"points": points if plan.places.width == 2 else units(points)})
+    found: list[FloatArray] = []
+    for file, first, last in ranges:
+        count = -(-total * (last - first) // plan.size)
+        found += sampled(plan.files[file], plan.columns, first, last, count, groups)
+    points = np.concatenate(found)
+    files = store.save("sample", part, {"points": points if plan.columns.width == 2 else units(points)})
     store.notes.keep("sample", {"points": len(points), "rows": rows}, files, task=part)
 
 
-def points_of(plan: Plan, pieces: tuple[Piece, ...]) -> FloatArray:
-    """Points of pieces, one after another.
+def is_laid_out(store: Store) -> bool:
+    """Whether the files are partitions, by the samples of all; if they are not, the tree is written."""
+    plan = store.plan
+    samples = [np.asarray(store.load("sample", part, "points")) for part in range(len(plan.parts))]
+    points = np.concatenate(samples)
+    labels = np.repeat(np.arange(len(samples), dtype=np.int32), [len(each) for each in samples])
+    compact = plan.compact is None and is_compact(points, labels)
+    if not compact:
+        save(store.scratch / "splits", tree_of(points, -(-plan.size // plan.partition)))
+    return compact
 
-    Raises ValueError where a file has fewer of the rows than it had.
-    """
-    points = np.empty((sum(piece.last - piece.first for piece in pieces), plan.places.width))
+
+def points_of(plan: Plan, ranges: Sequence[RowRange]) -> FloatArray:
+    """Points of ranges of rows, one after another."""
+    points = np.empty((sum(last - first for _, first, last in ranges), plan.columns.width))
     filled = 0
-    for piece in pieces:
-        for rows in read(plan.files[piece.file], plan.places, piece.first, piece.last):
+    for file, first, last in ranges:
+        for rows in read(plan.files[file], plan.columns, first, last):
             points[filled : filled + len(rows)] = rows
             filled += len(rows)
     if filled < len(points):
-        raise ValueError(f"{plan.files[pieces[0].file].path} and those after it have {filled} of {len(points)} rows")
+        raise ValueError(f"{plan.files[ranges[0].file].path} and those after it have {filled} of {len(points)} rows")
     return points
 
 
 def spread(store: Store, share: int) -> None:
     """Points of a share of the input in the order of partitions; where each of these begins, and its CRC-32."""
-    plan = store.plan
-    splits = splits_of(store)
-    points = points_of(plan, plan.shares[share])
-    parts = splits.parts(points)
-    order = np.argsort(parts.astype(np.uint16) if splits.leaves <= SMALL_PARTS else parts, kind="stable")
-    numbers = (order + plan.first_of(plan.shares[share])).astype(plan.number_type)
-    starts = np.concatenate([[0], np.cumsum(np.bincount(parts, minlength=splits.leaves))])
-    points = points[order]
-    files = store.save(
-        "spread", share, {"points": points, "numbers": numbers, "starts": starts_of(starts, points, numbers)}
-    )
+    plan, tree = store.plan, load(store.scratch / "splits")
+    points, first = points_of(plan, plan.shares[share]), plan.share_firsts[share]
+    parts, leaves = leaves_of(points, tree), len(tree) + 1
+    order = np.argsort(parts.astype(np.uint16) if leaves <= SMALL_PARTS else parts, kind="stable")
+    numbers = (order + first).astype(plan.number_type)
+    points, bounds = points[order], np.cumsum(np.bincount(parts, minlength=leaves))
+    starts = starts_of(np.append(0, bounds), points, numbers)
+    files = store.save("spread", share, {"points": points, "numbers": numbers, "starts": starts})
     store.notes.keep("spread", {"points": len(points)}, files, task=share)
-
-
-def starts_of(starts: LongArray, *arrays: Any) -> LongArray:
-    """Where slices of arrays begin, and the CRC-32 of each, (slices + 1, 2)."""
-    return np.column_stack([starts, [*sums(starts, *arrays), 0]])
-
-
-def splits_of(store: Store) -> Splits:
-    """The k-d tree of a run."""
-    return Splits(*(np.array(load(store.scratch / f"splits.{name}")) for name in ("axis", "value")))
-
-
-def gather(store: Store) -> None:
-    """Write where each partition begins in each share, (shares, parts + 1, 2), so that few files are opened."""
-    starts = [store.load("spread", share, "starts") for share in range(len(store.plan.shares))]
-    save(store.scratch / "spread" / "starts", np.stack(starts))
 
 
 def collect(store: Store, part: int) -> None:
     """Points of a partition in blocks, out of the shares that were spread."""
     plan = store.plan
-    points, numbers = [np.empty((0, plan.places.width))], [np.empty(0, plan.number_type)]
-    starts = load(store.scratch / "spread" / "starts")
-    for share, ((first, total), (last, _)) in enumerate(starts[:, part : part + 2].tolist()):
-        if first < last:
-            found = store.load_rows("spread", share, first, last, total, "points", "numbers")
-            points.append(found[0])
-            numbers.append(found[1])
-    _keep(store, part, np.concatenate(points), np.concatenate(numbers))
+    found = [slices for _, slices in store.slices("spread", part, "points", "numbers")]
+    points = np.concatenate([np.empty((0, plan.columns.width)), *(each[0] for each in found)])
+    numbers = np.concatenate([np.empty(0, plan.number_type), *(each[1] for each in found)])
+    _keep(store, part, points, numbers)
 
 
 def take(store: Store, part: int) -> None:
     """Points of a partition in blocks, out of the files that are one."""
-    plan = store.plan
-    points = points_of(plan, plan.parts[part])
-    first = plan.first_of(plan.parts[part])
+    points = points_of(store.plan, store.plan.parts[part])
+    first = store.plan.first_of(store.plan.parts[part])
     _keep(store, part, points, np.arange(first, first + len(points)))
 
 
 def _keep(store: Store, part: int, points: FloatArray, numbers: LongArray) -> None:
-    """Write a partition."""
-    plan = store.plan
+    """Write a partition: its points in blocks, and of each block its box, its rows, one of its points, and CRC-32."""
+    plan, width = store.plan, store.plan.columns.width
     order, starts, lows, highs = space_of(points).blocks(points, plan.block)
     points, numbers = points[order], numbers[order].astype(plan.number_type)
-    blocks = np.empty(len(lows), dtype=block_type(plan.places.width))
+    corner = ("<f8", (width,))
+    names = [("low", *corner), ("high", *corner), ("first", "<i8"), ("last", "<i8"), ("point", *corner)]
+    blocks = np.empty(len(lows), dtype=[*names, ("number", "<i8"), ("sum", "<u4")])
     blocks["low"], blocks["high"] = lows, highs
     blocks["first"], blocks["last"] = starts[:-1], starts[1:]
     blocks["point"], blocks["number"] = points[starts[:-1]], numbers[starts[:-1]]

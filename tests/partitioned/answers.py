@@ -1,6 +1,6 @@
 """What partitions say, and what one triangulation in memory says of the same points."""
 
-from functools import partial
+from dataclasses import fields
 
 import numpy as np
 import pyarrow as pa
@@ -14,11 +14,29 @@ from stereodel import (
     angular_distance,
     lonlat_to_xyz,
 )
-from stereodel.partitioned import triangulate
+from stereodel.partitioned import Execution, triangulate
 from tests import sets
 
-serially = partial(triangulate, jobs=1)
-"""In this process, which is fastest for few points."""
+PASSES = ("sample", "spread", "collect", "solve", "align")
+"""Of a triangulation, in order; if the files are compact, nothing is spread."""
+
+HOW = {field.name for field in fields(Execution)}
+
+
+def executed(call, *given, **options):
+    """What a call returns, with options of its own and of `Execution`."""
+    own = {name: value for name, value in options.items() if name not in HOW}
+    return call(*given, **own, execution=Execution(**{name: options[name] for name in options.keys() & HOW}))
+
+
+def in_parallel(*given, **options):
+    """A run by processes of this machine."""
+    return executed(triangulate, *given, **options)
+
+
+def serially(*given, **options):
+    """A run in this process, which is fastest for few points."""
+    return executed(triangulate, *given, **{"jobs": 1} | options)
 
 
 def write_points(folder, columns, rows, files=5, **options):
@@ -96,3 +114,25 @@ def differences(run, truth):
         atol=2.0**-98 if run.statistics["surface"] == "sphere" else 0.0,
     )
     return wrong if near else [*wrong, "distance"]
+
+
+def clean(out):
+    """Whether a folder has results alone, and no file of a process that was killed."""
+    names = {path.name for path in out.iterdir()} - {"triangles"}
+    return names == {".lock", "files.parquet", "plan.json", "rows", "run.json"} and not list(out.rglob("*.tmp"))
+
+
+def meanwhile(name, done, action):
+    """A function for `progress` that does something once, when so many tasks of a pass are done."""
+    seen = []
+
+    def progress(*state):
+        if state[:2] == (name, done) and not seen:
+            seen.append(state)
+            action()
+
+    return progress
+
+
+def stop():
+    raise KeyboardInterrupt

@@ -5,11 +5,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from stereodel.partitioned import passes, rounds
-from stereodel.partitioned import run as running
+from stereodel.partitioned import spread, stars
 from tests import sets
 from tests.examples import examples
-from tests.partitioned.answers import differences, in_memory, rows_of, serially, surface_of, write_points
+from tests.partitioned.answers import PASSES, differences, in_memory, rows_of, serially, surface_of, write_points
 from tests.sets import LONLAT, XY, XYZ
 
 SIZE = 500
@@ -87,8 +86,8 @@ def test_any_split_gives_the_same(tmp_path_factory, one, cuts, partition, block,
         patch.setattr("stereodel.partitioned.plan.BLOCK", block)
         patch.setattr("stereodel.partitioned.plan.LEAST_SHARE", 1)
         patch.setattr("stereodel.partitioned.plan.LARGEST_SHARE", share)
-        patch.setattr(passes, "is_compact", lambda *_: compact)
-        patch.setattr(rounds, "REACH", rounds.REACH if halo else -1.0)
+        patch.setattr(spread, "is_compact", lambda *_: compact)
+        patch.setattr(stars, "REACH", stars.REACH if halo else -1.0)
         check(
             tmp_path_factory.mktemp("split"),
             columns,
@@ -101,7 +100,7 @@ def test_any_split_gives_the_same(tmp_path_factory, one, cuts, partition, block,
 
 def test_a_circle_through_the_corner_of_a_block_is_open(tmp_path, monkeypatch):
     """Its tie is decided with the point there, though nothing else had that block read."""
-    monkeypatch.setattr(rounds, "REACH", -1.0)
+    monkeypatch.setattr(stars, "REACH", -1.0)
     rows = sets.plane("lattice").rows(250)
     check(tmp_path, XY, rows, in_memory(XY, rows), 40)
 
@@ -131,7 +130,7 @@ def test_files_in_another_order_are_spread(tmp_path):
     calls = []
     run = check(tmp_path, columns, rows, in_memory(columns, rows), 8, progress=lambda *told: calls.append(told))
     assert not run.statistics["compact"]
-    assert list(dict.fromkeys(name for name, _, _ in calls)) == list(running.PASSES)
+    assert list(dict.fromkeys(name for name, _, _ in calls)) == list(PASSES)
     last = {name: (done, of) for name, done, of in calls}
     assert all(done == of > 0 for done, of in last.values())
 

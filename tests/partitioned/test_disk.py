@@ -13,12 +13,21 @@ import pytest
 
 from stereodel.partitioned import Run
 from stereodel.partitioned import passes as passes_of
-from stereodel.partitioned.sources import PointFile
-from tests.partitioned.answers import differences, in_memory, rows_of, serially, write_points
+from stereodel.partitioned.files import PointFile
+from tests.partitioned.answers import (
+    PASSES,
+    clean,
+    differences,
+    executed,
+    in_memory,
+    meanwhile,
+    rows_of,
+    serially,
+    stop,
+    write_points,
+)
 from tests.sets import LONLAT
 from tests.tiers import by_day
-
-PASSES = ("sample", "spread", "collect", "solve", "align")
 
 
 @pytest.fixture(autouse=True)
@@ -35,18 +44,6 @@ def points(tmp_path):
         tmp_path / "points", (*columns, "id"), np.column_stack([rows, np.arange(len(rows))]), row_group_size=40
     )
     return tmp_path / "points", in_memory(columns, rows)
-
-
-def meanwhile(name, done, action, seen=None):
-    """A function for `progress` that does something once, when so many tasks of a pass are done."""
-    seen = [] if seen is None else seen
-
-    def progress(*told):
-        if told[:2] == (name, done) and not seen:
-            seen.append(told)
-            action()
-
-    return progress
 
 
 def harmed(folder, pattern, harm=os.unlink):
@@ -76,14 +73,8 @@ def run_of(folder, out, **options):
 def check(run, truth):
     rows = run.rows().to_table()
     assert rows["id"].to_pylist() == list(range(len(rows)))
-    faces, told = truth
-    table = run.triangles().to_table()
-    found = np.column_stack([table[name].to_numpy() for name in ("a", "b", "c", "closing")])
-    assert np.array_equal(found[np.lexsort(found.T[::-1])], faces)
-    assert all(np.array_equal(rows[name].to_numpy(), told[name]) for name in ("area", "degree", "nearest", "kept"))
-    left = {path.name for path in run.folder.iterdir()}
-    assert left == {".lock", "files.parquet", "plan.json", "rows", "run.json", "triangles"}
-    assert not list(run.folder.rglob("*.tmp"))
+    assert differences(run, truth) == []
+    assert clean(run.folder)
 
 
 # What a run made
@@ -101,15 +92,15 @@ AGAIN = [
 @pytest.mark.parametrize(("name", "pattern"), AGAIN)
 def test_what_is_deleted_while_its_pass_runs_is_made_again(tmp_path, points, name, pattern):
     folder, truth = points
-    seen = []
-    action = harmed(tmp_path / "out", f"scratch/*/{pattern}")
-    run = run_of(folder, tmp_path / "out", progress=meanwhile(name, 4, action, seen))
-    assert seen
+    done = []
+    actions = harmed(tmp_path / "out", f"scratch/*/{pattern}"), lambda: done.append(name)
+    run = run_of(folder, tmp_path / "out", progress=meanwhile(name, 4, lambda: [action() for action in actions]))
+    assert done
     check(run, truth)
 
 
 DELETED = [
-    ("spread", 2, "splits.value"),
+    ("spread", 2, "splits"),
     ("collect", 2, "spread/2.points"),
     ("solve", 2, "points/*.points"),
     ("solve", 2, "blocks/lows"),
@@ -118,7 +109,7 @@ DELETED = [
     ("align", 2, "results/triangles/*.parquet"),
 ]
 CHANGED = [
-    ("spread", 3, "splits.*"),
+    ("spread", 3, "splits"),
     ("spread", 5, "spread/*.starts"),
     *(("collect", 2, f"spread/{name}") for name in ("starts", "*.points", "*.numbers")),
     ("collect", 10, "points/*.blocks"),
@@ -128,7 +119,7 @@ CHANGED = [
         for name in ("lows", "highs", "part", "first", "last", "points", "numbers", "sums")
     ),
     ("solve", 10, "stars/*.starts"),
-    *(("align", 2, f"stars/{name}") for name in ("*.rows", "starts", "parts")),
+    *(("align", 2, f"stars/{name}") for name in ("*.rows", "starts", "tasks")),
 ]
 LATER = [pytest.param(*when, os.unlink, "deleted") for when in DELETED]
 LATER += [
@@ -319,7 +310,14 @@ def test_the_source_of_values_that_changes(tmp_path, points):
     run = run_of(folder, tmp_path / "out", index=True)
     harm = partial(move, folder / "003.parquet")
     with pytest.raises(ValueError, match=r"003\.parquet has changed since the run began"):
-        run.interpolate(folder, tmp_path / "found", "id", partition=60, progress=meanwhile("collect", 1, harm))
+        executed(
+            run.interpolate,
+            folder,
+            tmp_path / "found",
+            "id",
+            partition=60,
+            progress=meanwhile("collect", 1, harm),
+        )
 
 
 @pytest.mark.parametrize("number", [12, pytest.param(300, marks=pytest.mark.thorough)])
@@ -403,21 +401,17 @@ def test_nothing_is_left_of_an_earlier_run_with_other_arguments(tmp_path, points
     assert list((tmp_path / "scratch").iterdir()) == []
 
 
-def stop():
-    raise KeyboardInterrupt
-
-
 def test_late_tasks_of_a_run_that_is_dead(tmp_path, points, monkeypatch):
     """Workers of a cluster outlive their client: what they write still, after another run began, is not in its way."""
     folder, truth = points
     late = []
     once = passes_of.Passes.do
 
-    def dying(self, name, function, tasks):
+    def dying(self, name, function, tasks, **options):
         if name == "solve":
-            late.extend(partial(function, task) for task in tasks)
+            late.extend(partial(function, self.store, task, **options) for task in tasks)
             raise KeyboardInterrupt
-        return once(self, name, function, tasks)
+        return once(self, name, function, tasks, **options)
 
     with monkeypatch.context() as patch:
         patch.setattr(passes_of.Passes, "do", dying)

@@ -15,7 +15,7 @@ import pytest
 
 import stereodel
 from stereodel.partitioned import Run
-from tests.partitioned.answers import differences, in_memory, rows_of, write_points
+from tests.partitioned.answers import clean, differences, in_memory, rows_of, write_points
 
 SECONDS = 10
 """In which the processes of a run that was killed end, on a machine that does much else."""
@@ -27,12 +27,12 @@ SIGNALS = (signal.SIGTERM, signal.SIGKILL, signal.SIGINT)
 
 DRIVER = """
 import json, signal, sys
-from stereodel.partitioned import plan, triangulate
+from stereodel.partitioned import Execution, plan, triangulate
 if __name__ == "__main__":
     signal.signal(signal.SIGINT, signal.default_int_handler)
     plan.LEAST_SHARE = 1
     points, out, options = map(json.loads, sys.argv[1:])
-    triangulate(points, out, progress=lambda *told: print(*told, flush=True), **options)
+    triangulate(points, out, execution=Execution(progress=lambda *told: print(*told, flush=True), **options))
 """
 
 
@@ -122,12 +122,6 @@ def test_a_driver_that_is_killed(tmp_path, points, name, number):
     assert left(second.pid) == set()
     assert differences(Run(tmp_path / "out"), truth) == []
     assert clean(tmp_path / "out")
-
-
-def clean(out):
-    """Whether a folder has results alone, and no file of a process that was killed."""
-    names = {path.name for path in out.iterdir()} - {"triangles"}
-    return names == {".lock", "files.parquet", "plan.json", "rows", "run.json"} and not list(out.rglob("*.tmp"))
 
 
 @pytest.mark.thorough

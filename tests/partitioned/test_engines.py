@@ -6,8 +6,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
-from stereodel.partitioned import triangulate
-from tests.partitioned.answers import differences, in_memory, of_run, rows_of, write_points
+from tests.partitioned.answers import differences, in_memory, in_parallel, of_run, rows_of, write_points
 
 COLUMNS, ROWS = rows_of("copied", 1200)
 
@@ -23,12 +22,12 @@ def points(tmp_path):
 
 
 def test_processes_of_this_machine(tmp_path, points, truth):
-    assert differences(triangulate(points, tmp_path / "out", partition=150), truth) == []
+    assert differences(in_parallel(points, tmp_path / "out", partition=150), truth) == []
 
 
 def test_threads(tmp_path, points, truth):
     with ThreadPoolExecutor(4) as executor:
-        run = triangulate(points, tmp_path / "out", partition=150, executor=executor)
+        run = in_parallel(points, tmp_path / "out", partition=150, executor=executor)
         assert executor.submit(int).result() == 0  # it is the caller's to end
     assert differences(run, truth) == []
 
@@ -52,10 +51,10 @@ def test_dask(tmp_path, points, truth):
                 killed.append(executor.submit(pid, 0).result())
                 os.kill(killed[0], signal.SIGKILL)
 
-        run = triangulate(points, tmp_path / "out", partition=150, executor=executor, progress=progress)
+        run = in_parallel(points, tmp_path / "out", partition=150, executor=executor, progress=progress)
     assert killed
     assert differences(run, truth) == []
-    other = triangulate(points, tmp_path / "other", partition=150, jobs=1)
+    other = in_parallel(points, tmp_path / "other", partition=150, jobs=1)
     files = [path.relative_to(run.folder) for path in run.folder.rglob("*.parquet")]
     assert len(files) > 10
     assert all((run.folder / file).read_bytes() == (other.folder / file).read_bytes() for file in files)

@@ -14,11 +14,20 @@ import pytest
 
 from stereodel._tasks.crew import Crew
 from stereodel._tasks.kept import locked
+from stereodel.partitioned import Execution
 from stereodel.partitioned import run as running
-from stereodel.partitioned import triangulate
-from stereodel.partitioned.run import PASSES
 from tests.disks import small_disk
-from tests.partitioned.answers import differences, in_memory, rows_of, serially, write_points
+from tests.partitioned.answers import (
+    PASSES,
+    differences,
+    in_memory,
+    in_parallel,
+    meanwhile,
+    rows_of,
+    serially,
+    stop,
+    write_points,
+)
 from tests.sets import LONLAT, XYZ
 
 
@@ -49,9 +58,17 @@ def test_a_worker_that_is_killed(tmp_path, points, name, monkeypatch):
     monkeypatch.setattr(
         Crew, "each", lambda self, work, tasks: each(self, partial(killed_once, marker, name, work), tasks)
     )
-    run = triangulate(folder, tmp_path / "out", partition=100)
+    run = in_parallel(folder, tmp_path / "out", partition=100)
     assert marker.exists()
     assert differences(run, truth) == []
+
+
+@pytest.mark.parametrize("name", ["partition", "limit", "jobs"])
+def test_what_cannot_be_executed(name):
+    with pytest.raises(ValueError, match=f"{name} is 0, but must be at least 1"):
+        Execution(**{name: 0})
+    with pytest.raises(TypeError, match=f"{name} must be one integer, got 1.5"):
+        Execution(**{name: 1.5})
 
 
 def test_two_runs_on_one_folder(tmp_path, points):
@@ -75,13 +92,8 @@ def test_a_full_disk(tmp_path, points, size):
 
 def interrupted(folder, out, name, done):
     """A run that ends when so many tasks of a pass are done."""
-
-    def progress(*told):
-        if told[:2] == (name, done):
-            raise KeyboardInterrupt
-
     with pytest.raises(KeyboardInterrupt):
-        serially(folder, out, partition=60, progress=progress)
+        serially(folder, out, partition=60, progress=meanwhile(name, done, stop))
 
 
 @pytest.mark.parametrize(
@@ -111,33 +123,26 @@ def test_a_run_that_ended_is_not_run_again(tmp_path, points):
     assert {path: path.stat().st_mtime_ns for path in (tmp_path / "out").rglob("*.parquet")} == times
 
 
-def test_other_arguments_are_noticed(tmp_path, points):
+NOTICED = [
+    ({"partition": 61}, None, "partition was 60, and is 61"),
+    ({"rows": ("area",)}, None, r"rows was \('area', 'degree', .*\), and is \('area',\)"),
+    ({"triangles": False}, None, "triangles was True, and is False"),
+    ({}, lambda folder: os.utime(folder / "002.parquet", ns=(1, 1)), r".*002\.parquet has changed since"),
+    ({}, lambda folder: (folder / "002.parquet").rename(folder / "009.parquet"), r"002\.parquet is missing"),
+    ({}, lambda folder: shutil.copy(folder / "001.parquet", folder / "009.parquet"), r"009\.parquet was not there"),
+]
+
+
+@pytest.mark.parametrize(("options", "change", "message"), NOTICED)
+def test_other_arguments_and_files_are_noticed(tmp_path, points, options, change, message):
     folder, truth = points
     interrupted(folder, tmp_path / "out", "solve", 1)
-    for other, message in [
-        ({"partition": 61}, r"partition was 60, and is 61"),
-        ({"partition": 60, "rows": ("area",)}, r"rows was \('area', 'degree', .*\), and is \('area',\)"),
-        ({"partition": 60, "triangles": False}, "triangles was True, and is False"),
-    ]:
-        with pytest.raises(ValueError, match=f"has a run of other files or arguments: {message}; take another folder"):
-            serially(folder, tmp_path / "out", **other)
-    assert differences(serially(folder, tmp_path / "out", partition=60), truth) == []
-
-
-@pytest.mark.parametrize(
-    ("change", "message"),
-    [
-        (lambda folder: os.utime(folder / "002.parquet", ns=(1, 1)), r"002\.parquet has changed since"),
-        (lambda folder: (folder / "002.parquet").rename(folder / "009.parquet"), r"002\.parquet is missing"),
-        (lambda folder: shutil.copy(folder / "001.parquet", folder / "009.parquet"), r"009\.parquet was not there"),
-    ],
-)
-def test_other_files_are_noticed(tmp_path, points, change, message):
-    folder, _ = points
-    interrupted(folder, tmp_path / "out", "solve", 1)
-    change(folder)
-    with pytest.raises(ValueError, match=message):
-        serially(folder, tmp_path / "out", partition=60)
+    if change:
+        change(folder)
+    with pytest.raises(ValueError, match=f"has a run of other files or arguments: {message}; take another folder"):
+        serially(folder, tmp_path / "out", **{"partition": 60} | options)
+    if not change:
+        assert differences(serially(folder, tmp_path / "out", partition=60), truth) == []
 
 
 @pytest.mark.parametrize(
@@ -171,18 +176,13 @@ def test_a_zero_vector(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("space", "name", "message"),
-    [
-        ("sphere", "circle and a pole", r"partition \d+: .*star.* points at once, more than limit=200; give a higher"),
-        ("sphere", "great circle", "all 600 points lie on one great circle: there are no triangles.*limit=200"),
-        ("plane", "line", "all 600 points lie on one line: there are no triangles.*limit=200"),
-    ],
+    ("space", "name"), [("sphere", "circle and a pole"), ("sphere", "great circle"), ("plane", "line")]
 )
-def test_more_points_at_once_than_the_limit(tmp_path, space, name, message):
+def test_more_points_at_once_than_the_limit(tmp_path, space, name):
     """The pole of a circle has a star of all points, which no partition helps."""
     columns, rows = rows_of(name, 600, space)
     folder = write_points(tmp_path / "points", columns, rows)
-    with pytest.raises(MemoryError, match=message):
+    with pytest.raises(MemoryError, match=r"partition \d+: .*star.* points at once, more than limit=200; give"):
         serially(folder, tmp_path / "out", surface=space, partition=50, limit=200)
     run = serially(folder, tmp_path / "out", surface=space, partition=50)  # the limit is no part of the plan
     assert differences(run, in_memory(columns, rows)) == []
@@ -225,8 +225,8 @@ def test_inputs_stay_as_they_are(tmp_path, points):
 def test_results_that_no_input_may_have(tmp_path, points, monkeypatch, wrong, message):
     """Triangles that are too few and areas that do not cover the sphere end the run, with nothing published."""
     folder, _ = points
-    right = running._report
-    monkeypatch.setattr(running, "_report", lambda *given: right(*given) | {"euler": 12, "triangles": 12} | wrong)
+    right = running._statistics
+    monkeypatch.setattr(running, "_statistics", lambda *given: right(*given) | {"euler": 12, "triangles": 12} | wrong)
     with pytest.raises(RuntimeError, match=message):
         serially(folder, tmp_path / "out")
     assert not (tmp_path / "out" / "run.json").exists()

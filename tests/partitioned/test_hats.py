@@ -13,10 +13,10 @@ import pytest
 
 from stereodel import SphericalVoronoi
 from stereodel.interpolation import NaturalNeighborInterpolator
-from stereodel.partitioned import triangulate
+from stereodel.partitioned.files import read
 from stereodel.partitioned.hats import Catalogue, Pixel, hats_source, is_catalogue
-from stereodel.partitioned.sources import read
 from stereodel.sphere import lonlat_to_xyz
+from tests.partitioned.answers import executed, serially
 
 ROWS = 3000
 
@@ -94,7 +94,7 @@ def test_points_are_those_of_the_table_in_the_order_of_pixels(hats, collection, 
     source = source_of(collection)
     assert source.compact
     assert all("sky/dataset" in file.path for file in source.files)  # not the margin
-    assert source.places.names == ("ra", "dec")
+    assert source.columns.names == ("ra", "dec")
     catalogue = Catalogue.read(collection)
     assert len({pixel.order for pixel in catalogue.pixels}) > 2
     with quiet():
@@ -103,7 +103,7 @@ def test_points_are_those_of_the_table_in_the_order_of_pixels(hats, collection, 
     found, expected = [], []
     for file, pixel in zip(source.files, catalogue.pixels, strict=True):
         assert file.name == pixel.path(".parquet").as_posix()
-        found += read(file, source.places, 0, file.rows)
+        found += read(file, source.columns, 0, file.rows)
         expected.append(pq.ParquetFile(file.path).read(columns=["source_id"])["source_id"].to_numpy())
     by_id = table.set_index("source_id").loc[np.concatenate(expected)]
     assert np.array_equal(np.concatenate(found), lonlat_to_xyz(by_id[["ra", "dec"]].to_numpy()))
@@ -115,7 +115,7 @@ def run(collection, tmp_path_factory):
     """Pixels are the partitions."""
     told = []
     out = tmp_path_factory.mktemp("out")
-    run = triangulate(collection, out, keep=["source_id"], jobs=1, progress=lambda name, *_: told.append(name))
+    run = serially(collection, out, keep=["source_id"], progress=lambda name, *_: told.append(name))
     assert run.statistics["compact"]
     assert "spread" not in told
     return run
@@ -154,7 +154,7 @@ def test_pixels_that_are_folders_of_files(copied, run, tmp_path):
     source = source_of(copied)
     assert len(source.files) == 2 * len(whole.files)
     assert source.files[1].name == whole.files[0].name.removesuffix(".parquet") + "/part1.parquet"
-    again = triangulate(copied, tmp_path / "out", keep=["source_id"], jobs=1)
+    again = serially(copied, tmp_path / "out", keep=["source_id"])
     assert again.rows().to_table() == run.rows().to_table()
 
 
@@ -190,20 +190,14 @@ def test_a_catalogue_that_is_made_by_hand(tmp_path):
         pq.write_table(pa.table({"ra": places[:, 0], "dec": places[:, 1], "star": names}), path)
     source = source_of(sky)
     assert Catalogue.read(sky).pixels == (Pixel(1, 0), Pixel(1, 1))
-    found = [np.concatenate(list(read(file, source.places, 0, file.rows))) for file in source.files]
+    found = [np.concatenate(list(read(file, source.columns, 0, file.rows))) for file in source.files]
     assert np.array_equal(found, lonlat_to_xyz(lonlat))
-    run = triangulate(sky, out, rows=["area"], keep=["star"], jobs=1)
-    plain = triangulate(sky, tmp_path / "plain", kind="parquet", columns=["ra", "dec"], rows=["area"], jobs=1)
+    run = serially(sky, out, rows=["area"], keep=["star"])
+    plain = serially(sky, tmp_path / "plain", kind="parquet", columns=["ra", "dec"], rows=["area"])
     expected = {"star": ["0a", "0b", "1a", "1b"], "area": plain.rows().to_table()["area"].to_pylist()}
     assert run.rows().to_table().to_pydict() == expected
     rows = sorted(path.relative_to(out / "rows") for path in (out / "rows").rglob("*") if path.is_file())
     assert rows == [Pixel(1, number).path(".parquet") for number in (0, 1)]
-
-
-def test_pixels_share_folders_of_ten_thousand():
-    assert Pixel(8, 123_456).path("/").as_posix() == "dataset/Norder=8/Dir=120000/Npix=123456"
-    for pixel in (Pixel(0, 0), Pixel(8, 123_456), Pixel(29, 12 * 4**29 - 1)):
-        assert Pixel.of_path(pixel.path(".snappy.parquet")) == pixel
 
 
 @pytest.mark.thorough
@@ -226,8 +220,10 @@ def test_a_catalogue_of_targets(collection, tmp_path, table):
     columns = {"lon": lonlat[:, 0], "lat": lonlat[:, 1], "height": heights}
     pq.write_table(pa.table(columns), tmp_path / "points.parquet")
     same = {"jobs": 1, "partition": 200}
-    run = triangulate(tmp_path / "points.parquet", tmp_path / "out", index=True, **same)
-    found = run.interpolate(collection, tmp_path / "heights", "height", method="natural", keep=["source_id"], **same)
+    run = serially(tmp_path / "points.parquet", tmp_path / "out", index=True, **same)
+    found = executed(
+        run.interpolate, collection, tmp_path / "heights", "height", method="natural", keep=["source_id"], **same
+    )
     told = found.rows().to_table().to_pandas().set_index("source_id")["height"]
     function = NaturalNeighborInterpolator.from_lonlat(lonlat, heights)
     expected = function(lonlat=table[["ra", "dec"]].to_numpy())

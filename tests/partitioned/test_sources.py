@@ -11,9 +11,8 @@ import pyarrow.parquet as pq
 import pytest
 
 from stereodel import lonlat_to_xyz
-from stereodel.partitioned.kinds import source_of
-from stereodel.partitioned.places import Places, find_places, wkb_places
-from stereodel.partitioned.sources import paths_of, read, some
+from stereodel.partitioned.files import PointColumns, find_columns, paths_of, read, sampled
+from stereodel.partitioned.plan import source_of
 from tests.partitioned.answers import differences, in_memory, rows_of, serially, write_points
 from tests.sets import LONLAT, XY, XYZ
 
@@ -23,7 +22,7 @@ def of(path, columns=None, surface="sphere", latitude="spherical"):
 
 
 def points_of(source):
-    return np.concatenate([np.concatenate(list(read(file, source.places, 0, file.rows))) for file in source.files])
+    return np.concatenate([np.concatenate(list(read(file, source.columns, 0, file.rows))) for file in source.files])
 
 
 def test_files_and_names(tmp_path):
@@ -66,7 +65,7 @@ def test_files_and_names(tmp_path):
 )
 def test_columns_by_name(names, surface, columns, found):
     schema = pa.schema([(name, pa.float64()) for name in names])
-    places = find_places(schema, columns, surface, "spherical")
+    places = find_columns(schema, columns, surface, "spherical")
     assert (places.form, places.names) == found
 
 
@@ -83,7 +82,7 @@ def test_columns_by_name(names, surface, columns, found):
 def test_columns_that_are_not_there(surface, columns, message):
     schema = pa.schema([("a", pa.float64()), ("b", pa.float64())])
     with pytest.raises(ValueError, match=message):
-        find_places(schema, columns, surface, "spherical")
+        find_columns(schema, columns, surface, "spherical")
 
 
 def test_a_column_that_a_later_file_lacks(tmp_path):
@@ -149,38 +148,55 @@ def test_values_and_targets_are_numbers_too(tmp_path, cell):
     run = serially(tmp_path / "points", tmp_path / "out", index=True)
     error = ValueError if cell == 2**53 + 1 else TypeError
     with pytest.raises(error, match=r"targets\.parquet: "):
-        run.nearest(tmp_path / "targets.parquet", tmp_path / "nearest", jobs=1)
+        run.nearest(tmp_path / "targets.parquet", tmp_path / "nearest")
     if cell is None:
-        found = run.interpolate(tmp_path / "points", tmp_path / "values", "value", jobs=1)
+        found = run.interpolate(tmp_path / "points", tmp_path / "values", "value")
         assert np.isnan(found.rows().to_table()["value"].to_numpy()).all()
         return
     message = "row 1: the value 9007199254740993 is" if error is ValueError else "the column 'value' holds"
     with pytest.raises(error, match=rf"a\.parquet: {message}"):
-        run.interpolate(tmp_path / "points", tmp_path / "values", "value", jobs=1)
+        run.interpolate(tmp_path / "points", tmp_path / "values", "value")
 
 
-def test_points_of_structures_and_lists(tmp_path):
-    geo = {"primary_column": "g", "columns": {"g": {"encoding": "point"}}}
-    pair = pa.struct([("x", pa.float64()), ("y", pa.float64())])
-    wrong = pa.struct([("x", pa.timestamp("s")), ("y", pa.float64())])
-    for kind, cells, error, message in [
-        (pair, [{"x": 1, "y": 2}, {"x": 3, "y": 4}], None, ""),
-        (pair, [{"x": 1, "y": 2}, None], ValueError, "row 2: a Point is needed, not no geometry"),
-        (pa.list_(pa.float64(), 2), [[1, 2], [3, 4]], None, ""),
-        (pa.list_(pa.float64(), 2), [[1, 2], None], ValueError, "row 2: a Point is needed, not no geometry"),
-        (pa.list_(pa.float64()), [[1, 2], [3, 4]], TypeError, "'g' are list<.*>, not points"),
-        (wrong, [{"x": 1, "y": 2}] * 2, TypeError, r"the column 'g\.x' holds timestamp"),
-        (pa.list_(pa.int64(), 2), [[1, 2], [2**53 + 1, 4]], ValueError, f"row 2: the g {2**53 + 1} is not a double"),
-        (pa.int64(), [1, 2], TypeError, "'g' are int64, not points"),
-    ]:
-        table = pa.table({"g": pa.array(cells, kind)}).replace_schema_metadata({"geo": json.dumps(geo)})
-        pq.write_table(table, tmp_path / "a.parquet")
-        source = of(tmp_path, surface="plane")
-        if error is None:
-            assert points_of(source).tolist() == [[1, 2], [3, 4]]
-            continue
+def wkb(x, y, kind=1, order=1):
+    return struct.pack("<BIdd" if order else ">BIdd", order, kind, x, y)
+
+
+BINARY, PAIRS = pa.binary(), pa.list_(pa.float64(), 2)
+PAIR, WRONG_PAIR = (pa.struct([("x", kind), ("y", pa.float64())]) for kind in (pa.float64(), pa.timestamp("s")))
+GEOMETRIES = [
+    (PAIR, [{"x": 1, "y": 2}, {"x": 3, "y": 4}], None, ""),
+    (PAIRS, [[1, 2], [3, 4]], None, ""),
+    (BINARY, [wkb(1, 2), wkb(3, 4, 1001) + bytes(8)], None, ""),
+    *((kind, [cell, None], ValueError, "row 2: a Point is needed, not no geometry")
+      for kind, cell in ((PAIR, {"x": 1, "y": 2}), (PAIRS, [1, 2]), (BINARY, wkb(1, 2)))),
+    (BINARY, [wkb(1, 2), wkb(1, 2, kind=2)], ValueError, "row 2: a Point is needed, not another geometry"),
+    (BINARY, [wkb(1, 2), wkb(1, 2, order=0)], ValueError, "row 2: a Point is needed, not another geometry"),
+    (BINARY, [bytes([1, 4, *bytes(8)])], ValueError, "row 1: a Point is needed, not another geometry"),
+    (pa.list_(pa.float64()), [[1, 2], [3, 4]], TypeError, "'g' are list<.*>, not points"),
+    (WRONG_PAIR, [{"x": 1, "y": 2}] * 2, TypeError, r"the column 'g\.x' holds timestamp"),
+    (pa.list_(pa.int64(), 2), [[1, 2], [2**53 + 1, 4]], ValueError, f"row 2: the x {2**53 + 1} is not a double"),
+    (pa.int64(), [1, 2], TypeError, "'g' are int64, not points"),
+    (pa.string(), ["a" * 21], TypeError, "the geometries are string, not well-known binary"),
+    (pa.int32(), [1], TypeError, "the geometries are int32, not well-known binary"),
+    (pa.float64(), [None], TypeError, "the geometries are double, not well-known binary"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("kind", "cells", "error", "message"), GEOMETRIES)
+def test_points_of_structures_lists_and_binary(tmp_path, kind, cells, error, message):
+    encoding = "WKB" if kind == BINARY or "binary" in message else "point"
+    geo = {"primary_column": "g", "columns": {"g": {"encoding": encoding}}}
+    table = pa.table({"g": pa.array(cells, kind)}).replace_schema_metadata({"geo": json.dumps(geo)})
+    pq.write_table(table, tmp_path / "a.parquet")
+    source = of(tmp_path, surface="plane")
+    if error is not None:
         with pytest.raises(error, match=message):
             points_of(source)
+        return
+    assert points_of(source).tolist() == [[1, 2], [3, 4]]
+    (file,) = source.files
+    assert next(read(file, source.columns, 1, 2)).tolist() == [[3, 4]]
 
 
 def test_columns_to_keep_have_one_type(tmp_path):
@@ -197,55 +213,18 @@ def test_columns_to_keep_have_one_type(tmp_path):
         source_of(tmp_path, "auto", None, "sphere", "spherical", "id", ())
 
 
-def test_row_groups_one_by_one(tmp_path):
-    _, rows = rows_of("airports", 500)
-    write_points(tmp_path, LONLAT, rows, 1, row_group_size=37)
-    source = of(tmp_path)
-    (file,) = source.files
-    assert [len(part) for part in read(file, source.places, 30, 120)] == [7, 37, 37, 9]
-    assert np.array_equal(np.concatenate(list(read(file, source.places, 30, 120))), lonlat_to_xyz(rows[30:120]))
-
-
 def test_a_sample_is_spread_evenly(tmp_path):
     """Over the rows of few groups, in terms of which a bad row is told, too."""
     lat = np.linspace(-90, 90, 1000)
     write_points(tmp_path, LONLAT, np.column_stack([np.zeros(1000), lat]), 1, row_group_size=50)
     source = of(tmp_path)
     (file,) = source.files
-    z = np.concatenate(list(some(file, source.places, 200, 800, 60, 100)))[:, 2]
+    z = np.concatenate(list(sampled(file, source.columns, 200, 800, 60, 100)))[:, 2]
     found = np.searchsorted(np.sin(np.radians(lat)), z - 1e-9)
     assert 50 <= len(found) <= 75
     assert found.min() >= 200
     assert found.max() < 800
     assert np.diff(found).max() <= 20
-
-
-def wkb(x, y, kind=1, order=1):
-    return struct.pack("<BIdd" if order else ">BIdd", order, kind, x, y)
-
-
-@pytest.mark.parametrize(
-    ("cells", "error", "message"),
-    [
-        ([wkb(1, 2), None], ValueError, "row 2: a Point is needed, not no geometry"),
-        ([wkb(1, 2), wkb(1, 2, kind=2)], ValueError, "row 2: a Point is needed, not another geometry"),
-        ([wkb(1, 2), wkb(1, 2, order=0)], ValueError, "row 2: a Point is needed, not another geometry"),
-        ([b"\x01\x04\x00\x00\x00\x00\x00\x00\x00"], ValueError, "row 1: a Point is needed, not another geometry"),
-        (["a" * 21], TypeError, r"the geometries are \w+, not well-known binary"),
-        ([1], TypeError, r"the geometries are \w+, not well-known binary"),
-        ([None], TypeError, r"the geometries are \w+, not well-known binary"),
-    ],
-)
-def test_geometries_that_are_no_points(cells, error, message):
-    with pytest.raises(error, match=message):
-        wkb_places(pa.array(cells))
-
-
-def test_points_in_binary():
-    cells = pa.array([wkb(1, 2), wkb(3, 4, 1001) + bytes(8), wkb(-5, 6)], pa.binary())
-    assert wkb_places(cells).tolist() == [[1, 2], [3, 4], [-5, 6]]
-    assert wkb_places(cells.slice(1, 1)).tolist() == [[3, 4]]
-    assert wkb_places(cells.slice(0, 0)).shape == (0, 2)
 
 
 @pytest.mark.parametrize(
@@ -261,8 +240,8 @@ def test_geoparquet(tmp_path, encoding, crs):
     frame.to_parquet(path, geometry_encoding=encoding, schema_version="1.1.0", row_group_size=50)
     source = of(path)
     form = "wkb" if encoding == "WKB" else "point"
-    assert source.places == Places(form, ("geometry",), "sphere", "spherical", source.places.crs)
-    assert (source.places.crs is None) == (crs != "EPSG:3857")
+    assert source.columns == PointColumns(form, ("geometry",), "sphere", "spherical", source.columns.crs)
+    assert (source.columns.crs is None) == (crs != "EPSG:3857")
     assert np.allclose(points_of(source), lonlat_to_xyz(rows), rtol=0, atol=1e-12 if crs == "EPSG:3857" else 0)
     if crs is None:
         assert np.array_equal(points_of(of(path, surface="plane")), rows)

@@ -13,7 +13,7 @@ from stereodel.interpolation import LinearInterpolator, NaturalNeighborInterpola
 from stereodel.partitioned import Answers
 from tests import sets
 from tests.examples import examples
-from tests.partitioned.answers import mesh_of, rows_of, serially, surface_of, write_points
+from tests.partitioned.answers import executed, mesh_of, rows_of, serially, surface_of, write_points
 from tests.sets import LONLAT, XY, XYZ
 
 SIZE = 200
@@ -35,7 +35,7 @@ def rng():
 @pytest.fixture(autouse=True)
 def small(monkeypatch):
     """Blocks and lots of few points, of which some are far: so that rounds, and halves of lots, are many."""
-    few = {"plan.BLOCK": 8, "answers.ROOM": 150, "answers.SKELETON": 16, "answers.LEAST_BUDGET": 8}
+    few = {"plan.BLOCK": 8, "questions.ROOM": 150, "rounds.SKELETON": 16, "rounds.LEAST_BUDGET": 8}
     for name, value in few.items():
         monkeypatch.setattr(f"stereodel.partitioned.{name}", value)
 
@@ -76,11 +76,13 @@ def asked(run, targets, folder, parts=3, **options):
     same = {"jobs": 1, "partition": max(1, len(targets) // parts), **options}
     k = min(7, run.statistics["points"])
     return {
-        "nearest": run.nearest(folder / "targets", folder / "nearest", k=k, **same),
-        "linear": run.interpolate(folder / "targets", folder / "linear", ["value", "other"], **same),
-        "natural": run.interpolate(
-            folder / "targets", folder / "natural", ["value", "other"], method="natural", **same
-        ),
+        "nearest": executed(run.nearest, folder / "targets", folder / "nearest", k=k, **same),
+        **{
+            method: executed(
+                run.interpolate, folder / "targets", folder / method, ["value", "other"], method=method, **same
+            )
+            for method in KINDS
+        },
     }
 
 
@@ -146,7 +148,7 @@ def test_any_split_gives_the_same(tmp_path_factory, name, parts, lots, block, ro
     columns, rows = rows_of(kind, 120, space)
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("stereodel.partitioned.plan.BLOCK", block)
-        patch.setattr("stereodel.partitioned.answers.ROOM", room)
+        patch.setattr("stereodel.partitioned.questions.ROOM", room)
         patch.setattr("stereodel.partitioned.plan.LEAST_SHARE", 10)
         check(tmp_path_factory.mktemp("split"), columns, rows, parts, np.random.default_rng(seed), lots=lots)
 
@@ -165,7 +167,7 @@ def test_the_nearest_point_alone_with_columns_that_are_kept(tmp_path, octahedron
     table = pa.table({"lon": [1.0, 91.0], "lat": [2.0, -3.0], "name": ["a", "b"]})
     pq.write_table(table.slice(0, 0), folder / "a.parquet")
     pq.write_table(table, folder / "deep" / "b.parquet")
-    found = octahedron.nearest(folder, tmp_path / "out", keep=["name"], jobs=1)
+    found = octahedron.nearest(folder, tmp_path / "out", keep=["name"])
     told = found.rows().to_table()
     assert told.column_names == ["name", "nearest", "distance"]
     assert told["name"].to_pylist() == ["a", "b"]
@@ -210,7 +212,7 @@ def test_what_cannot_be_asked(tmp_path, octahedron, question, targets, options, 
     rows = np.array([[1.0, 2, 3], [np.nan, 1, 1]][: 1 + (targets == "wrong")])
     folder = write_points(tmp_path / "targets", XYZ, rows, 1)
     with pytest.raises(error, match=message):
-        getattr(octahedron, question)(folder, tmp_path / "out", jobs=1, **options)
+        executed(getattr(octahedron, question), folder, tmp_path / "out", jobs=1, **options)
 
 
 def test_points_that_changed_and_runs_without_an_index(tmp_path, octahedron):
@@ -228,4 +230,4 @@ def test_other_questions_in_a_folder_are_noticed(tmp_path, octahedron):
     assert octahedron.nearest(right, tmp_path / "out", k=2).rows().to_table() == first
     with pytest.raises(ValueError, match="a run of other files or arguments: question was"):
         octahedron.nearest(right, tmp_path / "out", k=3)
-    assert octahedron.nearest(right, tmp_path / "out", k=3, resume=False).rows().to_table() != first
+    assert executed(octahedron.nearest, right, tmp_path / "out", k=3, resume=False).rows().to_table() != first

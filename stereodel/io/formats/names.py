@@ -40,6 +40,11 @@ def left_out() -> str:
     return f"leave such rows out with {spelled('skip_missing', '=True')}"
 
 
+def anew() -> str:
+    """What to do about results of a run that are not what they were."""
+    return f"begin anew with {spelled('resume', '=False')}"
+
+
 @contextmanager
 def spelling(options: Mapping[str, str]) -> Iterator[None]:
     """A context in which messages name options in place of these arguments."""
