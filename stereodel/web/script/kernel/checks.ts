@@ -1,7 +1,7 @@
 /**
- * Checks of what callers hand in: every message about points and indices stands here, in the words of the Python
- * library. What is no number is a `TypeError`, a number that will not do a `RangeError`; both name the argument and the
- * entry. Behind these checks arrays are finite and of known shape: the kernel takes that for granted.
+ * Checks of what callers hand in: every message about points and indices stands here. What is no number is a
+ * `TypeError`, a number that will not do a `RangeError`; both name the argument and the entry. Behind these checks arrays
+ * are finite and of known shape: the kernel takes that for granted.
  *
  * Statements with the label CHECK are left out of the page and the widget (`tools/bundle_web.mjs`): there, numbers come
  * from fields, links and files that were checked in the words for readers.
@@ -23,12 +23,6 @@ function place(name: string, at: number, width: number): string {
   return width === 1 ? entry(name, at) : entry(name, Math.floor(at / width), at % width);
 }
 
-/** A number as Python writes it, for those that are refused. */
-function written(value: number): string {
-  if (Number.isNaN(value)) return "nan";
-  return value === Infinity ? "inf" : value === -Infinity ? "-inf" : String(value);
-}
-
 function kindOf(value: unknown): string {
   if (value === null) return "null";
   return Array.isArray(value) || ArrayBuffer.isView(value) ? "an array" : `of type ${typeof value}`;
@@ -39,7 +33,7 @@ export function asRows(values: Numbers, width: number, name: string, most = Infi
   const array = asDoubles(values, width, name, most);
   CHECK: for (let k = 0; k < array.length; ++k) {
     if (!Number.isFinite(array[k])) {
-      throw new RangeError(`${place(name, k, width)} is ${written(array[k])}; every value must be a finite number`);
+      throw new RangeError(`${place(name, k, width)} is ${array[k]}; every value must be a finite number`);
     }
   }
   return array;
@@ -129,8 +123,7 @@ export function asCount(value: number, name: string, low: number, high: number):
 /** One finite number above `low`. */
 export function asScalar(value: number, name: string, low = -Infinity): number {
   CHECK: if (typeof value !== "number") throw new TypeError(`${name} is ${kindOf(value)}, which is not a real number`);
-  CHECK: if (!Number.isFinite(value))
-    throw new RangeError(`${name} is ${written(value)}; every value must be a finite number`);
+  CHECK: if (!Number.isFinite(value)) throw new RangeError(`${name} is ${value}; every value must be a finite number`);
   CHECK: if (value <= low) throw new RangeError(`${name} is ${value}, outside (${low}, inf]`);
   return value;
 }
