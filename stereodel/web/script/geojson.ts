@@ -3,13 +3,11 @@
  * around the poles. Sides are great circles, sampled so that no chord is longer than a degree.
  */
 
-import { SphericalVoronoi } from "./kernel/api.ts";
-import type { Latitude } from "./kernel/api.ts";
-import { tableLatitude } from "./kernel/latitudes.ts";
-import { along } from "./rooms/lines.ts";
-import { lonLatOf, row } from "./rooms/space.ts";
-import type { Vector } from "./rooms/space.ts";
+import { along } from "./drawing/ball.ts";
+import { SphericalVoronoi, type Latitude } from "./kernel/api.ts";
+import { tableLatitude } from "./kernel/coordinates.ts";
 import type { SphereSites } from "./rooms/sphere_sites.ts";
+import { lonLatOf, row, type Vector } from "./space.ts";
 
 /** Digits behind the point of a degree: a centimetre of the Earth. */
 const DECIMALS = 7;

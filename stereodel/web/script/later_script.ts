@@ -1,7 +1,7 @@
 /** Scripts of the page that are compiled at first need: `exchange.ts` and `lift.ts`. */
 
-import { shared } from "page:shared";
 import type { Contents, ScriptName } from "./contents.ts";
+import { shared } from "page:shared";
 
 /** The element of such a script: what the page hands over, and what the script offers. */
 interface Handover<T> extends HTMLScriptElement {

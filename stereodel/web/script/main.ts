@@ -1,15 +1,13 @@
 /** The page: head and foot, rooms by the fragment of the address, files that are dropped, exports, states. */
 
-import { Announcer } from "./announce.ts";
 import { Contents } from "./contents.ts";
 import { field, find } from "./dom.ts";
 import type { Exchange } from "./exchange.ts";
 import { load } from "./kernel/instance.ts";
 import { LaterScript } from "./later_script.ts";
 import type { LiftRoomMaker } from "./lift.ts";
-import { LinkError, LinkValues, readLink, ROOMS, writeLink } from "./link.ts";
-import type { Link, RoomName } from "./link.ts";
-import { Messages } from "./messages.ts";
+import { LinkError, LinkValues, readLink, ROOMS, writeLink, type Link, type RoomName } from "./link.ts";
+import { Announcer, Messages } from "./messages.ts";
 import type { Room, RoomHost } from "./room.ts";
 import { globeRoom } from "./rooms/globe.ts";
 import { sphereRoom } from "./rooms/sphere.ts";

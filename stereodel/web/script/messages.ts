@@ -1,6 +1,6 @@
-/** One line under the head that says what went wrong; the state before stays. */
+/** What the page says: one line under the head of what went wrong, and what a screen reader hears. */
 
-import { make } from "./dom.ts";
+import { make, plain } from "./dom.ts";
 
 /** A button of a message: its words and what it does; the message closes. */
 export interface Action {
@@ -46,5 +46,26 @@ export class Messages {
       action.act();
     });
     return button;
+  }
+}
+
+/** Milliseconds without a change after which a sentence is spoken. */
+const REST = 600;
+
+export class Announcer {
+  readonly #region: Element;
+  #timer: ReturnType<typeof setTimeout> | undefined;
+
+  /** `region` is an element with `role="status"`. */
+  constructor(region: Element) {
+    this.#region = region;
+  }
+
+  /** Says a sentence after a while without another; marks of `say` are taken out. */
+  say(sentence: string): void {
+    clearTimeout(this.#timer);
+    this.#timer = setTimeout(() => {
+      this.#region.textContent = plain(sentence);
+    }, REST);
   }
 }

@@ -2,19 +2,22 @@
 
 import type { Rings } from "./contents.ts";
 import { make } from "./dom.ts";
-import { arcLayer, dotLayer, drawLayers, graticuleArcs, landLayer, ridgeArcs } from "./drawing/ball.ts";
-import type { Layer } from "./drawing/ball.ts";
-import { traceDisc } from "./drawing/pen.ts";
-import type { Pen } from "./drawing/pen.ts";
+import {
+  arcLayer,
+  dotLayer,
+  drawLayers,
+  graticuleArcs,
+  landLayer,
+  placeOf,
+  ridgeArcs,
+  type Layer,
+} from "./drawing/ball.ts";
+import { traceDisc, type Pen } from "./drawing/pen.ts";
 import { Plate } from "./drawing/plate.ts";
 import { lonlatToXyz, MoebiusMap, SphericalDelaunay, SphericalVoronoi } from "./kernel/api.ts";
-import { placeOf } from "./rooms/lines.ts";
-import { lonLatOf, row } from "./rooms/space.ts";
-import type { Vector } from "./rooms/space.ts";
-import { arrowed, grabBall } from "./view/ball_hand.ts";
-import type { Turnable } from "./view/ball_hand.ts";
-import { distance, follow } from "./view/hand.ts";
-import type { Gestures, Place } from "./view/hand.ts";
+import { lonLatOf, row, type Vector } from "./space.ts";
+import { arrowed, grabBall, type Turnable } from "./view/ball_hand.ts";
+import { distance, follow, type Gestures, type Place } from "./view/hand.ts";
 import { seenThrough, sourceOf } from "./view/lens.ts";
 import { Motion } from "./view/motion.ts";
 import { pointUnder, View } from "./view/view.ts";

@@ -7,8 +7,7 @@
 
 import { Contents } from "./contents.ts";
 import { load } from "./kernel/instance.ts";
-import { NotebookGlobe } from "./notebook_globe.ts";
-import type { Lens, ViewAngles } from "./notebook_globe.ts";
+import { NotebookGlobe, type Lens, type ViewAngles } from "./notebook_globe.ts";
 
 declare const CONTENTS: Readonly<Record<string, string>>;
 

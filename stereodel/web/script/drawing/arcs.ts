@@ -6,7 +6,7 @@
  * axes r across n and r |n_z|, r = √(1 − d²).
  */
 
-import type { Vector } from "../rooms/space.ts";
+import type { Vector } from "../space.ts";
 import type { Disc, Path } from "./pen.ts";
 
 /** The half of the ball that is drawn: that in front, or that behind. */

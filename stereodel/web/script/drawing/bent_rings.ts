@@ -1,7 +1,7 @@
 /** Rings whose sides are bent by a map: points between where a straight side would be seen to be wrong. */
 
 import type { MoebiusMap } from "../kernel/api.ts";
-import { row } from "../rooms/space.ts";
+import { row } from "../space.ts";
 import { bow } from "./arcs.ts";
 import type { Rings } from "./fill.ts";
 

@@ -7,11 +7,9 @@
  * counting crossings on the way from a place of which it is known, and never from areas, whose signs cannot be trusted.
  */
 
-import type { Vector } from "../rooms/space.ts";
-import type { Disc, Path } from "./pen.ts";
-import { partsOf, tracePart, pointAt } from "./arcs.ts";
-import type { Circle } from "./arcs.ts";
-import { traceDisc } from "./pen.ts";
+import type { Vector } from "../space.ts";
+import { partsOf, pointAt, tracePart, type Circle } from "./arcs.ts";
+import { traceDisc, type Disc, type Path } from "./pen.ts";
 
 const TURN = 2 * Math.PI;
 const HALF_TURN = Math.PI;

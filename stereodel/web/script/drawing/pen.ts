@@ -1,7 +1,6 @@
 /** The one interface through which rooms draw: the same trace becomes pixels or SVG. Pixels of the screen, y down. */
 
-import { HANDLE_CROSS, HANDLE_RADIUS } from "./styles.ts";
-import type { DotName, LabelStyle, StyleName } from "./styles.ts";
+import { HANDLE_CROSS, HANDLE_RADIUS, type DotName, type LabelStyle, type StyleName } from "./styles.ts";
 
 /** What a trace is laid into: a part of the canvas's own interface. */
 export interface Path {
@@ -53,6 +52,16 @@ export interface Pen {
   label(text: string, x: number, y: number, style: LabelStyle): void;
   /** A picture, fitted into a rectangle. */
   picture(picture: Picture, x: number, y: number, width: number, height: number): void;
+}
+
+/** A drawing as a file: a picture of a size in pixels of the screen, and what draws it. */
+export interface Sheet {
+  readonly title: string;
+  readonly width: number;
+  readonly height: number;
+  /** Factor of the widths of lines. */
+  readonly weight: number;
+  readonly paint: (pen: Pen) => void;
 }
 
 /** A whole circle. */

@@ -1,10 +1,8 @@
 /** A drawing of the page: a canvas that is as large as its place and drawn anew when something asks for it. */
 
 import { CanvasPen } from "./canvas_pen.ts";
-import { colours, onColours } from "./colours.ts";
-import type { Disc, Pen } from "./pen.ts";
-import type { Sheet } from "./sheet.ts";
-import { NARROW, NARROW_WEIGHT } from "./styles.ts";
+import type { Disc, Pen, Sheet } from "./pen.ts";
+import { colours, NARROW, NARROW_WEIGHT, onColours } from "./styles.ts";
 
 /** Why a drawing is made: its kind decides how much of it may be left out. */
 export type Reason = "size" | "colours" | "state" | "hand" | "flight" | "rest" | "pointer";

@@ -2,11 +2,22 @@
 
 import { writeNumber } from "../link.ts";
 import { LIGHT, SHADE } from "./canvas_pen.ts";
-import type { Colours, Token } from "./colours.ts";
-import { textParts } from "./pen.ts";
-import type { Disc, Path, Pen, Picture, Trace } from "./pen.ts";
-import { BEHIND, DOTS, HALO_WIDTH, HATCH_PITCH, HATCH_WIDTH, SERIF, STYLES } from "./styles.ts";
-import type { DotName, LabelStyle, Style, StyleName } from "./styles.ts";
+import { textParts, type Disc, type Path, type Pen, type Picture, type Trace } from "./pen.ts";
+import {
+  BEHIND,
+  DOTS,
+  HALO_WIDTH,
+  HATCH_PITCH,
+  HATCH_WIDTH,
+  SERIF,
+  STYLES,
+  type Colours,
+  type DotName,
+  type LabelStyle,
+  type Style,
+  type StyleName,
+  type Token,
+} from "./styles.ts";
 
 /** Decimals of a coordinate, pixels of the screen. */
 const DECIMALS = 3;

@@ -2,8 +2,7 @@
 
 export { KernelError } from "./instance.ts";
 export type { Numbers } from "./checks.ts";
-export { lonlatToXyz, xyzToLonlat } from "./coordinates.ts";
-export type { Latitude } from "./latitudes.ts";
+export { lonlatToXyz, xyzToLonlat, type Latitude } from "./coordinates.ts";
 export { PlanarDelaunay, SphericalDelaunay, type Inconclusive } from "./delaunay.ts";
 export { PlanarVoronoi, SphericalVoronoi } from "./voronoi.ts";
 export { inBubble, incircle, orient2d, orient3d, turn } from "./predicates.ts";

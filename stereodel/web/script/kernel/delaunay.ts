@@ -1,9 +1,8 @@
 /** Delaunay triangulations of the plane and of the sphere. */
 
 import { asCount, asDirections, asIndices, asPoints, type Numbers } from "./checks.ts";
-import { lonlatToXyz } from "./coordinates.ts";
+import { lonlatToXyz, type Latitude } from "./coordinates.ts";
 import { Kept, kernel, type Answer, type Argument } from "./instance.ts";
-import type { Latitude } from "./latitudes.ts";
 import { adjacencyOf, boundaryOf, edgesOf } from "./topology.ts";
 
 /** Tests that each stage left open; `curvature` is a stage of the sphere alone. */

@@ -1,10 +1,9 @@
 /** Voronoi diagrams of the plane and of the sphere, the duals of the Delaunay triangulations. */
 
 import { asScalar, type Numbers } from "./checks.ts";
-import { lonlatToXyz } from "./coordinates.ts";
+import { lonlatToXyz, type Latitude } from "./coordinates.ts";
 import { PlanarDelaunay, SphericalDelaunay, type Delaunay } from "./delaunay.ts";
 import { kernel, type Argument, type Kept } from "./instance.ts";
-import type { Latitude } from "./latitudes.ts";
 
 /**
  * A Voronoi diagram, the dual of a Delaunay triangulation.

@@ -1,14 +1,14 @@
 /** The Globe room: the Earth through a fisheye, or one bubble of it sent onto another. */
 
 import { field, find, say } from "../dom.ts";
+import type { Sheet } from "../drawing/pen.ts";
 import type { Reason } from "../drawing/plate.ts";
-import type { Sheet } from "../drawing/sheet.ts";
 import type { Exchange } from "../exchange.ts";
 import type { Latitude } from "../kernel/api.ts";
-import { MOST_SITES, packPlaces } from "../link.ts";
-import type { LinkValues } from "../link.ts";
+import { MOST_SITES, packPlaces, type LinkValues } from "../link.ts";
 import type { Painted } from "../panorama.ts";
 import type { Room, RoomHost } from "../room.ts";
+import { directionOf, lonLatOf, type Vector } from "../space.ts";
 import { SiteTable } from "../table.ts";
 import { capToCap, lensMap, MOST, scaleAt } from "../view/lens.ts";
 import { View } from "../view/view.ts";
@@ -17,13 +17,18 @@ import { Choice, NumberField, PlaceFields, Switches, tellNamed } from "./control
 import { BubbleGlobe } from "./globe_bubbles.ts";
 import { FisheyeGlobe } from "./globe_fisheye.ts";
 import type { GlobeHost } from "./globe_plate.ts";
-import { GLOBE_SWITCHES, GlobeScene } from "./globe_scene.ts";
-import type { Places } from "./globe_scene.ts";
-import { BEGINNING, fromValues, LEAST_RADIUS, MOST_RADIUS, PRESETS, sideView, toValues } from "./globe_state.ts";
-import type { GlobeState } from "./globe_state.ts";
+import { GLOBE_SWITCHES, GlobeScene, type GlobeSwitch, type Places } from "./globe_scene.ts";
+import {
+  BEGINNING,
+  fromValues,
+  LEAST_RADIUS,
+  MOST_RADIUS,
+  PRESETS,
+  sideView,
+  toValues,
+  type GlobeState,
+} from "./globe_state.ts";
 import { FiveViews } from "./globe_views.ts";
-import { directionOf, lonLatOf } from "./space.ts";
-import type { Vector } from "./space.ts";
 
 /** Files that are pictures, by the ends of their names. */
 const PICTURES = /\.(jpe?g|png|webp|avif)$/i;
@@ -35,85 +40,83 @@ export function globeRoom(host: RoomHost): Room {
   return new GlobeRoom(host);
 }
 
-interface Parts {
-  readonly section: HTMLElement;
-  readonly globe: FisheyeGlobe;
-  readonly views: FiveViews;
-  readonly bubbles: readonly BubbleGlobe[];
-  readonly table: SiteTable;
-  readonly switches: Switches;
-  readonly lens: Choice<GlobeState["lens"]>;
-  /** The focus, or the middle of the bubble. */
-  readonly focus: PlaceFields;
-  readonly radii: { readonly from: NumberField; readonly to: NumberField };
-}
-
-class GlobeRoom implements Room {
+class GlobeRoom implements Room, GlobeHost {
   readonly #host: RoomHost;
-  readonly #scene = new GlobeScene();
+  readonly scene = new GlobeScene();
   #state: GlobeState = BEGINNING;
-  #parts: Parts | null = null;
+  #section!: HTMLElement;
+  #globe!: FisheyeGlobe;
+  #views!: FiveViews;
+  #bubbles!: readonly BubbleGlobe[];
+  #table!: SiteTable;
+  #switches!: Switches;
+  #lens!: Choice<GlobeState["lens"]>;
+  /** The focus, or the middle of the bubble. */
+  #focus!: PlaceFields;
+  #radii!: { readonly from: NumberField; readonly to: NumberField };
   /** The cells' voice: the places of a link stand until others are opened. */
   #isGiven = false;
   /** The picture that was opened last: a step back is one without it, and the next step forward shows it again. */
   #picture: Painted | null = null;
+  /** The lens that was announced last. */
+  #said = BEGINNING.sight.lens;
 
   constructor(host: RoomHost) {
     this.#host = host;
   }
 
+  get shown(): GlobeState {
+    return this.#state;
+  }
+
+  isOn(name: GlobeSwitch): boolean {
+    return this.#switches.isOn(name);
+  }
+
+  run(body: () => void): void {
+    this.#host.guarded(body);
+  }
+
   attach(section: HTMLElement): void {
-    const room = this;
-    const host: GlobeHost = {
-      scene: this.#scene,
-      get state() {
-        return room.#state;
-      },
-      isOn: (name) => this.#parts!.switches.isOn(name),
-      set: (change, reason, isStep) => this.#set(change, reason, isStep),
-      run: (body) => this.#host.guarded(body),
-    };
+    this.#section = section;
     const { guarded } = this.#host;
     const radius = (which: "from" | "to"): NumberField =>
       new NumberField(section, `${which}-radius`, 1, (value) => guarded(() => this.#setRadius(which, value)), "change");
     const canvas = (id: string): HTMLCanvasElement => find(section, `#${id}`);
-    this.#parts = {
-      section,
-      globe: new FisheyeGlobe(canvas("globe-plate"), host),
-      views: new FiveViews([...section.querySelectorAll<HTMLButtonElement>(".views button")], host),
-      bubbles: [
-        new BubbleGlobe(canvas("globe-before"), "before", host),
-        new BubbleGlobe(canvas("globe-after"), "after", host),
-      ],
-      table: new SiteTable(find(section, ".sites"), {
-        chosen: (place) => guarded(() => this.#centerPlace(place)),
-        pointed: (place) => {
-          this.#scene.lit = place;
-          this.#redraw("state");
-        },
-      }),
-      switches: new Switches(section, GLOBE_SWITCHES, (name) => guarded(() => this.#switched(name))),
-      lens: new Choice(section, "lens", ["fisheye", "bubble"], () =>
-        guarded(() => this.#set({ lens: this.#parts!.lens.value }, "state", true)),
-      ),
-      focus: new PlaceFields(section, "focus", (place) => guarded(() => this.#center(directionOf(...place))), "change"),
-      radii: { from: radius("from"), to: radius("to") },
-    };
+    this.#globe = new FisheyeGlobe(canvas("globe-plate"), this);
+    this.#views = new FiveViews([...section.querySelectorAll<HTMLButtonElement>(".views button")], this);
+    this.#bubbles = [
+      new BubbleGlobe(canvas("globe-before"), "before", this),
+      new BubbleGlobe(canvas("globe-after"), "after", this),
+    ];
+    this.#table = new SiteTable(find(section, ".sites"), {
+      chosen: (place) => guarded(() => this.#centerPlace(place)),
+      pointed: (place) => {
+        this.scene.lit = place;
+        this.redraw();
+      },
+    });
+    this.#switches = new Switches(section, GLOBE_SWITCHES, (name) => guarded(() => this.#switched(name)));
+    const lens = (): void => this.set({ lens: this.#lens.value }, "state", true);
+    this.#lens = new Choice(section, "lens", ["fisheye", "bubble"], () => guarded(lens));
+    const center = (place: readonly [number, number]): void => this.#center(directionOf(...place));
+    this.#focus = new PlaceFields(section, "focus", (place) => guarded(() => center(place)), "change");
+    this.#radii = { from: radius("from"), to: radius("to") };
     this.#listen(section);
     this.#write();
     void this.#load();
   }
 
   state(): Record<string, string> {
-    const { places } = this.#scene;
+    const { places } = this.scene;
     const held =
       places === null || this.#isGiven
         ? {}
         : places.lonlat.length <= 2 * MOST_SITES
           ? { sites: packPlaces(places.lonlat), name: places.name }
           : { file: places.name };
-    const picture = this.#scene.picture?.name;
-    const { turned } = this.#parts!.switches;
+    const picture = this.scene.picture?.name;
+    const { turned } = this.#switches;
     return {
       ...toValues(this.#state),
       ...held,
@@ -126,121 +129,113 @@ class GlobeRoom implements Room {
     const state = fromValues(values);
     const lonlat = values.lonlat("sites");
     if (lonlat !== null) this.#show({ name: values.text("name", "sites"), lonlat }, false);
-    const { switches, globe } = this.#parts!;
-    switches.turned = values.text("turned", "");
-    if (this.#scene.places === null) switches.set("cells", false);
-    globe.stop();
+    this.#switches.turned = values.text("turned", "");
+    if (this.scene.places === null) this.#switches.set("cells", false);
+    this.#globe.stop();
     const { messages } = this.#host;
-    if (this.#scene.places?.name !== values.text("file", "")) tellNamed(messages, values, "file");
-    this.#scene.picture = values.text("picture", "") === this.#picture?.name ? this.#picture : null;
-    if (this.#scene.picture === null) tellNamed(messages, values, "picture");
-    this.#set(state, "state");
+    if (this.scene.places?.name !== values.text("file", "")) tellNamed(messages, values, "file");
+    this.scene.picture = values.text("picture", "") === this.#picture?.name ? this.#picture : null;
+    if (this.scene.picture === null) tellNamed(messages, values, "picture");
+    this.set(state, "state");
   }
 
-  redraw(): void {
-    this.#redraw("state");
+  redraw(reason: Reason = "state"): void {
+    if (this.#state.lens === "bubble") for (const bubble of this.#bubbles) bubble.plate.redraw(reason);
+    else {
+      this.#globe.plate.redraw(reason);
+      if (reason !== "pointer") this.#views.redraw(reason);
+    }
   }
 
   open(file: File, exchange: Exchange): Promise<void> {
     const { messages, guarded } = this.#host;
     if (file.type.startsWith("image/") || PICTURES.test(file.name)) {
       return exchange.openPanorama(file, messages, (picture) => {
-        this.#scene.picture = this.#picture = picture;
-        this.#redraw("state");
+        this.scene.picture = this.#picture = picture;
+        this.redraw();
         this.#host.changed(true);
       });
     }
     return exchange.openPoints(file, "lonlat", messages, ({ places: lonlat, names }) => {
       guarded(() => {
         this.#show({ name: file.name, lonlat, names }, false);
-        this.#parts!.switches.set("cells", true);
-        this.#set({}, "state", true);
+        this.#switches.set("cells", true);
+        this.set({}, "state", true);
       });
     });
   }
 
   sheet(): Sheet {
-    const { globe, bubbles } = this.#parts!;
-    const { plate } = this.#state.lens === "bubble" ? bubbles[1] : globe;
+    const { plate } = this.#state.lens === "bubble" ? this.#bubbles[1] : this.#globe;
     return plate.sheet(this.#label());
   }
 
   geojson(exchange: Exchange): string | null {
-    const { places } = this.#scene;
-    if (places !== null) return exchange.placesGeojson(places.lonlat, this.#scene.latitude);
+    const { places } = this.scene;
+    if (places !== null) return exchange.placesGeojson(places.lonlat, this.scene.latitude);
     this.#host.messages.show("", "There are no cells yet: open a file with places of your own.");
     return null;
   }
 
   python(exchange: Exchange): string {
-    return exchange.globePython(this.#state, this.#scene, (name) => this.#parts!.switches.isOn(name));
+    return exchange.globePython(this.#state, this.scene, (name) => this.isOn(name));
   }
 
   /** Unpacks what the page carries; until then the globe is water. */
   async #load(): Promise<void> {
-    await this.#scene.load(this.#host.contents);
-    if (this.#scene.places !== null) this.#show(this.#scene.places, this.#isGiven); // cells of the page's latitude
+    await this.scene.load(this.#host.contents);
+    if (this.scene.places !== null) this.#show(this.scene.places, this.#isGiven); // cells of the page's latitude
     const given = await this.#host.contents.given();
-    if (given !== null && this.#scene.places === null) {
+    if (given !== null && this.scene.places === null) {
       this.#show(given, true);
-      this.#parts!.switches.set("cells", true);
-      this.#set({}, "state");
+      this.#switches.set("cells", true);
+      this.set({}, "state");
     }
-    this.#redraw("state");
+    this.redraw();
   }
 
   #show(places: Places, isGiven: boolean): void {
-    this.#scene.show(places);
+    this.scene.show(places);
     this.#isGiven = isGiven;
     this.#input("cells").disabled = false;
-    const { section, table } = this.#parts!;
+    const section = this.#section;
     const { lonlat, names } = places;
     const count = lonlat.length / 2;
     find(section, "[data-show=places]").hidden = false;
     find(section, "[data-out=places]").textContent = placesWords(count, places.name);
-    find(section, "[data-out=latitude]").textContent = AREAS[this.#scene.latitude];
-    table.show({
+    find(section, "[data-out=latitude]").textContent = AREAS[this.scene.latitude];
+    this.#table.show({
       count,
       noun: "Place",
       names: names ?? null,
       heads: ["Latitude", "Longitude", "Cell, km²"],
-      cells: (place) => [latitude(lonlat[2 * place + 1]), longitude(lonlat[2 * place]), area(this.#scene.area(place))],
+      cells: (place) => [latitude(lonlat[2 * place + 1]), longitude(lonlat[2 * place]), area(this.scene.area(place))],
     });
   }
 
   /** Brings a place to the middle, and the lens to it. */
   #centerPlace(place: number): void {
-    const [lon, lat] = this.#scene.places!.lonlat.subarray(2 * place);
+    const [lon, lat] = this.scene.places!.lonlat.subarray(2 * place);
     this.#center(directionOf(lon, lat), View.above(lon, lat));
   }
 
   /** Brings the lens to a direction, or the bubble that is taken. */
   #center(direction: Vector, view = this.#state.sight.view): void {
-    if (this.#state.lens === "bubble") this.#set({ from: { ...this.#state.from, center: direction } }, "state");
-    else this.#parts!.globe.fly({ lens: { ...this.#state.sight.lens, focus: direction }, view });
+    if (this.#state.lens === "bubble") this.set({ from: { ...this.#state.from, center: direction } }, "state");
+    else this.#globe.fly({ lens: { ...this.#state.sight.lens, focus: direction }, view });
   }
 
   /** Another state: the drawings, the words, the controls and the link follow. */
-  #set(change: Partial<GlobeState>, reason: Reason, isStep = false): void {
+  set(change: Partial<GlobeState>, reason: Reason, isStep = false): void {
     this.#state = { ...this.#state, ...change };
-    this.#redraw(reason);
+    this.redraw(reason);
     this.#write();
     this.#host.changed(isStep);
     if (reason !== "pointer") this.#announce(change);
   }
 
-  #redraw(reason: Reason): void {
-    if (this.#parts === null) return;
-    const { globe, views, bubbles } = this.#parts;
-    if (this.#state.lens === "bubble") for (const bubble of bubbles) bubble.plate.redraw(reason);
-    else {
-      globe.plate.redraw(reason);
-      if (reason !== "pointer") views.redraw(reason);
-    }
-  }
-
   #input(name: string): HTMLInputElement {
-    return field(this.#parts!.section, name);
+    return field(this.#section, name);
   }
 
   #listen(section: HTMLElement): void {
@@ -258,48 +253,47 @@ class GlobeRoom implements Room {
 
   #magnify(magnification: number): void {
     const { sight } = this.#state;
-    this.#parts?.globe.stop();
+    this.#globe.stop();
     const kept = Math.max(1, Math.min(MOST, magnification));
-    this.#set({ sight: { ...sight, lens: { ...sight.lens, magnification: kept } } }, "hand");
+    this.set({ sight: { ...sight, lens: { ...sight.lens, magnification: kept } } }, "hand");
   }
 
   #setRadius(which: "from" | "to", radius: number): void {
     if (!(radius >= LEAST_RADIUS && radius <= MOST_RADIUS)) this.#write();
-    else this.#set({ [which]: { ...this.#state[which], radius } }, "state");
+    else this.set({ [which]: { ...this.#state[which], radius } }, "state");
   }
 
   #begin(preset: Partial<GlobeState> | undefined): void {
     if (preset === undefined) return;
     const isHere = this.#state.lens === "fisheye" && preset.lens === "fisheye";
-    if (isHere && preset.sight !== undefined) this.#parts?.globe.fly(preset.sight);
-    else this.#set(preset, "state", true);
+    if (isHere && preset.sight !== undefined) this.#globe.fly(preset.sight);
+    else this.set(preset, "state", true);
   }
 
   /** Something is drawn, or no longer; north is up again, or may turn. */
   #switched(name: string): void {
     const { sight, before, after } = this.#state;
-    const isLeveled = name === "north" && this.#parts!.switches.isOn(name);
+    const isLeveled = name === "north" && this.#switches.isOn(name);
     const level = { sight: { ...sight, view: sight.view.northUp }, before: before.northUp, after: after.northUp };
-    this.#set(isLeveled ? level : {}, "state");
+    this.set(isLeveled ? level : {}, "state");
   }
 
   #flyToSide(button: HTMLButtonElement): void {
     const { lens } = this.#state.sight;
-    this.#parts?.globe.fly({ lens, view: sideView(Number(button.value), lens.focus) });
+    this.#globe.fly({ lens, view: sideView(Number(button.value), lens.focus) });
     this.#host.announcer.say(button.textContent?.trim().replace(/^\d\s*/, "") ?? "");
   }
 
   /** Everything of the margin and the sentences. */
   #write(): void {
-    if (this.#parts === null) return;
-    const { section, lens, focus, radii } = this.#parts;
+    const section = this.#section;
     const { sight, from, to } = this.#state;
     const { magnification } = sight.lens;
-    lens.value = this.#state.lens;
+    this.#lens.value = this.#state.lens;
     this.#input("mag").value = String(SLIDER_TEN * Math.log10(magnification));
     find(section, "[data-out=mag]").textContent = scale(magnification);
-    focus.value = lonLatOf(this.#state.lens === "bubble" ? from.center : sight.lens.focus);
-    [radii.from.value, radii.to.value] = [from.radius, to.radius];
+    this.#focus.value = lonLatOf(this.#state.lens === "bubble" ? from.center : sight.lens.focus);
+    [this.#radii.from.value, this.#radii.to.value] = [from.radius, to.radius];
     if (this.#state.lens === "bubble") this.#writeBubbles(section);
     else this.#writeFisheye(section);
     find(section, "#globe-plate").setAttribute("aria-label", this.#label());
@@ -365,9 +359,6 @@ class GlobeRoom implements Room {
     }
     this.#said = sight.lens;
   }
-
-  /** The lens that was announced last. */
-  #said = BEGINNING.sight.lens;
 }
 
 /** What the areas of cells are, by the kind of latitude. */

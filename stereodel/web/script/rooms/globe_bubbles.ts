@@ -1,27 +1,19 @@
 /** Two globes: the bubble that is taken, and the one that it fills; rims and insides are dragged in either. */
 
-import { circle, pointAt } from "../drawing/arcs.ts";
-import type { Circle } from "../drawing/arcs.ts";
-import { circlePoints } from "../drawing/ball.ts";
+import { circle, pointAt, type Circle } from "../drawing/arcs.ts";
+import { circlePoints, placeOf } from "../drawing/ball.ts";
 import { traceCap } from "../drawing/fill.ts";
-import { drawHandle } from "../drawing/pen.ts";
-import type { Pen } from "../drawing/pen.ts";
+import { drawHandle, type Pen } from "../drawing/pen.ts";
 import type { Reason } from "../drawing/plate.ts";
-import { MoebiusMap } from "../kernel/api.ts";
+import { MoebiusMap, Rotation } from "../kernel/api.ts";
+import { angle, row, unit, type Vector } from "../space.ts";
 import { arrowed, grabBall } from "../view/ball_hand.ts";
-import { distance } from "../view/hand.ts";
-import type { Gestures, Hold, Place } from "../view/hand.ts";
-import { capToCap, seenThrough } from "../view/lens.ts";
-import type { Cap } from "../view/lens.ts";
-import { between, pointUnder, turned } from "../view/view.ts";
-import type { View } from "../view/view.ts";
+import { distance, type Gestures, type Hold, type Place } from "../view/hand.ts";
+import { capToCap, seenThrough, type Cap } from "../view/lens.ts";
+import { pointUnder, type View } from "../view/view.ts";
 import { fixed } from "../words.ts";
-import { GlobePlate, LABEL } from "./globe_plate.ts";
-import type { GlobeHost } from "./globe_plate.ts";
+import { GlobePlate, LABEL, type GlobeHost } from "./globe_plate.ts";
 import { BEGINNING, LEAST_RADIUS, MOST_RADIUS } from "./globe_state.ts";
-import { placeOf } from "./lines.ts";
-import { angle, unit } from "./space.ts";
-import type { Vector } from "./space.ts";
 
 /** Where a rim has its handle: the point of the rim that lies farthest this way in the drawing. */
 const TOWARD = [0.8, -1] as const;
@@ -43,16 +35,16 @@ export class BubbleGlobe extends GlobePlate {
   }
 
   get view(): View {
-    return this.host.state[this.#which];
+    return this.host.shown[this.#which];
   }
 
   protected get map(): MoebiusMap {
-    const { from, to } = this.host.state;
+    const { from, to } = this.host.shown;
     return seenThrough(this.isMagnified ? capToCap(from, to) : MoebiusMap.identity(), this.view);
   }
 
   protected get isPointed(): boolean {
-    return angle(this.host.state.pointer, BEGINNING.pointer) > UNMOVED;
+    return angle(this.host.shown.pointer, BEGINNING.pointer) > UNMOVED;
   }
 
   protected get isMagnified(): boolean {
@@ -64,7 +56,7 @@ export class BubbleGlobe extends GlobePlate {
   }
 
   get #cap(): Cap {
-    return this.host.state[this.#which === "before" ? "from" : "to"];
+    return this.host.shown[this.#which === "before" ? "from" : "to"];
   }
 
   /** The bubble's rim, axes of the view. */
@@ -138,7 +130,7 @@ export class BubbleGlobe extends GlobePlate {
     this.motion.stop();
     return {
       move: (to) => {
-        const moved = turned(between(point, pointUnder(this.disc, to)), center);
+        const moved = row(Rotation.between(point, pointUnder(this.disc, to)).apply(center), 0);
         this.#setCap({ ...start, center: this.view.onBall(moved) });
       },
     };

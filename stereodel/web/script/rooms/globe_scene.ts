@@ -1,5 +1,6 @@
 /** What the globes of the room show: land, graticule, circles, the reader's places, a picture of the whole sphere. */
 
+import type { Contents } from "../contents.ts";
 import {
   arcLayer,
   capLayer,
@@ -9,15 +10,13 @@ import {
   graticuleArcs,
   landLayer,
   ridgeArcs,
+  type Layer,
 } from "../drawing/ball.ts";
-import type { Layer } from "../drawing/ball.ts";
 import type { Disc, Pen } from "../drawing/pen.ts";
-import type { Contents } from "../contents.ts";
-import { lonlatToXyz, SphericalVoronoi } from "../kernel/api.ts";
-import type { Latitude, MoebiusMap } from "../kernel/api.ts";
-import { tableLatitude } from "../kernel/latitudes.ts";
+import { lonlatToXyz, SphericalVoronoi, type Latitude, type MoebiusMap } from "../kernel/api.ts";
+import { tableLatitude } from "../kernel/coordinates.ts";
 import type { Painted } from "../panorama.ts";
-import { directionOf, lonLatOf, row } from "./space.ts";
+import { directionOf, lonLatOf, row } from "../space.ts";
 
 /** The radius of the equal circles on Earth, kilometres, and in degrees of a sphere with the Earth's mean radius. */
 export const CIRCLE_KILOMETRES = 150;

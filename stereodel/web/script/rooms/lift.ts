@@ -1,27 +1,20 @@
 /** The Lift room: a sheet that bends onto a hemisphere, and how far apart two of its points are there (P10, P13, P7). */
 
 import { field, find, plain, say } from "../dom.ts";
-import { Plate } from "../drawing/plate.ts";
-import type { Reason } from "../drawing/plate.ts";
-import type { Sheet } from "../drawing/sheet.ts";
+import type { Sheet } from "../drawing/pen.ts";
+import { Plate, type Reason } from "../drawing/plate.ts";
 import type { Exchange } from "../exchange.ts";
-import { writeNumber } from "../link.ts";
-import type { LinkValues } from "../link.ts";
+import { writeNumber, type LinkValues } from "../link.ts";
 import type { Room, RoomHost } from "../room.ts";
 import type { SiteSet } from "../sets.ts";
-import { distance, follow } from "../view/hand.ts";
-import type { Gestures, Hold, Place as Point } from "../view/hand.ts";
+import { distance, follow, type Gestures, type Hold, type Place as Point } from "../view/hand.ts";
 import { View } from "../view/view.ts";
 import { counted, fixed, ofFacets, wrap } from "../words.ts";
 import { NumberField } from "./controls.ts";
-import { drawLift, onPicture, sitePlace, standOf } from "./lift_drawing.ts";
-import type { LiftScene } from "./lift_drawing.ts";
-import type { Sheet as BentSheet } from "./lift_sheet.ts";
-import { SHEET_SIDES, sheetSets } from "./lift_sets.ts";
-import { LiftSites } from "./lift_sites.ts";
+import { drawLift, onPicture, sitePlace, standOf, type LiftScene } from "./lift_drawing.ts";
+import { LiftSites, SHEET_SIDES, sheetSets, type Sheet as BentSheet } from "./lift_sites.ts";
 import { measured, ofBend, ofBounds, ofPair, separation, withoutTriangles } from "./lift_words.ts";
-import { SiteControls } from "./site_controls.ts";
-import type { NamedSites } from "./site_controls.ts";
+import { SiteControls, type NamedSites } from "./site_controls.ts";
 
 const SWITCHES = ["triangles", "cells", "rays", "seeing"] as const;
 

@@ -1,17 +1,14 @@
 /** The picture of the Lift room: a sheet that bends onto a ball, under the plane that it was. */
 
 import { traceArc } from "../drawing/arcs.ts";
+import { traceGreat, tracePolygon } from "../drawing/ball.ts";
 import { traceRegions } from "../drawing/fill.ts";
-import { traceCorners, traceDisc, traceSegment } from "../drawing/pen.ts";
-import type { Disc, Path, Pen } from "../drawing/pen.ts";
+import { traceCorners, traceDisc, traceSegment, type Disc, type Path, type Pen } from "../drawing/pen.ts";
 import type { LabelStyle } from "../drawing/styles.ts";
+import { cross, unit, type Vector } from "../space.ts";
 import type { View } from "../view/view.ts";
-import { chained } from "./insertion.ts";
-import type { Sheet } from "./lift_sheet.ts";
-import type { LiftSites } from "./lift_sites.ts";
-import { traceGreat, tracePolygon } from "./lines.ts";
-import { cross, unit } from "./space.ts";
-import type { Vector } from "./space.ts";
+import type { LiftSites, Sheet } from "./lift_sites.ts";
+import { chained } from "./sphere_sites.ts";
 
 /** What the picture shows. */
 export interface LiftScene {

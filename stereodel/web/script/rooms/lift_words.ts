@@ -1,10 +1,8 @@
 /** What the Lift room says: sentences whose numbers change. */
 
+import { angle } from "../space.ts";
 import { counted, fixed } from "../words.ts";
-import { separationBounds } from "./lift_sheet.ts";
-import type { Sheet } from "./lift_sheet.ts";
-import type { LiftSites } from "./lift_sites.ts";
-import { angle } from "./space.ts";
+import { separationBounds, type LiftSites, type Sheet } from "./lift_sites.ts";
 
 /** How far apart two sites are. */
 export interface Separation {

@@ -1,13 +1,10 @@
 /** The Python lines that make the picture of a room. */
 
 import { writeNumber } from "../link.ts";
-import { CIRCLE_RADIUS, STEP } from "./globe_scene.ts";
-import type { GlobeScene, GlobeSwitch } from "./globe_scene.ts";
+import { lonLatOf, type Vector } from "../space.ts";
+import { CIRCLE_RADIUS, STEP, type GlobeScene, type GlobeSwitch } from "./globe_scene.ts";
 import type { GlobeState } from "./globe_state.ts";
-import type { Sheet } from "./lift_sheet.ts";
-import type { LiftSites } from "./lift_sites.ts";
-import { lonLatOf } from "./space.ts";
-import type { Vector } from "./space.ts";
+import type { LiftSites, Sheet } from "./lift_sites.ts";
 import type { SphereSites } from "./sphere_sites.ts";
 
 /** Sites beyond which the lines name a file in place of the places. */

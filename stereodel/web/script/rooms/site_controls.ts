@@ -2,14 +2,13 @@
 
 import { find } from "../dom.ts";
 import type { Exchange } from "../exchange.ts";
-import { MOST_SITES, packPlaces } from "../link.ts";
-import type { LinkValues } from "../link.ts";
+import { MOST_SITES, packPlaces, type LinkValues } from "../link.ts";
 import type { RoomHost } from "../room.ts";
 import type { SiteSet } from "../sets.ts";
-import { SiteTable } from "../table.ts";
-import type { Rows } from "../table.ts";
+import { SiteTable, type Rows } from "../table.ts";
 import { counted } from "../words.ts";
 import { Switches, tellNamed } from "./controls.ts";
+import type { Place } from "./sphere_state.ts";
 
 /** The name of sites that are no set of the list: opened, or changed by hand. */
 const OWN = "own";
@@ -157,4 +156,25 @@ export class SiteControls {
       this.#host.changed(true);
     });
   }
+}
+
+/** The sites with one more at the end. */
+export function withSite({ places, names }: NamedSites, place: Place): NamedSites {
+  const more = new Float64Array(places.length + 2);
+  more.set(places);
+  more.set(place, places.length);
+  return ownSites(more, names && [...names, ""]);
+}
+
+/** The sites with one of them elsewhere. */
+export function withMoved({ places, names }: NamedSites, site: number, place: Place): NamedSites {
+  const moved = places.slice();
+  moved.set(place, 2 * site);
+  return ownSites(moved, names);
+}
+
+/** The sites without one of them; those behind it take the numbers before theirs. */
+export function withoutSite({ places, names }: NamedSites, site: number): NamedSites {
+  const left = places.filter((_, k) => k >> 1 !== site);
+  return ownSites(left, names && names.filter((_, k) => k !== site));
 }

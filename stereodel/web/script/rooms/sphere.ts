@@ -2,33 +2,23 @@
 
 import type { Given } from "../contents.ts";
 import { find, say } from "../dom.ts";
-import { Plate } from "../drawing/plate.ts";
-import type { Reason } from "../drawing/plate.ts";
-import type { Sheet } from "../drawing/sheet.ts";
+import type { Sheet } from "../drawing/pen.ts";
+import { placeOf } from "../drawing/ball.ts";
+import { Plate, type Reason } from "../drawing/plate.ts";
 import type { Exchange } from "../exchange.ts";
 import type { LinkValues } from "../link.ts";
 import type { Room, RoomHost } from "../room.ts";
-import { sphereSets } from "../sets.ts";
-import type { SiteSet, Stored } from "../sets.ts";
-import { arrowed, arrowStep } from "../view/ball_hand.ts";
-import { follow } from "../view/hand.ts";
+import { sphereSets, type SiteSet, type Stored } from "../sets.ts";
+import { dot, lonLatOf, type Vector } from "../space.ts";
+import { arrowed, arrowStep, grabBall, type Turnable } from "../view/ball_hand.ts";
+import { distance, follow, type Gestures, type Hold, type Place as Point } from "../view/hand.ts";
 import { Motion } from "../view/motion.ts";
-import { View } from "../view/view.ts";
+import { pointUnder, View } from "../view/view.ts";
 import { counted, latitude, longitude, ofFacets, wrap } from "../words.ts";
-import { Choice, PlaceFields } from "./controls.ts";
-import { withMoved, withoutSite, withSite } from "./edits.ts";
-import { PlaneFrame, reachAround } from "./plane_frame.ts";
-import { SiteControls } from "./site_controls.ts";
-import type { NamedSites } from "./site_controls.ts";
-import { SiteForm } from "./site_form.ts";
-import { dot, lonLatOf } from "./space.ts";
-import type { Vector } from "./space.ts";
-import { BallLayers, drawBall, drawPlane } from "./sphere_drawing.ts";
-import type { SphereScene, Step } from "./sphere_drawing.ts";
-import { ballGestures, planeGestures } from "./sphere_hand.ts";
-import type { SphereHost } from "./sphere_hand.ts";
-import { SphereSites } from "./sphere_sites.ts";
-import type { Bubble } from "./sphere_sites.ts";
+import { Choice, PlaceFields, SiteForm, StepControl } from "./controls.ts";
+import { SiteControls, withMoved, withoutSite, withSite, type NamedSites } from "./site_controls.ts";
+import { BallLayers, drawBall, drawPlane, type SphereScene, type Step } from "./sphere_drawing.ts";
+import { SphereSites, type Bubble } from "./sphere_sites.ts";
 import {
   CLICKS,
   directionAt,
@@ -39,11 +29,11 @@ import {
   toValues,
   VIEW,
   viewPlace,
+  type Click,
+  type Place,
 } from "./sphere_state.ts";
-import type { Click, Place } from "./sphere_state.ts";
-import { ofBubble, ofDuplicates, ofStep, ofSite, withoutTriangles } from "./sphere_words.ts";
-import { StepControl } from "./step_control.ts";
-import { Twin } from "./twin.ts";
+import { ofBubble, ofDuplicates, ofSite, ofStep, withoutTriangles } from "./sphere_words.ts";
+import { PlaneFrame, reachAround, Twin } from "./twin.ts";
 
 const SWITCHES = ["triangles", "cells", "bubble", "seeing", "closing"] as const;
 
@@ -53,6 +43,9 @@ const VERY_MANY = 100_000;
 
 /** What the sum of facets is made of. */
 const SUM = ["on the sphere", "in the plane", "\u00a0*P*"] as const;
+
+/** Pixels within which a site is caught to be moved: nearer than a handle, so that the ball can be turned between sites. */
+const REACH_OF_SITES = 8;
 
 /** Changes by hand that can be undone. */
 const MOST_STEPS_BACK = 100;
@@ -65,12 +58,12 @@ export function sphereRoom(host: RoomHost, stored: Stored, given: Given | null):
   return new SphereRoom(host, sphereSets(stored, given));
 }
 
-class SphereRoom implements Room, SphereHost {
+class SphereRoom implements Room, Turnable {
   readonly #host: RoomHost;
   readonly #sets: readonly SiteSet[];
   /** Sites as they were before the last changes by hand. */
   #history: NamedSites[] = [];
-  readonly motion = new Motion();
+  readonly #motion = new Motion();
   readonly isNorthUp = true;
   #section!: HTMLElement;
   #ball!: Plate;
@@ -115,7 +108,7 @@ class SphereRoom implements Room, SphereHost {
     );
     this.#plane = new Plate(
       find<HTMLCanvasElement>(section, "#sphere-plane"),
-      (pen, moving) => drawPlane(pen, this.frame, this.#scene(moving)),
+      (pen, moving) => drawPlane(pen, this.#frame, this.#scene(moving)),
       guarded,
     );
     this.#controls = new SiteControls(section, this.#host, this.#sets, "lonlat", SWITCHES, {
@@ -134,8 +127,8 @@ class SphereRoom implements Room, SphereHost {
       remove: () => guarded(() => this.#remove(this.#held)),
     });
     find(section, "[data-do=undo]").addEventListener("click", () => this.#undo());
-    follow(this.#ball, ballGestures(this));
-    follow(this.#plane, planeGestures(this));
+    follow(this.#ball, this.#ballGestures());
+    follow(this.#plane, this.#planeGestures());
   }
 
   // State
@@ -291,35 +284,111 @@ class SphereRoom implements Room, SphereHost {
     return View.above(...this.#view);
   }
 
-  get sites(): SphereSites {
-    return this.#sites;
-  }
-
-  get twin(): Twin {
-    return this.#twin;
-  }
-
-  get frame(): PlaneFrame {
+  get #frame(): PlaneFrame {
     return new PlaneFrame(1, 1, Math.min(this.#plane.width, this.#plane.height) - 2, this.#reach);
-  }
-
-  get areSitesLoose(): boolean {
-    return this.#count === null;
   }
 
   turn(view: View, reason: Reason): void {
     this.#turn(view.middle, reason);
   }
 
+  #ballGestures(): Gestures {
+    return {
+      take: (at, reach) => this.#grab(at, reach),
+      hover: (at) => {
+        if (at !== null && this.#isOnBall(at)) this.#hover(this.#direction(at));
+      },
+      click: (at, reach) => this.#press(this.#direction(at), this.#siteOnBall(at, reach)),
+      key: (event) => this.#key(event),
+    };
+  }
+
+  #planeGestures(): Gestures {
+    const direction = (at: Point): Vector => this.#twin.inverse(...this.#frame.point(at));
+    const place = (point: Vector): Point => this.#frame.place(this.#twin.forward(point));
+    return {
+      take: () => ({ move: () => {} }),
+      hover: (at) => {
+        if (at !== null) this.#hover(direction(at));
+      },
+      click: (at, reach) => this.#press(direction(at), this.#siteNear(direction(at), at, reach, place)),
+      key: (event) => this.#key(event),
+    };
+  }
+
+  #isOnBall(at: Point, reach = 0): boolean {
+    return distance(at, [this.disc.x, this.disc.y]) <= this.disc.r + reach;
+  }
+
+  /** What is under a place of the ball. */
+  #direction(at: Point): Vector {
+    return this.view.onBall(pointUnder(this.disc, at));
+  }
+
+  /** The visible site within reach of a place of the ball, or null. */
+  #siteOnBall(at: Point, reach: number): number | null {
+    const { view, disc } = this;
+    return this.#siteNear(this.#direction(at), at, reach, (direction) => {
+      const point = view.seen(direction);
+      return point[2] >= 0 ? placeOf(disc, point) : null;
+    });
+  }
+
+  /** The site nearest to a direction, where its place on the picture is within reach. */
+  #siteNear(direction: Vector, at: Point, reach: number, place: (direction: Vector) => Point | null): number | null {
+    if (this.#sites.count === 0) return null;
+    const [site] = this.#sites.delaunay.nearest(direction);
+    const found = place(this.#sites.site(site));
+    return found !== null && distance(found, at) <= reach ? site : null;
+  }
+
+  /** Takes hold of the pole's handle, a site, or the ball; null beside them. */
+  #grab(at: Point, reach: number): Hold | null {
+    if (!this.#isOnBall(at, reach)) return null;
+    const pole = this.view.seen(this.#twin.pole);
+    if (distance(placeOf(this.disc, pole), at) <= reach) return this.#grabPole(pole[2] < 0);
+    // Where sites lie close, evenly spread, the ball can still be turned between them.
+    const spacing = this.disc.r * Math.sqrt((4 * Math.PI) / this.#sites.count);
+    const near = Math.min(reach, REACH_OF_SITES, spacing / 3);
+    const site = this.#count === null ? this.#siteOnBall(at, near) : null;
+    if (site === null) return grabBall(this, this.#motion, at);
+    let isFirst = true;
+    return {
+      move: (to) => {
+        if (isFirst) this.#note();
+        isFirst = false;
+        this.#host.guarded(() => this.#moveSite(site, this.#direction(to), "hand"));
+      },
+      end: () => this.#rest(),
+    };
+  }
+
+  /** Over the limb and back in the pole is on the other side. */
+  #grabPole(isBehind: boolean): Hold {
+    let [behind, wasOut] = [isBehind, false];
+    return {
+      move: (to) => {
+        const isOut = !this.#isOnBall(to);
+        if (!isOut && wasOut) behind = !behind;
+        wasOut = isOut;
+        const [x, y, z] = pointUnder(this.disc, to);
+        const direction = this.view.onBall([x, y, behind ? -z : z]);
+        this.#host.guarded(() => this.#movePole(lonLatOf(direction), false));
+      },
+      end: () => this.#rest(),
+    };
+  }
+
   /** The bubble follows the pointer, unless one is kept. */
-  hover(direction: Vector): void {
+  #hover(direction: Vector): void {
     if (this.#isPinned || this.#count !== null) return;
     const before = this.#bubble?.facet ?? null;
     this.#aim = direction;
     if (this.#sites.facetAt(direction) !== before) this.#host.guarded(() => this.#update());
   }
 
-  click(direction: Vector, site: number | null): void {
+  /** A click. @param site The one within reach. */
+  #press(direction: Vector, site: number | null): void {
     const mode = this.#count === null ? this.#click.value : "keep";
     this.#host.guarded(() => {
       if (mode === "add") this.#add(direction);
@@ -328,17 +397,8 @@ class SphereRoom implements Room, SphereHost {
     });
   }
 
-  dragPole(direction: Vector): void {
-    this.#host.guarded(() => this.#movePole(lonLatOf(direction), false));
-  }
-
-  dragSite(site: number, direction: Vector, isFirst: boolean): void {
-    if (isFirst) this.#note();
-    this.#host.guarded(() => this.#moveSite(site, direction, "hand"));
-  }
-
-  /** The frame fits again, and what was left out is drawn. */
-  rest(): void {
+  /** The hand has let go: the frame fits again, and what was left out is drawn. */
+  #rest(): void {
     this.#host.guarded(() => {
       this.#rescale();
       this.#update();
@@ -366,7 +426,7 @@ class SphereRoom implements Room, SphereHost {
   #fly(to: Place): void {
     const from = this.#view;
     const east = wrap(to[0] - from[0]);
-    this.motion.fly((t) =>
+    this.#motion.fly((t) =>
       this.#see([from[0] + t * east, from[1] + t * (to[1] - from[1])], t < 1 ? "flight" : "state"),
     );
   }
@@ -398,10 +458,6 @@ class SphereRoom implements Room, SphereHost {
     this.#host.changed();
   }
 
-  get #named(): NamedSites {
-    return this.#controls.named;
-  }
-
   /** Shows what a hand has made of the sites, and says it. */
   #edit(named: NamedSites, held: number | null, words: () => string, reason: Reason = "state"): void {
     this.#held = held;
@@ -414,12 +470,12 @@ class SphereRoom implements Room, SphereHost {
     const [lon, lat] = handPlace(direction);
     this.#aim = direction;
     const words = (): string => `Site ${site + 1}: ${latitude(lat)}, ${longitude(lon)}`;
-    this.#edit(withMoved(this.#named, site, [lon, lat]), site, words, reason);
+    this.#edit(withMoved(this.#controls.named, site, [lon, lat]), site, words, reason);
   }
 
   /** Keeps the sites to go back to. */
   #note(): void {
-    this.#history.push(this.#named);
+    this.#history.push(this.#controls.named);
     if (this.#history.length > MOST_STEPS_BACK) this.#history.shift();
   }
 
@@ -432,7 +488,7 @@ class SphereRoom implements Room, SphereHost {
   #add(direction: Vector): void {
     const { count } = this.#sites;
     this.#note();
-    this.#edit(withSite(this.#named, handPlace(direction)), count, () => {
+    this.#edit(withSite(this.#controls.named, handPlace(direction)), count, () => {
       const same = this.#sites.sameAs(count);
       return same === null
         ? `Site ${count + 1} added, ${this.#sites.neighborCounts[count]} neighbours`
@@ -444,7 +500,7 @@ class SphereRoom implements Room, SphereHost {
   #remove(site: number | null): void {
     if (site === null) return;
     this.#note();
-    this.#edit(withoutSite(this.#named, site), null, () => `Site ${site + 1} removed`);
+    this.#edit(withoutSite(this.#controls.named, site), null, () => `Site ${site + 1} removed`);
   }
 
   #undo(): void {
@@ -459,7 +515,7 @@ class SphereRoom implements Room, SphereHost {
     this.#fly([this.#sites.lonlat[2 * site], this.#sites.lonlat[2 * site + 1]]);
     this.#host.guarded(() => this.#update());
     this.#host.changed();
-    this.#host.announcer.say(ofSite(this.#sites, site, this.#named.names?.[site]));
+    this.#host.announcer.say(ofSite(this.#sites, site, this.#controls.named.names?.[site]));
   }
 
   #setStep(count: number | null): void {
@@ -472,8 +528,8 @@ class SphereRoom implements Room, SphereHost {
 
   // Keys
 
-  key(event: KeyboardEvent): boolean {
-    this.motion.stop();
+  #key(event: KeyboardEvent): boolean {
+    this.#motion.stop();
     const view = arrowed(this, event);
     const action = view === null ? this.#keyed(event) : () => this.#turn(view.middle);
     if (action !== null) this.#host.guarded(action);
@@ -496,7 +552,7 @@ class SphereRoom implements Room, SphereHost {
       ".": () => this.#walk(1),
       Delete: () => this.#remove(this.#held),
       Backspace: () => this.#remove(this.#held),
-      Enter: () => this.click(middle, null),
+      Enter: () => this.#press(middle, null),
       Escape: () => this.#free(),
     };
     return (this.#sites.count > 0 && withSites[key]) || null;
@@ -546,7 +602,7 @@ class SphereRoom implements Room, SphereHost {
 
   python(exchange: Exchange): string {
     const aim = this.#bubble === null ? null : lonLatOf(this.#aim);
-    const { file } = this.#named;
+    const { file } = this.#controls.named;
     return exchange.spherePython(this.#sites, { file, pole: this.#pole, view: this.#view, aim });
   }
 }

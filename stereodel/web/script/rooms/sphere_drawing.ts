@@ -1,20 +1,26 @@
 /** The two pictures of the Sphere room: the ball, and the plane that its sites are projected to. */
 
-import type { Disc, Path, Pen } from "../drawing/pen.ts";
-import type { LabelStyle } from "../drawing/styles.ts";
 import { circle, traceCircle } from "../drawing/arcs.ts";
-import { arcLayer, dotLayer, drawLayers, edgeArcs, ridgeArcs } from "../drawing/ball.ts";
-import type { Layer } from "../drawing/ball.ts";
+import {
+  arcLayer,
+  dotLayer,
+  drawLayers,
+  edgeArcs,
+  placeOf,
+  ridgeArcs,
+  traceGreat,
+  tracePolygon,
+  traceSides,
+  type Layer,
+} from "../drawing/ball.ts";
 import { traceCap } from "../drawing/fill.ts";
-import { drawHandle, traceCorners, traceDisc, traceSegment } from "../drawing/pen.ts";
+import { drawHandle, traceCorners, traceDisc, traceSegment, type Disc, type Path, type Pen } from "../drawing/pen.ts";
+import type { LabelStyle } from "../drawing/styles.ts";
 import { MoebiusMap } from "../kernel/api.ts";
+import type { Vector } from "../space.ts";
 import type { View } from "../view/view.ts";
-import type { Insertion } from "./insertion.ts";
-import { placeOf, traceGreat, tracePolygon, traceSides } from "./lines.ts";
-import type { PlaneFrame } from "./plane_frame.ts";
-import type { Vector } from "./space.ts";
-import type { Bubble, SphereSites } from "./sphere_sites.ts";
-import type { Twin } from "./twin.ts";
+import type { Bubble, Insertion, SphereSites } from "./sphere_sites.ts";
+import type { PlaneFrame, Twin } from "./twin.ts";
 
 /** A step of the insertion: what it does, and which facets before it and of its fan see the pole. */
 export interface Step {

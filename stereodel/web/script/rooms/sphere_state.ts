@@ -1,11 +1,9 @@
 /** The state of the Sphere room but for its sites, and how a link tells it. */
 
 import { lonlatToXyz } from "../kernel/api.ts";
-import { writePlace } from "../link.ts";
-import type { LinkValues } from "../link.ts";
+import { writePlace, type LinkValues } from "../link.ts";
+import { lonLatOf, row, type Vector } from "../space.ts";
 import { wrap } from "../words.ts";
-import { lonLatOf, row } from "./space.ts";
-import type { Vector } from "./space.ts";
 
 /** Longitude and latitude, degrees. */
 export type Place = readonly [number, number];

@@ -1,8 +1,7 @@
 /** What the Sphere room says: sentences whose numbers change. */
 
 import { fixed, latitude, longitude, several } from "../words.ts";
-import type { Insertion } from "./insertion.ts";
-import type { Bubble, SphereSites } from "./sphere_sites.ts";
+import type { Bubble, Insertion, SphereSites } from "./sphere_sites.ts";
 import type { Twin } from "./twin.ts";
 
 const DEGREES = 180 / Math.PI;
