@@ -26,7 +26,6 @@ export function make<K extends keyof HTMLElementTagNameMap>(
 
 /**
  * Writes a sentence with marks into an element: `*P*` is a letter in italics, `_12_` a number of the moment.
- *
  * The content is made of text nodes alone, so that names of files cannot become elements.
  */
 export function say(element: Element, text: string): void {

@@ -1,6 +1,5 @@
 /**
  * Files of points that the reader picks or drops: read here, sent nowhere.
- *
  * Delimited text and GeoJSON, in which `stereodel.io.read_points` finds the same places.
  */
 
@@ -29,7 +28,6 @@ export type Kind = "lonlat" | "plane";
 
 /**
  * Reads points from the bytes of a file.
- *
  * @param chosen names of the two columns, where the reader was asked.
  * @throws TableError in words for the reader; ColumnsError where the columns must be chosen.
  */
@@ -41,28 +39,16 @@ export async function readPoints(
 ): Promise<Points> {
   const bytes = await unpacked(content);
   const isJson = JSON_TEXT.test(file) || (!TEXT.test(file) && beginsAs(bytes, "{"));
-  if (!isJson && !TEXT.test(file) && isBinary(bytes)) throw new NoTableError(file);
+  if (!isJson && !TEXT.test(file) && isBinary(bytes))
+    throw new TableError("this is not a table, GeoJSON or a 2 : 1 picture");
   const text = decoded(bytes);
   const found = isJson ? ofGeojson(text, kind) : ofText(text, kind, chosen);
   const count = found.places.length / 2;
-  if (count > MOST_POINTS) throw new TooManyError(count);
+  if (count > MOST_POINTS) {
+    const most = `the page takes up to ${counted(MOST_POINTS)}; for more there is the Python library`;
+    throw new TableError(`there are ${counted(count)} points; ${most}`);
+  }
   return { file, ...found };
-}
-
-/** A file of another kind. */
-export class NoTableError extends TableError {
-  constructor(file: string) {
-    super(`${file} is not a table, GeoJSON or a 2 : 1 picture.`);
-  }
-}
-
-/** A file with more points than the page takes. */
-export class TooManyError extends TableError {
-  constructor(count: number) {
-    super(
-      `has ${counted(count)} points. The page takes up to ${counted(MOST_POINTS)}; for more there is the Python library.`,
-    );
-  }
 }
 
 function ofGeojson(text: string, kind: Kind): Omit<Points, "file"> {
@@ -161,8 +147,6 @@ function askColumns(
 
 /** A message's beginning and its words: the file, the row where there is one, then what is wrong. */
 export function complaint(file: string, error: unknown): [string, string] {
-  if (error instanceof NoTableError) return ["", `${error.message} ${UNCHANGED}`];
-  if (error instanceof TooManyError) return [file, `${error.message} ${UNCHANGED}`];
   if (!(error instanceof TableError)) return [`${file}:`, `the file cannot be read. ${UNCHANGED}`];
   const [, place, rest] = /^((?:row|line) \d+): (.*)$/s.exec(error.message) ?? [];
   const words = rest ?? error.message;

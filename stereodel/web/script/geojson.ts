@@ -16,13 +16,13 @@ type Position = [number, number];
 type Polygon = Position[][];
 
 /** A geometry of GeoJSON. */
-export type Geometry =
+type Geometry =
   | { type: "Polygon"; coordinates: Polygon }
   | { type: "MultiPolygon"; coordinates: Polygon[] }
   | { type: "LineString"; coordinates: Position[] }
   | { type: "Point"; coordinates: Position };
 
-export interface Feature {
+interface Feature {
   type: "Feature";
   properties: Record<string, unknown>;
   geometry: Geometry;
@@ -65,18 +65,18 @@ function cellOf(voronoi: SphericalVoronoi, site: number, kind: Latitude = "spher
 }
 
 /** A feature of given properties. */
-export function feature(properties: Record<string, unknown>, geometry: Geometry): Feature {
+function feature(properties: Record<string, unknown>, geometry: Geometry): Feature {
   return { type: "Feature", properties, geometry };
 }
 
 /** A collection as text, a feature a line. */
-export function collection(features: readonly Feature[]): string {
+function collection(features: readonly Feature[]): string {
   const rows = features.map((each) => JSON.stringify(each));
   return `{"type":"FeatureCollection","features":[\n${rows.join(",\n")}\n]}\n`;
 }
 
 /** All of the sphere, which has no side. */
-export const WHOLE_SPHERE: Geometry = {
+const WHOLE_SPHERE: Geometry = {
   type: "Polygon",
   coordinates: [
     [
@@ -91,7 +91,6 @@ export const WHOLE_SPHERE: Geometry = {
 
 /**
  * The region on the left of a ring of great-circle sides, at most a hemisphere.
- *
  * @param corners three or more, counterclockwise seen from outside.
  * @param kind of the latitudes that are written.
  */

@@ -1,6 +1,6 @@
 /** Scripts of the page that are compiled at first need: `exchange.ts` and `lift.ts`. */
 
-import type { Contents, ScriptName } from "./contents.ts";
+import type { Contents } from "./contents.ts";
 import { shared } from "page:shared";
 
 /** The element of such a script: what the page hands over, and what the script offers. */
@@ -11,10 +11,10 @@ interface Handover<T> extends HTMLScriptElement {
 
 export class LaterScript<T> {
   readonly #contents: Contents;
-  readonly #name: ScriptName;
+  readonly #name: string;
   #loaded: Promise<T> | null = null;
 
-  constructor(contents: Contents, name: ScriptName) {
+  constructor(contents: Contents, name: string) {
     this.#contents = contents;
     this.#name = name;
   }

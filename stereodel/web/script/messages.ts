@@ -17,7 +17,6 @@ export class Messages {
 
   /**
    * Shows a line, instead of the one before.
-   *
    * @param what begins the line in the colour of what is held: a file, a row. May be empty.
    * @param text the words, which are never taken for HTML.
    * @param inputs stand before the buttons: what the action asks for.

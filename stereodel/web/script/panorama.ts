@@ -14,21 +14,14 @@ const ROUGH = 0.25;
 /** How far width and height may be from two to one. */
 const RATIO_ERROR = 0.01;
 
-/** A file that is no picture, or one that is not twice as wide as high. */
-class PictureError extends Error {}
-
 /** Calls `opened` with the picture of a file, or says why there is none. */
 export async function openPanorama(file: File, messages: Messages, opened: (picture: Painted) => void): Promise<void> {
-  let picture: Painted;
-  try {
-    picture = await Painted.read(file);
-  } catch (error) {
-    if (!(error instanceof PictureError)) throw error;
-    messages.show(`${file.name}:`, `${error.message}. Nothing has changed.`);
-    return;
+  const picture = await Painted.read(file);
+  if (typeof picture === "string") messages.show(`${file.name}:`, `${picture}. Nothing has changed.`);
+  else {
+    messages.close();
+    opened(picture);
   }
-  messages.close();
-  opened(picture);
 }
 
 export class Painted {
@@ -42,17 +35,13 @@ export class Painted {
     this.#shader = PanoramaShader.of(pixels);
   }
 
-  /** @throws PictureError for what is no picture of the whole sphere. */
-  static async read(file: File): Promise<Painted> {
-    let bitmap: ImageBitmap;
-    try {
-      bitmap = await createImageBitmap(file);
-    } catch {
-      throw new PictureError("the picture cannot be read");
-    }
+  /** The picture, or why there is none of the whole sphere. */
+  static async read(file: File): Promise<Painted | string> {
+    const bitmap = await createImageBitmap(file).catch(() => null);
+    if (bitmap === null) return "the picture cannot be read";
     const { width, height } = bitmap;
     if (Math.abs(width / height - 2) > RATIO_ERROR) {
-      throw new PictureError(`the picture is ${width} × ${height}; one of the whole sphere is twice as wide as high`);
+      return `the picture is ${width} × ${height}; one of the whole sphere is twice as wide as high`;
     }
     const canvas = document.createElement("canvas");
     canvas.width = 2 * Math.round(Math.min(width, WIDEST) / 2);
@@ -112,20 +101,16 @@ void main() {
 }`;
 
 export class PanoramaShader {
-  readonly #canvas: HTMLCanvasElement;
   readonly #gl: WebGL2RenderingContext;
   readonly #program: WebGLProgram;
 
-  private constructor(canvas: HTMLCanvasElement, gl: WebGL2RenderingContext, program: WebGLProgram) {
-    this.#canvas = canvas;
-    this.#gl = gl;
-    this.#program = program;
+  private constructor(gl: WebGL2RenderingContext, program: WebGLProgram) {
+    [this.#gl, this.#program] = [gl, program];
   }
 
   /** Null where the browser has no WebGL2, or its texture is too small. */
   static of(pixels: ImageData): PanoramaShader | null {
-    const canvas = document.createElement("canvas");
-    const gl = canvas.getContext("webgl2", { antialias: false, depth: false, alpha: true });
+    const gl = document.createElement("canvas").getContext("webgl2", { antialias: false, depth: false, alpha: true });
     if (gl === null || gl.getParameter(gl.MAX_TEXTURE_SIZE) < pixels.width) return null;
     const program = linked(gl);
     if (program === null) return null;
@@ -135,13 +120,14 @@ export class PanoramaShader {
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR_MIPMAP_LINEAR);
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, gl.REPEAT);
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_T, gl.CLAMP_TO_EDGE);
-    return new PanoramaShader(canvas, gl, program);
+    return new PanoramaShader(gl, program);
   }
 
   /** The square round the disc, so many pixels wide; valid until the next one is drawn. */
   draw(map: MoebiusMap, size: number): HTMLCanvasElement {
     const gl = this.#gl;
-    if (this.#canvas.width !== size) this.#canvas.width = this.#canvas.height = size;
+    const canvas = gl.canvas as HTMLCanvasElement;
+    if (canvas.width !== size) canvas.width = canvas.height = size;
     gl.viewport(0, 0, size, size);
     gl.useProgram(this.#program);
     // Rows of the matrices are columns of the shader's: a vector to their left is turned back.
@@ -151,7 +137,7 @@ export class PanoramaShader {
     matrix("right", map.right);
     gl.uniform1f(gl.getUniformLocation(this.#program, "magnification"), 1 / map.magnification);
     gl.drawArrays(gl.TRIANGLES, 0, 3);
-    return this.#canvas;
+    return canvas;
   }
 }
 

@@ -25,7 +25,6 @@ export interface Room {
   state(): Record<string, string>;
   /**
    * Shows a state; what it leaves out is as in the beginning.
-   *
    * @throws LinkError where a value cannot be read; the state before stays.
    */
   restore(values: LinkValues): void;

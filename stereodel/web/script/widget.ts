@@ -1,6 +1,5 @@
 /**
  * The globe in a notebook, as anywidget asks for it: sites in; lens, view and selection in and back.
- *
  * `stereodel/web/assemble.py` writes the constant `CONTENTS` before this module. A notebook loads the module anew for
  * each widget, so that what they share, the compiled kernel, stands where all of them find it.
  */

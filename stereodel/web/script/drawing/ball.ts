@@ -34,11 +34,12 @@ export function drawLayers(
   pen: Pen,
   disc: Disc,
   map: MoebiusMap,
-  layers: readonly Layer[],
+  layers: readonly (Layer | null)[],
   side: Side = "front",
 ): void {
   for (const layer of layers) {
-    if (layer.directions.xyz.length > 0) layer.draw(pen, disc, map.apply(layer.directions), map, side);
+    if (layer !== null && layer.directions.xyz.length > 0)
+      layer.draw(pen, disc, map.apply(layer.directions), map, side);
   }
 }
 
@@ -85,7 +86,6 @@ export function dotLayer(style: DotName, points: Float64Array): Layer {
 
 /**
  * Regions on the left of rings, filled and outlined, such as land with its coast.
- *
  * @param outline Style of the rings as lines, if they are drawn.
  * @param place A direction far from all rings, and whether it is in the regions.
  */
@@ -122,25 +122,14 @@ function traceOutlines(path: Path, disc: Disc, { points, offsets }: Rings): void
   }
 }
 
-/** Great-circle arcs between points, by pairs of their numbers: three points each, as `arcLayer` takes them. */
-export function sides(points: ArrayLike<number>, pairs: ArrayLike<number>): Float64Array {
-  const arcs = new Float64Array((9 * pairs.length) / 2);
-  for (let k = 0; 2 * k < pairs.length; ++k) {
-    putShortArc(arcs, 9 * k, row(points, pairs[2 * k]), row(points, pairs[2 * k + 1]));
-  }
-  return arcs;
-}
-
-/** Writes a, a point between, b of the shorter great-circle arc. */
-function putShortArc(arcs: Float64Array, at: number, a: Vector, b: Vector): void {
-  arcs.set(a, at);
-  arcs.set([a[0] + b[0], a[1] + b[1], a[2] + b[2]], at + 3);
-  arcs.set(b, at + 6);
-}
-
 /** Edges of a triangulation as arcs. */
-export function edgeArcs(delaunay: SphericalDelaunay): Float64Array {
-  return sides(unitRows(delaunay.points), delaunay.edges);
+export function edgeArcs({ points, edges }: SphericalDelaunay): Float64Array {
+  const arcs: number[] = [];
+  for (let k = 0; k < edges.length; k += 2) {
+    const [a, b] = [unit(row(points, edges[k])), unit(row(points, edges[k + 1]))];
+    pushAll(arcs, a, [a[0] + b[0], a[1] + b[1], a[2] + b[2]], b);
+  }
+  return Float64Array.from(arcs);
 }
 
 /** Sides of Voronoi cells as arcs; those of more than 120° in two pieces. */
@@ -195,12 +184,6 @@ export function circlePoints(center: Vector, radius: number): Vector[] {
     const out = turned(center, side, k * LONGEST_ARC);
     return unit([c * center[0] + s * out[0], c * center[1] + s * out[1], c * center[2] + s * out[2]]);
   });
-}
-
-function unitRows(points: Float64Array): Float64Array {
-  const rows = new Float64Array(points.length);
-  for (let k = 0; 3 * k < points.length; ++k) rows.set(unit(row(points, k)), 3 * k);
-  return rows;
 }
 
 /** Degrees between points along the side of a region. */

@@ -16,7 +16,6 @@ const MOST_PIECES = 128;
 
 /**
  * The images of rings of great-circle arcs, with as many points more as it takes.
- *
  * @param source The rings' points before the map.
  * @param rings Their images, in the axes of the view.
  * @param radius Of the ball, pixels.

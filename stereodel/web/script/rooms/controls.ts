@@ -120,12 +120,12 @@ export class Switches {
 }
 
 /** What a link may name and does not hold: a file of sites, a picture. */
-const NAMED = { file: "its sites", picture: "its pixels" };
+export const NAMED = { file: "sites", picture: "pixels" };
 
 /** Says that a link names something that it does not hold, where it does. */
 export function tellNamed(messages: Messages, values: LinkValues, what: keyof typeof NAMED): void {
   if (!values.has(what)) return;
-  const words = `is named by this link, which does not hold ${NAMED[what]}. Open the file here.`;
+  const words = `is named by this link, which does not hold its ${NAMED[what]}. Open the file here.`;
   messages.show(values.text(what, ""), words);
 }
 

@@ -16,7 +16,6 @@ import { counted, latitude, longitude, scale } from "../words.ts";
 import { Choice, NumberField, PlaceFields, Switches, tellNamed } from "./controls.ts";
 import { BubbleGlobe } from "./globe_bubbles.ts";
 import { FisheyeGlobe } from "./globe_fisheye.ts";
-import type { GlobeHost } from "./globe_plate.ts";
 import { GLOBE_SWITCHES, GlobeScene, type GlobeSwitch, type Places } from "./globe_scene.ts";
 import {
   BEGINNING,
@@ -40,7 +39,7 @@ export function globeRoom(host: RoomHost): Room {
   return new GlobeRoom(host);
 }
 
-class GlobeRoom implements Room, GlobeHost {
+export class GlobeRoom implements Room {
   readonly #host: RoomHost;
   readonly scene = new GlobeScene();
   #state: GlobeState = BEGINNING;

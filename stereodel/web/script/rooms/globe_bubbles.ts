@@ -43,11 +43,11 @@ export class BubbleGlobe extends GlobePlate {
     return seenThrough(this.isMagnified ? capToCap(from, to) : MoebiusMap.identity(), this.view);
   }
 
-  protected get isPointed(): boolean {
+  protected override get isPointed(): boolean {
     return angle(this.host.shown.pointer, BEGINNING.pointer) > UNMOVED;
   }
 
-  protected get isMagnified(): boolean {
+  protected override get isMagnified(): boolean {
     return this.#which === "after";
   }
 

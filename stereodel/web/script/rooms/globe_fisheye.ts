@@ -26,14 +26,6 @@ export class FisheyeGlobe extends GlobePlate {
     return sightMap(this.#sight);
   }
 
-  protected get isPointed(): boolean {
-    return true;
-  }
-
-  protected get isMagnified(): boolean {
-    return true;
-  }
-
   get #sight(): Sight {
     return this.host.shown.sight;
   }

@@ -14,21 +14,13 @@ import { imageOf, scaleAt, sourceOf } from "../view/lens.ts";
 import { Motion } from "../view/motion.ts";
 import { pointUnder, type View } from "../view/view.ts";
 import { scale } from "../words.ts";
-import { CIRCLE_RADIUS, type GlobeScene, type GlobeSwitch } from "./globe_scene.ts";
-import type { GlobeState } from "./globe_state.ts";
+import type { GlobeRoom } from "./globe.ts";
+import { CIRCLE_RADIUS } from "./globe_scene.ts";
 
 export const LABEL: LabelStyle = { ink: "accent-text", halo: "halo", size: 14 };
 
 /** What the room does for its globes. */
-export interface GlobeHost {
-  readonly scene: GlobeScene;
-  readonly shown: GlobeState;
-  /** Whether something is drawn, or north stays up. */
-  isOn(name: GlobeSwitch): boolean;
-  /** Shows another state. */
-  set(change: Partial<GlobeState>, reason: Reason, isStep?: boolean): void;
-  run(body: () => void): void;
-}
+export type GlobeHost = Pick<GlobeRoom, "scene" | "shown" | "isOn" | "set" | "run">;
 
 export abstract class GlobePlate implements Turnable {
   readonly plate: Plate;
@@ -55,16 +47,22 @@ export abstract class GlobePlate implements Turnable {
 
   /** From the Earth to the axes of the view. */
   protected abstract get map(): MoebiusMap;
-  /** Whether the circle at the pointer is drawn, as the globe has it before anybody has pointed. */
-  protected abstract get isPointed(): boolean;
-  /** Whether scales differ from those of a plain globe. */
-  protected abstract get isMagnified(): boolean;
   /** What there is to drag. */
   protected abstract paintHeld(pen: Pen): void;
   protected abstract gestures(): Gestures;
 
   get disc(): Disc {
     return this.plate.disc;
+  }
+
+  /** Whether the circle at the pointer is drawn, as the globe has it before anybody has pointed. */
+  protected get isPointed(): boolean {
+    return true;
+  }
+
+  /** Whether scales differ from those of a plain globe. */
+  protected get isMagnified(): boolean {
+    return true;
   }
 
   get isNorthUp(): boolean {

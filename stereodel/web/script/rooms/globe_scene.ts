@@ -93,18 +93,18 @@ export class GlobeScene {
     pen.shade(disc);
   }
 
-  #layers(isOn: IsOn, isMoving: boolean): Layer[] {
-    const layers: (Layer | null)[] = [];
-    if (isOn("land") && this.picture === null) layers.push(isMoving ? this.#coarse : (this.#fine ?? this.#coarse));
-    if (isOn("graticule")) layers.push(this.#graticule);
-    if (isOn("tissot")) layers.push(this.#tissot);
-    const count = (this.places?.lonlat.length ?? 0) / 2;
-    if (isOn("cells") && !(isMoving && count > MANY_PLACES)) layers.push(this.#ridges());
-    layers.push(this.#dots);
-    if (this.places !== null && this.lit !== null) {
-      layers.push(dotLayer("held", lonlatToXyz(this.places.lonlat.subarray(2 * this.lit, 2 * this.lit + 2))));
-    }
-    return layers.filter((layer) => layer !== null);
+  #layers(isOn: IsOn, isMoving: boolean): (Layer | null)[] {
+    const { places, lit } = this;
+    const count = (places?.lonlat.length ?? 0) / 2;
+    const lonlat = lit === null ? null : places?.lonlat.subarray(2 * lit, 2 * lit + 2);
+    return [
+      isOn("land") && this.picture === null ? (isMoving ? this.#coarse : (this.#fine ?? this.#coarse)) : null,
+      isOn("graticule") ? this.#graticule : null,
+      isOn("tissot") ? this.#tissot : null,
+      isOn("cells") && !(isMoving && count > MANY_PLACES) ? this.#ridges() : null,
+      this.#dots,
+      lonlat ? dotLayer("held", lonlatToXyz(lonlat)) : null,
+    ];
   }
 
   /** The places' cells, which are computed when they are first asked for. */

@@ -179,16 +179,10 @@ function drawPair(pen: Pen, stand: Stand, scene: LiftScene): void {
     });
   }
   if (p !== null && q !== null && p !== q) {
+    const [a, b] = [p, q].map(at).map(([x, y]) => (sheet.isFlat ? sheet.flat(x, y) : view.seen(sheet.direction(x, y))));
     pen.draw("span", (path) => {
-      if (sheet.isFlat)
-        traceSegment(path, onPicture(stand, view, sheet.flat(...at(p))), onPicture(stand, view, sheet.flat(...at(q))));
-      else
-        traceSpan(
-          path,
-          discOf(stand, scene),
-          view.seen(sheet.direction(...at(p))),
-          view.seen(sheet.direction(...at(q))),
-        );
+      if (sheet.isFlat) traceSegment(path, onPicture(stand, view, a), onPicture(stand, view, b));
+      else for (const side of ["front", "back"] as const) traceGreat(path, discOf(stand, scene), a, b, side);
     });
   }
   const pole = sheet.isFlat ? null : onPicture(stand, view, sheet.pole);
@@ -212,12 +206,6 @@ function drawPair(pen: Pen, stand: Stand, scene: LiftScene): void {
     pen.label("pole", pole[0] + 7, pole[1] + 6, WORD);
   }
   if (lit !== null && lit < sites.count) pen.dots("held", sitePlace(stand, scene, lit).at);
-}
-
-/** The great-circle arc between two directions, in front of the ball and behind. */
-function traceSpan(path: Path, disc: Disc, a: Vector, b: Vector): void {
-  const middle = unit([a[0] + b[0], a[1] + b[1], a[2] + b[2]]);
-  for (const side of ["front", "back"] as const) traceArc(path, disc, [...a, ...middle, ...b], 0, 1, 2, side);
 }
 
 function drawSites(pen: Pen, stand: Stand, scene: LiftScene): void {

@@ -115,7 +115,6 @@ export class SiteControls {
 
   /**
    * The sites of a link; nothing is shown yet.
-   *
    * @throws LinkError where they cannot be read.
    */
   fromValues(values: LinkValues): NamedSites {

@@ -112,7 +112,6 @@ export class SphereSites {
 
 /**
  * `in_bubble(a, b, c, point)` of each facet: above 0 where its bubble holds the point, 0 on the circle.
- *
  * @param xyz directions (n, 3).
  * @param simplices facets (m, 3), counterclockwise seen from outside.
  */
@@ -145,7 +144,6 @@ export interface Insertion {
 
 /**
  * The step that inserts `site` into the facets `before`.
- *
  * @param signs of `in_bubble(a, b, c, site)`, one a facet: above 0 inside. A site on the bubble displaces nothing.
  */
 export function insertion(site: number, before: Int32Array, signs: ArrayLike<number>): Insertion {

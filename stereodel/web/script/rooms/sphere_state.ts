@@ -55,7 +55,6 @@ export function toValues({ pole, view, aim, isPinned, step, click }: SphereState
 
 /**
  * The state that a link tells of `count` sites.
- *
  * @throws LinkError where it cannot be read.
  */
 export function fromValues(values: LinkValues, count: number): SphereState {

@@ -53,7 +53,6 @@ export class Twin {
 
   /**
    * The image of the circle of points x with center·x = cosine.
-   *
    * With c the centre, s the point of contact and d the cosine, 2 tan(χ/2) = |X| turns c·x = d into
    * |X|²(d + c·s) − 4 X·c + 4(d − c·s) = 0.
    */

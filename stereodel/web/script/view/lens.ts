@@ -53,7 +53,6 @@ export function scaleAt(map: MoebiusMap, direction: Vector): number {
 
 /**
  * Magnified by a factor about a point of the view, which stays where it is.
- *
  * Above 1 the map goes on with a fisheye at the point, which moves the focus there little by little. Below 1 the lens is
  * weakened where it is, so that the way back always ends at the plain ball.
  */

@@ -6,39 +6,35 @@ import { wrap } from "../words.ts";
 
 const DEGREE = Math.PI / 180;
 
-/** From the axes of the Earth to those of the view above 0° N, 0° E. */
-const FRONT = [0.5, -0.5, -0.5, -0.5];
-
 /** A ball seen from afar. */
 export class View {
   /** From the ball's axes to the view's. */
   readonly rotation: Rotation;
-  readonly #matrix: Float64Array;
+  #matrix: Float64Array | null = null;
 
   constructor(rotation: Rotation) {
     this.rotation = rotation;
-    this.#matrix = rotation.matrix;
   }
 
   /** From above a place, degrees, north up but for a roll counterclockwise. */
   static above(lon: number, lat: number, roll = 0): View {
-    const level = new Rotation(FRONT).after(Rotation.about([0, 0, 1], -lon));
-    return new View(
-      Rotation.about([0, 0, 1], roll)
-        .after(Rotation.about([1, 0, 0], lat))
-        .after(level),
-    );
+    const [east, north, turn] = [lon, lat, roll].map((degrees) => (degrees * DEGREE) / 2);
+    // The quaternion (1, -1, -1, -1) / 2 of the view above 0° N, 0° E after a turn about the axis; then up, then the roll.
+    const [u, v] = [(Math.cos(east) - Math.sin(east)) / 2, -(Math.cos(east) + Math.sin(east)) / 2];
+    const [p, q] = [Math.cos(north) + Math.sin(north), Math.cos(north) - Math.sin(north)];
+    const [w, x, y, z, c, s] = [u * p, -u * q, v * q, v * p, Math.cos(turn), Math.sin(turn)];
+    return new View(new Rotation([c * w - s * z, c * x - s * y, c * y + s * x, c * z + s * w]));
   }
 
   /** A direction of the ball, in the axes of the view. */
   seen([x, y, z]: Vector): Vector {
-    const m = this.#matrix;
+    const m = (this.#matrix ??= this.rotation.matrix);
     return [m[0] * x + m[1] * y + m[2] * z, m[3] * x + m[4] * y + m[5] * z, m[6] * x + m[7] * y + m[8] * z];
   }
 
   /** A point of the view, as a direction of the ball. */
   onBall([x, y, z]: Vector): Vector {
-    const m = this.#matrix;
+    const m = (this.#matrix ??= this.rotation.matrix);
     return [m[0] * x + m[3] * y + m[6] * z, m[1] * x + m[4] * y + m[7] * z, m[2] * x + m[5] * y + m[8] * z];
   }
 
