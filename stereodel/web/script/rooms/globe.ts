@@ -9,11 +9,10 @@ import { MOST_SITES, packPlaces, type LinkValues } from "../link.ts";
 import type { Painted } from "../panorama.ts";
 import type { Room, RoomHost } from "../room.ts";
 import { directionOf, lonLatOf, type Vector } from "../space.ts";
-import { SiteTable } from "../table.ts";
 import { capToCap, lensMap, MOST, scaleAt } from "../view/lens.ts";
 import { View } from "../view/view.ts";
 import { counted, latitude, longitude, scale } from "../words.ts";
-import { Choice, NumberField, PlaceFields, Switches, tellNamed } from "./controls.ts";
+import { Choice, NumberField, PlaceFields, tellNamed } from "./controls.ts";
 import { BubbleGlobe } from "./globe_bubbles.ts";
 import { FisheyeGlobe } from "./globe_fisheye.ts";
 import { GLOBE_SWITCHES, GlobeScene, type GlobeSwitch, type Places } from "./globe_scene.ts";
@@ -28,6 +27,7 @@ import {
   type GlobeState,
 } from "./globe_state.ts";
 import { FiveViews } from "./globe_views.ts";
+import { TableRoom } from "./site_room.ts";
 
 /** Files that are pictures, by the ends of their names. */
 const PICTURES = /\.(jpe?g|png|webp|avif)$/i;
@@ -39,16 +39,12 @@ export function globeRoom(host: RoomHost): Room {
   return new GlobeRoom(host);
 }
 
-export class GlobeRoom implements Room {
-  readonly #host: RoomHost;
+export class GlobeRoom extends TableRoom implements Room {
   readonly scene = new GlobeScene();
   #state: GlobeState = BEGINNING;
-  #section!: HTMLElement;
   #globe!: FisheyeGlobe;
   #views!: FiveViews;
   #bubbles!: readonly BubbleGlobe[];
-  #table!: SiteTable;
-  #switches!: Switches;
   #lens!: Choice<GlobeState["lens"]>;
   /** The focus, or the middle of the bubble. */
   #focus!: PlaceFields;
@@ -61,7 +57,7 @@ export class GlobeRoom implements Room {
   #said = BEGINNING.sight.lens;
 
   constructor(host: RoomHost) {
-    this.#host = host;
+    super(host, GLOBE_SWITCHES);
   }
 
   get shown(): GlobeState {
@@ -69,39 +65,38 @@ export class GlobeRoom implements Room {
   }
 
   isOn(name: GlobeSwitch): boolean {
-    return this.#switches.isOn(name);
+    return this.switches.isOn(name);
   }
 
   run(body: () => void): void {
-    this.#host.guarded(body);
+    this.host.guarded(body);
   }
 
-  attach(section: HTMLElement): void {
-    this.#section = section;
-    const { guarded } = this.#host;
-    const radius = (which: "from" | "to"): NumberField =>
-      new NumberField(section, `${which}-radius`, 1, (value) => guarded(() => this.#setRadius(which, value)), "change");
+  override attach(section: HTMLElement): void {
+    super.attach(section);
+    const { guarded } = this.host;
     const canvas = (id: string): HTMLCanvasElement => find(section, `#${id}`);
     this.#globe = new FisheyeGlobe(canvas("globe-plate"), this);
-    this.#views = new FiveViews([...section.querySelectorAll<HTMLButtonElement>(".views button")], this);
-    this.#bubbles = [
-      new BubbleGlobe(canvas("globe-before"), "before", this),
-      new BubbleGlobe(canvas("globe-after"), "after", this),
-    ];
-    this.#table = new SiteTable(find(section, ".sites"), {
-      chosen: (place) => guarded(() => this.#centerPlace(place)),
-      pointed: (place) => {
-        this.scene.lit = place;
-        this.redraw();
-      },
-    });
-    this.#switches = new Switches(section, GLOBE_SWITCHES, (name) => guarded(() => this.#switched(name)));
+    const views = [...section.querySelectorAll<HTMLButtonElement>(".views button")];
+    this.#views = new FiveViews(views, this);
+    this.#bubbles = (["before", "after"] as const).map(
+      (which) => new BubbleGlobe(canvas(`globe-${which}`), which, this),
+    );
     const lens = (): void => this.set({ lens: this.#lens.value }, "state", true);
     this.#lens = new Choice(section, "lens", ["fisheye", "bubble"], () => guarded(lens));
     const center = (place: readonly [number, number]): void => this.#center(directionOf(...place));
     this.#focus = new PlaceFields(section, "focus", (place) => guarded(() => center(place)), "change");
+    const radius = (which: "from" | "to"): NumberField =>
+      new NumberField(section, `${which}-radius`, 1, (value) => guarded(() => this.#setRadius(which, value)), "change");
     this.#radii = { from: radius("from"), to: radius("to") };
-    this.#listen(section);
+    const on = (target: Element, act: () => void, type = "click"): void =>
+      target.addEventListener(type, () => guarded(act));
+    const slider = field(section, "mag");
+    on(slider, () => this.#magnify(10 ** (slider.valueAsNumber / SLIDER_TEN)), "input");
+    for (const button of section.querySelectorAll<HTMLButtonElement>(".presets button")) {
+      on(button, () => this.#begin(PRESETS[button.value]));
+    }
+    for (const button of views) on(button, () => this.#flyToSide(button));
     this.#write();
     void this.#load();
   }
@@ -115,7 +110,7 @@ export class GlobeRoom implements Room {
           ? { sites: packPlaces(places.lonlat), name: places.name }
           : { file: places.name };
     const picture = this.scene.picture?.name;
-    const { turned } = this.#switches;
+    const { turned } = this.switches;
     return {
       ...toValues(this.#state),
       ...held,
@@ -128,10 +123,10 @@ export class GlobeRoom implements Room {
     const state = fromValues(values);
     const lonlat = values.lonlat("sites");
     if (lonlat !== null) this.#show({ name: values.text("name", "sites"), lonlat }, false);
-    this.#switches.turned = values.text("turned", "");
-    if (this.scene.places === null) this.#switches.set("cells", false);
+    this.switches.turned = values.text("turned", "");
+    if (this.scene.places === null) this.switches.set("cells", false);
     this.#globe.stop();
-    const { messages } = this.#host;
+    const { messages } = this.host;
     if (this.scene.places?.name !== values.text("file", "")) tellNamed(messages, values, "file");
     this.scene.picture = values.text("picture", "") === this.#picture?.name ? this.#picture : null;
     if (this.scene.picture === null) tellNamed(messages, values, "picture");
@@ -147,18 +142,18 @@ export class GlobeRoom implements Room {
   }
 
   open(file: File, exchange: Exchange): Promise<void> {
-    const { messages, guarded } = this.#host;
+    const { messages, guarded } = this.host;
     if (file.type.startsWith("image/") || PICTURES.test(file.name)) {
       return exchange.openPanorama(file, messages, (picture) => {
         this.scene.picture = this.#picture = picture;
         this.redraw();
-        this.#host.changed(true);
+        this.host.changed(true);
       });
     }
     return exchange.openPoints(file, "lonlat", messages, ({ places: lonlat, names }) => {
       guarded(() => {
         this.#show({ name: file.name, lonlat, names }, false);
-        this.#switches.set("cells", true);
+        this.switches.set("cells", true);
         this.set({}, "state", true);
       });
     });
@@ -172,7 +167,7 @@ export class GlobeRoom implements Room {
   geojson(exchange: Exchange): string | null {
     const { places } = this.scene;
     if (places !== null) return exchange.placesGeojson(places.lonlat, this.scene.latitude);
-    this.#host.messages.show("", "There are no cells yet: open a file with places of your own.");
+    this.host.messages.show("", "There are no cells yet: open a file with places of your own.");
     return null;
   }
 
@@ -182,12 +177,12 @@ export class GlobeRoom implements Room {
 
   /** Unpacks what the page carries; until then the globe is water. */
   async #load(): Promise<void> {
-    await this.scene.load(this.#host.contents);
+    await this.scene.load(this.host.contents);
     if (this.scene.places !== null) this.#show(this.scene.places, this.#isGiven); // cells of the page's latitude
-    const given = await this.#host.contents.given();
+    const given = await this.host.contents.given();
     if (given !== null && this.scene.places === null) {
       this.#show(given, true);
-      this.#switches.set("cells", true);
+      this.switches.set("cells", true);
       this.set({}, "state");
     }
     this.redraw();
@@ -196,14 +191,13 @@ export class GlobeRoom implements Room {
   #show(places: Places, isGiven: boolean): void {
     this.scene.show(places);
     this.#isGiven = isGiven;
-    this.#input("cells").disabled = false;
-    const section = this.#section;
+    field(this.section, "cells").disabled = false;
     const { lonlat, names } = places;
     const count = lonlat.length / 2;
-    find(section, "[data-show=places]").hidden = false;
-    find(section, "[data-out=places]").textContent = placesWords(count, places.name);
-    find(section, "[data-out=latitude]").textContent = AREAS[this.scene.latitude];
-    this.#table.show({
+    find(this.section, "[data-show=places]").hidden = false;
+    this.out("places").textContent = placesWords(count, places.name);
+    this.out("latitude").textContent = AREAS[this.scene.latitude];
+    this.table.show({
       count,
       noun: "Place",
       names: names ?? null,
@@ -212,8 +206,13 @@ export class GlobeRoom implements Room {
     });
   }
 
+  protected override pointed(place: number | null): void {
+    this.scene.lit = place;
+    this.redraw();
+  }
+
   /** Brings a place to the middle, and the lens to it. */
-  #centerPlace(place: number): void {
+  protected override chosen(place: number): void {
     const [lon, lat] = this.scene.places!.lonlat.subarray(2 * place);
     this.#center(directionOf(lon, lat), View.above(lon, lat));
   }
@@ -229,25 +228,8 @@ export class GlobeRoom implements Room {
     this.#state = { ...this.#state, ...change };
     this.redraw(reason);
     this.#write();
-    this.#host.changed(isStep);
+    this.host.changed(isStep);
     if (reason !== "pointer") this.#announce(change);
-  }
-
-  #input(name: string): HTMLInputElement {
-    return field(this.#section, name);
-  }
-
-  #listen(section: HTMLElement): void {
-    const on = (target: Element, act: () => void, type = "click"): void =>
-      target.addEventListener(type, () => this.#host.guarded(act));
-    const slider = this.#input("mag");
-    on(slider, () => this.#magnify(10 ** (slider.valueAsNumber / SLIDER_TEN)), "input");
-    for (const button of section.querySelectorAll<HTMLButtonElement>(".presets button")) {
-      on(button, () => this.#begin(PRESETS[button.value]));
-    }
-    for (const button of section.querySelectorAll<HTMLButtonElement>(".views button")) {
-      on(button, () => this.#flyToSide(button));
-    }
   }
 
   #magnify(magnification: number): void {
@@ -270,9 +252,9 @@ export class GlobeRoom implements Room {
   }
 
   /** Something is drawn, or no longer; north is up again, or may turn. */
-  #switched(name: string): void {
+  protected override switched(name: string): void {
     const { sight, before, after } = this.#state;
-    const isLeveled = name === "north" && this.#switches.isOn(name);
+    const isLeveled = name === "north" && this.switches.isOn(name);
     const level = { sight: { ...sight, view: sight.view.northUp }, before: before.northUp, after: after.northUp };
     this.set(isLeveled ? level : {}, "state");
   }
@@ -280,49 +262,44 @@ export class GlobeRoom implements Room {
   #flyToSide(button: HTMLButtonElement): void {
     const { lens } = this.#state.sight;
     this.#globe.fly({ lens, view: sideView(Number(button.value), lens.focus) });
-    this.#host.announcer.say(button.textContent?.trim().replace(/^\d\s*/, "") ?? "");
+    this.host.announcer.say(button.textContent?.trim().replace(/^\d\s*/, "") ?? "");
   }
 
   /** Everything of the margin and the sentences. */
   #write(): void {
-    const section = this.#section;
     const { sight, from, to } = this.#state;
     const { magnification } = sight.lens;
     this.#lens.value = this.#state.lens;
-    this.#input("mag").value = String(SLIDER_TEN * Math.log10(magnification));
-    find(section, "[data-out=mag]").textContent = scale(magnification);
+    field(this.section, "mag").value = String(SLIDER_TEN * Math.log10(magnification));
+    this.out("mag").textContent = scale(magnification);
     this.#focus.value = lonLatOf(this.#state.lens === "bubble" ? from.center : sight.lens.focus);
     [this.#radii.from.value, this.#radii.to.value] = [from.radius, to.radius];
-    if (this.#state.lens === "bubble") this.#writeBubbles(section);
-    else this.#writeFisheye(section);
-    find(section, "#globe-plate").setAttribute("aria-label", this.#label());
+    if (this.#state.lens === "bubble") {
+      const [middle, rim] = this.#bubbleScales();
+      const words = `In the middle of the bubble everything is _${middle}_ times as large, at its rim _${rim}_ times.`;
+      say(this.out("bubbles"), words);
+    } else this.#writeFisheye();
+    find(this.section, "#globe-plate").setAttribute("aria-label", this.#label());
   }
 
-  #writeFisheye(section: HTMLElement): void {
+  #writeFisheye(): void {
     const { pointer, sight } = this.#state;
     const { magnification, focus } = sight.lens;
     const map = lensMap(sight.lens);
     const [here, there] = [scaleAt(map, pointer), scaleAt(map, opposite(focus))];
     say(
-      find(section, "[data-out=pointer]"),
+      this.out("pointer"),
       `At the pointer, _${placeWords(pointer)}_, everything is _${scale(here)}_ times as large as on a plain globe; ` +
         `at the focus _${scale(magnification)}_ times, on the far side _${scale(there)}_ times.`,
     );
-    const ruler = find(section, "[data-out=scale]");
+    const ruler = this.out("scale");
     const share = magnification > 1 ? Math.log(here) / Math.log(magnification) : 0;
-    find(ruler, ".mark-at.first").textContent = fraction(magnification);
-    find(ruler, ".mark-at.last").textContent = short(magnification);
+    const [first, last] = ends(magnification);
+    find(ruler, ".mark-at.first").textContent = first;
+    find(ruler, ".mark-at.last").textContent = last;
     const needle = find(ruler, ".needle");
     needle.style.setProperty("--at", `${(50 * (share + 1)).toFixed(2)}%`);
     needle.textContent = `${scale(here)}×`;
-  }
-
-  #writeBubbles(section: HTMLElement): void {
-    const [middle, rim] = this.#bubbleScales();
-    say(
-      find(section, "[data-out=bubbles]"),
-      `In the middle of the bubble everything is _${middle}_ times as large, at its rim _${rim}_ times.`,
-    );
   }
 
   /** In the middle of the bubble and at its rim, as words. */
@@ -344,7 +321,7 @@ export class GlobeRoom implements Room {
   }
 
   #announce(change: Partial<GlobeState>): void {
-    const { announcer } = this.#host;
+    const { announcer } = this.host;
     const { sight } = this.#state;
     if (change.from || change.to) {
       const [middle, rim] = this.#bubbleScales();
@@ -392,15 +369,8 @@ function opposite([x, y, z]: Vector): Vector {
   return [-x, -y, -z];
 }
 
-/** The end of a ruler from 1/S to S: a fraction where S is whole. */
-function fraction(magnification: number): string {
-  return Number.isInteger(magnification)
-    ? magnification === 3
-      ? "⅓"
-      : `1⁄${magnification}`
-    : scale(1 / magnification);
-}
-
-function short(magnification: number): string {
-  return Number.isInteger(magnification) ? String(magnification) : scale(magnification);
+/** The ends of a ruler from 1/S to S: a fraction where S is whole. */
+function ends(magnification: number): [string, string] {
+  if (!Number.isInteger(magnification)) return [scale(1 / magnification), scale(magnification)];
+  return [magnification === 3 ? "⅓" : `1⁄${magnification}`, String(magnification)];
 }

@@ -2,8 +2,8 @@
 
 import type { Given } from "../contents.ts";
 import { find, say } from "../dom.ts";
-import type { Sheet } from "../drawing/pen.ts";
 import { placeOf } from "../drawing/ball.ts";
+import type { Sheet } from "../drawing/pen.ts";
 import { Plate, type Reason } from "../drawing/plate.ts";
 import type { Exchange } from "../exchange.ts";
 import type { LinkValues } from "../link.ts";
@@ -16,7 +16,7 @@ import { Motion } from "../view/motion.ts";
 import { pointUnder, View } from "../view/view.ts";
 import { counted, latitude, longitude, ofFacets, wrap } from "../words.ts";
 import { Choice, PlaceFields, SiteForm, StepControl } from "./controls.ts";
-import { SiteControls, withMoved, withoutSite, withSite, type NamedSites } from "./site_controls.ts";
+import { SiteRoom, withMoved, withoutSite, withSite, type NamedSites } from "./site_room.ts";
 import { BallLayers, drawBall, drawPlane, type SphereScene, type Step } from "./sphere_drawing.ts";
 import { SphereSites, type Bubble } from "./sphere_sites.ts";
 import {
@@ -37,9 +37,8 @@ import { PlaneFrame, reachAround, Twin } from "./twin.ts";
 
 const SWITCHES = ["triangles", "cells", "bubble", "seeing", "closing"] as const;
 
-/** Sites from which on cells are left out while something moves, and from which on nothing but dots is drawn then. */
+/** Sites from which on cells are left out while something moves. */
 const MANY = 3_000;
-const VERY_MANY = 100_000;
 
 /** What the sum of facets is made of. */
 const SUM = ["on the sphere", "in the plane", "\u00a0*P*"] as const;
@@ -58,17 +57,13 @@ export function sphereRoom(host: RoomHost, stored: Stored, given: Given | null):
   return new SphereRoom(host, sphereSets(stored, given));
 }
 
-class SphereRoom implements Room, Turnable {
-  readonly #host: RoomHost;
-  readonly #sets: readonly SiteSet[];
+class SphereRoom extends SiteRoom implements Turnable {
   /** Sites as they were before the last changes by hand. */
   #history: NamedSites[] = [];
   readonly #motion = new Motion();
   readonly isNorthUp = true;
-  #section!: HTMLElement;
   #ball!: Plate;
   #plane!: Plate;
-  #controls!: SiteControls;
   #click!: Choice<Click>;
   #steps!: StepControl;
   #form!: SiteForm;
@@ -94,13 +89,12 @@ class SphereRoom implements Room, Turnable {
   #bubble: Bubble | null = null;
 
   constructor(host: RoomHost, sets: readonly SiteSet[]) {
-    this.#host = host;
-    this.#sets = sets;
+    super(host, sets, "lonlat", SWITCHES);
   }
 
-  attach(section: HTMLElement): void {
-    const { guarded } = this.#host;
-    this.#section = section;
+  override attach(section: HTMLElement): void {
+    super.attach(section);
+    const { guarded } = this.host;
     this.#ball = new Plate(
       find<HTMLCanvasElement>(section, "#sphere-ball"),
       (pen, moving) => drawBall(pen, this.disc, this.#scene(moving)),
@@ -111,15 +105,9 @@ class SphereRoom implements Room, Turnable {
       (pen, moving) => drawPlane(pen, this.#frame, this.#scene(moving)),
       guarded,
     );
-    this.#controls = new SiteControls(section, this.#host, this.#sets, "lonlat", SWITCHES, {
-      begin: (named) => this.#begin(named),
-      chosen: (site) => this.#center(site),
-      pointed: () => this.redraw(),
-      switched: () => guarded(() => this.#update()),
-    });
     this.#poleFields = new PlaceFields(section, "pole", (place) => guarded(() => this.#movePole(place)));
     this.#viewFields = new PlaceFields(section, "view", (place) => guarded(() => this.#turn(place)));
-    this.#click = new Choice(section, "click", CLICKS, () => this.#host.changed());
+    this.#click = new Choice(section, "click", CLICKS, () => this.host.changed());
     this.#steps = new StepControl(section, (count) => guarded(() => this.#setStep(count)));
     this.#form = new SiteForm(section, {
       add: (place) => guarded(() => this.#add(directionAt(place))),
@@ -136,22 +124,22 @@ class SphereRoom implements Room, Turnable {
   state(): Record<string, string> {
     const [pole, view, aim, isPinned] = [this.#pole, this.#view, this.#aim, this.#isPinned];
     const state = { pole, view, aim, isPinned, step: this.#count, click: this.#click.value };
-    return { ...this.#controls.toValues(), ...toValues(state) };
+    return { ...this.siteValues(), ...toValues(state) };
   }
 
-  restore(values: LinkValues): void {
-    const named = this.#controls.fromValues(values);
+  override restore(values: LinkValues): void {
+    const named = this.sitesOf(values);
     const state = fromValues(values, named.places.length / 2);
     this.#history = [];
     [this.#pole, this.#view, this.#aim] = [state.pole, state.view, state.aim];
     [this.#isPinned, this.#count, this.#held] = [state.isPinned, state.step, null];
     this.#click.value = state.click;
-    this.#controls.restore(values);
+    super.restore(values);
     this.#take(named);
   }
 
   /** Other sites, seen as the last ones were. */
-  #begin(named: NamedSites): void {
+  protected override begin(named: NamedSites): void {
     this.#history = [];
     this.#count = this.#held = null;
     this.#take(named);
@@ -163,7 +151,7 @@ class SphereRoom implements Room, Turnable {
     this.#sites = sites;
     this.#layers = new BallLayers(sites);
     if (this.#count !== null && this.#count >= sites.count) this.#count = null;
-    this.#controls.show(named, {
+    this.show(named, {
       count: sites.count,
       heads: ["Latitude", "Longitude", "Neighbours"],
       cells: (site) => [
@@ -172,7 +160,7 @@ class SphereRoom implements Room, Turnable {
         String(sites.neighborCounts[site]),
       ],
     });
-    find(this.#section, "[data-show=closing]").hidden = !sites.hasClosing;
+    find(this.section, "[data-show=closing]").hidden = !sites.hasClosing;
     this.#ball.canvas.setAttribute(
       "aria-label",
       `Sphere with ${counted(sites.count)} ${sites.count === 1 ? "site" : "sites"}`,
@@ -193,7 +181,7 @@ class SphereRoom implements Room, Turnable {
   #rescale(): void {
     const { reach, outside } = reachAround(this.#sites, this.#twin);
     this.#reach = reach;
-    find(this.#section, "[data-out=outside]").textContent =
+    this.out("outside").textContent =
       outside === 0
         ? ""
         : `${outside === 1 ? "One site lies" : `${counted(outside)} sites lie`} outside the frame, near the pole.`;
@@ -206,6 +194,10 @@ class SphereRoom implements Room, Turnable {
     this.#plane.redraw(reason);
   }
 
+  protected override switched(): void {
+    this.#update();
+  }
+
   /** Everything that is said and drawn, after the state has changed. */
   #update(reason: Reason = "state"): void {
     this.#bubble = this.#findBubble();
@@ -215,7 +207,7 @@ class SphereRoom implements Room, Turnable {
   }
 
   #findBubble(): Bubble | null {
-    if (!this.#controls.isOn("bubble") || this.#count !== null) return null;
+    if (!this.isOn("bubble") || this.#count !== null) return null;
     const facet = this.#sites.facetAt(this.#aim);
     return facet === null ? null : this.#sites.bubble(facet);
   }
@@ -230,9 +222,6 @@ class SphereRoom implements Room, Turnable {
   }
 
   #scene(isMoving: boolean): SphereScene {
-    const { count } = this.#sites;
-    const isOn = (name: (typeof SWITCHES)[number]): boolean => this.#controls.isOn(name);
-    const dotsAlone = isMoving && count > VERY_MANY;
     return {
       sites: this.#sites,
       layers: this.#layers,
@@ -240,13 +229,13 @@ class SphereRoom implements Room, Turnable {
       twin: this.#twin,
       seeing: this.#seeing,
       shown: {
-        triangles: isOn("triangles") && !dotsAlone,
-        cells: isOn("cells") && !(isMoving && count > MANY),
-        seeing: isOn("seeing") && !dotsAlone,
-        closing: isOn("closing") && !dotsAlone,
+        triangles: this.isOn("triangles", isMoving),
+        cells: this.isOn("cells", isMoving, MANY),
+        seeing: this.isOn("seeing", isMoving),
+        closing: this.isOn("closing", isMoving),
       },
       bubble: this.#bubble,
-      held: [this.#held, this.#controls.lit].filter((site) => site !== null && site < count) as number[],
+      held: [this.#held, this.lit].filter((site) => site !== null && site < this.#sites.count) as number[],
       step: this.#step,
     };
   }
@@ -256,17 +245,16 @@ class SphereRoom implements Room, Turnable {
     const alone = withoutTriangles(sites);
     const ofAll = alone ?? (this.#bubble === null ? POINT : ofBubble(this.#bubble, sites, this.#twin));
     const words = step === "done" ? [ofAll, ofDuplicates(sites)] : [ofStep(step.insertion, step.site)];
-    const out = (name: string): HTMLElement => find(this.#section, `[data-out=${name}]`);
-    say(out("sentence"), words.filter(Boolean).join(" "));
-    say(out("sum"), alone === null ? ofFacets(sites.facetCount - this.#seeingCount, this.#seeingCount, SUM) : "");
-    out("sum").hidden = step !== "done" || alone !== null;
+    say(this.out("sentence"), words.filter(Boolean).join(" "));
+    say(this.out("sum"), alone === null ? ofFacets(sites.facetCount - this.#seeingCount, this.#seeingCount, SUM) : "");
+    this.out("sum").hidden = step !== "done" || alone !== null;
     const side = dot(this.#twin.pole, directionAt(this.#view)) < 0 ? "behind" : "in front";
-    say(out("pole-side"), `*P*, the pole of projection, lies ${side}.`);
+    say(this.out("pole-side"), `*P*, the pole of projection, lies ${side}.`);
     this.#steps.show(this.#count, sites.count);
     this.#poleFields.value = this.#pole;
     this.#viewFields.value = this.#view;
-    this.#controls.table.hold([...(this.#bubble?.sites ?? []), ...(held === null ? [] : [held])]);
-    find<HTMLButtonElement>(this.#section, "[data-do=undo]").disabled = this.#history.length === 0;
+    this.table.hold([...(this.#bubble?.sites ?? []), ...(held === null ? [] : [held])]);
+    find<HTMLButtonElement>(this.section, "[data-do=undo]").disabled = this.#history.length === 0;
     this.#form.show(held === null ? null : [sites.lonlat[2 * held], sites.lonlat[2 * held + 1]]);
   }
 
@@ -357,7 +345,7 @@ class SphereRoom implements Room, Turnable {
       move: (to) => {
         if (isFirst) this.#note();
         isFirst = false;
-        this.#host.guarded(() => this.#moveSite(site, this.#direction(to), "hand"));
+        this.host.guarded(() => this.#moveSite(site, this.#direction(to), "hand"));
       },
       end: () => this.#rest(),
     };
@@ -373,7 +361,7 @@ class SphereRoom implements Room, Turnable {
         wasOut = isOut;
         const [x, y, z] = pointUnder(this.disc, to);
         const direction = this.view.onBall([x, y, behind ? -z : z]);
-        this.#host.guarded(() => this.#movePole(lonLatOf(direction), false));
+        this.host.guarded(() => this.#movePole(lonLatOf(direction), false));
       },
       end: () => this.#rest(),
     };
@@ -384,13 +372,13 @@ class SphereRoom implements Room, Turnable {
     if (this.#isPinned || this.#count !== null) return;
     const before = this.#bubble?.facet ?? null;
     this.#aim = direction;
-    if (this.#sites.facetAt(direction) !== before) this.#host.guarded(() => this.#update());
+    if (this.#sites.facetAt(direction) !== before) this.host.guarded(() => this.#update());
   }
 
   /** A click. @param site The one within reach. */
   #press(direction: Vector, site: number | null): void {
     const mode = this.#count === null ? this.#click.value : "keep";
-    this.#host.guarded(() => {
+    this.host.guarded(() => {
       if (mode === "add") this.#add(direction);
       else if (mode === "remove") this.#remove(site);
       else this.#keep(direction, site);
@@ -399,11 +387,11 @@ class SphereRoom implements Room, Turnable {
 
   /** The hand has let go: the frame fits again, and what was left out is drawn. */
   #rest(): void {
-    this.#host.guarded(() => {
+    this.host.guarded(() => {
       this.#rescale();
       this.#update();
     });
-    this.#host.changed();
+    this.host.changed();
   }
 
   // What can be done
@@ -413,13 +401,13 @@ class SphereRoom implements Room, Turnable {
     this.#view = viewPlace(place);
     this.#say();
     this.#ball.redraw(reason);
-    this.#host.changed();
+    this.host.changed();
   }
 
   /** Turns the ball, and says it. */
   #turn(place: Place, reason: Reason = "state"): void {
     this.#see(place, reason);
-    this.#host.announcer.say(`Seen from ${latitude(place[1], 0)}, ${longitude(place[0], 0)}`);
+    this.host.announcer.say(`Seen from ${latitude(place[1], 0)}, ${longitude(place[0], 0)}`);
   }
 
   /** Flies to another view; why is for others to say. */
@@ -436,9 +424,9 @@ class SphereRoom implements Room, Turnable {
     this.#project();
     if (rests) this.#rescale();
     this.#update(rests ? "state" : "hand");
-    this.#host.changed();
+    this.host.changed();
     const seeing = this.#seeingCount;
-    this.#host.announcer.say(`${this.#sites.facetCount - seeing} triangles in the plane, ${seeing} facets see P`);
+    this.host.announcer.say(`${this.#sites.facetCount - seeing} triangles in the plane, ${seeing} facets see P`);
   }
 
   /** The bubble there stays, or follows the pointer again where it is the one that was kept. */
@@ -447,35 +435,34 @@ class SphereRoom implements Room, Turnable {
     this.#isPinned = !this.#isPinned || this.#sites.facetAt(direction) !== this.#bubble?.facet;
     this.#aim = direction;
     this.#update();
-    this.#host.changed();
-    if (this.#bubble !== null) this.#host.announcer.say(ofBubble(this.#bubble, this.#sites, this.#twin));
+    this.host.changed();
+    if (this.#bubble !== null) this.host.announcer.say(ofBubble(this.#bubble, this.#sites, this.#twin));
   }
 
   #free(): void {
     this.#isPinned = false;
     this.#held = null;
     this.#update();
-    this.#host.changed();
+    this.host.changed();
   }
 
   /** Shows what a hand has made of the sites, and says it. */
   #edit(named: NamedSites, held: number | null, words: () => string, reason: Reason = "state"): void {
     this.#held = held;
     this.#take(named, reason);
-    this.#host.changed();
-    this.#host.announcer.say(words());
+    this.changed(words());
   }
 
   #moveSite(site: number, direction: Vector, reason: Reason = "state"): void {
     const [lon, lat] = handPlace(direction);
     this.#aim = direction;
     const words = (): string => `Site ${site + 1}: ${latitude(lat)}, ${longitude(lon)}`;
-    this.#edit(withMoved(this.#controls.named, site, [lon, lat]), site, words, reason);
+    this.#edit(withMoved(this.named, site, [lon, lat]), site, words, reason);
   }
 
   /** Keeps the sites to go back to. */
   #note(): void {
-    this.#history.push(this.#controls.named);
+    this.#history.push(this.named);
     if (this.#history.length > MOST_STEPS_BACK) this.#history.shift();
   }
 
@@ -488,42 +475,41 @@ class SphereRoom implements Room, Turnable {
   #add(direction: Vector): void {
     const { count } = this.#sites;
     this.#note();
-    this.#edit(withSite(this.#controls.named, handPlace(direction)), count, () => {
+    this.#edit(withSite(this.named, handPlace(direction)), count, () => {
       const same = this.#sites.sameAs(count);
       return same === null
         ? `Site ${count + 1} added, ${this.#sites.neighborCounts[count]} neighbours`
         : `Site ${count + 1} lies exactly on site ${same + 1} and counts once.`;
     });
-    this.#controls.table.reveal(count);
+    this.table.reveal(count);
   }
 
   #remove(site: number | null): void {
     if (site === null) return;
     this.#note();
-    this.#edit(withoutSite(this.#controls.named, site), null, () => `Site ${site + 1} removed`);
+    this.#edit(withoutSite(this.named, site), null, () => `Site ${site + 1} removed`);
   }
 
   #undo(): void {
     const before = this.#history.pop();
-    if (before !== undefined) this.#host.guarded(() => this.#edit(before, null, () => "Undone"));
+    if (before !== undefined) this.host.guarded(() => this.#edit(before, null, () => "Undone"));
   }
 
   /** Brings a site to the middle of the ball, and holds it. */
-  #center(site: number): void {
+  protected override chosen(site: number): void {
     this.#held = site;
     this.#aim = this.#sites.site(site);
     this.#fly([this.#sites.lonlat[2 * site], this.#sites.lonlat[2 * site + 1]]);
-    this.#host.guarded(() => this.#update());
-    this.#host.changed();
-    this.#host.announcer.say(ofSite(this.#sites, site, this.#controls.named.names?.[site]));
+    this.host.guarded(() => this.#update());
+    this.changed(ofSite(this.#sites, site, this.named.names?.[site]));
   }
 
   #setStep(count: number | null): void {
     this.#count = count;
     this.#held = null;
     this.#update();
-    this.#host.changed();
-    if (this.#step !== "done") this.#host.announcer.say(ofStep(this.#step.insertion, this.#step.site));
+    this.host.changed();
+    if (this.#step !== "done") this.host.announcer.say(ofStep(this.#step.insertion, this.#step.site));
   }
 
   // Keys
@@ -532,7 +518,7 @@ class SphereRoom implements Room, Turnable {
     this.#motion.stop();
     const view = arrowed(this, event);
     const action = view === null ? this.#keyed(event) : () => this.#turn(view.middle);
-    if (action !== null) this.#host.guarded(action);
+    if (action !== null) this.host.guarded(action);
     return action !== null;
   }
 
@@ -568,15 +554,11 @@ class SphereRoom implements Room, Turnable {
   #walk(by: number): void {
     const { count } = this.#sites;
     const site = this.#held === null ? (by > 0 ? 0 : count - 1) : (this.#held + by + count) % count;
-    this.#center(site);
-    this.#controls.table.reveal(site);
+    this.chosen(site);
+    this.table.reveal(site);
   }
 
   // Files and what can be taken along
-
-  open(file: File, exchange: Exchange): Promise<void> {
-    return this.#controls.open(file, exchange);
-  }
 
   /** Both pictures beside each other. */
   sheet(): Sheet {
@@ -585,7 +567,7 @@ class SphereRoom implements Room, Turnable {
     const scene = this.#scene(false);
     const frame = new PlaneFrame(size + GAP + 1, 1, size - 2, this.#reach);
     return {
-      title: find(this.#section, "h1").textContent ?? "",
+      title: this.title,
       width: 2 * size + GAP,
       height: size,
       weight: 1,
@@ -602,7 +584,7 @@ class SphereRoom implements Room, Turnable {
 
   python(exchange: Exchange): string {
     const aim = this.#bubble === null ? null : lonLatOf(this.#aim);
-    const { file } = this.#controls.named;
+    const { file } = this.named;
     return exchange.spherePython(this.#sites, { file, pole: this.#pole, view: this.#view, aim });
   }
 }
