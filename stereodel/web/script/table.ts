@@ -5,12 +5,6 @@
 
 import { make } from "./dom.ts";
 
-/** What a site is called where nothing else is said. */
-const SITE = "Site";
-
-/** The head of the column of names. */
-const NAME = "Name";
-
 /** Rows above and below the visible ones. */
 const AROUND = 12;
 
@@ -72,8 +66,8 @@ export class SiteTable {
     this.#rows = rows;
     this.#table.hidden = rows.count === 0;
     this.#table.setAttribute("aria-rowcount", String(rows.count + 1));
-    const heads = [rows.noun ?? SITE, ...(rows.names ? [NAME] : []), ...rows.heads].map((head) => {
-      const cell = make("th", head === NAME ? "name" : "");
+    const heads = [rows.noun ?? "Site", ...(rows.names ? ["Name"] : []), ...rows.heads].map((head) => {
+      const cell = make("th", head === "Name" ? "name" : "");
       cell.scope = "col";
       cell.append(...head.split(/\*([^*]+)\*/).map((part, k) => (k % 2 === 1 ? make("i", "", part) : part)));
       return cell;
@@ -128,7 +122,7 @@ export class SiteTable {
   }
 
   #row(site: number): HTMLElement {
-    const { noun = SITE, names } = this.#rows;
+    const { noun = "Site", names } = this.#rows;
     const name = names?.[site];
     const button = make("button", "", String(site + 1));
     button.type = "button";

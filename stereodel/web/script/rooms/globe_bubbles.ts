@@ -5,8 +5,9 @@ import { circlePoints, placeOf } from "../drawing/ball.ts";
 import { traceCap } from "../drawing/fill.ts";
 import { drawHandle, type Pen } from "../drawing/pen.ts";
 import type { Reason } from "../drawing/plate.ts";
+import type { LabelStyle } from "../drawing/styles.ts";
 import { MoebiusMap, Rotation } from "../kernel/api.ts";
-import { angle, row, unit, type Vector } from "../space.ts";
+import { angle, cross, row, type Vector } from "../space.ts";
 import { arrowed, grabBall } from "../view/ball_hand.ts";
 import { distance, type Gestures, type Hold, type Place } from "../view/hand.ts";
 import { capToCap, seenThrough, type Cap } from "../view/lens.ts";
@@ -55,8 +56,12 @@ export class BubbleGlobe extends GlobePlate {
     this.host.set({ [this.#which]: view }, reason);
   }
 
+  get #end(): "from" | "to" {
+    return this.#which === "before" ? "from" : "to";
+  }
+
   get #cap(): Cap {
-    return this.host.shown[this.#which === "before" ? "from" : "to"];
+    return this.host.shown[this.#end];
   }
 
   /** The bubble's rim, axes of the view. */
@@ -67,7 +72,7 @@ export class BubbleGlobe extends GlobePlate {
 
   #setCap(cap: Cap): void {
     const radius = Math.max(LEAST_RADIUS, Math.min(MOST_RADIUS, cap.radius));
-    this.host.set({ [this.#which === "before" ? "from" : "to"]: { ...cap, radius } }, "hand");
+    this.host.set({ [this.#end]: { ...cap, radius } }, "hand");
   }
 
   protected paintHeld(pen: Pen): void {
@@ -82,10 +87,8 @@ export class BubbleGlobe extends GlobePlate {
     const isRight = handle[0] < 0.55;
     // Near the lower limb the label stands above its handle: below there is no drawing.
     const isLow = handle[1] < -0.5 && handle[2] < 0.4;
-    pen.label(`${fixed(cap.radius, 1)}°`, x + (isRight ? 9 : -9), y + (isLow ? -6 : 14), {
-      ...LABEL,
-      align: isRight ? "left" : "right",
-    });
+    const style: LabelStyle = { ...LABEL, align: isRight ? "left" : "right" };
+    pen.label(`${fixed(cap.radius, 1)}°`, x + (isRight ? 9 : -9), y + (isLow ? -6 : 14), style);
   }
 
   /** The handle's point of the view, or null while the rim is behind. */
@@ -138,12 +141,9 @@ export class BubbleGlobe extends GlobePlate {
 
   /** The point of the rim that is nearest to another point of the ball. */
   #nearestOfRim(center: Vector, radius: number, point: Vector): Vector {
-    const apart = angle(center, point);
-    const [c, s] = [Math.cos((radius * Math.PI) / 180), Math.sin((radius * Math.PI) / 180)];
-    if (apart === 0) return circlePoints(center, radius)[0];
-    const height = Math.cos((apart * Math.PI) / 180);
-    const out = unit([0, 1, 2].map((k) => point[k] - height * center[k]) as unknown as Vector);
-    return [0, 1, 2].map((k) => c * center[k] + s * out[k]) as unknown as Vector;
+    const axis = cross(center, point);
+    if (Math.hypot(...axis) === 0) return circlePoints(center, radius)[0];
+    return row(Rotation.about(axis, radius).apply(center), 0);
   }
 }
 

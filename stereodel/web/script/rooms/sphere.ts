@@ -3,10 +3,10 @@
 import type { Given } from "../contents.ts";
 import { find, say } from "../dom.ts";
 import { placeOf } from "../drawing/ball.ts";
-import type { Sheet } from "../drawing/pen.ts";
+import type { Pen, Sheet } from "../drawing/pen.ts";
 import { Plate, type Reason } from "../drawing/plate.ts";
 import type { Exchange } from "../exchange.ts";
-import type { LinkValues } from "../link.ts";
+import { LinkValues } from "../link.ts";
 import type { Room, RoomHost } from "../room.ts";
 import { sphereSets, type SiteSet, type Stored } from "../sets.ts";
 import { dot, lonLatOf, type Vector } from "../space.ts";
@@ -24,7 +24,6 @@ import {
   directionAt,
   fromValues,
   handPlace,
-  POLE,
   setPlace,
   toValues,
   VIEW,
@@ -70,14 +69,8 @@ class SphereRoom extends SiteRoom implements Turnable {
   #poleFields!: PlaceFields;
   #viewFields!: PlaceFields;
 
-  #pole: Place = POLE;
-  #view: Place = VIEW;
-  /** Where the pointer was last, and whether the bubble there is kept. */
-  #aim: Vector = [1, 0, 0];
-  #isPinned = false;
+  #state = fromValues(new LinkValues(), 0);
   #held: number | null = null;
-  /** Sites that are inserted; null for all of them, drawn as what they are in the end. */
-  #count: number | null = null;
   #reach = 1;
 
   // What follows from the state; made anew when it changes.
@@ -95,16 +88,10 @@ class SphereRoom extends SiteRoom implements Turnable {
   override attach(section: HTMLElement): void {
     super.attach(section);
     const { guarded } = this.host;
-    this.#ball = new Plate(
-      find<HTMLCanvasElement>(section, "#sphere-ball"),
-      (pen, moving) => drawBall(pen, this.disc, this.#scene(moving)),
-      guarded,
-    );
-    this.#plane = new Plate(
-      find<HTMLCanvasElement>(section, "#sphere-plane"),
-      (pen, moving) => drawPlane(pen, this.#frame, this.#scene(moving)),
-      guarded,
-    );
+    const plate = (which: string, paint: (pen: Pen, scene: SphereScene) => void): Plate =>
+      new Plate(find(section, `#sphere-${which}`), (pen, moving) => paint(pen, this.#scene(moving)), guarded);
+    this.#ball = plate("ball", (pen, scene) => drawBall(pen, this.disc, scene));
+    this.#plane = plate("plane", (pen, scene) => drawPlane(pen, this.#frame, scene));
     this.#poleFields = new PlaceFields(section, "pole", (place) => guarded(() => this.#movePole(place)));
     this.#viewFields = new PlaceFields(section, "view", (place) => guarded(() => this.#turn(place)));
     this.#click = new Choice(section, "click", CLICKS, () => this.host.changed());
@@ -122,18 +109,14 @@ class SphereRoom extends SiteRoom implements Turnable {
   // State
 
   state(): Record<string, string> {
-    const [pole, view, aim, isPinned] = [this.#pole, this.#view, this.#aim, this.#isPinned];
-    const state = { pole, view, aim, isPinned, step: this.#count, click: this.#click.value };
-    return { ...this.siteValues(), ...toValues(state) };
+    return { ...this.siteValues(), ...toValues({ ...this.#state, click: this.#click.value }) };
   }
 
   override restore(values: LinkValues): void {
     const named = this.sitesOf(values);
-    const state = fromValues(values, named.places.length / 2);
-    this.#history = [];
-    [this.#pole, this.#view, this.#aim] = [state.pole, state.view, state.aim];
-    [this.#isPinned, this.#count, this.#held] = [state.isPinned, state.step, null];
-    this.#click.value = state.click;
+    this.#state = fromValues(values, named.places.length / 2);
+    [this.#history, this.#held] = [[], null];
+    this.#click.value = this.#state.click;
     super.restore(values);
     this.#take(named);
   }
@@ -141,7 +124,7 @@ class SphereRoom extends SiteRoom implements Turnable {
   /** Other sites, seen as the last ones were. */
   protected override begin(named: NamedSites): void {
     this.#history = [];
-    this.#count = this.#held = null;
+    this.#state.step = this.#held = null;
     this.#take(named);
   }
 
@@ -150,21 +133,15 @@ class SphereRoom extends SiteRoom implements Turnable {
     const sites = new SphereSites(named.places);
     this.#sites = sites;
     this.#layers = new BallLayers(sites);
-    if (this.#count !== null && this.#count >= sites.count) this.#count = null;
+    if (this.#state.step !== null && this.#state.step >= sites.count) this.#state.step = null;
     this.show(named, {
       count: sites.count,
       heads: ["Latitude", "Longitude", "Neighbours"],
-      cells: (site) => [
-        latitude(sites.lonlat[2 * site + 1]),
-        longitude(sites.lonlat[2 * site]),
-        String(sites.neighborCounts[site]),
-      ],
+      cells: (site) => [...sites.words(site), String(sites.neighborCounts[site])],
     });
     find(this.section, "[data-show=closing]").hidden = !sites.hasClosing;
-    this.#ball.canvas.setAttribute(
-      "aria-label",
-      `Sphere with ${counted(sites.count)} ${sites.count === 1 ? "site" : "sites"}`,
-    );
+    const label = `Sphere with ${counted(sites.count)} ${sites.count === 1 ? "site" : "sites"}`;
+    this.#ball.canvas.setAttribute("aria-label", label);
     this.#project();
     if (reason !== "hand") this.#rescale();
     this.#update(reason);
@@ -172,7 +149,7 @@ class SphereRoom extends SiteRoom implements Turnable {
 
   /** The pole has moved, or the sites. */
   #project(): void {
-    const pole = directionAt(this.#pole);
+    const pole = directionAt(this.#state.pole);
     this.#twin = new Twin(pole);
     this.#seeing = this.#sites.seeing(pole);
   }
@@ -207,14 +184,14 @@ class SphereRoom extends SiteRoom implements Turnable {
   }
 
   #findBubble(): Bubble | null {
-    if (!this.isOn("bubble") || this.#count !== null) return null;
-    const facet = this.#sites.facetAt(this.#aim);
+    if (!this.isOn("bubble") || this.#state.step !== null) return null;
+    const facet = this.#sites.facetAt(this.#state.aim);
     return facet === null ? null : this.#sites.bubble(facet);
   }
 
   #findStep(): Step | "done" {
-    if (this.#count === null) return "done";
-    const site = this.#count - 1;
+    if (this.#state.step === null) return "done";
+    const site = this.#state.step - 1;
     const insertion = this.#sites.insertion(site);
     const seeing = (facets: Int32Array | undefined): Uint8Array =>
       facets === undefined ? new Uint8Array(0) : this.#sites.seeing(this.#twin.pole, facets);
@@ -248,11 +225,11 @@ class SphereRoom extends SiteRoom implements Turnable {
     say(this.out("sentence"), words.filter(Boolean).join(" "));
     say(this.out("sum"), alone === null ? ofFacets(sites.facetCount - this.#seeingCount, this.#seeingCount, SUM) : "");
     this.out("sum").hidden = step !== "done" || alone !== null;
-    const side = dot(this.#twin.pole, directionAt(this.#view)) < 0 ? "behind" : "in front";
+    const side = dot(this.#twin.pole, directionAt(this.#state.view)) < 0 ? "behind" : "in front";
     say(this.out("pole-side"), `*P*, the pole of projection, lies ${side}.`);
-    this.#steps.show(this.#count, sites.count);
-    this.#poleFields.value = this.#pole;
-    this.#viewFields.value = this.#view;
+    this.#steps.show(this.#state.step, sites.count);
+    this.#poleFields.value = this.#state.pole;
+    this.#viewFields.value = this.#state.view;
     this.table.hold([...(this.#bubble?.sites ?? []), ...(held === null ? [] : [held])]);
     find<HTMLButtonElement>(this.section, "[data-do=undo]").disabled = this.#history.length === 0;
     this.#form.show(held === null ? null : [sites.lonlat[2 * held], sites.lonlat[2 * held + 1]]);
@@ -269,7 +246,7 @@ class SphereRoom extends SiteRoom implements Turnable {
   }
 
   get view(): View {
-    return View.above(...this.#view);
+    return View.above(...this.#state.view);
   }
 
   get #frame(): PlaneFrame {
@@ -338,7 +315,7 @@ class SphereRoom extends SiteRoom implements Turnable {
     // Where sites lie close, evenly spread, the ball can still be turned between them.
     const spacing = this.disc.r * Math.sqrt((4 * Math.PI) / this.#sites.count);
     const near = Math.min(reach, REACH_OF_SITES, spacing / 3);
-    const site = this.#count === null ? this.#siteOnBall(at, near) : null;
+    const site = this.#state.step === null ? this.#siteOnBall(at, near) : null;
     if (site === null) return grabBall(this, this.#motion, at);
     let isFirst = true;
     return {
@@ -369,15 +346,15 @@ class SphereRoom extends SiteRoom implements Turnable {
 
   /** The bubble follows the pointer, unless one is kept. */
   #hover(direction: Vector): void {
-    if (this.#isPinned || this.#count !== null) return;
+    if (this.#state.isPinned || this.#state.step !== null) return;
     const before = this.#bubble?.facet ?? null;
-    this.#aim = direction;
+    this.#state.aim = direction;
     if (this.#sites.facetAt(direction) !== before) this.host.guarded(() => this.#update());
   }
 
   /** A click. @param site The one within reach. */
   #press(direction: Vector, site: number | null): void {
-    const mode = this.#count === null ? this.#click.value : "keep";
+    const mode = this.#state.step === null ? this.#click.value : "keep";
     this.host.guarded(() => {
       if (mode === "add") this.#add(direction);
       else if (mode === "remove") this.#remove(site);
@@ -398,7 +375,7 @@ class SphereRoom extends SiteRoom implements Turnable {
 
   /** Shows another view. */
   #see(place: Place, reason: Reason): void {
-    this.#view = viewPlace(place);
+    this.#state.view = viewPlace(place);
     this.#say();
     this.#ball.redraw(reason);
     this.host.changed();
@@ -412,7 +389,7 @@ class SphereRoom extends SiteRoom implements Turnable {
 
   /** Flies to another view; why is for others to say. */
   #fly(to: Place): void {
-    const from = this.#view;
+    const from = this.#state.view;
     const east = wrap(to[0] - from[0]);
     this.#motion.fly((t) =>
       this.#see([from[0] + t * east, from[1] + t * (to[1] - from[1])], t < 1 ? "flight" : "state"),
@@ -420,7 +397,7 @@ class SphereRoom extends SiteRoom implements Turnable {
   }
 
   #movePole(place: Place, rests = true): void {
-    this.#pole = setPlace(place);
+    this.#state.pole = setPlace(place);
     this.#project();
     if (rests) this.#rescale();
     this.#update(rests ? "state" : "hand");
@@ -432,15 +409,15 @@ class SphereRoom extends SiteRoom implements Turnable {
   /** The bubble there stays, or follows the pointer again where it is the one that was kept. */
   #keep(direction: Vector, site: number | null): void {
     this.#held = site;
-    this.#isPinned = !this.#isPinned || this.#sites.facetAt(direction) !== this.#bubble?.facet;
-    this.#aim = direction;
+    this.#state.isPinned = !this.#state.isPinned || this.#sites.facetAt(direction) !== this.#bubble?.facet;
+    this.#state.aim = direction;
     this.#update();
     this.host.changed();
     if (this.#bubble !== null) this.host.announcer.say(ofBubble(this.#bubble, this.#sites, this.#twin));
   }
 
   #free(): void {
-    this.#isPinned = false;
+    this.#state.isPinned = false;
     this.#held = null;
     this.#update();
     this.host.changed();
@@ -455,15 +432,14 @@ class SphereRoom extends SiteRoom implements Turnable {
 
   #moveSite(site: number, direction: Vector, reason: Reason = "state"): void {
     const [lon, lat] = handPlace(direction);
-    this.#aim = direction;
+    this.#state.aim = direction;
     const words = (): string => `Site ${site + 1}: ${latitude(lat)}, ${longitude(lon)}`;
     this.#edit(withMoved(this.named, site, [lon, lat]), site, words, reason);
   }
 
   /** Keeps the sites to go back to. */
   #note(): void {
-    this.#history.push(this.named);
-    if (this.#history.length > MOST_STEPS_BACK) this.#history.shift();
+    this.#history = [...this.#history.slice(1 - MOST_STEPS_BACK), this.named];
   }
 
   #moveHeld(place: Place): void {
@@ -498,14 +474,14 @@ class SphereRoom extends SiteRoom implements Turnable {
   /** Brings a site to the middle of the ball, and holds it. */
   protected override chosen(site: number): void {
     this.#held = site;
-    this.#aim = this.#sites.site(site);
+    this.#state.aim = this.#sites.site(site);
     this.#fly([this.#sites.lonlat[2 * site], this.#sites.lonlat[2 * site + 1]]);
     this.host.guarded(() => this.#update());
     this.changed(ofSite(this.#sites, site, this.named.names?.[site]));
   }
 
   #setStep(count: number | null): void {
-    this.#count = count;
+    this.#state.step = count;
     this.#held = null;
     this.#update();
     this.host.changed();
@@ -530,7 +506,7 @@ class SphereRoom extends SiteRoom implements Turnable {
       if (key === "z") return () => this.#undo();
       return step === null ? null : () => this.#nudge(...step);
     }
-    const middle = directionAt(this.#view);
+    const middle = directionAt(this.#state.view);
     if (key === "0") return () => this.#turn(VIEW);
     if (key === "n") return () => this.#add(middle);
     const withSites: Record<string, () => void> = {
@@ -583,9 +559,9 @@ class SphereRoom extends SiteRoom implements Turnable {
   }
 
   python(exchange: Exchange): string {
-    const aim = this.#bubble === null ? null : lonLatOf(this.#aim);
+    const aim = this.#bubble === null ? null : lonLatOf(this.#state.aim);
     const { file } = this.named;
-    return exchange.spherePython(this.#sites, { file, pole: this.#pole, view: this.#view, aim });
+    return exchange.spherePython(this.#sites, { file, pole: this.#state.pole, view: this.#state.view, aim });
   }
 }
 

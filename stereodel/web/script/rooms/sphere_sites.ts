@@ -2,6 +2,7 @@
 
 import { inBubble, lonlatToXyz, SphericalDelaunay, SphericalVoronoi } from "../kernel/api.ts";
 import { dot, row, type Vector } from "../space.ts";
+import { latitude, longitude } from "../words.ts";
 
 /** The circle round a facet: its centre on the outer side, the cosine of its angular radius, its three sites. */
 export interface Bubble {
@@ -41,6 +42,11 @@ export class SphereSites {
   /** A site's direction. */
   site(k: number): Vector {
     return row(this.xyz, k);
+  }
+
+  /** Latitude and longitude of a site in words. */
+  words(site: number): [string, string] {
+    return [latitude(this.lonlat[2 * site + 1]), longitude(this.lonlat[2 * site])];
   }
 
   /** How many edges each site has. */

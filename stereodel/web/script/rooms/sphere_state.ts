@@ -14,7 +14,7 @@ export const CLICKS = ["keep", "add", "remove"] as const;
 export type Click = (typeof CLICKS)[number];
 
 /** How the room begins: degrees. */
-export const POLE: Place = [-150, 53.1];
+const POLE: Place = [-150, 53.1];
 export const VIEW: Place = [0, 0];
 const AIM: Place = [-9.94, 3.49];
 
@@ -25,13 +25,13 @@ const VIEW_DECIMALS = 4;
 const HAND_DECIMALS = 3;
 
 export interface SphereState {
-  readonly pole: Place;
-  readonly view: Place;
+  pole: Place;
+  view: Place;
   /** Where the pointer was last, and whether the bubble there is kept. */
-  readonly aim: Vector;
-  readonly isPinned: boolean;
+  aim: Vector;
+  isPinned: boolean;
   /** Sites that are inserted; null for all of them, drawn as what they are in the end. */
-  readonly step: number | null;
+  step: number | null;
   readonly click: Click;
 }
 

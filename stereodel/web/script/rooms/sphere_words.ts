@@ -1,6 +1,6 @@
 /** What the Sphere room says: sentences whose numbers change. */
 
-import { fixed, latitude, longitude, several } from "../words.ts";
+import { fixed, several } from "../words.ts";
 import type { Bubble, Insertion, SphereSites } from "./sphere_sites.ts";
 import type { Twin } from "./twin.ts";
 
@@ -67,7 +67,7 @@ export function ofDuplicates(sites: SphereSites): string {
 }
 
 /** A site for those who do not see it: its number, its name, its place, how many neighbours it has. */
-export function ofSite({ lonlat, neighborCounts }: SphereSites, site: number, name?: string): string {
-  const place = `${latitude(lonlat[2 * site + 1])}, ${longitude(lonlat[2 * site])}`;
-  return `Site ${site + 1}${name ? `, ${name}` : ""}, ${place}, ${neighborCounts[site]} neighbours`;
+export function ofSite(sites: SphereSites, site: number, name?: string): string {
+  const words = [`Site ${site + 1}`, ...(name ? [name] : []), ...sites.words(site)];
+  return `${words.join(", ")}, ${sites.neighborCounts[site]} neighbours`;
 }

@@ -46,9 +46,8 @@ export class Twin {
     const square = u * u + v * v;
     const along = (4 - square) / (4 + square);
     const across = 4 / (4 + square);
-    return [0, 1, 2].map(
-      (k) => along * this.#south[k] + across * (u * this.#east[k] + v * this.#north[k]),
-    ) as unknown as Vector;
+    const part = (k: 0 | 1 | 2): number => along * this.#south[k] + across * (u * this.#east[k] + v * this.#north[k]);
+    return [part(0), part(1), part(2)];
   }
 
   /**

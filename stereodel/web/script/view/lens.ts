@@ -101,13 +101,11 @@ function betweenLenses(a: Lens, b: Lens, t: number): Lens {
   const vector = [0, 1, 2].map((k) => before * a.focus[k] + after * b.focus[k]);
   const size = Math.hypot(...vector);
   if (size === 0) return { focus: b.focus, magnification: 1 };
-  return {
-    focus: row(
-      vector.map((x) => x / size),
-      0,
-    ),
-    magnification: Math.exp(Math.asinh(size)),
-  };
+  const focus = row(
+    vector.map((x) => x / size),
+    0,
+  );
+  return { focus, magnification: Math.exp(Math.asinh(size)) };
 }
 
 function betweenViews(a: View, b: View, t: number, isNorthUp: boolean): View {
