@@ -12,14 +12,14 @@ export function field(root: ParentNode, name: string): HTMLInputElement {
   return find<HTMLInputElement>(root, `input[name="${name}"]`);
 }
 
-/** A new element with a class (none if empty) and content. */
+/** A new element with a class (none if empty) or with properties, and content. */
 export function make<K extends keyof HTMLElementTagNameMap>(
   tag: K,
-  className = "",
+  given: string | Partial<HTMLElementTagNameMap[K]> = "",
   ...content: (Node | string)[]
 ): HTMLElementTagNameMap[K] {
-  const element = document.createElement(tag);
-  if (className) element.className = className;
+  const properties = typeof given === "string" ? (given === "" ? {} : { className: given }) : given;
+  const element = Object.assign(document.createElement(tag), properties);
   element.append(...content);
   return element;
 }

@@ -1,5 +1,6 @@
 /** The script of files: points and pictures that are opened, drawings and data that are taken along. */
 
+import { make } from "./dom.ts";
 import { CanvasPen } from "./drawing/canvas_pen.ts";
 import type { Sheet } from "./drawing/pen.ts";
 import { colours } from "./drawing/styles.ts";
@@ -12,9 +13,7 @@ import { globePython, liftPython, spherePython } from "./rooms/python.ts";
 /** Saves a file under the reader's downloads. */
 function download(name: string, content: Blob | string, type = "text/plain"): void {
   const blob = typeof content === "string" ? new Blob([content], { type: `${type};charset=utf-8` }) : content;
-  const link = document.createElement("a");
-  link.href = URL.createObjectURL(blob);
-  link.download = name;
+  const link = make("a", { href: URL.createObjectURL(blob), download: name });
   link.click();
   setTimeout(() => URL.revokeObjectURL(link.href), 60_000); // browsers read it after the click
 }
@@ -24,9 +23,7 @@ async function copy(text: string): Promise<void> {
   try {
     await navigator.clipboard.writeText(text);
   } catch {
-    const area = document.createElement("textarea");
-    area.value = text;
-    area.className = "unseen";
+    const area = make("textarea", { value: text, className: "unseen" });
     document.body.append(area);
     area.select();
     document.execCommand("copy");
@@ -43,8 +40,7 @@ function sheetSvg({ title, width, height, weight, paint }: Sheet): string {
 
 /** The picture as PNG with so many pixels for one of the screen. */
 function sheetPng({ width, height, weight, paint }: Sheet, scale: number): Promise<Blob> {
-  const canvas = document.createElement("canvas");
-  [canvas.width, canvas.height] = [Math.round(width * scale), Math.round(height * scale)];
+  const canvas = make("canvas", { width: Math.round(width * scale), height: Math.round(height * scale) });
   const context = canvas.getContext("2d")!;
   context.fillStyle = colours().paper;
   context.fillRect(0, 0, canvas.width, canvas.height);

@@ -4,7 +4,7 @@ import { Contents } from "./contents.ts";
 import { field, find } from "./dom.ts";
 import type { Exchange } from "./exchange.ts";
 import { load } from "./kernel/instance.ts";
-import { LaterScript } from "./later_script.ts";
+import { laterScript } from "./later_script.ts";
 import type { LiftRoomMaker } from "./lift.ts";
 import { LinkError, LinkValues, readLink, ROOMS, writeLink, type Link, type RoomName } from "./link.ts";
 import { Announcer, Messages } from "./messages.ts";
@@ -21,7 +21,7 @@ type Makers = Record<RoomName, (host: RoomHost) => Room | Promise<Room>>;
 class Page {
   readonly #contents: Contents;
   readonly #makers: Makers;
-  readonly #exchange: LaterScript<Exchange>;
+  readonly #exchange: () => Promise<Exchange>;
   readonly #messages = new Messages(find(document, "#messages"));
   readonly #announcer = new Announcer(find(document, "#status"));
   readonly #rooms = new Map<RoomName, Room>();
@@ -32,7 +32,7 @@ class Page {
   constructor(contents: Contents, makers: Makers) {
     this.#contents = contents;
     this.#makers = makers;
-    this.#exchange = new LaterScript(contents, "exchange");
+    this.#exchange = laterScript(contents, "exchange");
   }
 
   /** Shows what the address says, and follows it from now on. */
@@ -198,7 +198,7 @@ class Page {
   #exchanging(body: (room: Room, exchange: Exchange) => void | Promise<void>): void {
     const room = this.#room;
     if (room === undefined) return;
-    const done = this.#exchange.get().then((exchange) => body(room, exchange));
+    const done = this.#exchange().then((exchange) => body(room, exchange));
     done.catch((error: unknown) => this.#failed(error));
   }
 
@@ -246,10 +246,10 @@ async function makersOf(contents: Contents): Promise<Makers> {
   const stored: Record<string, Float64Array> = {};
   for (const name of ["gap", "cities", "airports", "stars", "sheet"]) stored[name] = await contents.set(name);
   const given = await contents.given();
-  const lift = new LaterScript<LiftRoomMaker>(contents, "lift");
+  const lift = laterScript<LiftRoomMaker>(contents, "lift");
   return {
     sphere: (host) => sphereRoom(host, stored, given),
-    lift: async (host) => (await lift.get())(host, stored["sheet"]),
+    lift: async (host) => (await lift())(host, stored["sheet"]),
     globe: globeRoom,
   };
 }

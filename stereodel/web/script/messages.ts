@@ -28,9 +28,7 @@ export class Messages {
     const buttons = make("span", "line", ...inputs);
     if (action) buttons.append(this.#button(action));
     buttons.append(this.#button({ words: "Close", act: () => {} }));
-    const message = make("div", "message", line, buttons);
-    message.setAttribute("role", "alert");
-    this.#place.replaceChildren(message);
+    this.#place.replaceChildren(make("div", { className: "message", role: "alert" }, line, buttons));
   }
 
   close(): void {
@@ -38,8 +36,7 @@ export class Messages {
   }
 
   #button(action: Action): HTMLButtonElement {
-    const button = make("button", "quiet", action.words);
-    button.type = "button";
+    const button = make("button", { className: "quiet", type: "button" }, action.words);
     button.addEventListener("click", () => {
       this.close();
       action.act();

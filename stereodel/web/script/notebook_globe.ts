@@ -53,8 +53,8 @@ const KEYS = "arrows turn, + and − magnify, F sets the focus, comma and full s
 export class NotebookGlobe implements Turnable {
   readonly isNorthUp = false; // but by keys
   readonly #root = make("div", "stereodel-globe");
-  readonly #canvas = make("canvas");
-  readonly #status = make("p");
+  readonly #canvas = make("canvas", { tabIndex: 0, role: "application" });
+  readonly #status = make("p", { role: "status" });
   readonly #plate: Plate;
   readonly #changed: Changed;
   readonly #ground: readonly Layer[];
@@ -73,10 +73,8 @@ export class NotebookGlobe implements Turnable {
   constructor(place: HTMLElement, land: Rings | null, changed: Changed) {
     this.#changed = changed;
     this.#ground = [...(land === null ? [] : [landLayer(land)]), arcLayer("graticule", graticuleArcs(10))];
-    this.#canvas.tabIndex = 0;
-    const told = { role: "application", "aria-roledescription": "globe to turn", "aria-description": KEYS };
-    for (const [name, value] of Object.entries(told)) this.#canvas.setAttribute(name, value);
-    this.#status.setAttribute("role", "status");
+    this.#canvas.setAttribute("aria-roledescription", "globe to turn");
+    this.#canvas.setAttribute("aria-description", KEYS);
     this.#root.append(this.#canvas, this.#status);
     place.append(this.#root);
     this.#plate = new Plate(this.#canvas, (pen, isMoving) => this.#paint(pen, isMoving), undefined, this.#root);

@@ -1,5 +1,6 @@
 /** A picture of the whole sphere on a globe: drawn by the graphics processor while it moves, by the kernel at rest. */
 
+import { make } from "./dom.ts";
 import type { Disc, Pen } from "./drawing/pen.ts";
 import { Raster, type MoebiusMap } from "./kernel/api.ts";
 import type { Messages } from "./messages.ts";
@@ -43,9 +44,8 @@ export class Painted {
     if (Math.abs(width / height - 2) > RATIO_ERROR) {
       return `the picture is ${width} × ${height}; one of the whole sphere is twice as wide as high`;
     }
-    const canvas = document.createElement("canvas");
-    canvas.width = 2 * Math.round(Math.min(width, WIDEST) / 2);
-    canvas.height = canvas.width / 2;
+    const half = Math.round(Math.min(width, WIDEST) / 2);
+    const canvas = make("canvas", { width: 2 * half, height: half });
     const context = canvas.getContext("2d", { willReadFrequently: true })!;
     context.drawImage(bitmap, 0, 0, canvas.width, canvas.height);
     bitmap.close();
@@ -63,8 +63,7 @@ export class Painted {
   }
 
   #exact(map: MoebiusMap, size: number): HTMLCanvasElement {
-    const canvas = document.createElement("canvas");
-    canvas.width = canvas.height = size;
+    const canvas = make("canvas", { width: size, height: size });
     const image = new ImageData(this.#raster.painted(map, [-1, 1, 2 / size, 2 / size], size, size, false), size, size);
     canvas.getContext("2d")!.putImageData(image, 0, 0);
     return canvas;

@@ -8,7 +8,7 @@ import {
   type SphericalDelaunay,
   type SphericalVoronoi,
 } from "../kernel/api.ts";
-import { angle, cross, directionOf, dot, row, unit, type Vector } from "../space.ts";
+import { angle, cross, DEGREE, directionOf, dot, row, unit, type Vector } from "../space.ts";
 import { arcThrough, traceArc, traceLine, type Side } from "./arcs.ts";
 import { bentRings } from "./bent_rings.ts";
 import { holdsHidden, traceCap, traceRegions, type Rings } from "./fill.ts";
@@ -17,8 +17,6 @@ import type { DotName, StyleName } from "./styles.ts";
 
 /** The longest arc of a circle that is drawn by three points, radians: they are well apart, and tell its sense. */
 const LONGEST_ARC = (2 * Math.PI) / 3;
-
-const DEGREE = Math.PI / 180;
 
 /** The place of the sea that is farthest from all land. */
 const AT_SEA = directionOf(-123.4, -48.9);

@@ -1,5 +1,7 @@
 /** The looks of the drawings: colours by token, from the style sheet of the page, and lines, grounds, dots and labels by name. */
 
+import { make } from "../dom.ts";
+
 /** How a path is drawn. */
 export interface Style {
   readonly stroke?: Token;
@@ -144,8 +146,7 @@ export function colours(within: HTMLElement = document.documentElement): Colours
 }
 
 function hiddenIn(within: HTMLElement): HTMLElement {
-  const probe = document.createElement("span");
-  probe.hidden = true;
+  const probe = make("span", { hidden: true });
   probe.style.setProperty("forced-color-adjust", "none"); // drawings keep their inks
   within.append(probe);
   return probe;

@@ -43,19 +43,15 @@ export class SvgPen implements Pen {
   /** The whole drawing, on paper. */
   text(title: string): string {
     const [w, h] = [number(this.width), number(this.height)];
-    return [
+    const lines = [
       `<svg xmlns="http://www.w3.org/2000/svg" width="${w}" height="${h}" viewBox="0 0 ${w} ${h}">`,
       `<title>${escaped(title)}</title>`,
-      this.#definitions.length > 0 ? `<defs>${this.#definitions.join("")}</defs>` : "",
+      ...(this.#definitions.length > 0 ? [`<defs>${this.#definitions.join("")}</defs>`] : []),
       `<rect width="${w}" height="${h}" ${paint("fill", this.#colours.paper)}/>`,
       `<g fill="none" stroke-linecap="round" stroke-linejoin="round" font-family='${SERIF}'>`,
       ...this.#parts,
-      "</g>",
-      "</svg>",
-      "",
-    ]
-      .filter((line, k, all) => line !== "" || k === all.length - 1)
-      .join("\n");
+    ];
+    return `${lines.join("\n")}\n</g>\n</svg>\n`;
   }
 
   draw(name: StyleName, trace: Trace): void {

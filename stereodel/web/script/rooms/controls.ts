@@ -86,36 +86,32 @@ export class Choice<T extends string> {
 
 /** Switches of a room by name. */
 export class Switches {
-  readonly #root: ParentNode;
-  readonly #names: readonly string[];
+  readonly #inputs: ReadonlyMap<string, HTMLInputElement>;
 
   constructor(root: ParentNode, names: readonly string[], changed: (name: string) => void) {
-    this.#root = root;
-    this.#names = names;
-    for (const name of names) field(root, name).addEventListener("change", () => changed(name));
+    this.#inputs = new Map(names.map((name) => [name, field(root, name)]));
+    for (const [name, input] of this.#inputs) input.addEventListener("change", () => changed(name));
   }
 
   set(name: string, isOn: boolean): void {
-    field(this.#root, name).checked = isOn;
+    this.#inputs.get(name)!.checked = isOn;
   }
 
   /** Whether something is drawn. */
   isOn(name: string): boolean {
-    return field(this.#root, name).checked;
+    return this.#inputs.get(name)!.checked;
   }
 
   /** Names of those that differ from the way the room begins. */
   get turned(): string {
-    return this.#names
-      .filter((name) => field(this.#root, name).checked !== field(this.#root, name).defaultChecked)
-      .join(",");
+    const turned = [...this.#inputs].filter(([, { checked, defaultChecked }]) => checked !== defaultChecked);
+    return turned.map(([name]) => name).join(",");
   }
 
   /** Turns those of a link, and all others back. */
   set turned(names: string) {
     const turned = names.split(",");
-    for (const name of this.#names)
-      field(this.#root, name).checked = field(this.#root, name).defaultChecked !== turned.includes(name);
+    for (const [name, input] of this.#inputs) input.checked = input.defaultChecked !== turned.includes(name);
   }
 }
 

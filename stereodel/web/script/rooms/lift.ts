@@ -41,7 +41,7 @@ export function liftRoom(host: RoomHost, sheet: Float64Array): Room {
   return new LiftRoom(host, sheetSets(sheet));
 }
 
-class LiftRoom extends SiteRoom {
+class LiftRoom extends SiteRoom implements Room {
   #plate!: Plate;
   #fields!: Record<"height" | "side" | Letter, NumberField>;
 
@@ -352,8 +352,7 @@ class LiftRoom extends SiteRoom {
 
   python(exchange: Exchange): string {
     const { set, file } = this.named;
-    const shown = { sides: SHEET_SIDES[set], file, height: this.#height, side: this.#side, ...this.#pair };
-    return exchange.liftPython(this.#sites, this.#bent, shown);
+    return exchange.liftPython(this.#scene(false), this.#side, file, SHEET_SIDES[set]);
   }
 }
 

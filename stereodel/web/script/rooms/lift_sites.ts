@@ -2,7 +2,7 @@
 
 import { PlanarDelaunay, PlanarVoronoi, SphericalDelaunay } from "../kernel/api.ts";
 import type { SiteSet } from "../sets.ts";
-import type { Vector } from "../space.ts";
+import { DEGREES, type Vector } from "../space.ts";
 import { bubbleSigns } from "./sphere_sites.ts";
 
 type Place = [number, number];
@@ -189,10 +189,9 @@ export class Sheet {
  */
 export function separationBounds(fraction: number): Bounds {
   const t = Math.min(1, fraction);
-  const degrees = 180 / Math.PI;
   return {
-    low: 2 * Math.asin(t) * degrees,
-    high: 4 * Math.atan(t) * degrees,
+    low: 2 * Math.asin(t) * DEGREES,
+    high: 4 * Math.atan(t) * DEGREES,
     promised: [90 * t, (720 / Math.PI) * t],
   };
 }

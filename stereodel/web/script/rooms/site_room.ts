@@ -1,10 +1,9 @@
-/** A room of sites: the list of sets, the switches, the table, and what a link calls the sites. */
+/** What rooms have in common: switches and a table; those of sites a list of sets, and what a link calls the sites. */
 
 import { find } from "../dom.ts";
-import type { Sheet } from "../drawing/pen.ts";
 import type { Exchange } from "../exchange.ts";
 import { MOST_SITES, packPlaces, type LinkValues } from "../link.ts";
-import type { Room, RoomHost } from "../room.ts";
+import type { RoomHost } from "../room.ts";
 import type { SiteSet } from "../sets.ts";
 import { SiteTable, type Rows } from "../table.ts";
 import { counted } from "../words.ts";
@@ -80,7 +79,8 @@ export abstract class TableRoom {
   }
 }
 
-export abstract class SiteRoom extends TableRoom implements Room {
+/** A room of sites, which come with the page, from a file or by hand. */
+export abstract class SiteRoom extends TableRoom {
   protected readonly sets: readonly SiteSet[];
   /** What the sites are called. */
   protected named = ownSites(new Float64Array(0));
@@ -97,11 +97,7 @@ export abstract class SiteRoom extends TableRoom implements Room {
 
   /** Other sites are there: a set of the list, or a file. */
   protected abstract begin(named: NamedSites): void;
-  abstract state(): Record<string, string>;
   abstract redraw(): void;
-  abstract sheet(): Sheet;
-  abstract geojson(exchange: Exchange): string | null;
-  abstract python(exchange: Exchange): string;
 
   protected override pointed(site: number | null): void {
     this.lit = site;

@@ -56,7 +56,7 @@ export function sphereRoom(host: RoomHost, stored: Stored, given: Given | null):
   return new SphereRoom(host, sphereSets(stored, given));
 }
 
-class SphereRoom extends SiteRoom implements Turnable {
+class SphereRoom extends SiteRoom implements Room, Turnable {
   /** Sites as they were before the last changes by hand. */
   #history: NamedSites[] = [];
   readonly #motion = new Motion();
@@ -559,9 +559,7 @@ class SphereRoom extends SiteRoom implements Turnable {
   }
 
   python(exchange: Exchange): string {
-    const aim = this.#bubble === null ? null : lonLatOf(this.#state.aim);
-    const { file } = this.named;
-    return exchange.spherePython(this.#sites, { file, pole: this.#state.pole, view: this.#state.view, aim });
+    return exchange.spherePython(this.#sites, this.named.file, this.#state, this.#bubble !== null);
   }
 }
 

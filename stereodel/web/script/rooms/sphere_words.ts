@@ -1,10 +1,9 @@
 /** What the Sphere room says: sentences whose numbers change. */
 
+import { DEGREES } from "../space.ts";
 import { fixed, several } from "../words.ts";
 import type { Bubble, Insertion, SphereSites } from "./sphere_sites.ts";
 import type { Twin } from "./twin.ts";
-
-const DEGREES = 180 / Math.PI;
 
 /** Distances below a radius by less than this part of it are those of sites on the circle, which are rounded. */
 const ON_CIRCLE = 1e-9;

@@ -1,14 +1,12 @@
 /** Conformal lenses over a view: the fisheye, magnified about a point, on its way to another one; bubble to bubble. */
 
 import { MoebiusMap, Rotation } from "../kernel/api.ts";
-import { angle, row, type Vector } from "../space.ts";
+import { angle, DEGREE, row, unit, type Vector } from "../space.ts";
 import { wrap } from "../words.ts";
 import { View } from "./view.ts";
 
 /** The largest magnification that the page shows. */
 export const MOST = 100;
-
-const DEGREE = Math.PI / 180;
 
 /** The fisheye: where it magnifies, a unit vector, and how many times. */
 export interface Lens {
@@ -98,14 +96,12 @@ function betweenLenses(a: Lens, b: Lens, t: number): Lens {
   const d = 2 * Math.asinh(Math.sqrt(Math.sinh((p - q) / 2) ** 2 + Math.sinh(p) * Math.sinh(q) * chord ** 2));
   const share = (u: number): number => (d > 0 ? Math.sinh(u * d) / Math.sinh(d) : u);
   const [before, after] = [share(1 - t) * Math.sinh(p), share(t) * Math.sinh(q)];
-  const vector = [0, 1, 2].map((k) => before * a.focus[k] + after * b.focus[k]);
-  const size = Math.hypot(...vector);
-  if (size === 0) return { focus: b.focus, magnification: 1 };
-  const focus = row(
-    vector.map((x) => x / size),
+  const vector = row(
+    [0, 1, 2].map((k) => before * a.focus[k] + after * b.focus[k]),
     0,
   );
-  return { focus, magnification: Math.exp(Math.asinh(size)) };
+  const size = Math.hypot(...vector);
+  return { focus: size === 0 ? b.focus : unit(vector), magnification: Math.exp(Math.asinh(size)) };
 }
 
 function betweenViews(a: View, b: View, t: number, isNorthUp: boolean): View {

@@ -1,10 +1,8 @@
 /** Where a ball is seen from: turns of it, north up or free. Vectors in the axes of the view: x right, y up, z to the reader. */
 
 import { Rotation } from "../kernel/api.ts";
-import { lonLatOf, type Vector } from "../space.ts";
+import { DEGREE, lonLatOf, type Vector } from "../space.ts";
 import { wrap } from "../words.ts";
-
-const DEGREE = Math.PI / 180;
 
 /** A ball seen from afar. */
 export class View {
