@@ -83,6 +83,16 @@ export function traceCorners(path: Path, corners: readonly (readonly [number, nu
   if (corners.length > 0) path.closePath();
 }
 
+/** The corners of a rectangle, counterclockwise where y points up. */
+export function cornersOf(left: number, low: number, right: number, high: number): [number, number][] {
+  return [
+    [left, low],
+    [right, low],
+    [right, high],
+    [left, high],
+  ];
+}
+
 /** A ring to drag: filled and crossed in front, empty behind the ball, filled on a rim. */
 export function drawHandle(pen: Pen, x: number, y: number, kind: "front" | "behind" | "rim"): void {
   const c = HANDLE_CROSS;

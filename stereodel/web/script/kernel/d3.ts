@@ -9,6 +9,7 @@
 
 import { lonlatToXyz, xyzToLonlat } from "./coordinates.ts";
 import { SphericalDelaunay } from "./delaunay.ts";
+import { lazy } from "./lazy.ts";
 import { SphericalVoronoi } from "./voronoi.ts";
 
 /** Longitude and latitude in degrees. */
@@ -77,17 +78,6 @@ export function geoDelaunay(places: readonly (readonly [number, number])[]): Geo
     find: () => (lon, lat) => delaunay.nearest(lonlatToXyz([lon, lat]))[0],
   });
   return geo;
-}
-
-/** An object whose values are made when they are first asked for. */
-function lazy<T extends object>(makers: { [Name in keyof T]: () => T[Name] }): T {
-  const made: Partial<T> = {};
-  const found = {} as T;
-  for (const name of Object.keys(makers) as (keyof T)[]) {
-    const get = (): T[keyof T] => (name in made ? made[name]! : (made[name] = makers[name]()));
-    Object.defineProperty(found, name, { enumerable: true, get });
-  }
-  return found;
 }
 
 // Loops rather than Array.from, which takes several times as long.

@@ -1,7 +1,7 @@
 /** Five small globes: the lens from five sides, as the panels of Figures 10 to 12, with the surroundings of the focus. */
 
 import { arcLayer, drawLayers, graticuleArcs, regionLayer, type Layer } from "../drawing/ball.ts";
-import { traceDisc, type Disc, type Pen } from "../drawing/pen.ts";
+import { cornersOf, traceDisc, type Disc, type Pen } from "../drawing/pen.ts";
 import { Plate, type Reason } from "../drawing/plate.ts";
 import { directionOf, lonLatOf, type Vector } from "../space.ts";
 import { lensMap, seenThrough, type Lens } from "../view/lens.ts";
@@ -76,12 +76,7 @@ function patchLayer({ focus, magnification }: Lens): Layer {
   const [lon, lat] = lonLatOf(focus);
   const reach = Math.min(REACH, REACH_TIMES_S / magnification);
   const [south, north] = [Math.max(lat - reach, -89), Math.min(lat + reach, 89)];
-  const corners = [
-    [lon - reach, south],
-    [lon + reach, south],
-    [lon + reach, north],
-    [lon - reach, north],
-  ];
+  const corners = cornersOf(lon - reach, south, lon + reach, north);
   const ring = corners.flatMap(([x, y], k) => {
     const [toX, toY] = corners[(k + 1) % 4];
     return Array.from({ length: POINTS }, (_, n) => {

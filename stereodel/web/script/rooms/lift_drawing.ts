@@ -3,7 +3,7 @@
 import { traceArc } from "../drawing/arcs.ts";
 import { traceGreat, tracePolygon } from "../drawing/ball.ts";
 import { traceRegions } from "../drawing/fill.ts";
-import { traceCorners, traceDisc, traceSegment, type Disc, type Path, type Pen } from "../drawing/pen.ts";
+import { cornersOf, traceCorners, traceDisc, traceSegment, type Disc, type Path, type Pen } from "../drawing/pen.ts";
 import type { LabelStyle } from "../drawing/styles.ts";
 import { cross, unit, type Vector } from "../space.ts";
 import type { View } from "../view/view.ts";
@@ -229,23 +229,16 @@ function lookAt({ sites, sheet, view }: LiftScene): (k: number) => Vector {
   return (k) => (known[k] ??= view.seen(sheet.direction(sites.places[2 * k], sites.places[2 * k + 1])));
 }
 
-/** Corners of the rectangle, counterclockwise. */
-function cornersOf({ sites }: LiftScene): [number, number][] {
+/** Corners of the sheet, counterclockwise. */
+function sheetCorners({ sites }: LiftScene): [number, number][] {
   const { middle, width, height } = sites.rectangle;
   const [w, h] = [width / 2, height / 2];
-  return (
-    [
-      [-w, -h],
-      [w, -h],
-      [w, h],
-      [-w, h],
-    ] as const
-  ).map(([x, y]) => [middle[0] + x, middle[1] + y]);
+  return cornersOf(middle[0] - w, middle[1] - h, middle[0] + w, middle[1] + h);
 }
 
 /** Directions along the sheet's sides, axes of the view. */
 function borderOf(scene: LiftScene): Vector[] {
-  const corners = cornersOf(scene);
+  const corners = sheetCorners(scene);
   return corners.flatMap(([ax, ay], k) => {
     const [bx, by] = corners[(k + 1) % 4];
     return Array.from({ length: PER_SIDE }, (_, j) => {
@@ -261,7 +254,7 @@ function ringOf(points: readonly Vector[]): { points: Float64Array; offsets: num
 
 /** The sheet's sides: arcs of circles through the pole. */
 function traceBorder(path: Path, disc: Disc, scene: LiftScene, side: "front" | "back"): void {
-  const corners = cornersOf(scene);
+  const corners = sheetCorners(scene);
   const look = (x: number, y: number): Vector => scene.view.seen(scene.sheet.direction(x, y));
   corners.forEach(([ax, ay], k) => {
     const [bx, by] = corners[(k + 1) % 4];
@@ -274,7 +267,7 @@ function traceBorder(path: Path, disc: Disc, scene: LiftScene, side: "front" | "
 function tracePlane(path: Path, stand: Stand, scene: LiftScene): void {
   traceCorners(
     path,
-    cornersOf(scene).map(([x, y]) => onPicture(stand, scene.view, scene.sheet.flat(x, y))),
+    sheetCorners(scene).map(([x, y]) => onPicture(stand, scene.view, scene.sheet.flat(x, y))),
   );
 }
 

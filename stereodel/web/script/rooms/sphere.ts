@@ -17,7 +17,7 @@ import { pointUnder, View } from "../view/view.ts";
 import { counted, latitude, longitude, ofFacets, wrap } from "../words.ts";
 import { Choice, PlaceFields, SiteForm, StepControl } from "./controls.ts";
 import { SiteRoom, withMoved, withoutSite, withSite, type NamedSites } from "./site_room.ts";
-import { BallLayers, drawBall, drawPlane, type SphereScene, type Step } from "./sphere_drawing.ts";
+import { ballLayers, drawBall, drawPlane, type SphereScene, type Step } from "./sphere_drawing.ts";
 import { SphereSites, type Bubble } from "./sphere_sites.ts";
 import {
   CLICKS,
@@ -75,7 +75,7 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
 
   // What follows from the state; made anew when it changes.
   #sites = new SphereSites(new Float64Array(0));
-  #layers = new BallLayers(this.#sites);
+  #layers = ballLayers(this.#sites);
   #twin = new Twin([0, 0, 1]);
   #seeing: Uint8Array = new Uint8Array(0);
   #step: Step | "done" = "done";
@@ -132,7 +132,7 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
   #take(named: NamedSites, reason: Reason = "state"): void {
     const sites = new SphereSites(named.places);
     this.#sites = sites;
-    this.#layers = new BallLayers(sites);
+    this.#layers = ballLayers(sites);
     if (this.#state.step !== null && this.#state.step >= sites.count) this.#state.step = null;
     this.show(named, {
       count: sites.count,

@@ -14,9 +14,19 @@ import {
   type Layer,
 } from "../drawing/ball.ts";
 import { traceCap } from "../drawing/fill.ts";
-import { drawHandle, traceCorners, traceDisc, traceSegment, type Disc, type Path, type Pen } from "../drawing/pen.ts";
+import {
+  cornersOf,
+  drawHandle,
+  traceCorners,
+  traceDisc,
+  traceSegment,
+  type Disc,
+  type Path,
+  type Pen,
+} from "../drawing/pen.ts";
 import type { LabelStyle } from "../drawing/styles.ts";
 import { MoebiusMap } from "../kernel/api.ts";
+import { lazy } from "../kernel/lazy.ts";
 import { cross, dot, type Vector } from "../space.ts";
 import type { View } from "../view/view.ts";
 import type { Bubble, Insertion, SphereSites } from "./sphere_sites.ts";
@@ -65,27 +75,14 @@ const LEAST_CIRCLE = 12;
 const AWAY = 12;
 
 /** What is drawn of sites on the ball, whose directions stay in the kernel while the ball turns. */
-export class BallLayers {
-  readonly #sites: SphereSites;
-  #edges: Layer | null = null;
-  #ridges: Layer | null = null;
-  #dots: Layer | null = null;
+export type BallLayers = Readonly<Record<"edges" | "ridges" | "dots", Layer>>;
 
-  constructor(sites: SphereSites) {
-    this.#sites = sites;
-  }
-
-  get edges(): Layer {
-    return (this.#edges ??= arcLayer("delaunay", edgeArcs(this.#sites.delaunay)));
-  }
-
-  get ridges(): Layer {
-    return (this.#ridges ??= arcLayer("voronoi", ridgeArcs(this.#sites.voronoi)));
-  }
-
-  get dots(): Layer {
-    return (this.#dots ??= dotLayer("site", this.#sites.xyz));
-  }
+export function ballLayers(sites: SphereSites): BallLayers {
+  return lazy({
+    edges: () => arcLayer("delaunay", edgeArcs(sites.delaunay)),
+    ridges: () => arcLayer("voronoi", ridgeArcs(sites.voronoi)),
+    dots: () => dotLayer("site", sites.xyz),
+  });
 }
 
 /** Where sites are drawn, those that are seen, and how a line runs from one to another. */
@@ -228,12 +225,7 @@ export function drawPlane(pen: Pen, frame: PlaneFrame, scene: SphereScene): void
 }
 
 function traceFrame(path: Path, { x, y, size }: PlaneFrame): void {
-  traceCorners(path, [
-    [x, y],
-    [x + size, y],
-    [x + size, y + size],
-    [x, y + size],
-  ]);
+  traceCorners(path, cornersOf(x, y, x + size, y + size));
 }
 
 function drawWholePlane(pen: Pen, frame: PlaneFrame, scene: SphereScene, flat: (k: number) => [number, number]): void {
