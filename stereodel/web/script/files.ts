@@ -146,7 +146,7 @@ function askColumns(
 }
 
 /** A message's beginning and its words: the file, the row where there is one, then what is wrong. */
-export function complaint(file: string, error: unknown): [string, string] {
+function complaint(file: string, error: unknown): [string, string] {
   if (!(error instanceof TableError)) return [`${file}:`, `the file cannot be read. ${UNCHANGED}`];
   const [, place, rest] = /^((?:row|line) \d+): (.*)$/s.exec(error.message) ?? [];
   const words = rest ?? error.message;

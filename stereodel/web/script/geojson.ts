@@ -94,7 +94,7 @@ const WHOLE_SPHERE: Geometry = {
  * @param corners three or more, counterclockwise seen from outside.
  * @param kind of the latitudes that are written.
  */
-export function sphericalPolygon(corners: readonly Vector[], kind: Latitude = "spherical"): Geometry {
+function sphericalPolygon(corners: readonly Vector[], kind: Latitude = "spherical"): Geometry {
   const ring = unwrapped(
     corners.flatMap((corner, k) => along(corner, corners[(k + 1) % corners.length])),
     kind,

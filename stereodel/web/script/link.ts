@@ -19,7 +19,7 @@ const LONGEST = 65536;
 const STEP = 1e7;
 
 /** Largest coordinate of a plane that a link holds: in steps it is still a whole number of a double. */
-export const FARTHEST = 4e8;
+const FARTHEST = 4e8;
 
 /** A link that says nothing that can be shown. */
 export class LinkError extends Error {}

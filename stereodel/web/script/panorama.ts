@@ -99,7 +99,7 @@ void main() {
   colour = square <= 1.02 ? textureGrad(picture, at, dx, dy) : vec4(0.0);
 }`;
 
-export class PanoramaShader {
+class PanoramaShader {
   readonly #gl: WebGL2RenderingContext;
   readonly #program: WebGLProgram;
 

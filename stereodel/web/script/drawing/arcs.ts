@@ -12,7 +12,7 @@ import type { Disc, Path } from "./pen.ts";
 export type Side = "front" | "back";
 
 /** Largest distance of an arc from its chord that no eye sees, pixels: such arcs are drawn as lines. */
-export const UNSEEN_BOW = 0.1;
+const UNSEEN_BOW = 0.1;
 
 /** Product of two sides of a triangle, ball radii, below which its corners are one point, told apart by rounding alone. */
 const ONE_POINT = 1e-24;

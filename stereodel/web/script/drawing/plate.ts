@@ -11,10 +11,10 @@ export type Reason = "size" | "colours" | "state" | "hand" | "flight" | "rest" |
 const REST = 120;
 
 /** Between a ball's limb and the edge of its canvas, pixels: handles on the limb are whole. The style sheet has it, too. */
-export const BALL_MARGIN = 7;
+const BALL_MARGIN = 7;
 
 /** Draws everything. While it moves, `isMoving`, what takes long may be left out. */
-export type Painter = (pen: Pen, isMoving: boolean) => void;
+type Painter = (pen: Pen, isMoving: boolean) => void;
 
 export class Plate {
   readonly canvas: HTMLCanvasElement;

@@ -50,7 +50,7 @@ export const STYLES = {
 export type StyleName = keyof typeof STYLES;
 
 /** A dot: its radius, its ink and its rim. */
-export interface DotStyle {
+interface DotStyle {
   readonly radius: number;
   readonly fill: Token;
   readonly rim: Token;
@@ -99,7 +99,7 @@ export const NARROW = "(max-width: 43.75rem)";
 export const SERIF =
   '"STIX Two Text", STIXGeneral, STIX, XITS, "Times New Roman", "Nimbus Roman", "TeX Gyre Termes", "Liberation Serif", Times, serif';
 
-export const TOKENS = [
+const TOKENS = [
   "paper",
   "ink",
   "ink-2",

@@ -160,7 +160,7 @@ export class SvgPen implements Pen {
 }
 
 /** What a trace lays down, as the attribute `d`. */
-export function pathData(trace: Trace): string {
+function pathData(trace: Trace): string {
   const path = new SvgPath();
   trace(path);
   return path.d;

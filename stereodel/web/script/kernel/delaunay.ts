@@ -2,7 +2,7 @@
 
 import { asCount, asDirections, asIndices, asPoints, type Numbers } from "./checks.ts";
 import { lonlatToXyz, type Latitude } from "./coordinates.ts";
-import { Kept, kernel, type Answer, type Argument } from "./instance.ts";
+import { computed, filled, Kept, kernel, type Answer, type Argument } from "./instance.ts";
 import { adjacencyOf, boundaryOf, edgesOf } from "./topology.ts";
 
 /** Tests that each stage left open; `curvature` is a stage of the sphere alone. */
@@ -79,13 +79,9 @@ export abstract class Delaunay {
 
   /** The centre of each triangle's circle, rounded from the exact one: a point of the plane, or a unit vector. */
   get circumcenters(): Float64Array {
-    return (this.derived.centers ??= kernel().run((session) => {
-      const count = this.simplices.length / 3;
-      const centers = session.place(Float64Array, this.width * count);
-      const { points, simplices } = this.kept;
-      session.call(`${this.space}_circumcenters`, points, this.size, simplices, count, centers);
-      return centers.copy();
-    }));
+    const { points, size, simplices, count } = this.forKernel;
+    const name = `${this.space}_circumcenters`;
+    return (this.derived.centers ??= computed(this.width * count, name, points, size, simplices, count));
   }
 
   /**
@@ -182,12 +178,10 @@ export abstract class Delaunay {
   /** One byte a triangle of the sphere: 1 where no query can lie. */
   protected get closed(): Kept | null {
     if (this.width === 2) return null;
-    return (this.derived.closing ??= kernel().run((session) => {
-      const { points, size, simplices, count } = this.forKernel;
-      const closing = session.place(Uint8Array, count);
-      session.call("sphere_closing", points, size, simplices, count, closing);
-      return new Kept(closing.copy());
-    }));
+    const { points, size, simplices, count } = this.forKernel;
+    return (this.derived.closing ??= new Kept(
+      filled(Uint8Array, count, "sphere_closing", points, size, simplices, count),
+    ));
   }
 
   private get space(): string {
@@ -204,11 +198,7 @@ export abstract class Delaunay {
   }
 
   private answers(length: number, name: string, given: Argument[]): Int32Array {
-    return kernel().run((session) => {
-      const found = session.place(Int32Array, length);
-      session.call(`${this.space}_${name}`, ...given, found);
-      return found.copy();
-    });
+    return filled(Int32Array, length, `${this.space}_${name}`, ...given);
   }
 
   private fresh(points: Float64Array): void {

@@ -232,10 +232,20 @@ export function kernel(): Kernel {
 }
 
 /** So many numbers that a function of the kernel fills in behind its other arguments. */
-export function computed(length: number, name: string, ...given: Argument[]): Float64Array {
+export function filled<A extends NumberArray>(
+  Type: ArrayMaker<A>,
+  length: number,
+  name: string,
+  ...given: Argument[]
+): A {
   return kernel().run((session) => {
-    const out = session.place(Float64Array, length);
+    const out = session.place(Type, length);
     session.call(name, ...given, out);
     return out.copy();
   });
+}
+
+/** So many doubles. */
+export function computed(length: number, name: string, ...given: Argument[]): Float64Array {
+  return filled(Float64Array, length, name, ...given);
 }

@@ -8,7 +8,7 @@ const Z_AXIS = [0, 0, 1];
 /** Half a turn about x: it turns the fisheye of magnification 1/S along z into that of S, exactly. */
 const FLIP = [0, 1, 0, 0];
 /** Largest S (and largest 1/S) that can be evaluated. */
-export const LARGEST_MAGNIFICATION = 1e100;
+const LARGEST_MAGNIFICATION = 1e100;
 
 /** Directions that stay in the kernel's memory while a map changes, as those of a picture from frame to frame. */
 export class Directions {

@@ -3,7 +3,7 @@
 import { asScalar, type Numbers } from "./checks.ts";
 import { lonlatToXyz, type Latitude } from "./coordinates.ts";
 import { PlanarDelaunay, SphericalDelaunay, type Delaunay } from "./delaunay.ts";
-import { kernel, type Argument, type Kept } from "./instance.ts";
+import { computed, kernel, type Argument, type Kept } from "./instance.ts";
 
 /**
  * A Voronoi diagram, the dual of a Delaunay triangulation.
@@ -106,12 +106,8 @@ export abstract class Diagram {
   /** Numbers for each site from the cells. */
   private measured(what: string, width: number): Float64Array {
     const given = this.triangulated ? this.entries() : [this.size];
-    return kernel().run((session) => {
-      const out = session.place(Float64Array, width * this.size);
-      const kind = this.triangulated ? "cell" : "flat";
-      session.call(`${this.space}_${kind}_${what}`, this.sites, ...given, this.order, this.order.length, out);
-      return out.copy();
-    });
+    const name = `${this.space}_${this.triangulated ? "cell" : "flat"}_${what}`;
+    return computed(width * this.size, name, this.sites, ...given, this.order, this.order.length);
   }
 
   private entries(): Argument[] {
@@ -168,10 +164,6 @@ export class SphericalVoronoi extends Diagram {
       p.set(this.points.subarray(3 * ridges[2 * k], 3 * ridges[2 * k] + 3), 3 * k);
       q.set(this.points.subarray(3 * ridges[2 * k + 1], 3 * ridges[2 * k + 1] + 3), 3 * k);
     }
-    return kernel().run((session) => {
-      const normals = session.place(Float64Array, p.length);
-      session.call("bisector_normals", p, q, p.length / 3, normals);
-      return normals.copy();
-    });
+    return computed(p.length, "bisector_normals", p, q, p.length / 3);
   }
 }

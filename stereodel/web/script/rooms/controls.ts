@@ -126,7 +126,7 @@ export function tellNamed(messages: Messages, values: LinkValues, what: keyof ty
 }
 
 /** What its buttons do. */
-export interface SiteFormActions {
+interface SiteFormActions {
   add(place: Place): void;
   move(place: Place): void;
   remove(): void;

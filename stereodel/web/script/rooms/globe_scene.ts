@@ -19,7 +19,7 @@ import type { Painted } from "../panorama.ts";
 import { directionOf, lonLatOf, row } from "../space.ts";
 
 /** The radius of the equal circles on Earth, kilometres, and in degrees of a sphere with the Earth's mean radius. */
-export const CIRCLE_KILOMETRES = 150;
+const CIRCLE_KILOMETRES = 150;
 const EARTH = 6371.0088;
 export const CIRCLE_RADIUS = ((CIRCLE_KILOMETRES / EARTH) * 180) / Math.PI;
 

@@ -47,7 +47,7 @@ const LETTER: LabelStyle = { ink: "accent-text", halo: "ball", size: 17, italic:
 const WORD: LabelStyle = { ink: "ink-2", halo: "ball", size: 14 };
 
 /** Where the picture is in a drawing: the point of contact, and pixels of a diagonal. */
-export interface Stand {
+interface Stand {
   readonly x: number;
   readonly y: number;
   readonly scale: number;

@@ -95,7 +95,7 @@ export interface Rectangle {
 }
 
 /** The smallest rectangle around places (n, 2), or one about the origin with given sides. */
-export function rectangleAround(places: Float64Array, sides?: readonly [number, number]): Rectangle {
+function rectangleAround(places: Float64Array, sides?: readonly [number, number]): Rectangle {
   if (sides) return { middle: [0, 0], width: sides[0], height: sides[1] };
   const low = [Infinity, Infinity];
   const high = [-Infinity, -Infinity];

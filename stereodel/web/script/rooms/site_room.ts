@@ -24,7 +24,7 @@ export interface NamedSites {
 }
 
 /** Sites of no file, of a link or changed by hand. */
-export function ownSites(places: Float64Array, names: readonly string[] | null = null): NamedSites {
+function ownSites(places: Float64Array, names: readonly string[] | null = null): NamedSites {
   return { places, names, set: OWN, file: null };
 }
 

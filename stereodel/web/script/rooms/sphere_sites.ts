@@ -160,7 +160,7 @@ export function insertion(site: number, before: Int32Array, signs: ArrayLike<num
 }
 
 /** The one closed line around some facets, on their left: their sides without a facet of theirs across. */
-export function outlineOf(facets: Int32Array, chosen: readonly number[]): number[] {
+function outlineOf(facets: Int32Array, chosen: readonly number[]): number[] {
   const sides = new Map<string, [number, number]>();
   for (const k of chosen) {
     for (let corner = 0; corner < 3; ++corner) {

@@ -4,7 +4,7 @@ import { dot, lonLatOf, type Vector } from "../space.ts";
 import type { SphereSites } from "./sphere_sites.ts";
 
 /** The image of a circle of the sphere: a circle with its middle and radius, or a line through the pole's circle. */
-export type PlaneCircle =
+type PlaneCircle =
   | {
       readonly kind: "circle";
       readonly middle: readonly [number, number];

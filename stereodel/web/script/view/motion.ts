@@ -7,7 +7,7 @@ const FLIGHT = 400;
 const REST = 300;
 
 /** Whether the reader has asked for no motion: movements are cuts then. */
-export function isStill(): boolean {
+function isStill(): boolean {
   return matchMedia("(prefers-reduced-motion: reduce)").matches;
 }
 
