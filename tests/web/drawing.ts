@@ -1,20 +1,17 @@
 /** Measurements of the drawing core in Node: what is laid into paths against what the kernel says of the same points. */
 
-import { readFileSync } from "node:fs";
-import { Contents } from "../../stereodel/web/script/contents.ts";
-import type { Rings } from "../../stereodel/web/script/contents.ts";
-import { traceArc } from "../../stereodel/web/script/drawing/arcs.ts";
+import { Contents, type Rings } from "../../stereodel/web/script/contents.ts";
+import { arcThrough, traceArc } from "../../stereodel/web/script/drawing/arcs.ts";
 import { circlePoints, perpendicular, regionLayer } from "../../stereodel/web/script/drawing/ball.ts";
-import { arcThrough } from "../../stereodel/web/script/drawing/arcs.ts";
 import { traceCap } from "../../stereodel/web/script/drawing/fill.ts";
 import type { Disc, Path, Pen } from "../../stereodel/web/script/drawing/pen.ts";
 import { SvgPen } from "../../stereodel/web/script/drawing/svg_pen.ts";
-import { lonlatToXyz, MoebiusMap } from "../../stereodel/web/script/kernel/api.ts";
+import { lonlatToXyz, MoebiusMap, Rotation } from "../../stereodel/web/script/kernel/api.ts";
 import { load } from "../../stereodel/web/script/kernel/instance.ts";
-import { cross, dot, row, unit } from "../../stereodel/web/script/rooms/space.ts";
-import type { Vector } from "../../stereodel/web/script/rooms/space.ts";
+import { cross, dot, row, unit, type Vector } from "../../stereodel/web/script/space.ts";
 import * as lenses from "../../stereodel/web/script/view/lens.ts";
 import { pointUnder, View } from "../../stereodel/web/script/view/view.ts";
+import { readFileSync } from "node:fs";
 
 await load(readFileSync(new URL("../../stereodel/web/built/stereodel.wasm", import.meta.url)));
 
@@ -36,12 +33,7 @@ function direction(): Vector {
 }
 
 function view(): View {
-  return new View([...unit4([0, 0, 0, 0].map(() => 2 * random() - 1))] as [number, number, number, number]);
-}
-
-function unit4(q: number[]): number[] {
-  const size = Math.hypot(...q);
-  return q.map((x) => x / size);
+  return new View(new Rotation([0, 0, 0, 0].map(() => 2 * random() - 1)));
 }
 
 type Piece = { at: (t: number) => [number, number]; from: number; to: number; isLine: boolean };
@@ -265,7 +257,7 @@ export async function slowTurn(block: string, frames: number): Promise<number[]>
   const layer = regionLayer("land", null, lonlatToXyz(rings.lonlat), rings.offsets, row(AT_SEA, 0), false);
   const lens = MoebiusMap.fisheye([10, 48], 3);
   return Array.from({ length: frames }, (_, k) =>
-    share(layer, lenses.seenThrough(lens, new View(View.above(20, 120 - (90 * k) / frames).turn))),
+    share(layer, lenses.seenThrough(lens, View.above(20, 120 - (90 * k) / frames))),
   );
 }
 

@@ -20,39 +20,22 @@ type Values = Float64Array | Int32Array | Int8Array | Uint8Array;
 
 /** SHA-256 of an array's bytes; every NaN is the same one. */
 async function hash(values: Values): Promise<string> {
-  const same =
-    values instanceof Float64Array
-      ? values.map((value) => (Number.isNaN(value) ? NaN : value))
-      : values;
-  const bytes = new Uint8Array(
-    same.buffer as ArrayBuffer,
-    same.byteOffset,
-    same.byteLength,
-  );
+  const same = values instanceof Float64Array ? values.map((value) => (Number.isNaN(value) ? NaN : value)) : values;
+  const bytes = new Uint8Array(same.buffer as ArrayBuffer, same.byteOffset, same.byteLength);
   const digest = new Uint8Array(await crypto.subtle.digest("SHA-256", bytes));
-  return Array.from(digest, (byte) => byte.toString(16).padStart(2, "0")).join(
-    "",
-  );
+  return Array.from(digest, (byte) => byte.toString(16).padStart(2, "0")).join("");
 }
 
-async function hashed(
-  arrays: Record<string, Values>,
-): Promise<Record<string, string>> {
+async function hashed(arrays: Record<string, Values>): Promise<Record<string, string>> {
   const names = Object.keys(arrays);
   const all = await Promise.all(names.map((name) => hash(arrays[name])));
   return Object.fromEntries(names.map((name, k) => [name, all[k]]));
 }
 
 /** Everything about a set, of the plane or of the sphere by the numbers in a row. */
-export async function describe(
-  points: Float64Array,
-  width: number,
-  queries: Float64Array,
-): Promise<object> {
+export async function describe(points: Float64Array, width: number, queries: Float64Array): Promise<object> {
   const onSphere = width === 3;
-  const triangulation = onSphere
-    ? new SphericalDelaunay(points)
-    : new PlanarDelaunay(points);
+  const triangulation = onSphere ? new SphericalDelaunay(points) : new PlanarDelaunay(points);
   const diagram =
     triangulation instanceof SphericalDelaunay
       ? new SphericalVoronoi(triangulation)
@@ -63,13 +46,7 @@ export async function describe(
     simplices: triangulation.simplices,
     neighbors: triangulation.neighbors,
     duplicates: triangulation.duplicates,
-    counts: Float64Array.of(
-      triangulation.dimension,
-      filter,
-      curvature,
-      doubleDouble,
-      exact,
-    ),
+    counts: Float64Array.of(triangulation.dimension, filter, curvature, doubleDouble, exact),
     edges: triangulation.edges,
     indptr,
     indices,
@@ -94,10 +71,7 @@ export async function describe(
   }
   if (triangulation.size > 0) {
     arrays["nearest"] = triangulation.nearest(queries);
-    arrays["nearest_few"] = triangulation.nearest(
-      queries,
-      Math.min(5, triangulation.size),
-    );
+    arrays["nearest_few"] = triangulation.nearest(queries, Math.min(5, triangulation.size));
     triangulation.insert(queries.subarray(0, width));
     arrays["inserted"] = triangulation.simplices;
     arrays["number"] = triangulation.remove([0]);
@@ -128,36 +102,17 @@ export function ellipsoid(lonlat: Float64Array): Promise<object> {
 }
 
 /** Maps made in the same ways, and what they make of directions. */
-export async function maps(
-  lonlat: Float64Array,
-  magnifications: number[],
-): Promise<object[]> {
+export async function maps(lonlat: Float64Array, magnifications: number[]): Promise<object[]> {
   const xyz = lonlatToXyz(lonlat);
   const found = [];
   for (const [k, magnification] of magnifications.entries()) {
-    const lens = MoebiusMap.fisheye(
-      lonlat.subarray(2 * k, 2 * k + 2),
-      magnification,
-    );
-    const turned = MoebiusMap.rotation(
-      Rotation.about(lonlat.subarray(2 * k + 2, 2 * k + 4), 10 * k + 0.1),
-    );
-    const both = lens
-      .after(turned)
-      .after(MoebiusMap.fisheye(xyz.subarray(3 * k + 9, 3 * k + 12), 2.5));
-    for (const map of [
-      lens,
-      both,
-      both.inverse(),
-      lens.after(lens.inverse()),
-    ]) {
+    const lens = MoebiusMap.fisheye(lonlat.subarray(2 * k, 2 * k + 2), magnification);
+    const turned = MoebiusMap.rotation(Rotation.about(lonlat.subarray(2 * k + 2, 2 * k + 4), 10 * k + 0.1));
+    const both = lens.after(turned).after(MoebiusMap.fisheye(xyz.subarray(3 * k + 9, 3 * k + 12), 2.5));
+    for (const map of [lens, both, both.inverse(), lens.after(lens.inverse())]) {
       found.push(
         await hashed({
-          parameters: Float64Array.of(
-            ...map.left.quaternion,
-            map.magnification,
-            ...map.right.quaternion,
-          ),
+          parameters: Float64Array.of(...map.left.quaternion, map.magnification, ...map.right.quaternion),
           focus: map.focus,
           images: map.apply(xyz),
           scales: map.scaleFactor(xyz),

@@ -78,7 +78,7 @@ WRONG = {
     "null.geojson": (geojson(point(1, None)), "row 1: a Point has two or three numbers, not [1,null]"),
     "latitude.geojson": (geojson(point(1, 97.2)), "row 1: latitude 97.2 is outside [-90, 90]"),
     "other_system.geojson": (geojson(point(1, 2), crs=crs("EPSG:3857")), "the file is in EPSG:3857"),
-    "cities.xyz": (b"\x89PNG\r\n\x1a\n\x00", "cities.xyz is not a table, GeoJSON or a 2 : 1 picture."),
+    "cities.xyz": (b"\x89PNG\r\n\x1a\n\x00", "this is not a table, GeoJSON or a 2 : 1 picture"),
 }
 
 PLANE = {
@@ -167,7 +167,7 @@ def test_random_tables_are_read_alike(node, tmp_path, rng):
 @pytest.mark.thorough
 def test_more_points_than_the_page_takes(node):
     said = on_page(node, {"stars.csv": "lon,lat\n" + "1,2\n" * 1_000_001})["stars.csv"]["error"]
-    assert said.startswith("has 1\u202f000\u202f001 points. The page takes up to 1\u202f000\u202f000;")
+    assert said.startswith("there are 1\u202f000\u202f001 points; the page takes up to 1\u202f000\u202f000;")
 
 
 @pytest.mark.parametrize("kind", ["lonlat", "plane"])

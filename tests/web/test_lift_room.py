@@ -11,9 +11,7 @@ from .conftest import LOADED, SCRIPT
 SHEET = scattered()["sheet"]
 
 ROOM = f"""{LOADED}
-import {{ separationBounds }} from "{SCRIPT}/rooms/lift_sheet.ts";
-import {{ LiftSites }} from "{SCRIPT}/rooms/lift_sites.ts";
-import {{ sheetSets }} from "{SCRIPT}/rooms/lift_sets.ts";
+import {{ LiftSites, separationBounds, sheetSets }} from "{SCRIPT}/rooms/lift_sites.ts";
 const sitesOf = (places, sides) => new LiftSites(Float64Array.from(places.flat()), sides);
 const imagesOf = (sites, corner) => Array.from({{ length: sites.count }}, (_, k) => {{
   const sheet = sites.sheet(corner), [x, y] = sites.places.subarray(2 * k, 2 * k + 2);

@@ -14,11 +14,12 @@ GAP = scattered()["gap"]
 
 ROOM = f"""{LOADED}
 import {{ lonlatToXyz }} from "{SCRIPT}/kernel/api.ts";
-import {{ facetsAfter }} from "{SCRIPT}/rooms/insertion.ts";
-import {{ directionOf }} from "{SCRIPT}/rooms/space.ts";
+import {{ directionOf }} from "{SCRIPT}/space.ts";
 import {{ SphereSites }} from "{SCRIPT}/rooms/sphere_sites.ts";
 import {{ Twin }} from "{SCRIPT}/rooms/twin.ts";
 import {{ sphereSets }} from "{SCRIPT}/sets.ts";
+const facetsAfter = ({{ before, seeing, fan }}) =>
+  [...before.filter((_, k) => !seeing.includes(Math.floor(k / 3))), ...fan];
 const sitesOf = (lonlat) => new SphereSites(Float64Array.from(lonlat.flat()));
 """
 

@@ -4,6 +4,7 @@
  * Each is a text by name that `stereodel/web/contents.py` wrote: base64 of deflated bytes.
  */
 
+import { fromBase64, signed, wholeNumbers } from "./bytes.ts";
 import type { Latitude } from "./kernel/api.ts";
 
 /** The text of a name, or null where the page does not have it. */
@@ -26,12 +27,6 @@ export interface Given {
   readonly names: readonly string[] | null;
 }
 
-/** Sets of points that the page may have: as they are called in `stereodel.data`, and those that rooms begin with. */
-export type SetName = "airports" | "cities" | "gap" | "sheet" | "stars";
-
-/** Scripts that are compiled at first need. */
-export type ScriptName = "exchange" | "lift";
-
 /** What a page, or a widget, carries with it. */
 export class Contents {
   readonly #blocks: Blocks;
@@ -46,17 +41,13 @@ export class Contents {
   }
 
   /** The kernel, as bytes of WebAssembly. */
-  async kernel(): Promise<Uint8Array<ArrayBuffer>> {
-    const bytes = await this.#bytes("kernel");
-    if (bytes === null) throw new Error("the page has no kernel");
-    return bytes;
+  kernel(): Promise<Uint8Array<ArrayBuffer>> {
+    return this.#needed("kernel");
   }
 
   /** The text of a script that is compiled at first need. */
-  async script(name: ScriptName): Promise<string> {
-    const bytes = await this.#bytes(name);
-    if (bytes === null) throw new Error(`the page has no script ${name}`);
-    return new TextDecoder().decode(bytes);
+  async script(name: string): Promise<string> {
+    return new TextDecoder().decode(await this.#needed(name));
   }
 
   /** Land for maps of 1 : 50 or 1 : 110 million; null where the page does not have it, which may be so of the former. */
@@ -66,7 +57,7 @@ export class Contents {
   }
 
   /** The points of a set: longitude and latitude in turn, degrees, or x and y of the sheet. */
-  async set(name: SetName): Promise<Float64Array> {
+  async set(name: string): Promise<Float64Array> {
     const bytes = await this.#bytes(name);
     return bytes === null ? new Float64Array(0) : places(bytes).lonlat;
   }
@@ -86,6 +77,12 @@ export class Contents {
     return bytes === null ? "authalic" : (new TextDecoder().decode(bytes) as Latitude);
   }
 
+  async #needed(name: string): Promise<Uint8Array<ArrayBuffer>> {
+    const bytes = await this.#bytes(name);
+    if (bytes === null) throw new Error(`the page has no ${name}`);
+    return bytes;
+  }
+
   async #bytes(name: string): Promise<Uint8Array<ArrayBuffer> | null> {
     const text = this.#blocks(name);
     return text === null ? null : inflated(text);
@@ -97,35 +94,21 @@ function json(bytes: Uint8Array): unknown {
 }
 
 async function inflated(text: string): Promise<Uint8Array<ArrayBuffer>> {
-  const letters = atob(text);
-  const bytes = new Uint8Array(letters.length);
-  for (let k = 0; k < letters.length; ++k) bytes[k] = letters.charCodeAt(k);
-  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
+  const stream = new Blob([fromBase64(text)]).stream().pipeThrough(new DecompressionStream("deflate"));
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
 /** Rows of places: digits, number of rows, their sizes, steps of all longitudes, steps of all latitudes. */
 function places(bytes: Uint8Array): Rings {
-  let at = 0;
-  const next = (): number => {
-    // Products and not shifts, which end at 32 bits.
-    let number = 0;
-    for (let weight = 1; ; weight *= 128) {
-      const byte = bytes[at++];
-      number += (byte & 127) * weight;
-      if (byte < 128) return number;
-    }
-  };
-  const unit = 10 ** next();
-  const offsets = new Uint32Array(next() + 1);
-  for (let row = 1; row < offsets.length; ++row) offsets[row] = offsets[row - 1] + next();
-  const count = offsets[offsets.length - 1];
+  const [digits, rows, ...numbers] = wholeNumbers(bytes);
+  const offsets = new Uint32Array(rows + 1);
+  for (let row = 0; row < rows; ++row) offsets[row + 1] = offsets[row] + numbers[row];
+  const [count, unit] = [offsets[rows], 10 ** digits];
   const lonlat = new Float64Array(2 * count);
   for (let axis = 0; axis < 2; ++axis) {
     let place = 0;
     for (let k = 0; k < count; ++k) {
-      const zigzag = next();
-      place += zigzag % 2 ? -(zigzag + 1) / 2 : zigzag / 2;
+      place += signed(numbers[rows + axis * count + k]);
       lonlat[2 * k + axis] = place / unit;
     }
   }

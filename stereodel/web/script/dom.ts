@@ -12,21 +12,20 @@ export function field(root: ParentNode, name: string): HTMLInputElement {
   return find<HTMLInputElement>(root, `input[name="${name}"]`);
 }
 
-/** A new element with a class (none if empty) and content. */
+/** A new element with a class (none if empty) or with properties, and content. */
 export function make<K extends keyof HTMLElementTagNameMap>(
   tag: K,
-  className = "",
+  given: string | Partial<HTMLElementTagNameMap[K]> = "",
   ...content: (Node | string)[]
 ): HTMLElementTagNameMap[K] {
-  const element = document.createElement(tag);
-  if (className) element.className = className;
+  const properties = typeof given === "string" ? (given === "" ? {} : { className: given }) : given;
+  const element = Object.assign(document.createElement(tag), properties);
   element.append(...content);
   return element;
 }
 
 /**
  * Writes a sentence with marks into an element: `*P*` is a letter in italics, `_12_` a number of the moment.
- *
  * The content is made of text nodes alone, so that names of files cannot become elements.
  */
 export function say(element: Element, text: string): void {

@@ -1,11 +1,54 @@
 /** The script of files: points and pictures that are opened, drawings and data that are taken along. */
 
-import { sheetPng, sheetSvg } from "./drawing/sheet.ts";
-import { copy, download } from "./export.ts";
+import { make } from "./dom.ts";
+import { CanvasPen } from "./drawing/canvas_pen.ts";
+import type { Sheet } from "./drawing/pen.ts";
+import { colours } from "./drawing/styles.ts";
+import { SvgPen } from "./drawing/svg_pen.ts";
+import { openPoints } from "./files.ts";
 import { placesGeojson, sitesGeojson } from "./geojson.ts";
-import { openPoints } from "./opening.ts";
 import { openPanorama } from "./panorama.ts";
 import { globePython, liftPython, spherePython } from "./rooms/python.ts";
+
+/** Saves a file under the reader's downloads. */
+function download(name: string, content: Blob | string, type = "text/plain"): void {
+  const blob = typeof content === "string" ? new Blob([content], { type: `${type};charset=utf-8` }) : content;
+  const link = make("a", { href: URL.createObjectURL(blob), download: name });
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 60_000); // browsers read it after the click
+}
+
+/** Copies text; where the page may not use the clipboard, by way of a selection. */
+async function copy(text: string): Promise<void> {
+  try {
+    await navigator.clipboard.writeText(text);
+  } catch {
+    const area = make("textarea", { value: text, className: "unseen" });
+    document.body.append(area);
+    area.select();
+    document.execCommand("copy");
+    area.remove();
+  }
+}
+
+/** The picture as SVG, in the colours of the screen. */
+function sheetSvg({ title, width, height, weight, paint }: Sheet): string {
+  const pen = new SvgPen(width, height, colours(), weight);
+  paint(pen);
+  return pen.text(title);
+}
+
+/** The picture as PNG with so many pixels for one of the screen. */
+function sheetPng({ width, height, weight, paint }: Sheet, scale: number): Promise<Blob> {
+  const canvas = make("canvas", { width: Math.round(width * scale), height: Math.round(height * scale) });
+  const context = canvas.getContext("2d")!;
+  context.fillStyle = colours().paper;
+  context.fillRect(0, 0, canvas.width, canvas.height);
+  paint(new CanvasPen(context, width, height, scale, colours(), weight));
+  return new Promise((resolve, reject) => {
+    canvas.toBlob((blob) => (blob === null ? reject(new Error("the picture is too large")) : resolve(blob)));
+  });
+}
 
 const exchange = {
   copy,

@@ -1,12 +1,12 @@
 /**
  * Files of points that the reader picks or drops: read here, sent nowhere.
- *
  * Delimited text and GeoJSON, in which `stereodel.io.read_points` finds the same places.
  */
 
+import { make } from "./dom.ts";
+import type { Messages } from "./messages.ts";
 import { findLonLat, findXY, lonLatPlaces, planePlaces } from "./tables/coordinates.ts";
-import { readTable } from "./tables/delimited.ts";
-import { ColumnsError, TableError } from "./tables/error.ts";
+import { ColumnsError, readTable, TableError } from "./tables/delimited.ts";
 import { geojsonPoints } from "./tables/geojson.ts";
 import { counted } from "./words.ts";
 
@@ -28,7 +28,6 @@ export type Kind = "lonlat" | "plane";
 
 /**
  * Reads points from the bytes of a file.
- *
  * @param chosen names of the two columns, where the reader was asked.
  * @throws TableError in words for the reader; ColumnsError where the columns must be chosen.
  */
@@ -40,28 +39,16 @@ export async function readPoints(
 ): Promise<Points> {
   const bytes = await unpacked(content);
   const isJson = JSON_TEXT.test(file) || (!TEXT.test(file) && beginsAs(bytes, "{"));
-  if (!isJson && !TEXT.test(file) && isBinary(bytes)) throw new NoTableError(file);
+  if (!isJson && !TEXT.test(file) && isBinary(bytes))
+    throw new TableError("this is not a table, GeoJSON or a 2 : 1 picture");
   const text = decoded(bytes);
   const found = isJson ? ofGeojson(text, kind) : ofText(text, kind, chosen);
   const count = found.places.length / 2;
-  if (count > MOST_POINTS) throw new TooManyError(count);
+  if (count > MOST_POINTS) {
+    const most = `the page takes up to ${counted(MOST_POINTS)}; for more there is the Python library`;
+    throw new TableError(`there are ${counted(count)} points; ${most}`);
+  }
   return { file, ...found };
-}
-
-/** A file of another kind. */
-export class NoTableError extends TableError {
-  constructor(file: string) {
-    super(`${file} is not a table, GeoJSON or a 2 : 1 picture.`);
-  }
-}
-
-/** A file with more points than the page takes. */
-export class TooManyError extends TableError {
-  constructor(count: number) {
-    super(
-      `has ${counted(count)} points. The page takes up to ${counted(MOST_POINTS)}; for more there is the Python library.`,
-    );
-  }
 }
 
 function ofGeojson(text: string, kind: Kind): Omit<Points, "file"> {
@@ -110,4 +97,59 @@ function decoded(bytes: Uint8Array): string {
   } catch {
     throw new TableError("the file is not text in UTF-8; save it in that encoding");
   }
+}
+
+const UNCHANGED = "Nothing has changed.";
+
+/** Calls `opened` with the points of a file, or says why there are none; the reader may be asked for the columns. */
+export async function openPoints(
+  file: File,
+  kind: Kind,
+  messages: Messages,
+  opened: (points: Points) => void,
+  chosen?: [string, string],
+): Promise<void> {
+  let points: Points;
+  try {
+    points = await readPoints(file.name, new Uint8Array(await file.arrayBuffer()), kind, chosen);
+  } catch (error) {
+    if (error instanceof ColumnsError && error.names.length > 1) {
+      const kinds: [string, string] = kind === "lonlat" ? ["Longitude", "Latitude"] : ["x", "y"];
+      askColumns(file.name, error.names, kinds, messages, (names) => {
+        void openPoints(file, kind, messages, opened, names);
+      });
+    } else {
+      messages.show(...complaint(file.name, error));
+    }
+    return;
+  }
+  messages.close();
+  opened(points);
+}
+
+/** Asks which columns of a file are meant; `chosen` gets two names. */
+function askColumns(
+  file: string,
+  names: readonly string[],
+  kinds: readonly [string, string],
+  messages: Messages,
+  chosen: (names: [string, string]) => void,
+): void {
+  const selects = kinds.map((_, k) => {
+    const select = make("select", "", ...names.map((name) => make("option", "", name)));
+    select.selectedIndex = Math.min(k, names.length - 1);
+    return select;
+  });
+  const open = { words: "Open", act: () => chosen([selects[0].value, selects[1].value]) };
+  const inputs = kinds.map((kind, k) => make("label", "field column", `${kind} `, selects[k]));
+  messages.show(`Which columns of ${file}?`, "", open, inputs);
+}
+
+/** A message's beginning and its words: the file, the row where there is one, then what is wrong. */
+function complaint(file: string, error: unknown): [string, string] {
+  if (!(error instanceof TableError)) return [`${file}:`, `the file cannot be read. ${UNCHANGED}`];
+  const [, place, rest] = /^((?:row|line) \d+): (.*)$/s.exec(error.message) ?? [];
+  const words = rest ?? error.message;
+  const stop = /[.?!]$/.test(words) ? "" : ".";
+  return [place === undefined ? `${file}:` : `${file}, ${place}:`, `${words}${stop} ${UNCHANGED}`];
 }

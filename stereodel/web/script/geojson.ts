@@ -3,13 +3,11 @@
  * around the poles. Sides are great circles, sampled so that no chord is longer than a degree.
  */
 
-import { SphericalVoronoi } from "./kernel/api.ts";
-import type { Latitude } from "./kernel/api.ts";
-import { tableLatitude } from "./kernel/latitudes.ts";
-import { along } from "./rooms/lines.ts";
-import { lonLatOf, row } from "./rooms/space.ts";
-import type { Vector } from "./rooms/space.ts";
+import { along } from "./drawing/ball.ts";
+import { SphericalVoronoi, type Latitude } from "./kernel/api.ts";
+import { tableLatitude } from "./kernel/coordinates.ts";
 import type { SphereSites } from "./rooms/sphere_sites.ts";
+import { lonLatOf, row, type Vector } from "./space.ts";
 
 /** Digits behind the point of a degree: a centimetre of the Earth. */
 const DECIMALS = 7;
@@ -18,13 +16,13 @@ type Position = [number, number];
 type Polygon = Position[][];
 
 /** A geometry of GeoJSON. */
-export type Geometry =
+type Geometry =
   | { type: "Polygon"; coordinates: Polygon }
   | { type: "MultiPolygon"; coordinates: Polygon[] }
   | { type: "LineString"; coordinates: Position[] }
   | { type: "Point"; coordinates: Position };
 
-export interface Feature {
+interface Feature {
   type: "Feature";
   properties: Record<string, unknown>;
   geometry: Geometry;
@@ -67,18 +65,18 @@ function cellOf(voronoi: SphericalVoronoi, site: number, kind: Latitude = "spher
 }
 
 /** A feature of given properties. */
-export function feature(properties: Record<string, unknown>, geometry: Geometry): Feature {
+function feature(properties: Record<string, unknown>, geometry: Geometry): Feature {
   return { type: "Feature", properties, geometry };
 }
 
 /** A collection as text, a feature a line. */
-export function collection(features: readonly Feature[]): string {
+function collection(features: readonly Feature[]): string {
   const rows = features.map((each) => JSON.stringify(each));
   return `{"type":"FeatureCollection","features":[\n${rows.join(",\n")}\n]}\n`;
 }
 
 /** All of the sphere, which has no side. */
-export const WHOLE_SPHERE: Geometry = {
+const WHOLE_SPHERE: Geometry = {
   type: "Polygon",
   coordinates: [
     [
@@ -93,11 +91,10 @@ export const WHOLE_SPHERE: Geometry = {
 
 /**
  * The region on the left of a ring of great-circle sides, at most a hemisphere.
- *
  * @param corners three or more, counterclockwise seen from outside.
  * @param kind of the latitudes that are written.
  */
-export function sphericalPolygon(corners: readonly Vector[], kind: Latitude = "spherical"): Geometry {
+function sphericalPolygon(corners: readonly Vector[], kind: Latitude = "spherical"): Geometry {
   const ring = unwrapped(
     corners.flatMap((corner, k) => along(corner, corners[(k + 1) % corners.length])),
     kind,

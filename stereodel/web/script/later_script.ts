@@ -1,7 +1,7 @@
 /** Scripts of the page that are compiled at first need: `exchange.ts` and `lift.ts`. */
 
+import type { Contents } from "./contents.ts";
 import { shared } from "page:shared";
-import type { Contents, ScriptName } from "./contents.ts";
 
 /** The element of such a script: what the page hands over, and what the script offers. */
 interface Handover<T> extends HTMLScriptElement {
@@ -9,35 +9,27 @@ interface Handover<T> extends HTMLScriptElement {
   offers?: T;
 }
 
-export class LaterScript<T> {
-  readonly #contents: Contents;
-  readonly #name: ScriptName;
-  #loaded: Promise<T> | null = null;
-
-  constructor(contents: Contents, name: ScriptName) {
-    this.#contents = contents;
-    this.#name = name;
-  }
-
-  /** What it offers; after a failure the next call tries again. */
-  async get(): Promise<T> {
-    this.#loaded ??= this.#contents.script(this.#name).then((code) => this.#run(code));
+/** What such a script offers, when it is first asked for; after a failure the next call tries again. */
+export function laterScript<T>(contents: Contents, name: string): () => Promise<T> {
+  let loaded: Promise<T> | null = null;
+  return async () => {
+    loaded ??= contents.script(name).then((code) => run<T>(code, name));
     try {
-      return await this.#loaded;
+      return await loaded;
     } catch (error) {
-      this.#loaded = null;
+      loaded = null;
       throw error;
     }
-  }
+  };
+}
 
-  /** Runs code that the policy of the page allows by its hash. */
-  #run(code: string): T {
-    const element: Handover<T> = document.createElement("script");
-    element.shared = shared;
-    element.textContent = code;
-    document.head.append(element); // runs it, to its end
-    element.remove();
-    if (element.offers === undefined) throw new Error(`the page's script ${this.#name} did not run`);
-    return element.offers;
-  }
+/** Runs code that the policy of the page allows by its hash. */
+function run<T>(code: string, name: string): T {
+  const element: Handover<T> = document.createElement("script");
+  element.shared = shared;
+  element.textContent = code;
+  document.head.append(element); // runs it, to its end
+  element.remove();
+  if (element.offers === undefined) throw new Error(`the page's script ${name} did not run`);
+  return element.offers;
 }

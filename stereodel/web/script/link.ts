@@ -1,9 +1,10 @@
 /**
  * The state of the page as the fragment of its address: `#v=1&room=sphere&lat=20&…`, or the name of a room alone.
- *
  * What a link says is checked here and by the rooms before anything is drawn: whatever cannot be read is a `LinkError`,
  * and the page shows the room as it begins.
  */
+
+import { fromBase64, signed, wholeNumbers } from "./bytes.ts";
 
 export const ROOMS = ["sphere", "lift", "globe"] as const;
 export type RoomName = (typeof ROOMS)[number];
@@ -18,7 +19,7 @@ const LONGEST = 65536;
 const STEP = 1e7;
 
 /** Largest coordinate of a plane that a link holds: in steps it is still a whole number of a double. */
-export const FARTHEST = 4e8;
+const FARTHEST = 4e8;
 
 /** A link that says nothing that can be shown. */
 export class LinkError extends Error {}
@@ -98,7 +99,6 @@ export class LinkValues {
 
 /**
  * Reads the fragment of an address, with or without its `#`.
- *
  * @throws LinkError where it is neither empty, nor the name of a room, nor a state of this version.
  */
 export function readLink(hash: string): Link {
@@ -162,7 +162,6 @@ export function writePlace(
 
 /**
  * Pairs of coordinates as text of a link.
- *
  * Places that are whole steps of 1e-7 are "d" and the differences from place to place, zigzag coded, seven bits a byte;
  * others are "f" and the doubles as they stand. Nothing is rounded.
  */
@@ -174,7 +173,7 @@ export function packPlaces(places: Float64Array): string {
 
 /** The places of `packPlaces`. */
 export function unpackPlaces(text: string): Float64Array {
-  const bytes = fromBase64(text.slice(1));
+  const bytes = bytesOf(text.slice(1));
   let places: Float64Array;
   if (text[0] === "d") places = Float64Array.from(sums(bytes), (step) => step / STEP);
   else if (text[0] === "f" && bytes.length % 16 === 0) places = new Float64Array(bytes.slice().buffer);
@@ -189,7 +188,7 @@ export function unpackPlaces(text: string): Float64Array {
 function deltas(steps: number[]): Uint8Array {
   const bytes: number[] = [];
   steps.forEach((step, k) => {
-    const difference = step - (k < 2 ? 0 : steps[k - 2]);
+    const difference = step - (steps[k - 2] ?? 0);
     let rest = difference < 0 ? -2 * difference - 1 : 2 * difference;
     for (; rest >= 128; rest = Math.floor(rest / 128)) bytes.push(128 + (rest % 128)); // beyond 32 bits: no shifts
     bytes.push(rest);
@@ -198,20 +197,11 @@ function deltas(steps: number[]): Uint8Array {
 }
 
 function sums(bytes: Uint8Array): number[] {
+  const numbers = wholeNumbers(bytes);
+  if (!numbers.every(Number.isSafeInteger))
+    throw new LinkError("the link ends amid a site, or holds one that is nowhere");
   const steps: number[] = [];
-  let value = 0;
-  let weight = 1;
-  for (const byte of bytes) {
-    value += (byte % 128) * weight;
-    weight *= 128;
-    if (!Number.isSafeInteger(value) || weight > 2 ** 56) throw new LinkError("the link holds sites that are nowhere");
-    if (byte >= 128) continue;
-    const difference = value % 2 === 1 ? -(value + 1) / 2 : value / 2;
-    steps.push(difference + (steps.length < 2 ? 0 : steps[steps.length - 2]));
-    value = 0;
-    weight = 1;
-  }
-  if (weight !== 1) throw new LinkError("the link ends amid a site");
+  numbers.forEach((number, k) => steps.push(signed(number) + (steps[k - 2] ?? 0)));
   return steps;
 }
 
@@ -221,11 +211,11 @@ function toBase64(bytes: Uint8Array): string {
   return btoa(text).replace(/\+/g, "-").replace(/\//g, "_").replace(/=+$/, "");
 }
 
-function fromBase64(text: string): Uint8Array {
-  if (!/^[\w-]*$/.test(text)) throw new LinkError("the link holds sites that cannot be read");
+function bytesOf(text: string): Uint8Array {
   try {
-    return Uint8Array.from(atob(text.replace(/-/g, "+").replace(/_/g, "/")), (letter) => letter.charCodeAt(0));
+    if (/^[\w-]*$/.test(text)) return fromBase64(text.replace(/-/g, "+").replace(/_/g, "/"));
   } catch {
-    throw new LinkError("the link holds sites that cannot be read");
+    // a letter too many: told below
   }
+  throw new LinkError("the link holds sites that cannot be read");
 }

@@ -1,16 +1,15 @@
 /** The page: head and foot, rooms by the fragment of the address, files that are dropped, exports, states. */
 
-import { Announcer } from "./announce.ts";
 import { Contents } from "./contents.ts";
 import { field, find } from "./dom.ts";
 import type { Exchange } from "./exchange.ts";
 import { load } from "./kernel/instance.ts";
-import { LaterScript } from "./later_script.ts";
+import { laterScript } from "./later_script.ts";
 import type { LiftRoomMaker } from "./lift.ts";
-import { LinkError, LinkValues, readLink, ROOMS, writeLink } from "./link.ts";
-import type { Link, RoomName } from "./link.ts";
-import { Messages } from "./messages.ts";
+import { LinkError, LinkValues, readLink, ROOMS, writeLink, type Link, type RoomName } from "./link.ts";
+import { Announcer, Messages } from "./messages.ts";
 import type { Room, RoomHost } from "./room.ts";
+import { NAMED } from "./rooms/controls.ts";
 import { globeRoom } from "./rooms/globe.ts";
 import { sphereRoom } from "./rooms/sphere.ts";
 
@@ -22,7 +21,7 @@ type Makers = Record<RoomName, (host: RoomHost) => Room | Promise<Room>>;
 class Page {
   readonly #contents: Contents;
   readonly #makers: Makers;
-  readonly #exchange: LaterScript<Exchange>;
+  readonly #exchange: () => Promise<Exchange>;
   readonly #messages = new Messages(find(document, "#messages"));
   readonly #announcer = new Announcer(find(document, "#status"));
   readonly #rooms = new Map<RoomName, Room>();
@@ -33,7 +32,7 @@ class Page {
   constructor(contents: Contents, makers: Makers) {
     this.#contents = contents;
     this.#makers = makers;
-    this.#exchange = new LaterScript(contents, "exchange");
+    this.#exchange = laterScript(contents, "exchange");
   }
 
   /** Shows what the address says, and follows it from now on. */
@@ -169,8 +168,7 @@ class Page {
       if (!holdsFiles(event)) return;
       event.preventDefault();
       body.classList.remove("dropping");
-      const file = event.dataTransfer?.files[0];
-      this.#open(file);
+      this.#open(event.dataTransfer?.files[0]);
     });
     for (const input of document.querySelectorAll<HTMLInputElement>("input[type=file]")) {
       input.addEventListener("change", () => {
@@ -200,7 +198,7 @@ class Page {
   #exchanging(body: (room: Room, exchange: Exchange) => void | Promise<void>): void {
     const room = this.#room;
     if (room === undefined) return;
-    const done = this.#exchange.get().then((exchange) => body(room, exchange));
+    const done = this.#exchange().then((exchange) => body(room, exchange));
     done.catch((error: unknown) => this.#failed(error));
   }
 
@@ -220,10 +218,9 @@ class Page {
     } else {
       const state = room.state();
       await exchange.copy(`${location.href.split("#")[0]}#${writeLink(this.#name, state)}`);
-      const left =
-        "file" in state ? "the file but does not hold its sites" : "the picture but does not hold its pixels";
-      const named = "file" in state || "picture" in state;
-      this.#messages.show("", named ? `The link names ${left}; send the file along.` : "Link copied.");
+      const what = "file" in state ? "file" : "picture";
+      const left = `The link names the ${what} but does not hold its ${NAMED[what]}; send the file along.`;
+      this.#messages.show("", what in state ? left : "Link copied.");
     }
   }
 
@@ -246,15 +243,13 @@ function placeMarks(): void {
 
 /** The sets are unpacked before the rooms are made, so that links can name them. */
 async function makersOf(contents: Contents): Promise<Makers> {
-  const names = ["gap", "cities", "airports", "stars"] as const;
   const stored: Record<string, Float64Array> = {};
-  for (const name of names) stored[name] = await contents.set(name);
-  const sheet = await contents.set("sheet");
+  for (const name of ["gap", "cities", "airports", "stars", "sheet"]) stored[name] = await contents.set(name);
   const given = await contents.given();
-  const lift = new LaterScript<LiftRoomMaker>(contents, "lift");
+  const lift = laterScript<LiftRoomMaker>(contents, "lift");
   return {
     sphere: (host) => sphereRoom(host, stored, given),
-    lift: async (host) => (await lift.get())(host, sheet),
+    lift: async (host) => (await lift())(host, stored["sheet"]),
     globe: globeRoom,
   };
 }

@@ -1,6 +1,6 @@
-/** One line under the head that says what went wrong; the state before stays. */
+/** What the page says: one line under the head of what went wrong, and what a screen reader hears. */
 
-import { make } from "./dom.ts";
+import { make, plain } from "./dom.ts";
 
 /** A button of a message: its words and what it does; the message closes. */
 export interface Action {
@@ -17,7 +17,6 @@ export class Messages {
 
   /**
    * Shows a line, instead of the one before.
-   *
    * @param what begins the line in the colour of what is held: a file, a row. May be empty.
    * @param text the words, which are never taken for HTML.
    * @param inputs stand before the buttons: what the action asks for.
@@ -29,9 +28,7 @@ export class Messages {
     const buttons = make("span", "line", ...inputs);
     if (action) buttons.append(this.#button(action));
     buttons.append(this.#button({ words: "Close", act: () => {} }));
-    const message = make("div", "message", line, buttons);
-    message.setAttribute("role", "alert");
-    this.#place.replaceChildren(message);
+    this.#place.replaceChildren(make("div", { className: "message", role: "alert" }, line, buttons));
   }
 
   close(): void {
@@ -39,12 +36,32 @@ export class Messages {
   }
 
   #button(action: Action): HTMLButtonElement {
-    const button = make("button", "quiet", action.words);
-    button.type = "button";
+    const button = make("button", { className: "quiet", type: "button" }, action.words);
     button.addEventListener("click", () => {
       this.close();
       action.act();
     });
     return button;
+  }
+}
+
+/** Milliseconds without a change after which a sentence is spoken. */
+const REST = 600;
+
+export class Announcer {
+  readonly #region: Element;
+  #timer: ReturnType<typeof setTimeout> | undefined;
+
+  /** `region` is an element with `role="status"`. */
+  constructor(region: Element) {
+    this.#region = region;
+  }
+
+  /** Says a sentence after a while without another; marks of `say` are taken out. */
+  say(sentence: string): void {
+    clearTimeout(this.#timer);
+    this.#timer = setTimeout(() => {
+      this.#region.textContent = plain(sentence);
+    }, REST);
   }
 }

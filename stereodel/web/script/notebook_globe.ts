@@ -2,19 +2,22 @@
 
 import type { Rings } from "./contents.ts";
 import { make } from "./dom.ts";
-import { arcLayer, dotLayer, drawLayers, graticuleArcs, landLayer, ridgeArcs } from "./drawing/ball.ts";
-import type { Layer } from "./drawing/ball.ts";
-import { traceDisc } from "./drawing/pen.ts";
-import type { Pen } from "./drawing/pen.ts";
+import {
+  arcLayer,
+  dotLayer,
+  drawLayers,
+  graticuleArcs,
+  landLayer,
+  placeOf,
+  ridgeArcs,
+  type Layer,
+} from "./drawing/ball.ts";
+import { traceDisc, type Disc, type Pen } from "./drawing/pen.ts";
 import { Plate } from "./drawing/plate.ts";
 import { lonlatToXyz, MoebiusMap, SphericalDelaunay, SphericalVoronoi } from "./kernel/api.ts";
-import { placeOf } from "./rooms/lines.ts";
-import { lonLatOf, row } from "./rooms/space.ts";
-import type { Vector } from "./rooms/space.ts";
-import { arrowed, grabBall } from "./view/ball_hand.ts";
-import type { Turnable } from "./view/ball_hand.ts";
-import { distance, follow } from "./view/hand.ts";
-import type { Gestures, Place } from "./view/hand.ts";
+import { lonLatOf, row, type Vector } from "./space.ts";
+import { arrowStep, grabBall, type Turnable } from "./view/ball_hand.ts";
+import { distance, follow, type Gestures, type Place } from "./view/hand.ts";
 import { seenThrough, sourceOf } from "./view/lens.ts";
 import { Motion } from "./view/motion.ts";
 import { pointUnder, View } from "./view/view.ts";
@@ -47,10 +50,11 @@ const MANY_SITES = 10_000;
 
 const KEYS = "arrows turn, + and − magnify, F sets the focus, comma and full stop walk the sites, Enter selects";
 
-export class NotebookGlobe {
+export class NotebookGlobe implements Turnable {
+  readonly isNorthUp = false; // but by keys
   readonly #root = make("div", "stereodel-globe");
-  readonly #canvas = make("canvas");
-  readonly #status = make("p");
+  readonly #canvas = make("canvas", { tabIndex: 0, role: "application" });
+  readonly #status = make("p", { role: "status" });
   readonly #plate: Plate;
   readonly #changed: Changed;
   readonly #ground: readonly Layer[];
@@ -69,11 +73,8 @@ export class NotebookGlobe {
   constructor(place: HTMLElement, land: Rings | null, changed: Changed) {
     this.#changed = changed;
     this.#ground = [...(land === null ? [] : [landLayer(land)]), arcLayer("graticule", graticuleArcs(10))];
-    this.#canvas.tabIndex = 0;
-    this.#canvas.setAttribute("role", "application");
     this.#canvas.setAttribute("aria-roledescription", "globe to turn");
     this.#canvas.setAttribute("aria-description", KEYS);
-    this.#status.setAttribute("role", "status");
     this.#root.append(this.#canvas, this.#status);
     place.append(this.#root);
     this.#plate = new Plate(this.#canvas, (pen, isMoving) => this.#paint(pen, isMoving), undefined, this.#root);
@@ -123,19 +124,28 @@ export class NotebookGlobe {
     this.#root.remove();
   }
 
+  get disc(): Disc {
+    return this.#plate.disc;
+  }
+
+  get view(): View {
+    return this.#view;
+  }
+
   /** From the Earth to the axes of the view. */
   get #map(): MoebiusMap {
     return seenThrough(this.#lens, this.#view);
   }
 
   #show(): void {
-    const magnification = this.#lens.magnification;
+    const { magnification } = this.#lens;
     const [lon, lat] = this.#view.middle;
+    const lens = `${magnification.toPrecision(3)} times at ${latitude(this.#focus[1])}, ${longitude(this.#focus[0])}`;
+    const count = this.#sites.length / 3;
     const text =
       `Seen from ${latitude(lat)}, ${longitude(lon)}` +
-      (magnification === 1 ? "" : `; ${magnification.toPrecision(3)} times at ${latitude(this.#focus[1])}, `) +
-      (magnification === 1 ? "" : longitude(this.#focus[0])) +
-      (this.#sites.length === 0 ? "" : `; ${this.#sites.length / 3} ${this.#sites.length === 3 ? "site" : "sites"}`) +
+      (magnification === 1 ? "" : `; ${lens}`) +
+      (count === 0 ? "" : `; ${count} ${count === 1 ? "site" : "sites"}`) +
       (this.#selection.length === 0 ? "" : `, selected: ${this.#selection.slice(0, 5).join(", ")}`);
     this.#canvas.setAttribute("aria-label", text);
     this.#status.textContent = text;
@@ -143,20 +153,15 @@ export class NotebookGlobe {
   }
 
   #paint(pen: Pen, isMoving: boolean): void {
-    const { disc } = this.#plate;
+    const { disc } = this;
     const map = this.#map;
-    const many = this.#sites.length > 3 * MANY_SITES;
+    const withCells = !isMoving || this.#sites.length <= 3 * MANY_SITES;
+    const chosen = this.#selection.flatMap((number) => row(this.#sites, number));
+    const layers = [withCells ? this.#cells : null, this.#dots, dotLayer("held", Float64Array.from(chosen))];
     pen.ball(disc, "ocean");
     drawLayers(pen, disc, map, this.#ground);
     pen.shade(disc);
-    drawLayers(
-      pen,
-      disc,
-      map,
-      [this.#cells, this.#dots].filter((layer) => layer !== null).slice(many && isMoving ? 1 : 0),
-    );
-    const chosen = this.#selection.flatMap((number) => [...row(this.#sites, number)]);
-    if (chosen.length > 0) drawLayers(pen, disc, map, [dotLayer("held", Float64Array.from(chosen))]);
+    drawLayers(pen, disc, map, layers);
     pen.draw("limb", (path) => traceDisc(path, disc));
     this.#root.dataset["frames"] = String(this.#plate.frames + 1);
   }
@@ -166,7 +171,7 @@ export class NotebookGlobe {
   #gestures(): Gestures {
     const plate = this.#plate;
     return {
-      take: (at) => grabBall(this.#turnable(false), this.#motion, at),
+      take: (at) => grabBall(this, this.#motion, at),
       click: (at, reach) => this.#selectNear(at, reach),
       doubleClick: (at, reach) => {
         this.#selectNear(at, reach); // back to what it was before the first of the two
@@ -181,24 +186,9 @@ export class NotebookGlobe {
     };
   }
 
-  /** What turns; by keys the step is that of a globe with north up. */
-  #turnable(isNorthUp: boolean): Turnable {
-    const globe = this;
-    return {
-      isNorthUp,
-      get disc() {
-        return globe.#plate.disc;
-      },
-      get view() {
-        return globe.#view;
-      },
-      turn: (view) => this.#turn(view),
-    };
-  }
-
   #key(event: KeyboardEvent): boolean {
     if (event.ctrlKey) return false;
-    const view = arrowed(this.#turnable(true), event);
+    const step = arrowStep(event);
     const acts: Record<string, () => void> = {
       "+": () => this.#magnify(STEP),
       "-": () => this.#magnify(1 / STEP),
@@ -209,7 +199,7 @@ export class NotebookGlobe {
       Enter: () => this.#toggle(this.#walked),
       Escape: () => this.#select([]),
     };
-    const act = view === null ? acts[event.key] : () => this.#turn(view);
+    const act = step === null ? acts[event.key] : () => this.turn(this.#view.stepped(...step, true));
     if (act === undefined) return false;
     event.stopPropagation(); // the notebook has keys of its own
     this.#motion.stop();
@@ -217,7 +207,7 @@ export class NotebookGlobe {
     return true;
   }
 
-  #turn(view: View): void {
+  turn(view: View): void {
     this.#view = view;
     const [lon, lat, roll] = [...view.middle, view.roll].map(rounded);
     this.#show();
@@ -272,7 +262,7 @@ export class NotebookGlobe {
     if (count === 0) return;
     this.#walked = (this.#walked + step + count + (this.#walked < 0 && step < 0 ? 1 : 0)) % count;
     const [lon, lat] = lonLatOf(row(this.#lens.apply(row(this.#sites, this.#walked)), 0));
-    this.#turn(View.above(lon, lat));
+    this.turn(View.above(lon, lat));
   }
 }
 

@@ -1,10 +1,9 @@
 /** A picture of the whole sphere on a globe: drawn by the graphics processor while it moves, by the kernel at rest. */
 
+import { make } from "./dom.ts";
 import type { Disc, Pen } from "./drawing/pen.ts";
+import { Raster, type MoebiusMap } from "./kernel/api.ts";
 import type { Messages } from "./messages.ts";
-import { Raster } from "./kernel/api.ts";
-import type { MoebiusMap } from "./kernel/api.ts";
-import { PanoramaShader } from "./panorama_shader.ts";
 
 /** Widest picture that is kept, pixels; larger ones are made smaller. */
 const WIDEST = 4096;
@@ -16,21 +15,14 @@ const ROUGH = 0.25;
 /** How far width and height may be from two to one. */
 const RATIO_ERROR = 0.01;
 
-/** A file that is no picture, or one that is not twice as wide as high. */
-class PictureError extends Error {}
-
 /** Calls `opened` with the picture of a file, or says why there is none. */
 export async function openPanorama(file: File, messages: Messages, opened: (picture: Painted) => void): Promise<void> {
-  let picture: Painted;
-  try {
-    picture = await Painted.read(file);
-  } catch (error) {
-    if (!(error instanceof PictureError)) throw error;
-    messages.show(`${file.name}:`, `${error.message}. Nothing has changed.`);
-    return;
+  const picture = await Painted.read(file);
+  if (typeof picture === "string") messages.show(`${file.name}:`, `${picture}. Nothing has changed.`);
+  else {
+    messages.close();
+    opened(picture);
   }
-  messages.close();
-  opened(picture);
 }
 
 export class Painted {
@@ -44,21 +36,16 @@ export class Painted {
     this.#shader = PanoramaShader.of(pixels);
   }
 
-  /** @throws PictureError for what is no picture of the whole sphere. */
-  static async read(file: File): Promise<Painted> {
-    let bitmap: ImageBitmap;
-    try {
-      bitmap = await createImageBitmap(file);
-    } catch {
-      throw new PictureError("the picture cannot be read");
-    }
+  /** The picture, or why there is none of the whole sphere. */
+  static async read(file: File): Promise<Painted | string> {
+    const bitmap = await createImageBitmap(file).catch(() => null);
+    if (bitmap === null) return "the picture cannot be read";
     const { width, height } = bitmap;
     if (Math.abs(width / height - 2) > RATIO_ERROR) {
-      throw new PictureError(`the picture is ${width} × ${height}; one of the whole sphere is twice as wide as high`);
+      return `the picture is ${width} × ${height}; one of the whole sphere is twice as wide as high`;
     }
-    const canvas = document.createElement("canvas");
-    canvas.width = 2 * Math.round(Math.min(width, WIDEST) / 2);
-    canvas.height = canvas.width / 2;
+    const half = Math.round(Math.min(width, WIDEST) / 2);
+    const canvas = make("canvas", { width: 2 * half, height: half });
     const context = canvas.getContext("2d", { willReadFrequently: true })!;
     context.drawImage(bitmap, 0, 0, canvas.width, canvas.height);
     bitmap.close();
@@ -76,10 +63,95 @@ export class Painted {
   }
 
   #exact(map: MoebiusMap, size: number): HTMLCanvasElement {
-    const canvas = document.createElement("canvas");
-    canvas.width = canvas.height = size;
+    const canvas = make("canvas", { width: size, height: size });
     const image = new ImageData(this.#raster.painted(map, [-1, 1, 2 / size, 2 / size], size, size, false), size, size);
     canvas.getContext("2d")!.putImageData(image, 0, 0);
     return canvas;
   }
+}
+
+const VERTEX = `#version 300 es
+out vec2 place;
+void main() {
+  place = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 4.0 - 1.0;
+  gl_Position = vec4(place, 0.0, 1.0);
+}`;
+
+/** Back from the view to the sphere: rotation, fisheye of 1/S, rotation. Gradients leave out the jump at 180°. */
+const FRAGMENT = `#version 300 es
+precision highp float;
+in vec2 place;
+uniform sampler2D picture;
+uniform mat3 left, right;
+uniform float magnification;
+out vec4 colour;
+const float PI = 3.14159265358979;
+void main() {
+  float square = dot(place, place);
+  vec3 seen = vec3(place, sqrt(max(0.0, 1.0 - square)));
+  vec3 v = seen * left;
+  float s = magnification, up = 1.0 + v.z, down = 1.0 - v.z;
+  vec3 w = vec3(2.0 * s * v.xy, up - s * s * down) / (up + s * s * down) * right;
+  vec2 at = vec2(atan(w.y, w.x) / (2.0 * PI) + 0.5, 0.5 - asin(clamp(w.z, -1.0, 1.0)) / PI);
+  vec2 dx = dFdx(at), dy = dFdy(at);
+  dx.x -= round(dx.x);
+  dy.x -= round(dy.x);
+  colour = square <= 1.02 ? textureGrad(picture, at, dx, dy) : vec4(0.0);
+}`;
+
+class PanoramaShader {
+  readonly #gl: WebGL2RenderingContext;
+  readonly #program: WebGLProgram;
+
+  private constructor(gl: WebGL2RenderingContext, program: WebGLProgram) {
+    [this.#gl, this.#program] = [gl, program];
+  }
+
+  /** Null where the browser has no WebGL2, or its texture is too small. */
+  static of(pixels: ImageData): PanoramaShader | null {
+    const gl = document.createElement("canvas").getContext("webgl2", { antialias: false, depth: false, alpha: true });
+    if (gl === null || gl.getParameter(gl.MAX_TEXTURE_SIZE) < pixels.width) return null;
+    const program = linked(gl);
+    if (program === null) return null;
+    gl.bindTexture(gl.TEXTURE_2D, gl.createTexture());
+    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+    gl.generateMipmap(gl.TEXTURE_2D);
+    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR_MIPMAP_LINEAR);
+    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, gl.REPEAT);
+    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_T, gl.CLAMP_TO_EDGE);
+    return new PanoramaShader(gl, program);
+  }
+
+  /** The square round the disc, so many pixels wide; valid until the next one is drawn. */
+  draw(map: MoebiusMap, size: number): HTMLCanvasElement {
+    const gl = this.#gl;
+    const canvas = gl.canvas as HTMLCanvasElement;
+    if (canvas.width !== size) canvas.width = canvas.height = size;
+    gl.viewport(0, 0, size, size);
+    gl.useProgram(this.#program);
+    // Rows of the matrices are columns of the shader's: a vector to their left is turned back.
+    const matrix = (name: string, rotation: { readonly matrix: Float64Array }): void =>
+      gl.uniformMatrix3fv(gl.getUniformLocation(this.#program, name), true, new Float32Array(rotation.matrix));
+    matrix("left", map.left);
+    matrix("right", map.right);
+    gl.uniform1f(gl.getUniformLocation(this.#program, "magnification"), 1 / map.magnification);
+    gl.drawArrays(gl.TRIANGLES, 0, 3);
+    return canvas;
+  }
+}
+
+function linked(gl: WebGL2RenderingContext): WebGLProgram | null {
+  const program = gl.createProgram();
+  for (const [kind, source] of [
+    [gl.VERTEX_SHADER, VERTEX],
+    [gl.FRAGMENT_SHADER, FRAGMENT],
+  ] as const) {
+    const shader = gl.createShader(kind);
+    if (shader === null) return null;
+    gl.shaderSource(shader, source);
+    gl.compileShader(shader);
+    gl.attachShader(program, shader);
+  }
+  gl.linkProgram(program);
+  return gl.getProgramParameter(program, gl.LINK_STATUS) ? program : null;
 }

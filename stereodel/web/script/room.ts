@@ -1,11 +1,10 @@
 /** What a room of the page is, and what the page does for it. */
 
-import type { Announcer } from "./announce.ts";
 import type { Contents } from "./contents.ts";
-import type { Sheet } from "./drawing/sheet.ts";
+import type { Sheet } from "./drawing/pen.ts";
 import type { Exchange } from "./exchange.ts";
 import type { LinkValues } from "./link.ts";
-import type { Messages } from "./messages.ts";
+import type { Announcer, Messages } from "./messages.ts";
 
 /** The page, as its rooms see it. */
 export interface RoomHost {
@@ -26,7 +25,6 @@ export interface Room {
   state(): Record<string, string>;
   /**
    * Shows a state; what it leaves out is as in the beginning.
-   *
    * @throws LinkError where a value cannot be read; the state before stays.
    */
   restore(values: LinkValues): void;

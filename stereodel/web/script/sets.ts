@@ -1,6 +1,7 @@
 /** Sets of sites to begin with: those that come with the page, and those that are made here. */
 
 import type { Given } from "./contents.ts";
+import { lonLatOf, type Vector } from "./space.ts";
 
 /** A set: its name in links, its words in the list, its places (n, 2). */
 export interface SiteSet {
@@ -41,21 +42,20 @@ export function sphereSets(stored: Stored, given: Given | null): SiteSet[] {
 function scatteredOnSphere(count: number, reach: number): Float64Array {
   const random = randomNumbers(count + reach);
   const low = reach < 90 ? Math.cos((reach * Math.PI) / 180) : -1;
-  const draw = (): number[] => {
+  const draw = (): Vector => {
     const x = low + (1 - low) * random();
     const turn = 2 * Math.PI * random();
     const h = Math.sqrt(1 - x * x);
     return [x, h * Math.cos(turn), h * Math.sin(turn)];
   };
-  const degrees = 180 / Math.PI;
-  return rounded(spread(count, draw).flatMap(([x, y, z]) => [Math.atan2(y!, x!) * degrees, Math.asin(z!) * degrees]));
+  return rounded(spread(count, draw).flatMap(lonLatOf));
 }
 
 /** A site after the other, each the farthest from those before of so many drawn. */
-function spread(count: number, draw: () => number[], drawn = 14): number[][] {
+function spread(count: number, draw: () => Vector, drawn = 14): Vector[] {
   const sites = [draw()];
-  const apart = (a: number[], b: number[]): number => Math.hypot(...a.map((x, k) => x - b[k]));
-  const alone = (site: number[]): number => Math.min(...sites.map((other) => apart(site, other)));
+  const apart = (a: Vector, b: Vector): number => Math.hypot(...a.map((x, k) => x - b[k]));
+  const alone = (site: Vector): number => Math.min(...sites.map((other) => apart(site, other)));
   while (sites.length < count) {
     const candidates = Array.from({ length: drawn }, draw);
     sites.push(candidates.reduce((best, site) => (alone(site) > alone(best) ? site : best)));
@@ -81,15 +81,12 @@ function rounded(values: number[]): Float64Array {
 /** Longitude and latitude of the twenty corners, as near as doubles come. */
 function dodecahedron(): Float64Array {
   const golden = (1 + Math.sqrt(5)) / 2;
-  const corners: number[][] = [];
+  const corners: Vector[] = [];
   for (const s of [-1, 1]) {
     for (const t of [-1, 1]) {
       for (const u of [-1, 1]) corners.push([s, t, u]);
       corners.push([0, s / golden, t * golden], [s / golden, t * golden, 0], [t * golden, 0, s / golden]);
     }
   }
-  const degrees = 180 / Math.PI;
-  return Float64Array.from(
-    corners.flatMap(([x, y, z]) => [Math.atan2(y!, x!) * degrees, Math.atan2(z!, Math.hypot(x!, y!)) * degrees]),
-  );
+  return Float64Array.from(corners.flatMap(lonLatOf));
 }

@@ -5,12 +5,6 @@
 
 import { make } from "./dom.ts";
 
-/** What a site is called where nothing else is said. */
-const SITE = "Site";
-
-/** The head of the column of names. */
-const NAME = "Name";
-
 /** Rows above and below the visible ones. */
 const AROUND = 12;
 
@@ -72,9 +66,8 @@ export class SiteTable {
     this.#rows = rows;
     this.#table.hidden = rows.count === 0;
     this.#table.setAttribute("aria-rowcount", String(rows.count + 1));
-    const heads = [rows.noun ?? SITE, ...(rows.names ? [NAME] : []), ...rows.heads].map((head) => {
-      const cell = make("th", head === NAME ? "name" : "");
-      cell.scope = "col";
+    const heads = [rows.noun ?? "Site", ...(rows.names ? ["Name"] : []), ...rows.heads].map((head) => {
+      const cell = make("th", { className: head === "Name" ? "name" : "", scope: "col" });
       cell.append(...head.split(/\*([^*]+)\*/).map((part, k) => (k % 2 === 1 ? make("i", "", part) : part)));
       return cell;
     });
@@ -128,36 +121,29 @@ export class SiteTable {
   }
 
   #row(site: number): HTMLElement {
-    const { noun = SITE, names } = this.#rows;
+    const { noun = "Site", names } = this.#rows;
     const name = names?.[site];
-    const button = make("button", "", String(site + 1));
-    button.type = "button";
-    button.setAttribute("aria-label", `${noun} ${site + 1}${name ? `, ${name}` : ""}`);
-    const head = make("th", "", button);
-    head.scope = "row";
+    const ariaLabel = `${noun} ${site + 1}${name ? `, ${name}` : ""}`;
+    const button = make("button", { type: "button", ariaLabel }, String(site + 1));
+    const head = make("th", { scope: "row" }, button);
     const mark = this.#rows.mark?.(site);
     if (mark) head.append(" ", make("i", "", mark));
     const row = make(
       "tr",
-      this.#held.has(site) ? "on" : "",
+      { className: this.#held.has(site) ? "on" : "", ariaRowIndex: String(site + 2) },
       head,
       ...(name === undefined ? [] : [make("td", "name", name)]),
       ...this.#rows.cells(site).map((cell) => make("td", "", cell)),
     );
     row.dataset["site"] = String(site);
-    row.setAttribute("aria-rowindex", String(site + 2));
     return row;
   }
 }
 
 function gap(height: number, width: number): HTMLElement {
-  const cell = make("td");
-  cell.colSpan = width;
+  const cell = make("td", { colSpan: width });
   cell.style.height = `${height}px`;
-  const row = make("tr", "gap", cell);
-  row.hidden = height <= 0;
-  row.setAttribute("aria-hidden", "true");
-  return row;
+  return make("tr", { className: "gap", hidden: height <= 0, ariaHidden: "true" }, cell);
 }
 
 function siteOf(target: EventTarget | null): number | null {

@@ -1,14 +1,12 @@
 /**
  * The globe in a notebook, as anywidget asks for it: sites in; lens, view and selection in and back.
- *
  * `stereodel/web/assemble.py` writes the constant `CONTENTS` before this module. A notebook loads the module anew for
  * each widget, so that what they share, the compiled kernel, stands where all of them find it.
  */
 
 import { Contents } from "./contents.ts";
 import { load } from "./kernel/instance.ts";
-import { NotebookGlobe } from "./notebook_globe.ts";
-import type { Lens, ViewAngles } from "./notebook_globe.ts";
+import { NotebookGlobe, type Lens, type ViewAngles } from "./notebook_globe.ts";
 
 declare const CONTENTS: Readonly<Record<string, string>>;
 

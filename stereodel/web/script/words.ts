@@ -42,7 +42,6 @@ export function wrap(degrees: number): number {
 
 /**
  * Facets = triangles + facets that see the pole, as a sum in words.
- *
  * @param where the facets are, and the triangles, and the pole with the space before it.
  */
 export function ofFacets(triangles: number, seeing: number, where: readonly [string, string, string]): string {

@@ -1,19 +1,21 @@
 /**
  * Arcs of circles of a ball seen from afar, as the true arcs of ellipses that they are.
- *
  * Points are in the axes of the view: x right, y up, z toward the reader, on the unit sphere; row k of an array is
  * point k. What has z >= 0 is seen. A circle n·x = d of the ball is seen as an ellipse with the middle d n and the half
  * axes r across n and r |n_z|, r = √(1 − d²).
  */
 
-import type { Vector } from "../rooms/space.ts";
+import type { Vector } from "../space.ts";
 import type { Disc, Path } from "./pen.ts";
 
 /** The half of the ball that is drawn: that in front, or that behind. */
 export type Side = "front" | "back";
 
 /** Largest distance of an arc from its chord that no eye sees, pixels: such arcs are drawn as lines. */
-export const UNSEEN_BOW = 0.1;
+const UNSEEN_BOW = 0.1;
+
+/** Product of two sides of a triangle, ball radii, below which its corners are one point, told apart by rounding alone. */
+const ONE_POINT = 1e-24;
 
 /** Points c + r (cos t e + sin t f) of a circle of the ball, t from `from` to `to`, counterclockwise about n. */
 export interface Circle {
@@ -36,7 +38,6 @@ export function circle(n: Vector, d: number): Circle {
 
 /**
  * The arc from row a over row m to row b; null where two of them are one point.
- *
  * @param whole The whole circle through the three.
  */
 export function arcThrough(p: ArrayLike<number>, a: number, m: number, b: number, whole = false): Circle | null {
@@ -132,7 +133,6 @@ export function traceArc(
 
 /**
  * How far the image of an arc is from its chord, at the most; infinite for more than half a circle.
- *
  * The middle point may lie anywhere on the arc, even next to an end: if it is h from the chord c and p and q from the
  * ends, the circle has the radius ρ = p q / (2 h), and the arc the height c² / 4 / (ρ + √(ρ² − c² / 4)).
  */
@@ -141,10 +141,10 @@ export function bow(p: ArrayLike<number>, a: number, m: number, b: number): numb
   const [ux, uy, uz] = [p[j] - p[i], p[j + 1] - p[i + 1], p[j + 2] - p[i + 2]];
   const [vx, vy, vz] = [p[k] - p[i], p[k + 1] - p[i + 1], p[k + 2] - p[i + 2]];
   const [wx, wy, wz] = [p[j] - p[k], p[j + 1] - p[k + 1], p[j + 2] - p[k + 2]];
+  const sides = Math.sqrt((ux * ux + uy * uy + uz * uz) * (wx * wx + wy * wy + wz * wz));
+  if (sides < ONE_POINT) return 0;
   if (ux * wx + uy * wy + uz * wz > 0) return Infinity; // less than a right angle at m
   const square = vx * vx + vy * vy + vz * vz;
-  const sides = Math.sqrt((ux * ux + uy * uy + uz * uz) * (wx * wx + wy * wy + wz * wz));
-  if (sides === 0) return 0;
   const t = (ux * vx + uy * vy + uz * vz) / square;
   const [hx, hy, hz] = [ux - t * vx, uy - t * vy, uz - t * vz];
   const seen = Math.sqrt(hx * hx + hy * hy);

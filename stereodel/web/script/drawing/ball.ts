@@ -1,22 +1,22 @@
 /** What lies on a ball: layers whose directions stay in the kernel, each drawn as its images under a map are. */
 
 import type { Rings as Places } from "../contents.ts";
-import { Directions, lonlatToXyz } from "../kernel/api.ts";
-import type { MoebiusMap, SphericalDelaunay, SphericalVoronoi } from "../kernel/api.ts";
-import { angle, cross, directionOf, row, unit } from "../rooms/space.ts";
-import type { Vector } from "../rooms/space.ts";
-import { arcThrough, traceArc, traceLine } from "./arcs.ts";
-import type { Side } from "./arcs.ts";
+import {
+  Directions,
+  lonlatToXyz,
+  type MoebiusMap,
+  type SphericalDelaunay,
+  type SphericalVoronoi,
+} from "../kernel/api.ts";
+import { angle, cross, DEGREE, directionOf, dot, row, unit, type Vector } from "../space.ts";
+import { arcThrough, traceArc, traceLine, type Side } from "./arcs.ts";
 import { bentRings } from "./bent_rings.ts";
-import { holdsHidden, traceCap, traceRegions } from "./fill.ts";
-import type { Rings } from "./fill.ts";
+import { holdsHidden, traceCap, traceRegions, type Rings } from "./fill.ts";
 import type { Disc, Path, Pen } from "./pen.ts";
 import type { DotName, StyleName } from "./styles.ts";
 
 /** The longest arc of a circle that is drawn by three points, radians: they are well apart, and tell its sense. */
 const LONGEST_ARC = (2 * Math.PI) / 3;
-
-const DEGREE = Math.PI / 180;
 
 /** The place of the sea that is farthest from all land. */
 const AT_SEA = directionOf(-123.4, -48.9);
@@ -32,11 +32,12 @@ export function drawLayers(
   pen: Pen,
   disc: Disc,
   map: MoebiusMap,
-  layers: readonly Layer[],
+  layers: readonly (Layer | null)[],
   side: Side = "front",
 ): void {
   for (const layer of layers) {
-    if (layer.directions.xyz.length > 0) layer.draw(pen, disc, map.apply(layer.directions), map, side);
+    if (layer !== null && layer.directions.xyz.length > 0)
+      layer.draw(pen, disc, map.apply(layer.directions), map, side);
   }
 }
 
@@ -83,7 +84,6 @@ export function dotLayer(style: DotName, points: Float64Array): Layer {
 
 /**
  * Regions on the left of rings, filled and outlined, such as land with its coast.
- *
  * @param outline Style of the rings as lines, if they are drawn.
  * @param place A direction far from all rings, and whether it is in the regions.
  */
@@ -120,25 +120,14 @@ function traceOutlines(path: Path, disc: Disc, { points, offsets }: Rings): void
   }
 }
 
-/** Great-circle arcs between points, by pairs of their numbers: three points each, as `arcLayer` takes them. */
-export function sides(points: ArrayLike<number>, pairs: ArrayLike<number>): Float64Array {
-  const arcs = new Float64Array((9 * pairs.length) / 2);
-  for (let k = 0; 2 * k < pairs.length; ++k) {
-    putShortArc(arcs, 9 * k, row(points, pairs[2 * k]), row(points, pairs[2 * k + 1]));
-  }
-  return arcs;
-}
-
-/** Writes a, a point between, b of the shorter great-circle arc. */
-function putShortArc(arcs: Float64Array, at: number, a: Vector, b: Vector): void {
-  arcs.set(a, at);
-  arcs.set([a[0] + b[0], a[1] + b[1], a[2] + b[2]], at + 3);
-  arcs.set(b, at + 6);
-}
-
 /** Edges of a triangulation as arcs. */
-export function edgeArcs(delaunay: SphericalDelaunay): Float64Array {
-  return sides(unitRows(delaunay.points), delaunay.edges);
+export function edgeArcs({ points, edges }: SphericalDelaunay): Float64Array {
+  const arcs: number[] = [];
+  for (let k = 0; k < edges.length; k += 2) {
+    const [a, b] = [unit(row(points, edges[k])), unit(row(points, edges[k + 1]))];
+    pushAll(arcs, a, [a[0] + b[0], a[1] + b[1], a[2] + b[2]], b);
+  }
+  return Float64Array.from(arcs);
 }
 
 /** Sides of Voronoi cells as arcs; those of more than 120° in two pieces. */
@@ -195,8 +184,39 @@ export function circlePoints(center: Vector, radius: number): Vector[] {
   });
 }
 
-function unitRows(points: Float64Array): Float64Array {
-  const rows = new Float64Array(points.length);
-  for (let k = 0; 3 * k < points.length; ++k) rows.set(unit(row(points, k)), 3 * k);
-  return rows;
+/** Degrees between points along the side of a region. */
+const FINE = 1;
+
+/** Where a direction is on the picture. */
+export function placeOf(disc: Disc, point: Vector): [number, number] {
+  return [disc.x + disc.r * point[0], disc.y - disc.r * point[1]];
+}
+
+/** The shorter great-circle arc between two directions. */
+export function traceGreat(path: Path, disc: Disc, a: Vector, b: Vector, side: Side = "front"): void {
+  traceArc(path, disc, [...a, ...unit([a[0] + b[0], a[1] + b[1], a[2] + b[2]]), ...b], 0, 1, 2, side);
+}
+
+/** The sides of a polygon of directions. */
+export function traceSides(path: Path, disc: Disc, corners: readonly Vector[]): void {
+  corners.forEach((a, k) => traceGreat(path, disc, a, corners[(k + 1) % corners.length]));
+}
+
+/** The region on the left of a polygon of great-circle sides. */
+export function tracePolygon(path: Path, disc: Disc, corners: readonly Vector[], holdsHidden: boolean): void {
+  const points = corners.flatMap((a, k) => along(a, corners[(k + 1) % corners.length]));
+  traceRegions(path, disc, { points: Float64Array.from(points.flat()), offsets: [0, points.length] }, holdsHidden);
+}
+
+/** Points of a great-circle side, a degree apart at the most, from its first corner on, without its last. */
+export function along(a: Vector, b: Vector): Vector[] {
+  const n = cross(a, b);
+  const sine = Math.hypot(n[0], n[1], n[2]);
+  const whole = Math.atan2(sine, dot(a, b));
+  const count = Math.max(1, Math.ceil((whole * 180) / Math.PI / FINE));
+  return Array.from({ length: count }, (_, k) => {
+    const t = (whole * k) / count;
+    const [s, u] = sine === 0 ? [1, 0] : [Math.sin(whole - t) / sine, Math.sin(t) / sine];
+    return unit([s * a[0] + u * b[0], s * a[1] + u * b[1], s * a[2] + u * b[2]]);
+  });
 }

@@ -1,7 +1,7 @@
 /** Rings whose sides are bent by a map: points between where a straight side would be seen to be wrong. */
 
 import type { MoebiusMap } from "../kernel/api.ts";
-import { row } from "../rooms/space.ts";
+import { row } from "../space.ts";
 import { bow } from "./arcs.ts";
 import type { Rings } from "./fill.ts";
 
@@ -16,7 +16,6 @@ const MOST_PIECES = 128;
 
 /**
  * The images of rings of great-circle arcs, with as many points more as it takes.
- *
  * @param source The rings' points before the map.
  * @param rings Their images, in the axes of the view.
  * @param radius Of the ball, pixels.

@@ -1,10 +1,8 @@
 /** The pen of the screen: a canvas with two dimensions. */
 
-import type { Colours, Token } from "./colours.ts";
-import { textParts, traceDisc } from "./pen.ts";
-import type { Disc, Path, Pen, Picture, Trace } from "./pen.ts";
+import { textParts, traceDisc, type Disc, type Path, type Pen, type Picture, type Trace } from "./pen.ts";
 import * as styles from "./styles.ts";
-import type { DotName, LabelStyle, Style, StyleName } from "./styles.ts";
+import type { Colours, DotName, LabelStyle, Style, StyleName, Token } from "./styles.ts";
 
 /** Arcs of ellipses that are stroked at once: browsers need quadratic time for paths of thousands. */
 const MOST_ARCS = 256;

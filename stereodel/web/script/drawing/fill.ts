@@ -1,17 +1,14 @@
 /**
  * Regions of a ball that fill right from every side and through every lens.
- *
  * What is hidden is pushed outward to the limb: the disc is then the sphere without its hidden pole M, the middle of the
  * far side. With regions on the left of their rings the pushed rings wind once about what is inside and not at all about
  * the rest, or, if M is inside, not at all and minus once: then the whole disc is added. Whether M is inside is found by
  * counting crossings on the way from a place of which it is known, and never from areas, whose signs cannot be trusted.
  */
 
-import type { Vector } from "../rooms/space.ts";
-import type { Disc, Path } from "./pen.ts";
-import { partsOf, tracePart, pointAt } from "./arcs.ts";
-import type { Circle } from "./arcs.ts";
-import { traceDisc } from "./pen.ts";
+import type { Vector } from "../space.ts";
+import { partsOf, pointAt, tracePart, type Circle } from "./arcs.ts";
+import { traceDisc, type Disc, type Path } from "./pen.ts";
 
 const TURN = 2 * Math.PI;
 const HALF_TURN = Math.PI;
@@ -24,7 +21,6 @@ export interface Rings {
 
 /**
  * Lays regions into a path.
- *
  * @param holdsHidden Whether M = (0, 0, −1) is inside: `holdsHidden` tells.
  * @param least Points nearer to the last one, pixels, are passed over.
  */
@@ -95,7 +91,6 @@ function traceWhole(path: Path, { x, y, r }: Disc, clockwise: boolean): void {
 
 /**
  * Whether M = (0, 0, −1) lies in regions.
- *
  * @param place A place of which it is known, axes of the view, nowhere near an outline.
  * @param inside Whether that place is in the regions.
  */

@@ -1,7 +1,6 @@
 /** The one interface through which rooms draw: the same trace becomes pixels or SVG. Pixels of the screen, y down. */
 
-import { HANDLE_CROSS, HANDLE_RADIUS } from "./styles.ts";
-import type { DotName, LabelStyle, StyleName } from "./styles.ts";
+import { HANDLE_CROSS, HANDLE_RADIUS, type DotName, type LabelStyle, type StyleName } from "./styles.ts";
 
 /** What a trace is laid into: a part of the canvas's own interface. */
 export interface Path {
@@ -55,6 +54,16 @@ export interface Pen {
   picture(picture: Picture, x: number, y: number, width: number, height: number): void;
 }
 
+/** A drawing as a file: a picture of a size in pixels of the screen, and what draws it. */
+export interface Sheet {
+  readonly title: string;
+  readonly width: number;
+  readonly height: number;
+  /** Factor of the widths of lines. */
+  readonly weight: number;
+  readonly paint: (pen: Pen) => void;
+}
+
 /** A whole circle. */
 export function traceDisc(path: Path, { x, y, r }: Disc): void {
   path.moveTo(x + r, y);
@@ -72,6 +81,16 @@ export function traceSegment(path: Path, a: readonly [number, number], b: readon
 export function traceCorners(path: Path, corners: readonly (readonly [number, number])[]): void {
   corners.forEach(([x, y], k) => (k === 0 ? path.moveTo(x, y) : path.lineTo(x, y)));
   if (corners.length > 0) path.closePath();
+}
+
+/** The corners of a rectangle, counterclockwise where y points up. */
+export function cornersOf(left: number, low: number, right: number, high: number): [number, number][] {
+  return [
+    [left, low],
+    [right, low],
+    [right, high],
+    [left, high],
+  ];
 }
 
 /** A ring to drag: filled and crossed in front, empty behind the ball, filled on a rim. */

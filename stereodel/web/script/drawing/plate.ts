@@ -1,10 +1,8 @@
 /** A drawing of the page: a canvas that is as large as its place and drawn anew when something asks for it. */
 
 import { CanvasPen } from "./canvas_pen.ts";
-import { colours, onColours } from "./colours.ts";
-import type { Disc, Pen } from "./pen.ts";
-import type { Sheet } from "./sheet.ts";
-import { NARROW, NARROW_WEIGHT } from "./styles.ts";
+import type { Disc, Pen, Sheet } from "./pen.ts";
+import { colours, NARROW, NARROW_WEIGHT, onColours } from "./styles.ts";
 
 /** Why a drawing is made: its kind decides how much of it may be left out. */
 export type Reason = "size" | "colours" | "state" | "hand" | "flight" | "rest" | "pointer";
@@ -13,10 +11,10 @@ export type Reason = "size" | "colours" | "state" | "hand" | "flight" | "rest" |
 const REST = 120;
 
 /** Between a ball's limb and the edge of its canvas, pixels: handles on the limb are whole. The style sheet has it, too. */
-export const BALL_MARGIN = 7;
+const BALL_MARGIN = 7;
 
 /** Draws everything. While it moves, `isMoving`, what takes long may be left out. */
-export type Painter = (pen: Pen, isMoving: boolean) => void;
+type Painter = (pen: Pen, isMoving: boolean) => void;
 
 export class Plate {
   readonly canvas: HTMLCanvasElement;

@@ -2,11 +2,22 @@
 
 import { writeNumber } from "../link.ts";
 import { LIGHT, SHADE } from "./canvas_pen.ts";
-import type { Colours, Token } from "./colours.ts";
-import { textParts } from "./pen.ts";
-import type { Disc, Path, Pen, Picture, Trace } from "./pen.ts";
-import { BEHIND, DOTS, HALO_WIDTH, HATCH_PITCH, HATCH_WIDTH, SERIF, STYLES } from "./styles.ts";
-import type { DotName, LabelStyle, Style, StyleName } from "./styles.ts";
+import { textParts, type Disc, type Path, type Pen, type Picture, type Trace } from "./pen.ts";
+import {
+  BEHIND,
+  DOTS,
+  HALO_WIDTH,
+  HATCH_PITCH,
+  HATCH_WIDTH,
+  SERIF,
+  STYLES,
+  type Colours,
+  type DotName,
+  type LabelStyle,
+  type Style,
+  type StyleName,
+  type Token,
+} from "./styles.ts";
 
 /** Decimals of a coordinate, pixels of the screen. */
 const DECIMALS = 3;
@@ -32,19 +43,15 @@ export class SvgPen implements Pen {
   /** The whole drawing, on paper. */
   text(title: string): string {
     const [w, h] = [number(this.width), number(this.height)];
-    return [
+    const lines = [
       `<svg xmlns="http://www.w3.org/2000/svg" width="${w}" height="${h}" viewBox="0 0 ${w} ${h}">`,
       `<title>${escaped(title)}</title>`,
-      this.#definitions.length > 0 ? `<defs>${this.#definitions.join("")}</defs>` : "",
+      ...(this.#definitions.length > 0 ? [`<defs>${this.#definitions.join("")}</defs>`] : []),
       `<rect width="${w}" height="${h}" ${paint("fill", this.#colours.paper)}/>`,
       `<g fill="none" stroke-linecap="round" stroke-linejoin="round" font-family='${SERIF}'>`,
       ...this.#parts,
-      "</g>",
-      "</svg>",
-      "",
-    ]
-      .filter((line, k, all) => line !== "" || k === all.length - 1)
-      .join("\n");
+    ];
+    return `${lines.join("\n")}\n</g>\n</svg>\n`;
   }
 
   draw(name: StyleName, trace: Trace): void {
@@ -153,7 +160,7 @@ export class SvgPen implements Pen {
 }
 
 /** What a trace lays down, as the attribute `d`. */
-export function pathData(trace: Trace): string {
+function pathData(trace: Trace): string {
   const path = new SvgPath();
   trace(path);
   return path.d;

@@ -2,13 +2,9 @@
 
 export { KernelError } from "./instance.ts";
 export type { Numbers } from "./checks.ts";
-export { lonlatToXyz, xyzToLonlat } from "./coordinates.ts";
-export type { Latitude } from "./latitudes.ts";
-export { PlanarDelaunay } from "./planar_delaunay.ts";
-export { PlanarVoronoi } from "./planar_voronoi.ts";
-export { SphericalDelaunay } from "./spherical_delaunay.ts";
-export { SphericalVoronoi } from "./spherical_voronoi.ts";
-export type { Inconclusive } from "./delaunay.ts";
+export { lonlatToXyz, xyzToLonlat, type Latitude } from "./coordinates.ts";
+export { PlanarDelaunay, SphericalDelaunay, type Inconclusive } from "./delaunay.ts";
+export { PlanarVoronoi, SphericalVoronoi } from "./voronoi.ts";
 export { inBubble, incircle, orient2d, orient3d, turn } from "./predicates.ts";
 export { Directions, MoebiusMap } from "./moebius.ts";
 export { Rotation } from "./rotation.ts";

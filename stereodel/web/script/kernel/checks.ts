@@ -1,7 +1,7 @@
 /**
- * Checks of what callers hand in: every message about points and indices stands here, in the words of the Python
- * library. What is no number is a `TypeError`, a number that will not do a `RangeError`; both name the argument and the
- * entry. Behind these checks arrays are finite and of known shape: the kernel takes that for granted.
+ * Checks of what callers hand in: every message about points and indices stands here. What is no number is a
+ * `TypeError`, a number that will not do a `RangeError`; both name the argument and the entry. Behind these checks arrays
+ * are finite and of known shape: the kernel takes that for granted.
  *
  * Statements with the label CHECK are left out of the page and the widget (`tools/bundle_web.mjs`): there, numbers come
  * from fields, links and files that were checked in the words for readers.
@@ -23,12 +23,6 @@ function place(name: string, at: number, width: number): string {
   return width === 1 ? entry(name, at) : entry(name, Math.floor(at / width), at % width);
 }
 
-/** A number as Python writes it, for those that are refused. */
-function written(value: number): string {
-  if (Number.isNaN(value)) return "nan";
-  return value === Infinity ? "inf" : value === -Infinity ? "-inf" : String(value);
-}
-
 function kindOf(value: unknown): string {
   if (value === null) return "null";
   return Array.isArray(value) || ArrayBuffer.isView(value) ? "an array" : `of type ${typeof value}`;
@@ -36,16 +30,6 @@ function kindOf(value: unknown): string {
 
 /** Finite doubles in rows of `width`, at most `most`; an array of doubles is returned as it is, not copied. */
 export function asRows(values: Numbers, width: number, name: string, most = Infinity): Float64Array {
-  const array = asDoubles(values, width, name, most);
-  CHECK: for (let k = 0; k < array.length; ++k) {
-    if (!Number.isFinite(array[k])) {
-      throw new RangeError(`${place(name, k, width)} is ${written(array[k])}; every value must be a finite number`);
-    }
-  }
-  return array;
-}
-
-function asDoubles(values: Numbers, width: number, name: string, most: number): Float64Array {
   CHECK: if (values === null || typeof values !== "object" || typeof values.length !== "number") {
     throw new TypeError(`${name} must be an array of numbers, row after row, but is ${kindOf(values)}`);
   }
@@ -53,25 +37,21 @@ function asDoubles(values: Numbers, width: number, name: string, most: number): 
     const rows = Math.floor(values.length / width);
     throw new RangeError(`${name} has ${rows} rows, more than the ${most} that the kernel has memory for; give fewer`);
   }
-  const array = values instanceof Float64Array ? values : doublesOf(values, width, name);
-  CHECK: if (array.length % width !== 0) {
-    const rows = `(n, ${width}) as one flat array, ${width} numbers a row`;
-    throw new RangeError(`${name} must have shape ${rows}, got ${array.length} numbers`);
-  }
-  return array;
-}
-
-function doublesOf(values: Numbers, width: number, name: string): Float64Array {
-  const array = new Float64Array(values.length);
-  for (let k = 0; k < array.length; ++k) {
+  CHECK: for (let k = 0; k < values.length; ++k) {
     const value: unknown = values[k];
-    CHECK: if (typeof value !== "number") {
+    if (typeof value !== "number") {
       const advice = Array.isArray(value) ? "; give all rows in one flat array" : "";
       throw new TypeError(`${place(name, k, width)} is ${kindOf(value)}, which is not a real number${advice}`);
     }
-    array[k] = value as number;
+    if (!Number.isFinite(value)) {
+      throw new RangeError(`${place(name, k, width)} is ${value}; every value must be a finite number`);
+    }
   }
-  return array;
+  CHECK: if (values.length % width !== 0) {
+    const rows = `(n, ${width}) as one flat array, ${width} numbers a row`;
+    throw new RangeError(`${name} must have shape ${rows}, got ${values.length} numbers`);
+  }
+  return values instanceof Float64Array ? values : new Float64Array(values);
 }
 
 /** Rows of points, at most as many as the kernel has memory for. */
@@ -129,8 +109,7 @@ export function asCount(value: number, name: string, low: number, high: number):
 /** One finite number above `low`. */
 export function asScalar(value: number, name: string, low = -Infinity): number {
   CHECK: if (typeof value !== "number") throw new TypeError(`${name} is ${kindOf(value)}, which is not a real number`);
-  CHECK: if (!Number.isFinite(value))
-    throw new RangeError(`${name} is ${written(value)}; every value must be a finite number`);
+  CHECK: if (!Number.isFinite(value)) throw new RangeError(`${name} is ${value}; every value must be a finite number`);
   CHECK: if (value <= low) throw new RangeError(`${name} is ${value}, outside (${low}, inf]`);
   return value;
 }

@@ -8,8 +8,9 @@
  */
 
 import { lonlatToXyz, xyzToLonlat } from "./coordinates.ts";
-import { SphericalDelaunay } from "./spherical_delaunay.ts";
-import { SphericalVoronoi } from "./spherical_voronoi.ts";
+import { SphericalDelaunay } from "./delaunay.ts";
+import { lazy } from "./lazy.ts";
+import { SphericalVoronoi } from "./voronoi.ts";
 
 /** Longitude and latitude in degrees. */
 export type Place = [number, number];
@@ -63,44 +64,20 @@ export function geoDelaunay(places: readonly (readonly [number, number])[]): Geo
     lonlat[2 * k + 1] = places[k][1];
   }
   const delaunay = SphericalDelaunay.fromLonlat(lonlat);
-  const edges = once(() => edgesOf(delaunay));
-  const cells = once(() => cellsOf(delaunay));
-  const triangles = once(() => triples(delaunay.simplices).map(([a, b, c]): [number, number, number] => [a, c, b]));
-  const neighbors = once(() => neighborsOf(delaunay));
-  const mesh = once(() => meshOf(cells().polygons));
-  const hull = once(() => hullOf(delaunay));
-  return {
-    delaunay,
-    get edges() {
-      return edges();
-    },
-    get triangles() {
-      return triangles();
-    },
-    get centers() {
-      return cells().centers;
-    },
-    get neighbors() {
-      return neighbors();
-    },
-    get polygons() {
-      return cells().polygons;
-    },
-    get mesh() {
-      return mesh();
-    },
-    get hull() {
-      return hull();
-    },
-    urquhart: (distances) => urquhart(delaunay, edges(), distances),
-    find: (lon, lat) => delaunay.nearest(lonlatToXyz([lon, lat]))[0],
-  };
-}
-
-/** A value that is made when it is first asked for. */
-function once<T>(make: () => T): () => T {
-  let made: { value: T } | null = null;
-  return () => (made ??= { value: make() }).value;
+  const cells = lazy({ all: () => cellsOf(delaunay) });
+  const geo: GeoDelaunay = lazy<GeoDelaunay>({
+    delaunay: () => delaunay,
+    edges: () => edgesOf(delaunay),
+    triangles: () => triples(delaunay.simplices).map(([a, b, c]): [number, number, number] => [a, c, b]),
+    centers: () => cells.all.centers,
+    neighbors: () => neighborsOf(delaunay),
+    polygons: () => cells.all.polygons,
+    mesh: () => meshOf(cells.all.polygons),
+    hull: () => hullOf(delaunay),
+    urquhart: () => (distances) => urquhart(delaunay, geo.edges, distances),
+    find: () => (lon, lat) => delaunay.nearest(lonlatToXyz([lon, lat]))[0],
+  });
+  return geo;
 }
 
 // Loops rather than Array.from, which takes several times as long.
@@ -283,12 +260,11 @@ export interface GeoVoronoi<Datum> {
 
 /** The Voronoi diagram of places, of GeoJSON features, or, with accessors, of anything. */
 export function geoVoronoi<Datum = Place>(data?: GeoData<Datum>): GeoVoronoi<Datum> {
-  let longitude: Accessor<Datum> = (datum) => placeOf(datum)[0];
-  let latitude: Accessor<Datum> = (datum) => placeOf(datum)[1];
+  const at: Accessor<Datum>[] = [(datum) => placeOf(datum)[0], (datum) => placeOf(datum)[1]];
 
   const diagram = ((given: GeoData<Datum>) => {
     const items = "features" in given ? given.features : given;
-    const located = items.map((datum) => ({ datum, place: [longitude(datum), latitude(datum)] as Place }));
+    const located = items.map((datum) => ({ datum, place: at.map((accessor) => accessor(datum)) as Place }));
     const valid = located.filter(({ place }) => place.every(Number.isFinite));
     diagram.points = valid.map(({ place }) => place);
     diagram.valid = valid.map(({ datum }) => datum);
@@ -296,91 +272,76 @@ export function geoVoronoi<Datum = Place>(data?: GeoData<Datum>): GeoVoronoi<Dat
     return diagram;
   }) as GeoVoronoi<Datum>;
 
-  /** The triangulation after a method got `given`; null without any data. */
-  const after = (given?: GeoData<Datum>): GeoDelaunay | null => {
-    if (given !== undefined) diagram(given);
-    return diagram.delaunay;
-  };
+  /** A method that may get data, and is false without any. */
+  const method =
+    <T>(make: (made: GeoDelaunay) => T) =>
+    (given?: GeoData<Datum>): T | false => {
+      if (given !== undefined) diagram(given);
+      return diagram.delaunay !== null && make(diagram.delaunay);
+    };
+  const accessor = (axis: 0 | 1): GeoVoronoi<Datum>["x"] =>
+    ((given?: Accessor<Datum>) => {
+      if (given === undefined) return at[axis];
+      at[axis] = given;
+      return diagram;
+    }) as GeoVoronoi<Datum>["x"];
   const segments = (ends: [Place, Place][]): MultiLineString => ({ type: "MultiLineString", coordinates: ends });
+  const collection = <T>(features: Feature<T>[]): Collection<T> => ({ type: "FeatureCollection", features });
 
   diagram.points = [];
   diagram.valid = [];
   diagram.delaunay = null;
-  diagram.x = ((accessor?: Accessor<Datum>) => {
-    if (accessor === undefined) return longitude;
-    longitude = accessor;
-    return diagram;
-  }) as GeoVoronoi<Datum>["x"];
-  diagram.y = ((accessor?: Accessor<Datum>) => {
-    if (accessor === undefined) return latitude;
-    latitude = accessor;
-    return diagram;
-  }) as GeoVoronoi<Datum>["y"];
+  [diagram.x, diagram.y] = [accessor(0), accessor(1)];
 
-  diagram.polygons = (given) => {
-    const made = after(given);
-    if (made === null) return false;
-    const features = diagram.points.map((place, k): Feature<OfSite<Datum>> => {
-      const polygon = made.polygons[k];
-      const alone = made.delaunay.dimension === 0 && k === 0;
-      const ring = polygon?.map((center) => made.centers[center]);
-      return {
+  diagram.polygons = method(({ polygons, centers, neighbors, delaunay }) =>
+    collection(
+      diagram.points.map((place, k) => {
+        const ring = polygons[k]?.map((center) => centers[center]);
+        const alone = delaunay.dimension === 0 && k === 0;
+        return {
+          type: "Feature",
+          geometry: ring ? polygon(ring) : alone ? { type: "Sphere" } : null,
+          properties: { site: diagram.valid[k], sitecoordinates: place, neighbours: neighbors[k] },
+        };
+      }),
+    ),
+  );
+  diagram.triangles = method(({ triangles, centers, delaunay: { closing } }) => {
+    const features = triangles.map((corners, t): Feature<{ circumcenter: Place }> => {
+      const geometry = polygon(corners.map((corner) => diagram.points[corner]));
+      return { type: "Feature", properties: { circumcenter: centers[t] }, geometry };
+    });
+    return collection(features.filter((_, t) => closing[t] === 0));
+  });
+  diagram.links = method(({ edges, urquhart: kept }) => {
+    const lengths = edges.map(([i, j]) => distance(diagram.points[i], diagram.points[j]));
+    const urquhart = kept(lengths);
+    return collection(
+      edges.map(([i, j], k) => ({
         type: "Feature",
-        geometry: ring ? { type: "Polygon", coordinates: [closed(ring)] } : alone ? { type: "Sphere" } : null,
-        properties: { site: diagram.valid[k], sitecoordinates: place, neighbours: made.neighbors[k] },
-      };
-    });
-    return { type: "FeatureCollection", features };
-  };
-
-  diagram.triangles = (given) => {
-    const made = after(given);
-    if (made === null) return false;
-    const { closing } = made.delaunay;
-    const features = made.triangles.flatMap((corners, t): Feature<{ circumcenter: Place }>[] => {
-      if (closing[t] !== 0) return [];
-      const ring = corners.map((corner) => diagram.points[corner]);
-      const geometry = { type: "Polygon", coordinates: [closed(ring)] };
-      return [{ type: "Feature", properties: { circumcenter: made.centers[t] }, geometry }];
-    });
-    return { type: "FeatureCollection", features };
-  };
-
-  diagram.links = (given) => {
-    const made = after(given);
-    if (made === null) return false;
-    const lengths = made.edges.map(([i, j]) => distance(diagram.points[i], diagram.points[j]));
-    const kept = made.urquhart(lengths);
-    const features = made.edges.map(([i, j], k) => ({
-      type: "Feature" as const,
-      properties: { source: diagram.valid[i], target: diagram.valid[j], length: lengths[k], urquhart: kept[k] },
-      geometry: { type: "LineString", coordinates: [diagram.points[i], diagram.points[j]] },
-    }));
-    return { type: "FeatureCollection", features };
-  };
-
-  diagram.mesh = (given) => {
-    const made = after(given);
-    return made !== null && segments(made.edges.map(([i, j]) => [diagram.points[i], diagram.points[j]]));
-  };
-  diagram.cellMesh = (given) => {
-    const made = after(given);
-    return made !== null && segments(made.mesh.map(([p, q]) => [made.centers[p], made.centers[q]]));
-  };
+        properties: { source: diagram.valid[i], target: diagram.valid[j], length: lengths[k], urquhart: urquhart[k] },
+        geometry: { type: "LineString", coordinates: [diagram.points[i], diagram.points[j]] },
+      })),
+    );
+  });
+  diagram.mesh = method(({ edges }) => segments(edges.map(([i, j]) => [diagram.points[i], diagram.points[j]])));
+  diagram.cellMesh = method(({ mesh, centers }) => segments(mesh.map(([p, q]) => [centers[p], centers[q]])));
   diagram.find = (lon, lat, radius) => {
     const found = diagram.delaunay?.find(lon, lat);
     if (found === undefined || !radius) return found;
     return distance([lon, lat], diagram.points[found]) * (180 / Math.PI) < radius ? found : undefined;
   };
+  const hull = method((made) => made.hull.map((site) => diagram.points[site]));
   diagram.hull = (given) => {
-    const hull = after(given)?.hull ?? [];
-    const ring = hull.map((site) => diagram.points[site]);
-    return ring.length === 0 ? null : { type: "Polygon", coordinates: [closed(ring)] };
+    const ring = hull(given);
+    return ring && ring.length > 0 ? polygon(ring) : null;
   };
   return data === undefined ? diagram : diagram(data);
 }
 
-const closed = (ring: Place[]): Place[] => [...ring, ring[0]];
+const polygon = (ring: Place[]): { type: "Polygon"; coordinates: Place[][] } => {
+  return { type: "Polygon", coordinates: [[...ring, ring[0]]] };
+};
 
 /** The angle between two places in radians. */
 function distance(a: Place, b: Place): number {
@@ -398,7 +359,7 @@ function placeOf(datum: unknown): Place {
 
 /** The direction of the sum of the parts of highest dimension: areas, or else lines, or else points. */
 function centroid(object: object): Place {
-  const sums = [new Float64Array(3), new Float64Array(3), new Float64Array(3)];
+  const sums = [0, 1, 2].map(() => new Float64Array(3));
   addParts(object as GeoJson, sums);
   const whole = sums.reverse().find((total) => Math.hypot(...total) > NO_DIRECTION);
   return whole === undefined ? [NaN, NaN] : placesOf(whole)[0];
@@ -412,27 +373,23 @@ interface GeoJson {
   geometry?: GeoJson | null;
   geometries?: GeoJson[];
   features?: GeoJson[];
-  coordinates?: unknown;
+  coordinates?: unknown[];
 }
 
+/** Adds the points, the lines and the areas of an object to the sums of each. */
 function addParts({ type, geometry, geometries, features, coordinates }: GeoJson, sums: Float64Array[]): void {
-  if (geometry) addParts(geometry, sums);
-  for (const part of [...(geometries ?? []), ...(features ?? [])]) addParts(part, sums);
-  const depth = { Point: 0, MultiPoint: 1, LineString: 1, MultiLineString: 2, Polygon: 2, MultiPolygon: 3 }[type];
-  if (depth === undefined) return;
-  const lines = linesOf(coordinates, type === "Point" || type === "MultiPoint" ? depth : depth - 1);
-  for (const line of lines) {
+  for (const part of [geometry, geometries, features].flat()) if (part) addParts(part, sums);
+  for (const line of linesOf(coordinates ?? [])) {
     const xyz = lonlatToXyz(line.flatMap(([lon, lat]) => [lon, lat]));
     if (type.endsWith("Point")) addTo(sums[0], xyz);
     else addSegments(xyz, type.endsWith("Polygon") ? sums[2] : sums[1], type.endsWith("Polygon"));
   }
 }
 
-/** All lists of places in nested arrays; single places as lists of one. */
-function linesOf(coordinates: unknown, depth: number): Place[][] {
-  if (depth === 0)
-    return Array.isArray((coordinates as unknown[])[0]) ? [coordinates as Place[]] : [[coordinates as Place]];
-  return (coordinates as unknown[]).flatMap((part) => linesOf(part, depth - 1));
+/** All lists of places in nested arrays; a single place as a list of one. */
+function linesOf(nested: unknown[]): Place[][] {
+  if (!Array.isArray(nested[0])) return nested.length === 0 ? [] : [[nested as Place]];
+  return Array.isArray(nested[0][0]) ? nested.flatMap((part) => linesOf(part as unknown[])) : [nested as Place[]];
 }
 
 function addTo(total: Float64Array, xyz: ArrayLike<number>): void {

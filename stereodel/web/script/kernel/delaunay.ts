@@ -1,11 +1,9 @@
-/** What the Delaunay triangulations of plane and sphere have in common. */
+/** Delaunay triangulations of the plane and of the sphere. */
 
-import { asCount, asIndices, type Numbers } from "./checks.ts";
-import { Kept, kernel, type Answer, type Argument } from "./instance.ts";
+import { asCount, asDirections, asIndices, asPoints, type Numbers } from "./checks.ts";
+import { lonlatToXyz, type Latitude } from "./coordinates.ts";
+import { computed, filled, Kept, kernel, type Answer, type Argument } from "./instance.ts";
 import { adjacencyOf, boundaryOf, edgesOf } from "./topology.ts";
-
-/** The plane, rows of two, or the sphere, rows of three: how the functions of the kernel begin. */
-export type Space = "plane" | "sphere";
 
 /** Tests that each stage left open; `curvature` is a stage of the sphere alone. */
 export interface Inconclusive {
@@ -15,14 +13,7 @@ export interface Inconclusive {
   readonly exact: number;
 }
 
-interface Arrays {
-  readonly points: Float64Array;
-  readonly simplices: Int32Array;
-  readonly neighbors: Int32Array;
-  readonly duplicates: Int32Array;
-  readonly dimension: number;
-  readonly inconclusive: Inconclusive;
-}
+type Arrays = Pick<Delaunay, "points" | "simplices" | "neighbors" | "duplicates" | "dimension" | "inconclusive">;
 
 /** Points from which on a fresh start is faster than inserting (removing) one for so many present ones: measured. */
 const REBUILD_INSERTING = 3;
@@ -35,61 +26,40 @@ const REBUILD_REMOVING = 6;
  * earlier do not change.
  */
 export abstract class Delaunay {
-  /** The space, which names the functions of the kernel. */
-  protected abstract readonly space: Space;
   /** Numbers in a row of points: 2 or 3. */
-  abstract readonly width: 2 | 3;
-
-  private arrays!: Arrays;
-  private kept!: { points: Kept; simplices: Kept; neighbors: Kept };
-  private derived: { edges?: Int32Array; hull?: Int32Array; centers?: Float64Array; order?: Int32Array } = {};
-
-  /** Points as the kernel takes them: checked, and not copied if they are an array of doubles. */
-  protected abstract check(points: Numbers, name: string): Float64Array;
-  /** Whether a query can lie in a triangle. */
-  protected abstract isOpen(triangle: number): boolean;
-  /** One byte a triangle: 1 where no query can lie; null if there is none. */
-  protected abstract closed(): Kept | null;
-
-  /** Takes the place of what a constructor would do, when the fields of the subclass are there. */
-  protected build(points: Numbers): void {
-    const given = this.check(points, "points");
-    this.fresh(given === points ? given.slice() : given);
-  }
+  abstract get width(): 2 | 3;
 
   /** The points, in the order given, inserted ones at the end. */
-  get points(): Float64Array {
-    return this.arrays.points;
+  readonly points!: Float64Array;
+  /** Triangles, three points each, counterclockwise, smallest index first. */
+  readonly simplices!: Int32Array;
+  /** The triangle opposite each corner, three each, -1 where there is none. */
+  readonly neighbors!: Int32Array;
+  /** Pairs dropped, kept of equal points; the lowest index is kept, and is the one in `simplices`. */
+  readonly duplicates!: Int32Array;
+  /** Of the points: -1 without any, 0, 1 on one line or great circle, or 2 when there are triangles. */
+  readonly dimension!: number;
+  /** Tests that each stage left open, in construction and changes. */
+  readonly inconclusive!: Inconclusive;
+
+  private kept!: { points: Kept; simplices: Kept; neighbors: Kept };
+  private derived: {
+    edges?: Int32Array;
+    hull?: Int32Array;
+    centers?: Float64Array;
+    order?: Int32Array;
+    closing?: Kept;
+  } = {};
+
+  /** @param points Rows of finite numbers x, y, y up, or of directions x, y, z of any length but zero. Copied. */
+  constructor(points: Numbers) {
+    const given = this.check(points, "points");
+    this.fresh(given === points ? given.slice() : given);
   }
 
   /** Number of points, duplicates included. */
   get size(): number {
     return this.points.length / this.width;
-  }
-
-  /** Triangles, three points each, counterclockwise, smallest index first. */
-  get simplices(): Int32Array {
-    return this.arrays.simplices;
-  }
-
-  /** The triangle opposite each corner, three each, -1 where there is none. */
-  get neighbors(): Int32Array {
-    return this.arrays.neighbors;
-  }
-
-  /** Pairs dropped, kept of equal points; the lowest index is kept, and is the one in `simplices`. */
-  get duplicates(): Int32Array {
-    return this.arrays.duplicates;
-  }
-
-  /** Of the points: -1 without any, 0, 1 on one line or great circle, or 2 when there are triangles. */
-  get dimension(): number {
-    return this.arrays.dimension;
-  }
-
-  /** Tests that each stage left open, in construction and changes. */
-  get inconclusive(): Inconclusive {
-    return this.arrays.inconclusive;
   }
 
   /** Edges i < j, two points each, in lexicographic order. */
@@ -104,18 +74,14 @@ export abstract class Delaunay {
 
   /** Directed edges around the triangles, which lie on the left, two points each, in lexicographic order. */
   get convexHull(): Int32Array {
-    return (this.derived.hull ??= boundaryOf(this.simplices, this.neighbors, (t) => this.isOpen(t)));
+    return (this.derived.hull ??= this.boundary());
   }
 
   /** The centre of each triangle's circle, rounded from the exact one: a point of the plane, or a unit vector. */
   get circumcenters(): Float64Array {
-    return (this.derived.centers ??= kernel().run((session) => {
-      const count = this.simplices.length / 3;
-      const centers = session.place(Float64Array, this.width * count);
-      const { points, simplices } = this.kept;
-      session.call(`${this.space}_circumcenters`, points, this.size, simplices, count, centers);
-      return centers.copy();
-    }));
+    const { points, size, simplices, count } = this.forKernel;
+    const name = `${this.space}_circumcenters`;
+    return (this.derived.centers ??= computed(this.width * count, name, points, size, simplices, count));
   }
 
   /**
@@ -162,13 +128,9 @@ export abstract class Delaunay {
    * or vertex, -1 outside `convexHull`.
    */
   findSimplex(queries: Numbers): Int32Array {
-    const asked = this.check(queries, this.width === 2 ? "xy" : "xyz");
-    return this.answers(asked.length / this.width, `${this.space}_find_simplex`, (count, found) => [
-      ...this.triangles(),
-      asked,
-      count,
-      found,
-    ]);
+    const asked = this.check(queries, "xyz".slice(0, this.width));
+    const count = asked.length / this.width;
+    return this.answers(count, "find_simplex", [...this.triangles(), asked, count]);
   }
 
   /**
@@ -181,22 +143,16 @@ export abstract class Delaunay {
    */
   nearest(queries: Numbers, k?: number): Int32Array {
     CHECK: if (this.size === 0) throw new RangeError("nearest needs at least one point; this triangulation has none");
-    const asked = this.check(queries, this.width === 2 ? "xy" : "xyz");
+    const asked = this.check(queries, "xyz".slice(0, this.width));
     const each = k === undefined ? 1 : asCount(k, "k", 1, this.size);
     const size = asked.length / this.width;
     const same = [this.duplicates, this.duplicates.length / 2];
     if (this.dimension < 2) {
-      const order = this.flatOrder;
-      return this.answers(size * each, `${this.space}_nearest_flat`, (_, found) => {
-        return [this.kept.points, order, order.length, ...same, asked, size, each, found];
-      });
+      const order = [this.kept.points, this.flatOrder, this.flatOrder.length];
+      return this.answers(size * each, "nearest_flat", [...order, ...same, asked, size, each]);
     }
-    if (k === undefined) {
-      return this.answers(size, `${this.space}_nearest`, (_, found) => [...this.triangles(), asked, size, found]);
-    }
-    return this.answers(size * each, `${this.space}_k_nearest`, (_, found) => {
-      return [...this.triangles(), ...same, asked, size, each, found];
-    });
+    if (k === undefined) return this.answers(size, "nearest", [...this.triangles(), asked, size]);
+    return this.answers(size * each, "k_nearest", [...this.triangles(), ...same, asked, size, each]);
   }
 
   /** The different points in the order along their line or great circle, without triangles. */
@@ -216,15 +172,33 @@ export abstract class Delaunay {
 
   private triangles(): Argument[] {
     const { points, simplices, neighbors } = this.kept;
-    return [points, simplices, neighbors, this.closed(), this.simplices.length / 3];
+    return [points, simplices, neighbors, this.closed, this.simplices.length / 3];
   }
 
-  private answers(length: number, name: string, given: (length: number, found: Argument) => Argument[]): Int32Array {
-    return kernel().run((session) => {
-      const found = session.place(Int32Array, length);
-      session.call(name, ...given(length, found));
-      return found.copy();
-    });
+  /** One byte a triangle of the sphere: 1 where no query can lie. */
+  protected get closed(): Kept | null {
+    if (this.width === 2) return null;
+    const { points, size, simplices, count } = this.forKernel;
+    return (this.derived.closing ??= new Kept(
+      filled(Uint8Array, count, "sphere_closing", points, size, simplices, count),
+    ));
+  }
+
+  private get space(): string {
+    return this.width === 2 ? "plane" : "sphere";
+  }
+
+  private check(points: Numbers, name: string): Float64Array {
+    return this.width === 2 ? asPoints(points, 2, name) : asDirections(points, name);
+  }
+
+  private boundary(): Int32Array {
+    const closed = this.closed?.values;
+    return boundaryOf(this.simplices, this.neighbors, (triangle) => closed?.[triangle] !== 1);
+  }
+
+  private answers(length: number, name: string, given: Argument[]): Int32Array {
+    return filled(Int32Array, length, `${this.space}_${name}`, ...given);
   }
 
   private fresh(points: Float64Array): void {
@@ -253,25 +227,61 @@ export abstract class Delaunay {
   }
 
   private hold(arrays: Arrays, points: Kept): void {
-    this.arrays = arrays;
+    Object.assign(this, arrays);
     this.derived = {};
     this.kept = { points, simplices: new Kept(arrays.simplices), neighbors: new Kept(arrays.neighbors) };
-    this.changed();
+  }
+}
+
+/**
+ * Delaunay triangulation of points of the plane: no point lies inside a triangle's circle.
+ *
+ * The answer is that of exact arithmetic on the given doubles, and equal to that of the Python class of the same name,
+ * row by row.
+ *
+ * @example
+ * const square = new PlanarDelaunay([0, 0, 2, 0, 2, 2, 0, 2, 1, 1]);
+ * square.edges; // 0 1, 0 3, 0 4, 1 2, 1 4, 2 3, 2 4, 3 4
+ */
+export class PlanarDelaunay extends Delaunay {
+  override get width(): 2 {
+    return 2;
+  }
+}
+
+/**
+ * Delaunay triangulation of directions: each triangle's bubble on the outer side of its plane is empty.
+ *
+ * The answer is that of exact arithmetic on the rays through the given doubles, and equal to that of the Python class of
+ * the same name, row by row.
+ *
+ * @example
+ * const octahedron = new SphericalDelaunay([1, 0, 0, 0, 1, 0, -1, 0, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1]);
+ * octahedron.nearest([1, 2, 3]); // 4
+ */
+export class SphericalDelaunay extends Delaunay {
+  override get width(): 3 {
+    return 3;
   }
 
-  /** What a subclass derived from arrays that are there no more. */
-  protected changed(): void {}
+  /** The triangulation of points given by longitude and latitude in degrees, row after row; `latitude` as in `lonlatToXyz`. */
+  static fromLonlat(lonlat: Numbers, latitude: Latitude = "spherical"): SphericalDelaunay {
+    return new SphericalDelaunay(lonlatToXyz(lonlat, latitude));
+  }
+
+  /**
+   * One byte for each facet: 1 where its empty bubble is a hemisphere or more, so that it is no spherical triangle.
+   * There are some exactly if all points lie in a closed hemisphere.
+   */
+  get closing(): Uint8Array {
+    return this.closed!.values as Uint8Array;
+  }
 }
 
 const nothing: Inconclusive = { filter: 0, curvature: 0, doubleDouble: 0, exact: 0 };
 
 function read(answer: Answer, points: Float64Array, before: Inconclusive): Arrays {
-  const [simplices, neighbors, duplicates] = [
-    answer.next(Int32Array),
-    answer.next(Int32Array),
-    answer.next(Int32Array),
-  ];
-  const [dimension] = answer.next(Int32Array);
+  const [simplices, neighbors, duplicates, [dimension]] = [0, 1, 2, 3].map(() => answer.next(Int32Array));
   const [filter, curvature, doubleDouble, exact] = answer.next(Float64Array);
   const inconclusive = {
     filter: before.filter + filter,

@@ -41,39 +41,15 @@ export class Kept {
 }
 
 /** An array of the module that a call fills. */
-export class Place<A extends NumberArray> {
+export interface Place<A extends NumberArray> {
   readonly address: number;
-  private readonly read: () => A;
-
-  constructor(address: number, read: () => A) {
-    this.address = address;
-    this.read = read;
-  }
-
   /** What was filled in, as an array of its own. */
-  copy(): A {
-    return this.read();
-  }
+  copy(): A;
 }
 
 /** Arrays whose lengths the module found out, read one after the other. */
 export interface Answer {
   next<A extends NumberArray>(Type: ArrayMaker<A>): A;
-}
-
-/** One call after another on one instance; arrays that are handed in are given back when all are done. */
-export interface Session {
-  /** Room for `length` numbers that a function will fill. */
-  place<A extends NumberArray>(Type: ArrayMaker<A>, length: number): Place<A>;
-  /** Calls a function of the module. */
-  call(name: string, ...given: Argument[]): number;
-  /** Calls one that answers with arrays, and reads them. */
-  ask<T>(name: string, given: Argument[], read: (answer: Answer) => T): T;
-}
-
-interface Exports {
-  readonly memory: WebAssembly.Memory;
-  readonly [name: string]: unknown;
 }
 
 /** A compiled module and its present instance. */
@@ -86,7 +62,7 @@ export class Kernel {
   }
 
   /** Runs `body`, which calls functions of the module. */
-  run<T>(body: (session: Session) => T): T {
+  run<T>(body: (session: Instance) => T): T {
     const instance = (this.instance ??= new Instance(this.module));
     try {
       const result = body(instance);
@@ -105,9 +81,10 @@ export class Kernel {
   }
 }
 
-class Instance implements Session {
+/** One call after another; arrays that are handed in are given back when all are done. */
+class Instance {
   readonly memory: WebAssembly.Memory;
-  private readonly exports: Exports;
+  private readonly exports: WebAssembly.Exports;
   private readonly taken: number[] = []; // addresses, to be released after the call
   private readonly kept = new Map<NumberArray, number>(); // addresses, the array used last at the end
   private keptBytes = 0;
@@ -116,22 +93,24 @@ class Instance implements Session {
     const fail = (kind: number, message: number): never => {
       throw new KernelError(this.describe(this.text(unsigned(kind)), this.text(unsigned(message))));
     };
-    const instance = new WebAssembly.Instance(module, { page: { fail } });
-    this.exports = instance.exports as unknown as Exports;
-    this.memory = this.exports.memory;
+    this.exports = new WebAssembly.Instance(module, { page: { fail } }).exports;
+    this.memory = this.exports["memory"] as WebAssembly.Memory;
     this.invoke("_initialize");
   }
 
+  /** Room for `length` numbers that a function will fill. */
   place<A extends NumberArray>(Type: ArrayMaker<A>, length: number): Place<A> {
     const address = this.allocate(length * Type.BYTES_PER_ELEMENT);
     this.taken.push(address);
-    return new Place(address, () => this.view(Type, address, length).slice() as A);
+    return { address, copy: () => this.view(Type, address, length).slice() as A };
   }
 
+  /** Calls a function of the module. */
   call(name: string, ...given: Argument[]): number {
     return unsigned(this.invoke(name, ...given.map((argument) => this.addressOf(argument))));
   }
 
+  /** Calls one that answers with arrays, and reads them. */
   ask<T>(name: string, given: Argument[], read: (answer: Answer) => T): T {
     const answer = this.call(name, ...given);
     let slot = 0;
@@ -159,8 +138,8 @@ class Instance implements Session {
   private addressOf(argument: Argument): number {
     if (argument === null) return 0;
     if (typeof argument === "number") return argument;
-    if (argument instanceof Place) return argument.address;
     if (argument instanceof Kept) return this.keep(argument.values);
+    if ("address" in argument) return argument.address;
     const address = this.copyIn(argument);
     this.taken.push(address);
     return address;
@@ -253,10 +232,20 @@ export function kernel(): Kernel {
 }
 
 /** So many numbers that a function of the kernel fills in behind its other arguments. */
-export function computed(length: number, name: string, ...given: Argument[]): Float64Array {
+export function filled<A extends NumberArray>(
+  Type: ArrayMaker<A>,
+  length: number,
+  name: string,
+  ...given: Argument[]
+): A {
   return kernel().run((session) => {
-    const out = session.place(Float64Array, length);
+    const out = session.place(Type, length);
     session.call(name, ...given, out);
     return out.copy();
   });
+}
+
+/** So many doubles. */
+export function computed(length: number, name: string, ...given: Argument[]): Float64Array {
+  return filled(Float64Array, length, name, ...given);
 }

@@ -1,14 +1,14 @@
 /** The conformal maps of the sphere that keep orientation: Möbius transformations. */
 
 import { asDirections, asLonlat, asScalar, type Numbers } from "./checks.ts";
-import { computed, Kept, type Argument } from "./instance.ts";
+import { computed, Kept } from "./instance.ts";
 import { asDirection, Rotation } from "./rotation.ts";
 
 const Z_AXIS = [0, 0, 1];
 /** Half a turn about x: it turns the fisheye of magnification 1/S along z into that of S, exactly. */
 const FLIP = [0, 1, 0, 0];
 /** Largest S (and largest 1/S) that can be evaluated. */
-export const LARGEST_MAGNIFICATION = 1e100;
+const LARGEST_MAGNIFICATION = 1e100;
 
 /** Directions that stay in the kernel's memory while a map changes, as those of a picture from frame to frame. */
 export class Directions {
@@ -92,7 +92,7 @@ export class MoebiusMap {
   /** Images of rows (longitude, latitude) in degrees, longitude in [-180, 180). */
   lonlat(lonlat: Numbers): Float64Array {
     const rows = asLonlat(lonlat);
-    return this.call("moebius_lonlat", rows, rows.length / 2, 2);
+    return computed(rows.length, "moebius_lonlat", this.forKernel, rows, rows.length / 2);
   }
 
   /** First `other`, then this one: the exact composition with its parameters rounded once. */
@@ -113,12 +113,8 @@ export class MoebiusMap {
   }
 
   private evaluate(name: string, xyz: Numbers | Directions, width: number): Float64Array {
-    if (xyz instanceof Directions) return this.call(name, xyz.kept, xyz.xyz.length / 3, width);
-    const rows = asDirections(xyz, "xyz");
-    return this.call(name, rows, rows.length / 3, width);
-  }
-
-  private call(name: string, rows: Argument, count: number, width: number): Float64Array {
+    const rows = xyz instanceof Directions ? xyz.kept : asDirections(xyz, "xyz");
+    const count = (rows instanceof Kept ? rows.values : rows).length / 3;
     return computed(width * count, name, this.forKernel, rows, count);
   }
 

@@ -1,7 +1,7 @@
 /** A picture of the whole sphere on a globe, through a lens, pixel by pixel. */
 
 import { asCount } from "./checks.ts";
-import { Kept, kernel } from "./instance.ts";
+import { filled, Kept, kernel } from "./instance.ts";
 import type { MoebiusMap } from "./moebius.ts";
 
 const EDGES = Float64Array.of(-Math.PI, -Math.PI / 2, Math.PI, Math.PI / 2); // west, south, east, north in radians
@@ -34,11 +34,9 @@ export class Raster {
       );
     }
     this.texels = new Kept(premultiplied(pixels));
-    this.levels = kernel().run((session) => {
-      const levels = session.place(Uint8Array, session.call("raster_levels_size", this.width, this.height));
-      session.call("raster_levels", this.texels, this.width, this.height, EDGES, levels);
-      return new Kept(levels.copy());
-    });
+    const size = kernel().run((session) => session.call("raster_levels_size", this.width, this.height));
+    const given = [this.texels, this.width, this.height, EDGES];
+    this.levels = new Kept(filled(Uint8Array, size, "raster_levels", ...given));
   }
 
   /**
@@ -72,12 +70,9 @@ export class Raster {
     // From the view back to the picture: rotation, fisheye, rotation; the last number stands for a ball seen from afar.
     const back = map.inverse();
     const page = Float64Array.of(...back.right.matrix, back.magnification, ...back.left.matrix, 0);
-    return kernel().run((session) => {
-      const pixels = session.place(Uint8ClampedArray, 4 * width * height);
-      const source = [this.texels, this.levels, this.width, this.height, EDGES];
-      session.call("warp_raster", ...source, page, Float64Array.of(...place), width, height, covered ? 1 : 0, pixels);
-      return pixels.copy() as Uint8ClampedArray<ArrayBuffer>;
-    });
+    const source = [this.texels, this.levels, this.width, this.height, EDGES];
+    const given = [...source, page, Float64Array.of(...place), width, height, covered ? 1 : 0];
+    return filled(Uint8ClampedArray, 4 * width * height, "warp_raster", ...given) as Uint8ClampedArray<ArrayBuffer>;
   }
 }
 

@@ -90,18 +90,18 @@ export function asDirection(point: Numbers, name: string): Float64Array {
 }
 
 /** Doubles over a power of two, the largest of them in [1/2, 1). */
-function scaled(values: ArrayLike<number>): Float64Array {
-  const largest = Array.from(values).reduce((most, value) => Math.max(most, Math.abs(value)), 0);
-  const exponent = exponentOf(largest);
+function scaled(values: Float64Array): Float64Array {
+  const exponent = exponentOf(values.reduce((most, value) => Math.max(most, Math.abs(value)), 0));
   const half = Math.floor(exponent / 2); // in two steps: 2^1074 is no double
-  return Float64Array.from(values, (value) => value * 2 ** -half * 2 ** (half - exponent));
+  return values.map((value) => value * 2 ** -half * 2 ** (half - exponent));
 }
+
+const BITS = new DataView(new ArrayBuffer(8));
 
 /** k with |value| in [2^(k - 1), 2^k); 0 for 0. */
 function exponentOf(value: number): number {
   if (value === 0) return 0;
-  const bits = new DataView(new ArrayBuffer(8));
-  bits.setFloat64(0, value);
-  const stored = (bits.getUint32(0) >>> 20) & 0x7ff;
+  BITS.setFloat64(0, value);
+  const stored = (BITS.getUint32(0) >>> 20) & 0x7ff;
   return stored > 0 ? stored - 1022 : exponentOf(value * 2 ** 54) - 54; // below: a subnormal number
 }

@@ -58,36 +58,19 @@ function forEdges(simplices: Int32Array, visit: (u: number, v: number, opposite:
   }
 }
 
-/** Entries that are sorted by moving each to its place. */
-const FEW = 16;
-
-/** Rows (first, second) in lexicographic order: the second numbers in a list for each first one, each list sorted. */
+/** Rows (first, second) in lexicographic order: sorted by the second numbers, then, which keeps their order, by the first. */
 function sortedPairs(first: Int32Array, second: Int32Array): Int32Array {
-  const size = first.reduce((most, number) => Math.max(most, number + 1), 0);
-  const starts = startsOf(first, size);
-  const lists = new Int32Array(second.length);
-  const next = starts.slice();
-  for (let k = 0; k < first.length; ++k) lists[next[first[k]]++] = second[k];
-  const rows = new Int32Array(2 * lists.length);
-  for (let number = 0; number < size; ++number) {
-    const [begin, end] = [starts[number], starts[number + 1]];
-    if (end - begin > FEW) lists.subarray(begin, end).sort();
-    else sortFew(lists, begin, end);
-    for (let k = begin; k < end; ++k) {
-      rows[2 * k] = number;
-      rows[2 * k + 1] = lists[k];
-    }
+  const size = Math.max(...[first, second].map((numbers) => numbers.reduce((most, k) => Math.max(most, k + 1), 0)));
+  const [next, again] = [startsOf(second, size), startsOf(first, size)];
+  const order = new Int32Array(first.length);
+  for (let k = 0; k < first.length; ++k) order[next[second[k]]++] = k;
+  const rows = new Int32Array(2 * first.length);
+  for (const k of order) {
+    const at = again[first[k]]++;
+    rows[2 * at] = first[k];
+    rows[2 * at + 1] = second[k];
   }
   return rows;
-}
-
-function sortFew(numbers: Int32Array, begin: number, end: number): void {
-  for (let k = begin + 1; k < end; ++k) {
-    const number = numbers[k];
-    let place = k;
-    for (; place > begin && numbers[place - 1] > number; --place) numbers[place] = numbers[place - 1];
-    numbers[place] = number;
-  }
 }
 
 /** Where lists begin that have an entry for each of the numbers below `size` that is in `numbers`; and the last one's end. */

@@ -1,17 +1,9 @@
-/** What planar and spherical Voronoi diagrams share: cells, ridges and vertices as arrays. */
+/** Voronoi diagrams of the plane and of the sphere, the duals of the Delaunay triangulations. */
 
-import type { Delaunay, Space } from "./delaunay.ts";
-import { Kept, kernel, type Argument, type NumberArray } from "./instance.ts";
-
-interface Cells {
-  readonly vertices: Float64Array;
-  readonly regionOffsets: Int32Array;
-  readonly regionIndices: Int32Array;
-  readonly regionNeighbors: Int32Array;
-  readonly simplexVertex: Int32Array;
-  /** Sites with cells, near ones soon after one another; around the circle without triangles. */
-  readonly order: Int32Array;
-}
+import { asScalar, type Numbers } from "./checks.ts";
+import { lonlatToXyz, type Latitude } from "./coordinates.ts";
+import { PlanarDelaunay, SphericalDelaunay, type Delaunay } from "./delaunay.ts";
+import { computed, kernel, type Argument, type Kept } from "./instance.ts";
 
 /**
  * A Voronoi diagram, the dual of a Delaunay triangulation.
@@ -20,48 +12,44 @@ interface Cells {
  * beyond the ridge that leaves it. Arrays are flat, row after row, and must not be written to.
  */
 export abstract class Diagram {
-  protected abstract readonly space: Space;
-  /** The sites as given. */
+  /** The sites as given; later changes of the triangulation do not change the diagram. */
   readonly points: Float64Array;
-  /** The triangulation; later changes of the one that was given do not change the diagram. */
-  protected readonly triangulated: boolean;
-  protected readonly size: number;
-  protected ridges: { points: Int32Array; vertices: Int32Array } | null = null;
+  /** Vertices, numbered by the three lowest sites of each: points of the plane, or unit vectors. */
+  readonly vertices: Float64Array;
+  /** The cell of site i has the entries from `regionOffsets[i]` to before `regionOffsets[i + 1]`. */
+  readonly regionOffsets: Int32Array;
+  /** Vertices of the cells, one after the other; -1 at infinity. */
+  readonly regionIndices: Int32Array;
+  /** The site beyond the ridge from each entry's vertex to the next one's; -1 in strips. */
+  readonly regionNeighbors: Int32Array;
+  /** The vertex of each Delaunay triangle; exactly cocircular neighbours share one. */
+  readonly simplexVertex: Int32Array;
+  private readonly width: 2 | 3;
+  private readonly size: number;
+  private readonly triangulated: boolean;
   private readonly dropped: Int32Array;
   private readonly sites: Kept;
-  private cells!: Cells;
+  /** Sites with cells, near ones soon after one another; around the circle without triangles. */
+  private readonly order: Int32Array;
+  private ridges: { points: Int32Array; vertices: Int32Array } | null = null;
 
   protected constructor(triangulation: Delaunay) {
-    this.points = triangulation.points;
-    this.size = triangulation.size;
-    this.triangulated = triangulation.dimension === 2;
-    this.dropped = triangulation.duplicates;
-    this.sites = triangulation.forKernel.points;
-  }
-
-  /** Vertices, numbered by the three lowest sites of each: points of the plane, or unit vectors. */
-  get vertices(): Float64Array {
-    return this.cells.vertices;
-  }
-
-  /** Vertices of the cells, one after the other; -1 at infinity. */
-  get regionIndices(): Int32Array {
-    return this.cells.regionIndices;
-  }
-
-  /** The cell of site i has the entries from `regionOffsets[i]` to before `regionOffsets[i + 1]`. */
-  get regionOffsets(): Int32Array {
-    return this.cells.regionOffsets;
-  }
-
-  /** The site beyond the ridge from each entry's vertex to the next one's; -1 in strips. */
-  get regionNeighbors(): Int32Array {
-    return this.cells.regionNeighbors;
-  }
-
-  /** The vertex of each Delaunay triangle; exactly cocircular neighbours share one. */
-  get simplexVertex(): Int32Array {
-    return this.cells.simplexVertex;
+    const { points, size, simplices, neighbors, count } = triangulation.forKernel;
+    [this.points, this.width, this.size] = [triangulation.points, triangulation.width, size];
+    [this.triangulated, this.dropped, this.sites] = [triangulation.dimension === 2, triangulation.duplicates, points];
+    const [name, given]: [string, Argument[]] = this.triangulated
+      ? ["voronoi", [points, size, simplices, neighbors, count]]
+      : ["flat_diagram", [points, size]];
+    const { integers, vertices } = kernel().run((session) =>
+      session.ask(`${this.space}_${name}`, given, (answer) => ({
+        integers: Array.from({ length: this.triangulated || this.isStrips ? 5 : 4 }, () => answer.next(Int32Array)),
+        vertices: this.isStrips ? new Float64Array(0) : answer.next(Float64Array),
+      })),
+    );
+    const [offsets, indices, beyond, order, last = new Int32Array(0)] = integers;
+    [this.regionOffsets, this.regionIndices, this.regionNeighbors, this.order] = [offsets, indices, beyond, order];
+    [this.vertices, this.simplexVertex] = [vertices, this.isStrips ? new Int32Array(0) : last];
+    if (this.isStrips) this.ridges = { points: last, vertices: new Int32Array(last.length).fill(-1) };
   }
 
   /** The region of each point: its own number, for a duplicate that of the kept point. */
@@ -86,63 +74,44 @@ export abstract class Diagram {
     return this.allRidges().vertices;
   }
 
-  /** Numbers in a row of points. */
-  protected get width(): number {
-    return this.space === "plane" ? 2 : 3;
+  /**
+   * The area of each point's cell: 0 for duplicates; infinite for unbounded cells of the plane, and together 4π radius² on
+   * the sphere.
+   *
+   * @param radius Of the sphere, or length of the unit of the plane's coordinates: areas are multiplied by its square.
+   */
+  areas(radius = 1): Float64Array {
+    const scale = asScalar(radius, "radius", 0) ** 2;
+    if (!this.isStrips) return this.measured("areas", 1).map((area) => area * scale);
+    return Float64Array.from({ length: this.size }, (_, k) => (this.region(k).length > 0 ? Infinity : 0));
   }
 
-  /** Cells and vertices from the triangles. */
-  protected setDiagram(triangulation: Delaunay): void {
-    const { points, size, simplices, neighbors, count } = triangulation.forKernel;
-    this.cells = kernel().run((session) =>
-      session.ask(`${this.space}_voronoi`, [points, size, simplices, neighbors, count], (answer) => ({
-        regionOffsets: answer.next(Int32Array),
-        regionIndices: answer.next(Int32Array),
-        regionNeighbors: answer.next(Int32Array),
-        order: answer.next(Int32Array),
-        simplexVertex: answer.next(Int32Array),
-        vertices: answer.next(Float64Array),
-      })),
-    );
+  /**
+   * The centroid of each point's cell, row after row: on the sphere the direction of the mean, a unit vector. NaN for
+   * unbounded cells and for duplicates.
+   */
+  centroids(): Float64Array {
+    return this.isStrips ? new Float64Array(2 * this.size).fill(NaN) : this.measured("centroids", this.width);
   }
 
-  /** Cells without triangles; what the last array of the answer holds. */
-  protected setFlatDiagram<A extends NumberArray>(
-    Last: { new (buffer: ArrayBufferLike, offset: number, length: number): A; readonly BYTES_PER_ELEMENT: number },
-    verticesOf: (last: A) => Float64Array,
-  ): A {
-    return kernel().run((session) =>
-      session.ask(`${this.space}_flat_diagram`, [this.sites, this.size], (answer) => {
-        const regionOffsets = answer.next(Int32Array);
-        const regionIndices = answer.next(Int32Array);
-        const regionNeighbors = answer.next(Int32Array);
-        const order = answer.next(Int32Array);
-        const last = answer.next(Last);
-        const simplexVertex = new Int32Array(0);
-        const vertices = verticesOf(last);
-        this.cells = { vertices, regionOffsets, regionIndices, regionNeighbors, simplexVertex, order };
-        return last;
-      }),
-    );
+  /** Whether all sites of a plane lie on one line: there are ridges, and no vertices. */
+  private get isStrips(): boolean {
+    return this.width === 2 && !this.triangulated;
   }
 
-  /** Numbers for each site from the cells: areas, centroids. */
-  protected measured(what: string, width: number): Float64Array {
-    const { order } = this.cells;
-    const flat: Argument[] = [this.sites, this.size, order, order.length];
-    return kernel().run((session) => {
-      const out = session.place(Float64Array, width * this.size);
-      if (this.triangulated) {
-        session.call(`${this.space}_cell_${what}`, this.sites, ...this.entries(), order, order.length, out);
-      } else {
-        session.call(`${this.space}_flat_${what}`, ...flat, out);
-      }
-      return out.copy();
-    });
+  private get space(): string {
+    return this.width === 2 ? "plane" : "sphere";
+  }
+
+  /** Numbers for each site from the cells. */
+  private measured(what: string, width: number): Float64Array {
+    const given = this.triangulated ? this.entries() : [this.size];
+    const name = `${this.space}_${this.triangulated ? "cell" : "flat"}_${what}`;
+    return computed(width * this.size, name, this.sites, ...given, this.order, this.order.length);
   }
 
   private entries(): Argument[] {
-    const { regionOffsets, regionIndices, regionNeighbors, vertices } = this.cells;
+    const { regionOffsets, regionIndices, regionNeighbors, vertices } = this;
     return [this.size, regionOffsets, regionIndices, regionNeighbors, vertices.length / this.width];
   }
 
@@ -153,5 +122,48 @@ export abstract class Diagram {
         vertices: answer.next(Int32Array),
       })),
     ));
+  }
+}
+
+/**
+ * Voronoi diagram of points of the plane. Unbounded cells begin with the vertex -1; points on one line have strips
+ * without vertices. Equal to that of the Python class of the same name.
+ */
+export class PlanarVoronoi extends Diagram {
+  /** @param points Finite numbers x, y, row after row, or their triangulation, which is then not computed again. */
+  constructor(points: Numbers | PlanarDelaunay) {
+    super(points instanceof PlanarDelaunay ? points : new PlanarDelaunay(points));
+  }
+}
+
+/**
+ * Voronoi diagram of directions, on the unit sphere. Equal to that of the Python class of the same name.
+ *
+ * A ridge is the arc of the great circle normal to p/|p| - q/|q| from its start to its end, counterclockwise about that
+ * normal (`ridgeNormals`); this says which arc it is even between opposite vertices. Points all on one circle have two
+ * opposite vertices, a single point has none.
+ */
+export class SphericalVoronoi extends Diagram {
+  /** @param points Directions x, y, z, row after row, or their triangulation, which is then not computed again. */
+  constructor(points: Numbers | SphericalDelaunay) {
+    super(points instanceof SphericalDelaunay ? points : new SphericalDelaunay(points));
+    // Opposite ends to the last bit, as of one circle.
+    if (this.vertices.length === 6) for (let k = 0; k < 3; ++k) this.vertices[3 + k] = 0 - this.vertices[k];
+  }
+
+  /** The diagram of points given by longitude and latitude in degrees, row after row; `latitude` as in `lonlatToXyz`. */
+  static fromLonlat(lonlat: Numbers, latitude: Latitude = "spherical"): SphericalVoronoi {
+    return new SphericalVoronoi(lonlatToXyz(lonlat, latitude));
+  }
+
+  /** The unit normal of each ridge's plane, on the side of site i, row after row. */
+  ridgeNormals(): Float64Array {
+    const ridges = this.ridgePoints;
+    const [p, q] = [new Float64Array((ridges.length / 2) * 3), new Float64Array((ridges.length / 2) * 3)];
+    for (let k = 0; k < ridges.length / 2; ++k) {
+      p.set(this.points.subarray(3 * ridges[2 * k], 3 * ridges[2 * k] + 3), 3 * k);
+      q.set(this.points.subarray(3 * ridges[2 * k + 1], 3 * ridges[2 * k + 1] + 3), 3 * k);
+    }
+    return computed(p.length, "bisector_normals", p, q, p.length / 3);
   }
 }

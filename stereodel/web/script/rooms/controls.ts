@@ -1,8 +1,10 @@
 /** Native inputs of a room: numbers in fields, switches, sets. */
 
-import { field } from "../dom.ts";
+import { field, find } from "../dom.ts";
 import type { LinkValues } from "../link.ts";
 import type { Messages } from "../messages.ts";
+import { counted } from "../words.ts";
+import type { Place } from "./sphere_state.ts";
 
 /** A field of numbers: what is typed and valid is told, and what the hand does is shown. */
 export class NumberField {
@@ -84,45 +86,114 @@ export class Choice<T extends string> {
 
 /** Switches of a room by name. */
 export class Switches {
-  readonly #root: ParentNode;
-  readonly #names: readonly string[];
+  readonly #inputs: ReadonlyMap<string, HTMLInputElement>;
 
   constructor(root: ParentNode, names: readonly string[], changed: (name: string) => void) {
-    this.#root = root;
-    this.#names = names;
-    for (const name of names) field(root, name).addEventListener("change", () => changed(name));
+    this.#inputs = new Map(names.map((name) => [name, field(root, name)]));
+    for (const [name, input] of this.#inputs) input.addEventListener("change", () => changed(name));
   }
 
   set(name: string, isOn: boolean): void {
-    field(this.#root, name).checked = isOn;
+    this.#inputs.get(name)!.checked = isOn;
   }
 
   /** Whether something is drawn. */
   isOn(name: string): boolean {
-    return field(this.#root, name).checked;
+    return this.#inputs.get(name)!.checked;
   }
 
   /** Names of those that differ from the way the room begins. */
   get turned(): string {
-    return this.#names
-      .filter((name) => field(this.#root, name).checked !== field(this.#root, name).defaultChecked)
-      .join(",");
+    const turned = [...this.#inputs].filter(([, { checked, defaultChecked }]) => checked !== defaultChecked);
+    return turned.map(([name]) => name).join(",");
   }
 
   /** Turns those of a link, and all others back. */
   set turned(names: string) {
     const turned = names.split(",");
-    for (const name of this.#names)
-      field(this.#root, name).checked = field(this.#root, name).defaultChecked !== turned.includes(name);
+    for (const [name, input] of this.#inputs) input.checked = input.defaultChecked !== turned.includes(name);
   }
 }
 
 /** What a link may name and does not hold: a file of sites, a picture. */
-const NAMED = { file: "its sites", picture: "its pixels" };
+export const NAMED = { file: "sites", picture: "pixels" };
 
 /** Says that a link names something that it does not hold, where it does. */
 export function tellNamed(messages: Messages, values: LinkValues, what: keyof typeof NAMED): void {
   if (!values.has(what)) return;
-  const words = `is named by this link, which does not hold ${NAMED[what]}. Open the file here.`;
+  const words = `is named by this link, which does not hold its ${NAMED[what]}. Open the file here.`;
   messages.show(values.text(what, ""), words);
+}
+
+/** What its buttons do. */
+interface SiteFormActions {
+  add(place: Place): void;
+  move(place: Place): void;
+  remove(): void;
+}
+
+export class SiteForm {
+  readonly #form: HTMLFormElement;
+
+  constructor(root: ParentNode, actions: SiteFormActions) {
+    const form = find<HTMLFormElement>(root, "[data-form=site]");
+    this.#form = form;
+    form.addEventListener("submit", (event) => {
+      event.preventDefault();
+      const place: Place = [field(form, "lon").valueAsNumber, field(form, "lat").valueAsNumber];
+      const what = event.submitter?.getAttribute("value") ?? "add";
+      if (what === "remove") actions.remove();
+      else if (what === "move") actions.move(place);
+      else actions.add(place);
+    });
+  }
+
+  /** Shows the place of the site that is held, unless it is being typed; without one there is nothing to move. */
+  show(place: Place | null): void {
+    const form = this.#form;
+    for (const button of form.querySelectorAll<HTMLButtonElement>("button")) {
+      button.disabled = button.value !== "add" && place === null;
+    }
+    if (place === null || form.contains(document.activeElement)) return;
+    field(form, "lon").value = String(place[0]);
+    field(form, "lat").value = String(place[1]);
+  }
+}
+
+/** Sites from which on there are steps: four make the first facets. */
+const FIRST = 4;
+
+export class StepControl {
+  readonly #root: ParentNode;
+  #count = 0;
+  #all = 0;
+
+  /** @param chosen gets the number of sites that are inserted, or null for all of them. */
+  constructor(root: ParentNode, chosen: (count: number | null) => void) {
+    this.#root = root;
+    const set = (count: number): void => chosen(count >= this.#all ? null : Math.max(this.#least, count));
+    const slider = field(root, "step");
+    slider.addEventListener("input", () => set(slider.valueAsNumber));
+    find(root, "[data-do=back]").addEventListener("click", () => set(this.#count - 1));
+    find(root, "[data-do=next]").addEventListener("click", () => set(this.#count + 1));
+  }
+
+  /** Shows that so many of all sites are inserted; null for all. */
+  show(count: number | null, all: number): void {
+    [this.#count, this.#all] = [count ?? all, all];
+    const slider = field(this.#root, "step");
+    slider.min = String(this.#least);
+    slider.max = String(all);
+    slider.value = String(this.#count);
+    slider.disabled = all <= FIRST;
+    const words = all === 0 ? "no sites" : `site ${counted(this.#count)} of ${counted(all)}`;
+    slider.setAttribute("aria-valuetext", words);
+    find(this.#root, "[data-out=step]").textContent = words;
+    find<HTMLButtonElement>(this.#root, "[data-do=back]").disabled = this.#count <= this.#least;
+    find<HTMLButtonElement>(this.#root, "[data-do=next]").disabled = this.#count >= all;
+  }
+
+  get #least(): number {
+    return Math.min(FIRST, this.#all);
+  }
 }

@@ -1,29 +1,33 @@
 /** The Globe room: the Earth through a fisheye, or one bubble of it sent onto another. */
 
 import { field, find, say } from "../dom.ts";
+import type { Sheet } from "../drawing/pen.ts";
 import type { Reason } from "../drawing/plate.ts";
-import type { Sheet } from "../drawing/sheet.ts";
 import type { Exchange } from "../exchange.ts";
 import type { Latitude } from "../kernel/api.ts";
-import { MOST_SITES, packPlaces } from "../link.ts";
-import type { LinkValues } from "../link.ts";
+import { MOST_SITES, packPlaces, type LinkValues } from "../link.ts";
 import type { Painted } from "../panorama.ts";
 import type { Room, RoomHost } from "../room.ts";
-import { SiteTable } from "../table.ts";
+import { directionOf, lonLatOf, type Vector } from "../space.ts";
 import { capToCap, lensMap, MOST, scaleAt } from "../view/lens.ts";
 import { View } from "../view/view.ts";
 import { counted, latitude, longitude, scale } from "../words.ts";
-import { Choice, NumberField, PlaceFields, Switches, tellNamed } from "./controls.ts";
+import { Choice, NumberField, PlaceFields, tellNamed } from "./controls.ts";
 import { BubbleGlobe } from "./globe_bubbles.ts";
 import { FisheyeGlobe } from "./globe_fisheye.ts";
-import type { GlobeHost } from "./globe_plate.ts";
-import { GLOBE_SWITCHES, GlobeScene } from "./globe_scene.ts";
-import type { Places } from "./globe_scene.ts";
-import { BEGINNING, fromValues, LEAST_RADIUS, MOST_RADIUS, PRESETS, sideView, toValues } from "./globe_state.ts";
-import type { GlobeState } from "./globe_state.ts";
+import { GLOBE_SWITCHES, GlobeScene, type GlobeSwitch, type Places } from "./globe_scene.ts";
+import {
+  BEGINNING,
+  fromValues,
+  LEAST_RADIUS,
+  MOST_RADIUS,
+  PRESETS,
+  sideView,
+  toValues,
+  type GlobeState,
+} from "./globe_state.ts";
 import { FiveViews } from "./globe_views.ts";
-import { directionOf, lonLatOf } from "./space.ts";
-import type { Vector } from "./space.ts";
+import { TableRoom } from "./site_room.ts";
 
 /** Files that are pictures, by the ends of their names. */
 const PICTURES = /\.(jpe?g|png|webp|avif)$/i;
@@ -35,85 +39,78 @@ export function globeRoom(host: RoomHost): Room {
   return new GlobeRoom(host);
 }
 
-interface Parts {
-  readonly section: HTMLElement;
-  readonly globe: FisheyeGlobe;
-  readonly views: FiveViews;
-  readonly bubbles: readonly BubbleGlobe[];
-  readonly table: SiteTable;
-  readonly switches: Switches;
-  readonly lens: Choice<GlobeState["lens"]>;
-  /** The focus, or the middle of the bubble. */
-  readonly focus: PlaceFields;
-  readonly radii: { readonly from: NumberField; readonly to: NumberField };
-}
-
-class GlobeRoom implements Room {
-  readonly #host: RoomHost;
-  readonly #scene = new GlobeScene();
+export class GlobeRoom extends TableRoom implements Room {
+  readonly scene = new GlobeScene();
   #state: GlobeState = BEGINNING;
-  #parts: Parts | null = null;
+  #globe!: FisheyeGlobe;
+  #views!: FiveViews;
+  #bubbles!: readonly BubbleGlobe[];
+  #lens!: Choice<GlobeState["lens"]>;
+  /** The focus, or the middle of the bubble. */
+  #focus!: PlaceFields;
+  #radii!: { readonly from: NumberField; readonly to: NumberField };
   /** The cells' voice: the places of a link stand until others are opened. */
   #isGiven = false;
   /** The picture that was opened last: a step back is one without it, and the next step forward shows it again. */
   #picture: Painted | null = null;
+  /** The lens that was announced last. */
+  #said = BEGINNING.sight.lens;
 
   constructor(host: RoomHost) {
-    this.#host = host;
+    super(host, GLOBE_SWITCHES);
   }
 
-  attach(section: HTMLElement): void {
-    const room = this;
-    const host: GlobeHost = {
-      scene: this.#scene,
-      get state() {
-        return room.#state;
-      },
-      isOn: (name) => this.#parts!.switches.isOn(name),
-      set: (change, reason, isStep) => this.#set(change, reason, isStep),
-      run: (body) => this.#host.guarded(body),
-    };
-    const { guarded } = this.#host;
+  get shown(): GlobeState {
+    return this.#state;
+  }
+
+  isOn(name: GlobeSwitch): boolean {
+    return this.switches.isOn(name);
+  }
+
+  run(body: () => void): void {
+    this.host.guarded(body);
+  }
+
+  override attach(section: HTMLElement): void {
+    super.attach(section);
+    const { guarded } = this.host;
+    const canvas = (id: string): HTMLCanvasElement => find(section, `#${id}`);
+    this.#globe = new FisheyeGlobe(canvas("globe-plate"), this);
+    const views = [...section.querySelectorAll<HTMLButtonElement>(".views button")];
+    this.#views = new FiveViews(views, this);
+    this.#bubbles = (["before", "after"] as const).map(
+      (which) => new BubbleGlobe(canvas(`globe-${which}`), which, this),
+    );
+    const lens = (): void => this.set({ lens: this.#lens.value }, "state", true);
+    this.#lens = new Choice(section, "lens", ["fisheye", "bubble"], () => guarded(lens));
+    const center = (place: readonly [number, number]): void => this.#center(directionOf(...place));
+    this.#focus = new PlaceFields(section, "focus", (place) => guarded(() => center(place)), "change");
     const radius = (which: "from" | "to"): NumberField =>
       new NumberField(section, `${which}-radius`, 1, (value) => guarded(() => this.#setRadius(which, value)), "change");
-    const canvas = (id: string): HTMLCanvasElement => find(section, `#${id}`);
-    this.#parts = {
-      section,
-      globe: new FisheyeGlobe(canvas("globe-plate"), host),
-      views: new FiveViews([...section.querySelectorAll<HTMLButtonElement>(".views button")], host),
-      bubbles: [
-        new BubbleGlobe(canvas("globe-before"), "before", host),
-        new BubbleGlobe(canvas("globe-after"), "after", host),
-      ],
-      table: new SiteTable(find(section, ".sites"), {
-        chosen: (place) => guarded(() => this.#centerPlace(place)),
-        pointed: (place) => {
-          this.#scene.lit = place;
-          this.#redraw("state");
-        },
-      }),
-      switches: new Switches(section, GLOBE_SWITCHES, (name) => guarded(() => this.#switched(name))),
-      lens: new Choice(section, "lens", ["fisheye", "bubble"], () =>
-        guarded(() => this.#set({ lens: this.#parts!.lens.value }, "state", true)),
-      ),
-      focus: new PlaceFields(section, "focus", (place) => guarded(() => this.#center(directionOf(...place))), "change"),
-      radii: { from: radius("from"), to: radius("to") },
-    };
-    this.#listen(section);
+    this.#radii = { from: radius("from"), to: radius("to") };
+    const on = (target: Element, act: () => void, type = "click"): void =>
+      target.addEventListener(type, () => guarded(act));
+    const slider = field(section, "mag");
+    on(slider, () => this.#magnify(10 ** (slider.valueAsNumber / SLIDER_TEN)), "input");
+    for (const button of section.querySelectorAll<HTMLButtonElement>(".presets button")) {
+      on(button, () => this.#begin(PRESETS[button.value]));
+    }
+    for (const button of views) on(button, () => this.#flyToSide(button));
     this.#write();
     void this.#load();
   }
 
   state(): Record<string, string> {
-    const { places } = this.#scene;
+    const { places } = this.scene;
     const held =
       places === null || this.#isGiven
         ? {}
         : places.lonlat.length <= 2 * MOST_SITES
           ? { sites: packPlaces(places.lonlat), name: places.name }
           : { file: places.name };
-    const picture = this.#scene.picture?.name;
-    const { turned } = this.#parts!.switches;
+    const picture = this.scene.picture?.name;
+    const { turned } = this.switches;
     return {
       ...toValues(this.#state),
       ...held,
@@ -126,210 +123,183 @@ class GlobeRoom implements Room {
     const state = fromValues(values);
     const lonlat = values.lonlat("sites");
     if (lonlat !== null) this.#show({ name: values.text("name", "sites"), lonlat }, false);
-    const { switches, globe } = this.#parts!;
-    switches.turned = values.text("turned", "");
-    if (this.#scene.places === null) switches.set("cells", false);
-    globe.stop();
-    const { messages } = this.#host;
-    if (this.#scene.places?.name !== values.text("file", "")) tellNamed(messages, values, "file");
-    this.#scene.picture = values.text("picture", "") === this.#picture?.name ? this.#picture : null;
-    if (this.#scene.picture === null) tellNamed(messages, values, "picture");
-    this.#set(state, "state");
+    this.switches.turned = values.text("turned", "");
+    if (this.scene.places === null) this.switches.set("cells", false);
+    this.#globe.stop();
+    const { messages } = this.host;
+    if (this.scene.places?.name !== values.text("file", "")) tellNamed(messages, values, "file");
+    this.scene.picture = values.text("picture", "") === this.#picture?.name ? this.#picture : null;
+    if (this.scene.picture === null) tellNamed(messages, values, "picture");
+    this.set(state, "state");
   }
 
-  redraw(): void {
-    this.#redraw("state");
+  redraw(reason: Reason = "state"): void {
+    if (this.#state.lens === "bubble") for (const bubble of this.#bubbles) bubble.plate.redraw(reason);
+    else {
+      this.#globe.plate.redraw(reason);
+      if (reason !== "pointer") this.#views.redraw(reason);
+    }
   }
 
   open(file: File, exchange: Exchange): Promise<void> {
-    const { messages, guarded } = this.#host;
+    const { messages, guarded } = this.host;
     if (file.type.startsWith("image/") || PICTURES.test(file.name)) {
       return exchange.openPanorama(file, messages, (picture) => {
-        this.#scene.picture = this.#picture = picture;
-        this.#redraw("state");
-        this.#host.changed(true);
+        this.scene.picture = this.#picture = picture;
+        this.redraw();
+        this.host.changed(true);
       });
     }
     return exchange.openPoints(file, "lonlat", messages, ({ places: lonlat, names }) => {
       guarded(() => {
         this.#show({ name: file.name, lonlat, names }, false);
-        this.#parts!.switches.set("cells", true);
-        this.#set({}, "state", true);
+        this.switches.set("cells", true);
+        this.set({}, "state", true);
       });
     });
   }
 
   sheet(): Sheet {
-    const { globe, bubbles } = this.#parts!;
-    const { plate } = this.#state.lens === "bubble" ? bubbles[1] : globe;
+    const { plate } = this.#state.lens === "bubble" ? this.#bubbles[1] : this.#globe;
     return plate.sheet(this.#label());
   }
 
   geojson(exchange: Exchange): string | null {
-    const { places } = this.#scene;
-    if (places !== null) return exchange.placesGeojson(places.lonlat, this.#scene.latitude);
-    this.#host.messages.show("", "There are no cells yet: open a file with places of your own.");
+    const { places } = this.scene;
+    if (places !== null) return exchange.placesGeojson(places.lonlat, this.scene.latitude);
+    this.host.messages.show("", "There are no cells yet: open a file with places of your own.");
     return null;
   }
 
   python(exchange: Exchange): string {
-    return exchange.globePython(this.#state, this.#scene, (name) => this.#parts!.switches.isOn(name));
+    return exchange.globePython(this.#state, this.scene, (name) => this.isOn(name));
   }
 
   /** Unpacks what the page carries; until then the globe is water. */
   async #load(): Promise<void> {
-    await this.#scene.load(this.#host.contents);
-    if (this.#scene.places !== null) this.#show(this.#scene.places, this.#isGiven); // cells of the page's latitude
-    const given = await this.#host.contents.given();
-    if (given !== null && this.#scene.places === null) {
+    await this.scene.load(this.host.contents);
+    if (this.scene.places !== null) this.#show(this.scene.places, this.#isGiven); // cells of the page's latitude
+    const given = await this.host.contents.given();
+    if (given !== null && this.scene.places === null) {
       this.#show(given, true);
-      this.#parts!.switches.set("cells", true);
-      this.#set({}, "state");
+      this.switches.set("cells", true);
+      this.set({}, "state");
     }
-    this.#redraw("state");
+    this.redraw();
   }
 
   #show(places: Places, isGiven: boolean): void {
-    this.#scene.show(places);
+    this.scene.show(places);
     this.#isGiven = isGiven;
-    this.#input("cells").disabled = false;
-    const { section, table } = this.#parts!;
+    field(this.section, "cells").disabled = false;
     const { lonlat, names } = places;
     const count = lonlat.length / 2;
-    find(section, "[data-show=places]").hidden = false;
-    find(section, "[data-out=places]").textContent = placesWords(count, places.name);
-    find(section, "[data-out=latitude]").textContent = AREAS[this.#scene.latitude];
-    table.show({
+    find(this.section, "[data-show=places]").hidden = false;
+    this.out("places").textContent = placesWords(count, places.name);
+    this.out("latitude").textContent = AREAS[this.scene.latitude];
+    this.table.show({
       count,
       noun: "Place",
       names: names ?? null,
       heads: ["Latitude", "Longitude", "Cell, km²"],
-      cells: (place) => [latitude(lonlat[2 * place + 1]), longitude(lonlat[2 * place]), area(this.#scene.area(place))],
+      cells: (place) => [latitude(lonlat[2 * place + 1]), longitude(lonlat[2 * place]), area(this.scene.area(place))],
     });
   }
 
+  protected override pointed(place: number | null): void {
+    this.scene.lit = place;
+    this.redraw();
+  }
+
   /** Brings a place to the middle, and the lens to it. */
-  #centerPlace(place: number): void {
-    const [lon, lat] = this.#scene.places!.lonlat.subarray(2 * place);
+  protected override chosen(place: number): void {
+    const [lon, lat] = this.scene.places!.lonlat.subarray(2 * place);
     this.#center(directionOf(lon, lat), View.above(lon, lat));
   }
 
   /** Brings the lens to a direction, or the bubble that is taken. */
   #center(direction: Vector, view = this.#state.sight.view): void {
-    if (this.#state.lens === "bubble") this.#set({ from: { ...this.#state.from, center: direction } }, "state");
-    else this.#parts!.globe.fly({ lens: { ...this.#state.sight.lens, focus: direction }, view });
+    if (this.#state.lens === "bubble") this.set({ from: { ...this.#state.from, center: direction } }, "state");
+    else this.#globe.fly({ lens: { ...this.#state.sight.lens, focus: direction }, view });
   }
 
   /** Another state: the drawings, the words, the controls and the link follow. */
-  #set(change: Partial<GlobeState>, reason: Reason, isStep = false): void {
+  set(change: Partial<GlobeState>, reason: Reason, isStep = false): void {
     this.#state = { ...this.#state, ...change };
-    this.#redraw(reason);
+    this.redraw(reason);
     this.#write();
-    this.#host.changed(isStep);
+    this.host.changed(isStep);
     if (reason !== "pointer") this.#announce(change);
-  }
-
-  #redraw(reason: Reason): void {
-    if (this.#parts === null) return;
-    const { globe, views, bubbles } = this.#parts;
-    if (this.#state.lens === "bubble") for (const bubble of bubbles) bubble.plate.redraw(reason);
-    else {
-      globe.plate.redraw(reason);
-      if (reason !== "pointer") views.redraw(reason);
-    }
-  }
-
-  #input(name: string): HTMLInputElement {
-    return field(this.#parts!.section, name);
-  }
-
-  #listen(section: HTMLElement): void {
-    const on = (target: Element, act: () => void, type = "click"): void =>
-      target.addEventListener(type, () => this.#host.guarded(act));
-    const slider = this.#input("mag");
-    on(slider, () => this.#magnify(10 ** (slider.valueAsNumber / SLIDER_TEN)), "input");
-    for (const button of section.querySelectorAll<HTMLButtonElement>(".presets button")) {
-      on(button, () => this.#begin(PRESETS[button.value]));
-    }
-    for (const button of section.querySelectorAll<HTMLButtonElement>(".views button")) {
-      on(button, () => this.#flyToSide(button));
-    }
   }
 
   #magnify(magnification: number): void {
     const { sight } = this.#state;
-    this.#parts?.globe.stop();
+    this.#globe.stop();
     const kept = Math.max(1, Math.min(MOST, magnification));
-    this.#set({ sight: { ...sight, lens: { ...sight.lens, magnification: kept } } }, "hand");
+    this.set({ sight: { ...sight, lens: { ...sight.lens, magnification: kept } } }, "hand");
   }
 
   #setRadius(which: "from" | "to", radius: number): void {
     if (!(radius >= LEAST_RADIUS && radius <= MOST_RADIUS)) this.#write();
-    else this.#set({ [which]: { ...this.#state[which], radius } }, "state");
+    else this.set({ [which]: { ...this.#state[which], radius } }, "state");
   }
 
   #begin(preset: Partial<GlobeState> | undefined): void {
     if (preset === undefined) return;
     const isHere = this.#state.lens === "fisheye" && preset.lens === "fisheye";
-    if (isHere && preset.sight !== undefined) this.#parts?.globe.fly(preset.sight);
-    else this.#set(preset, "state", true);
+    if (isHere && preset.sight !== undefined) this.#globe.fly(preset.sight);
+    else this.set(preset, "state", true);
   }
 
   /** Something is drawn, or no longer; north is up again, or may turn. */
-  #switched(name: string): void {
+  protected override switched(name: string): void {
     const { sight, before, after } = this.#state;
-    const isLeveled = name === "north" && this.#parts!.switches.isOn(name);
+    const isLeveled = name === "north" && this.switches.isOn(name);
     const level = { sight: { ...sight, view: sight.view.northUp }, before: before.northUp, after: after.northUp };
-    this.#set(isLeveled ? level : {}, "state");
+    this.set(isLeveled ? level : {}, "state");
   }
 
   #flyToSide(button: HTMLButtonElement): void {
     const { lens } = this.#state.sight;
-    this.#parts?.globe.fly({ lens, view: sideView(Number(button.value), lens.focus) });
-    this.#host.announcer.say(button.textContent?.trim().replace(/^\d\s*/, "") ?? "");
+    this.#globe.fly({ lens, view: sideView(Number(button.value), lens.focus) });
+    this.host.announcer.say(button.textContent?.trim().replace(/^\d\s*/, "") ?? "");
   }
 
   /** Everything of the margin and the sentences. */
   #write(): void {
-    if (this.#parts === null) return;
-    const { section, lens, focus, radii } = this.#parts;
     const { sight, from, to } = this.#state;
     const { magnification } = sight.lens;
-    lens.value = this.#state.lens;
-    this.#input("mag").value = String(SLIDER_TEN * Math.log10(magnification));
-    find(section, "[data-out=mag]").textContent = scale(magnification);
-    focus.value = lonLatOf(this.#state.lens === "bubble" ? from.center : sight.lens.focus);
-    [radii.from.value, radii.to.value] = [from.radius, to.radius];
-    if (this.#state.lens === "bubble") this.#writeBubbles(section);
-    else this.#writeFisheye(section);
-    find(section, "#globe-plate").setAttribute("aria-label", this.#label());
+    this.#lens.value = this.#state.lens;
+    field(this.section, "mag").value = String(SLIDER_TEN * Math.log10(magnification));
+    this.out("mag").textContent = scale(magnification);
+    this.#focus.value = lonLatOf(this.#state.lens === "bubble" ? from.center : sight.lens.focus);
+    [this.#radii.from.value, this.#radii.to.value] = [from.radius, to.radius];
+    if (this.#state.lens === "bubble") {
+      const [middle, rim] = this.#bubbleScales();
+      const words = `In the middle of the bubble everything is _${middle}_ times as large, at its rim _${rim}_ times.`;
+      say(this.out("bubbles"), words);
+    } else this.#writeFisheye();
+    find(this.section, "#globe-plate").setAttribute("aria-label", this.#label());
   }
 
-  #writeFisheye(section: HTMLElement): void {
+  #writeFisheye(): void {
     const { pointer, sight } = this.#state;
     const { magnification, focus } = sight.lens;
     const map = lensMap(sight.lens);
     const [here, there] = [scaleAt(map, pointer), scaleAt(map, opposite(focus))];
     say(
-      find(section, "[data-out=pointer]"),
+      this.out("pointer"),
       `At the pointer, _${placeWords(pointer)}_, everything is _${scale(here)}_ times as large as on a plain globe; ` +
         `at the focus _${scale(magnification)}_ times, on the far side _${scale(there)}_ times.`,
     );
-    const ruler = find(section, "[data-out=scale]");
+    const ruler = this.out("scale");
     const share = magnification > 1 ? Math.log(here) / Math.log(magnification) : 0;
-    find(ruler, ".mark-at.first").textContent = fraction(magnification);
-    find(ruler, ".mark-at.last").textContent = short(magnification);
+    const [first, last] = ends(magnification);
+    find(ruler, ".mark-at.first").textContent = first;
+    find(ruler, ".mark-at.last").textContent = last;
     const needle = find(ruler, ".needle");
     needle.style.setProperty("--at", `${(50 * (share + 1)).toFixed(2)}%`);
     needle.textContent = `${scale(here)}×`;
-  }
-
-  #writeBubbles(section: HTMLElement): void {
-    const [middle, rim] = this.#bubbleScales();
-    say(
-      find(section, "[data-out=bubbles]"),
-      `In the middle of the bubble everything is _${middle}_ times as large, at its rim _${rim}_ times.`,
-    );
   }
 
   /** In the middle of the bubble and at its rim, as words. */
@@ -351,7 +321,7 @@ class GlobeRoom implements Room {
   }
 
   #announce(change: Partial<GlobeState>): void {
-    const { announcer } = this.#host;
+    const { announcer } = this.host;
     const { sight } = this.#state;
     if (change.from || change.to) {
       const [middle, rim] = this.#bubbleScales();
@@ -365,9 +335,6 @@ class GlobeRoom implements Room {
     }
     this.#said = sight.lens;
   }
-
-  /** The lens that was announced last. */
-  #said = BEGINNING.sight.lens;
 }
 
 /** What the areas of cells are, by the kind of latitude. */
@@ -402,15 +369,8 @@ function opposite([x, y, z]: Vector): Vector {
   return [-x, -y, -z];
 }
 
-/** The end of a ruler from 1/S to S: a fraction where S is whole. */
-function fraction(magnification: number): string {
-  return Number.isInteger(magnification)
-    ? magnification === 3
-      ? "⅓"
-      : `1⁄${magnification}`
-    : scale(1 / magnification);
-}
-
-function short(magnification: number): string {
-  return Number.isInteger(magnification) ? String(magnification) : scale(magnification);
+/** The ends of a ruler from 1/S to S: a fraction where S is whole. */
+function ends(magnification: number): [string, string] {
+  if (!Number.isInteger(magnification)) return [scale(1 / magnification), scale(magnification)];
+  return [magnification === 3 ? "⅓" : `1⁄${magnification}`, String(magnification)];
 }

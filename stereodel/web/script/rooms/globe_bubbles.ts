@@ -1,27 +1,20 @@
 /** Two globes: the bubble that is taken, and the one that it fills; rims and insides are dragged in either. */
 
-import { circle, pointAt } from "../drawing/arcs.ts";
-import type { Circle } from "../drawing/arcs.ts";
-import { circlePoints } from "../drawing/ball.ts";
+import { circle, pointAt, type Circle } from "../drawing/arcs.ts";
+import { circlePoints, placeOf } from "../drawing/ball.ts";
 import { traceCap } from "../drawing/fill.ts";
-import { drawHandle } from "../drawing/pen.ts";
-import type { Pen } from "../drawing/pen.ts";
+import { drawHandle, type Pen } from "../drawing/pen.ts";
 import type { Reason } from "../drawing/plate.ts";
-import { MoebiusMap } from "../kernel/api.ts";
+import type { LabelStyle } from "../drawing/styles.ts";
+import { MoebiusMap, Rotation } from "../kernel/api.ts";
+import { angle, cross, row, type Vector } from "../space.ts";
 import { arrowed, grabBall } from "../view/ball_hand.ts";
-import { distance } from "../view/hand.ts";
-import type { Gestures, Hold, Place } from "../view/hand.ts";
-import { capToCap, seenThrough } from "../view/lens.ts";
-import type { Cap } from "../view/lens.ts";
-import { between, pointUnder, turned } from "../view/view.ts";
-import type { View } from "../view/view.ts";
+import { distance, type Gestures, type Hold, type Place } from "../view/hand.ts";
+import { capToCap, seenThrough, type Cap } from "../view/lens.ts";
+import { pointUnder, type View } from "../view/view.ts";
 import { fixed } from "../words.ts";
-import { GlobePlate, LABEL } from "./globe_plate.ts";
-import type { GlobeHost } from "./globe_plate.ts";
+import { GlobePlate, LABEL, type GlobeHost } from "./globe_plate.ts";
 import { BEGINNING, LEAST_RADIUS, MOST_RADIUS } from "./globe_state.ts";
-import { placeOf } from "./lines.ts";
-import { angle, unit } from "./space.ts";
-import type { Vector } from "./space.ts";
 
 /** Where a rim has its handle: the point of the rim that lies farthest this way in the drawing. */
 const TOWARD = [0.8, -1] as const;
@@ -43,19 +36,19 @@ export class BubbleGlobe extends GlobePlate {
   }
 
   get view(): View {
-    return this.host.state[this.#which];
+    return this.host.shown[this.#which];
   }
 
   protected get map(): MoebiusMap {
-    const { from, to } = this.host.state;
+    const { from, to } = this.host.shown;
     return seenThrough(this.isMagnified ? capToCap(from, to) : MoebiusMap.identity(), this.view);
   }
 
-  protected get isPointed(): boolean {
-    return angle(this.host.state.pointer, BEGINNING.pointer) > UNMOVED;
+  protected override get isPointed(): boolean {
+    return angle(this.host.shown.pointer, BEGINNING.pointer) > UNMOVED;
   }
 
-  protected get isMagnified(): boolean {
+  protected override get isMagnified(): boolean {
     return this.#which === "after";
   }
 
@@ -63,8 +56,12 @@ export class BubbleGlobe extends GlobePlate {
     this.host.set({ [this.#which]: view }, reason);
   }
 
+  get #end(): "from" | "to" {
+    return this.#which === "before" ? "from" : "to";
+  }
+
   get #cap(): Cap {
-    return this.host.state[this.#which === "before" ? "from" : "to"];
+    return this.host.shown[this.#end];
   }
 
   /** The bubble's rim, axes of the view. */
@@ -75,7 +72,7 @@ export class BubbleGlobe extends GlobePlate {
 
   #setCap(cap: Cap): void {
     const radius = Math.max(LEAST_RADIUS, Math.min(MOST_RADIUS, cap.radius));
-    this.host.set({ [this.#which === "before" ? "from" : "to"]: { ...cap, radius } }, "hand");
+    this.host.set({ [this.#end]: { ...cap, radius } }, "hand");
   }
 
   protected paintHeld(pen: Pen): void {
@@ -90,10 +87,8 @@ export class BubbleGlobe extends GlobePlate {
     const isRight = handle[0] < 0.55;
     // Near the lower limb the label stands above its handle: below there is no drawing.
     const isLow = handle[1] < -0.5 && handle[2] < 0.4;
-    pen.label(`${fixed(cap.radius, 1)}°`, x + (isRight ? 9 : -9), y + (isLow ? -6 : 14), {
-      ...LABEL,
-      align: isRight ? "left" : "right",
-    });
+    const style: LabelStyle = { ...LABEL, align: isRight ? "left" : "right" };
+    pen.label(`${fixed(cap.radius, 1)}°`, x + (isRight ? 9 : -9), y + (isLow ? -6 : 14), style);
   }
 
   /** The handle's point of the view, or null while the rim is behind. */
@@ -138,7 +133,7 @@ export class BubbleGlobe extends GlobePlate {
     this.motion.stop();
     return {
       move: (to) => {
-        const moved = turned(between(point, pointUnder(this.disc, to)), center);
+        const moved = row(Rotation.between(point, pointUnder(this.disc, to)).apply(center), 0);
         this.#setCap({ ...start, center: this.view.onBall(moved) });
       },
     };
@@ -146,12 +141,9 @@ export class BubbleGlobe extends GlobePlate {
 
   /** The point of the rim that is nearest to another point of the ball. */
   #nearestOfRim(center: Vector, radius: number, point: Vector): Vector {
-    const apart = angle(center, point);
-    const [c, s] = [Math.cos((radius * Math.PI) / 180), Math.sin((radius * Math.PI) / 180)];
-    if (apart === 0) return circlePoints(center, radius)[0];
-    const height = Math.cos((apart * Math.PI) / 180);
-    const out = unit([0, 1, 2].map((k) => point[k] - height * center[k]) as unknown as Vector);
-    return [0, 1, 2].map((k) => c * center[k] + s * out[k]) as unknown as Vector;
+    const axis = cross(center, point);
+    if (Math.hypot(...axis) === 0) return circlePoints(center, radius)[0];
+    return row(Rotation.about(axis, radius).apply(center), 0);
   }
 }
 

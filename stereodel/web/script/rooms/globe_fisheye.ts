@@ -1,20 +1,16 @@
 /** The large globe through the fisheye: turned, magnified and focused by hand; the circle at the pointer. */
 
-import { drawHandle } from "../drawing/pen.ts";
-import type { Pen } from "../drawing/pen.ts";
+import { placeOf } from "../drawing/ball.ts";
+import { drawHandle, type Pen } from "../drawing/pen.ts";
 import type { Reason } from "../drawing/plate.ts";
 import type { LabelStyle } from "../drawing/styles.ts";
-import type { MoebiusMap } from "../kernel/api.ts";
+import { Rotation, type MoebiusMap } from "../kernel/api.ts";
 import { arrowed, grabBall } from "../view/ball_hand.ts";
-import { distance } from "../view/hand.ts";
-import type { Gestures, Hold, Place } from "../view/hand.ts";
-import { betweenSights, focused, holding, magnified, MOST, sightMap, sourceOf, turnedAbout } from "../view/lens.ts";
-import type { Sight } from "../view/lens.ts";
-import { pointUnder } from "../view/view.ts";
-import type { View } from "../view/view.ts";
+import { distance, type Gestures, type Hold, type Place } from "../view/hand.ts";
+import { betweenSights, focused, holding, magnified, MOST, sightMap, sourceOf, type Sight } from "../view/lens.ts";
+import { pointUnder, type View } from "../view/view.ts";
 import { GlobePlate, LABEL } from "./globe_plate.ts";
 import { BEGINNING } from "./globe_state.ts";
-import { placeOf } from "./lines.ts";
 
 /** Factor of the keys + and −. */
 const KEY_FACTOR = 1.25;
@@ -30,16 +26,8 @@ export class FisheyeGlobe extends GlobePlate {
     return sightMap(this.#sight);
   }
 
-  protected get isPointed(): boolean {
-    return true;
-  }
-
-  protected get isMagnified(): boolean {
-    return true;
-  }
-
   get #sight(): Sight {
-    return this.host.state.sight;
+    return this.host.shown.sight;
   }
 
   turn(view: View, reason: Reason): void {
@@ -89,7 +77,7 @@ export class FisheyeGlobe extends GlobePlate {
             const sight = magnified(start, from, nowSpread / spread, this.isNorthUp);
             const to = pointUnder(this.disc, now);
             let view = holding(sight.view, sight.view.onBall(from), to, this.isNorthUp);
-            if (!this.isNorthUp) view = turnedAbout(view, to, turnedBefore - turn);
+            if (!this.isNorthUp) view = view.turned(Rotation.about(to, ((turnedBefore - turn) * 180) / Math.PI));
             this.host.set({ sight: { ...sight, view } }, "hand");
           },
         };

@@ -1,40 +1,26 @@
 /** What the globes of the room have in common: what is drawn of the Earth, the circle at the pointer, the hand. */
 
 import { arcThrough } from "../drawing/arcs.ts";
-import { circlePoints } from "../drawing/ball.ts";
+import { circlePoints, placeOf } from "../drawing/ball.ts";
 import { traceCap } from "../drawing/fill.ts";
-import { traceDisc } from "../drawing/pen.ts";
-import type { Disc, Pen } from "../drawing/pen.ts";
-import { Plate } from "../drawing/plate.ts";
-import type { Reason } from "../drawing/plate.ts";
+import { traceDisc, type Disc, type Pen } from "../drawing/pen.ts";
+import { Plate, type Reason } from "../drawing/plate.ts";
 import type { LabelStyle } from "../drawing/styles.ts";
 import type { MoebiusMap } from "../kernel/api.ts";
+import type { Vector } from "../space.ts";
 import type { Turnable } from "../view/ball_hand.ts";
-import { distance, follow } from "../view/hand.ts";
-import type { Gestures, Place } from "../view/hand.ts";
+import { distance, follow, type Gestures, type Place } from "../view/hand.ts";
 import { imageOf, scaleAt, sourceOf } from "../view/lens.ts";
 import { Motion } from "../view/motion.ts";
-import { pointUnder } from "../view/view.ts";
-import type { View } from "../view/view.ts";
+import { pointUnder, type View } from "../view/view.ts";
 import { scale } from "../words.ts";
+import type { GlobeRoom } from "./globe.ts";
 import { CIRCLE_RADIUS } from "./globe_scene.ts";
-import type { GlobeScene, GlobeSwitch } from "./globe_scene.ts";
-import type { GlobeState } from "./globe_state.ts";
-import { placeOf } from "./lines.ts";
-import type { Vector } from "./space.ts";
 
 export const LABEL: LabelStyle = { ink: "accent-text", halo: "halo", size: 14 };
 
 /** What the room does for its globes. */
-export interface GlobeHost {
-  readonly scene: GlobeScene;
-  readonly state: GlobeState;
-  /** Whether something is drawn, or north stays up. */
-  readonly isOn: (name: GlobeSwitch) => boolean;
-  /** Shows another state. */
-  set(change: Partial<GlobeState>, reason: Reason, isStep?: boolean): void;
-  run(body: () => void): void;
-}
+export type GlobeHost = Pick<GlobeRoom, "scene" | "shown" | "isOn" | "set" | "run">;
 
 export abstract class GlobePlate implements Turnable {
   readonly plate: Plate;
@@ -61,16 +47,22 @@ export abstract class GlobePlate implements Turnable {
 
   /** From the Earth to the axes of the view. */
   protected abstract get map(): MoebiusMap;
-  /** Whether the circle at the pointer is drawn, as the globe has it before anybody has pointed. */
-  protected abstract get isPointed(): boolean;
-  /** Whether scales differ from those of a plain globe. */
-  protected abstract get isMagnified(): boolean;
   /** What there is to drag. */
   protected abstract paintHeld(pen: Pen): void;
   protected abstract gestures(): Gestures;
 
   get disc(): Disc {
     return this.plate.disc;
+  }
+
+  /** Whether the circle at the pointer is drawn, as the globe has it before anybody has pointed. */
+  protected get isPointed(): boolean {
+    return true;
+  }
+
+  /** Whether scales differ from those of a plain globe. */
+  protected get isMagnified(): boolean {
+    return true;
   }
 
   get isNorthUp(): boolean {
@@ -92,7 +84,7 @@ export abstract class GlobePlate implements Turnable {
   }
 
   #paint(pen: Pen, isMoving: boolean): void {
-    this.host.scene.draw(pen, this.disc, this.map, this.host.isOn, isMoving);
+    this.host.scene.draw(pen, this.disc, this.map, (name) => this.host.isOn(name), isMoving);
     pen.draw("limb", (path) => traceDisc(path, this.disc));
   }
 
@@ -100,7 +92,7 @@ export abstract class GlobePlate implements Turnable {
   #paintPointer(pen: Pen): void {
     if (!this.isPointed) return;
     const { disc, map } = this;
-    const { pointer } = this.host.state;
+    const { pointer } = this.host.shown;
     const images = map.apply(Float64Array.from(circlePoints(pointer, CIRCLE_RADIUS).flat()));
     const circle = arcThrough(images, 0, 1, 2, true);
     const at = imageOf(map, pointer);

@@ -1,5 +1,6 @@
 /** What the globes of the room show: land, graticule, circles, the reader's places, a picture of the whole sphere. */
 
+import type { Contents } from "../contents.ts";
 import {
   arcLayer,
   capLayer,
@@ -9,18 +10,16 @@ import {
   graticuleArcs,
   landLayer,
   ridgeArcs,
+  type Layer,
 } from "../drawing/ball.ts";
-import type { Layer } from "../drawing/ball.ts";
 import type { Disc, Pen } from "../drawing/pen.ts";
-import type { Contents } from "../contents.ts";
-import { lonlatToXyz, SphericalVoronoi } from "../kernel/api.ts";
-import type { Latitude, MoebiusMap } from "../kernel/api.ts";
-import { tableLatitude } from "../kernel/latitudes.ts";
+import { lonlatToXyz, SphericalVoronoi, type Latitude, type MoebiusMap } from "../kernel/api.ts";
+import { tableLatitude } from "../kernel/coordinates.ts";
 import type { Painted } from "../panorama.ts";
-import { directionOf, lonLatOf, row } from "./space.ts";
+import { directionOf, lonLatOf, row } from "../space.ts";
 
 /** The radius of the equal circles on Earth, kilometres, and in degrees of a sphere with the Earth's mean radius. */
-export const CIRCLE_KILOMETRES = 150;
+const CIRCLE_KILOMETRES = 150;
 const EARTH = 6371.0088;
 export const CIRCLE_RADIUS = ((CIRCLE_KILOMETRES / EARTH) * 180) / Math.PI;
 
@@ -94,18 +93,18 @@ export class GlobeScene {
     pen.shade(disc);
   }
 
-  #layers(isOn: IsOn, isMoving: boolean): Layer[] {
-    const layers: (Layer | null)[] = [];
-    if (isOn("land") && this.picture === null) layers.push(isMoving ? this.#coarse : (this.#fine ?? this.#coarse));
-    if (isOn("graticule")) layers.push(this.#graticule);
-    if (isOn("tissot")) layers.push(this.#tissot);
-    const count = (this.places?.lonlat.length ?? 0) / 2;
-    if (isOn("cells") && !(isMoving && count > MANY_PLACES)) layers.push(this.#ridges());
-    layers.push(this.#dots);
-    if (this.places !== null && this.lit !== null) {
-      layers.push(dotLayer("held", lonlatToXyz(this.places.lonlat.subarray(2 * this.lit, 2 * this.lit + 2))));
-    }
-    return layers.filter((layer) => layer !== null);
+  #layers(isOn: IsOn, isMoving: boolean): (Layer | null)[] {
+    const { places, lit } = this;
+    const count = (places?.lonlat.length ?? 0) / 2;
+    const lonlat = lit === null ? null : places?.lonlat.subarray(2 * lit, 2 * lit + 2);
+    return [
+      isOn("land") && this.picture === null ? (isMoving ? this.#coarse : (this.#fine ?? this.#coarse)) : null,
+      isOn("graticule") ? this.#graticule : null,
+      isOn("tissot") ? this.#tissot : null,
+      isOn("cells") && !(isMoving && count > MANY_PLACES) ? this.#ridges() : null,
+      this.#dots,
+      lonlat ? dotLayer("held", lonlatToXyz(lonlat)) : null,
+    ];
   }
 
   /** The places' cells, which are computed when they are first asked for. */

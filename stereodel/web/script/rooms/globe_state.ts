@@ -1,12 +1,9 @@
 /** The state of the Globe room, and how links hold it. */
 
-import { writeNumber, writePlace } from "../link.ts";
-import type { LinkValues } from "../link.ts";
-import { MOST } from "../view/lens.ts";
-import type { Cap, Sight } from "../view/lens.ts";
+import { writeNumber, writePlace, type LinkValues } from "../link.ts";
+import { directionOf, lonLatOf, type Vector } from "../space.ts";
+import { MOST, type Cap, type Sight } from "../view/lens.ts";
 import { View } from "../view/view.ts";
-import { directionOf, lonLatOf } from "./space.ts";
-import type { Vector } from "./space.ts";
 
 export interface GlobeState {
   readonly lens: "fisheye" | "bubble";

@@ -1,18 +1,13 @@
 /** Five small globes: the lens from five sides, as the panels of Figures 10 to 12, with the surroundings of the focus. */
 
-import { arcLayer, drawLayers, graticuleArcs, regionLayer } from "../drawing/ball.ts";
-import type { Layer } from "../drawing/ball.ts";
-import { traceDisc } from "../drawing/pen.ts";
-import type { Disc, Pen } from "../drawing/pen.ts";
-import { Plate } from "../drawing/plate.ts";
-import type { Reason } from "../drawing/plate.ts";
-import { lensMap, seenThrough } from "../view/lens.ts";
-import type { Lens } from "../view/lens.ts";
-import { sideView } from "./globe_state.ts";
-import { STEP } from "./globe_scene.ts";
+import { arcLayer, drawLayers, graticuleArcs, regionLayer, type Layer } from "../drawing/ball.ts";
+import { cornersOf, traceDisc, type Disc, type Pen } from "../drawing/pen.ts";
+import { Plate, type Reason } from "../drawing/plate.ts";
+import { directionOf, lonLatOf, type Vector } from "../space.ts";
+import { lensMap, seenThrough, type Lens } from "../view/lens.ts";
 import type { GlobeHost } from "./globe_plate.ts";
-import { directionOf, lonLatOf } from "./space.ts";
-import type { Vector } from "./space.ts";
+import { STEP } from "./globe_scene.ts";
+import { sideView } from "./globe_state.ts";
 
 /** Half the side of the tinted surroundings as in the figures, degrees: 8 up to S = 4, then as large as they are seen. */
 const REACH = 8;
@@ -46,7 +41,7 @@ export class FiveViews {
 
   /** Draws what has changed: while the ball turns under a lens that stays, nothing has. */
   redraw(reason: Reason): void {
-    const { lens } = this.#host.state.sight;
+    const { lens } = this.#host.shown.sight;
     const isMoving = reason === "hand" || reason === "flight";
     if (isMoving && this.#shown !== null && isSame(this.#shown, lens)) return;
     this.#shown = lens;
@@ -54,7 +49,7 @@ export class FiveViews {
   }
 
   #paint(pen: Pen, panel: number, disc: Disc): void {
-    const { lens } = this.#host.state.sight;
+    const { lens } = this.#host.shown.sight;
     const map = seenThrough(lensMap(lens), sideView(panel, lens.focus));
     pen.ball(disc, "ball");
     drawLayers(pen, disc, map, [this.#surroundings(lens), this.#graticule]);
@@ -81,12 +76,7 @@ function patchLayer({ focus, magnification }: Lens): Layer {
   const [lon, lat] = lonLatOf(focus);
   const reach = Math.min(REACH, REACH_TIMES_S / magnification);
   const [south, north] = [Math.max(lat - reach, -89), Math.min(lat + reach, 89)];
-  const corners = [
-    [lon - reach, south],
-    [lon + reach, south],
-    [lon + reach, north],
-    [lon - reach, north],
-  ];
+  const corners = cornersOf(lon - reach, south, lon + reach, north);
   const ring = corners.flatMap(([x, y], k) => {
     const [toX, toY] = corners[(k + 1) % 4];
     return Array.from({ length: POINTS }, (_, n) => {

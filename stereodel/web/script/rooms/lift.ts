@@ -1,27 +1,21 @@
 /** The Lift room: a sheet that bends onto a hemisphere, and how far apart two of its points are there (P10, P13, P7). */
 
 import { field, find, plain, say } from "../dom.ts";
-import { Plate } from "../drawing/plate.ts";
-import type { Reason } from "../drawing/plate.ts";
-import type { Sheet } from "../drawing/sheet.ts";
+import type { Sheet } from "../drawing/pen.ts";
+import { Plate, type Reason } from "../drawing/plate.ts";
 import type { Exchange } from "../exchange.ts";
-import { writeNumber } from "../link.ts";
-import type { LinkValues } from "../link.ts";
+import { writeNumber, type LinkValues } from "../link.ts";
 import type { Room, RoomHost } from "../room.ts";
 import type { SiteSet } from "../sets.ts";
-import { distance, follow } from "../view/hand.ts";
-import type { Gestures, Hold, Place as Point } from "../view/hand.ts";
+import { arrowStep } from "../view/ball_hand.ts";
+import { distance, follow, type Gestures, type Hold, type Place as Point } from "../view/hand.ts";
 import { View } from "../view/view.ts";
 import { counted, fixed, ofFacets, wrap } from "../words.ts";
 import { NumberField } from "./controls.ts";
-import { drawLift, onPicture, sitePlace, standOf } from "./lift_drawing.ts";
-import type { LiftScene } from "./lift_drawing.ts";
-import type { Sheet as BentSheet } from "./lift_sheet.ts";
-import { SHEET_SIDES, sheetSets } from "./lift_sets.ts";
-import { LiftSites } from "./lift_sites.ts";
+import { drawLift, onPicture, sitePlace, standOf, type LiftScene } from "./lift_drawing.ts";
+import { LiftSites, SHEET_SIDES, sheetSets, type Sheet as BentSheet } from "./lift_sites.ts";
 import { measured, ofBend, ofBounds, ofPair, separation, withoutTriangles } from "./lift_words.ts";
-import { SiteControls } from "./site_controls.ts";
-import type { NamedSites } from "./site_controls.ts";
+import { SiteRoom, type NamedSites } from "./site_room.ts";
 
 const SWITCHES = ["triangles", "cells", "rays", "seeing"] as const;
 
@@ -31,110 +25,90 @@ const HEIGHT = 35;
 const SIDE = 17;
 const PAIR = { p: 43, q: 1 };
 
+type Letter = keyof typeof PAIR;
+
 /** What the sum of facets is made of. */
 const SUM = ["on the ball", "of the sheet", " the pole"] as const;
 
 /** Degrees that a drag of a pixel turns. */
 const DEGREES_PER_PIXEL = 0.35;
 
-/** Sites from which on cells are left out while something moves, and from which on nothing but dots is drawn then. */
+/** Sites from which on cells are left out while something moves. */
 const MANY = 10_000;
-const VERY_MANY = 100_000;
 
 /** @param sheet The places of the first set. */
 export function liftRoom(host: RoomHost, sheet: Float64Array): Room {
   return new LiftRoom(host, sheetSets(sheet));
 }
 
-class LiftRoom implements Room {
-  readonly #host: RoomHost;
-  readonly #sets: readonly SiteSet[];
-  #section!: HTMLElement;
+class LiftRoom extends SiteRoom implements Room {
   #plate!: Plate;
-  #controls!: SiteControls;
-  #viewFields!: { height: NumberField; side: NumberField };
-  #pairFields!: { p: NumberField; q: NumberField };
+  #fields!: Record<"height" | "side" | Letter, NumberField>;
 
   #sites = new LiftSites(new Float64Array(0));
   #corner = HEMISPHERE;
   #height = HEIGHT;
   #side = SIDE;
-  #p: number | null = null;
-  #q: number | null = null;
-  #next: "p" | "q" = "p";
+  #pair: Record<Letter, number | null> = { p: null, q: null };
+  #next: Letter = "p";
 
   constructor(host: RoomHost, sets: readonly SiteSet[]) {
-    this.#host = host;
-    this.#sets = sets;
+    super(host, sets, "plane", SWITCHES);
   }
 
-  attach(section: HTMLElement): void {
-    this.#section = section;
+  override attach(section: HTMLElement): void {
+    super.attach(section);
     const canvas = find<HTMLCanvasElement>(section, "#lift-plate");
-    this.#plate = new Plate(canvas, (pen, moving) => drawLift(pen, this.#scene(moving), moving), this.#host.guarded);
-    this.#controls = new SiteControls(section, this.#host, this.#sets, "plane", SWITCHES, {
-      begin: (named) => this.#take(named),
-      chosen: (site) => this.#pick(site),
-      pointed: () => this.redraw(),
-      switched: () => this.redraw(),
-    });
+    this.#plate = new Plate(canvas, (pen, moving) => drawLift(pen, this.#scene(moving), moving), this.host.guarded);
     const turn = (): void => {
       this.#turn(field(section, "view-side").valueAsNumber, field(section, "view-height").valueAsNumber);
     };
-    this.#viewFields = {
+    this.#fields = {
       height: new NumberField(section, "view-height", 0, turn),
       side: new NumberField(section, "view-side", 0, turn),
-    };
-    this.#pairFields = {
       p: new NumberField(section, "p", 0, (number) => this.#setPair("p", number - 1)),
       q: new NumberField(section, "q", 0, (number) => this.#setPair("q", number - 1)),
     };
     const slider = field(section, "bend");
-    slider.addEventListener("input", () => this.#host.guarded(() => this.#bend(slider.valueAsNumber)));
+    slider.addEventListener("input", () => this.host.guarded(() => this.#bend(slider.valueAsNumber)));
     follow(this.#plate, this.#gestures());
   }
 
   // State
 
   state(): Record<string, string> {
-    const state = this.#controls.toValues();
+    const state = this.siteValues();
     if (this.#corner !== HEMISPHERE) state["bend"] = writeNumber(this.#corner, 2);
     if (this.#height !== HEIGHT) state["height"] = writeNumber(this.#height, 2);
     if (this.#side !== SIDE) state["side"] = writeNumber(this.#side, 2);
-    if (this.#p !== null) state["p"] = String(this.#p + 1);
-    if (this.#q !== null) state["q"] = String(this.#q + 1);
+    for (const [letter, site] of Object.entries(this.#pair)) if (site !== null) state[letter] = String(site + 1);
     return state;
   }
 
-  restore(values: LinkValues): void {
-    const corner = values.number("bend", 0, HEMISPHERE, HEMISPHERE);
-    const height = values.number("height", 0, 90, HEIGHT);
-    const side = values.number("side", -360, 360, SIDE);
-    const named = this.#controls.fromValues(values);
+  override restore(values: LinkValues): void {
+    const bend = values.number("bend", 0, HEMISPHERE, HEMISPHERE);
+    const [height, side] = [values.number("height", 0, 90, HEIGHT), values.number("side", -360, 360, SIDE)];
+    const named = this.sitesOf(values);
     const count = named.places.length / 2;
     const [p, q] = [values.whole("p", 1, count, 0), values.whole("q", 1, count, 0)];
-    [this.#corner, this.#height, this.#side] = [corner, height, side];
-    this.#controls.restore(values);
-    this.#take(named);
-    if (p > 0) this.#p = p - 1;
-    if (q > 0) this.#q = q - 1;
+    [this.#corner, this.#height, this.#side] = [bend, height, side];
+    super.restore(values);
+    this.begin(named);
+    this.#pair = { p: p > 0 ? p - 1 : this.#pair.p, q: q > 0 ? q - 1 : this.#pair.q };
     this.#update();
   }
 
-  /** Shows sites; P and Q are those of the first picture, or the first and the last site. */
-  #take(named: NamedSites): void {
-    const isFirst = named.set === this.#sets[0].name;
+  /** P and Q are those of the first picture, or the first and the last site. */
+  protected override begin(named: NamedSites): void {
+    const isFirst = named.set === this.sets[0].name;
     this.#sites = new LiftSites(named.places, SHEET_SIDES[named.set]);
     const { count } = this.#sites;
-    this.#p = count < 2 ? null : isFirst ? PAIR.p : 0;
-    this.#q = count < 2 ? null : isFirst ? PAIR.q : count - 1;
-    this.#plate.canvas.setAttribute(
-      "aria-label",
-      `Sheet with ${counted(count)} ${count === 1 ? "site" : "sites"}, and ball`,
-    );
+    this.#pair = count < 2 ? { p: null, q: null } : isFirst ? PAIR : { p: 0, q: count - 1 };
+    const label = `Sheet with ${counted(count)} ${count === 1 ? "site" : "sites"}, and ball`;
+    this.#plate.canvas.setAttribute("aria-label", label);
     for (const letter of ["p", "q"] as const) {
-      this.#pairFields[letter].max = Math.max(1, count);
-      field(this.#section, letter).disabled = count < 2;
+      this.#fields[letter].max = Math.max(1, count);
+      field(this.section, letter).disabled = count < 2;
     }
     this.#update("state", named);
   }
@@ -150,110 +124,100 @@ class LiftRoom implements Room {
   }
 
   #scene(isMoving: boolean): LiftScene {
-    const { count } = this.#sites;
-    const isOn = (name: string): boolean => this.#controls.isOn(name);
-    const dotsAlone = isMoving && count > VERY_MANY;
     return {
       sites: this.#sites,
       sheet: this.#bent,
       view: View.above(this.#side - 90, this.#height),
       height: this.#height,
       shown: {
-        triangles: isOn("triangles") && !dotsAlone,
-        cells: isOn("cells") && !(isMoving && count > MANY),
-        rays: isOn("rays"),
-        seeing: isOn("seeing") && !dotsAlone,
+        triangles: this.isOn("triangles", isMoving),
+        cells: this.isOn("cells", isMoving, MANY),
+        rays: this.isOn("rays"),
+        seeing: this.isOn("seeing", isMoving),
       },
-      p: this.#p,
-      q: this.#q,
-      lit: this.#controls.lit,
+      ...this.#pair,
+      lit: this.lit,
     };
   }
 
   /** Everything that is said and drawn, after the state has changed. */
-  #update(reason: Reason = "state", named = this.#controls.named): void {
+  #update(reason: Reason = "state", named = this.named): void {
     this.#showBend();
     this.#showPair();
     this.#showSites(named);
     const alone = withoutTriangles(this.#sites);
     const { simplices } = this.#sites.delaunay;
-    const sum = find(this.#section, "[data-out=sum]");
-    say(sum, alone ?? ofFacets(simplices.length / 3, this.#sites.closing.length / 3, SUM));
-    this.#viewFields.height.value = this.#height;
-    this.#viewFields.side.value = this.#side;
+    say(this.out("sum"), alone ?? ofFacets(simplices.length / 3, this.#sites.closing.length / 3, SUM));
+    [this.#fields.height.value, this.#fields.side.value] = [this.#height, this.#side];
     this.redraw(reason);
   }
 
   #showBend(): void {
-    const slider = field(this.#section, "bend");
+    const slider = field(this.section, "bend");
     const words = ofBend(this.#bent);
     slider.value = String(this.#corner);
     slider.setAttribute("aria-valuetext", `corners at ${fixed(this.#corner, 0)}°: ${words}`);
-    find(this.#section, "[data-out=bend]").textContent = words;
+    this.out("bend").textContent = words;
   }
 
   /** The sentence, and the ruler with the bounds and the angle of the moment. */
   #showPair(): void {
-    const bounds = find(this.#section, ".bounds");
-    const [p, q] = [this.#p, this.#q];
+    const bounds = find(this.section, ".bounds");
+    const { p, q } = this.#pair;
     const isEnd = this.#corner === HEMISPHERE;
     bounds.classList.toggle("flat", !isEnd);
     bounds.classList.toggle("plane", this.#corner === 0);
-    find(bounds, "[data-out=scale]").hidden = p === null || q === null;
+    const ruler = this.out("scale");
+    ruler.hidden = p === null || q === null;
+    [this.#fields.p.value, this.#fields.q.value] = [p, q].map((site) => (p === null || q === null ? null : site! + 1));
     if (p === null || q === null) {
-      say(find(bounds, "[data-out=separation]"), "Two sites are needed.");
-      say(find(bounds, "[data-out=promise]"), "");
-      this.#pairFields.p.value = this.#pairFields.q.value = null;
+      say(this.out("separation"), "Two sites are needed.");
+      say(this.out("promise"), "");
       return;
     }
     const now = separation(this.#sites, this.#bent, p, q);
-    say(find(bounds, "[data-out=separation]"), ofPair(now, this.#corner));
-    say(find(bounds, "[data-out=promise]"), ofBounds(now));
+    say(this.out("separation"), ofPair(now, this.#corner));
+    say(this.out("promise"), ofBounds(now));
     const at = (degrees: number): string => `${fixed(degrees / 1.8, 2)}%`;
-    const needle = find(bounds, ".needle");
-    needle.hidden = now.angle === null;
-    needle.textContent = now.angle === null ? "" : `${fixed(now.angle, 1)}°`;
-    needle.style.setProperty("--at", at(now.angle ?? 0));
+    const mark = (name: string, words: string, value: number): HTMLElement => {
+      const element = find(bounds, name);
+      element.textContent = words;
+      element.style.setProperty("--at", at(value));
+      return element;
+    };
+    const [low, high] = [`${fixed(now.low, 1)}°`, `${fixed(now.high, 1)}°`];
+    const angle = now.angle === null ? "" : `${fixed(now.angle, 1)}°`;
+    mark(".needle", angle, now.angle ?? 0).hidden = now.angle === null;
     const span = find(bounds, ".span");
     span.style.setProperty("--from", at(now.low));
     span.style.setProperty("--to", at(now.high));
     // Bounds whose marks would stand in each other's way share one.
     const isNarrow = now.high - now.low < CLOSE;
-    const [low, high] = [`${fixed(now.low, 1)}°`, `${fixed(now.high, 1)}°`];
-    const mark = (name: string, words: string, value: number): void => {
-      find(bounds, name).textContent = words;
-      find(bounds, name).style.setProperty("--at", at(value));
-    };
     mark(".low", isNarrow ? `${low} to ${high}` : low, isNarrow ? (now.low + now.high) / 2 : now.low);
     mark(".high", isNarrow ? "" : high, now.high);
     // The bounds come before the ends of the ruler.
-    const isWide = isNarrow ? 2 : 1;
-    find(bounds, ".first").classList.toggle("bare", isEnd && now.low < isWide * CLOSE);
-    find(bounds, ".last").classList.toggle("bare", isEnd && now.high > 180 - isWide * CLOSE);
+    const room = isNarrow ? 2 * CLOSE : CLOSE;
+    find(bounds, ".first").classList.toggle("bare", isEnd && now.low < room);
+    find(bounds, ".last").classList.toggle("bare", isEnd && now.high > 180 - room);
     bounds.classList.toggle("narrow", isNarrow);
-    const label = now.angle === null ? "No separation in the plane" : `Separation ${fixed(now.angle, 1)}°`;
-    find(bounds, "[data-out=scale]").setAttribute(
-      "aria-label",
-      isEnd ? `${label}; it must lie between ${fixed(now.low, 1)}° and ${fixed(now.high, 1)}°` : label,
-    );
-    this.#pairFields.p.value = p + 1;
-    this.#pairFields.q.value = q + 1;
+    const label = angle === "" ? "No separation in the plane" : `Separation ${angle}`;
+    ruler.setAttribute("aria-label", isEnd ? `${label}; it must lie between ${low} and ${high}` : label);
   }
 
   /** What the sites are called, and the table, whose scales change with the sheet. */
   #showSites(named: NamedSites): void {
     const { places, count } = this.#sites;
     const sheet = this.#bent;
-    this.#controls.show(named, {
+    this.show(named, {
       count,
       heads: ["*x*", "*y*", "Scale"],
       cells: (site) => {
         const [x, y] = [places[2 * site], places[2 * site + 1]];
         return [measured(x, sheet.diagonal), measured(y, sheet.diagonal), fixed(sheet.scale(x, y), 3)];
       },
-      mark: (site) => (site === this.#p ? "P" : site === this.#q ? "Q" : ""),
+      mark: (site) => (site === this.#pair.p ? "P" : site === this.#pair.q ? "Q" : ""),
     });
-    this.#controls.table.hold([this.#p, this.#q].filter((site) => site !== null) as number[]);
+    this.table.hold(Object.values(this.#pair).filter((site) => site !== null));
   }
 
   // What can be done
@@ -261,39 +225,38 @@ class LiftRoom implements Room {
   #bend(corner: number): void {
     this.#corner = corner;
     this.#update("hand");
-    this.#host.changed();
-    this.#host.announcer.say(ofBend(this.#bent));
+    this.changed(ofBend(this.#bent));
   }
 
   #turn(side: number, height: number, reason: Reason = "state"): void {
     if (!Number.isFinite(side) || !Number.isFinite(height)) return;
     this.#side = exact(wrap(side));
     this.#height = exact(Math.max(0, Math.min(90, height)));
-    this.#viewFields.height.value = this.#height;
-    this.#viewFields.side.value = this.#side;
+    [this.#fields.height.value, this.#fields.side.value] = [this.#height, this.#side];
     this.redraw(reason);
-    this.#host.changed();
-    this.#host.announcer.say(
-      `Seen from ${fixed(this.#height, 0)}° above the sheet, turned by ${fixed(this.#side, 0)}°`,
-    );
+    this.changed(`Seen from ${fixed(this.#height, 0)}° above the sheet, turned by ${fixed(this.#side, 0)}°`);
+  }
+
+  protected override switched(): void {
+    this.redraw();
   }
 
   /** A site becomes P, the next one Q, and so on. */
-  #pick(site: number): void {
+  protected override chosen(site: number): void {
     const letter = this.#next;
     this.#next = letter === "p" ? "q" : "p";
     this.#setPair(letter, site);
   }
 
-  #setPair(letter: "p" | "q", site: number): void {
+  #setPair(letter: Letter, site: number): void {
     if (!Number.isInteger(site) || site < 0 || site >= this.#sites.count) return;
-    if (letter === "p") this.#p = site;
-    else this.#q = site;
-    this.#host.guarded(() => this.#update());
-    this.#host.changed();
-    if (this.#p === null || this.#q === null) return;
-    const now = separation(this.#sites, this.#bent, this.#p, this.#q);
-    this.#host.announcer.say(plain(`${letter.toUpperCase()} is site ${site + 1}. ${ofPair(now, this.#corner)}`));
+    this.#pair = { ...this.#pair, [letter]: site };
+    this.host.guarded(() => this.#update());
+    this.host.changed();
+    const { p, q } = this.#pair;
+    if (p === null || q === null) return;
+    const now = separation(this.#sites, this.#bent, p, q);
+    this.host.announcer.say(plain(`${letter.toUpperCase()} is site ${site + 1}. ${ofPair(now, this.#corner)}`));
   }
 
   // The hand
@@ -303,7 +266,7 @@ class LiftRoom implements Room {
       take: (at, reach) => this.#grab(at, reach),
       click: (at, reach) => {
         const site = this.#siteAt(at, reach);
-        if (site !== null) this.#pick(site);
+        if (site !== null) this.chosen(site);
       },
       key: (event) => this.#key(event),
     };
@@ -312,12 +275,12 @@ class LiftRoom implements Room {
   /** P or Q, by its name, its place or its image; or the picture, to turn it. */
   #grab(at: Point, reach: number): Hold {
     for (const letter of ["q", "p"] as const) {
-      const site = letter === "p" ? this.#p : this.#q;
+      const site = this.#pair[letter];
       if (site === null || !this.#placesOf(site).some((place) => distance(place, at) <= reach)) continue;
       return {
         move: (to) => {
           const nearest = this.#siteAt(to, Infinity);
-          if (nearest !== null && nearest !== (letter === "p" ? this.#p : this.#q)) this.#setPair(letter, nearest);
+          if (nearest !== null && nearest !== this.#pair[letter]) this.#setPair(letter, nearest);
         },
       };
     }
@@ -357,58 +320,39 @@ class LiftRoom implements Room {
 
   #key(event: KeyboardEvent): boolean {
     if (event.ctrlKey) return false;
-    const step = event.shiftKey ? 1 : 5;
-    const [side, height] = [this.#side, this.#height];
+    const step = arrowStep(event);
     const actions: Record<string, () => void> = {
-      ArrowLeft: () => this.#turn(side - step, height),
-      ArrowRight: () => this.#turn(side + step, height),
-      ArrowUp: () => this.#turn(side, height + step),
-      ArrowDown: () => this.#turn(side, height - step),
       "0": () => this.#turn(SIDE, HEIGHT),
       ",": () => this.#walk(-1),
       ".": () => this.#walk(1),
     };
-    const action = actions[event.key];
-    if (action !== undefined) this.#host.guarded(action);
+    const turn = step && ((): void => this.#turn(this.#side + step[0], this.#height + step[1]));
+    const action = turn ?? actions[event.key];
+    if (action !== undefined) this.host.guarded(action);
     return action !== undefined;
   }
 
   /** The next site becomes Q. */
   #walk(by: number): void {
     const { count } = this.#sites;
-    if (this.#q !== null) this.#setPair("q", (this.#q + by + count) % count);
+    if (this.#pair.q !== null) this.#setPair("q", (this.#pair.q + by + count) % count);
   }
 
   // Files and what can be taken along
 
-  open(file: File, exchange: Exchange): Promise<void> {
-    return this.#controls.open(file, exchange);
-  }
-
   sheet(): Sheet {
-    return this.#plate.sheet(find(this.#section, "h1").textContent ?? "");
+    return this.#plate.sheet(this.title);
   }
 
   /** A sheet has no places on Earth. */
   geojson(): null {
-    this.#host.messages.show(
-      "",
-      "GeoJSON holds places on Earth, and this sheet has none: take the Python lines along.",
-    );
+    this.host.messages.show("", "GeoJSON holds places on Earth, and this sheet has none: take the Python lines along.");
     return null;
   }
 
   python(exchange: Exchange): string {
-    const { set, file } = this.#controls.named;
-    const shown = {
-      sides: SHEET_SIDES[set],
-      file,
-      height: this.#height,
-      side: this.#side,
-      p: this.#p,
-      q: this.#q,
-    };
-    return exchange.liftPython(this.#sites, this.#bent, shown);
+    const { set, file } = this.named;
+    return exchange.liftPython(this.#scene(false), this.#side, file, SHEET_SIDES[set]);
   }
 }
 

@@ -1,17 +1,14 @@
 /** The picture of the Lift room: a sheet that bends onto a ball, under the plane that it was. */
 
 import { traceArc } from "../drawing/arcs.ts";
+import { traceGreat, tracePolygon } from "../drawing/ball.ts";
 import { traceRegions } from "../drawing/fill.ts";
-import { traceCorners, traceDisc, traceSegment } from "../drawing/pen.ts";
-import type { Disc, Path, Pen } from "../drawing/pen.ts";
+import { cornersOf, traceCorners, traceDisc, traceSegment, type Disc, type Path, type Pen } from "../drawing/pen.ts";
 import type { LabelStyle } from "../drawing/styles.ts";
+import { cross, unit, type Vector } from "../space.ts";
 import type { View } from "../view/view.ts";
-import { chained } from "./insertion.ts";
-import type { Sheet } from "./lift_sheet.ts";
-import type { LiftSites } from "./lift_sites.ts";
-import { traceGreat, tracePolygon } from "./lines.ts";
-import { cross, unit } from "./space.ts";
-import type { Vector } from "./space.ts";
+import type { LiftSites, Sheet } from "./lift_sites.ts";
+import { chained } from "./sphere_sites.ts";
 
 /** What the picture shows. */
 export interface LiftScene {
@@ -50,7 +47,7 @@ const LETTER: LabelStyle = { ink: "accent-text", halo: "ball", size: 17, italic:
 const WORD: LabelStyle = { ink: "ink-2", halo: "ball", size: 14 };
 
 /** Where the picture is in a drawing: the point of contact, and pixels of a diagonal. */
-export interface Stand {
+interface Stand {
   readonly x: number;
   readonly y: number;
   readonly scale: number;
@@ -182,16 +179,10 @@ function drawPair(pen: Pen, stand: Stand, scene: LiftScene): void {
     });
   }
   if (p !== null && q !== null && p !== q) {
+    const [a, b] = [p, q].map(at).map(([x, y]) => (sheet.isFlat ? sheet.flat(x, y) : view.seen(sheet.direction(x, y))));
     pen.draw("span", (path) => {
-      if (sheet.isFlat)
-        traceSegment(path, onPicture(stand, view, sheet.flat(...at(p))), onPicture(stand, view, sheet.flat(...at(q))));
-      else
-        traceSpan(
-          path,
-          discOf(stand, scene),
-          view.seen(sheet.direction(...at(p))),
-          view.seen(sheet.direction(...at(q))),
-        );
+      if (sheet.isFlat) traceSegment(path, onPicture(stand, view, a), onPicture(stand, view, b));
+      else for (const side of ["front", "back"] as const) traceGreat(path, discOf(stand, scene), a, b, side);
     });
   }
   const pole = sheet.isFlat ? null : onPicture(stand, view, sheet.pole);
@@ -217,12 +208,6 @@ function drawPair(pen: Pen, stand: Stand, scene: LiftScene): void {
   if (lit !== null && lit < sites.count) pen.dots("held", sitePlace(stand, scene, lit).at);
 }
 
-/** The great-circle arc between two directions, in front of the ball and behind. */
-function traceSpan(path: Path, disc: Disc, a: Vector, b: Vector): void {
-  const middle = unit([a[0] + b[0], a[1] + b[1], a[2] + b[2]]);
-  for (const side of ["front", "back"] as const) traceArc(path, disc, [...a, ...middle, ...b], 0, 1, 2, side);
-}
-
 function drawSites(pen: Pen, stand: Stand, scene: LiftScene): void {
   const places: number[] = [];
   for (let k = 0; k < scene.sites.count; ++k) {
@@ -244,23 +229,16 @@ function lookAt({ sites, sheet, view }: LiftScene): (k: number) => Vector {
   return (k) => (known[k] ??= view.seen(sheet.direction(sites.places[2 * k], sites.places[2 * k + 1])));
 }
 
-/** Corners of the rectangle, counterclockwise. */
-function cornersOf({ sites }: LiftScene): [number, number][] {
+/** Corners of the sheet, counterclockwise. */
+function sheetCorners({ sites }: LiftScene): [number, number][] {
   const { middle, width, height } = sites.rectangle;
   const [w, h] = [width / 2, height / 2];
-  return (
-    [
-      [-w, -h],
-      [w, -h],
-      [w, h],
-      [-w, h],
-    ] as const
-  ).map(([x, y]) => [middle[0] + x, middle[1] + y]);
+  return cornersOf(middle[0] - w, middle[1] - h, middle[0] + w, middle[1] + h);
 }
 
 /** Directions along the sheet's sides, axes of the view. */
 function borderOf(scene: LiftScene): Vector[] {
-  const corners = cornersOf(scene);
+  const corners = sheetCorners(scene);
   return corners.flatMap(([ax, ay], k) => {
     const [bx, by] = corners[(k + 1) % 4];
     return Array.from({ length: PER_SIDE }, (_, j) => {
@@ -276,7 +254,7 @@ function ringOf(points: readonly Vector[]): { points: Float64Array; offsets: num
 
 /** The sheet's sides: arcs of circles through the pole. */
 function traceBorder(path: Path, disc: Disc, scene: LiftScene, side: "front" | "back"): void {
-  const corners = cornersOf(scene);
+  const corners = sheetCorners(scene);
   const look = (x: number, y: number): Vector => scene.view.seen(scene.sheet.direction(x, y));
   corners.forEach(([ax, ay], k) => {
     const [bx, by] = corners[(k + 1) % 4];
@@ -289,7 +267,7 @@ function traceBorder(path: Path, disc: Disc, scene: LiftScene, side: "front" | "
 function tracePlane(path: Path, stand: Stand, scene: LiftScene): void {
   traceCorners(
     path,
-    cornersOf(scene).map(([x, y]) => onPicture(stand, scene.view, scene.sheet.flat(x, y))),
+    sheetCorners(scene).map(([x, y]) => onPicture(stand, scene.view, scene.sheet.flat(x, y))),
   );
 }
 

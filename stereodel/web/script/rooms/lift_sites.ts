@@ -1,9 +1,9 @@
-/** Sites of the sheet with all that the kernel says of them: triangles of the plane, facets that see the pole. */
+/** Sites of the Lift room: the sets, the sheet that bends onto a ball (P10, P13), and all that the kernel says of them. */
 
 import { PlanarDelaunay, PlanarVoronoi, SphericalDelaunay } from "../kernel/api.ts";
-import { rectangleAround, Sheet } from "./lift_sheet.ts";
-import type { Rectangle } from "./lift_sheet.ts";
-import { bubbleSigns } from "./bubble_signs.ts";
+import type { SiteSet } from "../sets.ts";
+import { DEGREES, type Vector } from "../space.ts";
+import { bubbleSigns } from "./sphere_sites.ts";
 
 type Place = [number, number];
 
@@ -85,4 +85,139 @@ export class LiftSites {
     const signs = bubbleSigns(rays, simplices, [0, 0, -1]);
     return simplices.filter((_, k) => signs[Math.floor(k / 3)] >= 0);
   }
+}
+
+/** A rectangle along the axes: its middle and its sides. */
+export interface Rectangle {
+  readonly middle: readonly [number, number];
+  readonly width: number;
+  readonly height: number;
+}
+
+/** The smallest rectangle around places (n, 2), or one about the origin with given sides. */
+function rectangleAround(places: Float64Array, sides?: readonly [number, number]): Rectangle {
+  if (sides) return { middle: [0, 0], width: sides[0], height: sides[1] };
+  const low = [Infinity, Infinity];
+  const high = [-Infinity, -Infinity];
+  places.forEach((value, k) => {
+    low[k % 2] = Math.min(low[k % 2], value);
+    high[k % 2] = Math.max(high[k % 2], value);
+  });
+  if (places.length === 0) return { middle: [0, 0], width: 3, height: 2 };
+  const [width, height] = [high[0] - low[0], high[1] - low[1]];
+  return { middle: [low[0] + width / 2, low[1] + height / 2], width, height };
+}
+
+/** Angles in degrees between which the images of two points lie. */
+export interface Bounds {
+  readonly low: number;
+  readonly high: number;
+  /** The lower bound with the paper's constant ½, and the upper one with its 4/π. */
+  readonly promised: readonly [number, number];
+}
+
+/**
+ * The sheet, bent so that its corners stand at `corner` degrees from the point of contact: 0 is the plane, 90 the
+ * hemisphere. Lengths are in diagonals of the rectangle; the point of contact is on top, at the origin.
+ */
+export class Sheet {
+  readonly rectangle: Rectangle;
+  readonly corner: number;
+  /** Of the ball, in diagonals; infinite in the plane. */
+  readonly radius: number;
+
+  constructor(rectangle: Rectangle, corner: number) {
+    this.rectangle = rectangle;
+    this.corner = corner;
+    this.radius = corner === 0 ? Infinity : 1 / (4 * Math.tan((corner * Math.PI) / 360));
+  }
+
+  /** The diagonal in units of the plane; 1 where all places are one. */
+  get diagonal(): number {
+    return Math.hypot(this.rectangle.width, this.rectangle.height) || 1;
+  }
+
+  /** Whether nothing is bent. */
+  get isFlat(): boolean {
+    return this.corner === 0;
+  }
+
+  /** A place of the plane in the sheet before it is bent, in diagonals. */
+  flat(x: number, y: number): Vector {
+    const { middle } = this.rectangle;
+    return [(x - middle[0]) / this.diagonal, (y - middle[1]) / this.diagonal, 0];
+  }
+
+  /** The direction from the ball's centre to the image of a place; straight up in the plane. */
+  direction(x: number, y: number): Vector {
+    const [u, v] = this.flat(x, y);
+    const [s, t] = [u / (2 * this.radius), v / (2 * this.radius)];
+    const square = s * s + t * t;
+    return [(2 * s) / (1 + square), (2 * t) / (1 + square), (1 - square) / (1 + square)];
+  }
+
+  /** Where the image of a place is in space, in diagonals. */
+  image(x: number, y: number): Vector {
+    return this.isFlat ? this.flat(x, y) : this.onBall(this.direction(x, y));
+  }
+
+  /** Where a direction from the ball's centre meets the ball. */
+  onBall(direction: Vector): Vector {
+    return [this.radius * direction[0], this.radius * direction[1], this.radius * (direction[2] - 1)];
+  }
+
+  /** The projection pole. */
+  get pole(): Vector {
+    return [0, 0, -2 * this.radius];
+  }
+
+  /** Length on the ball over length in the sheet at a place: 1 at the middle, least at the corners. */
+  scale(x: number, y: number): number {
+    const [u, v] = this.flat(x, y);
+    return 1 / (1 + (u * u + v * v) / (4 * this.radius * this.radius));
+  }
+
+  /** Scale at the corners. */
+  get leastScale(): number {
+    return 1 / (1 + 1 / (16 * this.radius * this.radius));
+  }
+}
+
+/**
+ * Between which angles images on the hemisphere lie of two points whose distance is this fraction of the diagonal:
+ * 2 arcsin of it, of two corners, and 4 arctan of it, of pairs symmetric about the middle.
+ */
+export function separationBounds(fraction: number): Bounds {
+  const t = Math.min(1, fraction);
+  return {
+    low: 2 * Math.asin(t) * DEGREES,
+    high: 4 * Math.atan(t) * DEGREES,
+    promised: [90 * t, (720 / Math.PI) * t],
+  };
+}
+
+/** Decimals of metres to which places are rounded. */
+const DECIMALS = 4;
+
+/** The sets of the sheet. @param sheet The places of the first one. */
+export function sheetSets(sheet: Float64Array): SiteSet[] {
+  return [
+    { name: "sheet", words: "Scattered over a sheet of 3 by 2", make: () => sheet },
+    { name: "grid", words: "A square grid", make: grid },
+    { name: "flat", words: "Nearly flat, where the plain test fails", make: () => nearlyFlat(sheet) },
+  ];
+}
+
+/** Corners of the rectangle that a set of the sheet stands on, where it is not the smallest one: width and height. */
+export const SHEET_SIDES: Readonly<Record<string, readonly [number, number]>> = { sheet: [3, 2] };
+
+/** Nine by six sites at whole coordinates. */
+function grid(): Float64Array {
+  return Float64Array.from({ length: 108 }, (_, k) => (k % 2 === 0 ? (k >> 1) % 9 : Math.floor(k / 18)));
+}
+
+/** A sheet of 30 by 20 centimetres in metres of a country's grid: squares of its coordinates leave no digits for it. */
+function nearlyFlat(sheet: Float64Array): Float64Array {
+  const origin = [4_500_000, 5_300_000];
+  return sheet.map((value, k) => Number((origin[k % 2] + value / 10).toFixed(DECIMALS)));
 }

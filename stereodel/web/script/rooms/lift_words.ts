@@ -1,23 +1,17 @@
 /** What the Lift room says: sentences whose numbers change. */
 
+import { angle } from "../space.ts";
 import { counted, fixed } from "../words.ts";
-import { separationBounds } from "./lift_sheet.ts";
-import type { Sheet } from "./lift_sheet.ts";
-import type { LiftSites } from "./lift_sites.ts";
-import { angle } from "./space.ts";
+import { separationBounds, type Bounds, type LiftSites, type Sheet } from "./lift_sites.ts";
 
-/** How far apart two sites are. */
-export interface Separation {
+/** How far apart two sites are, and the bounds of it on the hemisphere. */
+export interface Separation extends Bounds {
   /** In the plane, in its unit and in diagonals. */
   readonly distance: number;
   readonly diagonal: number;
   readonly fraction: number;
   /** On the ball, degrees; null in the plane. */
   readonly angle: number | null;
-  /** On the hemisphere, degrees. */
-  readonly low: number;
-  readonly high: number;
-  readonly promised: readonly [number, number];
 }
 
 export function separation(sites: LiftSites, sheet: Sheet, p: number, q: number): Separation {

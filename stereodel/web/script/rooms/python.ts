@@ -1,30 +1,24 @@
 /** The Python lines that make the picture of a room. */
 
 import { writeNumber } from "../link.ts";
-import { CIRCLE_RADIUS, STEP } from "./globe_scene.ts";
-import type { GlobeScene, GlobeSwitch } from "./globe_scene.ts";
+import { lonLatOf, type Vector } from "../space.ts";
+import { CIRCLE_RADIUS, STEP, type GlobeScene, type GlobeSwitch } from "./globe_scene.ts";
 import type { GlobeState } from "./globe_state.ts";
-import type { Sheet } from "./lift_sheet.ts";
-import type { LiftSites } from "./lift_sites.ts";
-import { lonLatOf } from "./space.ts";
-import type { Vector } from "./space.ts";
+import type { LiftScene } from "./lift_drawing.ts";
 import type { SphereSites } from "./sphere_sites.ts";
+import type { SphereState } from "./sphere_state.ts";
 
 /** Sites beyond which the lines name a file in place of the places. */
 const MOST_WRITTEN = 200;
 
-/** What the picture of the Sphere room shows beside the sites; degrees. */
-export interface SphereShown {
-  readonly file: string | null;
-  readonly pole: readonly [number, number];
-  readonly view: readonly [number, number];
-  readonly aim: readonly [number, number] | null;
-}
-
-/** Lines that draw the ball and the plane into two files. */
-export function spherePython(sites: SphereSites, { file, pole, view, aim }: SphereShown): string {
+/** Lines that draw the ball and the plane into two files. @param file Of the sites, if they are of one. */
+export function spherePython(
+  sites: SphereSites,
+  file: string | null,
+  { pole, view, aim }: SphereState,
+  hasBubble: boolean,
+): string {
   const tangent = [pole[0] > 0 ? pole[0] - 180 : pole[0] + 180, -pole[1]] as const;
-  const hasBubble = aim !== null && sites.delaunay.dimension === 2;
   const isRead = file !== null || sites.count > MOST_WRITTEN;
   return text(
     "import numpy as np",
@@ -41,7 +35,7 @@ export function spherePython(sites: SphereSites, { file, pole, view, aim }: Sphe
     "ball = Scene()",
     'ball.add_edges(delaunay.points, delaunay.edges, name="delaunay")',
     'ball.add_arcs(voronoi.ridge_arcs(), name="voronoi")',
-    hasBubble && `triangle = delaunay.simplices[delaunay.find_simplex(lonlat_to_xyz((${numbers(aim)})))]`,
+    hasBubble && `triangle = delaunay.simplices[delaunay.find_simplex(lonlat_to_xyz((${numbers(lonLatOf(aim))})))]`,
     hasBubble && "bubble = SphereCircle.through(*delaunay.points[triangle])",
     hasBubble && 'ball.add_circles([bubble], name="accent2")',
     'ball.add_points(delaunay.points, name="sites")',
@@ -59,18 +53,13 @@ export function spherePython(sites: SphereSites, { file, pole, view, aim }: Sphe
   );
 }
 
-/** What the picture of the Lift room shows beside the sites; degrees. */
-export interface LiftShown {
-  /** Of the rectangle, where it is not the smallest one. */
-  readonly sides: readonly [number, number] | undefined;
-  readonly file: string | null;
-  readonly height: number;
-  readonly side: number;
-  readonly p: number | null;
-  readonly q: number | null;
-}
-
-export function liftPython(sites: LiftSites, sheet: Sheet, { sides, file, height, side, p, q }: LiftShown): string {
+/** Lines that draw the sheet or the ball. @param sides Of the rectangle, where it is not the smallest one. */
+export function liftPython(
+  { sites, sheet, height, p, q }: LiftScene,
+  side: number,
+  file: string | null,
+  sides?: readonly [number, number],
+): string {
   const isRead = file !== null || sites.count > MOST_WRITTEN;
   const ball = [
     `sphere = Stereographic((0, -90), radius=lift.diagonal / 4 / np.tan(np.radians(${sheet.corner / 2})))`,

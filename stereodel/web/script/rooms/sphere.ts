@@ -2,57 +2,48 @@
 
 import type { Given } from "../contents.ts";
 import { find, say } from "../dom.ts";
-import { Plate } from "../drawing/plate.ts";
-import type { Reason } from "../drawing/plate.ts";
-import type { Sheet } from "../drawing/sheet.ts";
+import { placeOf } from "../drawing/ball.ts";
+import type { Pen, Sheet } from "../drawing/pen.ts";
+import { Plate, type Reason } from "../drawing/plate.ts";
 import type { Exchange } from "../exchange.ts";
-import type { LinkValues } from "../link.ts";
+import { LinkValues } from "../link.ts";
 import type { Room, RoomHost } from "../room.ts";
-import { sphereSets } from "../sets.ts";
-import type { SiteSet, Stored } from "../sets.ts";
-import { arrowed, arrowStep } from "../view/ball_hand.ts";
-import { follow } from "../view/hand.ts";
+import { sphereSets, type SiteSet, type Stored } from "../sets.ts";
+import { dot, lonLatOf, type Vector } from "../space.ts";
+import { arrowed, arrowStep, grabBall, type Turnable } from "../view/ball_hand.ts";
+import { distance, follow, type Gestures, type Hold, type Place as Point } from "../view/hand.ts";
 import { Motion } from "../view/motion.ts";
-import { View } from "../view/view.ts";
+import { pointUnder, View } from "../view/view.ts";
 import { counted, latitude, longitude, ofFacets, wrap } from "../words.ts";
-import { Choice, PlaceFields } from "./controls.ts";
-import { withMoved, withoutSite, withSite } from "./edits.ts";
-import { PlaneFrame, reachAround } from "./plane_frame.ts";
-import { SiteControls } from "./site_controls.ts";
-import type { NamedSites } from "./site_controls.ts";
-import { SiteForm } from "./site_form.ts";
-import { dot, lonLatOf } from "./space.ts";
-import type { Vector } from "./space.ts";
-import { BallLayers, drawBall, drawPlane } from "./sphere_drawing.ts";
-import type { SphereScene, Step } from "./sphere_drawing.ts";
-import { ballGestures, planeGestures } from "./sphere_hand.ts";
-import type { SphereHost } from "./sphere_hand.ts";
-import { SphereSites } from "./sphere_sites.ts";
-import type { Bubble } from "./sphere_sites.ts";
+import { Choice, PlaceFields, SiteForm, StepControl } from "./controls.ts";
+import { SiteRoom, withMoved, withoutSite, withSite, type NamedSites } from "./site_room.ts";
+import { ballLayers, drawBall, drawPlane, type SphereScene, type Step } from "./sphere_drawing.ts";
+import { SphereSites, type Bubble } from "./sphere_sites.ts";
 import {
   CLICKS,
   directionAt,
   fromValues,
   handPlace,
-  POLE,
   setPlace,
   toValues,
   VIEW,
   viewPlace,
+  type Click,
+  type Place,
 } from "./sphere_state.ts";
-import type { Click, Place } from "./sphere_state.ts";
-import { ofBubble, ofDuplicates, ofStep, ofSite, withoutTriangles } from "./sphere_words.ts";
-import { StepControl } from "./step_control.ts";
-import { Twin } from "./twin.ts";
+import { ofBubble, ofDuplicates, ofSite, ofStep, withoutTriangles } from "./sphere_words.ts";
+import { PlaneFrame, reachAround, Twin } from "./twin.ts";
 
 const SWITCHES = ["triangles", "cells", "bubble", "seeing", "closing"] as const;
 
-/** Sites from which on cells are left out while something moves, and from which on nothing but dots is drawn then. */
+/** Sites from which on cells are left out while something moves. */
 const MANY = 3_000;
-const VERY_MANY = 100_000;
 
 /** What the sum of facets is made of. */
 const SUM = ["on the sphere", "in the plane", "\u00a0*P*"] as const;
+
+/** Pixels within which a site is caught to be moved: nearer than a handle, so that the ball can be turned between sites. */
+const REACH_OF_SITES = 8;
 
 /** Changes by hand that can be undone. */
 const MOST_STEPS_BACK = 100;
@@ -65,68 +56,45 @@ export function sphereRoom(host: RoomHost, stored: Stored, given: Given | null):
   return new SphereRoom(host, sphereSets(stored, given));
 }
 
-class SphereRoom implements Room, SphereHost {
-  readonly #host: RoomHost;
-  readonly #sets: readonly SiteSet[];
+class SphereRoom extends SiteRoom implements Room, Turnable {
   /** Sites as they were before the last changes by hand. */
   #history: NamedSites[] = [];
-  readonly motion = new Motion();
+  readonly #motion = new Motion();
   readonly isNorthUp = true;
-  #section!: HTMLElement;
   #ball!: Plate;
   #plane!: Plate;
-  #controls!: SiteControls;
   #click!: Choice<Click>;
   #steps!: StepControl;
   #form!: SiteForm;
   #poleFields!: PlaceFields;
   #viewFields!: PlaceFields;
 
-  #pole: Place = POLE;
-  #view: Place = VIEW;
-  /** Where the pointer was last, and whether the bubble there is kept. */
-  #aim: Vector = [1, 0, 0];
-  #isPinned = false;
+  #state = fromValues(new LinkValues(), 0);
   #held: number | null = null;
-  /** Sites that are inserted; null for all of them, drawn as what they are in the end. */
-  #count: number | null = null;
   #reach = 1;
 
   // What follows from the state; made anew when it changes.
   #sites = new SphereSites(new Float64Array(0));
-  #layers = new BallLayers(this.#sites);
+  #layers = ballLayers(this.#sites);
   #twin = new Twin([0, 0, 1]);
   #seeing: Uint8Array = new Uint8Array(0);
   #step: Step | "done" = "done";
   #bubble: Bubble | null = null;
 
   constructor(host: RoomHost, sets: readonly SiteSet[]) {
-    this.#host = host;
-    this.#sets = sets;
+    super(host, sets, "lonlat", SWITCHES);
   }
 
-  attach(section: HTMLElement): void {
-    const { guarded } = this.#host;
-    this.#section = section;
-    this.#ball = new Plate(
-      find<HTMLCanvasElement>(section, "#sphere-ball"),
-      (pen, moving) => drawBall(pen, this.disc, this.#scene(moving)),
-      guarded,
-    );
-    this.#plane = new Plate(
-      find<HTMLCanvasElement>(section, "#sphere-plane"),
-      (pen, moving) => drawPlane(pen, this.frame, this.#scene(moving)),
-      guarded,
-    );
-    this.#controls = new SiteControls(section, this.#host, this.#sets, "lonlat", SWITCHES, {
-      begin: (named) => this.#begin(named),
-      chosen: (site) => this.#center(site),
-      pointed: () => this.redraw(),
-      switched: () => guarded(() => this.#update()),
-    });
+  override attach(section: HTMLElement): void {
+    super.attach(section);
+    const { guarded } = this.host;
+    const plate = (which: string, paint: (pen: Pen, scene: SphereScene) => void): Plate =>
+      new Plate(find(section, `#sphere-${which}`), (pen, moving) => paint(pen, this.#scene(moving)), guarded);
+    this.#ball = plate("ball", (pen, scene) => drawBall(pen, this.disc, scene));
+    this.#plane = plate("plane", (pen, scene) => drawPlane(pen, this.#frame, scene));
     this.#poleFields = new PlaceFields(section, "pole", (place) => guarded(() => this.#movePole(place)));
     this.#viewFields = new PlaceFields(section, "view", (place) => guarded(() => this.#turn(place)));
-    this.#click = new Choice(section, "click", CLICKS, () => this.#host.changed());
+    this.#click = new Choice(section, "click", CLICKS, () => this.host.changed());
     this.#steps = new StepControl(section, (count) => guarded(() => this.#setStep(count)));
     this.#form = new SiteForm(section, {
       add: (place) => guarded(() => this.#add(directionAt(place))),
@@ -134,33 +102,29 @@ class SphereRoom implements Room, SphereHost {
       remove: () => guarded(() => this.#remove(this.#held)),
     });
     find(section, "[data-do=undo]").addEventListener("click", () => this.#undo());
-    follow(this.#ball, ballGestures(this));
-    follow(this.#plane, planeGestures(this));
+    follow(this.#ball, this.#ballGestures());
+    follow(this.#plane, this.#planeGestures());
   }
 
   // State
 
   state(): Record<string, string> {
-    const [pole, view, aim, isPinned] = [this.#pole, this.#view, this.#aim, this.#isPinned];
-    const state = { pole, view, aim, isPinned, step: this.#count, click: this.#click.value };
-    return { ...this.#controls.toValues(), ...toValues(state) };
+    return { ...this.siteValues(), ...toValues({ ...this.#state, click: this.#click.value }) };
   }
 
-  restore(values: LinkValues): void {
-    const named = this.#controls.fromValues(values);
-    const state = fromValues(values, named.places.length / 2);
-    this.#history = [];
-    [this.#pole, this.#view, this.#aim] = [state.pole, state.view, state.aim];
-    [this.#isPinned, this.#count, this.#held] = [state.isPinned, state.step, null];
-    this.#click.value = state.click;
-    this.#controls.restore(values);
+  override restore(values: LinkValues): void {
+    const named = this.sitesOf(values);
+    this.#state = fromValues(values, named.places.length / 2);
+    [this.#history, this.#held] = [[], null];
+    this.#click.value = this.#state.click;
+    super.restore(values);
     this.#take(named);
   }
 
   /** Other sites, seen as the last ones were. */
-  #begin(named: NamedSites): void {
+  protected override begin(named: NamedSites): void {
     this.#history = [];
-    this.#count = this.#held = null;
+    this.#state.step = this.#held = null;
     this.#take(named);
   }
 
@@ -168,22 +132,16 @@ class SphereRoom implements Room, SphereHost {
   #take(named: NamedSites, reason: Reason = "state"): void {
     const sites = new SphereSites(named.places);
     this.#sites = sites;
-    this.#layers = new BallLayers(sites);
-    if (this.#count !== null && this.#count >= sites.count) this.#count = null;
-    this.#controls.show(named, {
+    this.#layers = ballLayers(sites);
+    if (this.#state.step !== null && this.#state.step >= sites.count) this.#state.step = null;
+    this.show(named, {
       count: sites.count,
       heads: ["Latitude", "Longitude", "Neighbours"],
-      cells: (site) => [
-        latitude(sites.lonlat[2 * site + 1]),
-        longitude(sites.lonlat[2 * site]),
-        String(sites.neighborCounts[site]),
-      ],
+      cells: (site) => [...sites.words(site), String(sites.neighborCounts[site])],
     });
-    find(this.#section, "[data-show=closing]").hidden = !sites.hasClosing;
-    this.#ball.canvas.setAttribute(
-      "aria-label",
-      `Sphere with ${counted(sites.count)} ${sites.count === 1 ? "site" : "sites"}`,
-    );
+    find(this.section, "[data-show=closing]").hidden = !sites.hasClosing;
+    const label = `Sphere with ${counted(sites.count)} ${sites.count === 1 ? "site" : "sites"}`;
+    this.#ball.canvas.setAttribute("aria-label", label);
     this.#project();
     if (reason !== "hand") this.#rescale();
     this.#update(reason);
@@ -191,7 +149,7 @@ class SphereRoom implements Room, SphereHost {
 
   /** The pole has moved, or the sites. */
   #project(): void {
-    const pole = directionAt(this.#pole);
+    const pole = directionAt(this.#state.pole);
     this.#twin = new Twin(pole);
     this.#seeing = this.#sites.seeing(pole);
   }
@@ -200,7 +158,7 @@ class SphereRoom implements Room, SphereHost {
   #rescale(): void {
     const { reach, outside } = reachAround(this.#sites, this.#twin);
     this.#reach = reach;
-    find(this.#section, "[data-out=outside]").textContent =
+    this.out("outside").textContent =
       outside === 0
         ? ""
         : `${outside === 1 ? "One site lies" : `${counted(outside)} sites lie`} outside the frame, near the pole.`;
@@ -213,6 +171,10 @@ class SphereRoom implements Room, SphereHost {
     this.#plane.redraw(reason);
   }
 
+  protected override switched(): void {
+    this.#update();
+  }
+
   /** Everything that is said and drawn, after the state has changed. */
   #update(reason: Reason = "state"): void {
     this.#bubble = this.#findBubble();
@@ -222,14 +184,14 @@ class SphereRoom implements Room, SphereHost {
   }
 
   #findBubble(): Bubble | null {
-    if (!this.#controls.isOn("bubble") || this.#count !== null) return null;
-    const facet = this.#sites.facetAt(this.#aim);
+    if (!this.isOn("bubble") || this.#state.step !== null) return null;
+    const facet = this.#sites.facetAt(this.#state.aim);
     return facet === null ? null : this.#sites.bubble(facet);
   }
 
   #findStep(): Step | "done" {
-    if (this.#count === null) return "done";
-    const site = this.#count - 1;
+    if (this.#state.step === null) return "done";
+    const site = this.#state.step - 1;
     const insertion = this.#sites.insertion(site);
     const seeing = (facets: Int32Array | undefined): Uint8Array =>
       facets === undefined ? new Uint8Array(0) : this.#sites.seeing(this.#twin.pole, facets);
@@ -237,9 +199,6 @@ class SphereRoom implements Room, SphereHost {
   }
 
   #scene(isMoving: boolean): SphereScene {
-    const { count } = this.#sites;
-    const isOn = (name: (typeof SWITCHES)[number]): boolean => this.#controls.isOn(name);
-    const dotsAlone = isMoving && count > VERY_MANY;
     return {
       sites: this.#sites,
       layers: this.#layers,
@@ -247,13 +206,13 @@ class SphereRoom implements Room, SphereHost {
       twin: this.#twin,
       seeing: this.#seeing,
       shown: {
-        triangles: isOn("triangles") && !dotsAlone,
-        cells: isOn("cells") && !(isMoving && count > MANY),
-        seeing: isOn("seeing") && !dotsAlone,
-        closing: isOn("closing") && !dotsAlone,
+        triangles: this.isOn("triangles", isMoving),
+        cells: this.isOn("cells", isMoving, MANY),
+        seeing: this.isOn("seeing", isMoving),
+        closing: this.isOn("closing", isMoving),
       },
       bubble: this.#bubble,
-      held: [this.#held, this.#controls.lit].filter((site) => site !== null && site < count) as number[],
+      held: [this.#held, this.lit].filter((site) => site !== null && site < this.#sites.count) as number[],
       step: this.#step,
     };
   }
@@ -263,17 +222,16 @@ class SphereRoom implements Room, SphereHost {
     const alone = withoutTriangles(sites);
     const ofAll = alone ?? (this.#bubble === null ? POINT : ofBubble(this.#bubble, sites, this.#twin));
     const words = step === "done" ? [ofAll, ofDuplicates(sites)] : [ofStep(step.insertion, step.site)];
-    const out = (name: string): HTMLElement => find(this.#section, `[data-out=${name}]`);
-    say(out("sentence"), words.filter(Boolean).join(" "));
-    say(out("sum"), alone === null ? ofFacets(sites.facetCount - this.#seeingCount, this.#seeingCount, SUM) : "");
-    out("sum").hidden = step !== "done" || alone !== null;
-    const side = dot(this.#twin.pole, directionAt(this.#view)) < 0 ? "behind" : "in front";
-    say(out("pole-side"), `*P*, the pole of projection, lies ${side}.`);
-    this.#steps.show(this.#count, sites.count);
-    this.#poleFields.value = this.#pole;
-    this.#viewFields.value = this.#view;
-    this.#controls.table.hold([...(this.#bubble?.sites ?? []), ...(held === null ? [] : [held])]);
-    find<HTMLButtonElement>(this.#section, "[data-do=undo]").disabled = this.#history.length === 0;
+    say(this.out("sentence"), words.filter(Boolean).join(" "));
+    say(this.out("sum"), alone === null ? ofFacets(sites.facetCount - this.#seeingCount, this.#seeingCount, SUM) : "");
+    this.out("sum").hidden = step !== "done" || alone !== null;
+    const side = dot(this.#twin.pole, directionAt(this.#state.view)) < 0 ? "behind" : "in front";
+    say(this.out("pole-side"), `*P*, the pole of projection, lies ${side}.`);
+    this.#steps.show(this.#state.step, sites.count);
+    this.#poleFields.value = this.#state.pole;
+    this.#viewFields.value = this.#state.view;
+    this.table.hold([...(this.#bubble?.sites ?? []), ...(held === null ? [] : [held])]);
+    find<HTMLButtonElement>(this.section, "[data-do=undo]").disabled = this.#history.length === 0;
     this.#form.show(held === null ? null : [sites.lonlat[2 * held], sites.lonlat[2 * held + 1]]);
   }
 
@@ -288,139 +246,200 @@ class SphereRoom implements Room, SphereHost {
   }
 
   get view(): View {
-    return View.above(...this.#view);
+    return View.above(...this.#state.view);
   }
 
-  get sites(): SphereSites {
-    return this.#sites;
-  }
-
-  get twin(): Twin {
-    return this.#twin;
-  }
-
-  get frame(): PlaneFrame {
+  get #frame(): PlaneFrame {
     return new PlaneFrame(1, 1, Math.min(this.#plane.width, this.#plane.height) - 2, this.#reach);
-  }
-
-  get areSitesLoose(): boolean {
-    return this.#count === null;
   }
 
   turn(view: View, reason: Reason): void {
     this.#turn(view.middle, reason);
   }
 
-  /** The bubble follows the pointer, unless one is kept. */
-  hover(direction: Vector): void {
-    if (this.#isPinned || this.#count !== null) return;
-    const before = this.#bubble?.facet ?? null;
-    this.#aim = direction;
-    if (this.#sites.facetAt(direction) !== before) this.#host.guarded(() => this.#update());
+  #ballGestures(): Gestures {
+    return {
+      take: (at, reach) => this.#grab(at, reach),
+      hover: (at) => {
+        if (at !== null && this.#isOnBall(at)) this.#hover(this.#direction(at));
+      },
+      click: (at, reach) => this.#press(this.#direction(at), this.#siteOnBall(at, reach)),
+      key: (event) => this.#key(event),
+    };
   }
 
-  click(direction: Vector, site: number | null): void {
-    const mode = this.#count === null ? this.#click.value : "keep";
-    this.#host.guarded(() => {
+  #planeGestures(): Gestures {
+    const direction = (at: Point): Vector => this.#twin.inverse(...this.#frame.point(at));
+    const place = (point: Vector): Point => this.#frame.place(this.#twin.forward(point));
+    return {
+      take: () => ({ move: () => {} }),
+      hover: (at) => {
+        if (at !== null) this.#hover(direction(at));
+      },
+      click: (at, reach) => this.#press(direction(at), this.#siteNear(direction(at), at, reach, place)),
+      key: (event) => this.#key(event),
+    };
+  }
+
+  #isOnBall(at: Point, reach = 0): boolean {
+    return distance(at, [this.disc.x, this.disc.y]) <= this.disc.r + reach;
+  }
+
+  /** What is under a place of the ball. */
+  #direction(at: Point): Vector {
+    return this.view.onBall(pointUnder(this.disc, at));
+  }
+
+  /** The visible site within reach of a place of the ball, or null. */
+  #siteOnBall(at: Point, reach: number): number | null {
+    const { view, disc } = this;
+    return this.#siteNear(this.#direction(at), at, reach, (direction) => {
+      const point = view.seen(direction);
+      return point[2] >= 0 ? placeOf(disc, point) : null;
+    });
+  }
+
+  /** The site nearest to a direction, where its place on the picture is within reach. */
+  #siteNear(direction: Vector, at: Point, reach: number, place: (direction: Vector) => Point | null): number | null {
+    if (this.#sites.count === 0) return null;
+    const [site] = this.#sites.delaunay.nearest(direction);
+    const found = place(this.#sites.site(site));
+    return found !== null && distance(found, at) <= reach ? site : null;
+  }
+
+  /** Takes hold of the pole's handle, a site, or the ball; null beside them. */
+  #grab(at: Point, reach: number): Hold | null {
+    if (!this.#isOnBall(at, reach)) return null;
+    const pole = this.view.seen(this.#twin.pole);
+    if (distance(placeOf(this.disc, pole), at) <= reach) return this.#grabPole(pole[2] < 0);
+    // Where sites lie close, evenly spread, the ball can still be turned between them.
+    const spacing = this.disc.r * Math.sqrt((4 * Math.PI) / this.#sites.count);
+    const near = Math.min(reach, REACH_OF_SITES, spacing / 3);
+    const site = this.#state.step === null ? this.#siteOnBall(at, near) : null;
+    if (site === null) return grabBall(this, this.#motion, at);
+    let isFirst = true;
+    return {
+      move: (to) => {
+        if (isFirst) this.#note();
+        isFirst = false;
+        this.host.guarded(() => this.#moveSite(site, this.#direction(to), "hand"));
+      },
+      end: () => this.#rest(),
+    };
+  }
+
+  /** Over the limb and back in the pole is on the other side. */
+  #grabPole(isBehind: boolean): Hold {
+    let [behind, wasOut] = [isBehind, false];
+    return {
+      move: (to) => {
+        const isOut = !this.#isOnBall(to);
+        if (!isOut && wasOut) behind = !behind;
+        wasOut = isOut;
+        const [x, y, z] = pointUnder(this.disc, to);
+        const direction = this.view.onBall([x, y, behind ? -z : z]);
+        this.host.guarded(() => this.#movePole(lonLatOf(direction), false));
+      },
+      end: () => this.#rest(),
+    };
+  }
+
+  /** The bubble follows the pointer, unless one is kept. */
+  #hover(direction: Vector): void {
+    if (this.#state.isPinned || this.#state.step !== null) return;
+    const before = this.#bubble?.facet ?? null;
+    this.#state.aim = direction;
+    if (this.#sites.facetAt(direction) !== before) this.host.guarded(() => this.#update());
+  }
+
+  /** A click. @param site The one within reach. */
+  #press(direction: Vector, site: number | null): void {
+    const mode = this.#state.step === null ? this.#click.value : "keep";
+    this.host.guarded(() => {
       if (mode === "add") this.#add(direction);
       else if (mode === "remove") this.#remove(site);
       else this.#keep(direction, site);
     });
   }
 
-  dragPole(direction: Vector): void {
-    this.#host.guarded(() => this.#movePole(lonLatOf(direction), false));
-  }
-
-  dragSite(site: number, direction: Vector, isFirst: boolean): void {
-    if (isFirst) this.#note();
-    this.#host.guarded(() => this.#moveSite(site, direction, "hand"));
-  }
-
-  /** The frame fits again, and what was left out is drawn. */
-  rest(): void {
-    this.#host.guarded(() => {
+  /** The hand has let go: the frame fits again, and what was left out is drawn. */
+  #rest(): void {
+    this.host.guarded(() => {
       this.#rescale();
       this.#update();
     });
-    this.#host.changed();
+    this.host.changed();
   }
 
   // What can be done
 
   /** Shows another view. */
   #see(place: Place, reason: Reason): void {
-    this.#view = viewPlace(place);
+    this.#state.view = viewPlace(place);
     this.#say();
     this.#ball.redraw(reason);
-    this.#host.changed();
+    this.host.changed();
   }
 
   /** Turns the ball, and says it. */
   #turn(place: Place, reason: Reason = "state"): void {
     this.#see(place, reason);
-    this.#host.announcer.say(`Seen from ${latitude(place[1], 0)}, ${longitude(place[0], 0)}`);
+    this.host.announcer.say(`Seen from ${latitude(place[1], 0)}, ${longitude(place[0], 0)}`);
   }
 
   /** Flies to another view; why is for others to say. */
   #fly(to: Place): void {
-    const from = this.#view;
+    const from = this.#state.view;
     const east = wrap(to[0] - from[0]);
-    this.motion.fly((t) =>
+    this.#motion.fly((t) =>
       this.#see([from[0] + t * east, from[1] + t * (to[1] - from[1])], t < 1 ? "flight" : "state"),
     );
   }
 
   #movePole(place: Place, rests = true): void {
-    this.#pole = setPlace(place);
+    this.#state.pole = setPlace(place);
     this.#project();
     if (rests) this.#rescale();
     this.#update(rests ? "state" : "hand");
-    this.#host.changed();
+    this.host.changed();
     const seeing = this.#seeingCount;
-    this.#host.announcer.say(`${this.#sites.facetCount - seeing} triangles in the plane, ${seeing} facets see P`);
+    this.host.announcer.say(`${this.#sites.facetCount - seeing} triangles in the plane, ${seeing} facets see P`);
   }
 
   /** The bubble there stays, or follows the pointer again where it is the one that was kept. */
   #keep(direction: Vector, site: number | null): void {
     this.#held = site;
-    this.#isPinned = !this.#isPinned || this.#sites.facetAt(direction) !== this.#bubble?.facet;
-    this.#aim = direction;
+    this.#state.isPinned = !this.#state.isPinned || this.#sites.facetAt(direction) !== this.#bubble?.facet;
+    this.#state.aim = direction;
     this.#update();
-    this.#host.changed();
-    if (this.#bubble !== null) this.#host.announcer.say(ofBubble(this.#bubble, this.#sites, this.#twin));
+    this.host.changed();
+    if (this.#bubble !== null) this.host.announcer.say(ofBubble(this.#bubble, this.#sites, this.#twin));
   }
 
   #free(): void {
-    this.#isPinned = false;
+    this.#state.isPinned = false;
     this.#held = null;
     this.#update();
-    this.#host.changed();
-  }
-
-  get #named(): NamedSites {
-    return this.#controls.named;
+    this.host.changed();
   }
 
   /** Shows what a hand has made of the sites, and says it. */
   #edit(named: NamedSites, held: number | null, words: () => string, reason: Reason = "state"): void {
     this.#held = held;
     this.#take(named, reason);
-    this.#host.changed();
-    this.#host.announcer.say(words());
+    this.changed(words());
   }
 
   #moveSite(site: number, direction: Vector, reason: Reason = "state"): void {
     const [lon, lat] = handPlace(direction);
-    this.#aim = direction;
+    this.#state.aim = direction;
     const words = (): string => `Site ${site + 1}: ${latitude(lat)}, ${longitude(lon)}`;
-    this.#edit(withMoved(this.#named, site, [lon, lat]), site, words, reason);
+    this.#edit(withMoved(this.named, site, [lon, lat]), site, words, reason);
   }
 
   /** Keeps the sites to go back to. */
   #note(): void {
-    this.#history.push(this.#named);
-    if (this.#history.length > MOST_STEPS_BACK) this.#history.shift();
+    this.#history = [...this.#history.slice(1 - MOST_STEPS_BACK), this.named];
   }
 
   #moveHeld(place: Place): void {
@@ -432,51 +451,50 @@ class SphereRoom implements Room, SphereHost {
   #add(direction: Vector): void {
     const { count } = this.#sites;
     this.#note();
-    this.#edit(withSite(this.#named, handPlace(direction)), count, () => {
+    this.#edit(withSite(this.named, handPlace(direction)), count, () => {
       const same = this.#sites.sameAs(count);
       return same === null
         ? `Site ${count + 1} added, ${this.#sites.neighborCounts[count]} neighbours`
         : `Site ${count + 1} lies exactly on site ${same + 1} and counts once.`;
     });
-    this.#controls.table.reveal(count);
+    this.table.reveal(count);
   }
 
   #remove(site: number | null): void {
     if (site === null) return;
     this.#note();
-    this.#edit(withoutSite(this.#named, site), null, () => `Site ${site + 1} removed`);
+    this.#edit(withoutSite(this.named, site), null, () => `Site ${site + 1} removed`);
   }
 
   #undo(): void {
     const before = this.#history.pop();
-    if (before !== undefined) this.#host.guarded(() => this.#edit(before, null, () => "Undone"));
+    if (before !== undefined) this.host.guarded(() => this.#edit(before, null, () => "Undone"));
   }
 
   /** Brings a site to the middle of the ball, and holds it. */
-  #center(site: number): void {
+  protected override chosen(site: number): void {
     this.#held = site;
-    this.#aim = this.#sites.site(site);
+    this.#state.aim = this.#sites.site(site);
     this.#fly([this.#sites.lonlat[2 * site], this.#sites.lonlat[2 * site + 1]]);
-    this.#host.guarded(() => this.#update());
-    this.#host.changed();
-    this.#host.announcer.say(ofSite(this.#sites, site, this.#named.names?.[site]));
+    this.host.guarded(() => this.#update());
+    this.changed(ofSite(this.#sites, site, this.named.names?.[site]));
   }
 
   #setStep(count: number | null): void {
-    this.#count = count;
+    this.#state.step = count;
     this.#held = null;
     this.#update();
-    this.#host.changed();
-    if (this.#step !== "done") this.#host.announcer.say(ofStep(this.#step.insertion, this.#step.site));
+    this.host.changed();
+    if (this.#step !== "done") this.host.announcer.say(ofStep(this.#step.insertion, this.#step.site));
   }
 
   // Keys
 
-  key(event: KeyboardEvent): boolean {
-    this.motion.stop();
+  #key(event: KeyboardEvent): boolean {
+    this.#motion.stop();
     const view = arrowed(this, event);
     const action = view === null ? this.#keyed(event) : () => this.#turn(view.middle);
-    if (action !== null) this.#host.guarded(action);
+    if (action !== null) this.host.guarded(action);
     return action !== null;
   }
 
@@ -488,7 +506,7 @@ class SphereRoom implements Room, SphereHost {
       if (key === "z") return () => this.#undo();
       return step === null ? null : () => this.#nudge(...step);
     }
-    const middle = directionAt(this.#view);
+    const middle = directionAt(this.#state.view);
     if (key === "0") return () => this.#turn(VIEW);
     if (key === "n") return () => this.#add(middle);
     const withSites: Record<string, () => void> = {
@@ -496,7 +514,7 @@ class SphereRoom implements Room, SphereHost {
       ".": () => this.#walk(1),
       Delete: () => this.#remove(this.#held),
       Backspace: () => this.#remove(this.#held),
-      Enter: () => this.click(middle, null),
+      Enter: () => this.#press(middle, null),
       Escape: () => this.#free(),
     };
     return (this.#sites.count > 0 && withSites[key]) || null;
@@ -512,15 +530,11 @@ class SphereRoom implements Room, SphereHost {
   #walk(by: number): void {
     const { count } = this.#sites;
     const site = this.#held === null ? (by > 0 ? 0 : count - 1) : (this.#held + by + count) % count;
-    this.#center(site);
-    this.#controls.table.reveal(site);
+    this.chosen(site);
+    this.table.reveal(site);
   }
 
   // Files and what can be taken along
-
-  open(file: File, exchange: Exchange): Promise<void> {
-    return this.#controls.open(file, exchange);
-  }
 
   /** Both pictures beside each other. */
   sheet(): Sheet {
@@ -529,7 +543,7 @@ class SphereRoom implements Room, SphereHost {
     const scene = this.#scene(false);
     const frame = new PlaneFrame(size + GAP + 1, 1, size - 2, this.#reach);
     return {
-      title: find(this.#section, "h1").textContent ?? "",
+      title: this.title,
       width: 2 * size + GAP,
       height: size,
       weight: 1,
@@ -545,9 +559,7 @@ class SphereRoom implements Room, SphereHost {
   }
 
   python(exchange: Exchange): string {
-    const aim = this.#bubble === null ? null : lonLatOf(this.#aim);
-    const { file } = this.#named;
-    return exchange.spherePython(this.#sites, { file, pole: this.#pole, view: this.#view, aim });
+    return exchange.spherePython(this.#sites, this.named.file, this.#state, this.#bubble !== null);
   }
 }
 

@@ -1,20 +1,36 @@
 /** The two pictures of the Sphere room: the ball, and the plane that its sites are projected to. */
 
-import type { Disc, Path, Pen } from "../drawing/pen.ts";
-import type { LabelStyle } from "../drawing/styles.ts";
 import { circle, traceCircle } from "../drawing/arcs.ts";
-import { arcLayer, dotLayer, drawLayers, edgeArcs, ridgeArcs } from "../drawing/ball.ts";
-import type { Layer } from "../drawing/ball.ts";
+import {
+  arcLayer,
+  dotLayer,
+  drawLayers,
+  edgeArcs,
+  placeOf,
+  ridgeArcs,
+  traceGreat,
+  tracePolygon,
+  traceSides,
+  type Layer,
+} from "../drawing/ball.ts";
 import { traceCap } from "../drawing/fill.ts";
-import { drawHandle, traceCorners, traceDisc, traceSegment } from "../drawing/pen.ts";
+import {
+  cornersOf,
+  drawHandle,
+  traceCorners,
+  traceDisc,
+  traceSegment,
+  type Disc,
+  type Path,
+  type Pen,
+} from "../drawing/pen.ts";
+import type { LabelStyle } from "../drawing/styles.ts";
 import { MoebiusMap } from "../kernel/api.ts";
+import { lazy } from "../kernel/lazy.ts";
+import { cross, dot, type Vector } from "../space.ts";
 import type { View } from "../view/view.ts";
-import type { Insertion } from "./insertion.ts";
-import { placeOf, traceGreat, tracePolygon, traceSides } from "./lines.ts";
-import type { PlaneFrame } from "./plane_frame.ts";
-import type { Vector } from "./space.ts";
-import type { Bubble, SphereSites } from "./sphere_sites.ts";
-import type { Twin } from "./twin.ts";
+import type { Bubble, Insertion, SphereSites } from "./sphere_sites.ts";
+import type { PlaneFrame, Twin } from "./twin.ts";
 
 /** A step of the insertion: what it does, and which facets before it and of its fan see the pole. */
 export interface Step {
@@ -59,41 +75,45 @@ const LEAST_CIRCLE = 12;
 const AWAY = 12;
 
 /** What is drawn of sites on the ball, whose directions stay in the kernel while the ball turns. */
-export class BallLayers {
-  readonly #sites: SphereSites;
-  #edges: Layer | null = null;
-  #ridges: Layer | null = null;
-  #dots: Layer | null = null;
+export type BallLayers = Readonly<Record<"edges" | "ridges" | "dots", Layer>>;
 
-  constructor(sites: SphereSites) {
-    this.#sites = sites;
-  }
+export function ballLayers(sites: SphereSites): BallLayers {
+  return lazy({
+    edges: () => arcLayer("delaunay", edgeArcs(sites.delaunay)),
+    ridges: () => arcLayer("voronoi", ridgeArcs(sites.voronoi)),
+    dots: () => dotLayer("site", sites.xyz),
+  });
+}
 
-  get edges(): Layer {
-    return (this.#edges ??= arcLayer("delaunay", edgeArcs(this.#sites.delaunay)));
-  }
-
-  get ridges(): Layer {
-    return (this.#ridges ??= arcLayer("voronoi", ridgeArcs(this.#sites.voronoi)));
-  }
-
-  get dots(): Layer {
-    return (this.#dots ??= dotLayer("site", this.#sites.xyz));
-  }
+/** Where sites are drawn, those that are seen, and how a line runs from one to another. */
+interface Surface {
+  place(site: number): [number, number];
+  isSeen(site: number): boolean;
+  line(path: Path, a: number, b: number): void;
 }
 
 /** Draws the ball into a disc. */
 export function drawBall(pen: Pen, disc: Disc, scene: SphereScene): void {
+  const { sites, view, step } = scene;
+  const look = (k: number): Vector => view.seen(sites.site(k));
   pen.ball(disc, "ball");
-  if (scene.step === "done") drawWholeBall(pen, disc, scene);
-  else drawBallStep(pen, disc, scene, scene.step);
+  if (step === "done") drawWholeBall(pen, disc, scene, look);
+  else {
+    const surface = {
+      place: (k: number) => placeOf(disc, look(k)),
+      isSeen: (k: number) => look(k)[2] >= 0,
+      line: (path: Path, a: number, b: number) => traceGreat(path, disc, look(a), look(b)),
+    };
+    drawStep(pen, surface, step, false, (path, { outline, ...facets }) => {
+      tracePolygon(path, disc, outline.map(look), holdsDirection(facets, sites, view.onBall([0, 0, -1])));
+    });
+  }
   pen.draw("limb", (path) => traceDisc(path, disc));
   drawPole(pen, disc, scene);
 }
 
-function drawWholeBall(pen: Pen, disc: Disc, scene: SphereScene): void {
+function drawWholeBall(pen: Pen, disc: Disc, scene: SphereScene, look: (k: number) => Vector): void {
   const { sites, layers, view, seeing, shown, bubble } = scene;
-  const look = (k: number): Vector => view.seen(sites.site(k));
   const map = MoebiusMap.rotation(view.rotation);
   const hidden = view.onBall([0, 0, -1]);
   const outline = sites.outline(seeing).map(look);
@@ -110,10 +130,8 @@ function drawWholeBall(pen: Pen, disc: Disc, scene: SphereScene): void {
   if (bubble !== null) drawBallBubble(pen, disc, bubble, view, look);
   drawLayers(pen, disc, map, [layers.dots]);
   const held = [...(bubble?.sites ?? []), ...scene.held].map(look).filter((point) => point[2] >= 0);
-  pen.dots(
-    "held",
-    held.flatMap((point) => placeOf(disc, point)),
-  );
+  const places = held.flatMap((point) => placeOf(disc, point));
+  pen.dots("held", places);
   if (bubble === null) return;
   const middle = view.seen(bubble.center);
   for (const site of bubble.sites) {
@@ -130,40 +148,44 @@ function drawBallBubble(pen: Pen, disc: Disc, bubble: Bubble, view: View, look: 
   pen.draw("triangle", (path) => traceSides(path, disc, bubble.sites.map(look)));
 }
 
-function drawBallStep(pen: Pen, disc: Disc, { sites, view }: SphereScene, { site, insertion }: Step): void {
-  const look = (k: number): Vector => view.seen(sites.site(k));
+/** A step of the insertion. @param region Traces the facets that see the new site, or those of its fan. */
+function drawStep(
+  pen: Pen,
+  surface: Surface,
+  { site, insertion, beforeSeeing, fanSeeing }: Step,
+  isPlane: boolean,
+  region: (path: Path, insertion: Insertion, isThere: (k: number) => boolean) => void,
+): void {
   if (insertion !== null) {
-    const outline = insertion.outline.map(look);
-    const holds = holdsDirection(insertion, sites, view.onBall([0, 0, -1]));
-    if (outline.length > 0) pen.draw("seen", (path) => tracePolygon(path, disc, outline, holds));
-    pen.draw("delaunay", (path) => eachEdge(insertion.before, (a, b) => traceGreat(path, disc, look(a), look(b))));
-    pen.draw("fan", (path) => outline.forEach((corner) => traceGreat(path, disc, look(site), corner)));
-    pen.draw("horizon", (path) => traceSides(path, disc, outline));
+    const { outline, before } = insertion;
+    // Facets of the fan that see the pole are no triangles of the plane, nor are sides between two of them its sides.
+    const isThere = (k: number): boolean => !isPlane || !fanSeeing[(k + outline.length) % outline.length];
+    if (outline.length > 0) pen.draw("seen", (path) => region(path, insertion, isThere));
+    pen.draw("delaunay", (path) => {
+      eachEdge(before, isPlane ? beforeSeeing : null, (a, b) => surface.line(path, a, b));
+    });
+    pen.draw("fan", (path) => {
+      outline.forEach((a, k) => (isThere(k) || isThere(k - 1)) && surface.line(path, site, a));
+    });
+    pen.draw("horizon", (path) => {
+      outline.forEach((a, k) => isThere(k) && surface.line(path, a, outline[(k + 1) % outline.length]));
+    });
   }
-  const points = Array.from({ length: site + 1 }, (_, k) => look(k)).filter((point) => point[2] >= 0);
-  pen.dots(
-    "site",
-    points.flatMap((point) => placeOf(disc, point)),
-  );
-  const held = look(site);
-  if (held[2] >= 0) pen.dots("held", placeOf(disc, held));
+  const sites = Array.from({ length: site + 1 }, (_, k) => k).filter((k) => surface.isSeen(k));
+  pen.dots("site", sites.flatMap(surface.place));
+  if (surface.isSeen(site)) pen.dots("held", surface.place(site));
 }
 
 /** Whether the region of the facets that see a new site holds a direction. */
-function holdsDirection(insertion: Insertion, sites: SphereSites, direction: Vector): boolean {
-  const { before, seeing } = insertion;
+function holdsDirection(
+  { before, seeing }: Pick<Insertion, "before" | "seeing">,
+  sites: SphereSites,
+  direction: Vector,
+): boolean {
   return seeing.some((facet) => {
     const [a, b, c] = [0, 1, 2].map((k) => sites.site(before[3 * facet + k]));
-    return [
-      [a, b],
-      [b, c],
-      [c, a],
-    ].every(([p, q]) => side(p, q, direction) >= 0);
+    return [cross(a, b), cross(b, c), cross(c, a)].every((normal) => dot(direction, normal) >= 0);
   });
-}
-
-function side(a: Vector, b: Vector, p: Vector): number {
-  return p[0] * (a[1] * b[2] - a[2] * b[1]) + p[1] * (a[2] * b[0] - a[0] * b[2]) + p[2] * (a[0] * b[1] - a[1] * b[0]);
 }
 
 /** The handle of the pole of projection, and its name. */
@@ -184,19 +206,26 @@ export function drawPlane(pen: Pen, frame: PlaneFrame, scene: SphereScene): void
     (path) => traceFrame(path, frame),
     () => {
       if (scene.step === "done") drawWholePlane(pen, frame, scene, flat);
-      else drawPlaneStep(pen, scene, scene.step, flat);
+      else {
+        const surface = {
+          place: flat,
+          isSeen: () => true,
+          line: (path: Path, a: number, b: number) => traceSegment(path, flat(a), flat(b)),
+        };
+        const { site } = scene.step;
+        drawStep(pen, surface, scene.step, true, (path, { outline }, isThere) => {
+          outline.forEach((a, k) => {
+            if (isThere(k)) traceCorners(path, [a, outline[(k + 1) % outline.length], site].map(flat));
+          });
+        });
+      }
     },
   );
   pen.draw("frame", (path) => traceFrame(path, frame));
 }
 
 function traceFrame(path: Path, { x, y, size }: PlaneFrame): void {
-  traceCorners(path, [
-    [x, y],
-    [x + size, y],
-    [x + size, y + size],
-    [x, y + size],
-  ]);
+  traceCorners(path, cornersOf(x, y, x + size, y + size));
 }
 
 function drawWholePlane(pen: Pen, frame: PlaneFrame, scene: SphereScene, flat: (k: number) => [number, number]): void {
@@ -211,14 +240,13 @@ function drawWholePlane(pen: Pen, frame: PlaneFrame, scene: SphereScene, flat: (
   }
   if (shown.triangles) {
     pen.draw("delaunay", (path) => {
-      eachPlaneEdge(sites.delaunay.simplices, seeing, (a, b) => traceSegment(path, flat(a), flat(b)));
+      eachEdge(sites.delaunay.simplices, seeing, (a, b) => traceSegment(path, flat(a), flat(b)));
     });
   }
   if (shown.cells) pen.draw("voronoi", (path) => planeRidges(path, frame, scene));
   if (shown.seeing) pen.draw("hull", (path) => traceCorners(path, outline));
   if (bubble !== null) drawPlaneBubble(pen, frame, bubble, twin, flat);
-  const places: number[] = [];
-  for (let k = 0; k < sites.count; ++k) places.push(...flat(k));
+  const places = Array.from({ length: sites.count }, (_, k) => flat(k)).flat();
   pen.dots("site", places);
   pen.dots("held", [...(bubble?.sites ?? []), ...held].flatMap(flat));
   if (bubble === null) return;
@@ -304,36 +332,6 @@ function planeRidges(path: Path, frame: PlaneFrame, { sites, twin, seeing }: Sph
   }
 }
 
-function drawPlaneStep(
-  pen: Pen,
-  { sites }: SphereScene,
-  { site, insertion, beforeSeeing, fanSeeing }: Step,
-  flat: (k: number) => [number, number],
-): void {
-  if (insertion !== null) {
-    const { outline } = insertion;
-    const next = (k: number): number => outline[(k + 1) % outline.length];
-    // Facets of the fan that see the pole are no triangles of the plane, nor are sides between two of them its sides.
-    const inPlane = (k: number): boolean => !fanSeeing[(k + outline.length) % outline.length];
-    pen.draw("seen", (path) => {
-      outline.forEach((a, k) => inPlane(k) && traceCorners(path, [a, next(k), site].map(flat)));
-    });
-    pen.draw("delaunay", (path) => {
-      eachPlaneEdge(insertion.before, beforeSeeing, (a, b) => traceSegment(path, flat(a), flat(b)));
-    });
-    pen.draw("fan", (path) => {
-      outline.forEach((a, k) => (inPlane(k) || inPlane(k - 1)) && traceSegment(path, flat(site), flat(a)));
-    });
-    pen.draw("horizon", (path) => {
-      outline.forEach((a, k) => inPlane(k) && traceSegment(path, flat(a), flat(next(k))));
-    });
-  }
-  const places: number[] = [];
-  for (let k = 0; k <= site; ++k) places.push(...flat(k));
-  pen.dots("site", places);
-  if (site < sites.count) pen.dots("held", flat(site));
-}
-
 /** A site's number beside its dot, on the side `out`, whose y points up. */
 function numberAt(
   pen: Pen,
@@ -348,24 +346,13 @@ function numberAt(
   pen.label(String(site + 1), x + 0.6 * AWAY * u, y - AWAY * v + 5, { ...style, align });
 }
 
-/** Every edge of facets once. */
-function eachEdge(facets: Int32Array, visit: (a: number, b: number) => void): void {
-  for (let k = 0; k < facets.length; ++k) {
-    const a = facets[k];
-    const b = facets[k % 3 === 2 ? k - 2 : k + 1];
-    if (a < b) visit(a, b);
-  }
-}
-
-/** Every edge of facets that the plane has: of those beside it one at least does not see the pole. */
-function eachPlaneEdge(facets: Int32Array, seeing: Uint8Array, visit: (a: number, b: number) => void): void {
+/** Every edge of facets once; with `seeing` those of the plane, of whose facets one at least does not see the pole. */
+function eachEdge(facets: Int32Array, seeing: Uint8Array | null, visit: (a: number, b: number) => void): void {
   const drawn = new Set<number>();
   for (let k = 0; k < facets.length; ++k) {
-    if (seeing[Math.floor(k / 3)]) continue;
-    const a = facets[k];
-    const b = facets[k % 3 === 2 ? k - 2 : k + 1];
+    const [a, b] = [facets[k], facets[k % 3 === 2 ? k - 2 : k + 1]];
     const name = Math.min(a, b) * 2 ** 26 + Math.max(a, b);
-    if (drawn.has(name)) continue;
+    if (seeing === null ? a > b : seeing[Math.floor(k / 3)] || drawn.has(name)) continue;
     drawn.add(name);
     visit(a, b);
   }

@@ -1,11 +1,8 @@
 /** Sites of the sphere with all that the kernel says of them. Nothing here is drawn. */
 
-import { lonlatToXyz, SphericalDelaunay, SphericalVoronoi } from "../kernel/api.ts";
-import { bubbleSigns } from "./bubble_signs.ts";
-import { insertion, outlineOf } from "./insertion.ts";
-import type { Insertion } from "./insertion.ts";
-import { dot, row } from "./space.ts";
-import type { Vector } from "./space.ts";
+import { inBubble, lonlatToXyz, SphericalDelaunay, SphericalVoronoi } from "../kernel/api.ts";
+import { dot, row, type Vector } from "../space.ts";
+import { latitude, longitude } from "../words.ts";
 
 /** The circle round a facet: its centre on the outer side, the cosine of its angular radius, its three sites. */
 export interface Bubble {
@@ -45,6 +42,11 @@ export class SphereSites {
   /** A site's direction. */
   site(k: number): Vector {
     return row(this.xyz, k);
+  }
+
+  /** Latitude and longitude of a site in words. */
+  words(site: number): [string, string] {
+    return [latitude(this.lonlat[2 * site + 1]), longitude(this.lonlat[2 * site])];
   }
 
   /** How many edges each site has. */
@@ -112,4 +114,72 @@ export class SphereSites {
     if (before.dimension < 2) return null;
     return insertion(site, before.simplices, bubbleSigns(this.xyz, before.simplices, this.site(site)));
   }
+}
+
+/**
+ * `in_bubble(a, b, c, point)` of each facet: above 0 where its bubble holds the point, 0 on the circle.
+ * @param xyz directions (n, 3).
+ * @param simplices facets (m, 3), counterclockwise seen from outside.
+ */
+export function bubbleSigns(xyz: Float64Array, simplices: Int32Array, point: Vector): Int8Array {
+  if (simplices.length === 0) return new Int8Array(0);
+  const corner = (k: number): Float64Array => {
+    const rows = new Float64Array(simplices.length);
+    for (let at = k; at < simplices.length; at += 3) {
+      const site = simplices[at];
+      rows.set(xyz.subarray(3 * site, 3 * site + 3), at - k);
+    }
+    return rows;
+  };
+  return inBubble(corner(0), corner(1), corner(2), point);
+}
+
+/** What inserting a site does to the facets before. */
+export interface Insertion {
+  /** Index of the new site. */
+  readonly site: number;
+  /** Facets of the sites before, (m, 3) flat. */
+  readonly before: Int32Array;
+  /** Indices of those that see the site. */
+  readonly seeing: readonly number[];
+  /** Sites of their outline, counterclockwise seen from outside; empty where nothing sees the site. */
+  readonly outline: readonly number[];
+  /** The facets that close the hole, (k, 3) flat. */
+  readonly fan: Int32Array;
+}
+
+/**
+ * The step that inserts `site` into the facets `before`.
+ * @param signs of `in_bubble(a, b, c, site)`, one a facet: above 0 inside. A site on the bubble displaces nothing.
+ */
+export function insertion(site: number, before: Int32Array, signs: ArrayLike<number>): Insertion {
+  const seeing = Array.from({ length: before.length / 3 }, (_, k) => k).filter((k) => signs[k] > 0);
+  const outline = outlineOf(before, seeing);
+  const fan = Int32Array.from(outline.flatMap((corner, k) => [corner, outline[(k + 1) % outline.length], site]));
+  return { site, before, seeing, outline, fan };
+}
+
+/** The one closed line around some facets, on their left: their sides without a facet of theirs across. */
+function outlineOf(facets: Int32Array, chosen: readonly number[]): number[] {
+  const sides = new Map<string, [number, number]>();
+  for (const k of chosen) {
+    for (let corner = 0; corner < 3; ++corner) {
+      const a = facets[3 * k + corner];
+      const b = facets[3 * k + ((corner + 1) % 3)];
+      if (!sides.delete(`${b} ${a}`)) sides.set(`${a} ${b}`, [a, b]);
+    }
+  }
+  return chained(new Map(sides.values()));
+}
+
+/** The closed line that begins with the first key: from each number to its value. */
+export function chained(next: Map<number, number>): number[] {
+  const outline: number[] = [];
+  for (let at = next.keys().next().value; at !== undefined && next.has(at);) {
+    outline.push(at);
+    const to: number = next.get(at)!;
+    next.delete(at);
+    at = to;
+  }
+  return outline;
 }

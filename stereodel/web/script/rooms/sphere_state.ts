@@ -1,11 +1,9 @@
 /** The state of the Sphere room but for its sites, and how a link tells it. */
 
 import { lonlatToXyz } from "../kernel/api.ts";
-import { writePlace } from "../link.ts";
-import type { LinkValues } from "../link.ts";
+import { writePlace, type LinkValues } from "../link.ts";
+import { lonLatOf, row, type Vector } from "../space.ts";
 import { wrap } from "../words.ts";
-import { lonLatOf, row } from "./space.ts";
-import type { Vector } from "./space.ts";
 
 /** Longitude and latitude, degrees. */
 export type Place = readonly [number, number];
@@ -16,7 +14,7 @@ export const CLICKS = ["keep", "add", "remove"] as const;
 export type Click = (typeof CLICKS)[number];
 
 /** How the room begins: degrees. */
-export const POLE: Place = [-150, 53.1];
+const POLE: Place = [-150, 53.1];
 export const VIEW: Place = [0, 0];
 const AIM: Place = [-9.94, 3.49];
 
@@ -27,13 +25,13 @@ const VIEW_DECIMALS = 4;
 const HAND_DECIMALS = 3;
 
 export interface SphereState {
-  readonly pole: Place;
-  readonly view: Place;
+  pole: Place;
+  view: Place;
   /** Where the pointer was last, and whether the bubble there is kept. */
-  readonly aim: Vector;
-  readonly isPinned: boolean;
+  aim: Vector;
+  isPinned: boolean;
   /** Sites that are inserted; null for all of them, drawn as what they are in the end. */
-  readonly step: number | null;
+  step: number | null;
   readonly click: Click;
 }
 
@@ -57,7 +55,6 @@ export function toValues({ pole, view, aim, isPinned, step, click }: SphereState
 
 /**
  * The state that a link tells of `count` sites.
- *
  * @throws LinkError where it cannot be read.
  */
 export function fromValues(values: LinkValues, count: number): SphereState {

@@ -1,11 +1,9 @@
 /** What the Sphere room says: sentences whose numbers change. */
 
-import { fixed, latitude, longitude, several } from "../words.ts";
-import type { Insertion } from "./insertion.ts";
-import type { Bubble, SphereSites } from "./sphere_sites.ts";
+import { DEGREES } from "../space.ts";
+import { fixed, several } from "../words.ts";
+import type { Bubble, Insertion, SphereSites } from "./sphere_sites.ts";
 import type { Twin } from "./twin.ts";
-
-const DEGREES = 180 / Math.PI;
 
 /** Distances below a radius by less than this part of it are those of sites on the circle, which are rounded. */
 const ON_CIRCLE = 1e-9;
@@ -68,7 +66,7 @@ export function ofDuplicates(sites: SphereSites): string {
 }
 
 /** A site for those who do not see it: its number, its name, its place, how many neighbours it has. */
-export function ofSite({ lonlat, neighborCounts }: SphereSites, site: number, name?: string): string {
-  const place = `${latitude(lonlat[2 * site + 1])}, ${longitude(lonlat[2 * site])}`;
-  return `Site ${site + 1}${name ? `, ${name}` : ""}, ${place}, ${neighborCounts[site]} neighbours`;
+export function ofSite(sites: SphereSites, site: number, name?: string): string {
+  const words = [`Site ${site + 1}`, ...(name ? [name] : []), ...sites.words(site)];
+  return `${words.join(", ")}, ${sites.neighborCounts[site]} neighbours`;
 }

@@ -1,10 +1,10 @@
-/** The plane beside the sphere: stereographic projection from a pole to the plane that touches opposite it. */
+/** The plane beside the sphere: stereographic projection from a pole to the plane that touches opposite it, and its frame. */
 
-import type { Vector } from "./space.ts";
-import { dot, lonLatOf } from "./space.ts";
+import { dot, lonLatOf, type Vector } from "../space.ts";
+import type { SphereSites } from "./sphere_sites.ts";
 
 /** The image of a circle of the sphere: a circle with its middle and radius, or a line through the pole's circle. */
-export type PlaneCircle =
+type PlaneCircle =
   | {
       readonly kind: "circle";
       readonly middle: readonly [number, number];
@@ -46,14 +46,12 @@ export class Twin {
     const square = u * u + v * v;
     const along = (4 - square) / (4 + square);
     const across = 4 / (4 + square);
-    return [0, 1, 2].map(
-      (k) => along * this.#south[k] + across * (u * this.#east[k] + v * this.#north[k]),
-    ) as unknown as Vector;
+    const part = (k: 0 | 1 | 2): number => along * this.#south[k] + across * (u * this.#east[k] + v * this.#north[k]);
+    return [part(0), part(1), part(2)];
   }
 
   /**
    * The image of the circle of points x with center·x = cosine.
-   *
    * With c the centre, s the point of contact and d the cosine, 2 tan(χ/2) = |X| turns c·x = d into
    * |X|²(d + c·s) − 4 X·c + 4(d − c·s) = 0.
    */
@@ -69,4 +67,51 @@ export class Twin {
       holdsPole: lead < 0,
     };
   }
+}
+
+/** Sites of the plane that may lie outside its frame: one in so many. */
+const OUTSIDE = 20;
+
+/** Room around the sites in the frame. */
+const ROOM = 1.07;
+
+export class PlaneFrame {
+  /** The upper left corner and the side, px. */
+  readonly x: number;
+  readonly y: number;
+  readonly size: number;
+  /** Half the side, ball radii. */
+  readonly reach: number;
+
+  constructor(x: number, y: number, size: number, reach: number) {
+    [this.x, this.y, this.size, this.reach] = [x, y, size, reach];
+  }
+
+  /** Pixels of a ball radius. */
+  get scale(): number {
+    return this.size / 2 / this.reach;
+  }
+
+  /** Where a point of the plane is on the picture. */
+  place([u, v]: readonly [number, number]): [number, number] {
+    const { x, y, size, scale } = this;
+    return [x + size / 2 + scale * u, y + size / 2 - scale * v];
+  }
+
+  /** The point of the plane at a place of the picture. */
+  point([px, py]: readonly [number, number]): [number, number] {
+    const { x, y, size, scale } = this;
+    return [(px - x - size / 2) / scale, (y + size / 2 - py) / scale];
+  }
+}
+
+/** Half the side of a frame that holds nearly all sites, ball radii, and the number of sites that lie outside. */
+export function reachAround(sites: SphereSites, twin: Twin): { reach: number; outside: number } {
+  const sizes = Array.from({ length: sites.count }, (_, k) =>
+    Math.max(...twin.forward(sites.site(k)).map(Math.abs)),
+  ).sort((a, b) => a - b);
+  const nearly = sizes[Math.floor(((OUTSIDE - 1) / OUTSIDE) * (sizes.length - 1))] ?? 1;
+  const all = sizes[sizes.length - 1] ?? 1;
+  const reach = ROOM * (all < 2 * nearly ? all : nearly) || 1;
+  return { reach, outside: sizes.filter((size) => size > reach).length };
 }

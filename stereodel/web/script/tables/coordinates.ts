@@ -1,7 +1,6 @@
 /** Which columns are coordinates, and their cells as numbers; what is wrong is told with its row. */
 
-import type { TextTable } from "./delimited.ts";
-import { TableError } from "./error.ts";
+import { TableError, type TextTable } from "./delimited.ts";
 
 /** What people and programs write as a number. */
 export const NUMBER = /^[-+]?(?:[0-9]+[.,]?[0-9]*|[.,][0-9]+)(?:e[-+]?[0-9]+)?$/i;

@@ -1,7 +1,6 @@
 /** Tables as delimited text: what separates the fields and whether there is a header is found out. */
 
 import { findLonLat, NUMBER } from "./coordinates.ts";
-import { TableError } from "./error.ts";
 
 /** A comma comes last, as it may also be a decimal mark. */
 const SEPARATORS = ["\t", ";", "|", ","];
@@ -90,4 +89,18 @@ function isData(row: readonly string[]): boolean {
 function header(row: readonly string[]): string[] {
   if (!isData(row)) return row.map((cell) => cell.trim());
   return row.length === 2 ? ["lon", "lat"] : row.map((_, k) => `column_${k + 1}`);
+}
+
+/** A table that cannot be read; the message begins with the row where there is one. */
+export class TableError extends Error {}
+
+/** No column, or several, look like what is needed: the reader is asked which. */
+export class ColumnsError extends TableError {
+  /** The columns there are. */
+  readonly names: readonly string[];
+
+  constructor(names: readonly string[]) {
+    super("the table has no two columns of coordinates");
+    this.names = names;
+  }
 }

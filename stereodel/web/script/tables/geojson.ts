@@ -1,7 +1,7 @@
 /** Points of GeoJSON: a collection, a feature alone, or a sequence of features. */
 
 import { onEarth } from "./coordinates.ts";
-import { TableError } from "./error.ts";
+import { TableError } from "./delimited.ts";
 
 /** Places (n, 2) of points, and their names where features have a property `name`. */
 export function geojsonPoints(text: string): { places: Float64Array; names: string[] | null } {

@@ -1,14 +1,12 @@
 /** Conformal lenses over a view: the fisheye, magnified about a point, on its way to another one; bubble to bubble. */
 
 import { MoebiusMap, Rotation } from "../kernel/api.ts";
-import { angle, row } from "../rooms/space.ts";
-import type { Vector } from "../rooms/space.ts";
-import { about, partWay, product, View } from "./view.ts";
+import { angle, DEGREE, row, unit, type Vector } from "../space.ts";
+import { wrap } from "../words.ts";
+import { View } from "./view.ts";
 
 /** The largest magnification that the page shows. */
 export const MOST = 100;
-
-const DEGREE = Math.PI / 180;
 
 /** The fisheye: where it magnifies, a unit vector, and how many times. */
 export interface Lens {
@@ -53,7 +51,6 @@ export function scaleAt(map: MoebiusMap, direction: Vector): number {
 
 /**
  * Magnified by a factor about a point of the view, which stays where it is.
- *
  * Above 1 the map goes on with a fisheye at the point, which moves the focus there little by little. Below 1 the lens is
  * weakened where it is, so that the way back always ends at the plain ball.
  */
@@ -63,8 +60,7 @@ export function magnified(sight: Sight, point: Vector, factor: number, isNorthUp
     // Magnifications multiply at the most, so that none is above the largest one.
     const strength = Math.min(factor, MOST / lens.magnification);
     const map = lensMap({ focus: point, magnification: strength }).after(sightMap(sight));
-    const turn = map.left.after(map.right).quaternion;
-    const free = new View([turn[0], turn[1], turn[2], turn[3]]);
+    const free = new View(map.left.after(map.right));
     const magnification = Math.max(1, Math.min(MOST, map.magnification));
     const focus = magnification > 1 ? row(map.focus, 0) : lens.focus;
     return { lens: { focus, magnification }, view: isNorthUp ? free.northUp.holding(free.onBall(point), point) : free };
@@ -77,11 +73,6 @@ export function magnified(sight: Sight, point: Vector, factor: number, isNorthUp
 /** The view that has a direction of the ball at a point of the view, from the one before by the shortest way. */
 export function holding(view: View, direction: Vector, point: Vector, isNorthUp: boolean): View {
   return isNorthUp ? view.holding(direction, point) : view.dragged(view.seen(direction), point);
-}
-
-/** Turned about a point of the view, radians counterclockwise. */
-export function turnedAbout(view: View, point: Vector, by: number): View {
-  return new View(product(about(point, by), view.turn));
 }
 
 /** With another focus, while a direction of the Earth stays where it is seen. */
@@ -105,23 +96,22 @@ function betweenLenses(a: Lens, b: Lens, t: number): Lens {
   const d = 2 * Math.asinh(Math.sqrt(Math.sinh((p - q) / 2) ** 2 + Math.sinh(p) * Math.sinh(q) * chord ** 2));
   const share = (u: number): number => (d > 0 ? Math.sinh(u * d) / Math.sinh(d) : u);
   const [before, after] = [share(1 - t) * Math.sinh(p), share(t) * Math.sinh(q)];
-  const vector = [0, 1, 2].map((k) => before * a.focus[k] + after * b.focus[k]);
+  const vector = row(
+    [0, 1, 2].map((k) => before * a.focus[k] + after * b.focus[k]),
+    0,
+  );
   const size = Math.hypot(...vector);
-  if (size === 0) return { focus: b.focus, magnification: 1 };
-  return {
-    focus: row(
-      vector.map((x) => x / size),
-      0,
-    ),
-    magnification: Math.exp(Math.asinh(size)),
-  };
+  return { focus: size === 0 ? b.focus : unit(vector), magnification: Math.exp(Math.asinh(size)) };
 }
 
 function betweenViews(a: View, b: View, t: number, isNorthUp: boolean): View {
-  if (!isNorthUp) return new View(partWay(a.turn, b.turn, t));
-  const [[lon, lat], [toLon, toLat]] = [a.middle, b.middle];
-  const east = ((((toLon - lon + 180) % 360) + 360) % 360) - 180;
-  return View.above(lon + t * east, lat + t * (toLat - lat));
+  if (isNorthUp) {
+    const [[lon, lat], [toLon, toLat]] = [a.middle, b.middle];
+    return View.above(lon + t * wrap(toLon - lon), lat + t * (toLat - lat));
+  }
+  const [w, ...axis] = b.rotation.after(a.rotation.inverse()).quaternion;
+  const sine = Math.hypot(...axis);
+  return sine === 0 ? a : a.turned(Rotation.about(axis, t * wrap((2 * Math.atan2(sine, w)) / DEGREE)));
 }
 
 /** A cap of the sphere: its middle and its radius in degrees. */

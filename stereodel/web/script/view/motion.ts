@@ -1,14 +1,13 @@
 /** Movements that follow the hand: a flight to another state, a ball that comes to rest. */
 
-/** Milliseconds of a flight, and its pace: cubic-bezier(.3, 0, .2, 1). */
+/** Milliseconds of a flight. */
 const FLIGHT = 400;
-const PACE = [0.3, 0, 0.2, 1] as const;
 
 /** Milliseconds in which a turning ball stops. */
 const REST = 300;
 
 /** Whether the reader has asked for no motion: movements are cuts then. */
-export function isStill(): boolean {
+function isStill(): boolean {
   return matchMedia("(prefers-reduced-motion: reduce)").matches;
 }
 
@@ -28,7 +27,7 @@ export class Motion {
       start ??= now;
       const t = Math.min(1, (now - start) / duration);
       this.#asked = t < 1 ? requestAnimationFrame(frame) : 0;
-      step(paced(t));
+      step(t * t * (3 - 2 * t)); // gently off, gently to rest
     };
     this.#asked = requestAnimationFrame(frame);
   }
@@ -54,19 +53,4 @@ export class Motion {
     cancelAnimationFrame(this.#asked);
     this.#asked = 0;
   }
-}
-
-/** The share of the way at a share of the time. */
-export function paced(t: number): number {
-  if (t <= 0 || t >= 1) return t <= 0 ? 0 : 1;
-  const [x1, y1, x2, y2] = PACE;
-  const bezier = (a: number, b: number, s: number): number =>
-    3 * a * s * (1 - s) ** 2 + 3 * b * s * s * (1 - s) + s ** 3;
-  let [low, high] = [0, 1];
-  for (let step = 0; step < 30; ++step) {
-    const middle = (low + high) / 2;
-    if (bezier(x1, x2, middle) < t) low = middle;
-    else high = middle;
-  }
-  return bezier(y1, y2, (low + high) / 2);
 }

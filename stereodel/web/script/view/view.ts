@@ -1,100 +1,39 @@
 /** Where a ball is seen from: turns of it, north up or free. Vectors in the axes of the view: x right, y up, z to the reader. */
 
 import { Rotation } from "../kernel/api.ts";
-import { cross, dot, lonLatOf, unit } from "../rooms/space.ts";
-import type { Vector } from "../rooms/space.ts";
-
-/** w, x, y, z, of length 1. */
-export type Quaternion = readonly [number, number, number, number];
-
-const DEGREE = Math.PI / 180;
-
-/** First q, then p. */
-export function product(p: Quaternion, q: Quaternion): Quaternion {
-  const [a, b, c, d] = p;
-  const [e, f, g, h] = q;
-  return normalized([
-    a * e - b * f - c * g - d * h,
-    a * f + b * e + c * h - d * g,
-    a * g - b * h + c * e + d * f,
-    a * h + b * g - c * f + d * e,
-  ]);
-}
-
-/** Of length 1 again: products drift. */
-export function normalized(q: Quaternion): Quaternion {
-  const size = Math.hypot(...q);
-  return [q[0] / size, q[1] / size, q[2] / size, q[3] / size];
-}
-
-export function inverse([w, x, y, z]: Quaternion): Quaternion {
-  return [w, -x, -y, -z];
-}
-
-/** Counterclockwise about a unit vector, radians. */
-export function about(axis: Vector, angle: number): Quaternion {
-  const s = Math.sin(angle / 2);
-  return [Math.cos(angle / 2), s * axis[0], s * axis[1], s * axis[2]];
-}
-
-/** The shortest turn from one unit vector to another. */
-export function between(a: Vector, b: Vector): Quaternion {
-  const total: Vector = [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
-  const length = Math.hypot(...total);
-  if (length === 0) return about(unit(Math.abs(a[2]) < 0.9 ? [-a[1], a[0], 0] : [0, -a[2], a[1]]), Math.PI);
-  const middle: Vector = [total[0] / length, total[1] / length, total[2] / length];
-  return normalized([dot(a, middle), ...cross(a, middle)]);
-}
-
-/** A vector turned. */
-export function turned([w, x, y, z]: Quaternion, v: Vector): Vector {
-  const t = cross([x, y, z], v);
-  const u: Vector = [2 * t[0], 2 * t[1], 2 * t[2]];
-  const s = cross([x, y, z], u);
-  return [v[0] + w * u[0] + s[0], v[1] + w * u[1] + s[1], v[2] + w * u[2] + s[2]];
-}
-
-/** Between two turns, the short way: p at t = 0, q at 1. */
-export function partWay(p: Quaternion, q: Quaternion, t: number): Quaternion {
-  const [w, x, y, z] = product(q, inverse(p));
-  const sign = w < 0 ? -1 : 1;
-  const sine = Math.hypot(x, y, z);
-  if (sine === 0) return p;
-  const angle = 2 * Math.atan2(sine, sign * w);
-  return product(about([(sign * x) / sine, (sign * y) / sine, (sign * z) / sine], t * angle), p);
-}
-
-/** From the axes of the Earth to those of the view above 0° N, 0° E. */
-const FRONT: Quaternion = [0.5, -0.5, -0.5, -0.5];
+import { DEGREE, lonLatOf, type Vector } from "../space.ts";
+import { wrap } from "../words.ts";
 
 /** A ball seen from afar. */
 export class View {
   /** From the ball's axes to the view's. */
-  readonly turn: Quaternion;
+  readonly rotation: Rotation;
+  #matrix: Float64Array | null = null;
 
-  constructor(turn: Quaternion) {
-    this.turn = turn;
+  constructor(rotation: Rotation) {
+    this.rotation = rotation;
   }
 
   /** From above a place, degrees, north up but for a roll counterclockwise. */
   static above(lon: number, lat: number, roll = 0): View {
-    const level = product(FRONT, about([0, 0, 1], -lon * DEGREE));
-    return new View(product(about([0, 0, 1], roll * DEGREE), product(about([1, 0, 0], lat * DEGREE), level)));
-  }
-
-  /** For maps of the kernel. */
-  get rotation(): Rotation {
-    return new Rotation([...this.turn]);
+    const [east, north, turn] = [lon, lat, roll].map((degrees) => (degrees * DEGREE) / 2);
+    // The quaternion (1, -1, -1, -1) / 2 of the view above 0° N, 0° E after a turn about the axis; then up, then the roll.
+    const [u, v] = [(Math.cos(east) - Math.sin(east)) / 2, -(Math.cos(east) + Math.sin(east)) / 2];
+    const [p, q] = [Math.cos(north) + Math.sin(north), Math.cos(north) - Math.sin(north)];
+    const [w, x, y, z, c, s] = [u * p, -u * q, v * q, v * p, Math.cos(turn), Math.sin(turn)];
+    return new View(new Rotation([c * w - s * z, c * x - s * y, c * y + s * x, c * z + s * w]));
   }
 
   /** A direction of the ball, in the axes of the view. */
-  seen(direction: Vector): Vector {
-    return turned(this.turn, direction);
+  seen([x, y, z]: Vector): Vector {
+    const m = (this.#matrix ??= this.rotation.matrix);
+    return [m[0] * x + m[1] * y + m[2] * z, m[3] * x + m[4] * y + m[5] * z, m[6] * x + m[7] * y + m[8] * z];
   }
 
   /** A point of the view, as a direction of the ball. */
-  onBall(point: Vector): Vector {
-    return turned(inverse(this.turn), point);
+  onBall([x, y, z]: Vector): Vector {
+    const m = (this.#matrix ??= this.rotation.matrix);
+    return [m[0] * x + m[3] * y + m[6] * z, m[1] * x + m[4] * y + m[7] * z, m[2] * x + m[5] * y + m[8] * z];
   }
 
   /** Longitude and latitude of the middle, degrees. */
@@ -105,7 +44,7 @@ export class View {
   /** Degrees by which the picture is turned counterclockwise from north up. */
   get roll(): number {
     const [lon, lat] = this.middle;
-    const [x, y] = turned(product(View.above(lon, lat).turn, inverse(this.turn)), [1, 0, 0]);
+    const [x, y] = View.above(lon, lat).seen(this.onBall([1, 0, 0]));
     return -Math.atan2(y, x) / DEGREE;
   }
 
@@ -114,9 +53,14 @@ export class View {
     return View.above(...this.middle);
   }
 
+  /** Turned further, about an axis of the view. */
+  turned(by: Rotation): View {
+    return new View(by.after(this.rotation));
+  }
+
   /** The view that turns a held point of the view to another one, the short way. */
   dragged(from: Vector, to: Vector): View {
-    return new View(product(between(from, to), this.turn));
+    return this.turned(Rotation.between(from, to));
   }
 
   /**
@@ -140,7 +84,7 @@ export class View {
       };
     });
     const cost = (view: { lon: number; lat: number; excess: number }): number => {
-      const apart = Math.abs(((((view.lon - oldLon + 180) % 360) + 360) % 360) - 180);
+      const apart = Math.abs(wrap(view.lon - oldLon));
       return apart * Math.cos(oldLat * DEGREE) + Math.abs(view.lat - oldLat) + 10 * Math.max(0, view.excess - 90);
     };
     const best = views.reduce((a, b) => (cost(b) < cost(a) ? b : a));
@@ -153,8 +97,7 @@ export class View {
       const [lon, lat] = this.middle;
       return View.above(lon + east, Math.max(-90, Math.min(90, lat + north)));
     }
-    const turn = product(about([1, 0, 0], north * DEGREE), about([0, 1, 0], -east * DEGREE));
-    return new View(product(turn, this.turn));
+    return this.turned(Rotation.about([0, 1, 0], -east)).turned(Rotation.about([1, 0, 0], north));
   }
 }
 

@@ -2,7 +2,9 @@
 
 export type Vector = readonly [number, number, number];
 
-const DEGREES = 180 / Math.PI;
+/** Radians of a degree, and degrees of a radian. */
+export const DEGREE = Math.PI / 180;
+export const DEGREES = 180 / Math.PI;
 
 export function dot(a: Vector, b: Vector): number {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];

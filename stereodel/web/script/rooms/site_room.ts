@@ -1,0 +1,198 @@
+/** What rooms have in common: switches and a table; those of sites a list of sets, and what a link calls the sites. */
+
+import { find } from "../dom.ts";
+import type { Exchange } from "../exchange.ts";
+import { MOST_SITES, packPlaces, type LinkValues } from "../link.ts";
+import type { RoomHost } from "../room.ts";
+import type { SiteSet } from "../sets.ts";
+import { SiteTable, type Rows } from "../table.ts";
+import { counted } from "../words.ts";
+import { Switches, tellNamed } from "./controls.ts";
+import type { Place } from "./sphere_state.ts";
+
+/** The name of sites that are no set of the list: opened, or changed by hand. */
+const OWN = "own";
+
+/** Sites, the set that they are, and the file that they were read from. */
+export interface NamedSites {
+  /** Pairs of coordinates, (n, 2) flat. */
+  readonly places: Float64Array;
+  /** Of the sites, where their file has such a column. */
+  readonly names: readonly string[] | null;
+  readonly set: string;
+  readonly file: string | null;
+}
+
+/** Sites of no file, of a link or changed by hand. */
+function ownSites(places: Float64Array, names: readonly string[] | null = null): NamedSites {
+  return { places, names, set: OWN, file: null };
+}
+
+function ofSet(set: SiteSet): NamedSites {
+  return { places: set.make(), names: set.names ?? null, set: set.name, file: null };
+}
+
+/** Sites from which on nothing but dots is drawn while something moves. */
+const VERY_MANY = 100_000;
+
+/** A room with switches and a table. */
+export abstract class TableRoom {
+  protected readonly host: RoomHost;
+  protected section!: HTMLElement;
+  protected table!: SiteTable;
+  protected switches!: Switches;
+  readonly #names: readonly string[];
+
+  /** @param switches Names of what can be left out of the drawing, and the like. */
+  constructor(host: RoomHost, switches: readonly string[]) {
+    [this.host, this.#names] = [host, switches];
+  }
+
+  /** The number of a site was pressed. */
+  protected abstract chosen(site: number): void;
+  /** The pointer or the focus is on the row of a site, or on none. */
+  protected abstract pointed(site: number | null): void;
+  /** Something is drawn, or no longer. */
+  protected abstract switched(name: string): void;
+
+  attach(section: HTMLElement): void {
+    this.section = section;
+    this.table = new SiteTable(find(section, ".sites"), {
+      chosen: (site) => this.host.guarded(() => this.chosen(site)),
+      pointed: (site) => this.pointed(site),
+    });
+    this.switches = new Switches(section, this.#names, (name) => {
+      this.host.guarded(() => this.switched(name));
+      this.host.changed();
+    });
+  }
+
+  /** Where the room says something. */
+  protected out(name: string): HTMLElement {
+    return find(this.section, `[data-out=${name}]`);
+  }
+
+  /** The state has changed; a screen reader hears what. */
+  protected changed(words: string): void {
+    this.host.changed();
+    this.host.announcer.say(words);
+  }
+}
+
+/** A room of sites, which come with the page, from a file or by hand. */
+export abstract class SiteRoom extends TableRoom {
+  protected readonly sets: readonly SiteSet[];
+  /** What the sites are called. */
+  protected named = ownSites(new Float64Array(0));
+  /** The site whose row the pointer or the focus is on. */
+  protected lit: number | null = null;
+  readonly #kind: "lonlat" | "plane";
+  #select!: HTMLSelectElement;
+
+  /** @param kind What the coordinates of the sites are. */
+  constructor(host: RoomHost, sets: readonly SiteSet[], kind: "lonlat" | "plane", switches: readonly string[]) {
+    super(host, switches);
+    [this.sets, this.#kind] = [sets, kind];
+  }
+
+  /** Other sites are there: a set of the list, or a file. */
+  protected abstract begin(named: NamedSites): void;
+  abstract redraw(): void;
+
+  protected override pointed(site: number | null): void {
+    this.lit = site;
+    this.redraw();
+  }
+
+  override attach(section: HTMLElement): void {
+    super.attach(section);
+    this.#select = find(section, "select[name=set]");
+    this.#select.append(...this.sets.map(({ name, words }) => new Option(words, name)));
+    this.#select.addEventListener("change", () => {
+      const set = this.sets.find(({ name }) => name === this.#select.value);
+      if (set !== undefined) this.#begin(ofSet(set));
+    });
+  }
+
+  /** What a link says of the sites and of the switches. */
+  protected siteValues(): Record<string, string> {
+    const { places, set, file } = this.named;
+    const { turned } = this.switches;
+    const sites: Record<string, string> =
+      set !== OWN
+        ? { set }
+        : places.length <= 2 * MOST_SITES
+          ? { sites: packPlaces(places) }
+          : { file: file ?? "sites" };
+    return turned === "" ? sites : { ...sites, turned };
+  }
+
+  /** The sites of a link; nothing is shown yet. @throws LinkError where they cannot be read. */
+  protected sitesOf(values: LinkValues): NamedSites {
+    const name = values.word("set", [...this.sets.map((set) => set.name), OWN], this.sets[0].name);
+    const places = this.#kind === "plane" ? values.places("sites") : values.lonlat("sites");
+    if (places !== null) return ownSites(places);
+    return ofSet(this.sets.find((set) => set.name === name) ?? this.sets[0]);
+  }
+
+  /** Turns the switches as a link says, and tells what it names and does not hold. */
+  restore(values: LinkValues): void {
+    this.switches.turned = values.text("turned", "");
+    tellNamed(this.host.messages, values, "file");
+  }
+
+  /** Whether something is drawn; while the picture moves, up to so many sites. */
+  protected isOn(name: string, isMoving = false, most = VERY_MANY): boolean {
+    return this.switches.isOn(name) && !(isMoving && this.named.places.length > 2 * most);
+  }
+
+  /** Shows what the sites are called, how many there are, and the table. */
+  protected show(named: NamedSites, rows: Omit<Rows, "names">): void {
+    this.named = named;
+    // Sites of the reader's own have an entry while they are there.
+    this.#select.querySelector(`option[value=${OWN}]`)?.remove();
+    if (named.set === OWN) this.#select.prepend(new Option(named.file ?? "Your own sites", OWN));
+    this.#select.value = named.set;
+    const { count } = rows;
+    this.out("count").textContent = count === 0 ? "No sites" : count === 1 ? "The site" : `The ${counted(count)} sites`;
+    this.table.show({ ...rows, names: named.names });
+  }
+
+  open(file: File, exchange: Exchange): Promise<void> {
+    return exchange.openPoints(file, this.#kind, this.host.messages, (points) =>
+      this.#begin({ ...ownSites(points.places, points.names), file: points.file }),
+    );
+  }
+
+  protected get title(): string {
+    return find(this.section, "h1").textContent ?? "";
+  }
+
+  #begin(named: NamedSites): void {
+    this.host.guarded(() => {
+      this.begin(named);
+      this.host.changed(true);
+    });
+  }
+}
+
+/** The sites with one more at the end. */
+export function withSite({ places, names }: NamedSites, place: Place): NamedSites {
+  const more = new Float64Array(places.length + 2);
+  more.set(places);
+  more.set(place, places.length);
+  return ownSites(more, names && [...names, ""]);
+}
+
+/** The sites with one of them elsewhere. */
+export function withMoved({ places, names }: NamedSites, site: number, place: Place): NamedSites {
+  const moved = places.slice();
+  moved.set(place, 2 * site);
+  return ownSites(moved, names);
+}
+
+/** The sites without one of them; those behind it take the numbers before theirs. */
+export function withoutSite({ places, names }: NamedSites, site: number): NamedSites {
+  const left = places.filter((_, k) => k >> 1 !== site);
+  return ownSites(left, names && names.filter((_, k) => k !== site));
+}
