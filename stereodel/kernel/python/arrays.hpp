@@ -12,10 +12,11 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
-#include <exception>
+#include <future>
 #include <initializer_list>
 #include <optional>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 
 #include "duplicates.hpp"
@@ -143,44 +144,29 @@ inline Tally to_tally(const nb::dict& counts) {
 // here. Where the system gives no thread, the work is done on this one and Ctrl-C waits.
 template <class Work>
 auto run_without_lock(bool is_long, Work&& work) {
-    using Result = decltype(work(Stop{}));
-    if (!is_long) {
-        const nb::gil_scoped_release release;
-        return work(Stop{});
-    }
     std::atomic<bool> stop{false};
-    std::exception_ptr failure;
-    Result result{};
-    Background background;
-    const bool begun = background.begin([&] {
+    std::future<decltype(work(Stop{}))> result;
+    if (is_long) {
         try {
-            result = work(Stop{&stop});
-        } catch (...) {
-            failure = std::current_exception();
+            result = std::async(std::launch::async, [&] { return work(Stop{&stop}); });
+        } catch (const std::system_error&) {
         }
-    });
-    if (!begun) {
+    }
+    if (!result.valid()) {
         const nb::gil_scoped_release release;
         return work(Stop{});
     }
-    bool interrupted = false;
-    const auto ended = [&] {
+    const auto is_ready = [&] {
         const nb::gil_scoped_release release;
-        return background.ends_within(std::chrono::milliseconds(50));
+        return result.wait_for(std::chrono::milliseconds(50)) == std::future_status::ready;
     };
-    while (!ended()) {
-        if (!interrupted && PyErr_CheckSignals() != 0) {
-            interrupted = true;
-            stop = true;
-        }
+    while (!is_ready()) {
+        stop = stop || PyErr_CheckSignals() != 0;
     }
-    if (interrupted) {
+    if (stop) {
         throw nb::python_error();
     }
-    if (failure) {
-        std::rethrow_exception(failure);
-    }
-    return result;
+    return result.get();
 }
 
 // A buffer that work(data, stop) fills without the interpreter's lock.
