@@ -24,7 +24,6 @@
 #include <cstddef>
 #include <exception>
 #include <functional>
-#include <utility>
 #include <vector>
 
 #if STEREODEL_THREADS

@@ -91,9 +91,11 @@ Pairs sorted_edges(const std::vector<EdgePlace>& edges, const TriangleArrays& tr
     return result;
 }
 
-template <class Sites>
+}  // namespace
+
+template <std::size_t Width>
 Pairs proximity(const TriangleArrays& triangles, std::size_t size, Proximity graph, int workers, Stop stop) {
-    const Sites sites(triangles.points(), size);
+    const SitesOf<Width> sites(triangles.points(), size);
     Crew crew(useful_workers(workers, triangles.count()));
     if (graph == Proximity::gabriel) {
         const auto test = [&](const Index* corner, std::size_t k) { return is_outside_diameter(sites, corner, k); };
@@ -107,14 +109,7 @@ Pairs proximity(const TriangleArrays& triangles, std::size_t size, Proximity gra
     return sorted_edges(edges, triangles);
 }
 
-}  // namespace
-
-Pairs proximity_plane(const TriangleArrays& triangles, std::size_t size, Proximity graph, int workers, Stop stop) {
-    return proximity<PlaneSites>(triangles, size, graph, workers, stop);
-}
-
-Pairs proximity_sphere(const TriangleArrays& triangles, std::size_t size, Proximity graph, int workers, Stop stop) {
-    return proximity<SphereSites>(triangles, size, graph, workers, stop);
-}
+template Pairs proximity<2>(const TriangleArrays&, std::size_t, Proximity, int, Stop);
+template Pairs proximity<3>(const TriangleArrays&, std::size_t, Proximity, int, Stop);
 
 }  // namespace stereodel::graphs

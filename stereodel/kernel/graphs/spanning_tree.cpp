@@ -62,9 +62,11 @@ bool is_before(const Sites& sites, const TreeEdge& e, const TreeEdge& f) {
     return sign != 0 ? sign < 0 : ends_before(sites, e, f);
 }
 
-template <class Sites>
+}  // namespace
+
+template <std::size_t Width>
 Pairs spanning_tree(const double* points, std::size_t size, const Pairs& edges, Stop stop) {
-    const Sites sites(points, size);
+    const SitesOf<Width> sites(points, size);
     std::vector<TreeEdge> sorted;
     sorted.reserve(edges.size());
     for (const auto& [a, b] : edges) {
@@ -85,14 +87,7 @@ Pairs spanning_tree(const double* points, std::size_t size, const Pairs& edges, 
     return tree;
 }
 
-}  // namespace
-
-Pairs spanning_tree_plane(const double* points, std::size_t size, const Pairs& edges, Stop stop) {
-    return spanning_tree<PlaneSites>(points, size, edges, stop);
-}
-
-Pairs spanning_tree_sphere(const double* points, std::size_t size, const Pairs& edges, Stop stop) {
-    return spanning_tree<SphereSites>(points, size, edges, stop);
-}
+template Pairs spanning_tree<2>(const double*, std::size_t, const Pairs&, Stop);
+template Pairs spanning_tree<3>(const double*, std::size_t, const Pairs&, Stop);
 
 }  // namespace stereodel::graphs

@@ -58,20 +58,15 @@ void check_points(const char* name, const Rows& points) {
 // Triangles of points of the plane, or of directions. checked: all are arrays that the kernel gave away and nobody can
 // have changed; many a query takes less time than a look at each of them.
 template <class Rows>
-void check_triangles(const Rows& points, const RowsIn<Index, 3>& simplices,
-                     const RowsIn<Index, 3>& neighbors, bool checked, Border border) {
+void check_triangles(const Rows& points, const RowsIn<Index, 3>& simplices, const RowsIn<Index, 3>& neighbors,
+                     bool checked, std::optional<Border> border = {}) {
     check_same_length("simplices", simplices.shape(0), "neighbors", neighbors.shape(0));
     if (checked) {
         return;
     }
     check_points("points", points);
-    check_triangles(simplices.data(), neighbors.data(), simplices.shape(0), points.shape(0), border);
-}
-
-template <class Rows>
-void check_triangles(const Rows& points, const RowsIn<Index, 3>& simplices, const RowsIn<Index, 3>& neighbors,
-                     bool checked) {
-    check_triangles(points, simplices, neighbors, checked, points.shape(1) == 3 ? Border::closed : Border::open);
+    check_triangles(simplices.data(), neighbors.data(), simplices.shape(0), points.shape(0),
+                    border.value_or(points.shape(1) == 3 ? Border::closed : Border::open));
 }
 
 // An array of NumPy's that owns the memory of a buffer.
@@ -92,15 +87,6 @@ template <class T>
 ValuesOut<T> to_values(Buffer<T>&& buffer) {
     const std::size_t count = buffer.size();
     return to_array<ValuesOut<T>>(std::move(buffer), {count});
-}
-
-inline Buffer<Index> to_buffer(const Pairs& pairs) {
-    Buffer<Index> buffer(2 * pairs.size());
-    for (std::size_t k = 0; k < pairs.size(); ++k) {
-        buffer[2 * k] = pairs[k].first;
-        buffer[2 * k + 1] = pairs[k].second;
-    }
-    return buffer;
 }
 
 inline RowsOut<Index, 2> to_rows(const Pairs& pairs) {

@@ -80,13 +80,6 @@ nb::ndarray<nb::numpy, const T, nb::shape<-1, static_cast<nb::ssize_t>(Width)>, 
     return {buffer.data(), {buffer.size() / Width, Width}, owner};
 }
 
-template <class T>
-Buffer<T> copied(const T* values, std::size_t count) {
-    Buffer<T> buffer(count);
-    std::copy(values, values + count, buffer.data());
-    return buffer;
-}
-
 // A triangulation that Python holds, and any number of threads with it. Who reads shares the lock, who changes has it
 // alone, and all the others wait.
 //

@@ -17,7 +17,7 @@ namespace stereodel::raster {
 
 // Edges in radians, west < east <= west + 2 pi, south < north.
 struct RasterEdges {
-    double west, east, south, north;
+    double west, south, east, north;
 };
 
 // Colour times opacity and opacity, times weight, in levels of 255.
