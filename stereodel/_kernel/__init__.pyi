@@ -93,6 +93,13 @@ def sin_cos_degrees(
     Rows (sine, its low part, cosine, its low part) of angles in degrees; relative errors below 2^-101.
     """
 
+def authalic_factors(
+    squares: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
+) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 4), order="C")]:
+    """
+    Rows (P, its low part, R, its low part) of squares (value, low part) of sines of geodetic latitudes: sine P and cosine R, over P(1), are those of the authalic latitude; relative errors below 2^-84.
+    """
+
 def vector_angles(
     y: Annotated[NDArray[numpy.float64], dict(shape=(None,), order="C", device="cpu", writable=False)],
     x: Annotated[NDArray[numpy.float64], dict(shape=(None,), order="C", device="cpu", writable=False)],

@@ -4,6 +4,24 @@
 
 namespace stereodel {
 
+Buffer<Index> to_buffer(const Pairs& pairs) {
+    Buffer<Index> rows(2 * pairs.size());
+    Index* to = rows.data();
+    for (const auto& [first, second] : pairs) {
+        *to++ = first;
+        *to++ = second;
+    }
+    return rows;
+}
+
+Pairs to_pairs(const Index* rows, std::size_t count) {
+    Pairs pairs(count);
+    for (std::size_t k = 0; k < count; ++k) {
+        pairs[k] = {rows[2 * k], rows[2 * k + 1]};
+    }
+    return pairs;
+}
+
 std::size_t sort_and_drop(std::vector<Index>& points, const Comparison& compare, const Index* number,
                           Pairs& duplicates) {
     const auto number_of = [number](Index point) { return number == nullptr ? point : number[point]; };

@@ -5,11 +5,16 @@
 #include <utility>
 #include <vector>
 
+#include "memory.hpp"
 #include "tally.hpp"
 
 namespace stereodel {
 
 using Pairs = std::vector<std::pair<Index, Index>>;  // of numbers; of duplicates: dropped, kept
+
+// As rows of two numbers, and back.
+Buffer<Index> to_buffer(const Pairs& pairs);
+Pairs to_pairs(const Index* rows, std::size_t count);
 
 // Refers to a function of two points that says -1, 0 or 1. One sort is compiled for all of them: what they do takes
 // longer than the call.

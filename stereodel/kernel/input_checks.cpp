@@ -148,13 +148,6 @@ void check_distinct(const char* name, const Index* numbers, std::size_t count, s
     }
 }
 
-void check_permutation(const char* name, const Index* numbers, std::size_t size, std::size_t count) {
-    if (size != count) {
-        refuse(std::string(name) + " must be a permutation of the numbers below " + std::to_string(count));
-    }
-    check_distinct(name, numbers, size, count);
-}
-
 void check_triangles(const Index* simplices, const Index* neighbors, std::size_t count, std::size_t points,
                      Border border) {
     refuse_too_many("simplices", count, 3);

@@ -25,9 +25,6 @@ void check_indices(const char* name, const Index* numbers, std::size_t count, st
 // None of them twice, all below `size`.
 void check_distinct(const char* name, const Index* numbers, std::size_t count, std::size_t size);
 
-// Each number below `count` once.
-void check_permutation(const char* name, const Index* numbers, std::size_t size, std::size_t count);
-
 enum class Border {
     open,   // the plane: -1 where there is no neighbour
     closed  // the sphere: all neighbours are there

@@ -1,6 +1,7 @@
 // Large arrays without initial values.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <limits>
 #include <new>
@@ -99,5 +100,18 @@ class Buffer {
     std::size_t size_ = 0;
     std::size_t capacity_ = 0;  // bytes
 };
+
+template <class T>
+Buffer<T> copied(const T* values, std::size_t count) {
+    Buffer<T> buffer(count);
+    std::copy_n(values, count, buffer.data());
+    return buffer;
+}
+
+// Of a vector, or whatever else has values side by side.
+template <class Array>
+auto copied(const Array& array) {
+    return copied(array.data(), array.size());
+}
 
 }  // namespace stereodel

@@ -8,7 +8,7 @@
 //
 // Where there are none (STEREODEL_THREADS = 0, as in WebAssembly without shared memory, whose C++ library has neither
 // std::thread nor std::mutex), every crew is the calling thread alone; the results are the same. So they are where a
-// system has threads and gives none. No other file of the kernel asks for a thread or for a lock.
+// system has threads and gives none. Beside this file only the folder `python` asks for threads and locks.
 #pragma once
 
 #if !defined(STEREODEL_THREADS)
@@ -21,18 +21,14 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cstddef>
 #include <exception>
 #include <functional>
-#include <utility>
 #include <vector>
 
 #if STEREODEL_THREADS
 #include <condition_variable>
 #include <mutex>
-#include <shared_mutex>
-#include <system_error>
 #include <thread>
 #endif
 
@@ -60,94 +56,10 @@ inline int useful_workers(int workers, std::size_t size, std::size_t worth_a_thr
 using Mutex = std::mutex;
 using Lock = std::lock_guard<Mutex>;
 
-// For many who read at a time, or for one alone who writes. All pass a gate. Who is to be alone shuts it and then waits
-// for those inside to leave: readers who keep coming do not keep a writer out for good. Nobody waits for more than
-// `a_while` without looking up.
-class PatientMutex {
-  public:
-    // look() is called before each wait; what it throws ends the waiting, and nothing is held.
-    template <class Look>
-    void lock_shared(Look&& look) {
-        const Gate gate(*this, look);
-        while (!inside_.try_lock_shared_for(a_while)) {
-            look();
-        }
-    }
-    template <class Look>
-    void lock(Look&& look) {
-        const Gate gate(*this, look);
-        while (!inside_.try_lock_for(a_while)) {
-            look();
-        }
-    }
-    void unlock_shared() { inside_.unlock_shared(); }
-    void unlock() { inside_.unlock(); }
-
-  private:
-    static constexpr std::chrono::milliseconds a_while{20};
-
-    struct Gate {
-        template <class Look>
-        Gate(PatientMutex& mutex, Look&& look) : gate(mutex.gate_) {
-            do {
-                look();
-            } while (!gate.try_lock_for(a_while));
-        }
-        Gate(const Gate&) = delete;
-        Gate& operator=(const Gate&) = delete;
-        ~Gate() { gate.unlock(); }
-        std::timed_mutex& gate;
-    };
-
-    std::timed_mutex gate_;
-    std::shared_timed_mutex inside_;
-};
-
 // Lets other threads go first, while this one waits for what they do.
 inline void wait_for_others() {
     std::this_thread::yield();
 }
-
-// Work on a thread of its own, beside which another looks after something else. The work must not throw.
-class Background {
-  public:
-    Background() = default;
-    Background(const Background&) = delete;
-    Background& operator=(const Background&) = delete;
-    ~Background() {
-        if (thread_.joinable()) {
-            thread_.join();
-        }
-    }
-
-    // Whether the work has begun; where the system gives no thread it has not, and is left to the caller.
-    template <class Work>
-    bool begin(Work&& work) {
-        try {
-            thread_ = std::thread([this, work = std::forward<Work>(work)]() mutable {
-                work();
-                const Lock lock(mutex_);
-                done_ = true;
-                ends_.notify_one();
-            });
-        } catch (const std::system_error&) {
-            return false;
-        }
-        return true;
-    }
-
-    // Waits for a while; whether the work has ended.
-    bool ends_within(std::chrono::milliseconds time) {
-        std::unique_lock lock(mutex_);
-        return ends_.wait_for(lock, time, [this] { return done_; });
-    }
-
-  private:
-    Mutex mutex_;
-    std::condition_variable ends_;
-    bool done_ = false;
-    std::thread thread_;
-};
 
 // Threads that wait for loops. The calling thread is one of them: a crew of one starts none.
 class Crew {
@@ -263,30 +175,7 @@ struct Lock {
     ~Lock() {}  // not trivial: a lock that is named and not used is meant
 };
 
-struct PatientMutex {
-    template <class Look>
-    void lock_shared(Look&& look) {
-        look();
-    }
-    template <class Look>
-    void lock(Look&& look) {
-        look();
-    }
-    void unlock_shared() {}
-    void unlock() {}
-};
-
 inline void wait_for_others() {}
-
-// Nothing begins.
-class Background {
-  public:
-    template <class Work>
-    bool begin(Work&&) {
-        return false;
-    }
-    bool ends_within(std::chrono::milliseconds) { return true; }
-};
 
 // The calling thread.
 class Crew {
@@ -306,33 +195,6 @@ class Crew {
 };
 
 #endif
-
-// Locks that are waited for until `stop` is raised.
-class SharedLock {
-  public:
-    SharedLock(PatientMutex& mutex, Stop stop) : mutex_(mutex) {
-        mutex_.lock_shared([stop] { check(stop); });
-    }
-    SharedLock(const SharedLock&) = delete;
-    SharedLock& operator=(const SharedLock&) = delete;
-    ~SharedLock() { mutex_.unlock_shared(); }
-
-  private:
-    PatientMutex& mutex_;
-};
-
-class LoneLock {
-  public:
-    LoneLock(PatientMutex& mutex, Stop stop) : mutex_(mutex) {
-        mutex_.lock([stop] { check(stop); });
-    }
-    LoneLock(const LoneLock&) = delete;
-    LoneLock& operator=(const LoneLock&) = delete;
-    ~LoneLock() { mutex_.unlock(); }
-
-  private:
-    PatientMutex& mutex_;
-};
 
 // Calls task(begin, end) for the ranges that make up [0, size): `grain` numbers each, the last one fewer.
 template <class Task>

@@ -21,6 +21,7 @@ from typing import Final, Literal
 
 import numpy as np
 
+from stereodel import _kernel
 from stereodel._arrays import FloatArray
 from stereodel._double_double import DoubleDouble
 from stereodel.earth import FLATTENING
@@ -36,44 +37,16 @@ _ONE_LESS_F = DoubleDouble(297257223563.0) / 298257223563.0
 _E2 = DoubleDouble(1e9) / 298257223563.0 * (1.0 + _ONE_LESS_F)
 _POLAR = _ONE_LESS_F * _ONE_LESS_F  # 1 − e²
 
-TERMS: Final = 15
-"""Of P: e³⁰ is below 2⁻¹⁰⁸, and the terms left out add up to less than that."""
-
-PAIRS: Final = 5
-"""Terms that need double-double: the rest is below e¹⁰ < 2⁻³⁶, and ten roundings of it lose less than 2⁻⁸⁵."""
-
-
-def _series() -> tuple[list[DoubleDouble], list[DoubleDouble]]:
-    """Coefficients of P, and those of D: the sums of all later ones of P."""
-    own, power = [], DoubleDouble(1.0)
-    for k in range(TERMS):
-        own.append(power * (k + 1.0) / (2 * k + 1.0))
-        power = power * _E2
-    later = [DoubleDouble(0.0)]
-    for coefficient in reversed(own[1:]):
-        later.append(later[-1] + coefficient)
-    return own, later[:0:-1]
-
-
-def _polynomial(coefficients: list[DoubleDouble], t: DoubleDouble) -> DoubleDouble:
-    """Horner's rule: the small terms of high order in doubles, the first `PAIRS` in double-double."""
-    tail = np.zeros_like(t.hi)
-    for coefficient in reversed(coefficients[PAIRS:]):
-        tail = (tail + coefficient.hi) * t.hi
-    total = DoubleDouble(tail)
-    for coefficient in reversed(coefficients[1:PAIRS]):
-        total = (total + coefficient) * t
-    return total + coefficients[0]
-
-
-_P, _D = _series()
-_P_AT_POLE = _polynomial(_P, DoubleDouble(1.0))
-
 
 def _authalic_factors(t: DoubleDouble) -> tuple[DoubleDouble, DoubleDouble]:
-    """P and R of sin² φ."""
-    p = _polynomial(_P, t)
-    return p, (p * p + (_P_AT_POLE + p) * _polynomial(_D, t)).sqrt()
+    """P and R of sin² φ: the series is the kernel's, `stereodel/kernel/coordinates/latitudes.cpp`."""
+    squares = np.stack([t.hi, t.lo], axis=-1)
+    parts = _kernel.authalic_factors(squares.reshape(-1, 2)).reshape(*squares.shape[:-1], 4)
+    p, p_low, r, r_low = (parts[..., k] for k in range(4))
+    return DoubleDouble(p, p_low), DoubleDouble(r, r_low)
+
+
+_P_AT_POLE, _ = _authalic_factors(DoubleDouble(np.float64(1.0)))
 
 
 def sin_cos_on_sphere(latitude: FloatArray, kind: Latitude) -> tuple[DoubleDouble, DoubleDouble]:

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from mpmath import mp, mpf, workprec
 
 from stereodel import _kernel_probe as probe
 
@@ -74,16 +73,6 @@ def test_quotients_lie_in_their_balls(a, b, c, d):
         middle, radius = ball([a, b, c, d], "vv+vv+/")
         assert abs(truth - middle) <= radius
         assert ball([c, d], "vv+")[1] > 0 or radius <= abs(truth) * Fraction(2) ** -100
-
-
-@given(NUMBER | NEAR, NUMBER | NEAR, NUMBER | NEAR, NUMBER | NEAR)
-def test_roots_lie_in_their_balls(a, b, c, d):
-    """|(a, b)| - |(c, d)|: radicands that are not squares, and differences that cancel."""
-    middle, radius = ball([a, a, b, b, c, c, d, d], "vv*vv*+svv*vv*+s-")
-    with workprec(9000):
-        truth = mp.sqrt(mpf(a) ** 2 + mpf(b) ** 2) - mp.sqrt(mpf(c) ** 2 + mpf(d) ** 2)
-        exact = mpf(middle.numerator) / middle.denominator
-        assert abs(truth - exact) <= mpf(radius.numerator) / radius.denominator
 
 
 def test_a_quotient_by_what_may_be_zero_tells_nothing():

@@ -120,25 +120,22 @@ def test_at_another_scale(name, near, scale):
 @EVERY
 @pytest.mark.parametrize("per", [1, 2])
 def test_coordinates_of_any_size(name, per):
-    """Balls leave nothing open but ties, whether points or coordinates have their sizes; whole multiples have ties."""
+    """Points or coordinates of their own sizes; whole multiples have ties."""
     rng = np.random.default_rng(11)
-    shares, truth = check(name, rng.normal(size=(4, 300, 2)) * 10.0 ** rng.uniform(-300, 300, size=(4, 300, per)))
-    assert shares["balls"] <= (truth == 0).mean()
+    check(name, rng.normal(size=(4, 300, 2)) * 10.0 ** rng.uniform(-300, 300, size=(4, 300, per)))
     sizes = rng.choice([2.0**-1074, 1e-310, 1e-200, 1e-100, 1e-16, 1.0, 3.0, 1e16, 1e100, 1e200, 1e307], (4, 700, per))
     check(name, sizes * rng.integers(-3, 4, size=(4, 700, 2)))
 
 
 def test_two_pairs_far_apart():
-    """Pairs that are 1e-200 close, and a tree of the other edges that would lose them: cocircular but for one bit."""
+    """Pairs that are 1e-200 close: cocircular but for one bit."""
     rng = np.random.default_rng(12)
     a, c = rng.normal(size=(2, 200, 2)) * 1e-200
     far = np.array([0.0, 1.0])
     points = np.stack([a, a * [-1, 1], c * [1, 0] + far, c * [-1, 0] + far])
     assert not check("incircle", points)[1].any()
     points[0, :, 0] = np.nextafter(points[0, :, 0], 1)
-    shares, truth = check("incircle", points)
-    assert truth.all()
-    assert shares["balls"] == 0
+    assert check("incircle", points)[1].all()
 
 
 @given(*[PLANE.places(4)] * 4, st.sampled_from([1.0, 0.1, 2.0**-1074, 1e-100, 1e100]))

@@ -106,21 +106,6 @@ class Ball {
         return Ball(quotient, (radius + rounding) * INFLATED, a.exponent_ - b.exponent_).normalised();
     }
 
-    // Of a number that is not negative. |sqrt(a) - sqrt(a')| = r/(sqrt(a) + sqrt(a')) <= r/sqrt(a').
-    friend Ball sqrt(const Ball& a) {
-        if (a.is_zero()) {
-            return {};
-        }
-        if (!(a.middle_.hi >= 0.5)) {
-            return {{}, 1.0, ANYTHING};
-        }
-        const int odd = a.exponent_ & 1;
-        const double factor = odd != 0 ? 2.0 : 1.0;
-        const DoubleDouble root = arithmetic::sqrt(DoubleDouble{factor * a.middle_.hi, factor * a.middle_.lo});
-        const double radius = factor * a.radius_ / root.hi + 6 * U * U * root.hi + TINY;
-        return Ball(root, radius * INFLATED, (a.exponent_ - odd) / 2).normalised();
-    }
-
   private:
     static constexpr double U = 0x1p-53, TINY = 0x1p-300, INFLATED = 1 + 0x1p-48;
     static constexpr int FAR = 200;  // a number so many powers of two below another one is part of its radius

@@ -63,7 +63,6 @@ class BigBall {
     BigBall() = default;
     BigBall(double value, std::size_t limbs) : middle_(value), limbs_(limbs) {}
 
-    std::size_t limbs() const { return limbs_; }
     BigBall like(double value) const { return {value, limbs_}; }  // of the same precision
     int sign() const { return middle_.sign(); }                // of the midpoint
     bool is_zero() const { return sign() == 0 && radius_.is_zero(); }

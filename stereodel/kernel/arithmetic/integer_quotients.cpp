@@ -32,14 +32,14 @@ std::int64_t near_quotient(const BigInteger& numerator, const BigInteger& denomi
     return std::llround(std::ldexp(quotient, static_cast<int>(std::max<std::ptrdiff_t>(above - below, -1100))));
 }
 
-struct Division {
+struct WholeQuotient {
     std::int64_t quotient;
     bool exact;
 };
 
 // The whole part of numerator/denominator, both positive, below 2^62. The second step corrects the first to within one
 // or two, and these are counted.
-Division divide(const BigInteger& numerator, const BigInteger& denominator) {
+WholeQuotient divide(const BigInteger& numerator, const BigInteger& denominator) {
     std::int64_t quotient = 0;
     BigInteger rest = numerator;
     for (int step = 0; step < 2; ++step) {
@@ -85,7 +85,7 @@ double round_quotient(const BigInteger& numerator, const BigInteger& denominator
     // Scaled so that the quotient lies between 2^58 and 2^60: five bits more than a double has, one more to come.
     const std::ptrdiff_t shift = 59 - (length_of(numerator) - length_of(denominator));
     const BigInteger above = magnitude(numerator), below = magnitude(denominator);
-    const Division whole = shift >= 0 ? divide(scaled(above, shift), below) : divide(above, scaled(below, -shift));
+    const WholeQuotient whole = shift >= 0 ? divide(scaled(above, shift), below) : divide(above, scaled(below, -shift));
     const std::uint64_t sticky = static_cast<std::uint64_t>(whole.quotient) << 1 | (whole.exact ? 0U : 1U);
     const double result = round_binary(sticky, exponent - shift - 1);
     return numerator.sign() == denominator.sign() ? result : 0.0 - result;

@@ -51,19 +51,30 @@ struct Ellipsoid {
     }
 };
 
+const Ellipsoid& ellipsoid() {
+    static const Ellipsoid earth;
+    return earth;
+}
+
 }  // namespace
 
+AuthalicFactors authalic_factors(DoubleDouble t) {
+    const Ellipsoid& earth = ellipsoid();
+    const DoubleDouble p = polynomial(earth.p, TERMS, t);
+    return {p, sqrt(p * p + (earth.p_at_pole + p) * polynomial(earth.later, TERMS - 1, t))};
+}
+
 SineCosine on_sphere(const SineCosine& latitude, Latitude kind) {
-    static const Ellipsoid earth;
+    const Ellipsoid& earth = ellipsoid();
     auto [sine, cosine] = latitude;
     DoubleDouble length = earth.p_at_pole;
     if (kind == Latitude::geodetic) {
         sine = earth.polar * sine;
         length = sqrt(sine * sine + cosine * cosine);
     } else {
-        const DoubleDouble t = sine * sine, p = polynomial(earth.p, TERMS, t);
+        const auto [p, r] = authalic_factors(sine * sine);
         sine = sine * p;
-        cosine = cosine * sqrt(p * p + (earth.p_at_pole + p) * polynomial(earth.later, TERMS - 1, t));
+        cosine = cosine * r;
     }
     return {sine / length, cosine / length};
 }

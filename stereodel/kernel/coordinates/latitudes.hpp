@@ -12,6 +12,12 @@ enum class Latitude {
     authalic   // equal areas
 };
 
+// P and R of t = sin^2 of a geodetic latitude.
+struct AuthalicFactors {
+    DoubleDouble p, r;
+};
+AuthalicFactors authalic_factors(DoubleDouble t);
+
 // Sine and cosine on the sphere of those of a geodetic latitude, relative error below 2^-84.
 SineCosine on_sphere(const SineCosine& latitude, Latitude kind);
 

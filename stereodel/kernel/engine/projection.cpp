@@ -7,7 +7,6 @@
 
 #include "arithmetic/double_double.hpp"
 #include "arithmetic/roots.hpp"
-#include "predicates/ray_balls.hpp"
 #include "predicates/ray_integers.hpp"
 
 namespace stereodel::engine {
@@ -111,23 +110,13 @@ Sign compare_projected_double_double(const double* p, const double* q, Pole pole
 }
 
 // X(p) - X(q) = x/(|p| - h) - y/(|q| - k) has the sign of x(|q| - k) - y(|p| - h).
-int compare_projected_integers(const double* p, const double* q, Pole pole, int coordinate) {
+int compare_projected_exact(const double* p, const double* q, Pole pole, int coordinate) {
     const int i = component_of(pole, coordinate), k = pole.axis;
     const rays::IntegerRay rp(p), rq(q);
     const BigInteger cross = rq.v[i] * rp.v[k] - rp.v[i] * rq.v[k];
     const std::array<RootTerm, 3> terms = {RootTerm{rp.v[i], rq.squared()}, RootTerm{-rq.v[i], rp.squared()},
                                            RootTerm{pole.sign > 0 ? cross : -cross, BigInteger(1)}};
     return sign_of_roots(terms.data(), 3);
-}
-
-Sign compare_projected_balls(const double* p, const double* q, Pole pole, int coordinate) {
-    return rays::compare_projected_balls(p, q, pole.axis, pole.sign, component_of(pole, coordinate));
-}
-
-int compare_projected_exact(const double* p, const double* q, Pole pole, int coordinate) {
-    const bool wide = rays::is_wide(p) || rays::is_wide(q);
-    const Sign sign = wide ? compare_projected_balls(p, q, pole, coordinate) : OPEN;
-    return sign != OPEN ? sign : compare_projected_integers(p, q, pole, coordinate);
 }
 
 int compare_projected(const double* p, const double* q, Pole pole, int coordinate) {
@@ -157,7 +146,7 @@ Sign compare_to_line_double_double(const double* p, Pole pole, int coordinate, d
 }
 
 // x/(|p| - h) - b has the sign of x + b h - b|p|; b is an integer times 2^-e.
-int compare_to_line_integers(const double* p, Pole pole, int coordinate, double hi, double lo) {
+int compare_to_line_exact(const double* p, Pole pole, int coordinate, double hi, double lo) {
     const rays::IntegerRay r(p);
     const int exponent = std::min({lowest_exponent(hi), lowest_exponent(lo), 0});
     const BigInteger line = BigInteger::from_double(hi, exponent) + BigInteger::from_double(lo, exponent);
@@ -165,17 +154,6 @@ int compare_to_line_integers(const double* p, Pole pole, int coordinate, double 
     const BigInteger x = r.v[component_of(pole, coordinate)].shifted(static_cast<std::size_t>(-exponent));
     const std::array<RootTerm, 2> terms = {RootTerm{x + line * height, BigInteger(1)}, RootTerm{-line, r.squared()}};
     return sign_of_roots(terms.data(), 2);
-}
-
-Sign compare_to_line_balls(const double* p, Pole pole, int coordinate, double hi, double lo) {
-    return rays::compare_to_line_balls(p, pole.axis, pole.sign, component_of(pole, coordinate), hi, lo);
-}
-
-int compare_to_line_exact(const double* p, Pole pole, int coordinate, double hi, double lo) {
-    const double line[3] = {1.0, hi, lo};
-    const Sign sign =
-        rays::is_wide(p) || rays::is_wide(line) ? compare_to_line_balls(p, pole, coordinate, hi, lo) : OPEN;
-    return sign != OPEN ? sign : compare_to_line_integers(p, pole, coordinate, hi, lo);
 }
 
 int compare_to_line(const double* p, Pole pole, int coordinate, double hi, double lo) {

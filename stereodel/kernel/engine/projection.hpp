@@ -31,13 +31,9 @@ int compare_to_line(const double* p, Pole pole, int coordinate, double hi, doubl
 // The stages of the two comparisons.
 Sign compare_projected_filter(const double* p, const double* q, Pole pole, int coordinate);
 Sign compare_projected_double_double(const double* p, const double* q, Pole pole, int coordinate);
-Sign compare_projected_balls(const double* p, const double* q, Pole pole, int coordinate);
-int compare_projected_integers(const double* p, const double* q, Pole pole, int coordinate);
 int compare_projected_exact(const double* p, const double* q, Pole pole, int coordinate);
 Sign compare_to_line_filter(const double* p, Pole pole, int coordinate, double hi, double lo);
 Sign compare_to_line_double_double(const double* p, Pole pole, int coordinate, double hi, double lo);
-Sign compare_to_line_balls(const double* p, Pole pole, int coordinate, double hi, double lo);
-int compare_to_line_integers(const double* p, Pole pole, int coordinate, double hi, double lo);
 int compare_to_line_exact(const double* p, Pole pole, int coordinate, double hi, double lo);
 
 }  // namespace stereodel::engine

@@ -16,7 +16,7 @@ using mesh::place_opposite;
 namespace {
 
 // An edge: opposite corner k of triangle t.
-struct Place {
+struct EdgePlace {
     Index t;
     std::uint8_t k;
 };
@@ -34,14 +34,14 @@ bool is_not_longest(const Sites& sites, const Index* corner, std::size_t k) {
 
 // The edges that pass a test of the corner opposite, on both sides.
 template <class Keeps>
-std::vector<Place> places(const TriangleArrays& triangles, Crew& crew, Stop stop, Keeps&& keeps) {
+std::vector<EdgePlace> places(const TriangleArrays& triangles, Crew& crew, Stop stop, Keeps&& keeps) {
     const std::size_t count = triangles.count();
     Buffer<std::uint8_t> passed(count);
     for_all(count, crew, stop, [&](std::size_t t) {
         const Index* const corner = triangles.corners(static_cast<Index>(t));
         passed[t] = static_cast<std::uint8_t>(keeps(corner, 0) | keeps(corner, 1) << 1 | keeps(corner, 2) << 2);
     });
-    std::vector<Place> result;
+    std::vector<EdgePlace> result;
     for_range(0, 3 * count, stop, [&](std::size_t j) {
         const auto t = static_cast<Index>(j / 3);
         const std::size_t k = j % 3;
@@ -61,7 +61,7 @@ std::vector<Place> places(const TriangleArrays& triangles, Crew& crew, Stop stop
 
 // Keeps the edges whose lune is empty.
 template <class Sites>
-void keep_relative(std::vector<Place>& edges, const TriangleArrays& triangles, const Sites& sites, Crew& crew,
+void keep_relative(std::vector<EdgePlace>& edges, const TriangleArrays& triangles, const Sites& sites, Crew& crew,
                    Stop stop) {
     constexpr std::size_t grain = 1024;
     Buffer<bool> is_empty(edges.size());
@@ -80,10 +80,10 @@ void keep_relative(std::vector<Place>& edges, const TriangleArrays& triangles, c
     edges.resize(kept);
 }
 
-Pairs sorted_edges(const std::vector<Place>& edges, const TriangleArrays& triangles) {
+Pairs sorted_edges(const std::vector<EdgePlace>& edges, const TriangleArrays& triangles) {
     Pairs result;
     result.reserve(edges.size());
-    for (const Place& edge : edges) {
+    for (const EdgePlace& edge : edges) {
         const Index* const corner = triangles.corners(edge.t);
         result.push_back(std::minmax({corner[(edge.k + 1) % 3], corner[(edge.k + 2) % 3]}));
     }
@@ -91,30 +91,25 @@ Pairs sorted_edges(const std::vector<Place>& edges, const TriangleArrays& triang
     return result;
 }
 
-template <class Sites>
+}  // namespace
+
+template <std::size_t Width>
 Pairs proximity(const TriangleArrays& triangles, std::size_t size, Proximity graph, int workers, Stop stop) {
-    const Sites sites(triangles.points(), size);
+    const SitesOf<Width> sites(triangles.points(), size);
     Crew crew(useful_workers(workers, triangles.count()));
     if (graph == Proximity::gabriel) {
         const auto test = [&](const Index* corner, std::size_t k) { return is_outside_diameter(sites, corner, k); };
         return sorted_edges(places(triangles, crew, stop, test), triangles);
     }
     const auto test = [&](const Index* corner, std::size_t k) { return is_not_longest(sites, corner, k); };
-    std::vector<Place> edges = places(triangles, crew, stop, test);
+    std::vector<EdgePlace> edges = places(triangles, crew, stop, test);
     if (graph == Proximity::relative) {
         keep_relative(edges, triangles, sites, crew, stop);
     }
     return sorted_edges(edges, triangles);
 }
 
-}  // namespace
-
-Pairs proximity_plane(const TriangleArrays& triangles, std::size_t size, Proximity graph, int workers, Stop stop) {
-    return proximity<PlaneSites>(triangles, size, graph, workers, stop);
-}
-
-Pairs proximity_sphere(const TriangleArrays& triangles, std::size_t size, Proximity graph, int workers, Stop stop) {
-    return proximity<SphereSites>(triangles, size, graph, workers, stop);
-}
+template Pairs proximity<2>(const TriangleArrays&, std::size_t, Proximity, int, Stop);
+template Pairs proximity<3>(const TriangleArrays&, std::size_t, Proximity, int, Stop);
 
 }  // namespace stereodel::graphs

@@ -32,7 +32,7 @@ enum class Proximity {
 
 // The edges, lower number first, in lexicographic order, of a triangulation of `size` points with at least one
 // triangle. The result does not depend on `workers`. Throws std::bad_alloc, Cancelled.
-Pairs proximity_plane(const TriangleArrays& triangles, std::size_t size, Proximity graph, int workers, Stop stop);
-Pairs proximity_sphere(const TriangleArrays& triangles, std::size_t size, Proximity graph, int workers, Stop stop);
+template <std::size_t Width>
+Pairs proximity(const TriangleArrays& triangles, std::size_t size, Proximity graph, int workers, Stop stop);
 
 }  // namespace stereodel::graphs

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <type_traits>
 #include <vector>
 
 #include "predicates/plane_predicates.hpp"
@@ -87,5 +88,9 @@ class SphereSites {
     bool unit_;
     std::vector<rays::Direction> directions_;  // of vectors that are not all of length one
 };
+
+// Of points with so many coordinates.
+template <std::size_t Width>
+using SitesOf = std::conditional_t<Width == 2, PlaneSites, SphereSites>;
 
 }  // namespace stereodel::graphs

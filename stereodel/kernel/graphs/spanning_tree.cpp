@@ -36,15 +36,15 @@ class Components {
     std::vector<Index> parent_;
 };
 
-struct Edge {
+struct TreeEdge {
     double square;
     Index a, b;
 };
 
 // Whether the ends of one edge come before those of another.
 template <class Sites>
-bool ends_before(const Sites& sites, const Edge& e, const Edge& f) {
-    const auto ends = [&](const Edge& g) {
+bool ends_before(const Sites& sites, const TreeEdge& e, const TreeEdge& f) {
+    const auto ends = [&](const TreeEdge& g) {
         return sites.compare(g.a, g.b) < 0 ? std::pair(g.a, g.b) : std::pair(g.b, g.a);
     };
     const auto [low, high] = ends(e);
@@ -54,7 +54,7 @@ bool ends_before(const Sites& sites, const Edge& e, const Edge& f) {
 }
 
 template <class Sites>
-bool is_before(const Sites& sites, const Edge& e, const Edge& f) {
+bool is_before(const Sites& sites, const TreeEdge& e, const TreeEdge& f) {
     Sign sign = sites.compare_squares(e.square, f.square);
     if (sign == OPEN) {
         sign = sites.compare_lengths(e.a, e.b, f.a, f.b);
@@ -62,21 +62,23 @@ bool is_before(const Sites& sites, const Edge& e, const Edge& f) {
     return sign != 0 ? sign < 0 : ends_before(sites, e, f);
 }
 
-template <class Sites>
+}  // namespace
+
+template <std::size_t Width>
 Pairs spanning_tree(const double* points, std::size_t size, const Pairs& edges, Stop stop) {
-    const Sites sites(points, size);
-    std::vector<Edge> sorted;
+    const SitesOf<Width> sites(points, size);
+    std::vector<TreeEdge> sorted;
     sorted.reserve(edges.size());
     for (const auto& [a, b] : edges) {
         sorted.push_back({sites.square(a, b), std::min(a, b), std::max(a, b)});
     }
-    std::sort(sorted.begin(), sorted.end(), [&](const Edge& e, const Edge& f) {
+    std::sort(sorted.begin(), sorted.end(), [&](const TreeEdge& e, const TreeEdge& f) {
         check(stop);
         return is_before(sites, e, f);
     });
     Components components(size);
     Pairs tree;
-    for (const Edge& edge : sorted) {
+    for (const TreeEdge& edge : sorted) {
         if (components.join(edge.a, edge.b)) {
             tree.emplace_back(edge.a, edge.b);
         }
@@ -85,14 +87,7 @@ Pairs spanning_tree(const double* points, std::size_t size, const Pairs& edges, 
     return tree;
 }
 
-}  // namespace
-
-Pairs spanning_tree_plane(const double* points, std::size_t size, const Pairs& edges, Stop stop) {
-    return spanning_tree<PlaneSites>(points, size, edges, stop);
-}
-
-Pairs spanning_tree_sphere(const double* points, std::size_t size, const Pairs& edges, Stop stop) {
-    return spanning_tree<SphereSites>(points, size, edges, stop);
-}
+template Pairs spanning_tree<2>(const double*, std::size_t, const Pairs&, Stop);
+template Pairs spanning_tree<3>(const double*, std::size_t, const Pairs&, Stop);
 
 }  // namespace stereodel::graphs

@@ -14,7 +14,7 @@ namespace stereodel::graphs {
 
 // `edges` between `size` points, no two of which are the same, if an edge ends there. Returns the edges of the forest,
 // lower number first, in lexicographic order. Throws std::bad_alloc, Cancelled.
-Pairs spanning_tree_plane(const double* points, std::size_t size, const Pairs& edges, Stop stop);
-Pairs spanning_tree_sphere(const double* points, std::size_t size, const Pairs& edges, Stop stop);
+template <std::size_t Width>
+Pairs spanning_tree(const double* points, std::size_t size, const Pairs& edges, Stop stop);
 
 }  // namespace stereodel::graphs

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 #include <vector>
 
 #include "interpolation/stolen_areas.hpp"
@@ -14,8 +15,6 @@ namespace stereodel::interpolation {
 using mesh::WalkEnd;
 using mesh::place_opposite;
 using mesh::walk;
-using queries::PlaneQuery;
-using queries::SphereQuery;
 using queries::first_open;
 using queries::for_queries;
 
@@ -275,8 +274,12 @@ class Interpolation {
     Stop stop_;
 };
 
-template <class Query, class Around>
-void interpolate(const NaturalNeighborTask& task, int workers, Stop stop) {
+}  // namespace
+
+template <std::size_t Width>
+void natural_neighbors(const NaturalNeighborTask& task, int workers, Stop stop) {
+    using Query = queries::QueryOf<Width>;
+    using Around = std::conditional_t<Width == 2, PlaneAround, SphereAround>;
     const Index start = first_open(task.triangles);
     if (start == static_cast<Index>(task.triangles.count())) {
         if (task.counts != nullptr) {
@@ -292,14 +295,7 @@ void interpolate(const NaturalNeighborTask& task, int workers, Stop stop) {
                                        [&] { return Interpolation<Query, Around>(task, stop); });
 }
 
-}  // namespace
-
-void natural_neighbors_plane(const NaturalNeighborTask& task, int workers, Stop stop) {
-    interpolate<PlaneQuery, PlaneAround>(task, workers, stop);
-}
-
-void natural_neighbors_sphere(const NaturalNeighborTask& task, int workers, Stop stop) {
-    interpolate<SphereQuery, SphereAround>(task, workers, stop);
-}
+template void natural_neighbors<2>(const NaturalNeighborTask&, int, Stop);
+template void natural_neighbors<3>(const NaturalNeighborTask&, int, Stop);
 
 }  // namespace stereodel::interpolation

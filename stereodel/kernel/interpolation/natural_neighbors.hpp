@@ -37,7 +37,7 @@ struct NaturalNeighborTask {
 };
 
 // The result does not depend on `workers`. Throws std::bad_alloc, Cancelled.
-void natural_neighbors_plane(const NaturalNeighborTask& task, int workers, Stop stop);
-void natural_neighbors_sphere(const NaturalNeighborTask& task, int workers, Stop stop);
+template <std::size_t Width>
+void natural_neighbors(const NaturalNeighborTask& task, int workers, Stop stop);
 
 }  // namespace stereodel::interpolation

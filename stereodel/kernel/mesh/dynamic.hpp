@@ -34,12 +34,9 @@ class DynamicDelaunay {
 
     DynamicDelaunay(const double* points, std::size_t size, const Index* simplices, const Index* neighbors,
                     std::size_t triangles, Pairs duplicates, Stop stop)
-        : mesh_(simplices, neighbors, triangles, size, stop),
+        : mesh_(simplices, neighbors, triangles, stop),
           duplicates_(std::move(duplicates)),
           scale_(Surface::scale_of(points, size)) {
-        if (!Surface::has_ghost && mesh_.ghosts() != 0) {
-            throw std::invalid_argument("neighbors of a closed surface must all be there");
-        }
         points_.reserve(dimension * (size + size / 16 + 64));
         points_.append(points, dimension * size);
         std::sort(duplicates_.begin(), duplicates_.end());

@@ -2,31 +2,12 @@
 
 #include <algorithm>
 #include <iterator>
-#include <limits>
-#include <stdexcept>
 
 namespace stereodel::mesh {
-namespace {
-
-bool below(Index value, std::size_t limit) { return static_cast<std::uint32_t>(value) < limit; }
-
-bool none_or_below(Index value, std::size_t limit) { return static_cast<std::uint32_t>(value) + 1u <= limit; }
-
-// Without a branch.
-bool all(bool a, bool b, bool c) { return (int{a} & int{b} & int{c}) != 0; }
-
-}  // namespace
-
-Mesh::Mesh(const Index* simplices, const Index* neighbors, std::size_t count, std::size_t points, Stop stop) {
-    if (count == 0) {
-        throw std::invalid_argument("a mesh needs triangles: points on one line or great circle have none");
-    }
-    if (count > static_cast<std::size_t>(std::numeric_limits<Index>::max()) / 3 || points > std::size_t{1} << 31) {
-        throw std::invalid_argument("too many triangles or points");
-    }
+Mesh::Mesh(const Index* simplices, const Index* neighbors, std::size_t count, Stop stop) {
     facets_.reserve(count + count / 16 + 64);
     facets_.resize(count);
-    for (const Index t : copy_rows(simplices, neighbors, count, points, stop)) {
+    for (const Index t : copy_rows(simplices, neighbors, count, stop)) {
         for (std::size_t k = 0; k < 3; ++k) {
             if ((*this)[t].neighbor[k] < 0) {
                 add_ghost(t, k);
@@ -39,24 +20,18 @@ Mesh::Mesh(const Index* simplices, const Index* neighbors, std::size_t count, st
 }
 
 // Returns the triangles without a neighbour somewhere.
-std::vector<Index> Mesh::copy_rows(const Index* simplices, const Index* neighbors, std::size_t count,
-                                   std::size_t points, Stop stop) {
+std::vector<Index> Mesh::copy_rows(const Index* simplices, const Index* neighbors, std::size_t count, Stop stop) {
     std::vector<Index> border;
-    bool valid = true, sorted = true;
+    bool sorted = true;
     for_range(0, count, stop, [&](std::size_t t) {
         const Index* c = simplices + 3 * t;
         const Index* n = neighbors + 3 * t;
-        valid &= all(below(c[0], points), below(c[1], points), below(c[2], points));
-        valid &= all(none_or_below(n[0], count), none_or_below(n[1], count), none_or_below(n[2], count));
         sorted &= (c[0] < c[1]) & (c[0] < c[2]);
         facets_[t] = {{c[0], c[1], c[2]}, {n[0], n[1], n[2]}};
         if ((n[0] | n[1] | n[2]) < 0) {
             border.push_back(static_cast<Index>(t));
         }
     });
-    if (!valid) {
-        throw std::invalid_argument("simplices or neighbors hold numbers out of range");
-    }
     for (std::size_t t = 0; t < count && !sorted; ++t) {
         put(static_cast<Index>(t), facets_[t].corner, facets_[t].neighbor);
     }

@@ -37,9 +37,8 @@ class Mesh {
   public:
     Mesh() = default;
 
-    // From rows of triangles and their neighbours, -1 for none: there a ghost facet is added. `points`: how many points
-    // there are. Throws std::invalid_argument for numbers out of range and for no triangles.
-    Mesh(const Index* simplices, const Index* neighbors, std::size_t count, std::size_t points, Stop stop);
+    // From rows of triangles, at least one, and their neighbours, -1 for none: there a ghost facet is added.
+    Mesh(const Index* simplices, const Index* neighbors, std::size_t count, Stop stop);
 
     const Facet& operator[](Index t) const { return facets_[static_cast<std::size_t>(t)]; }
 
@@ -48,7 +47,6 @@ class Mesh {
     bool in_use(Index t) const { return (*this)[t].corner[0] != unused; }
 
     std::size_t triangles() const { return facets_.size() - free_.size() - ghosts_; }
-    std::size_t ghosts() const { return ghosts_; }
 
     // The triangles, smallest corner first, without ghosts, and their neighbours, -1 for none, into arrays of three
     // times `triangles()`. Facets get other numbers, so that row k is facet k; nearly all keep the number that they
@@ -102,8 +100,7 @@ class Mesh {
     static constexpr Index unused = -2;  // in place of the first corner
 
     Facet& at(Index t) { return facets_[static_cast<std::size_t>(t)]; }
-    std::vector<Index> copy_rows(const Index* simplices, const Index* neighbors, std::size_t count, std::size_t points,
-                                 Stop stop);
+    std::vector<Index> copy_rows(const Index* simplices, const Index* neighbors, std::size_t count, Stop stop);
     void add_ghost(Index t, std::size_t opposite);
     void link_ghost(Index ghost);
     std::vector<Index> all_ghosts() const;

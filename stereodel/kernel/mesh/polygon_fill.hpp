@@ -40,7 +40,7 @@ class PolygonFill {
     // `cycle`: vertices around the hole, counterclockwise seen from outside, the hole on the left; at least three, all
     // different. `in_bubble(a, b, c, p)`: whether p sees the facet a b c, never undecided.
     template <class InBubble>
-    void run(const std::vector<Index>& cycle, InBubble&& in_bubble, Stop stop = nullptr) {
+    void run(const std::vector<Index>& cycle, InBubble&& in_bubble, Stop stop) {
         take_out(cycle.size());
         const Index a = order_[0], b = following_[at(a)], c = following_[at(b)];
         triangles_.assign(1, {{a, b, c}, {border, border, border}});
@@ -168,24 +168,5 @@ class PolygonFill {
     std::vector<Front> front_;
     std::vector<Triangle> triangles_;
 };
-
-// Append the triangles that close a hole, counterclockwise, to `triangles`.
-template <class InBubble>
-void fill_polygon(const std::vector<Index>& cycle, InBubble&& in_bubble, std::vector<std::array<Index, 3>>& triangles,
-                  Stop stop = nullptr) {
-    if (cycle.size() < 3) {
-        return;
-    }
-    PolygonFill fill;
-    fill.run(cycle, in_bubble, stop);
-    triangles.reserve(triangles.size() + cycle.size() - 2);
-    for (const PolygonFill::Triangle& triangle : fill.triangles()) {
-        std::array<Index, 3> corners;
-        for (std::size_t k = 0; k < 3; ++k) {
-            corners[k] = cycle[static_cast<std::size_t>(triangle.corner[k])];
-        }
-        triangles.push_back(corners);
-    }
-}
 
 }  // namespace stereodel::mesh

@@ -7,27 +7,9 @@
 
 namespace stereodel::partitions {
 
-using voronoi::UnitVector;
 using voronoi::unit_vector;
 
 namespace {
-
-template <std::size_t Width>
-void parts(std::size_t size, const Splits& splits, std::int32_t* part, Stop stop, const double* points) {
-    for_range(0, size, stop, [&](std::size_t k) {
-        double unit[3];
-        const double* point = points + Width * k;
-        if constexpr (Width == 3) {
-            std::copy_n(unit_vector(point).hi, 3, unit);
-            point = unit;
-        }
-        std::size_t node = 0;
-        while (node < splits.count) {
-            node = 2 * node + (point[splits.axis[node]] <= splits.value[node] ? 1 : 2);
-        }
-        part[k] = static_cast<std::int32_t>(node - splits.count);
-    });
-}
 
 // Coordinates beside the number of their row: what is moved while blocks are made, so that nothing is read out of turn.
 template <std::size_t Width>
@@ -111,20 +93,6 @@ class Halving {
     Blocks& blocks_;
 };
 
-template <std::size_t Width, class At>
-Blocks halved(std::size_t size, std::size_t most, Stop stop, At&& at) {
-    Buffer<Place<Width>> places(size);
-    for_range(0, size, stop, [&](std::size_t k) {
-        at(k, places[k].x);
-        places[k].row = static_cast<Index>(k);
-    });
-    Blocks blocks;
-    Halving<Width>(places, most, stop, blocks);
-    blocks.order = Buffer<Index>(size);
-    for_range(0, size, stop, [&](std::size_t k) { blocks.order[k] = places[k].row; });
-    return blocks;
-}
-
 // The high part of a unit vector is the double next to the sum of both or a neighbour of that, and the sum is off by
 // 2^-101: two steps of doubles or 2^-100 away from it there is nothing.
 double below(double x) {
@@ -133,25 +101,49 @@ double below(double x) {
 
 }  // namespace
 
-void parts_in_plane(const double* points, std::size_t size, const Splits& splits, std::int32_t* part, Stop stop) {
-    parts<2>(size, splits, part, stop, points);
-}
-
-void parts_on_sphere(const double* points, std::size_t size, const Splits& splits, std::int32_t* part, Stop stop) {
-    parts<3>(size, splits, part, stop, points);
-}
-
-Blocks blocks_in_plane(const double* points, std::size_t size, std::size_t most, Stop stop) {
-    return halved<2>(size, most, stop, [points](std::size_t k, double* x) { std::copy_n(points + 2 * k, 2, x); });
-}
-
-Blocks blocks_on_sphere(const double* points, std::size_t size, std::size_t most, Stop stop) {
-    Blocks blocks = halved<3>(size, most, stop, [points](std::size_t k, double* x) {
-        std::copy_n(unit_vector(points + 3 * k).hi, 3, x);
+template <std::size_t Width>
+void parts(const double* points, std::size_t size, const Splits& splits, std::int32_t* part, Stop stop) {
+    for_range(0, size, stop, [&](std::size_t k) {
+        double unit[3];
+        const double* point = points + Width * k;
+        if constexpr (Width == 3) {
+            std::copy_n(unit_vector(point).hi, 3, unit);
+            point = unit;
+        }
+        std::size_t node = 0;
+        while (node < splits.count) {
+            node = 2 * node + (point[splits.axis[node]] <= splits.value[node] ? 1 : 2);
+        }
+        part[k] = static_cast<std::int32_t>(node - splits.count);
     });
-    std::transform(blocks.lows.begin(), blocks.lows.end(), blocks.lows.begin(), below);
-    std::transform(blocks.highs.begin(), blocks.highs.end(), blocks.highs.begin(), [](double x) { return -below(-x); });
+}
+
+template <std::size_t Width>
+Blocks blocks(const double* points, std::size_t size, std::size_t most, Stop stop) {
+    Buffer<Place<Width>> places(size);
+    for_range(0, size, stop, [&](std::size_t k) {
+        const double* const point = points + Width * k;
+        if constexpr (Width == 2) {
+            std::copy_n(point, Width, places[k].x);
+        } else {
+            std::copy_n(unit_vector(point).hi, Width, places[k].x);
+        }
+        places[k].row = static_cast<Index>(k);
+    });
+    Blocks blocks;
+    Halving<Width>(places, most, stop, blocks);
+    blocks.order = Buffer<Index>(size);
+    for_range(0, size, stop, [&](std::size_t k) { blocks.order[k] = places[k].row; });
+    for (std::size_t k = 0; k < blocks.lows.size() && Width == 3; ++k) {
+        blocks.lows[k] = below(blocks.lows[k]);
+        blocks.highs[k] = -below(-blocks.highs[k]);
+    }
     return blocks;
 }
+
+template void parts<2>(const double*, std::size_t, const Splits&, std::int32_t*, Stop);
+template void parts<3>(const double*, std::size_t, const Splits&, std::int32_t*, Stop);
+template Blocks blocks<2>(const double*, std::size_t, std::size_t, Stop);
+template Blocks blocks<3>(const double*, std::size_t, std::size_t, Stop);
 
 }  // namespace stereodel::partitions

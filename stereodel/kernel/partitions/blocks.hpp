@@ -20,8 +20,8 @@ struct Splits {
 };
 
 // Directions are taken as unit vectors.
-void parts_in_plane(const double* points, std::size_t size, const Splits& splits, std::int32_t* parts, Stop stop);
-void parts_on_sphere(const double* points, std::size_t size, const Splits& splits, std::int32_t* parts, Stop stop);
+template <std::size_t Width>
+void parts(const double* points, std::size_t size, const Splits& splits, std::int32_t* parts, Stop stop);
 
 // Rows in the order of blocks of at most `most` different points, where each block begins and the last one ends, and
 // boxes that hold them: in the plane the narrowest, on the sphere of the unit vectors, rounded outward.
@@ -33,7 +33,7 @@ struct Blocks {
 
 // Halves by the widest axis, between points that differ there: so equal points stay together. (Equal vectors: those of
 // one direction and different lengths may be rounded apart.)
-Blocks blocks_in_plane(const double* points, std::size_t size, std::size_t most, Stop stop);
-Blocks blocks_on_sphere(const double* points, std::size_t size, std::size_t most, Stop stop);
+template <std::size_t Width>
+Blocks blocks(const double* points, std::size_t size, std::size_t most, Stop stop);
 
 }  // namespace stereodel::partitions

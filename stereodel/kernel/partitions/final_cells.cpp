@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 #include <vector>
 
 #include "arithmetic/arc_tangent.hpp"
@@ -17,8 +16,6 @@ namespace stereodel::partitions {
 
 namespace rays = predicates::rays;
 using arithmetic::vector_angle;
-using queries::PlaneQuery;
-using queries::SphereQuery;
 using voronoi::Cells;
 using voronoi::ChosenCells;
 using voronoi::Ray;
@@ -101,8 +98,7 @@ Buffer<double> moved_points(const PartialMesh& mesh, std::size_t width, const Si
             continue;
         }
         if (points.size() == 0) {
-            points = Buffer<double>(width * mesh.size);
-            std::copy_n(mesh.points, points.size(), points.data());
+            points = copied(mesh.points, width * mesh.size);
         }
         std::copy_n(mesh.points + width * static_cast<std::size_t>(row), width,
                     points.data() + width * static_cast<std::size_t>(site));
@@ -120,20 +116,20 @@ std::vector<Index> sites_of(const SiteIds& ids, const Index* rows, std::size_t c
     return sites;
 }
 
-template <class Query, class Choose, class Areas, class Distance>
-FinalCells final_cells(const PartialMesh& mesh, const Index* rows, std::size_t count, Stop stop, Choose&& choose,
-                       Areas&& areas_of, Distance&& distance) {
-    constexpr std::size_t width = Query::Chart::dimension;
+}  // namespace
+
+template <std::size_t Width>
+FinalCells final_cells(const PartialMesh& mesh, const Index* rows, std::size_t count, Stop stop) {
     const SiteIds ids(mesh);
-    const Buffer<double> moved = moved_points(mesh, width, ids);
+    const Buffer<double> moved = moved_points(mesh, Width, ids);
     const double* const points = moved.size() == 0 ? mesh.points : moved.data();
     const std::vector<Index> sites = sites_of(ids, rows, count);
-    const ChosenCells chosen = choose(points, mesh.size, mesh.simplices, mesh.neighbors, mesh.count, ids.all(),
-                                      sites.data(), sites.size(), stop);
+    const ChosenCells chosen = voronoi::chosen_cells<Width>(points, mesh.size, mesh.simplices, mesh.neighbors,
+                                                            mesh.count, ids.all(), sites.data(), sites.size(), stop);
     const Cells cells = chosen.view();
     Buffer<double> areas(mesh.size);
-    areas_of(points, cells, areas.data(), 1, stop);
-    NearestOfCells<Query> nearest(points, ids, cells);
+    (Width == 2 ? voronoi::cell_areas_plane : voronoi::cell_areas_sphere)(points, cells, areas.data(), 1, stop);
+    NearestOfCells<queries::QueryOf<Width>> nearest(points, ids, cells);
     FinalCells result{Buffer<std::int64_t>(count), Buffer<std::int32_t>(count), Buffer<double>(count),
                       Buffer<std::int64_t>(count), Buffer<double>(count)};
     for_range(0, count, stop, [&](std::size_t k) {
@@ -149,23 +145,15 @@ FinalCells final_cells(const PartialMesh& mesh, const Index* rows, std::size_t c
         if (result.nearest[k] < 0 && entries > 0) {
             const Index other = nearest.find(site);
             result.nearest[k] = ids.of(other);
-            result.distance[k] = distance(points + width * at, points + width * static_cast<std::size_t>(other));
+            result.distance[k] = (Width == 2 ? distance_in_plane : distance_on_sphere)(
+                points + Width * at, points + Width * static_cast<std::size_t>(other));
         }
     });
     return result;
 }
 
-}  // namespace
-
-FinalCells final_cells_plane(const PartialMesh& mesh, const Index* rows, std::size_t count, Stop stop) {
-    return final_cells<PlaneQuery>(mesh, rows, count, stop, voronoi::chosen_cells_plane, voronoi::cell_areas_plane,
-                                   distance_in_plane);
-}
-
-FinalCells final_cells_sphere(const PartialMesh& mesh, const Index* rows, std::size_t count, Stop stop) {
-    return final_cells<SphereQuery>(mesh, rows, count, stop, voronoi::chosen_cells_sphere, voronoi::cell_areas_sphere,
-                                    distance_on_sphere);
-}
+template FinalCells final_cells<2>(const PartialMesh&, const Index*, std::size_t, Stop);
+template FinalCells final_cells<3>(const PartialMesh&, const Index*, std::size_t, Stop);
 
 FinalTriangles final_triangles(const PartialMesh& mesh, const bool* is_final, Stop stop) {
     const SiteIds ids(mesh);
@@ -181,10 +169,7 @@ FinalTriangles final_triangles(const PartialMesh& mesh, const bool* is_final, St
             rows.push_back(static_cast<Index>(t));
         }
     });
-    FinalTriangles result{Buffer<std::int64_t>(corners.size()), Buffer<Index>(rows.size())};
-    std::copy_n(corners.data(), corners.size(), result.corners.data());
-    std::copy_n(rows.data(), rows.size(), result.rows.data());
-    return result;
+    return {copied(corners), copied(rows)};
 }
 
 }  // namespace stereodel::partitions

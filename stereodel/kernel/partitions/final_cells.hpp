@@ -34,8 +34,8 @@ struct FinalCells {
 };
 
 // `rows`: ascending; all triangles at their sites must be final. There must be triangles.
-FinalCells final_cells_plane(const PartialMesh& mesh, const Index* rows, std::size_t count, Stop stop);
-FinalCells final_cells_sphere(const PartialMesh& mesh, const Index* rows, std::size_t count, Stop stop);
+template <std::size_t Width>
+FinalCells final_cells(const PartialMesh& mesh, const Index* rows, std::size_t count, Stop stop);
 
 // Triangles by ids, the lowest first, counterclockwise, of those whose lowest id is that of a site that `is_final`, a
 // value a row, tells of; and the rows of `simplices` where they stand.

@@ -191,22 +191,22 @@ class OpenBubbles {
 
 }  // namespace
 
-void open_bubbles_plane(const Faces& faces, const BoxTree<2>& tree, const Openness& openness, Stop stop) {
+void open_bubbles(const Faces& faces, const BoxTree<2>& tree, const Openness& openness, Stop stop) {
     const PlaneFaces source(faces);
     OpenBubbles<2, PlaneFaces>(source, tree, openness).run(faces.count, stop);
 }
 
-void open_bubbles_sphere(const Faces& faces, const BoxTree<3>& tree, const Openness& openness, Stop stop) {
+void open_bubbles(const Faces& faces, const BoxTree<3>& tree, const Openness& openness, Stop stop) {
     const SphereFaces source(faces, stop);
     OpenBubbles<3, SphereFaces>(source, tree, openness).run(faces.count, stop);
 }
 
-void open_discs_plane(const Discs& discs, const BoxTree<2>& tree, const Openness& openness, Stop stop) {
+void open_discs(const Discs& discs, const BoxTree<2>& tree, const Openness& openness, Stop stop) {
     const Rims<2> source(discs);
     OpenBubbles<2, Rims<2>>(source, tree, openness).run(discs.count, stop);
 }
 
-void open_discs_sphere(const Discs& discs, const BoxTree<3>& tree, const Openness& openness, Stop stop) {
+void open_discs(const Discs& discs, const BoxTree<3>& tree, const Openness& openness, Stop stop) {
     const Rims<3> source(discs);
     OpenBubbles<3, Rims<3>>(source, tree, openness).run(discs.count, stop);
 }

@@ -28,8 +28,8 @@ struct Faces {
     const bool* wanted;
 };
 
-void open_bubbles_plane(const Faces& faces, const BoxTree<2>& tree, const Openness& openness, Stop stop);
-void open_bubbles_sphere(const Faces& faces, const BoxTree<3>& tree, const Openness& openness, Stop stop);
+void open_bubbles(const Faces& faces, const BoxTree<2>& tree, const Openness& openness, Stop stop);
+void open_bubbles(const Faces& faces, const BoxTree<3>& tree, const Openness& openness, Stop stop);
 
 // Of discs around centers, through the points beside them: all points no farther from a target than its k-th nearest.
 struct Discs {
@@ -37,7 +37,7 @@ struct Discs {
     std::size_t count;
 };
 
-void open_discs_plane(const Discs& discs, const BoxTree<2>& tree, const Openness& openness, Stop stop);
-void open_discs_sphere(const Discs& discs, const BoxTree<3>& tree, const Openness& openness, Stop stop);
+void open_discs(const Discs& discs, const BoxTree<2>& tree, const Openness& openness, Stop stop);
+void open_discs(const Discs& discs, const BoxTree<3>& tree, const Openness& openness, Stop stop);
 
 }  // namespace stereodel::partitions

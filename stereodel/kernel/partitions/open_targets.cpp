@@ -13,8 +13,6 @@ namespace stereodel::partitions {
 using mesh::WalkEnd;
 using mesh::place_opposite;
 using mesh::walk;
-using queries::PlaneQuery;
-using queries::SphereQuery;
 using queries::TriangleArrays;
 using queries::first_open;
 using queries::for_queries;
@@ -123,9 +121,11 @@ class FacesOfTargets {
     std::vector<Edge> front_;
 };
 
-template <class Query, std::size_t Width, class OpenFaces>
-void open_targets(const Targets& targets, const BoxTree<Width>& tree, const Openness& openness, Stop stop,
-                  OpenFaces&& open_faces) {
+}  // namespace
+
+template <std::size_t Width>
+void open_targets(const Targets& targets, const BoxTree<Width>& tree, const Openness& openness, Stop stop) {
+    using Query = queries::QueryOf<Width>;
     AskedFaces asked;
     for_queries<typename Query::Chart>(
         targets.triangles, first_open(targets.triangles), targets.queries, targets.count, 1, stop, [&] {
@@ -140,21 +140,14 @@ void open_targets(const Targets& targets, const BoxTree<Width>& tree, const Open
     Buffer<bool> is_open(asked.corners.size());
     const Faces faces{points.data(), targets.points + targets.count,
                       asked.corners.empty() ? nullptr : asked.corners.front().data(), asked.corners.size(), nullptr};
-    open_faces(faces, tree, Openness{is_open.data(), openness.depth}, stop);
+    open_bubbles(faces, tree, Openness{is_open.data(), openness.depth}, stop);
     std::fill_n(openness.is_open, targets.count, false);
     for (std::size_t k = 0; k < asked.target.size(); ++k) {
         openness.is_open[asked.target[k]] |= is_open[k];
     }
 }
 
-}  // namespace
-
-void open_targets_plane(const Targets& targets, const BoxTree<2>& tree, const Openness& openness, Stop stop) {
-    open_targets<PlaneQuery>(targets, tree, openness, stop, open_bubbles_plane);
-}
-
-void open_targets_sphere(const Targets& targets, const BoxTree<3>& tree, const Openness& openness, Stop stop) {
-    open_targets<SphereQuery>(targets, tree, openness, stop, open_bubbles_sphere);
-}
+template void open_targets<2>(const Targets&, const BoxTree<2>&, const Openness&, Stop);
+template void open_targets<3>(const Targets&, const BoxTree<3>&, const Openness&, Stop);
 
 }  // namespace stereodel::partitions

@@ -20,7 +20,7 @@ struct Targets {
 };
 
 // `openness.is_open`: of each target.
-void open_targets_plane(const Targets& targets, const BoxTree<2>& tree, const Openness& openness, Stop stop);
-void open_targets_sphere(const Targets& targets, const BoxTree<3>& tree, const Openness& openness, Stop stop);
+template <std::size_t Width>
+void open_targets(const Targets& targets, const BoxTree<Width>& tree, const Openness& openness, Stop stop);
 
 }  // namespace stereodel::partitions

@@ -1,8 +1,8 @@
-// The folder `predicates`: exact signs, in stages: a filter in doubles, double-double, balls, integers.
+// The folder `predicates`: exact signs, in stages: a filter in doubles, double-double, integers.
 // Reading order, for points of the plane: plane_forms, the formulas for any kind of number; plane_stages, their bounds;
-// spanning_edges, plane_balls; plane_predicates, points by number and ties; circle_memo. For directions: ray_forms,
-// ray_stages, ray_balls, ray_integers, ray_order, ray_lengths, ray_predicates. For space: space_predicates. Then
-// predicate_rows, the public predicates on arrays, and symmetry, ties that need no arithmetic.
+// plane_predicates, points by number and ties; circle_memo. For directions: ray_forms, ray_stages, ray_integers,
+// ray_order, ray_lengths, ray_predicates. For space: space_predicates. Then predicate_rows, the public predicates on
+// arrays, and symmetry, ties that need no arithmetic.
 //
 // Orientation and incircle of points of the plane by number, y up: the answers of exact arithmetic on their doubles.
 //

@@ -164,66 +164,29 @@ Sign incircle_last_digits(const double* a, const double* b, const double* c, con
     return incircle_form(edge(a, 0), edge(a, 1), edge(b, 0), edge(b, 1), edge(c, 0), edge(c, 1)).sign();
 }
 
-int orient_integers(const double* a, const double* b, const double* c) {
+int orient_exact(const double* a, const double* b, const double* c) {
     const int exponent = common_exponent({a, b, c});
     const IntegerPoint ab = integer_edge(a, b, exponent), ac = integer_edge(a, c, exponent);
     return cross_form(ab.x, ab.y, ac.x, ac.y).sign();
 }
 
-int incircle_integers(const double* a, const double* b, const double* c, const double* d) {
+int incircle_exact(const double* a, const double* b, const double* c, const double* d) {
     const int exponent = common_exponent({a, b, c, d});
     const IntegerPoint da = integer_edge(d, a, exponent), db = integer_edge(d, b, exponent),
                        dc = integer_edge(d, c, exponent);
     return incircle_form(da.x, da.y, db.x, db.y, dc.x, dc.y).sign();
 }
 
-int diametral_integers(const double* a, const double* b, const double* p) {
+int diametral_exact(const double* a, const double* b, const double* p) {
     const int exponent = common_exponent({a, b, p});
     const IntegerPoint pa = integer_edge(p, a, exponent), pb = integer_edge(p, b, exponent);
     return dot_form(pa.x, pa.y, pb.x, pb.y).sign();
 }
 
-int distances_integers(const double* p, const double* a, const double* q, const double* b) {
+int distances_exact(const double* p, const double* a, const double* q, const double* b) {
     const int exponent = common_exponent({p, a, q, b});
     const IntegerPoint pa = integer_edge(p, a, exponent), qb = integer_edge(q, b, exponent);
     return (square_form(pa.x, pa.y) - square_form(qb.x, qb.y)).sign();
-}
-
-namespace {
-
-// Whether integers in place of the coordinates have more than 2^110 units.
-template <class... Points>
-bool are_wide(const Points*... points) {
-    double largest = 0.0, smallest = HUGE_VAL;
-    for (const double* p : {points...}) {
-        for (const double size : {std::fabs(p[0]), std::fabs(p[1])}) {
-            largest = std::max(largest, size);
-            smallest = size > 0.0 ? std::min(smallest, size) : smallest;
-        }
-    }
-    return smallest < 0x1p-57 * largest;
-}
-
-}  // namespace
-
-int orient_exact(const double* a, const double* b, const double* c) {
-    const Sign sign = are_wide(a, b, c) ? orient_balls(a, b, c) : OPEN;
-    return sign != OPEN ? sign : orient_integers(a, b, c);
-}
-
-int incircle_exact(const double* a, const double* b, const double* c, const double* d) {
-    const Sign sign = are_wide(a, b, c, d) ? incircle_balls(a, b, c, d) : OPEN;
-    return sign != OPEN ? sign : incircle_integers(a, b, c, d);
-}
-
-int diametral_exact(const double* a, const double* b, const double* p) {
-    const Sign sign = are_wide(a, b, p) ? diametral_balls(a, b, p) : OPEN;
-    return sign != OPEN ? sign : diametral_integers(a, b, p);
-}
-
-int distances_exact(const double* p, const double* a, const double* q, const double* b) {
-    const Sign sign = are_wide(p, a, q, b) ? distances_balls(p, a, q, b) : OPEN;
-    return sign != OPEN ? sign : distances_integers(p, a, q, b);
 }
 
 bool is_rectangle_beside(const double* a, const double* b, const double* c, const double* d) {

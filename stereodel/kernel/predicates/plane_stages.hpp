@@ -87,20 +87,7 @@ Sign incircle_last_digits(const double* a, const double* b, const double* c, con
 Sign diametral_double_double(const double* a, const double* b, const double* p);
 Sign distances_double_double(const double* p, const double* a, const double* q, const double* b);
 
-// Balls: twice the precision at any size, for coordinates of very different sizes, or sizes whose products leave the
-// range of doubles.
-Sign orient_balls(const double* a, const double* b, const double* c);
-Sign incircle_balls(const double* a, const double* b, const double* c, const double* d);
-Sign diametral_balls(const double* a, const double* b, const double* p);
-Sign distances_balls(const double* p, const double* a, const double* q, const double* b);
-
 // Integers: always right, never open.
-int orient_integers(const double* a, const double* b, const double* c);
-int incircle_integers(const double* a, const double* b, const double* c, const double* d);
-int diametral_integers(const double* a, const double* b, const double* p);
-int distances_integers(const double* p, const double* a, const double* q, const double* b);
-
-// The last stage: balls where integers would be long, and integers.
 int orient_exact(const double* a, const double* b, const double* c);
 int incircle_exact(const double* a, const double* b, const double* c, const double* d);
 int diametral_exact(const double* a, const double* b, const double* p);

@@ -9,7 +9,6 @@
 #include "arithmetic/error_counts.hpp"
 #include "arithmetic/roots.hpp"
 #include "arithmetic/wrapping_integer.hpp"
-#include "predicates/ray_balls.hpp"
 #include "predicates/ray_forms.hpp"
 
 namespace stereodel::predicates::rays {
@@ -49,7 +48,7 @@ BigInteger IntegerRay::squared() const {
     return dot(*this, *this);
 }
 
-int bubble_integers(const double* a, const double* b, const double* c, const double* p) {
+int bubble_exact(const double* a, const double* b, const double* c, const double* p) {
     const IntegerRay ra(a), rb(b), rc(c), rp(p);
     const std::array<RootTerm, 4> terms = {
         RootTerm{determinant(rb, rc, rp), ra.squared()}, RootTerm{-determinant(ra, rc, rp), rb.squared()},
@@ -57,23 +56,24 @@ int bubble_integers(const double* a, const double* b, const double* c, const dou
     return sign_of_roots(terms.data(), 4);
 }
 
-int turn_integers(const double* a, const double* b, const double* c) {
-    return determinant(IntegerRay(a), IntegerRay(b), IntegerRay(c)).sign();
+int turn_exact(const double* a, const double* b, const double* c) {
+    const Sign sign = turn_units(a, b, c);
+    return sign != OPEN ? sign : determinant(IntegerRay(a), IntegerRay(b), IntegerRay(c)).sign();
 }
 
-int compare_component_integers(const double* a, const double* b, int k) {
+int compare_component_exact(const double* a, const double* b, int k) {
     const IntegerRay ra(a), rb(b);
     const std::array<RootTerm, 2> terms = {RootTerm{ra.v[k], rb.squared()}, RootTerm{-rb.v[k], ra.squared()}};
     return sign_of_roots(terms.data(), 2);
 }
 
-int compare_angles_integers(const double* q, const double* a, const double* b) {
+int compare_angles_exact(const double* q, const double* a, const double* b) {
     const IntegerRay rq(q), ra(a), rb(b);
     const std::array<RootTerm, 2> terms = {RootTerm{dot(rq, rb), ra.squared()}, RootTerm{-dot(rq, ra), rb.squared()}};
     return sign_of_roots(terms.data(), 2);
 }
 
-int shadow_integers(const double* a, const double* b, const double* c, int axis) {
+int shadow_exact(const double* a, const double* b, const double* c, int axis) {
     const int i = axis == 0 ? 1 : 0, j = axis == 2 ? 1 : 2;
     const IntegerRay ra(a), rb(b), rc(c);
     const std::array<RootTerm, 3> terms = {RootTerm{minor(rb, rc, i, j), ra.squared()},
@@ -82,14 +82,14 @@ int shadow_integers(const double* a, const double* b, const double* c, int axis)
     return sign_of_roots(terms.data(), 3);
 }
 
-int compare_lengths_integers(const double* p, const double* a, const double* q, const double* b) {
+int compare_lengths_exact(const double* p, const double* a, const double* q, const double* b) {
     const IntegerRay rp(p), ra(a), rq(q), rb(b);
     const std::array<RootTerm, 2> terms = {RootTerm{dot(rq, rb), rp.squared() * ra.squared()},
                                            RootTerm{-dot(rp, ra), rq.squared() * rb.squared()}};
     return sign_of_roots(terms.data(), 2);
 }
 
-int diametral_integers(const double* a, const double* b, const double* p) {
+int diametral_exact(const double* a, const double* b, const double* p) {
     const IntegerRay ra(a), rb(b), rp(p);
     const BigInteger aa = ra.squared(), bb = rb.squared(), pp = rp.squared();
     const std::array<RootTerm, 4> terms = {RootTerm{BigInteger(1), aa * bb * pp}, RootTerm{dot(ra, rb), pp},
@@ -211,53 +211,6 @@ Sign bubble_units(const double* a, const double* b, const double* c, const doubl
 Sign turn_units(const double* a, const double* b, const double* c) {
     const Units<3> units({a, b, c}, LONG_BITS);
     return units.fits ? turn_in_units(units.v[0], units.v[1], units.v[2]) : OPEN;
-}
-
-namespace {
-
-template <class... Vectors>
-bool any_wide(const Vectors*... vectors) {
-    return (is_wide(vectors) || ...);
-}
-
-}  // namespace
-
-int bubble_exact(const double* a, const double* b, const double* c, const double* p) {
-    const Sign sign = any_wide(a, b, c, p) ? bubble_balls(a, b, c, p) : OPEN;
-    return sign != OPEN ? sign : bubble_integers(a, b, c, p);
-}
-
-int turn_exact(const double* a, const double* b, const double* c) {
-    Sign sign = turn_units(a, b, c);
-    if (sign == OPEN && any_wide(a, b, c)) {
-        sign = turn_balls(a, b, c);
-    }
-    return sign != OPEN ? sign : turn_integers(a, b, c);
-}
-
-int compare_component_exact(const double* a, const double* b, int k) {
-    const Sign sign = any_wide(a, b) ? compare_component_balls(a, b, k) : OPEN;
-    return sign != OPEN ? sign : compare_component_integers(a, b, k);
-}
-
-int compare_angles_exact(const double* q, const double* a, const double* b) {
-    const Sign sign = any_wide(q, a, b) ? compare_angles_balls(q, a, b) : OPEN;
-    return sign != OPEN ? sign : compare_angles_integers(q, a, b);
-}
-
-int shadow_exact(const double* a, const double* b, const double* c, int axis) {
-    const Sign sign = any_wide(a, b, c) ? shadow_balls(a, b, c, axis) : OPEN;
-    return sign != OPEN ? sign : shadow_integers(a, b, c, axis);
-}
-
-int compare_lengths_exact(const double* p, const double* a, const double* q, const double* b) {
-    const Sign sign = any_wide(p, a, q, b) ? compare_lengths_balls(p, a, q, b) : OPEN;
-    return sign != OPEN ? sign : compare_lengths_integers(p, a, q, b);
-}
-
-int diametral_exact(const double* a, const double* b, const double* p) {
-    const Sign sign = any_wide(a, b, p) ? diametral_balls(a, b, p) : OPEN;
-    return sign != OPEN ? sign : diametral_integers(a, b, p);
 }
 
 }  // namespace stereodel::predicates::rays

@@ -20,10 +20,10 @@ namespace {
 constexpr double U2 = UNIT_ROUNDOFF * UNIT_ROUNDOFF;
 
 // Difference vectors as pairs: exact where the vectors are plain doubles.
-struct Edge {
+struct PairEdge {
     Pair v[3];
 
-    Edge(const double* from, const double* to) {
+    PairEdge(const double* from, const double* to) {
         for (int k = 0; k < 3; ++k) {
             v[k] = pair_difference(to[k], from[k]);
         }
@@ -31,7 +31,7 @@ struct Edge {
 
     // h + r + e1 + e2 is exact, with e1 = 0 unless |h| exceeds 2^51 times the low parts, and |e2| <= 2^-106. Adding up
     // the small ones rounds by less than 4u^2 |h| and 2^-157, an absolute error; the last line makes |l| <= u|h|.
-    Edge(const Direction& from, const Direction& to) {
+    PairEdge(const Direction& from, const Direction& to) {
         for (int k = 0; k < 3; ++k) {
             const DoubleDouble high = two_difference(to.hi[k], from.hi[k]), low = two_difference(to.lo[k], from.lo[k]);
             const DoubleDouble sum = two_sum(high.hi, low.hi);
@@ -123,13 +123,13 @@ double square_less_one(const double* v) {
 struct Heads {
     double v[3];
 
-    explicit Heads(const Edge& e) : v{e.v[0].h, e.v[1].h, e.v[2].h} {}
+    explicit Heads(const PairEdge& e) : v{e.v[0].h, e.v[1].h, e.v[2].h} {}
 };
 
 struct Tails {
     double v[3];
 
-    explicit Tails(const Edge& e) : v{e.v[0].l, e.v[1].l, e.v[2].l} {}
+    explicit Tails(const PairEdge& e) : v{e.v[0].l, e.v[1].l, e.v[2].l} {}
     bool any() const { return v[0] != 0.0 || v[1] != 0.0 || v[2] != 0.0; }
 };
 
@@ -141,7 +141,7 @@ constexpr double HEADS_ERROR = 36;
 static_assert(ROOT_TWO * (TERM + TERM + TERM).bound() <= HEADS_ERROR);
 static_assert((HEADS_ERROR + 3 * 10 * ROOT_TWO + 3 * 4 * ROOT_TWO) * U2 < 0x1p-98);
 
-Pair volume(const Edge& db, const Edge& dc, const Edge& dp) {
+Pair volume(const PairEdge& db, const PairEdge& dc, const PairEdge& dp) {
     const Heads b(db), c(dc), p(dp);
     const auto minor = [&](int i, int j) {
         const DoubleDouble left = two_product(c.v[i], p.v[j]), right = two_product(c.v[j], p.v[i]);
@@ -167,8 +167,8 @@ Pair volume(const Edge& db, const Edge& dc, const Edge& dp) {
 // by TURN_ROUNDING u lj lk, and three more roundings follow: times f_i less than 2^-96 lj lk. So the error of these
 // terms is below 1.1 * 2^-76 times the sum of the lj lk, which is at most B + C + P. The first determinant and the last
 // line add less than 2^-97 lb lc lp and 2^-105 (B + C + P); and lb lc lp < B + C + P.
-Sign bubble_plane(const double* a, const double* b, const double* c, const double* p, const Edge& ab, const Edge& ac,
-                  const Edge& ap) {
+Sign bubble_plane(const double* a, const double* b, const double* c, const double* p, const PairEdge& ab,
+                  const PairEdge& ac, const PairEdge& ap) {
     const Heads db(ab), dc(ac), dp(ap);
     const double sum = dot_form(db.v, db.v) + (dot_form(dc.v, dc.v) + dot_form(dp.v, dp.v));
     if (sum < 0x1p-36) {  // rounding the vectors moves the value by 2^-53 of a length cubed: too little to be seen
@@ -240,21 +240,21 @@ Sign turn_filter(const Direction& a, const Direction& b, const Direction& c) {
 }
 
 Sign bubble_double_double(const double* a, const double* b, const double* c, const double* p) {
-    const Edge db(a, b), dc(a, c), dp(a, p);
+    const PairEdge db(a, b), dc(a, c), dp(a, p);
     const Sign sign = bubble_plane(a, b, c, p, db, dc, dp);
     return sign != OPEN ? sign : bubble_in_pairs(a, db.v, dc.v, dp.v, plane::FLOOR);
 }
 
 Sign bubble_double_double(const Direction& a, const Direction& b, const Direction& c, const Direction& p) {
-    return bubble_in_pairs(Paired(a).v, Edge(a, b).v, Edge(a, c).v, Edge(a, p).v, DIRECTIONS_FLOOR_KNOWN);
+    return bubble_in_pairs(Paired(a).v, PairEdge(a, b).v, PairEdge(a, c).v, PairEdge(a, p).v, DIRECTIONS_FLOOR_KNOWN);
 }
 
 Sign turn_double_double(const double* a, const double* b, const double* c) {
-    return turn_in_pairs(a, Edge(a, b).v, Edge(a, c).v, 0.0, TURN_FLOOR);
+    return turn_in_pairs(a, PairEdge(a, b).v, PairEdge(a, c).v, 0.0, TURN_FLOOR);
 }
 
 Sign turn_double_double(const Direction& a, const Direction& b, const Direction& c) {
-    return turn_in_pairs(Paired(a).v, Edge(a, b).v, Edge(a, c).v, 0x1p-156, 0x1p-310);
+    return turn_in_pairs(Paired(a).v, PairEdge(a, b).v, PairEdge(a, c).v, 0x1p-156, 0x1p-310);
 }
 
 }  // namespace stereodel::predicates::rays

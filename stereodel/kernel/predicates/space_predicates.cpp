@@ -47,11 +47,11 @@ struct Size {
     }
 };
 
-struct Edge {
+struct SpaceEdge {
     Pair v[3];
     double high[3];
 
-    Edge(const double* from, const double* to) {
+    SpaceEdge(const double* from, const double* to) {
         for (int k = 0; k < 3; ++k) {
             v[k] = pair_difference(to[k], from[k]);
             high[k] = v[k].h;
@@ -70,7 +70,7 @@ Sign orient_filter(const double* a, const double* b, const double* c, const doub
 }
 
 Sign orient_double_double(const double* a, const double* b, const double* c, const double* d) {
-    const Edge u(a, b), v(a, c), w(a, d);
+    const SpaceEdge u(a, b), v(a, c), w(a, d);
     const Size size(u.high, v.high, w.high);
     const Pair value = determinant_form(u.v, v.v, w.v);
     return decide(value.h + value.l, ERROR * UNIT_ROUNDOFF * UNIT_ROUNDOFF * size.permanent + size.floor);

@@ -12,10 +12,11 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
-#include <exception>
+#include <future>
 #include <initializer_list>
 #include <optional>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 
 #include "duplicates.hpp"
@@ -57,20 +58,15 @@ void check_points(const char* name, const Rows& points) {
 // Triangles of points of the plane, or of directions. checked: all are arrays that the kernel gave away and nobody can
 // have changed; many a query takes less time than a look at each of them.
 template <class Rows>
-void check_triangles(const Rows& points, const RowsIn<Index, 3>& simplices,
-                     const RowsIn<Index, 3>& neighbors, bool checked, Border border) {
+void check_triangles(const Rows& points, const RowsIn<Index, 3>& simplices, const RowsIn<Index, 3>& neighbors,
+                     bool checked, std::optional<Border> border = {}) {
     check_same_length("simplices", simplices.shape(0), "neighbors", neighbors.shape(0));
     if (checked) {
         return;
     }
     check_points("points", points);
-    check_triangles(simplices.data(), neighbors.data(), simplices.shape(0), points.shape(0), border);
-}
-
-template <class Rows>
-void check_triangles(const Rows& points, const RowsIn<Index, 3>& simplices, const RowsIn<Index, 3>& neighbors,
-                     bool checked) {
-    check_triangles(points, simplices, neighbors, checked, points.shape(1) == 3 ? Border::closed : Border::open);
+    check_triangles(simplices.data(), neighbors.data(), simplices.shape(0), points.shape(0),
+                    border.value_or(points.shape(1) == 3 ? Border::closed : Border::open));
 }
 
 // An array of NumPy's that owns the memory of a buffer.
@@ -91,15 +87,6 @@ template <class T>
 ValuesOut<T> to_values(Buffer<T>&& buffer) {
     const std::size_t count = buffer.size();
     return to_array<ValuesOut<T>>(std::move(buffer), {count});
-}
-
-inline Buffer<Index> to_buffer(const Pairs& pairs) {
-    Buffer<Index> buffer(2 * pairs.size());
-    for (std::size_t k = 0; k < pairs.size(); ++k) {
-        buffer[2 * k] = pairs[k].first;
-        buffer[2 * k + 1] = pairs[k].second;
-    }
-    return buffer;
 }
 
 inline RowsOut<Index, 2> to_rows(const Pairs& pairs) {
@@ -143,44 +130,29 @@ inline Tally to_tally(const nb::dict& counts) {
 // here. Where the system gives no thread, the work is done on this one and Ctrl-C waits.
 template <class Work>
 auto run_without_lock(bool is_long, Work&& work) {
-    using Result = decltype(work(Stop{}));
-    if (!is_long) {
-        const nb::gil_scoped_release release;
-        return work(Stop{});
-    }
     std::atomic<bool> stop{false};
-    std::exception_ptr failure;
-    Result result{};
-    Background background;
-    const bool begun = background.begin([&] {
+    std::future<decltype(work(Stop{}))> result;
+    if (is_long) {
         try {
-            result = work(Stop{&stop});
-        } catch (...) {
-            failure = std::current_exception();
+            result = std::async(std::launch::async, [&] { return work(Stop{&stop}); });
+        } catch (const std::system_error&) {
         }
-    });
-    if (!begun) {
+    }
+    if (!result.valid()) {
         const nb::gil_scoped_release release;
         return work(Stop{});
     }
-    bool interrupted = false;
-    const auto ended = [&] {
+    const auto is_ready = [&] {
         const nb::gil_scoped_release release;
-        return background.ends_within(std::chrono::milliseconds(50));
+        return result.wait_for(std::chrono::milliseconds(50)) == std::future_status::ready;
     };
-    while (!ended()) {
-        if (!interrupted && PyErr_CheckSignals() != 0) {
-            interrupted = true;
-            stop = true;
-        }
+    while (!is_ready()) {
+        stop = stop || PyErr_CheckSignals() != 0;
     }
-    if (interrupted) {
+    if (stop) {
         throw nb::python_error();
     }
-    if (failure) {
-        std::rethrow_exception(failure);
-    }
-    return result;
+    return result.get();
 }
 
 // A buffer that work(data, stop) fills without the interpreter's lock.

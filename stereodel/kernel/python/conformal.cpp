@@ -33,11 +33,11 @@ using SixRows = RowsIn<double, 3>;
 constexpr std::size_t long_work = 100000;  // points: some milliseconds
 
 // Six rows: a matrix and what it leaves of a more exact one.
-SplitRotation split(const SixRows& matrix) {
+SplitRotation split(const SixRows& matrix, const char* name = "rotation") {
     if (matrix.shape(0) != 6) {
         throw std::invalid_argument("a rotation is given by six rows");
     }
-    check_finite("rotation", matrix.data(), 6, 3);
+    check_finite(name, matrix.data(), 6, 3);
     return {matrix.data(), matrix.data() + 9};
 }
 
@@ -157,10 +157,7 @@ RowsOut<double, 3> rotation_matrix(const RowsIn<double, 4>& quaternion) {
 }
 
 RowsOut<double, 3> rotated(const SixRows& matrix, const RowsIn<double, 3>& vectors) {
-    if (matrix.shape(0) != 6) {
-        throw std::invalid_argument("a rotation is given by six rows");
-    }
-    check_finite("matrix", matrix.data(), 6, 3);
+    split(matrix, "matrix");
     const std::size_t count = vectors.shape(0);
     check_finite("vectors", vectors.data(), count, 3);
     conformal::Matrix entries;
@@ -176,29 +173,21 @@ RowsOut<double, 3> rotated(const SixRows& matrix, const RowsIn<double, 3>& vecto
     }));
 }
 
-template <std::size_t Width>
-using Images = std::pair<RowsOut<double, Width>, bool>;
-template <auto Evaluate, std::size_t Width>
-Images<Width> images(const RowsIn<double, Width>& points, const SixRows& left, double magnification,
-                     const SixRows& right, int workers) {
+// Rows at the points, of one number or of `Results`, and whether all are sound.
+template <auto Evaluate, std::size_t Results, std::size_t Width>
+auto images(const RowsIn<double, Width>& points, const SixRows& left, double magnification, const SixRows& right,
+            int workers) {
     const MoebiusParts parts = to_parts(left, magnification, right);
     const std::size_t count = points.shape(0);
     bool sound = true;
-    Buffer<double> rows = filled<double>(Width * count, count > long_work, [&](double* out, Stop stop) {
+    Buffer<double> rows = filled<double>(Results * count, count > long_work, [&](double* out, Stop stop) {
         sound = Evaluate(parts, points.data(), count, out, workers, stop);
     });
-    return {to_rows<Width>(std::move(rows)), sound};
-}
-
-std::pair<ValuesOut<double>, bool> scales(const RowsIn<double, 3>& xyz, const SixRows& left, double magnification,
-                                          const SixRows& right, int workers) {
-    const MoebiusParts parts = to_parts(left, magnification, right);
-    const std::size_t count = xyz.shape(0);
-    bool sound = true;
-    Buffer<double> values = filled<double>(count, count > long_work, [&](double* out, Stop stop) {
-        sound = moebius_scales(parts, xyz.data(), count, out, workers, stop);
-    });
-    return {to_values(std::move(values)), sound};
+    if constexpr (Results == 1) {
+        return std::pair(to_values(std::move(rows)), sound);
+    } else {
+        return std::pair(to_rows<Results>(std::move(rows)), sound);
+    }
 }
 
 }  // namespace
@@ -216,12 +205,12 @@ void bind_conformal(Modules& modules) {
     module.def("moebius_element", element, "map"_a,
                "A map in SL(2, C): both parts as doubles and what they leave, and the square of its vector.");
     module.def("moebius_decomposed", decomposed, "element"_a, "The nine numbers of the first four rows of an element.");
-    module.def("moebius_images", images<moebius_images, 3>, "xyz"_a, "left"_a, "magnification"_a, "right"_a,
+    module.def("moebius_images", images<moebius_images, 3, 3>, "xyz"_a, "left"_a, "magnification"_a, "right"_a,
                "workers"_a = 1, "Images of directions as unit vectors, and whether all were finite and not zero.");
-    module.def("moebius_lonlat", images<moebius_lonlat, 2>, "lonlat"_a, "left"_a, "magnification"_a, "right"_a,
+    module.def("moebius_lonlat", images<moebius_lonlat, 2, 2>, "lonlat"_a, "left"_a, "magnification"_a, "right"_a,
                "workers"_a = 1, "Images (lon, lat) of (lon, lat) in degrees, and whether all were points.");
-    module.def("moebius_scales", scales, "xyz"_a, "left"_a, "magnification"_a, "right"_a, "workers"_a = 1,
-               "Local scales at directions, and whether all were finite and not zero.");
+    module.def("moebius_scales", images<moebius_scales, 1, 3>, "xyz"_a, "left"_a, "magnification"_a, "right"_a,
+               "workers"_a = 1, "Local scales at directions, and whether all were finite and not zero.");
 }
 
 }  // namespace stereodel::python

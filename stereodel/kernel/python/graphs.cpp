@@ -12,13 +12,8 @@
 
 namespace stereodel::python {
 
-using graphs::PlaneSites;
 using graphs::Proximity;
-using graphs::SphereSites;
-using graphs::proximity_plane;
-using graphs::proximity_sphere;
-using graphs::spanning_tree_plane;
-using graphs::spanning_tree_sphere;
+using graphs::SitesOf;
 
 namespace {
 
@@ -45,7 +40,7 @@ RowsOut<Index, 2> proximity(RowsIn<double, Width> points, RowsIn<Index, 3> simpl
     const TriangleArrays triangles = to_triangles(points, simplices, neighbors, {}, checked);
     const Proximity graph = graph_of(name);
     return to_rows(run_without_lock(triangles.count() > long_work, [&](Stop stop) {
-        return (Width == 2 ? proximity_plane : proximity_sphere)(triangles, points.shape(0), graph, workers, stop);
+        return graphs::proximity<Width>(triangles, points.shape(0), graph, workers, stop);
     }));
 }
 
@@ -54,48 +49,45 @@ RowsOut<Index, 2> spanning_tree(RowsIn<double, Width> points, const Numbers& edg
     const std::size_t size = points.shape(0), count = edges.shape(0);
     check_points("points", points);
     check_numbers(edges, 2, size);
-    Pairs pairs;
-    for (std::size_t k = 0; k < count; ++k) {
-        pairs.emplace_back(edges.data()[2 * k], edges.data()[2 * k + 1]);
-    }
+    const Pairs pairs = stereodel::to_pairs(edges.data(), count);
     return to_rows(run_without_lock(count > long_work, [&](Stop stop) {
-        return (Width == 2 ? spanning_tree_plane : spanning_tree_sphere)(points.data(), size, pairs, stop);
+        return graphs::spanning_tree<Width>(points.data(), size, pairs, stop);
     }));
 }
 
 // The predicates, by number: four of each row for lengths, three for diametral circles.
-template <class Sites, std::size_t Width>
+template <std::size_t Width>
 Signs compare_lengths(RowsIn<double, Width> points, const Numbers& numbers) {
     check_numbers(numbers, 4, points.shape(0));
     check_points("points", points);
-    const Sites sites(points.data(), points.shape(0));
+    const SitesOf<Width> sites(points.data(), points.shape(0));
     return over_rows(numbers.shape(0), [&](std::size_t k) {
         const Index* n = numbers.data() + 4 * k;
         return sites.compare_lengths(n[0], n[1], n[2], n[3]);
     });
 }
 
-template <class Sites, std::size_t Width>
+template <std::size_t Width>
 Signs diametral(RowsIn<double, Width> points, const Numbers& numbers) {
     check_numbers(numbers, 3, points.shape(0));
     check_points("points", points);
-    const Sites sites(points.data(), points.shape(0));
+    const SitesOf<Width> sites(points.data(), points.shape(0));
     return over_rows(numbers.shape(0), [&](std::size_t k) {
         const Index* n = numbers.data() + 3 * k;
         return sites.diametral(n[0], n[1], n[2]);
     });
 }
 
-template <std::size_t Width, class Sites>
+template <std::size_t Width>
 void bind_space(nb::module_& space) {
     space.def("proximity", proximity<Width>, "points"_a, "simplices"_a, "neighbors"_a, "graph"_a, "workers"_a = 1,
               "checked"_a = false,
               "Edges of the graph \"gabriel\", \"urquhart\" or \"relative\" of a triangulation, sorted.");
     space.def("spanning_tree", spanning_tree<Width>, "points"_a, "edges"_a,
               "The shortest forest among the edges, equally long ones in the order of their ends; sorted.");
-    space.def("compare_lengths", compare_lengths<Sites, Width>, "points"_a, "numbers"_a,
+    space.def("compare_lengths", compare_lengths<Width>, "points"_a, "numbers"_a,
               "Sign of |ab| - |cd| for rows a b c d of numbers; of angles between directions.");
-    space.def("diametral", diametral<Sites, Width>, "points"_a, "numbers"_a,
+    space.def("diametral", diametral<Width>, "points"_a, "numbers"_a,
               "1 where p lies outside the circle with diameter ab, 0 on it, -1 inside, for rows a b p of numbers; 0 "
               "for opposite directions a and b.");
 }
@@ -103,8 +95,8 @@ void bind_space(nb::module_& space) {
 }  // namespace
 
 void bind_graphs(Modules& modules) {
-    bind_space<2, PlaneSites>(modules.plane);
-    bind_space<3, SphereSites>(modules.sphere);
+    bind_space<2>(modules.plane);
+    bind_space<3>(modules.sphere);
 }
 
 }  // namespace stereodel::python

@@ -12,8 +12,7 @@
 namespace stereodel::python {
 
 using interpolation::NaturalNeighborTask;
-using interpolation::natural_neighbors_plane;
-using interpolation::natural_neighbors_sphere;
+using interpolation::natural_neighbors;
 
 namespace {
 
@@ -25,26 +24,26 @@ using Table = nb::ndarray<const double, nb::numpy, nb::ndim<2>, nb::c_contig, nb
 using Vectors = nb::ndarray<nb::numpy, double, nb::ndim<3>, nb::c_contig>;
 
 // Values at the queries, (count, 1, width), or gradients, (count, dimension, width).
-template <class Work>
-Vectors answers(const NaturalNeighborTask& task, std::size_t dimension, bool gradients, Work&& work) {
+template <std::size_t Width>
+Vectors answers(const NaturalNeighborTask& task, bool gradients, int workers) {
     const std::size_t size = task.count * task.width;
     const bool is_long = task.count > long_work;
     using Both = std::pair<Buffer<double>, Buffer<double>>;
     Both both = run_without_lock(is_long, [&](Stop stop) {
-        Both out(Buffer<double>{size}, Buffer<double>{gradients ? size * dimension : 0});
+        Both out(Buffer<double>{size}, Buffer<double>{gradients ? size * Width : 0});
         NaturalNeighborTask filled = task;
         filled.found = out.first.data();
         filled.gradients = gradients ? out.second.data() : nullptr;
-        work(filled, stop);
+        natural_neighbors<Width>(filled, workers, stop);
         return out;
     });
-    return gradients ? to_array<Vectors>(std::move(both.second), {task.count, dimension, task.width})
+    return gradients ? to_array<Vectors>(std::move(both.second), {task.count, Width, task.width})
                      : to_array<Vectors>(std::move(both.first), {task.count, 1, task.width});
 }
 
 // Whose values count for each query, row after row: offsets (count + 1,), numbers of points, and weights.
-template <class Work>
-nb::tuple shares(const NaturalNeighborTask& task, Work&& work) {
+template <std::size_t Width>
+nb::tuple shares(const NaturalNeighborTask& task, int workers) {
     struct Shares {
         Buffer<std::int64_t> offsets;
         Buffer<Index> members;
@@ -57,7 +56,7 @@ nb::tuple shares(const NaturalNeighborTask& task, Work&& work) {
         out.offsets.data()[0] = 0;
         NaturalNeighborTask counted = task;
         counted.counts = out.offsets.data() + 1;
-        work(counted, stop);
+        natural_neighbors<Width>(counted, workers, stop);
         for (std::size_t k = 0; k < task.count; ++k) {
             out.offsets.data()[k + 1] += out.offsets.data()[k];
         }
@@ -68,7 +67,7 @@ nb::tuple shares(const NaturalNeighborTask& task, Work&& work) {
         filled.starts = out.offsets.data();
         filled.members = out.members.data();
         filled.weights = out.weights.data();
-        work(filled, stop);
+        natural_neighbors<Width>(filled, workers, stop);
         return out;
     });
     return nb::make_tuple(to_values(std::move(all.offsets)), to_values(std::move(all.members)),
@@ -122,17 +121,13 @@ Vectors in_plane(RowsIn<double, 2> points, RowsIn<Index, 3> simplices, RowsIn<In
                  RowsIn<double, 2> queries, bool gradients, int workers, bool checked) {
     NaturalNeighborTask task = plane_task(points, simplices, neighbors, queries, checked);
     take_values(task, points, values);
-    return answers(task, 2, gradients, [workers](const NaturalNeighborTask& filled, Stop stop) {
-        natural_neighbors_plane(filled, workers, stop);
-    });
+    return answers<2>(task, gradients, workers);
 }
 
 nb::tuple weights_in_plane(RowsIn<double, 2> points, RowsIn<Index, 3> simplices, RowsIn<Index, 3> neighbors,
                            RowsIn<double, 2> queries, int workers, bool checked) {
     const NaturalNeighborTask task = plane_task(points, simplices, neighbors, queries, checked);
-    return shares(task, [workers](const NaturalNeighborTask& filled, Stop stop) {
-        natural_neighbors_plane(filled, workers, stop);
-    });
+    return shares<2>(task, workers);
 }
 
 Vectors on_sphere(RowsIn<double, 3> points, RowsIn<double, 3> units, RowsIn<double, 3> rests,
@@ -142,9 +137,7 @@ Vectors on_sphere(RowsIn<double, 3> points, RowsIn<double, 3> units, RowsIn<doub
     NaturalNeighborTask task = sphere_task(points, units, rests, simplices, neighbors, queries, query_units,
                                            query_rests, closing, checked);
     take_values(task, points, values);
-    return answers(task, 3, gradients, [workers](const NaturalNeighborTask& filled, Stop stop) {
-        natural_neighbors_sphere(filled, workers, stop);
-    });
+    return answers<3>(task, gradients, workers);
 }
 
 nb::tuple weights_on_sphere(RowsIn<double, 3> points, RowsIn<double, 3> units, RowsIn<double, 3> rests,
@@ -153,9 +146,7 @@ nb::tuple weights_on_sphere(RowsIn<double, 3> points, RowsIn<double, 3> units, R
                             std::optional<Closing> closing, int workers, bool checked) {
     const NaturalNeighborTask task = sphere_task(points, units, rests, simplices, neighbors, queries, query_units,
                                                  query_rests, closing, checked);
-    return shares(task, [workers](const NaturalNeighborTask& filled, Stop stop) {
-        natural_neighbors_sphere(filled, workers, stop);
-    });
+    return shares<3>(task, workers);
 }
 
 }  // namespace

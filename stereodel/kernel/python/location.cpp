@@ -15,15 +15,7 @@ namespace stereodel::python {
 
 using queries::KNearestTask;
 using queries::NearestFlatTask;
-using queries::find_simplex_plane;
-using queries::find_simplex_sphere;
 using queries::first_open;
-using queries::k_nearest_plane;
-using queries::k_nearest_sphere;
-using queries::nearest_flat_plane;
-using queries::nearest_flat_sphere;
-using queries::nearest_plane;
-using queries::nearest_sphere;
 
 namespace {
 
@@ -46,7 +38,7 @@ ValuesOut<Index> find_simplex(RowsIn<double, Width> points, RowsIn<Index, 3> sim
     check_points("queries", queries);
     const std::size_t count = queries.shape(0);
     return answers(count, count > long_work, [&](Index* found, Stop stop) {
-        (Width == 2 ? find_simplex_plane : find_simplex_sphere)(triangles, queries.data(), count, found, workers, stop);
+        queries::find_simplex<Width>(triangles, queries.data(), count, found, workers, stop);
     });
 }
 
@@ -65,7 +57,7 @@ ValuesOut<Index> nearest(RowsIn<double, Width> points, RowsIn<Index, 3> simplice
     check_points("queries", queries);
     const std::size_t count = queries.shape(0);
     return answers(count, count > long_work, [&](Index* found, Stop stop) {
-        (Width == 2 ? nearest_plane : nearest_sphere)(triangles, queries.data(), count, found, workers, stop);
+        queries::nearest<Width>(triangles, queries.data(), count, found, workers, stop);
     });
 }
 
@@ -89,7 +81,7 @@ RowsOfAnyWidth k_nearest(RowsIn<double, Width> points, RowsIn<Index, 3> simplice
     const Pairs pairs = to_pairs(duplicates, points.shape(0));
     return rows_of(k, points.shape(0), count, [&](Index* found, Stop stop) {
         const KNearestTask task{triangles, pairs, queries.data(), count, k, found};
-        (Width == 2 ? k_nearest_plane : k_nearest_sphere)(task, workers, stop);
+        queries::k_nearest<Width>(task, workers, stop);
     });
 }
 
@@ -108,7 +100,7 @@ RowsOfAnyWidth nearest_flat(RowsIn<double, Width> points, ValuesIn<Index> order,
     const Pairs pairs = to_pairs(duplicates, size);
     return rows_of(k, size, count, [&](Index* found, Stop stop) {
         const NearestFlatTask task{points.data(), order.data(), different, pairs, queries.data(), count, k, found};
-        (Width == 2 ? nearest_flat_plane : nearest_flat_sphere)(task, workers, stop);
+        queries::nearest_flat<Width>(task, workers, stop);
     });
 }
 

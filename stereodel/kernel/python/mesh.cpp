@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <optional>
+#include <shared_mutex>
 #include <utility>
 
 #include "engine/plane.hpp"
@@ -35,6 +38,29 @@ using namespace nb::literals;
 constexpr std::size_t long_changes = 500;    // points: some milliseconds
 constexpr std::size_t long_copies = 100000;  // points: the same
 
+// For many who read at a time, or for one alone who writes. All pass a gate. Who is to be alone shuts it and then waits
+// for those inside to leave: readers who keep coming do not keep a writer out for good.
+struct PatientMutex {
+    std::timed_mutex gate;
+    std::shared_timed_mutex inside;
+};
+
+// Waits until `stop` is raised, and looks at that now and then.
+template <template <class> class Lock, class Mutex>
+Lock<Mutex> patiently(Mutex& mutex, Stop stop) {
+    Lock<Mutex> lock(mutex, std::defer_lock);
+    do {
+        check(stop);
+    } while (!lock.try_lock_for(std::chrono::milliseconds(20)));
+    return lock;
+}
+
+template <template <class> class Lock>
+Lock<std::shared_timed_mutex> locked(PatientMutex& mutex, Stop stop) {
+    const auto gate = patiently<std::unique_lock>(mutex.gate, stop);
+    return patiently<Lock>(mutex.inside, stop);
+}
+
 // What a mesh is between two changes, in arrays that nobody changes. Whoever asks gets the same ones.
 struct State {
     std::uint64_t changes;
@@ -52,13 +78,6 @@ nb::ndarray<nb::numpy, const T, nb::shape<-1, static_cast<nb::ssize_t>(Width)>, 
     auto* holder = new Holder(state);
     const nb::capsule owner(holder, [](void* p) noexcept { delete static_cast<Holder*>(p); });
     return {buffer.data(), {buffer.size() / Width, Width}, owner};
-}
-
-template <class T>
-Buffer<T> copied(const T* values, std::size_t count) {
-    Buffer<T> buffer(count);
-    std::copy(values, values + count, buffer.data());
-    return buffer;
 }
 
 // A triangulation that Python holds, and any number of threads with it. Who reads shares the lock, who changes has it
@@ -161,12 +180,12 @@ class BoundMesh {
         const bool is_long = size_ > long_copies || is_bare_ || changing_ > 0;
         const Holder state = run_without_lock(is_long, [&](Stop stop) -> Holder {
             {
-                const SharedLock lock(mutex_, stop);
+                const auto lock = locked<std::shared_lock>(mutex_, stop);
                 if (state_) {
                     return state_;
                 }
             }
-            const LoneLock lock(mutex_, stop);  // writing out moves facets
+            const auto lock = locked<std::unique_lock>(mutex_, stop);  // writing out moves facets
             if (!state_) {
                 state_ = written(workers, stop);
             }
@@ -180,14 +199,14 @@ class BoundMesh {
     // Asked before each query: where nobody changes anything, nobody waits for it.
     std::uint64_t changes() {
         return changing_ == 0 ? changes_.load() : run_without_lock(true, [&](Stop stop) {
-            const SharedLock lock(mutex_, stop);
+            const auto lock = locked<std::shared_lock>(mutex_, stop);
             return changes_.load();
         });
     }
 
     std::size_t size() {
         return changing_ == 0 ? size_.load() : run_without_lock(true, [&](Stop stop) {
-            const SharedLock lock(mutex_, stop);
+            const auto lock = locked<std::shared_lock>(mutex_, stop);
             return size_.load();
         });
     }
@@ -206,7 +225,7 @@ class BoundMesh {
     auto change(bool is_long, Work&& work) {
         const Changing mark(changing_);
         return run_without_lock(is_long || is_bare_ || changing_ > 1, [&](Stop stop) {
-            const LoneLock lock(mutex_, stop);
+            const auto lock = locked<std::unique_lock>(mutex_, stop);
             auto result = work(stop);
             state_.reset();
             ++changes_;

@@ -41,20 +41,6 @@ using Ids = ValuesIn<std::int64_t>;
 using Counts = ValuesIn<std::int32_t>;
 using Mask = ValuesIn<bool>;
 
-template <class T>
-ValuesOut<T> to_values_of(const std::vector<T>& values) {
-    Buffer<T> buffer(values.size());
-    std::copy(values.begin(), values.end(), buffer.data());
-    return to_values(std::move(buffer));
-}
-
-template <std::size_t Width>
-RowsOut<double, Width> to_corners(const std::vector<double>& values) {
-    Buffer<double> buffer(values.size());
-    std::copy(values.begin(), values.end(), buffer.data());
-    return to_rows<Width>(std::move(buffer));
-}
-
 // Blocks and boxes ----------------------------------------------------------------------------------------------------
 
 template <std::size_t Width>
@@ -65,8 +51,7 @@ ValuesOut<std::int32_t> part_of(RowsIn<double, Width> points, Counts axis, Value
     const Splits splits{axis.data(), value.data(), axis.shape(0)};
     return to_values(filled<std::int32_t>(count, count > long_work, [&](std::int32_t* parts, Stop stop) {
         check_points("points", points);
-        (Width == 2 ? partitions::parts_in_plane : partitions::parts_on_sphere)(points.data(), count, splits, parts,
-                                                                                 stop);
+        partitions::parts<Width>(points.data(), count, splits, parts, stop);
     }));
 }
 
@@ -78,11 +63,10 @@ nb::tuple blocks(RowsIn<double, Width> points, std::size_t size) {
     }
     Blocks made = run_without_lock(count > long_work, [&](Stop stop) {
         check_points("points", points);
-        return (Width == 2 ? partitions::blocks_in_plane : partitions::blocks_on_sphere)(points.data(), count, size,
-                                                                                         stop);
+        return partitions::blocks<Width>(points.data(), count, size, stop);
     });
-    return nb::make_tuple(to_values(std::move(made.order)), to_values_of(made.starts), to_corners<Width>(made.lows),
-                          to_corners<Width>(made.highs));
+    return nb::make_tuple(to_values(std::move(made.order)), to_values(copied(made.starts)),
+                          to_rows<Width>(copied(made.lows)), to_rows<Width>(copied(made.highs)));
 }
 
 template <std::size_t Width>
@@ -97,7 +81,7 @@ nb::tuple box_tree(RowsIn<double, Width> lows, RowsIn<double, Width> highs) {
         partitions::fill_boxes(first, Width, all_lows.data(), all_highs.data());
     }
     return nb::make_tuple(to_rows<Width>(std::move(all_lows)), to_rows<Width>(std::move(all_highs)),
-                          to_values_of(first));
+                          to_values(copied(first)));
 }
 
 ValuesOut<std::int32_t> unread_counts(Mask unread, Levels first) {
@@ -167,11 +151,7 @@ nb::tuple open_bubbles(RowsIn<double, Width> points, RowsIn<Index, 3> faces, Row
     const Faces asked{points.data(), size, faces.data(), count, wanted ? wanted->data() : nullptr};
     return openness(count, tree, [&](const Openness& found, Stop stop) {
         check_points("points", points);
-        if constexpr (Width == 2) {
-            partitions::open_bubbles_plane(asked, tree, found, stop);
-        } else {
-            partitions::open_bubbles_sphere(asked, tree, found, stop);
-        }
+        partitions::open_bubbles(asked, tree, found, stop);
     });
 }
 
@@ -185,11 +165,7 @@ nb::tuple open_discs(RowsIn<double, Width> centers, RowsIn<double, Width> rims, 
     check_points("rims", rims);
     const Discs discs{centers.data(), rims.data(), count};
     return openness(count, tree, [&](const Openness& found, Stop stop) {
-        if constexpr (Width == 2) {
-            partitions::open_discs_plane(discs, tree, found, stop);
-        } else {
-            partitions::open_discs_sphere(discs, tree, found, stop);
-        }
+        partitions::open_discs(discs, tree, found, stop);
     });
 }
 
@@ -205,11 +181,7 @@ nb::tuple open_targets(RowsIn<double, Width> points, RowsIn<Index, 3> simplices,
     check_points("queries", queries);
     const Targets targets{triangles, points.shape(0), queries.data(), queries.shape(0), natural};
     return openness(targets.count, tree, [&](const Openness& found, Stop stop) {
-        if constexpr (Width == 2) {
-            partitions::open_targets_plane(targets, tree, found, stop);
-        } else {
-            partitions::open_targets_sphere(targets, tree, found, stop);
-        }
+        partitions::open_targets(targets, tree, found, stop);
     });
 }
 
@@ -229,8 +201,7 @@ nb::tuple final_cells(RowsIn<double, Width> points, RowsIn<Index, 3> simplices, 
     const PartialMesh mesh{points.data(), size, simplices.data(), neighbors.data(), simplices.shape(0), pairs,
                            ids.data()};
     FinalCells cells = run_without_lock(size > long_work, [&](Stop stop) {
-        return (Width == 2 ? partitions::final_cells_plane : partitions::final_cells_sphere)(mesh, rows.data(), count,
-                                                                                             stop);
+        return partitions::final_cells<Width>(mesh, rows.data(), count, stop);
     });
     return nb::make_tuple(to_values(std::move(cells.kept)), to_values(std::move(cells.degree)),
                           to_values(std::move(cells.area)), to_values(std::move(cells.nearest)),

@@ -41,7 +41,7 @@ RasterShape shape_of(const Texels& raster) {
 }
 
 RasterEdges edges_of(const Edges& edges) {
-    return {edges.data()[0], edges.data()[2], edges.data()[1], edges.data()[3]};
+    return {edges.data()[0], edges.data()[1], edges.data()[2], edges.data()[3]};
 }
 
 ValuesOut<std::uint8_t> levels(const Texels& raster, const Edges& edges, int workers) {

@@ -38,16 +38,13 @@ using voronoi::check_order;
 using voronoi::circle_areas;
 using voronoi::circle_centroids;
 using voronoi::circle_diagram;
-using voronoi::circumcenters_plane;
-using voronoi::circumcenters_sphere;
+using voronoi::circumcenters;
+using voronoi::diagram_of;
 using voronoi::line_diagram;
 using voronoi::line_ridges;
 using voronoi::polygons_of;
 using voronoi::ridges_of;
-using voronoi::triangles_in_plane;
-using voronoi::triangles_on_sphere;
-using voronoi::voronoi_plane;
-using voronoi::voronoi_sphere;
+using voronoi::triangles_of;
 
 namespace {
 
@@ -67,24 +64,15 @@ nb::tuple to_python(Diagram&& diagram) {
                           to_values(std::move(diagram.simplex_vertex)), rank, sites, vertex);
 }
 
-template <std::size_t Width, class Make>
-nb::tuple diagram(const RowsIn<double, Width>& points, const RowsIn<Index, 3>& simplices,
-                  const RowsIn<Index, 3>& neighbors, int workers, bool checked, Make&& make) {
+template <std::size_t Width>
+nb::tuple diagram(RowsIn<double, Width> points, RowsIn<Index, 3> simplices, RowsIn<Index, 3> neighbors, int workers,
+                  bool checked) {
     const std::size_t count = simplices.shape(0);
     return to_python(run_without_lock(count > long_work, [&](Stop stop) {
         check_triangles(points, simplices, neighbors, checked, Border::open);  // part of a sphere will do
-        return make(points.data(), points.shape(0), simplices.data(), neighbors.data(), count, workers, stop);
+        return diagram_of<Width>(points.data(), points.shape(0), simplices.data(), neighbors.data(), count, workers,
+                                 stop);
     }));
-}
-
-nb::tuple of_plane(RowsIn<double, 2> points, RowsIn<Index, 3> simplices, RowsIn<Index, 3> neighbors, int workers,
-                   bool checked) {
-    return diagram<2>(points, simplices, neighbors, workers, checked, voronoi_plane);
-}
-
-nb::tuple of_sphere(RowsIn<double, 3> points, RowsIn<Index, 3> simplices, RowsIn<Index, 3> neighbors, int workers,
-                   bool checked) {
-    return diagram<3>(points, simplices, neighbors, workers, checked, voronoi_sphere);
 }
 
 using Offsets = ValuesIn<std::int64_t>;
@@ -143,14 +131,6 @@ nb::tuple polygons(Offsets offsets, Entries vertices, Entries neighbors, std::si
                           to_values(std::move(made.sites)));
 }
 
-// The triangles of a diagram's vertices: triangles_of(polygons, stop).
-template <class TrianglesOf>
-RowsOut<Index, 3> triangulated(const Cells& cells, int workers, TrianglesOf&& triangles_of) {
-    return to_rows<3>(run_without_lock(cells.sites > long_work, [&](Stop stop) {
-        return triangles_of(polygons_of(cells, workers, stop), stop);
-    }));
-}
-
 using Ranks = std::optional<ValuesIn<Index>>;
 
 TriangleOrder to_order(const Entries& simplex_vertex, const Ranks& rank) {
@@ -160,22 +140,15 @@ TriangleOrder to_order(const Entries& simplex_vertex, const Ranks& rank) {
     return {simplex_vertex.data(), rank ? rank->data() : nullptr, simplex_vertex.shape(0)};
 }
 
-RowsOut<Index, 3> delaunay_of_plane(RowsIn<double, 2> points, Offsets offsets, Entries vertices, Entries neighbors,
-                                    std::size_t vertex_count, Entries simplex_vertex, Ranks rank, int workers) {
+// The triangles of a diagram's vertices.
+template <std::size_t Width>
+RowsOut<Index, 3> delaunay_of(RowsIn<double, Width> points, Offsets offsets, Entries vertices, Entries neighbors,
+                              std::size_t vertex_count, Entries simplex_vertex, Ranks rank, int workers) {
     const Cells cells = to_cells(points, offsets, vertices, neighbors, vertex_count);
     const TriangleOrder order = to_order(simplex_vertex, rank);
-    return triangulated(cells, workers, [&](const Polygons& polygons, Stop stop) {
-        return triangles_in_plane(points.data(), polygons, order, workers, stop);
-    });
-}
-
-RowsOut<Index, 3> delaunay_of_sphere(RowsIn<double, 3> points, Offsets offsets, Entries vertices, Entries neighbors,
-                                     std::size_t vertex_count, Entries simplex_vertex, Ranks rank, int workers) {
-    const Cells cells = to_cells(points, offsets, vertices, neighbors, vertex_count);
-    const TriangleOrder order = to_order(simplex_vertex, rank);
-    return triangulated(cells, workers, [&](const Polygons& polygons, Stop stop) {
-        return triangles_on_sphere(points.data(), cells.sites, polygons, order, workers, stop);
-    });
+    return to_rows<3>(run_without_lock(cells.sites > long_work, [&](Stop stop) {
+        return triangles_of<Width>(points.data(), cells.sites, polygons_of(cells, workers, stop), order, workers, stop);
+    }));
 }
 
 // `per_site` numbers for each site.
@@ -213,34 +186,22 @@ TriangleRows to_rows_of(const Rows& points, const RowsIn<Index, 3>& triangles, c
         check_indices("triangles", triangles.data(), triangles.shape(0), points.shape(0), 3);
     }
     if (place && !checked) {  // else two threads might write the same
-        check_permutation("place", place->data(), place->shape(0), triangles.shape(0));
+        check_same_length("place", place->shape(0), "triangles", triangles.shape(0));
+        check_distinct("place", place->data(), place->shape(0), triangles.shape(0));
     }
     return {triangles.data(), place ? place->data() : nullptr, triangles.shape(0)};
 }
 
-RowsOut<double, 2> centers_in_plane(RowsIn<double, 2> points, RowsIn<Index, 3> triangles, Places place, int workers,
-                                    bool checked) {
+template <std::size_t Width>
+RowsOut<double, Width> centers(RowsIn<double, Width> points, RowsIn<Index, 3> triangles, Places place, int workers,
+                               bool checked) {
     const TriangleRows rows = to_rows_of(points, triangles, place, checked);
-    return to_rows<2>(filled<double>(2 * rows.count, rows.count > long_work, [&](double* out, Stop stop) {
-        circumcenters_plane(points.data(), rows, out, workers, stop);
-    }));
-}
-
-RowsOut<double, 3> centers_on_sphere(RowsIn<double, 3> points, RowsIn<Index, 3> triangles, Places place,
-                                     int workers, bool checked) {
-    const TriangleRows rows = to_rows_of(points, triangles, place, checked);
-    return to_rows<3>(filled<double>(3 * rows.count, rows.count > long_work, [&](double* out, Stop stop) {
-        circumcenters_sphere(points.data(), points.shape(0), rows, out, workers, stop);
+    return to_rows<Width>(filled<double>(Width * rows.count, rows.count > long_work, [&](double* out, Stop stop) {
+        circumcenters<Width>(points.data(), points.shape(0), rows, out, workers, stop);
     }));
 }
 
 // Without triangles ------------------------------------------------------------------------------------------------
-
-ValuesOut<Index> to_values_of(const std::vector<Index>& numbers) {
-    Buffer<Index> buffer(numbers.size());
-    std::copy(numbers.begin(), numbers.end(), buffer.data());
-    return to_values(std::move(buffer));
-}
 
 nb::tuple to_cells_in_python(Diagram&& diagram) {
     return nb::make_tuple(to_values(std::move(diagram.offsets)), to_values(std::move(diagram.vertices)),
@@ -250,15 +211,15 @@ nb::tuple to_cells_in_python(Diagram&& diagram) {
 // All points that lie on a line are given: there is nothing else to be checked.
 ValuesOut<Index> order_on_line(RowsIn<double, 2> points, bool) {
     check_points("points", points);
-    return to_values_of(run_without_lock(points.shape(0) > long_work, [&](Stop stop) {
-        return line_order(points.data(), points.shape(0), stop);
+    return to_values(run_without_lock(points.shape(0) > long_work, [&](Stop stop) {
+        return copied(line_order(points.data(), points.shape(0), stop));
     }));
 }
 
 ValuesOut<Index> order_on_circle(RowsIn<double, 3> points, bool checked) {
     check_points("points", points);
-    return to_values_of(run_without_lock(points.shape(0) > long_work, [&](Stop stop) {
-        return circle_order(points.data(), points.shape(0), checked, stop);
+    return to_values(run_without_lock(points.shape(0) > long_work, [&](Stop stop) {
+        return copied(circle_order(points.data(), points.shape(0), checked, stop));
     }));
 }
 
@@ -322,14 +283,14 @@ void bind_integrals(nb::module_& space) {
 }
 
 void bind_plane(nb::module_& plane) {
-    plane.def("voronoi", of_plane, "points"_a, "simplices"_a, "neighbors"_a, "workers"_a = 1, "checked"_a = false,
+    plane.def("voronoi", diagram<2>, "points"_a, "simplices"_a, "neighbors"_a, "workers"_a = 1, "checked"_a = false,
               "Offsets of the cells, vertices and neighbours of their entries, the sites along a curve, the vertex of "
               "each triangle; if triangles share vertices, its rank there, rows of three sites and the vertex of each "
               "row.");
-    plane.def("delaunay_of", delaunay_of_plane, "points"_a, "offsets"_a, "vertices"_a, "neighbors"_a,
+    plane.def("delaunay_of", delaunay_of<2>, "points"_a, "offsets"_a, "vertices"_a, "neighbors"_a,
               "vertex_count"_a, "simplex_vertex"_a, "rank"_a = nb::none(), "workers"_a = 1,
               "Triangles of a diagram's sites, in the order of `simplex_vertex`.");
-    plane.def("circumcenters", centers_in_plane, "points"_a, "triangles"_a, "place"_a = nb::none(), "workers"_a = 1,
+    plane.def("circumcenters", centers<2>, "points"_a, "triangles"_a, "place"_a = nb::none(), "workers"_a = 1,
               "checked"_a = false,
               "Centres of triangles by number, that of row k at place[k].");
     plane.def("flat_order", order_on_line, "points"_a, "checked"_a = false, "Different points of a line along it.");
@@ -340,11 +301,11 @@ void bind_plane(nb::module_& plane) {
 }
 
 void bind_sphere(nb::module_& sphere) {
-    sphere.def("voronoi", of_sphere, "points"_a, "simplices"_a, "neighbors"_a, "workers"_a = 1, "checked"_a = false,
+    sphere.def("voronoi", diagram<3>, "points"_a, "simplices"_a, "neighbors"_a, "workers"_a = 1, "checked"_a = false,
                "As in the plane.");
-    sphere.def("delaunay_of", delaunay_of_sphere, "points"_a, "offsets"_a, "vertices"_a, "neighbors"_a,
+    sphere.def("delaunay_of", delaunay_of<3>, "points"_a, "offsets"_a, "vertices"_a, "neighbors"_a,
                "vertex_count"_a, "simplex_vertex"_a, "rank"_a = nb::none(), "workers"_a = 1, "As in the plane.");
-    sphere.def("circumcenters", centers_on_sphere, "points"_a, "triangles"_a, "place"_a = nb::none(), "workers"_a = 1,
+    sphere.def("circumcenters", centers<3>, "points"_a, "triangles"_a, "place"_a = nb::none(), "workers"_a = 1,
                "checked"_a = false,
                "Unit normals of triangles by number, on the side seen counterclockwise, that of row k at place[k].");
     sphere.def("flat_order", order_on_circle, "points"_a, "checked"_a = false,

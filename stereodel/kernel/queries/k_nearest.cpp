@@ -87,8 +87,11 @@ class Outward {
     IndexSet seen_;
 };
 
-template <class Query>
-void find_k(const KNearestTask& task, int workers, Stop stop) {
+}  // namespace
+
+template <std::size_t Width>
+void k_nearest(const KNearestTask& task, int workers, Stop stop) {
+    using Query = QueryOf<Width>;
     const EqualPoints equal(task.duplicates);
     const auto begin_piece = [&] {
         return [task, outward = Outward<Query>(task.triangles, equal, task.k, stop)](
@@ -100,14 +103,7 @@ void find_k(const KNearestTask& task, int workers, Stop stop) {
                                        stop, begin_piece);
 }
 
-}  // namespace
-
-void k_nearest_plane(const KNearestTask& task, int workers, Stop stop) {
-    find_k<PlaneQuery>(task, workers, stop);
-}
-
-void k_nearest_sphere(const KNearestTask& task, int workers, Stop stop) {
-    find_k<SphereQuery>(task, workers, stop);
-}
+template void k_nearest<2>(const KNearestTask&, int, Stop);
+template void k_nearest<3>(const KNearestTask&, int, Stop);
 
 }  // namespace stereodel::queries

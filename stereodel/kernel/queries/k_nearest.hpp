@@ -28,7 +28,7 @@ struct KNearestTask {
 
 // By distance, equally near ones by number; on the sphere by angle. There must be triangles (see nearest_flat.hpp). The
 // result does not depend on `workers`. Throws std::bad_alloc, Cancelled.
-void k_nearest_plane(const KNearestTask& task, int workers, Stop stop);
-void k_nearest_sphere(const KNearestTask& task, int workers, Stop stop);
+template <std::size_t Width>
+void k_nearest(const KNearestTask& task, int workers, Stop stop);
 
 }  // namespace stereodel::queries

@@ -73,9 +73,12 @@ class Finder {
     Stop stop_;
 };
 
-template <class Query>
+}  // namespace
+
+template <std::size_t Width>
 void find_simplex(const TriangleArrays& triangles, const double* queries, std::size_t count, Index* found, int workers,
                   Stop stop) {
+    using Query = QueryOf<Width>;
     const Index start = first_open(triangles);
     if (start == static_cast<Index>(triangles.count())) {
         std::fill_n(found, count, -1);
@@ -87,16 +90,7 @@ void find_simplex(const TriangleArrays& triangles, const double* queries, std::s
     });
 }
 
-}  // namespace
-
-void find_simplex_plane(const TriangleArrays& triangles, const double* queries, std::size_t count, Index* found,
-                        int workers, Stop stop) {
-    find_simplex<PlaneQuery>(triangles, queries, count, found, workers, stop);
-}
-
-void find_simplex_sphere(const TriangleArrays& triangles, const double* queries, std::size_t count, Index* found,
-                         int workers, Stop stop) {
-    find_simplex<SphereQuery>(triangles, queries, count, found, workers, stop);
-}
+template void find_simplex<2>(const TriangleArrays&, const double*, std::size_t, Index*, int, Stop);
+template void find_simplex<3>(const TriangleArrays&, const double*, std::size_t, Index*, int, Stop);
 
 }  // namespace stereodel::queries

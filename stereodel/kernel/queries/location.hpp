@@ -13,9 +13,8 @@ namespace stereodel::queries {
 // it lies in none that may be entered. The result does not depend on `workers`. Throws std::bad_alloc, Cancelled.
 //
 // Plane: queries are points; sphere: directions, and `closing` must be given unless there are no closing triangles.
-void find_simplex_plane(const TriangleArrays& triangles, const double* queries, std::size_t count, Index* found,
-                        int workers, Stop stop);
-void find_simplex_sphere(const TriangleArrays& triangles, const double* queries, std::size_t count, Index* found,
+template <std::size_t Width>
+void find_simplex(const TriangleArrays& triangles, const double* queries, std::size_t count, Index* found,
                          int workers, Stop stop);
 
 }  // namespace stereodel::queries

@@ -6,25 +6,19 @@
 namespace stereodel::queries {
 namespace {
 
-template <class Query>
-void find_nearest(const TriangleArrays& triangles, const double* queries, std::size_t count, Index* found, int workers,
+}  // namespace
+
+template <std::size_t Width>
+void nearest(const TriangleArrays& triangles, const double* queries, std::size_t count, Index* found, int workers,
                   Stop stop) {
+    using Query = QueryOf<Width>;
     for_queries<typename Query::Chart>(triangles, first_open(triangles), queries, count, workers, stop, [&] {
         return [found, finder = NearestFinder<Query>(triangles, stop)](
                    std::size_t k, const double* query, Index& near) mutable { found[k] = finder.find(query, near); };
     });
 }
 
-}  // namespace
-
-void nearest_plane(const TriangleArrays& triangles, const double* queries, std::size_t count, Index* found, int workers,
-                   Stop stop) {
-    find_nearest<PlaneQuery>(triangles, queries, count, found, workers, stop);
-}
-
-void nearest_sphere(const TriangleArrays& triangles, const double* queries, std::size_t count, Index* found,
-                    int workers, Stop stop) {
-    find_nearest<SphereQuery>(triangles, queries, count, found, workers, stop);
-}
+template void nearest<2>(const TriangleArrays&, const double*, std::size_t, Index*, int, Stop);
+template void nearest<3>(const TriangleArrays&, const double*, std::size_t, Index*, int, Stop);
 
 }  // namespace stereodel::queries

@@ -14,9 +14,8 @@ namespace stereodel::queries {
 // For each of `count` queries the nearest point, the lowest one of several; on the sphere that of the least angle.
 // There must be triangles (see nearest_flat.hpp). The result does not depend on `workers`. Throws std::bad_alloc,
 // Cancelled.
-void nearest_plane(const TriangleArrays& triangles, const double* queries, std::size_t count, Index* found,
-                   int workers, Stop stop);
-void nearest_sphere(const TriangleArrays& triangles, const double* queries, std::size_t count, Index* found,
+template <std::size_t Width>
+void nearest(const TriangleArrays& triangles, const double* queries, std::size_t count, Index* found,
                     int workers, Stop stop);
 
 }  // namespace stereodel::queries

@@ -167,8 +167,11 @@ class FlatFinder {
     std::size_t missing_ = 0;
 };
 
-template <class Query>
+}  // namespace
+
+template <std::size_t Width>
 void nearest_flat(const NearestFlatTask& task, int workers, Stop stop) {
+    using Query = QueryOf<Width>;
     constexpr std::size_t grain = 256;
     const Pairs none;
     const EqualPoints equal(task.k > 1 ? task.duplicates : none);  // the kept one of equal points is the lowest
@@ -182,14 +185,7 @@ void nearest_flat(const NearestFlatTask& task, int workers, Stop stop) {
     });
 }
 
-}  // namespace
-
-void nearest_flat_plane(const NearestFlatTask& task, int workers, Stop stop) {
-    nearest_flat<PlaneQuery>(task, workers, stop);
-}
-
-void nearest_flat_sphere(const NearestFlatTask& task, int workers, Stop stop) {
-    nearest_flat<SphereQuery>(task, workers, stop);
-}
+template void nearest_flat<2>(const NearestFlatTask&, int, Stop);
+template void nearest_flat<3>(const NearestFlatTask&, int, Stop);
 
 }  // namespace stereodel::queries

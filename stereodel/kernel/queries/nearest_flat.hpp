@@ -29,7 +29,7 @@ struct NearestFlatTask {
 
 // By distance, equally near ones by number; on the sphere by angle. The result does not depend on `workers`. Throws
 // std::bad_alloc, Cancelled.
-void nearest_flat_plane(const NearestFlatTask& task, int workers, Stop stop);
-void nearest_flat_sphere(const NearestFlatTask& task, int workers, Stop stop);
+template <std::size_t Width>
+void nearest_flat(const NearestFlatTask& task, int workers, Stop stop);
 
 }  // namespace stereodel::queries

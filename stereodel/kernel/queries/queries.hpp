@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <type_traits>
 
 #include "mesh/corners.hpp"
 #include "order/charts.hpp"
@@ -246,5 +247,9 @@ class SphereQuery {
     bool ordinary_ = false, is_unit_ = false;
     Tally tally_;
 };
+
+// Of points with so many coordinates.
+template <std::size_t Width>
+using QueryOf = std::conditional_t<Width == 2, PlaneQuery, SphereQuery>;
 
 }  // namespace stereodel::queries

@@ -111,19 +111,6 @@ double rest_of(double side, bool is_mean) {
 
 }  // namespace
 
-struct RasterSampler::Footprint {
-    double u, v, u_x, u_y, v_x, v_y;
-};
-
-// What the grains of a footprint have in common: the level, its texels in those of the raster, a grain's sides.
-struct RasterSampler::Grain {
-    const RasterLevel* level;
-    double across, down;
-    double u_side, v_side;  // of the raster
-    double u_rest, v_rest;  // of the level, without the spread of its means
-    float weight;
-};
-
 RasterSampler::RasterSampler(const RasterShape& shape, const std::uint8_t* raster, const std::uint8_t* levels,
                              const RasterEdges& edges, std::vector<double> shifts)
     : columns_(shape.columns()),

@@ -17,7 +17,7 @@ namespace stereodel::raster {
 
 // Edges in radians, west < east <= west + 2 pi, south < north.
 struct RasterEdges {
-    double west, east, south, north;
+    double west, south, east, north;
 };
 
 // Colour times opacity and opacity, times weight, in levels of 255.
@@ -37,8 +37,18 @@ class RasterSampler {
     void add(const Traced& traced, ColorSum& sum) const;
 
   private:
-    struct Footprint;
-    struct Grain;
+    struct Footprint {
+        double u, v, u_x, u_y, v_x, v_y;
+    };
+
+    // What the grains of a footprint have in common: the level, its texels in those of the raster, a grain's sides.
+    struct Grain {
+        const RasterLevel* level;
+        double across, down;
+        double u_side, v_side;  // of the raster
+        double u_rest, v_rest;  // of the level, without the spread of its means
+        float weight;
+    };
 
     Footprint footprint(const Traced& traced) const;
     double row_latitude(double lat) const;

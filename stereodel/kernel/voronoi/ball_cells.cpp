@@ -37,11 +37,11 @@ Vector operator*(const BigBall& factor, const Vector& a) { return {factor * a[0]
 bool is_zero(const Vector& a) { return a[0].is_zero() && a[1].is_zero() && a[2].is_zero(); }
 
 // A site as given, its length, and its direction.
-struct Direction {
+struct BallDirection {
     Vector given, unit;
     BigBall length;
 
-    Direction(const double* point, std::size_t limbs) : given(vector_of(point, limbs)) {
+    BallDirection(const double* point, std::size_t limbs) : given(vector_of(point, limbs)) {
         length = sqrt(dot(given, given));
         unit = (length.like(1.0) / length) * given;
     }
@@ -56,7 +56,7 @@ struct Chord {
     Vector difference, sum;
     BigBall difference_length, sum_length;
 
-    Chord(const Direction& p, const Direction& q) {
+    Chord(const BallDirection& p, const BallDirection& q) {
         const BigBall one = p.length.like(1.0), lengths = one / (p.length * q.length);
         const Vector w = lengths * product(p.given, q.given);
         const BigBall cosine = dot(p.given, q.given) * lengths;
@@ -73,7 +73,7 @@ struct Chord {
 };
 
 // The lesser of a vector's length and the component along an axis, in the direction of `sign`: |v| - s v_k.
-BigBall behind(const Direction& v, std::size_t axis, int sign) {
+BigBall behind(const BallDirection& v, std::size_t axis, int sign) {
     const BigBall along = sign > 0 ? v.given[axis] : -v.given[axis];
     if (along.sign() <= 0) {
         return v.length - along;
@@ -84,14 +84,14 @@ BigBall behind(const Direction& v, std::size_t axis, int sign) {
 
 // The absolute value of the determinant with rows (x, y, z, |p|), by 2 x 2 minors, with |p| less the component of the
 // axis along which p is longest: near that axis nothing cancels.
-BigBall bubble(const Direction& p, const Direction& q, const Direction& r, const Direction& s) {
+BigBall bubble(const BallDirection& p, const BallDirection& q, const BallDirection& r, const BallDirection& s) {
     std::size_t axis = 0;
     for (std::size_t k = 1; k < 3; ++k) {
         const auto size = [&p](std::size_t j) { return std::fabs(p.given[j].middle(0)); };
         axis = size(k) > size(axis) ? k : axis;
     }
     const int sign = p.given[axis].sign();
-    const auto row = [axis, sign](const Direction& v) {
+    const auto row = [axis, sign](const BallDirection& v) {
         return std::array<BigBall, 4>{v.given[0], v.given[1], v.given[2], behind(v, axis, sign)};
     };
     const std::array<BigBall, 4> a = row(p), b = row(q), c = row(r), d = row(s);
@@ -125,8 +125,8 @@ Vector across(const Vector& unit) {
 // is the bubble's determinant over all lengths.
 std::vector<Ridge<BigBall>> ridges_in_balls(const std::vector<const double*>& sites, std::size_t limbs) {
     const std::size_t size = sites.size() - 1;
-    const Direction p(sites[size], limbs);
-    std::vector<Direction> others;
+    const BallDirection p(sites[size], limbs);
+    std::vector<BallDirection> others;
     std::vector<Chord> chords;
     std::vector<Vector> sums;
     std::vector<BigBall> sum_lengths;
@@ -161,7 +161,7 @@ std::vector<Ridge<BigBall>> ridges_in_balls(const std::vector<const double*>& si
     std::vector<Ridge<BigBall>> ridges(size);
     for (std::size_t k = 0; k < size; ++k) {
         Leg<BigBall>&left = legs[2 * k], &right = legs[2 * k + 1];
-        const Direction &before = others[(k + size - 1) % size], &after = others[(k + 1) % size];
+        const BallDirection &before = others[(k + size - 1) % size], &after = others[(k + 1) % size];
         const BigBall to_left = length_of(left.across, left.along), to_right = length_of(right.across, right.along);
         Ridge<BigBall>& ridge = ridges[k];
         for (std::size_t i = 0; i < 3; ++i) {
@@ -191,16 +191,16 @@ std::vector<const double*> sites_around(const double* points, const Cells& cells
 }
 
 // A difference of two points of the plane.
-struct Edge {
+struct BallDifference {
     BigBall x, y, square;
 
-    Edge(const double* from, const double* to, std::size_t limbs)
+    BallDifference(const double* from, const double* to, std::size_t limbs)
         : x(BigBall(to[0], limbs) - BigBall(from[0], limbs)), y(BigBall(to[1], limbs) - BigBall(from[1], limbs)) {
         square = x * x + y * y;
     }
 };
 
-BigBall product(const Edge& a, const Edge& b) { return a.x * b.y - a.y * b.x; }
+BigBall product(const BallDifference& a, const BallDifference& b) { return a.x * b.y - a.y * b.x; }
 
 // With d = q - p and c and e for the neighbours before and after q the ridge reaches, in units of |d|, from the middle
 // to g' = e.(e - d)/(2 d x e) on the left and g" = c.(c - d)/(2 c x d) on the right:
@@ -209,7 +209,7 @@ BigBall product(const Edge& a, const Edge& b) { return a.x * b.y - a.y * b.x; }
 // |d|^2 (g' + g")/4 and the centroid (d + (g' - g") d')/3 from p, d' being d turned by 90 degrees.
 MeasuredCell plane_cell(const std::vector<const double*>& sites, std::size_t limbs) {
     const std::size_t size = sites.size() - 1;
-    std::vector<Edge> edges;
+    std::vector<BallDifference> edges;
     std::int64_t exponent = std::numeric_limits<std::int64_t>::min();
     for (std::size_t k = 0; k < size; ++k) {
         edges.emplace_back(sites[size], sites[k], limbs);
@@ -224,7 +224,7 @@ MeasuredCell plane_cell(const std::vector<const double*>& sites, std::size_t lim
     BigBall area(0.0, limbs), x = area, y = area;
     double reach = 0.0;
     for (std::size_t k = 0; k < size; ++k) {
-        const Edge &c = edges[(k + size - 1) % size], &d = edges[k], &e = edges[(k + 1) % size];
+        const BallDifference &c = edges[(k + size - 1) % size], &d = edges[k], &e = edges[(k + 1) % size];
         const BigBall &cd = volumes[(k + size - 1) % size], &de = volumes[k];
         const BigBall both = (e.square * cd + d.square * product(e, c) + c.square * de) / (cd * de);
         const BigBall left = (e.x * (e.x - d.x) + e.y * (e.y - d.y)) / de;

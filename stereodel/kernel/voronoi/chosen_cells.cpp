@@ -12,9 +12,6 @@
 
 namespace stereodel::voronoi {
 
-using predicates::all_unit;
-using predicates::common_granularity;
-
 namespace {
 
 using Size = std::size_t;
@@ -59,18 +56,12 @@ class CellChooser {
             result.offsets[next] = static_cast<std::int64_t>(neighbors_.size());
         }
         result.order = Buffer<Index>(std::move(result.order), filled);
-        result.vertices = to_buffer(vertices_);
-        result.neighbors = to_buffer(neighbors_);
+        result.vertices = copied(vertices_);
+        result.neighbors = copied(neighbors_);
         return result;
     }
 
   private:
-    static Buffer<Index> to_buffer(const GrowingArray<Index>& array) {
-        Buffer<Index> buffer(array.size());
-        std::copy(array.data(), array.data() + array.size(), buffer.data());
-        return buffer;
-    }
-
     // A triangle at each site: at the border, if it lies there.
     void find_starts() {
         start_ = Buffer<Index>(sites_);
@@ -176,32 +167,21 @@ class CellChooser {
     GrowingArray<Index> vertices_, neighbors_;
 };
 
-template <class MakeView>
-ChosenCells chosen_cells(std::size_t sites, const Index* simplices, const Index* neighbors, std::size_t triangles,
-                         const std::int64_t* ids, const Index* chosen, std::size_t count, Stop stop,
-                         MakeView&& make_view) {
+}  // namespace
+
+template <std::size_t Width>
+ChosenCells chosen_cells(const double* points, std::size_t sites, const Index* simplices, const Index* neighbors,
+                         std::size_t triangles, const std::int64_t* ids, const Index* chosen, std::size_t count,
+                         Stop stop) {
     DualTriangles dual(simplices, neighbors, triangles);
     Crew crew(1);
-    dual.find_ties(crew, stop, make_view);
+    dual.find_ties(crew, stop, views_of<Width>(points, sites));
     return CellChooser(dual, sites, ids, stop).cells(chosen, count);
 }
 
-}  // namespace
-
-ChosenCells chosen_cells_plane(const double* points, std::size_t sites, const Index* simplices, const Index* neighbors,
-                               std::size_t triangles, const std::int64_t* ids, const Index* chosen, std::size_t count,
-                               Stop stop) {
-    const double granularity = common_granularity(points, sites);
-    return chosen_cells(sites, simplices, neighbors, triangles, ids, chosen, count, stop,
-                        [&] { return PlaneView{PlanePoints(points, granularity)}; });
-}
-
-ChosenCells chosen_cells_sphere(const double* points, std::size_t sites, const Index* simplices, const Index* neighbors,
-                                std::size_t triangles, const std::int64_t* ids, const Index* chosen, std::size_t count,
-                                Stop stop) {
-    const bool unit = all_unit(points, sites);
-    return chosen_cells(sites, simplices, neighbors, triangles, ids, chosen, count, stop,
-                        [&] { return SphereView(Rays(points, unit)); });
-}
+template ChosenCells chosen_cells<2>(const double*, std::size_t, const Index*, const Index*, std::size_t,
+                                      const std::int64_t*, const Index*, std::size_t, Stop);
+template ChosenCells chosen_cells<3>(const double*, std::size_t, const Index*, const Index*, std::size_t,
+                                      const std::int64_t*, const Index*, std::size_t, Stop);
 
 }  // namespace stereodel::voronoi

@@ -25,11 +25,9 @@ struct ChosenCells {
 
 // `chosen`: `count` different sites, ascending. Vertices compare by `ids`, those of the points, not by rows: so a part
 // of a triangulation gives what all of it gives.
-ChosenCells chosen_cells_plane(const double* points, std::size_t sites, const Index* simplices, const Index* neighbors,
-                               std::size_t triangles, const std::int64_t* ids, const Index* chosen, std::size_t count,
-                               Stop stop);
-ChosenCells chosen_cells_sphere(const double* points, std::size_t sites, const Index* simplices, const Index* neighbors,
-                                std::size_t triangles, const std::int64_t* ids, const Index* chosen, std::size_t count,
-                                Stop stop);
+template <std::size_t Width>
+ChosenCells chosen_cells(const double* points, std::size_t sites, const Index* simplices, const Index* neighbors,
+                         std::size_t triangles, const std::int64_t* ids, const Index* chosen, std::size_t count,
+                         Stop stop);
 
 }  // namespace stereodel::voronoi

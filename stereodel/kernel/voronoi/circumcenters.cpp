@@ -155,7 +155,9 @@ void for_rows(std::size_t count, Crew& crew, Stop stop, Center&& center) {
 
 }  // namespace
 
-void circumcenters_plane(const double* points, const TriangleRows& rows, double* centers, int workers, Stop stop) {
+template <>
+void circumcenters<2>(const double* points, std::size_t, const TriangleRows& rows, double* centers, int workers,
+                      Stop stop) {
     Crew crew(useful_workers(workers, rows.count));
     const auto at = [points](Index a) { return points + 2 * static_cast<std::ptrdiff_t>(a); };
     for_rows(rows.count, crew, stop, [&](std::size_t k) {
@@ -168,8 +170,9 @@ void circumcenters_plane(const double* points, const TriangleRows& rows, double*
     });
 }
 
-void circumcenters_sphere(const double* points, std::size_t size, const TriangleRows& rows, double* centers,
-                          int workers, Stop stop) {
+template <>
+void circumcenters<3>(const double* points, std::size_t size, const TriangleRows& rows, double* centers, int workers,
+                      Stop stop) {
     Crew crew(useful_workers(workers, rows.count));
     Buffer<UnitVector> units(size);
     for_all(size, crew, stop, [&](std::size_t k) { units[k] = unit_vector(points + 3 * k); });

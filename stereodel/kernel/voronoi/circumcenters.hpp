@@ -22,8 +22,12 @@ struct TriangleRows {
 // infinite beyond the range of doubles. Sphere: the unit normals on the side from which the corners appear
 // counterclockwise, off by little more than half a unit in the last place of their length, 2^-54: components that are
 // far shorter than that may hold fewer digits.
-void circumcenters_plane(const double* points, const TriangleRows& rows, double* centers, int workers, Stop stop);
-void circumcenters_sphere(const double* points, std::size_t size, const TriangleRows& rows, double* centers,
-                          int workers, Stop stop);
+template <std::size_t Width>
+void circumcenters(const double* points, std::size_t size, const TriangleRows& rows, double* centers, int workers,
+                   Stop stop);
+template <>
+void circumcenters<2>(const double*, std::size_t, const TriangleRows&, double*, int, Stop);
+template <>
+void circumcenters<3>(const double*, std::size_t, const TriangleRows&, double*, int, Stop);
 
 }  // namespace stereodel::voronoi

@@ -51,9 +51,8 @@ struct TriangleOrder {
 
 // The triangles of displaced points (plane_predicates.hpp, ray_predicates.hpp), lowest site first. Throws
 // std::invalid_argument if the order is not one of the diagram's triangles.
-Buffer<Index> triangles_in_plane(const double* points, const Polygons& polygons, const TriangleOrder& order,
-                                 int workers, Stop stop);
-Buffer<Index> triangles_on_sphere(const double* points, std::size_t sites, const Polygons& polygons,
-                                  const TriangleOrder& order, int workers, Stop stop);
+template <std::size_t Width>
+Buffer<Index> triangles_of(const double* points, std::size_t sites, const Polygons& polygons,
+                           const TriangleOrder& order, int workers, Stop stop);
 
 }  // namespace stereodel::voronoi

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
-#include <utility>
 
 #include "coordinates/degrees.hpp"
+#include "duplicates.hpp"
 #include "voronoi/great_circles.hpp"
 #include "voronoi/unit_vectors.hpp"
 
@@ -30,8 +30,7 @@ Diagram cells(const std::vector<Index>& order, Size count, Size entries) {
     std::partial_sum(diagram.offsets.data(), diagram.offsets.data() + count + 1, diagram.offsets.data());
     diagram.vertices = Buffer<Index>(entries * order.size());
     diagram.neighbors = Buffer<Index>(entries * order.size());
-    diagram.order = Buffer<Index>(order.size());
-    std::copy(order.begin(), order.end(), diagram.order.data());
+    diagram.order = copied(order);
     return diagram;
 }
 
@@ -56,17 +55,12 @@ Diagram line_diagram(const std::vector<Index>& order, std::size_t count) {
 }
 
 Buffer<Index> line_ridges(const std::vector<Index>& order) {
-    std::vector<std::pair<Index, Index>> pairs;
+    Pairs pairs;
     for (Size k = 1; k < order.size(); ++k) {
         pairs.push_back(std::minmax(order[k - 1], order[k]));
     }
     std::sort(pairs.begin(), pairs.end());
-    Buffer<Index> ridges(2 * pairs.size());
-    for (Size k = 0; k < pairs.size(); ++k) {
-        ridges[2 * k] = pairs[k].first;
-        ridges[2 * k + 1] = pairs[k].second;
-    }
-    return ridges;
+    return to_buffer(pairs);
 }
 
 // From vertex 0 a cell is bounded by the ridge to the site before, down to vertex 1, then by that to the site after.

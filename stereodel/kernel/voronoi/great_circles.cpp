@@ -39,11 +39,11 @@ struct ScaledRay {
 };
 
 // v 2^exponent, the longest component in [1, 2); of a vector product, which has no radius to speak of.
-struct ScaledVector {
+struct ScaledProduct {
     Pair v[3];
     int exponent;
 
-    explicit ScaledVector(const BallVector& balls) : exponent(balls.exponent()) {
+    explicit ScaledProduct(const BallVector& balls) : exponent(balls.exponent()) {
         for (int k = 0; k < 3; ++k) {
             const DoubleDouble middle = balls.v[k].middle(exponent);
             v[k] = {middle.hi, middle.lo};
@@ -54,7 +54,7 @@ struct ScaledVector {
 };
 
 // The angle between two directions, in [0, pi], from their vector product: small ones to a few 2^-53 of themselves.
-double angle_between(const double* p, const double* q, const ScaledVector& normal) {
+double angle_between(const double* p, const double* q, const ScaledProduct& normal) {
     const ScaledRay a(p), b(q);
     const DoubleDouble cosine =
         two_product(a.v[0], b.v[0]) + two_product(a.v[1], b.v[1]) + two_product(a.v[2], b.v[2]);
@@ -89,7 +89,7 @@ BallVector axis_of_three(const double* a, const double* b, const double* c) {
 // p x (p x q), at right angles to p: away from q. The product p x q has full precision however close they are. Below
 // w = 2^-43, sin(w/2)/cos(w/2) is w/2 to 2^-88 of itself; it is multiplied by |p x q|, the length of the other term.
 void bisector_of_close(const double* p, const double* q, const UnitVector& unit, double* normal) {
-    const ScaledVector across(cross(p, q));
+    const ScaledProduct across(cross(p, q));
     const double tilt = 0.5 * angle_between(p, q, across) * across.length();
     Pair v[3];
     for (int k = 0; k < 3; ++k) {
@@ -120,7 +120,7 @@ GreatCircle::GreatCircle(const double* xyz, std::vector<Index> directions) : ord
         return;
     }
     const auto site = [&](Size third) { return row(xyz, order[third * size / 3]); };
-    const ScaledVector axis(size == 2 ? axis_of_pair(row(xyz, order[0]), row(xyz, order[1]))
+    const ScaledProduct axis(size == 2 ? axis_of_pair(row(xyz, order[0]), row(xyz, order[1]))
                                       : axis_of_three(site(0), site(1), site(2)));
     round_unit(axis.v, ends[0]);
     for (int k = 0; k < 3; ++k) {
@@ -133,7 +133,7 @@ std::vector<double> GreatCircle::gaps(const double* xyz) const {
     std::vector<double> result(size);
     for (Size k = 0; k < size; ++k) {
         const double *p = row(xyz, order[k]), *q = row(xyz, order[k + 1 < size ? k + 1 : 0]);
-        const ScaledVector normal(cross(p, q));
+        const ScaledProduct normal(cross(p, q));
         const double angle = angle_between(p, q, normal);
         double along = 0.0;
         for (int j = 0; j < 3; ++j) {

@@ -29,11 +29,11 @@ double roundoff(double) { return UNIT_ROUNDOFF; }
 double roundoff(DoubleDouble) { return 11 * UNIT_ROUNDOFF * UNIT_ROUNDOFF; }
 
 template <class Number>
-struct Edge {
+struct CellEdge {
     Number x, y, square;
 
     // scale: a power of two.
-    Edge(const double* from, const double* to, double scale)
+    CellEdge(const double* from, const double* to, double scale)
         : x(difference(scale * to[0], scale * from[0], Number{})),
           y(difference(scale * to[1], scale * from[1], Number{})),
           square(x * x + y * y) {}
@@ -45,11 +45,11 @@ struct Edge {
 // X = a x b by 5u|a||b|; |g| <= |E||F|/(2X). With the other roundings each area is off by less than
 // 8u |a||b||F| |D|/(8X) (1 + |a||b|/X), if the error of X is less than 2^-5 of it and no product underflows.
 template <class Number>
-struct Corner {
+struct CornerTriangles {
     Number at_a, at_b;
     double bound;
 
-    Corner(const Edge<Number>& a, const Edge<Number>& b, const Edge<Number>& across) {
+    CornerTriangles(const CellEdge<Number>& a, const CellEdge<Number>& b, const CellEdge<Number>& across) {
         const Number twice = times(a.x * b.y - a.y * b.x, 2.0);
         at_a = (b.x * across.x + b.y * across.y) / twice;
         at_b = (-(a.x * across.x) - a.y * across.y) / twice;
@@ -71,8 +71,8 @@ MeasuredCell measure(const double* points, const Index* neighbors, std::size_t s
     double bound = 0.0, total = 0.0;
     std::size_t before = size - 1;
     for (std::size_t k = 0; k < size; before = k++) {
-        const Edge<Number> a(at(site), at(other(before)), scale), b(at(site), at(other(k)), scale);
-        const Corner<Number> corner(a, b, Edge<Number>(at(other(before)), at(other(k)), scale));
+        const CellEdge<Number> a(at(site), at(other(before)), scale), b(at(site), at(other(k)), scale);
+        const CornerTriangles<Number> corner(a, b, CellEdge<Number>(at(other(before)), at(other(k)), scale));
         const Number of_a = times(a.square * corner.at_a, 0.25), of_b = times(b.square * corner.at_b, 0.25);
         area = area + (of_a + of_b);
         x = x + (of_a * (a.x - a.y * corner.at_a) + of_b * (b.x + b.y * corner.at_b));

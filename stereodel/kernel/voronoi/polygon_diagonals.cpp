@@ -157,24 +157,26 @@ Buffer<Index> triangles(const Polygons& polygons, const TriangleOrder& order, in
 
 }  // namespace
 
-Buffer<Index> triangles_in_plane(const double* points, const Polygons& polygons, const TriangleOrder& order,
-                                 int workers, Stop stop) {
-    const auto comes_first = [points](Index a, Index b) {
-        const double *p = points + 2 * static_cast<Size>(a), *q = points + 2 * static_cast<Size>(b);
-        return p[0] < q[0] || (p[0] == q[0] && p[1] < q[1]);
-    };
-    return triangles(polygons, order, workers, stop, comes_first, [](const Index*, Size) { return false; });
+template <std::size_t Width>
+Buffer<Index> triangles_of(const double* points, std::size_t sites, const Polygons& polygons,
+                           const TriangleOrder& order, int workers, Stop stop) {
+    const auto at = [points](Index a) { return points + Width * static_cast<Size>(a); };
+    if constexpr (Width == 2) {
+        const auto comes_first = [&](Index a, Index b) {
+            return std::lexicographical_compare(at(a), at(a) + 2, at(b), at(b) + 2);
+        };
+        return triangles(polygons, order, workers, stop, comes_first, [](const Index*, Size) { return false; });
+    } else {
+        const bool unit = all_unit(points, sites);
+        const auto comes_first = [&](Index a, Index b) { return rays::compare(at(a), at(b), unit) < 0; };
+        const auto is_outward = [&](const Index* polygon, Size size) {
+            return displaced_turn(at(polygon[0]), at(polygon[size / 3]), at(polygon[2 * size / 3]), unit) > 0;
+        };
+        return triangles(polygons, order, workers, stop, comes_first, is_outward);
+    }
 }
 
-Buffer<Index> triangles_on_sphere(const double* points, std::size_t sites, const Polygons& polygons,
-                                  const TriangleOrder& order, int workers, Stop stop) {
-    const bool unit = all_unit(points, sites);
-    const auto at = [points](Index a) { return points + 3 * static_cast<Size>(a); };
-    const auto comes_first = [&](Index a, Index b) { return rays::compare(at(a), at(b), unit) < 0; };
-    const auto is_outward = [&](const Index* polygon, Size size) {
-        return displaced_turn(at(polygon[0]), at(polygon[size / 3]), at(polygon[2 * size / 3]), unit) > 0;
-    };
-    return triangles(polygons, order, workers, stop, comes_first, is_outward);
-}
+template Buffer<Index> triangles_of<2>(const double*, std::size_t, const Polygons&, const TriangleOrder&, int, Stop);
+template Buffer<Index> triangles_of<3>(const double*, std::size_t, const Polygons&, const TriangleOrder&, int, Stop);
 
 }  // namespace stereodel::voronoi

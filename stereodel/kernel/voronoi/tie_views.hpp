@@ -63,4 +63,16 @@ class SphereView {
     std::vector<rays::BubblePlane> planes_;  // of the triangles from that one on
 };
 
+// What makes a view for each thread.
+template <std::size_t Width>
+auto views_of(const double* points, std::size_t sites) {
+    if constexpr (Width == 2) {
+        const double granularity = predicates::common_granularity(points, sites);
+        return [=] { return PlaneView{PlanePoints(points, granularity)}; };
+    } else {
+        const bool unit = predicates::all_unit(points, sites);
+        return [=] { return SphereView(Rays(points, unit)); };
+    }
+}
+
 }  // namespace stereodel::voronoi

@@ -35,9 +35,8 @@ struct Diagram {
     Buffer<Index> vertex_sites, row_vertex;
 };
 
-Diagram voronoi_plane(const double* points, std::size_t sites, const Index* simplices, const Index* neighbors,
-                      std::size_t count, int workers, Stop stop);
-Diagram voronoi_sphere(const double* points, std::size_t sites, const Index* simplices, const Index* neighbors,
-                       std::size_t count, int workers, Stop stop);
+template <std::size_t Width>
+Diagram diagram_of(const double* points, std::size_t sites, const Index* simplices, const Index* neighbors,
+                   std::size_t count, int workers, Stop stop);
 
 }  // namespace stereodel::voronoi

@@ -36,20 +36,11 @@ class Answer {
 
     template <class T>
     void add(const std::vector<T>& numbers) {
-        Buffer<T> array(numbers.size());
-        for (std::size_t k = 0; k < numbers.size(); ++k) {
-            array[k] = numbers[k];
-        }
-        add(std::move(array));
+        add(copied(numbers));
     }
 
     void add(const Pairs& pairs) {
-        Buffer<Index> rows(2 * pairs.size());
-        for (std::size_t k = 0; k < pairs.size(); ++k) {
-            rows[2 * k] = pairs[k].first;
-            rows[2 * k + 1] = pairs[k].second;
-        }
-        add(std::move(rows));
+        add(to_buffer(pairs));
     }
 
     // Counts of cells and entries, all below 2^31.

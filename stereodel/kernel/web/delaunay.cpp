@@ -61,12 +61,7 @@ struct Arrays {
 
     template <class Surface>
     DynamicDelaunay<Surface> mesh() const {
-        Pairs pairs;
-        pairs.reserve(duplicate_count);
-        for (std::size_t k = 0; k < duplicate_count; ++k) {
-            pairs.emplace_back(duplicates[2 * k], duplicates[2 * k + 1]);
-        }
-        return {points, size, simplices, neighbors, count, std::move(pairs), nullptr};
+        return {points, size, simplices, neighbors, count, to_pairs(duplicates, duplicate_count), nullptr};
     }
 };
 

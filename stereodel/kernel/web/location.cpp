@@ -1,6 +1,5 @@
 // Which triangle holds a query, and which points are nearest to it.
 #include <cstddef>
-#include <utility>
 
 #include "queries/k_nearest.hpp"
 #include "queries/location.hpp"
@@ -10,47 +9,32 @@
 
 namespace stereodel::web {
 
-using queries::KNearestTask;
-using queries::NearestFlatTask;
 using queries::TriangleArrays;
-
-namespace {
-
-Pairs to_pairs(const Index* duplicates, std::size_t count) {
-    Pairs pairs;
-    pairs.reserve(count);
-    for (std::size_t k = 0; k < count; ++k) {
-        pairs.emplace_back(duplicates[2 * k], duplicates[2 * k + 1]);
-    }
-    return pairs;
-}
-
-}  // namespace
 
 // `closing` is null for the plane, here and below.
 
 STEREODEL_EXPORT(plane_find_simplex)
 void plane_find_simplex(const double* points, const Index* simplices, const Index* neighbors, const bool* closing,
                         std::size_t count, const double* queries, std::size_t size, Index* found) {
-    queries::find_simplex_plane({points, simplices, neighbors, closing, count}, queries, size, found, alone, nullptr);
+    queries::find_simplex<2>({points, simplices, neighbors, closing, count}, queries, size, found, alone, nullptr);
 }
 
 STEREODEL_EXPORT(sphere_find_simplex)
 void sphere_find_simplex(const double* points, const Index* simplices, const Index* neighbors, const bool* closing,
                          std::size_t count, const double* queries, std::size_t size, Index* found) {
-    queries::find_simplex_sphere({points, simplices, neighbors, closing, count}, queries, size, found, alone, nullptr);
+    queries::find_simplex<3>({points, simplices, neighbors, closing, count}, queries, size, found, alone, nullptr);
 }
 
 STEREODEL_EXPORT(plane_nearest)
 void plane_nearest(const double* points, const Index* simplices, const Index* neighbors, const bool* closing,
                    std::size_t count, const double* queries, std::size_t size, Index* found) {
-    queries::nearest_plane({points, simplices, neighbors, closing, count}, queries, size, found, alone, nullptr);
+    queries::nearest<2>({points, simplices, neighbors, closing, count}, queries, size, found, alone, nullptr);
 }
 
 STEREODEL_EXPORT(sphere_nearest)
 void sphere_nearest(const double* points, const Index* simplices, const Index* neighbors, const bool* closing,
                     std::size_t count, const double* queries, std::size_t size, Index* found) {
-    queries::nearest_sphere({points, simplices, neighbors, closing, count}, queries, size, found, alone, nullptr);
+    queries::nearest<3>({points, simplices, neighbors, closing, count}, queries, size, found, alone, nullptr);
 }
 
 STEREODEL_EXPORT(plane_k_nearest)
@@ -59,7 +43,7 @@ void plane_k_nearest(const double* points, const Index* simplices, const Index* 
                      std::size_t size, std::size_t k, Index* found) {
     const TriangleArrays triangles(points, simplices, neighbors, closing, count);
     const Pairs pairs = to_pairs(duplicates, duplicate_count);
-    queries::k_nearest_plane({triangles, pairs, queries, size, k, found}, alone, nullptr);
+    queries::k_nearest<2>({triangles, pairs, queries, size, k, found}, alone, nullptr);
 }
 
 STEREODEL_EXPORT(sphere_k_nearest)
@@ -68,7 +52,7 @@ void sphere_k_nearest(const double* points, const Index* simplices, const Index*
                       std::size_t size, std::size_t k, Index* found) {
     const TriangleArrays triangles(points, simplices, neighbors, closing, count);
     const Pairs pairs = to_pairs(duplicates, duplicate_count);
-    queries::k_nearest_sphere({triangles, pairs, queries, size, k, found}, alone, nullptr);
+    queries::k_nearest<3>({triangles, pairs, queries, size, k, found}, alone, nullptr);
 }
 
 // `order`: different points of one line or great circle, in their order there.
@@ -78,7 +62,7 @@ void plane_nearest_flat(const double* points, const Index* order, std::size_t di
                         std::size_t duplicate_count, const double* queries, std::size_t size, std::size_t k,
                         Index* found) {
     const Pairs pairs = to_pairs(duplicates, duplicate_count);
-    queries::nearest_flat_plane({points, order, different, pairs, queries, size, k, found}, alone, nullptr);
+    queries::nearest_flat<2>({points, order, different, pairs, queries, size, k, found}, alone, nullptr);
 }
 
 STEREODEL_EXPORT(sphere_nearest_flat)
@@ -86,7 +70,7 @@ void sphere_nearest_flat(const double* points, const Index* order, std::size_t d
                          std::size_t duplicate_count, const double* queries, std::size_t size, std::size_t k,
                          Index* found) {
     const Pairs pairs = to_pairs(duplicates, duplicate_count);
-    queries::nearest_flat_sphere({points, order, different, pairs, queries, size, k, found}, alone, nullptr);
+    queries::nearest_flat<3>({points, order, different, pairs, queries, size, k, found}, alone, nullptr);
 }
 
 }  // namespace stereodel::web

@@ -12,28 +12,18 @@ namespace stereodel::web {
 using raster::PageMap;
 using raster::PageProjection;
 using raster::PageWindow;
-using raster::RasterEdges;
 using raster::RasterSampler;
 using raster::RasterShape;
-
-namespace {
-
-// west, south, east, north
-RasterEdges to_edges(const double* edges) {
-    return {edges[0], edges[2], edges[1], edges[3]};
-}
-
-}  // namespace
 
 STEREODEL_EXPORT(raster_levels_size) std::size_t raster_levels_size(int width, int height) {
     return RasterShape(width, height).size();
 }
 
+// `edges`: west, south, east, north.
 STEREODEL_EXPORT(raster_levels)
 void raster_levels(const std::uint8_t* texels, int width, int height, const double* edges, std::uint8_t* levels) {
-    const RasterEdges sides = to_edges(edges);
     Crew crew(alone);
-    raster::make_raster_levels(texels, RasterShape(width, height), sides.north, sides.south, levels, crew, nullptr);
+    raster::make_raster_levels(texels, RasterShape(width, height), edges[3], edges[1], levels, crew, nullptr);
 }
 
 // `map`: rotation, magnification, rotation, reach (0 of an orthographic view), 20 numbers; `place`: left, top, width
@@ -41,7 +31,8 @@ void raster_levels(const std::uint8_t* texels, int width, int height, const doub
 STEREODEL_EXPORT(warp_raster)
 void warp_raster(const std::uint8_t* texels, const std::uint8_t* levels, int width, int height, const double* edges,
                  const double* map, const double* place, int across, int down, bool covered, std::uint8_t* pixels) {
-    const RasterSampler sampler(RasterShape(width, height), texels, levels, to_edges(edges), {});
+    const RasterSampler sampler(RasterShape(width, height), texels, levels,
+                                {edges[0], edges[1], edges[2], edges[3]}, {});
     const double reach = map[19];
     PageMap page{{}, map[9], {}, reach == 0.0 ? PageProjection::orthographic : PageProjection::stereographic, reach};
     std::copy_n(map, 9, page.first);

@@ -25,14 +25,16 @@ using voronoi::TriangleRows;
 namespace {
 
 // Offsets, vertices and neighbours of the cells, sites along a curve, the vertex of each triangle, the vertices.
-template <std::size_t Width, class Centers>
-Answer* to_page(Diagram&& diagram, const Index* simplices, std::size_t count, Centers&& centers_of) {
+template <std::size_t Width>
+Answer* diagram(const double* points, std::size_t size, const Index* simplices, const Index* neighbors,
+                std::size_t count) {
+    Diagram diagram = voronoi::diagram_of<Width>(points, size, simplices, neighbors, count, alone, nullptr);
     const bool shared = diagram.row_vertex.size() != 0;
     const TriangleRows rows =
         shared ? TriangleRows{diagram.vertex_sites.data(), diagram.row_vertex.data(), diagram.row_vertex.size()}
                : TriangleRows{simplices, diagram.simplex_vertex.data(), count};
     Buffer<double> centers(Width * rows.count);
-    centers_of(rows, centers.data());
+    voronoi::circumcenters<Width>(points, size, rows, centers.data(), alone, nullptr);
     auto* answer = new Answer;
     answer->add_offsets(diagram.offsets);
     answer->add(std::move(diagram.vertices));
@@ -81,31 +83,25 @@ GreatCircle circle_of(const double* points, const Index* order, std::size_t coun
 STEREODEL_EXPORT(plane_voronoi)
 Answer* plane_voronoi(const double* points, std::size_t size, const Index* simplices, const Index* neighbors,
                       std::size_t count) {
-    return to_page<2>(voronoi::voronoi_plane(points, size, simplices, neighbors, count, alone, nullptr), simplices,
-                      count, [&](const TriangleRows& rows, double* centers) {
-                          voronoi::circumcenters_plane(points, rows, centers, alone, nullptr);
-                      });
+    return diagram<2>(points, size, simplices, neighbors, count);
 }
 
 STEREODEL_EXPORT(sphere_voronoi)
 Answer* sphere_voronoi(const double* points, std::size_t size, const Index* simplices, const Index* neighbors,
                        std::size_t count) {
-    return to_page<3>(voronoi::voronoi_sphere(points, size, simplices, neighbors, count, alone, nullptr), simplices,
-                      count, [&](const TriangleRows& rows, double* centers) {
-                          voronoi::circumcenters_sphere(points, size, rows, centers, alone, nullptr);
-                      });
+    return diagram<3>(points, size, simplices, neighbors, count);
 }
 
 STEREODEL_EXPORT(plane_circumcenters)
 void plane_circumcenters(const double* points, std::size_t, const Index* simplices, std::size_t count,
                          double* centers) {
-    voronoi::circumcenters_plane(points, TriangleRows{simplices, nullptr, count}, centers, alone, nullptr);
+    voronoi::circumcenters<2>(points, 0, TriangleRows{simplices, nullptr, count}, centers, alone, nullptr);
 }
 
 STEREODEL_EXPORT(sphere_circumcenters)
 void sphere_circumcenters(const double* points, std::size_t size, const Index* simplices, std::size_t count,
                           double* centers) {
-    voronoi::circumcenters_sphere(points, size, TriangleRows{simplices, nullptr, count}, centers, alone, nullptr);
+    voronoi::circumcenters<3>(points, size, TriangleRows{simplices, nullptr, count}, centers, alone, nullptr);
 }
 
 // Points without triangles -----------------------------------------------------------------------------------------

@@ -12,7 +12,6 @@
 #include "arithmetic/integer_quotients.hpp"
 #include "arithmetic/roots.hpp"
 #include "predicates/plane_predicates.hpp"
-#include "predicates/ray_balls.hpp"
 #include "predicates/ray_integers.hpp"
 #include "predicates/ray_predicates.hpp"
 #include "predicates/space_predicates.hpp"
@@ -29,7 +28,6 @@ using arithmetic::RootTerm;
 using arithmetic::integer_root;
 using arithmetic::round_quotient;
 using arithmetic::sign_of_roots;
-using arithmetic::sqrt;
 using predicates::PlanePoints;
 using predicates::Rays;
 using predicates::bubble;
@@ -103,8 +101,8 @@ bool root_is_close(const Digits& digits, std::size_t bits) {
            (high.shifted(down) - given).sign() > 0;
 }
 
-// A formula in balls, written with operands first: `v` takes the next value, `s` is the root. Its middle in two parts,
-// its radius, and the power of two that all are multiplied with.
+// A formula in balls, written with operands first: `v` takes the next value. Its middle in two parts, its radius,
+// and the power of two that all are multiplied with.
 std::tuple<double, double, double, int> evaluate_balls(const std::vector<double>& values, const std::string& formula) {
     std::vector<Ball> stack;
     std::size_t next = 0;
@@ -119,8 +117,6 @@ std::tuple<double, double, double, int> evaluate_balls(const std::vector<double>
     for (const char symbol : formula) {
         if (symbol == 'v') {
             stack.emplace_back(values.at(next++));
-        } else if (symbol == 's') {
-            stack.push_back(sqrt(pop()));
         } else {
             const Ball b = pop(), a = pop();
             stack.push_back(symbol == '+' ? a + b : symbol == '-' ? a - b : symbol == '*' ? a * b : a / b);
@@ -139,8 +135,7 @@ Signs orient2d(const PlaneArray& a, const PlaneArray& b, const PlaneArray& c, co
         const plane::Estimate e = plane::orient_estimate(p, q, r);
         return by_stage(
             only, [&] { return Gathered<3>(p, q, r).view().orient(0, 1, 2); }, [&] { return decide(e.value, e.bound); },
-            [&] { return plane::orient_double_double(p, q, r); }, [&] { return plane::orient_balls(p, q, r); },
-            [&] { return plane::orient_integers(p, q, r); },
+            [&] { return plane::orient_double_double(p, q, r); },
             [&] { return plane::orient_exact(p, q, r); });
     });
 }
@@ -154,8 +149,6 @@ Signs incircle(const PlaneArray& a, const PlaneArray& b, const PlaneArray& c, co
         return by_stage(
             only, [&] { return Gathered<4>(p, q, r, s).view().incircle(0, 1, 2, 3); },
             [&] { return decide(e.value, e.bound); }, [&] { return plane::incircle_double_double(p, q, r, s); },
-            [&] { return plane::incircle_balls(p, q, r, s); },
-            [&] { return plane::incircle_integers(p, q, r, s); },
             [&] { return plane::incircle_exact(p, q, r, s); });
     });
 }
@@ -183,8 +176,6 @@ Signs compare_distances(const PlaneArray& q, const PlaneArray& a, const PlaneArr
             only, [&] { return Gathered<2>(p, r).view().compare_distances(query, 0, 1); },
             [&] { return decide(e.value, e.bound); },
             [&] { return plane::distances_double_double(query, p, query, r); },
-            [&] { return plane::distances_balls(query, p, query, r); },
-            [&] { return plane::distances_integers(query, p, query, r); },
             [&] { return plane::distances_exact(query, p, query, r); });
     });
 }
@@ -228,8 +219,6 @@ Signs bubble_rows(const SpaceArray& a, const SpaceArray& b, const SpaceArray& c,
         return by_stage(
             only, [&] { return bubble(u, v, w, x, plain, tally); }, [&] { return decide(e.value, e.bound); },
             [&] { return plain ? rays::bubble_double_double(u, v, w, x) : rays::bubble_double_double(du, dv, dw, dx); },
-            [&] { return rays::bubble_balls(u, v, w, x); },
-            [&] { return rays::bubble_integers(u, v, w, x); },
             [&] { return rays::bubble_exact(u, v, w, x); });
     });
 }
@@ -275,8 +264,6 @@ Signs turn_rows(const SpaceArray& a, const SpaceArray& b, const SpaceArray& c, s
             only, [&] { return turn(u, v, w, plain, tally); },
             [&] { return plain ? rays::turn_filter(u, v, w) : rays::turn_filter(du, dv, dw); },
             [&] { return plain ? rays::turn_double_double(u, v, w) : rays::turn_double_double(du, dv, dw); },
-            [&] { return rays::turn_balls(u, v, w); },
-            [&] { return rays::turn_integers(u, v, w); },
             [&] { return rays::turn_exact(u, v, w); });
     });
 }
@@ -306,8 +293,6 @@ Signs compare_component(const SpaceArray& a, const SpaceArray& b, int axis, std:
             only, [&] { return rays::compare_component(u, v, axis, plain); },
             [&] { return plain ? rays::compare_component_filter(u, v, axis) : OPEN; },
             [&] { return rays::compare_component_double_double(u, v, axis); },
-            [&] { return rays::compare_component_balls(u, v, axis); },
-            [&] { return rays::compare_component_integers(u, v, axis); },
             [&] { return rays::compare_component_exact(u, v, axis); });
     });
 }
@@ -322,8 +307,6 @@ Signs compare_angles(const SpaceArray& q, const SpaceArray& a, const SpaceArray&
             only, [&] { return predicates::compare_angles(u, v, w, tally); },
             [&] { return rays::compare_angles_filter(du, dv, dw); },
             [&] { return rays::compare_angles_double_double(du, dv, dw); },
-            [&] { return rays::compare_angles_balls(u, v, w); },
-            [&] { return rays::compare_angles_integers(u, v, w); },
             [&] { return rays::compare_angles_exact(u, v, w); });
     });
 }

@@ -15,17 +15,13 @@ using engine::InCircleEstimate;
 using engine::Pole;
 using engine::ProjectedRays;
 using engine::compare_projected;
-using engine::compare_projected_balls;
 using engine::compare_projected_double_double;
 using engine::compare_projected_exact;
 using engine::compare_projected_filter;
-using engine::compare_projected_integers;
 using engine::compare_to_line;
-using engine::compare_to_line_balls;
 using engine::compare_to_line_double_double;
 using engine::compare_to_line_exact;
 using engine::compare_to_line_filter;
-using engine::compare_to_line_integers;
 using engine::orient_estimate;
 using engine::project;
 using engine::project_double_double;
@@ -62,8 +58,6 @@ Signs compare_projected_rows(const SpaceArray& p, const SpaceArray& q, int axis,
             only, [&] { return compare_projected(a, b, pole, coordinate); },
             [&] { return compare_projected_filter(a, b, pole, coordinate); },
             [&] { return compare_projected_double_double(a, b, pole, coordinate); },
-            [&] { return compare_projected_balls(a, b, pole, coordinate); },
-            [&] { return compare_projected_integers(a, b, pole, coordinate); },
             [&] { return compare_projected_exact(a, b, pole, coordinate); });
     });
 }
@@ -78,8 +72,6 @@ Signs compare_to_line_rows(const SpaceArray& p, int axis, int sign, int coordina
             only, [&] { return compare_to_line(a, pole, coordinate, h, l); },
             [&] { return compare_to_line_filter(a, pole, coordinate, h, l); },
             [&] { return compare_to_line_double_double(a, pole, coordinate, h, l); },
-            [&] { return compare_to_line_balls(a, pole, coordinate, h, l); },
-            [&] { return compare_to_line_integers(a, pole, coordinate, h, l); },
             [&] { return compare_to_line_exact(a, pole, coordinate, h, l); });
     });
 }

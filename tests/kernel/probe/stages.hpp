@@ -32,27 +32,24 @@ using SpaceArray = RowsIn<double, 3>;
 using Values = ValuesIn<double>;
 
 // Which stage of a predicate is asked: all of them in turn, or one alone, which may answer OPEN.
-enum class Stage { all, filter, double_double, balls, integers, exact };
+enum class Stage { all, filter, double_double, exact };
 
 inline Stage stage_of(const std::string& name) {
-    const char* names[] = {"all", "filter", "double_double", "balls", "integers", "exact"};
-    for (int k = 0; k < 6; ++k) {
+    const char* names[] = {"all", "filter", "double_double", "exact"};
+    for (int k = 0; k < 4; ++k) {
         if (name == names[k]) {
             return static_cast<Stage>(k);
         }
     }
-    throw std::invalid_argument("stage: all, filter, double_double, balls, integers or exact");
+    throw std::invalid_argument("stage: all, filter, double_double or exact");
 }
 
 // One stage of a predicate, or the predicate itself.
-template <class Whole, class Filter, class Middle, class Balls, class Integers, class Exact>
-Sign by_stage(Stage stage, Whole&& whole, Filter&& filter, Middle&& double_double, Balls&& balls, Integers&& integers,
-              Exact&& exact) {
+template <class Whole, class Filter, class Middle, class Exact>
+Sign by_stage(Stage stage, Whole&& whole, Filter&& filter, Middle&& double_double, Exact&& exact) {
     switch (stage) {
         case Stage::filter: return filter();
         case Stage::double_double: return double_double();
-        case Stage::balls: return balls();
-        case Stage::integers: return integers();
         case Stage::exact: return exact();
         default: return whole();
     }
