@@ -23,6 +23,8 @@ from stereodel.triangulation.delaunay import Triangulation, open_triangles
 from stereodel.triangulation.diagram import Diagram
 
 Mesh = Triangulation | Diagram[Any]
+MESHES = (Triangulation, Diagram)
+"""The same, for `isinstance`."""
 Columns = dict[str, npt.NDArray[Any]]
 
 
