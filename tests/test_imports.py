@@ -54,12 +54,12 @@ MAY_IMPORT = {
     "__init__": MATHEMATICS,
     "_doctor": {"__init__", "_extras", "_interrupts", "render"},
     "__main__": {"__init__", "_doctor", "_extras", "_interrupts", "cli"},
-    "drawing": MATHEMATICS | {"curves"},
+    "drawing": MATHEMATICS | {"_spaces", "curves"},
     "render": MATHEMATICS | {"_files", "curves", "drawing"},
     "mpl": MATHEMATICS | {"curves", "data", "drawing", "io"},
     "globe": MATHEMATICS | {"_files", "_kernel", "curves", "data", "drawing", "io"},
     "web": BASE | {"_files", "curves", "data", "sphere", "triangulation"},
-    "film": MATHEMATICS | {"_files", "_tasks", "curves", "drawing", "globe", "render"},
+    "film": MATHEMATICS | {"_files", "_kernel", "_tasks", "curves", "drawing", "globe", "render"},
     "cli": MATHEMATICS
     | {"__init__", "_files", "curves", "data", "drawing", "earth", "film", "globe", "interpolation", "io"}
     | {"_doctor", "_interrupts", "_tasks", "partitioned", "web"},
