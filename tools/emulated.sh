@@ -26,4 +26,4 @@ quietly python -m pip --disable-pip-version-check -q install --target "$site" --
     --python-version "$version" --implementation cp --abi "cp${version/./}" --abi abi3 --constraint constraints.txt numpy
 quietly python -m zipfile -e "$wheel" "$site"
 PYTHONHOME=$root/usr PYTHONPATH=$PWD/$site PYTHONDONTWRITEBYTECODE=1 \
-    "$emulator" -L "$root" "$interpreter" -W error tools/answers.py
+    "$emulator" -L "$root" "$interpreter" -W error tools/try_kernel.py

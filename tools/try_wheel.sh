@@ -40,8 +40,7 @@ megabytes=$(find "$site" -type f ! -name '*.pyc' ! -path '*/pip/*' ! -path '*/se
     awk '{ sum += $1 } END { printf "%.0f", sum / 1e6 }')
 ((megabytes <= 80)) || die "NumPy and stereodel take $megabytes MB; more than 80"
 echo "NumPy and stereodel alone: $megabytes MB"
-bare python "$root/tools/answers.py"
-bare python -W error "$root/tools/free_threads.py"
+bare python -W error "$root/tools/try_kernel.py"
 bare python -W error - <<'PYTHON'
 import importlib
 import pkgutil

@@ -3,7 +3,7 @@
 # The source archive and wheels for Linux into dist/, compiled by zig for glibc 2.17 (manylinux2014): for each MACHINE,
 # x86_64 and aarch64 unless others are named, one for Python 3.12 and all later ones; for x86_64 besides one for 3.11 and
 # one for each Python without the interpreter's lock that is found. Their names, interfaces and texts are checked, and
-# each Python found answers from its wheel as is stored (tools/answers.py), one of them with the oldest NumPy allowed
+# each Python found tries its wheel (tools/try_kernel.py), one of them with the oldest NumPy allowed
 # besides. Says what could not be tried.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -85,11 +85,10 @@ if [[ " ${machines[*]} " == *" $(uname -m) "* ]]; then
         # As an index does: the wheel that fits this Python is chosen by its name.
         quietly install "$work/try-$version" --only-binary :all: numpy
         quietly install "$work/try-$version" --no-index --no-deps --find-links dist stereodel
-        "$work/try-$version/bin/python" -W error tools/answers.py
-        "$work/try-$version/bin/python" -W error tools/free_threads.py
+        "$work/try-$version/bin/python" -W error tools/try_kernel.py
         if [[ $version == 3.12 ]]; then # the last for which there are wheels of that NumPy
             quietly "$work/try-$version/bin/python" -m pip -q install --only-binary :all: "numpy==$oldest_numpy"
-            "$work/try-$version/bin/python" -W error tools/answers.py
+            "$work/try-$version/bin/python" -W error tools/try_kernel.py
         fi
         [[ $version == 3.11 ]] || tried=$((tried + 1))
     done
