@@ -41,8 +41,9 @@ def on_disk(*sets: FloatArray) -> Iterator[list[str]]:
 def say(text: str) -> Callable[[Result], None]:
     """A printer of results under a heading."""
 
-    def line(result: Result, n: int = 0) -> None:
-        told = result.stopped or f"{result.median:10.6f} s of {len(result.seconds)}, {result.triangles} triangles"
+    def line(result: Result) -> None:
+        known = result.record()
+        told = result.stopped or f"{known['seconds']:10.6f} s of {len(result.seconds)}, {known['triangles']} triangles"
         print(f"{text:34} {result.key:12} {told}", flush=True)
 
     return line
