@@ -57,7 +57,7 @@ class Entry:
 def _played(entry: Entry, result: Result, rounds: int) -> Iterator[None]:
     """An engine during the rounds: it starts and is called once, then a round follows after each pause."""
     try:
-        with Engine(list(entry.command)) as engine:
+        with Engine(entry.command) as engine:
             result.version = engine.version
             result.said = engine.run(1, entry.word)
             (first,) = result.said["seconds"]

@@ -67,7 +67,7 @@ def test_stereodel_takes_part(tmp_path, space, dimension):
     sets = [tmp_path / "points", tmp_path / "more"]
     for path, n in zip(sets, (4000, 3000), strict=True):
         generator.standard_normal((n, dimension)).tofile(path)
-    with Engine(stereodel(space, 1, str(sets[1]))(str(sets[0]))) as engine:
+    with Engine([*stereodel(space, 1), *map(str, sets)]) as engine:
         assert engine.run(2)["points"] == engine.run(1, "bare")["points"] == 4000
         for word, points in (("find", 4000), ("nearest", 4000), ("insert", 5000), ("changed", 6000), ("remove", 5000)):
             answer = engine.run(1, word)
