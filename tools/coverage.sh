@@ -2,8 +2,7 @@
 # Usage: tools/coverage.sh VENV [PYTEST ARGUMENT…]
 # What the tests of both tiers reach, in every process that they start: lines and branches of Python (coverage.py) and of the
 # kernel (gcov), with reports in build/coverage. docs/reliability.md publishes the two sums.
-set -euo pipefail
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
+source "$(dirname "${BASH_SOURCE[0]}")/shell.sh"
 root=$PWD
 source tools/instrumented.sh
 instrumented "$1" build/coverage '-O1 -g --coverage -fprofile-abs-path'

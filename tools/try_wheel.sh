@@ -2,16 +2,13 @@
 # Usage: tools/try_wheel.sh PYTHON WHEEL
 # Try a wheel as users get it, in a new environment of PYTHON and with no compiler to be found: with NumPy alone, with
 # the command line, then by the README's first line, after which all its commands and pictures must come out.
-set -euo pipefail
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
-
+source "$(dirname "${BASH_SOURCE[0]}")/shell.sh"
 python=$1
 wheel=$(cd "$(dirname "$2")" && pwd)/${2##*/}
 root=$PWD
 pins=$PWD/constraints.txt
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-die() { echo "tools/try_wheel.sh: $*" >&2; exit 1; }
 "$python" -m venv "$work/venv"
 # What the scripts below call, and nothing that compiles.
 mkdir "$work/bin"
