@@ -33,7 +33,7 @@ help: ## list the targets
 .NOTPARALLEL:
 KERNEL := $(shell find stereodel/kernel tests/kernel/probe)
 $(VENV)/installed-%: pyproject.toml constraints.txt CMakeLists.txt $(KERNEL) \
-		tools/install.sh tools/build_kernel.sh tools/find_python.sh tools/system_packages.sh tools/node_modules.sh \
+		tools/install.sh tools/shell.sh tools/build_kernel.sh tools/find_python.sh tools/system_packages.sh \
 		stereodel/web/script/package-lock.json
 	@tools/install.sh $(VENV) $*
 

@@ -1,1 +1,1 @@
-"""Measurements: `python -m benchmarks` compares with the peers, `python -m benchmarks.flat_regions` tests a claim."""
+"""Measurements: `python -m benchmarks` compares with the peers, the other modules measure a page's subject each."""

@@ -13,9 +13,12 @@ import argparse
 import json
 import os
 import platform
+import re
 import sys
 import time
 from pathlib import Path
+
+import psutil
 
 from benchmarks import pages
 from benchmarks.experiments import EXPERIMENTS, RESULTS
@@ -23,22 +26,16 @@ from benchmarks.experiments import EXPERIMENTS, RESULTS
 
 def machine() -> dict[str, str]:
     """What the numbers depend on."""
-    cpu = [line.split(":")[1] for line in _lines("/proc/cpuinfo") if line.startswith("model name")]
-    memory = [int(line.split()[1]) for line in _lines("/proc/meminfo") if line.startswith("MemTotal:")]
-    system = dict(line.strip().split("=", 1) for line in _lines("/etc/os-release") if "=" in line)
+    processors = re.findall(r"^model name\s*: (.*)$", Path("/proc/cpuinfo").read_text(encoding="utf-8"), re.MULTILINE)
     return {
-        "processor": cpu[0].strip() if cpu else platform.machine(),
+        "processor": processors[0] if processors else platform.machine(),
         "cores": str(os.cpu_count()),
-        "memory": f"{memory[0] / 2**20:.0f} GB" if memory else "unknown",
-        "system": system.get("PRETTY_NAME", platform.system()).strip('"'),
+        "memory": f"{psutil.virtual_memory().total / 2**30:.0f} GB",
+        "system": platform.freedesktop_os_release()["PRETTY_NAME"],
         "python": platform.python_version(),
         "load": f"{os.getloadavg()[0]:.1f}",
         "date": time.strftime("%Y-%m-%d"),
     }
-
-
-def _lines(path: str) -> list[str]:
-    return Path(path).read_text(encoding="utf-8").splitlines() if Path(path).exists() else []
 
 
 def main() -> int:

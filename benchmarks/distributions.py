@@ -31,6 +31,11 @@ def make(space: str, name: str, n: int, seed: int = 1) -> FloatArray:
     return np.ascontiguousarray(generator.permutation(points))
 
 
+def uniform_lonlat(n: int, generator: np.random.Generator) -> FloatArray:
+    """Longitude and latitude in degrees, all over the sphere."""
+    return np.column_stack([generator.uniform(-180, 180, n), np.degrees(np.arcsin(generator.uniform(-1, 1, n)))])
+
+
 def _unit(vectors: FloatArray) -> FloatArray:
     return vectors / np.sqrt((vectors * vectors).sum(axis=1, keepdims=True))
 
@@ -45,38 +50,24 @@ def sphere_uniform(n: int, generator: np.random.Generator) -> FloatArray:
     return _unit(generator.standard_normal((n, 3)))
 
 
-def plane_clusters(sigma: float) -> Distribution:
-    """Clusters of normal deviation `sigma` about uniform centres in the unit square."""
+def clusters(uniform: Distribution, sigma: float) -> Distribution:
+    """Clusters of normal deviation `sigma` about centres of a uniform distribution, on the sphere in radians."""
 
     def points(n: int, generator: np.random.Generator) -> FloatArray:
-        centers = generator.random((CLUSTERS, 2))[generator.integers(CLUSTERS, size=n)]
-        return centers + sigma * generator.standard_normal((n, 2))
+        centers = uniform(CLUSTERS, generator)[generator.integers(CLUSTERS, size=n)]
+        found = centers + sigma * generator.standard_normal(centers.shape)
+        return _unit(found) if uniform is sphere_uniform else found
 
     return points
 
 
-def sphere_clusters(sigma: float) -> Distribution:
-    """Clusters of normal deviation `sigma` radians about uniform centres."""
-
-    def points(n: int, generator: np.random.Generator) -> FloatArray:
-        centers = sphere_uniform(CLUSTERS, generator)[generator.integers(CLUSTERS, size=n)]
-        return _unit(centers + sigma * generator.standard_normal((n, 3)))
-
-    return points
-
-
-def integer_grid(n: int, generator: np.random.Generator) -> FloatArray:
+def integer_grid(n: int, _: np.random.Generator) -> FloatArray:
     """All (i, j) with 0 ≤ i, j < √n: exact ties everywhere."""
     side = np.arange(round(n**0.5), dtype=np.float64)
     return np.stack(np.meshgrid(side, side), axis=-1).reshape(-1, 2)
 
 
-def decimal_grid(n: int, generator: np.random.Generator) -> FloatArray:
-    """The grid in steps of 0.1, which doubles do not hold: every tie is spoilt by rounding."""
-    return integer_grid(n, generator) * 0.1
-
-
-def sunflower(n: int, generator: np.random.Generator) -> FloatArray:
+def sunflower(n: int, _: np.random.Generator) -> FloatArray:
     """Fibonacci's lattice in the disc of radius 1."""
     i = np.arange(n) + 0.5
     radius, angle = np.sqrt(i / n), GOLDEN_ANGLE * i
@@ -90,27 +81,24 @@ def plane_circle(n: int, generator: np.random.Generator) -> FloatArray:
 
 
 def exact_circle(n: int, generator: np.random.Generator) -> FloatArray:
-    """Integer points of one circle about the origin: all exactly cocircular."""
-    return generator.permutation(_gaussian_integers(n))[:n]
+    """Integer points of one circle about the origin, all exactly cocircular.
 
-
-def _gaussian_integers(n: int) -> FloatArray:
-    """At least n integers x + iy of one norm: all products of one factor a + ib or its conjugate for each prime."""
+    They are integers x + iy of one norm: all products of one factor a + ib or its conjugate for each prime.
+    """
     points = np.array([[1, 0], [0, 1], [-1, 0], [0, -1]], dtype=np.int64)
     for prime in CIRCLE_PRIMES:
         if len(points) >= n:
             break
-        a = next(a for a in range(1, prime) if int((prime - a * a) ** 0.5) ** 2 == prime - a * a)
-        b = int((prime - a * a) ** 0.5)
+        a, b = next((a, b) for a in range(1, prime) for b in range(a, prime) if a * a + b * b == prime)
         x, y = points.T
         both = [np.stack([a * x - s * b * y, a * y + s * b * x], axis=1) for s in (1, -1)]
         points = np.unique(np.concatenate(both), axis=0)  # a prime and its repetition give some points twice
     if len(points) < n:
         raise ValueError(f"n is {n}: the exact circle holds {len(points)} points")
-    return points.astype(np.float64)
+    return generator.permutation(points.astype(np.float64))[:n]
 
 
-def lattice(n: int, generator: np.random.Generator) -> FloatArray:
+def lattice(n: int, _: np.random.Generator) -> FloatArray:
     """Fibonacci's lattice on the sphere."""
     i = np.arange(n)
     z, angle = 1.0 - (2.0 * i + 1.0) / n, GOLDEN_ANGLE * i
@@ -118,7 +106,7 @@ def lattice(n: int, generator: np.random.Generator) -> FloatArray:
     return _unit(np.stack([radius * np.cos(angle), radius * np.sin(angle), z], axis=1))
 
 
-def cube_grid(n: int, generator: np.random.Generator) -> FloatArray:
+def cube_grid(n: int, _: np.random.Generator) -> FloatArray:
     """The integer points on the surface of a cube about the origin as they are: directions of all lengths; ties."""
     half = max(1, round((n / 24) ** 0.5))
     side = np.arange(-half, half + 1, dtype=np.float64)
@@ -128,12 +116,7 @@ def cube_grid(n: int, generator: np.random.Generator) -> FloatArray:
     return np.unique(np.concatenate(faces), axis=0)
 
 
-def unit_cube_grid(n: int, generator: np.random.Generator) -> FloatArray:
-    """The same normalised: every tie is spoilt by rounding."""
-    return _unit(cube_grid(n, generator))
-
-
-def graticule(n: int, generator: np.random.Generator) -> FloatArray:
+def graticule(n: int, _: np.random.Generator) -> FloatArray:
     """Crossings of k + 1 parallels and 2k + 1 meridians: every pole 2k + 1 times, ±180° twice."""
     k = max(2, round((n / 2) ** 0.5))
     lon, lat = np.meshgrid(180.0 * np.arange(-k, k + 1) / k, 90.0 * np.arange(-k, k + 1, 2) / k)
@@ -146,45 +129,30 @@ def sphere_circle(n: int, generator: np.random.Generator) -> FloatArray:
     return lonlat_to_xyz(np.stack([lon, np.full(n, CIRCLE_LATITUDE)], axis=1))
 
 
-def airports(n: int, generator: np.random.Generator) -> FloatArray:
-    """Longitudes and latitudes of airports, whatever n; repetitions included."""
-    return data.airports().lonlat
-
-
-def stars(n: int, generator: np.random.Generator) -> FloatArray:
-    """Right ascensions and declinations of the stars of Hipparcos, whatever n."""
-    return data.stars().lonlat
-
-
-def directions(places: Distribution) -> Distribution:
-    """The same as points of the sphere."""
-    return lambda n, generator: lonlat_to_xyz(places(n, generator))
-
-
 PLANE: dict[str, Distribution] = {
     "uniform": plane_uniform,
-    "clusters 1e-3": plane_clusters(1e-3),
-    "clusters 1e-6": plane_clusters(1e-6),
+    "clusters 1e-3": clusters(plane_uniform, 1e-3),
+    "clusters 1e-6": clusters(plane_uniform, 1e-6),
     "integer grid": integer_grid,
-    "grid × 0.1": decimal_grid,
+    "grid × 0.1": lambda n, generator: 0.1 * integer_grid(n, generator),  # every tie is spoilt by rounding
     "Fibonacci": sunflower,
     "circle": plane_circle,
     "exact circle": exact_circle,
-    "airports": airports,
-    "stars": stars,
+    "airports": lambda *_: data.airports().lonlat,  # whatever n; repetitions included
+    "stars": lambda *_: data.stars().lonlat,
 }
 
 SPHERE: dict[str, Distribution] = {
     "uniform": sphere_uniform,
-    "clusters 1e-3": sphere_clusters(1e-3),
-    "clusters 1e-6": sphere_clusters(1e-6),
+    "clusters 1e-3": clusters(sphere_uniform, 1e-3),
+    "clusters 1e-6": clusters(sphere_uniform, 1e-6),
     "integer cube": cube_grid,
-    "unit cube": unit_cube_grid,
+    "unit cube": lambda n, generator: _unit(cube_grid(n, generator)),  # every tie is spoilt by rounding
     "graticule": graticule,
     "Fibonacci": lattice,
     "circle": sphere_circle,
-    "airports": directions(airports),
-    "stars": directions(stars),
+    "airports": lambda *_: lonlat_to_xyz(data.airports().lonlat),
+    "stars": lambda *_: lonlat_to_xyz(data.stars().lonlat),
 }
 
 REAL = ("airports", "stars")

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import shutil
 import sys
-from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -19,14 +18,14 @@ PEERS = HERE / ".peers"
 class Contender:
     """One engine of the comparison.
 
-    `key` names it in the results, `package` in the list of what could not be installed; `delivers` says what is
-    finished when its time stops.
+    `key` names it in the results, `package` in the list of what could not be installed; `command` takes a file of
+    points as its last word; `delivers` says what is finished when its time stops.
     """
 
     key: str
     label: str
     package: str
-    command: Callable[[str], list[str]]
+    command: tuple[str, ...]
     delivers: str
     color: Color
     exact: str = "no"
@@ -48,86 +47,58 @@ class Contender:
         return self.package == "stereodel"
 
 
-def stereodel(space: str, workers: int, more: str | None = None) -> Callable[[str], list[str]]:
-    """How to start stereodel with a number of threads; `more` is a file of points to insert or to ask about."""
-    script = str(HERE / "peers" / "stereodel_worker.py")
-    return lambda file: [sys.executable, script, space, str(workers), file, *([more] if more else [])]
+def stereodel(space: str, workers: int) -> tuple[str, ...]:
+    """Stereodel with a number of threads; after the file of points may come one of points to insert or to ask about."""
+    return sys.executable, str(HERE / "peers" / "stereodel_worker.py"), space, str(workers)
 
 
-def _compiled(name: str) -> Callable[[str], list[str]]:
-    return lambda file: [str(PEERS / "bin" / name), file]
+def _compiled(name: str) -> tuple[str, ...]:
+    return (str(PEERS / "bin" / name),)
 
 
-def _python(environment: str, name: str) -> Callable[[str], list[str]]:
-    program, script = str(PEERS / environment / "bin" / "python"), str(HERE / "peers" / "python_peer.py")
-    return lambda file: [program, script, name, file]
+def _python(environment: str, name: str) -> tuple[str, ...]:
+    return str(PEERS / environment / "bin" / "python"), str(HERE / "peers" / "python_peer.py"), name
 
 
-def _node(name: str) -> Callable[[str], list[str]]:
-    script = str(HERE / "peers" / "node_peer.mjs")
-    return lambda file: [shutil.which("node") or "node", "--max-old-space-size=8192", script, name, file]
+def _node(name: str) -> tuple[str, ...]:
+    return shutil.which("node") or "node", "--max-old-space-size=8192", str(HERE / "peers" / "node_peer.mjs"), name
 
 
-def _ours(space: str) -> tuple[Contender, Contender]:
+def _ours(space: str, workers: int, words: str, color: Color) -> Contender:
     done = "triangles and neighbours as arrays, checked input, duplicates listed"
-    threads = ((1, "one thread", BLUE), (2, "two threads", SKY))
-    one, two = (
-        Contender(f"ours {n}", f"stereodel, {words}", "stereodel", stereodel(space, n), done, color, "yes")
-        for n, words, color in threads
-    )
-    return one, two
+    command = stereodel(space, workers)
+    return Contender(f"ours {workers}", f"stereodel, {words}", "stereodel", command, done, color, "yes")
 
+
+TRIANGULAR = _python("python312", "triangular")
+DELAUNATOR, D3 = _node("delaunator"), _node("d3-geo-voronoi")
+TRIANGLE, STRIPY = _python("python", "triangle"), _python("python_numpy1", "stripy")
+PLANAR, HULL = _python("python", "scipy"), _python("python", "scipy_hull")
+PLAIN, PROJECTING = _compiled("cgal_sphere"), _compiled("cgal_sphere_projecting")
+BOTH, LINKED = "triangles and neighbours", "linked triangles, exact predicates (EPICK)"
 
 PLANE = (
-    *_ours("plane"),
-    Contender(
-        "cgal", "CGAL", "cgal", _compiled("cgal_plane"), "linked triangles, exact predicates (EPICK)", VERMILION, "yes"
-    ),
-    Contender("triangular", "triangular", "triangular", _python("python312", "triangular"), "triangles", ORANGE, "yes"),
-    Contender(
-        "triangle", "Triangle", "triangle", _python("python", "triangle"), "triangles and neighbours", GREEN, "yes"
-    ),
-    Contender(
-        "delaunator", "Delaunator", "delaunator", _node("delaunator"), "triangles and half-edges", BLACK, "partly"
-    ),
-    Contender("scipy", "SciPy (Qhull)", "scipy", _python("python", "scipy"), "triangles and neighbours", GRAY),
-)
+    _ours("plane", 1, "one thread", BLUE),
+    _ours("plane", 2, "two threads", SKY),
+    Contender("cgal", "CGAL", "cgal", _compiled("cgal_plane"), LINKED, VERMILION, "yes"),
+    Contender("triangular", "triangular", "triangular", TRIANGULAR, "triangles", ORANGE, "yes"),
+    Contender("triangle", "Triangle", "triangle", TRIANGLE, BOTH, GREEN, "yes"),
+    Contender("delaunator", "Delaunator", "delaunator", DELAUNATOR, "triangles and half-edges", BLACK, "partly"),
+    Contender("scipy", "SciPy (Qhull)", "scipy", PLANAR, BOTH, GRAY),
+)  # fmt: skip
 
 SPHERE = (
-    *_ours("sphere"),
+    _ours("sphere", 1, "one thread", BLUE),
+    _ours("sphere", 2, "two threads", SKY),
+    Contender("cgal", "CGAL on sphere", "cgal", PLAIN, "linked triangles, plain traits", VERMILION, "partly"),
     Contender(
-        "cgal",
-        "CGAL on sphere",
-        "cgal",
-        _compiled("cgal_sphere"),
-        "linked triangles, plain traits",
-        VERMILION,
-        "partly",
+        "projecting", "CGAL, projecting traits", "cgal", PROJECTING,
+        "linked triangles, projecting traits", ORANGE, "partly",
     ),
-    Contender(
-        "projecting",
-        "CGAL, projecting traits",
-        "cgal",
-        _compiled("cgal_sphere_projecting"),
-        "linked triangles, projecting traits",
-        ORANGE,
-        "partly",
-    ),
-    Contender(
-        "stripy", "stripy (STRIPACK)", "stripy", _python("python_numpy1", "stripy"), "triangles, adjacency", GREEN
-    ),
-    Contender(
-        "d3", "d3-geo-voronoi", "d3-geo-voronoi", _node("d3-geo-voronoi"), "triangles, edges, neighbours, cells", BLACK
-    ),
-    Contender(
-        "scipy",
-        "SciPy ConvexHull",
-        "scipy",
-        _python("python", "scipy_hull"),
-        "triangles and neighbours, unoriented",
-        GRAY,
-    ),
-)
+    Contender("stripy", "stripy (STRIPACK)", "stripy", STRIPY, "triangles, adjacency", GREEN),
+    Contender("d3", "d3-geo-voronoi", "d3-geo-voronoi", D3, "triangles, edges, neighbours, cells", BLACK),
+    Contender("scipy", "SciPy ConvexHull", "scipy", HULL, f"{BOTH}, unoriented", GRAY),
+)  # fmt: skip
 
 CONTENDERS = {"plane": PLANE, "sphere": SPHERE}
 

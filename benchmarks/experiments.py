@@ -41,8 +41,9 @@ def on_disk(*sets: FloatArray) -> Iterator[list[str]]:
 def say(text: str) -> Callable[[Result], None]:
     """A printer of results under a heading."""
 
-    def line(result: Result, n: int = 0) -> None:
-        told = result.stopped or f"{result.median:10.6f} s of {len(result.seconds)}, {result.triangles} triangles"
+    def line(result: Result) -> None:
+        known = result.record()
+        told = result.stopped or f"{known['seconds']:10.6f} s of {len(result.seconds)}, {known['triangles']} triangles"
         print(f"{text:34} {result.key:12} {told}", flush=True)
 
     return line
@@ -73,7 +74,7 @@ def _uniform(space: str, n: int, players: Sequence[Contender], smaller: Records)
     results: dict[str, Result] = {}
     with on_disk(make(space, "uniform", n)) as (file,):
         for group in ([c for c in players if c not in slow], *([c] for c in slow)):
-            entries = [Entry(c.key, c.command(file)) for c in group]
+            entries = [Entry(c.key, [*c.command, file]) for c in group]
             results |= take_turns(entries, rounds_for(n), say(f"{space} uniform {n}"))
     return results
 
@@ -100,7 +101,7 @@ def _distribution(space: str, name: str, n: int) -> Records:
     units = points / np.linalg.norm(points, axis=1)[:, None] if name in FOR_DIRECTIONS else points
     players = contenders(space) if n <= EVERY_PEER else contenders(space, "ours 1", "ours 2", "cgal")
     with on_disk(points, units) as (file, unit_file):
-        entries = [Entry(c.key, c.command(file if c.ours else unit_file)) for c in players]
+        entries = [Entry(c.key, [*c.command, file if c.ours else unit_file]) for c in players]
         results = take_turns(entries, 5, say(f"{space} {name} {len(points)}"))
     return {"n": len(points)} | {key: result.record() for key, result in results.items()}
 
@@ -118,7 +119,7 @@ def changes(largest: int) -> Records:
 
 
 def _changes(space: str, workers: int, files: list[str]) -> Records:
-    command = stereodel(space, workers, files[1])(files[0])
+    command = [*stereodel(space, workers), *files]
     found: Records = {}
     for word in ("run", "bare", "find", "nearest", "insert", "changed", "remove"):
         result = take_turns([Entry(word, command, word)], BATCHES, say(f"{space} {workers} threads"))[word]
@@ -135,7 +136,7 @@ def voronoi(largest: int) -> Records:
             continue
         with on_disk(make("sphere", "uniform", n)) as (file,):
             ours = [
-                Entry(f"{word} {workers}", stereodel("sphere", workers)(file), word)
+                Entry(f"{word} {workers}", [*stereodel("sphere", workers), file], word)
                 for word in ("voronoi", "lists")
                 for workers in (1, 2)
             ]

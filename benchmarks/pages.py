@@ -416,7 +416,7 @@ def map_files(rows: Rows) -> Blocks:
 
 
 def partitioned(results: Results) -> Blocks:
-    """A row for each set of points, and a sentence on the points that nobody waited for."""
+    """A row for each set of points."""
     rows = []
     for row in sorted(results["rows"], key=lambda each: (each["size"], each["sky"])):
         share = f"{100 * row['cpu_ratio']:.0f} %" if "cpu_ratio" in row else "–"
@@ -425,14 +425,7 @@ def partitioned(results: Results) -> Blocks:
     columns = [("points", "{points}"), ("sky", "{sky}"), ("seconds", "{wall:.0f}")]
     columns += [("processor: µs a point", "{cpu_us_a_point:.1f}"), ("of that in memory", "{share}")]
     columns += [("MB a worker", "{own_mb:.0f}"), ("scratch: bytes a point", "{scratch_a_point:.0f}")]
-    blocks = {"partitions": listed(rows, "rlrrrrrr", *columns, ("read beyond the own", "{beyond:.1f} %"))}
-    if not (found := results["billion"]):
-        return blocks
-    return blocks | {
-        "billion": f"A straight line through the largest three sets of uniform points, which misses them by "
-        f"{100 * found['misses']:.0f} % at most, leads to {found['cpu'] / 60 / 2:.0f} minutes for 10⁹ points on two "
-        "processors. That was not run."
-    }
+    return {"partitions": listed(rows, "rlrrrrrr", *columns, ("read beyond the own", "{beyond:.1f} %"))}
 
 
 def web(results: Results) -> Blocks:

@@ -4,9 +4,8 @@
 
 FOLDER takes the points, the results and the scratch: 100 bytes a point beside the triangles. Of each size uniform
 points and points like those of Gaia, as longitude and latitude in Parquet; up to --in-memory points the same is done in
-memory: read, triangulated, diagram, nearest points, written. From three sizes or more the seconds of 1e9 points are
-extrapolated: by a straight line through the largest three, with what it misses of them. Writes
-benchmarks/partitioned.json, and the tables of docs/partitioned.md.
+memory: read, triangulated, diagram, nearest points, written. Writes benchmarks/partitioned.json, and the table of
+docs/partitioned.md.
 """
 
 from __future__ import annotations
@@ -16,7 +15,6 @@ import json
 import multiprocessing
 import shutil
 import time
-from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 from typing import Any
@@ -27,26 +25,21 @@ import pyarrow.parquet as pq
 
 from benchmarks import pages
 from benchmarks.__main__ import machine
+from benchmarks.distributions import Distribution, uniform_lonlat
 from benchmarks.peers.python_peer import high_water
 from benchmarks.processes import Watch
 from stereodel import SphericalDelaunay, SphericalVoronoi, lonlat_to_xyz
+from stereodel._arrays import FloatArray
 from stereodel.partitioned import Execution, triangulate
 
 RESULTS = pages.HERE / "partitioned.json"
 FILE = 1_000_000
 """Points of a file at most."""
 
-BILLION = 1e9
 
-
-def uniform(rng: np.random.Generator, n: int) -> np.ndarray:
-    """Longitude and latitude all over the sphere."""
-    return np.column_stack([rng.uniform(-180, 180, n), np.degrees(np.arcsin(rng.uniform(-1, 1, n)))])
-
-
-def gaia_like(rng: np.random.Generator, n: int) -> np.ndarray:
+def gaia_like(n: int, rng: np.random.Generator) -> FloatArray:
     """Six of ten in a disc of five degrees, three in 300 clusters of 1e-1 to 1e-5 rad, the rest uniform."""
-    lonlat = uniform(rng, n)
+    lonlat = uniform_lonlat(n, rng)
     disc, cluster = 6 * n // 10, 3 * n // 10
     lonlat[:disc, 1] = np.clip(rng.laplace(0, 5, disc), -89, 89)
     centres = np.random.default_rng(5).normal(size=(300, 3))
@@ -58,10 +51,7 @@ def gaia_like(rng: np.random.Generator, n: int) -> np.ndarray:
     return lonlat
 
 
-SKIES: dict[str, Callable[[np.random.Generator, int], np.ndarray]] = {
-    "uniform": uniform,
-    "gaia-like": gaia_like,
-}
+SKIES: dict[str, Distribution] = {"uniform": uniform_lonlat, "gaia-like": gaia_like}
 
 
 def write_points(folder: Path, sky: str, size: int) -> list[Path]:
@@ -72,7 +62,7 @@ def write_points(folder: Path, sky: str, size: int) -> list[Path]:
     for k, path in enumerate(paths):
         if not path.exists():
             rows = size * (k + 1) // count - size * k // count
-            lonlat = SKIES[sky](np.random.default_rng([7, k]), rows)
+            lonlat = SKIES[sky](rows, np.random.default_rng([7, k]))
             table = pa.table({"lon": lonlat[:, 0].copy(), "lat": lonlat[:, 1].copy()})
             pq.write_table(table, path, compression="none", use_dictionary=False)
     return paths
@@ -146,25 +136,6 @@ def in_memory(points: Path, folder: Path, workers: int) -> dict[str, float]:
     return found
 
 
-def extrapolated(rows: list[dict[str, Any]], size: float = BILLION) -> dict[str, float] | None:
-    """Seconds of processors of so many points, by a line through the three largest sizes; None of fewer.
-
-    Examples
-    --------
-    >>> rows = [{"sky": "uniform", "size": n, "partitions": {"cpu": 2e-6 * n + 1}} for n in (1e6, 1e7, 1e8)]
-    >>> found = extrapolated(rows)
-    >>> round(found["cpu"]), round(found["misses"], 6)
-    (2001, 0.0)
-    """
-    known = sorted((row["size"], row["partitions"]["cpu"]) for row in rows if row["sky"] == "uniform")[-3:]
-    if len(known) < 3:
-        return None
-    sizes, seconds = np.array(known, dtype=float).T
-    slope, start = np.polyfit(sizes, seconds, 1, w=1 / seconds)
-    misses = np.abs((slope * sizes + start) / seconds - 1).max()
-    return {"size": size, "cpu": float(slope * size + start), "misses": float(misses)}
-
-
 def main() -> int:
     """Measure, and save after each set."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.partitioned")
@@ -191,7 +162,6 @@ def main() -> int:
                 row["wall_ratio"] = row["partitions"]["wall"] / row["memory"]["wall"]
             others = [other for other in results["rows"] if (other["sky"], other["size"]) != (sky, size)]
             results["rows"] = sorted([*others, row], key=lambda each: (each["sky"], each["size"]))
-            results["billion"] = extrapolated(results["rows"])
             pages.save(results, options.results)
             if options.results == RESULTS:
                 pages.write("partitioned")

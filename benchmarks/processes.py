@@ -14,8 +14,8 @@ import subprocess
 import tempfile
 import threading
 import time
+from collections.abc import Sequence
 from contextlib import suppress
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Self
 
@@ -41,27 +41,10 @@ class StoppedError(Exception):
     """The engine passed a limit or failed; the text says which."""
 
 
-@dataclass(frozen=True)
-class Answer:
-    """What an engine says about some calls: seconds of each, vertices, triangles, growth of peak memory in bytes."""
-
-    seconds: list[float]
-    points: int
-    triangles: int
-    peak: int
-    extra: dict[str, Any]
-
-
 class Engine:
-    """One engine with its points.
+    """One engine with its points: `command` is a program with arguments, which converses as is said above."""
 
-    Parameters
-    ----------
-    command : list of str
-        Program and arguments; the conversation goes through its standard input and output.
-    """
-
-    def __init__(self, command: list[str]) -> None:
+    def __init__(self, command: Sequence[str]) -> None:
         self._errors = tempfile.TemporaryFile("w+")  # noqa: SIM115 — closed by `close`
         self._process = subprocess.Popen(
             command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self._errors, bufsize=0
@@ -73,20 +56,19 @@ class Engine:
             self.close()
             raise
 
-    def run(self, calls: int = 1, word: str = "run") -> Answer:
-        """Ask for some calls; a StoppedError when they pass a limit, after which the engine is gone."""
-        try:
+    def run(self, calls: int = 1, word: str = "run") -> dict[str, Any]:
+        """Ask for some calls; a StoppedError when they pass a limit.
+
+        The answer has `seconds` of each, `points` and `triangles`, growth of `peak` memory in bytes, and more.
+        """
+        with suppress(BrokenPipeError):  # it has ended, and its last words are heard
             self._process.stdin.write(f"{word} {calls}\n".encode())
-            answer = self._listen(COUNTING + SECONDS * calls)
-            if max(answer["seconds"]) > SECONDS:
-                raise StoppedError(f"over {SECONDS:.0f} s")
-            if answer["peak"] > BYTES:
-                raise StoppedError(f"over {BYTES >> 30} GB")
-        except (StoppedError, BrokenPipeError) as error:
-            self.close()
-            raise StoppedError(str(error)) from error
-        known = {name: answer.pop(name) for name in ("seconds", "points", "triangles", "peak")}
-        return Answer(**known, extra=answer)
+        answer = self._listen(COUNTING + SECONDS * calls)
+        if max(answer["seconds"]) > SECONDS:
+            raise StoppedError(f"over {SECONDS:.0f} s")
+        if answer["peak"] > BYTES:
+            raise StoppedError(f"over {BYTES >> 30} GB")
+        return answer
 
     def _listen(self, limit: float) -> dict[str, Any]:
         """The next answer; the process is looked at while it works. Lines that are none are a library's own words."""
@@ -105,9 +87,8 @@ class Engine:
                 self._heard += heard
             elif time.monotonic() > end:
                 raise StoppedError(f"over {SECONDS:.0f} s")
-            elif (
-                psutil.Process(self._process.pid).memory_info().rss > 1.25 * BYTES
-            ):  # its points and libraries are not part of the limit
+            # Its points and libraries are not part of the limit.
+            elif psutil.Process(self._process.pid).memory_info().rss > 1.25 * BYTES:
                 raise StoppedError(f"over {BYTES >> 30} GB")
         line, self._heard = self._heard.split(b"\n", 1)
         return line.decode("utf-8", "replace")
@@ -125,8 +106,6 @@ class Engine:
 
     def close(self) -> None:
         """End the process."""
-        if self._errors.closed:
-            return
         self._process.kill()
         self._process.wait()
         for stream in (self._process.stdin, self._process.stdout, self._errors):

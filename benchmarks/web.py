@@ -20,6 +20,7 @@ import numpy as np
 from playwright.sync_api import Browser
 
 from benchmarks import pages
+from benchmarks.distributions import uniform_lonlat
 from stereodel._arrays import FloatArray
 from stereodel.web import web
 from stereodel.web.contents import built
@@ -120,9 +121,8 @@ def while_moved(visit: Visit, plate: str, way: str) -> Row:
 
 
 def sites(count: int) -> FloatArray:
-    """Directions all over the sphere, as longitude and latitude in degrees."""
-    rng = np.random.default_rng(1)
-    return np.column_stack([rng.uniform(-180, 180, count), np.degrees(np.arcsin(rng.uniform(-1, 1, count)))])
+    """The first sites of a page."""
+    return uniform_lonlat(count, np.random.default_rng(1))
 
 
 def speed() -> Row:

@@ -2,14 +2,11 @@
 # Usage: tools/build_kernel.sh VENV
 # Build stereodel._kernel for the Python of VENV beside the sources of the package, unless that was done already; and
 # stereodel._kernel_probe, through which the tests reach what the library itself does not call.
-set -euo pipefail
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
-
-venv=$1
-PATH=$(cd "$venv/bin" && pwd):$PATH # its cmake and ninja come first
+source "$(dirname "${BASH_SOURCE[0]}")/shell.sh"
+use "$1"
 tag=$(python -c 'import sys; print(sys.implementation.cache_tag)')
 build=build/$tag
-wanted=$(find CMakeLists.txt tools/build_kernel.sh constraints.txt stereodel/kernel tests/kernel/probe -type f -print0 |
+wanted=$(find CMakeLists.txt tools/{build_kernel,shell}.sh constraints.txt stereodel/kernel tests/kernel/probe -type f -print0 |
     LC_ALL=C sort -z | xargs -0 sha256sum | sha256sum)
 if [[ -f $build/installed && $(<"$build/installed") == "$wanted" ]] &&
     compgen -G "stereodel/_kernel.$tag*" >/dev/null && compgen -G "stereodel/_kernel_probe.$tag*" >/dev/null; then
@@ -20,7 +17,6 @@ echo "Building the kernel for $tag" >&2
 mkdir -p "$build"
 # Configured anew each time: paths of an environment that was made anew must not survive in the cache.
 rm -f "$build/installed" "$build/CMakeCache.txt"
-quietly() { "$@" >"$build/log" 2>&1 || { cat "$build/log" >&2; exit 1; }; }
 quietly cmake -S . -B "$build" -G Ninja -DSTEREODEL_DEVELOPMENT=ON -DPython_EXECUTABLE="$(command -v python)" \
     -Dnanobind_DIR="$(python -m nanobind --cmake_dir)"
 quietly cmake --build "$build"

@@ -3,11 +3,8 @@
 # Check what is in dist/ before an index gets it, with the tools of VENV: the texts of all archives; that each wheel is
 # either for Python 3.12 and all later ones or for a Python that needs its own; and that the former use nothing but the
 # stable interface. Of WebAssembly the last is not known: abi3audit reads no symbols of it.
-set -euo pipefail
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
-
-PATH=$(cd "$1/bin" && pwd):$PATH
-die() { echo "tools/check_archives.sh: $*" >&2; exit 1; }
+source "$(dirname "${BASH_SOURCE[0]}")/shell.sh"
+use "$1"
 shopt -s nullglob
 wheels=(dist/*.whl)
 ((${#wheels[@]} > 0)) || die "there is no wheel in dist/"

@@ -2,8 +2,7 @@
 # Usage: tools/coverage.sh VENV [PYTEST ARGUMENT…]
 # What the tests of both tiers reach, in every process that they start: lines and branches of Python (coverage.py) and of the
 # kernel (gcov), with reports in build/coverage. docs/reliability.md publishes the two sums.
-set -euo pipefail
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
+source "$(dirname "${BASH_SOURCE[0]}")/shell.sh"
 root=$PWD
 source tools/instrumented.sh
 instrumented "$1" build/coverage '-O1 -g --coverage -fprofile-abs-path'
@@ -19,6 +18,7 @@ python -m coverage report --format=total --precision=1 | sed 's/^/Python, lines 
 # Branches that the compiler adds for exceptions are not the kernel's. Counts of threads that come together can be wrong.
 python -m gcovr --root "$root" --object-directory "$root/build/coverage" --filter "$root/stereodel/kernel/" \
     --exclude-throw-branches --exclude-unreachable-branches --gcov-ignore-parse-errors negative_hits.warn_once_per_file \
+    --gcov-ignore-parse-errors suspicious_hits.warn_once_per_file \
     --json "$root/build/coverage/kernel.json" --print-summary \
     --txt "$root/build/coverage/kernel.txt"
 exit "$failed"

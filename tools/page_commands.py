@@ -13,11 +13,6 @@ import sys
 from pathlib import Path
 
 
-def tables(text: str) -> dict[str, str]:
-    """The files that a page shows: their names, then their contents."""
-    return dict(re.findall(r"`([\w.]+\.csv)`:\n\n```text\n(.*?)```", text, re.DOTALL))
-
-
 def sessions(text: str) -> list[tuple[str, str]]:
     """Each command that calls `stereodel`, and what it prints."""
     blocks = re.findall(r"```console\n(.*?)```", text, re.DOTALL)
@@ -36,31 +31,22 @@ def words(text: str) -> list[list[str]]:
     return [[f"{float(word):.9g}" if re.fullmatch(r"-?\d+\.\d+", word) else word for word in line] for line in lines]
 
 
-def written(command: str) -> str | None:
-    """The file that a command writes."""
-    found = re.search(r"-o ([\w.]+)", command)
-    return found[1] if found else None
+def wrong_command(command: str, printed: str, folder: Path, before: str = "") -> str:
+    """What a command prints that a page does not say, or the file that it should write and does not; else nothing."""
+    line = ["bash", "-c", before + command]
+    said = subprocess.run(line, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True).stdout
+    if words(said) != words(printed):
+        return f"$ {command}\n{said}"
+    written = re.search(r"-o ([\w.]+)", command)
+    if written and "error:" not in printed and not (folder / written[1]).stat().st_size:
+        return f"$ {command}\n{written[1]} is empty"
+    return ""
 
 
-def wrong_commands(text: str, folder: Path) -> list[str]:
-    """Commands that print something else, or write nothing."""
-    wrong = []
-    for command, printed in sessions(text):
-        print(f"$ {command}", flush=True)
-        ran = subprocess.run(
-            ["bash", "-c", command],
-            cwd=folder,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-            check=False,
-        )
-        name = written(command)
-        if words(ran.stdout) != words(printed):
-            wrong.append(f"$ {command}\n{ran.stdout}")
-        elif name is not None and "error:" not in printed and not (folder / name).stat().st_size:
-            wrong.append(f"$ {command}\n{name} is empty")
-    return wrong
+def write_tables(text: str, folder: Path) -> None:
+    """Write the files that a page shows: their names, then their contents."""
+    for name, content in re.findall(r"`([\w.]+\.csv)`:\n\n```text\n(.*?)```", text, re.DOTALL):
+        (folder / name).write_text(content, encoding="utf-8")
 
 
 def wrong_programs(text: str, folder: Path) -> list[str]:
@@ -81,9 +67,9 @@ def main(page: str, into: str) -> int:
     text = Path(page).read_text(encoding="utf-8")
     folder = Path(into)
     folder.mkdir(parents=True, exist_ok=True)
-    for name, content in tables(text).items():
-        (folder / name).write_text(content, encoding="utf-8")
-    wrong = wrong_commands(text, folder) + wrong_programs(text, folder)
+    write_tables(text, folder)
+    wrong = [told for command, printed in sessions(text) if (told := wrong_command(command, printed, folder))]
+    wrong += wrong_programs(text, folder)
     print(f"{page}: {len(sessions(text))} commands, {len(programs(text))} pieces of Python, {len(wrong)} of them wrong")
     print(*wrong, sep="\n", end="\n" if wrong else "", file=sys.stderr)
     return 1 if wrong else 0

@@ -19,20 +19,17 @@ from tools.build import load_drawing
 
 ROOT = Path(__file__).resolve().parent.parent
 IMAGES = ROOT / "docs" / "images"
-WIDTHS = {
+PICTURES = {
     "fig11_fisheye4": 1200,
     "fig01_sphere": 480,
     "fig08_hemisphere": 480,
     "fig02_plane": 480,
     "globe_new_york": 1200,
     "earth_partitions": 1200,
+    "fig05_projections_solid": 1200,
+    "fig09_scale_dark": 800,
 }
-"""Pixels across by figure."""
-
-SOLID = {"fig05_projections": 1200}
-"""The same of those that are shown in space."""
-DARK = {"fig09_scale": 800}
-"""The same of those that are shown on a dark background."""
+"""Pixels across by figure, of those that are shown in space or on a dark background under that name."""
 
 ROOMS = {"sphere": ("light", 780), "lift": ("light", 776), "globe": ("dark", 814)}
 """Of the interactive page, as they begin: colours of the system, and height of a window, 1280 pixels wide on a screen
@@ -54,15 +51,13 @@ def readme(folder: Path = IMAGES) -> None:
     folder.mkdir(exist_ok=True)
     with contextlib.chdir(folder):
         exec(compile(globe_of_the_readme(), "README.md", "exec"), {})
-    for name, width in WIDTHS.items():
-        figure = load_drawing(ROOT / "figures" / f"{name}.py")
-        print(figure.page().save(folder / f"{name}.png", size=width, renderer=figure.renderer))
-    for name, width in SOLID.items():
-        figure = load_drawing(ROOT / "figures" / f"{name}.py")
-        print(figure.solid().save(folder / f"{name}_solid.png", size=width))
-    for name, width in DARK.items():
-        figure = load_drawing(ROOT / "figures" / f"{name}.py").styled("dark")
-        print(figure.page().save(folder / f"{name}_dark.png", size=width, renderer=figure.renderer))
+    for name, width in PICTURES.items():
+        figure = load_drawing(ROOT / "figures" / f"{name.removesuffix('_solid').removesuffix('_dark')}.py")
+        if name.endswith("_solid"):
+            print(figure.solid().save(folder / f"{name}.png", size=width))
+            continue
+        shown = figure.styled("dark") if name.endswith("_dark") else figure
+        print(shown.page().save(folder / f"{name}.png", size=width, renderer=shown.renderer))
 
 
 def web() -> None:

@@ -1,8 +1,7 @@
 #!/usr/bin/env bash
 # Usage: tools/sanitize.sh VENV [PYTEST ARGUMENT…]
 # Run the tests on a kernel that stops at every wrong address, every undefined operation and every failed assertion.
-set -euo pipefail
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
+source "$(dirname "${BASH_SOURCE[0]}")/shell.sh"
 source tools/instrumented.sh
 instrumented "$1" build/sanitize '-O1 -g' -DSTEREODEL_SANITIZE=ON
 shift

@@ -3,14 +3,12 @@
 # Run the tests of the doors, the command, files and the interface of SciPy, with the least versions of all libraries that
 # pyproject.toml allows, at once, on the oldest Python, in an environment of its own. What those need in turn is the newest
 # that they allow, as pip would choose it today; warnings of old libraries about new ones are no errors.
-set -euo pipefail
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
-
+source "$(dirname "${BASH_SOURCE[0]}")/shell.sh"
 venv=.venvs/lowest
 stamp=$venv/installed-lowest
 wanted=$(cat pyproject.toml constraints.txt tools/test_lowest.sh tools/lowest.py | sha256sum)
 if [[ ! -f $stamp || $(<"$stamp") != "$wanted" ]]; then
-    python=$(tools/find_python.sh 3.11) || { echo "tools/test_lowest.sh: Python 3.11 is needed; it was not found" >&2; exit 1; }
+    python=$(tools/find_python.sh 3.11) || die "Python 3.11 is needed; it was not found"
     "$python" -m venv --clear "$venv"
     pip=("$venv/bin/python" -m pip --disable-pip-version-check -qq install)
     "${pip[@]}" --constraint constraints.txt scikit-build-core nanobind cmake ninja

@@ -1,9 +1,7 @@
 #!/usr/bin/env bash
 # Usage: tools/test_pythons.sh VERSION…
 # Run the tests under each Python version, in an environment of its own, and say plainly which ones are missing.
-set -euo pipefail
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
-
+source "$(dirname "${BASH_SOURCE[0]}")/shell.sh"
 summary=()
 failed=0
 for version in "$@"; do

@@ -25,15 +25,19 @@ CAP = 899 * 10 ** (DIGITS - 1)
 """A ring of the source that stays beyond this latitude is a pole, drawn as the lower edge of a map."""
 
 
+def arcs_of(topology: dict[str, Any]) -> list[np.ndarray]:
+    """The arcs of a topology in degrees."""
+    scale, translate = (np.array(topology["transform"][key]) for key in ("scale", "translate"))
+    return [np.cumsum(steps, axis=0) * scale + translate for steps in topology["arcs"]]
+
+
 class Atlas:
     """The arcs of a topology, cut at ±180°; rings are made of them, and of sides along the edges of the map."""
 
     def __init__(self, topology: dict[str, Any]) -> None:
-        scale, translate = (np.array(topology["transform"][key]) for key in ("scale", "translate"))
         self.arcs: list[Arc] = []
         self._pieces: list[range] = []
-        for steps in topology["arcs"]:
-            degrees = np.cumsum(steps, axis=0) * scale + translate
+        for degrees in arcs_of(topology):
             start = len(self.arcs)
             self.arcs += cut(np.rint(degrees * 10**DIGITS).astype(np.int64))
             self._pieces.append(range(start, len(self.arcs)))

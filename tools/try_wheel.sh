@@ -2,16 +2,13 @@
 # Usage: tools/try_wheel.sh PYTHON WHEEL
 # Try a wheel as users get it, in a new environment of PYTHON and with no compiler to be found: with NumPy alone, with
 # the command line, then by the README's first line, after which all its commands and pictures must come out.
-set -euo pipefail
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
-
+source "$(dirname "${BASH_SOURCE[0]}")/shell.sh"
 python=$1
 wheel=$(cd "$(dirname "$2")" && pwd)/${2##*/}
 root=$PWD
 pins=$PWD/constraints.txt
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-die() { echo "tools/try_wheel.sh: $*" >&2; exit 1; }
 "$python" -m venv "$work/venv"
 # What the scripts below call, and nothing that compiles.
 mkdir "$work/bin"
@@ -40,8 +37,7 @@ megabytes=$(find "$site" -type f ! -name '*.pyc' ! -path '*/pip/*' ! -path '*/se
     awk '{ sum += $1 } END { printf "%.0f", sum / 1e6 }')
 ((megabytes <= 80)) || die "NumPy and stereodel take $megabytes MB; more than 80"
 echo "NumPy and stereodel alone: $megabytes MB"
-bare python "$root/tools/answers.py"
-bare python -W error "$root/tools/free_threads.py"
+bare python -W error "$root/tools/try_kernel.py"
 bare python -W error - <<'PYTHON'
 import importlib
 import pkgutil

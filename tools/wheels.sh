@@ -3,40 +3,36 @@
 # The source archive and wheels for Linux into dist/, compiled by zig for glibc 2.17 (manylinux2014): for each MACHINE,
 # x86_64 and aarch64 unless others are named, one for Python 3.12 and all later ones; for x86_64 besides one for 3.11 and
 # one for each Python without the interpreter's lock that is found. Their names, interfaces and texts are checked, and
-# each Python found answers from its wheel as is stored (tools/answers.py), one of them with the oldest NumPy allowed
+# each Python found tries its wheel (tools/try_kernel.py), one of them with the oldest NumPy allowed
 # besides. Says what could not be tried.
-set -euo pipefail
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
-
-venv=$(cd "$1" && pwd)
+source "$(dirname "${BASH_SOURCE[0]}")/shell.sh"
+use "$1"
+use_zig
+source_date
 machines=("${@:2}")
 if [[ ${#machines[@]} == 0 ]]; then machines=(x86_64 aarch64); fi
 with_lock=(3.12 3.13 3.14 3.15)
 without_lock=(3.13t 3.14t 3.15t)
 oldest_numpy=$(sed -nE 's/^dependencies = \["numpy>=([0-9.]+)"\]$/\1/p' pyproject.toml)
-PATH=$venv/bin:$PATH # its cmake, ninja and checks come first
-source tools/zig_environment.sh
-source tools/source_date.sh
-work=$PWD/build/wheels
-mkdir -p "$work"
-quietly() { "$@" >"$work/log" 2>&1 || { cat "$work/log" >&2; exit 1; }; }
+build=$PWD/build/wheels
+mkdir -p "$build"
 said=()
 
-rm -rf dist "$work/source" "$work/raw"
+rm -rf dist "$build/source" "$build/raw"
 archive=$(tools/source_archive.sh "$venv" dist)
-mkdir -p "$work/source"
-tar -xzmf "$archive" -C "$work/source" --strip-components=1 # with times of today: what is compiled is never older
+mkdir -p "$build/source"
+tar -xzmf "$archive" -C "$build/source" --strip-components=1 # with times of today: what is compiled is never older
 
 environment() { # VERSION NAME: a new environment of that Python, or nothing
     local python
     python=$(tools/find_python.sh "$1") || return 1
-    "$python" -m venv --clear "$work/$2"
+    "$python" -m venv --clear "$build/$2"
 }
 install() { "$1/bin/python" -m pip --disable-pip-version-check -q install --constraint constraints.txt "${@:2}"; }
 
-build() { # VERSION MACHINE
+make_wheel() { # VERSION MACHINE
     echo "Building for Python $1 on $2" >&2
-    local tools=$work/build-$1
+    local tools=$build/build-$1
     if [[ ! -f $tools/done ]]; then
         environment "$1" "build-$1"
         quietly install "$tools" scikit-build-core nanobind
@@ -46,24 +42,24 @@ build() { # VERSION MACHINE
     while read -r define; do defines+=("-Ccmake.define.$define"); done < <(zig_cmake "$2-linux-gnu.2.17")
     # One folder a machine, so that the kernel proper is compiled once for all Pythons. Paths of the last one must go, and
     # the backend's note of them, for whose sake it would remove what was compiled.
-    rm -f "$work/cmake-$2"/{CMakeCache.txt,.skbuild-info.json}
+    rm -f "$build/cmake-$2"/{CMakeCache.txt,.skbuild-info.json}
     # The name of the wheel takes the machine from this variable, which stands for the one that CPython sees.
     quietly env PATH="$tools/bin:$PATH" _PYTHON_HOST_PLATFORM="linux-$2" python -m pip --disable-pip-version-check wheel \
-        --no-deps --no-build-isolation --wheel-dir "$work/raw/$2" -Cbuild-dir="$work/cmake-$2" "${defines[@]}" "$work/source"
+        --no-deps --no-build-isolation --wheel-dir "$build/raw/$2" -Cbuild-dir="$build/cmake-$2" "${defines[@]}" "$build/source"
 }
 
 for machine in "${machines[@]}"; do
     for version in "${with_lock[@]}" none; do
-        if [[ $version == none ]]; then echo "tools/wheels.sh: no Python of ${with_lock[*]} is here" >&2; exit 1; fi
+        if [[ $version == none ]]; then die "no Python of ${with_lock[*]} is here"; fi
         if tools/find_python.sh "$version" >/dev/null; then break; fi
     done
-    build "$version" "$machine"
+    make_wheel "$version" "$machine"
     if [[ $machine == x86_64 ]]; then
         for version in 3.11 "${without_lock[@]}"; do
-            if tools/find_python.sh "$version" >/dev/null; then build "$version" "$machine"; fi
+            if tools/find_python.sh "$version" >/dev/null; then make_wheel "$version" "$machine"; fi
         done
     fi
-    for raw in "$work/raw/$machine"/*.whl; do
+    for raw in "$build/raw/$machine"/*.whl; do
         quietly auditwheel repair --plat auto --wheel-dir dist "$raw" # checked below: it knows the names of other machines by itself
     done
 done
@@ -71,8 +67,8 @@ done
 echo "Checking" >&2
 quietly tools/check_archives.sh "$venv"
 for wheel in dist/*.whl; do
-    [[ $wheel == *-manylinux* ]] || { echo "tools/wheels.sh: $wheel is not for manylinux" >&2; exit 1; }
-    "$venv/bin/python" tools/archives.py "$archive" "$wheel"
+    [[ $wheel == *-manylinux* ]] || die "$wheel is not for manylinux"
+    python tools/archives.py "$archive" "$wheel"
 done
 
 if [[ " ${machines[*]} " == *" $(uname -m) "* ]]; then
@@ -83,13 +79,12 @@ if [[ " ${machines[*]} " == *" $(uname -m) "* ]]; then
             continue
         fi
         # As an index does: the wheel that fits this Python is chosen by its name.
-        quietly install "$work/try-$version" --only-binary :all: numpy
-        quietly install "$work/try-$version" --no-index --no-deps --find-links dist stereodel
-        "$work/try-$version/bin/python" -W error tools/answers.py
-        "$work/try-$version/bin/python" -W error tools/free_threads.py
+        quietly install "$build/try-$version" --only-binary :all: numpy
+        quietly install "$build/try-$version" --no-index --no-deps --find-links dist stereodel
+        "$build/try-$version/bin/python" -W error tools/try_kernel.py
         if [[ $version == 3.12 ]]; then # the last for which there are wheels of that NumPy
-            quietly "$work/try-$version/bin/python" -m pip -q install --only-binary :all: "numpy==$oldest_numpy"
-            "$work/try-$version/bin/python" -W error tools/answers.py
+            quietly "$build/try-$version/bin/python" -m pip -q install --only-binary :all: "numpy==$oldest_numpy"
+            "$build/try-$version/bin/python" -W error tools/try_kernel.py
         fi
         [[ $version == 3.11 ]] || tried=$((tried + 1))
     done

@@ -19,74 +19,47 @@ from typing import Any
 import numpy as np
 
 Call = Callable[[], np.ndarray]
-"""Triangulates and returns the triangles (m, 3)."""
 
 
-def scipy_delaunay(values: np.ndarray) -> Call:
-    """Triangles and neighbours, by Qhull's paraboloid."""
-    from scipy.spatial import Delaunay
+def prepared(name: str, values: np.ndarray) -> Call:
+    """The call of a peer on doubles: it triangulates and returns the triangles (m, 3)."""
+    if name == "scipy":  # with neighbours, by Qhull's paraboloid
+        from scipy.spatial import Delaunay
 
-    points = values.reshape(-1, 2)
-    return lambda: Delaunay(points).simplices
+        points = values.reshape(-1, 2)
+        return lambda: Delaunay(points).simplices
+    if name == "scipy_hull":  # with neighbours, of mixed orientation
+        from scipy.spatial import ConvexHull
 
+        points = values.reshape(-1, 3)
+        return lambda: ConvexHull(points).simplices
+    if name == "scipy_voronoi":  # the diagram with its regions sorted, as lists, and their areas
+        from scipy.spatial import SphericalVoronoi
 
-def scipy_hull(values: np.ndarray) -> Call:
-    """Triangles and neighbours of the hull, of mixed orientation."""
-    from scipy.spatial import ConvexHull
+        points = values.reshape(-1, 3) / np.linalg.norm(values.reshape(-1, 3), axis=1)[:, None]
 
-    points = values.reshape(-1, 3)
-    return lambda: ConvexHull(points).simplices
+        def call() -> np.ndarray:
+            diagram = SphericalVoronoi(points)
+            diagram.sort_vertices_of_regions()
+            diagram.calculate_areas()
+            return diagram._simplices
 
+        return call
+    if name == "triangle":  # with neighbours (option n)
+        import triangle
 
-def scipy_voronoi(values: np.ndarray) -> Call:
-    """The diagram with its regions sorted, as lists, and their areas."""
-    from scipy.spatial import SphericalVoronoi
+        vertices = {"vertices": values.reshape(-1, 2)}
+        return lambda: triangle.triangulate(vertices, "Qn")["triangles"]
+    if name == "triangular":  # triangles alone: there are no neighbours to ask for
+        import triangular
 
-    points = values.reshape(-1, 3) / np.linalg.norm(values.reshape(-1, 3), axis=1)[:, None]
-
-    def call() -> np.ndarray:
-        diagram = SphericalVoronoi(points)
-        diagram.sort_vertices_of_regions()
-        diagram.calculate_areas()
-        return diagram._simplices
-
-    return call
-
-
-def triangle(values: np.ndarray) -> Call:
-    """Triangles and neighbours (option n)."""
-    import triangle
-
-    points = {"vertices": values.reshape(-1, 2)}
-    return lambda: triangle.triangulate(points, "Qn")["triangles"]
-
-
-def triangular(values: np.ndarray) -> Call:
-    """Triangles alone: there are no neighbours to ask for."""
-    import triangular
-
-    points = values.reshape(-1, 2)
-    return lambda: triangular.delaunay(points)
-
-
-def stripy(values: np.ndarray) -> Call:
-    """Triangles and STRIPACK's adjacency lists, from longitude and latitude in radians."""
-    from stripy import sTriangulation
+        points = values.reshape(-1, 2)
+        return lambda: triangular.delaunay(points)
+    from stripy import sTriangulation  # with STRIPACK's adjacency lists, from longitude and latitude in radians
 
     x, y, z = values.reshape(-1, 3).T
     lon, lat = np.arctan2(y, x), np.arctan2(z, np.hypot(x, y))
     return lambda: sTriangulation(lon, lat).simplices
-
-
-PEERS = {
-    "scipy": scipy_delaunay,
-    "scipy_hull": scipy_hull,
-    "scipy_voronoi": scipy_voronoi,
-    "triangle": triangle,
-    "triangular": triangular,
-    "stripy": stripy,
-}
-DISTRIBUTION = {"scipy_hull": "scipy", "scipy_voronoi": "scipy"}
 
 
 def high_water() -> int:
@@ -95,15 +68,10 @@ def high_water() -> int:
         return sum(1024 * int(line.split()[1]) for line in status if line.startswith("VmHWM:"))
 
 
-def lower_high_water() -> None:
-    """Set the mark to what is resident now, so that imports and reading do not count."""
-    with open("/proc/self/clear_refs", "w", encoding="ascii") as marks:
-        marks.write("5")
-
-
 def timed(prepared: Callable[[], Callable[[], Any]], repetitions: int) -> tuple[list[float], Any, int]:
     """Seconds of each call, what the last returned, growth of peak memory; to prepare a call takes no time."""
-    lower_high_water()
+    with open("/proc/self/clear_refs", "w", encoding="ascii") as marks:
+        marks.write("5")  # lowers the mark to what is resident now, so that imports and reading do not count
     before = high_water()
     seconds = []
     for _ in range(repetitions):
@@ -124,9 +92,9 @@ def answer(call: Call, repetitions: int) -> dict[str, object]:
 
 def main(name: str, file: str) -> None:
     """Read, warm up the imports on a small set, say the version, answer."""
-    PEERS[name](np.random.default_rng(1).standard_normal(600))()
-    call = PEERS[name](np.fromfile(file))
-    print(json.dumps({"version": importlib.metadata.version(DISTRIBUTION.get(name, name))}), flush=True)
+    prepared(name, np.random.default_rng(1).standard_normal(600))()
+    call = prepared(name, np.fromfile(file))
+    print(json.dumps({"version": importlib.metadata.version(name.partition("_")[0])}), flush=True)
     for line in sys.stdin:
         print(json.dumps(answer(call, int(line.split()[1]))), flush=True)
 

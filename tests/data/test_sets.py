@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from stereodel import SphericalDelaunay, angular_distance, check_delaunay, data, lonlat_to_xyz
 from stereodel.data import stored
 from tests.examples import examples
-from tools.data_files import dump
+from tools.data_sets import dump
 
 FOLDER = Path(stored.__file__).parent
 SETS = {

@@ -5,16 +5,15 @@ import threading
 import pytest
 
 from stereodel import _threads
-from tools import answers, free_threads
+from tools import try_kernel
 
 
 def test_the_kernel_answers_as_is_stored():
-    assert answers.main([]) == 0
+    assert try_kernel.other_answers() == []
 
 
-def test_eight_threads_have_equal_answers_and_no_wrong_change(capsys):
-    assert free_threads.main(rounds=3) == 0
-    assert " 0 wrong answers" in capsys.readouterr().out
+def test_eight_threads_have_equal_answers_and_no_wrong_change():
+    assert try_kernel.wrong_threads(rounds=3) == []
 
 
 @pytest.mark.parametrize("started", [0, 1])

@@ -18,7 +18,8 @@ OF_ONE = ["cp311-cp311-linux_x86_64", "cp314-cp314t-musllinux_1_2_x86_64", "cp31
 def check(tmp_path):
     """Run the script on files of these names; what it said, and what it called."""
     (tmp_path / "tools").mkdir()
-    shutil.copy(SCRIPT, tmp_path / "tools")
+    for name in (SCRIPT.name, "shell.sh"):
+        shutil.copy(SCRIPT.with_name(name), tmp_path / "tools")
     programs = tmp_path / "venv" / "bin"
     programs.mkdir(parents=True)
     for name in ("twine", "abi3audit"):
