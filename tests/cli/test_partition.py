@@ -104,15 +104,6 @@ def test_a_scheduler_of_dask(folder, points, run, monkeypatch):
     assert message.startswith("error: --scheduler is 'tcp://there:1', where none answers: Timed out")
 
 
-def test_passes_are_counted_on_a_terminal(monkeypatch):
-    stream = terminal(monkeypatch)
-    with reporting() as told:
-        told("solve", 0, 12)
-        told("solve", 12, 12)
-    assert "solve" in stream.getvalue()
-    assert "12/12" in stream.getvalue()
-
-
 class Terminal(io.StringIO):
     """What takes stderr for a terminal."""
 
@@ -131,12 +122,16 @@ def terminal(monkeypatch):
     return stream
 
 
-@pytest.mark.parametrize(("done", "said"), [(100, "25%"), (400, "100%")])
-def test_a_bar_tells_the_share(monkeypatch, done, said):
+@pytest.mark.parametrize(
+    ("stages", "done", "of", "said"),
+    [(["drawing cells"], 100, 400, "25%"), (["drawing cells"], 400, 400, "100%"), ([], 12, 12, "12/12")],
+)
+def test_a_bar_tells_the_share_and_passes_are_counted(monkeypatch, stages, done, of, said):
     stream = terminal(monkeypatch)
-    with reporting("drawing cells") as told:
-        told("drawing", done, 400)
-    assert "drawing cells" in stream.getvalue()
+    with reporting(*stages) as told:
+        told("solve", 0, of)
+        told("solve", done, of)
+    assert (*stages, "solve")[0] in stream.getvalue()
     assert said in stream.getvalue()
 
 

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 import shapely
 
-from stereodel import PlanarVoronoi, SphericalDelaunay, SphericalVoronoi, data
+from stereodel import SphericalDelaunay, SphericalVoronoi, data
 from stereodel.io import to_geodataframe, write
 from stereodel.io.maps.clipping import areas_on_sphere
 
@@ -101,17 +101,3 @@ def test_triangles_and_files(tmp_path):
     cells = geopandas.read_file(tmp_path / "cells.gpkg")
     assert (cells["lat_of_site"].to_numpy() == LONLAT[cells["point"], 1]).all()
     assert 0.27 < cells["area"].sum() / (4 * np.pi) < 0.31  # 29 % of the Earth is land
-
-
-@pytest.mark.parametrize(
-    ("mesh", "options", "message"),
-    [
-        (PlanarVoronoi(RNG.uniform(size=(9, 2))), {}, "clip is for cells and triangles of the sphere"),
-        (DIAGRAM, {"what": "ridges"}, "clip is for cells and triangles of the sphere"),
-        (DIAGRAM, {"clip": shapely.Point(1, 2)}, "clip has no polygons"),
-        ([], {}, "not of contours"),
-    ],
-)
-def test_what_cannot_be_cut(mesh, options, message):
-    with pytest.raises(ValueError, match=message):
-        to_geodataframe(mesh, **{"clip": "land", **options})

@@ -146,31 +146,6 @@ def test_triangles_and_lines_of_the_plane():
     assert np.allclose(ridges["length"], ridges.geometry.length)
 
 
-@pytest.mark.parametrize("bounds", [(0, 0, 1), (0, 1, 2, 1), (3, 0, 0, 2)])
-def test_wrong_bounds(bounds):
-    with pytest.raises(ValueError, match=r"bounds must be \(xmin, ymin, xmax, ymax\)"):
-        to_geodataframe(PlanarVoronoi(PLANE), bounds=bounds)
-
-
-@pytest.mark.parametrize(
-    ("options", "message"),
-    [
-        ({"what": "faces"}, "what is 'faces'"),
-        ({"max_segment": 0}, "max_segment"),
-        ({"max_segment": 91}, "max_segment"),
-        ({"radius": -1}, "radius"),
-        ({"latitude": "north"}, "latitude"),
-        ({"columns": {"name": ["a"]}}, "columns\\['name'\\] has shape"),
-        ({"columns": {"name": ["a"] * 40}, "what": "edges"}, "columns belong to points"),
-    ],
-)
-def test_wrong_options(options, message):
-    with pytest.raises(ValueError, match=message):
-        to_geodataframe(SphericalVoronoi(SPHERE), **options)
-    with pytest.raises(TypeError, match="mesh must be"):
-        to_geodataframe(SPHERE)
-
-
 def test_back_from_sites():
     diagram = SphericalVoronoi(SPHERE)
     for latitude in ("spherical", "geodetic", "authalic"):
@@ -183,12 +158,6 @@ def test_back_from_sites():
 def test_points_without_a_coordinate_system_are_degrees():
     series = geopandas.GeoSeries(geopandas.points_from_xy([5, 7], [50, 51]))
     assert from_geodataframe(series).lonlat.tolist() == [[5, 50], [7, 51]]
-
-
-@pytest.mark.parametrize("wrong", [None, shapely.Point(), shapely.LineString([(0, 0), (1, 1)]), shapely.Point(7, 91)])
-def test_rows_that_are_no_points(wrong):
-    with pytest.raises(ValueError, match=r"row 2: (a Point is needed|latitude 91)"):
-        from_geodataframe(geopandas.GeoSeries([shapely.Point(0, 0), wrong]))
 
 
 AXIS = np.array([0.5, 0.3, 0.8])
@@ -218,11 +187,3 @@ def test_lines_of_the_sphere_are_cut_and_lie_where_the_values_are(sphere):
     for line in frame.geometry[frame["level"].abs() < 0.5]:
         ends = [part.coords[k] for part in shapely.get_parts(line) for k in (0, -1)]
         assert {abs(lon) for lon, _ in ends} == {180.0}
-
-
-def test_none_and_wrong_ones(sphere):
-    assert len(to_geodataframe([])) == 0
-    with pytest.raises(TypeError, match=r"mesh\[1\] must be a Contour, not int"):
-        to_geodataframe([sphere[1][0], 5])
-    with pytest.raises(ValueError, match="not of contours"):
-        to_geodataframe(sphere[1], what="cells")

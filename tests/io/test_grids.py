@@ -71,31 +71,3 @@ def test_names_that_are_taken(tmp_path):
     grid = Grid([0, 1], [0, 1], {"lat": np.ones((2, 2)), "crs": np.zeros((2, 2))})
     with pytest.warns(RenamedColumnWarning, match="'lat' is written as 'lat_1' and 'crs' as 'crs_1'"):
         write(tmp_path / "grid.nc", grid)
-
-
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        (([0, 1, 3], [0]), "lon must grow by equal steps"),
-        (([1, 0], [0]), "lon must grow by equal steps"),
-        (([0], [0, 95]), "lat"),
-        (([], [0]), r"lon must have shape \(n,\)"),
-        (([0, 1], [0], {"z": [[1]]}), r"values\['z'\] must have shape \(1, 2\), got \(1, 1\)"),
-        (([0], [0], {"z": [[1]]}, {"y": "m"}), "units are given for 'y'"),
-    ],
-)
-def test_wrong_grids(arguments, message):
-    with pytest.raises(ValueError, match=message):
-        Grid(*arguments)
-
-
-def test_wrong_requests(tmp_path):
-    with pytest.raises(ValueError, match="spacing is 7, but 180 must be a whole multiple"):
-        Grid.regular(7)
-    with pytest.raises(ValueError, match="south must be below north"):
-        Grid.regular(1, (0, 50, 10, 40))
-    with pytest.raises(ValueError, match="no values"):
-        write(tmp_path / "grid.tif", Grid.regular(90))
-    with pytest.raises(TypeError, match="must be a Grid"):
-        write(tmp_path / "grid.tif", 5)
-    assert not (tmp_path / "grid.tif").exists()

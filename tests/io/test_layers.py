@@ -11,11 +11,8 @@ import pytest
 import shapely
 
 from stereodel import PlanarVoronoi, SphericalVoronoi
-from stereodel.curves.ragged import Ragged
 from stereodel.io import PointTable, RenamedColumnWarning, from_geodataframe, read_points, to_geodataframe, write
 from stereodel.io.formats import map_rows as module
-from stereodel.io.formats import wkb
-from stereodel.io.formats.map_rows import MapRows
 from stereodel.io.rows_of import rows_of
 
 POINTS = geopandas.points_from_xy([10.0, -78.5, 135.8], [48.4, -0.2, 35.0])
@@ -66,23 +63,20 @@ def test_geometries_beside_others_are_text(tmp_path):
     assert geopandas.read_file(tmp_path / "a.gpkg")["other"].tolist() == [point.wkt for point in POINTS]
 
 
-def test_one_kind_of_geometry_in_a_layer(monkeypatch, tmp_path):
+PARTS = [shapely.Point(1, 2), shapely.LineString([(0, 0), (1, 1)]), shapely.box(0, 0, 1, 1)]
+WHOLES = [shapely.MultiPoint(PARTS[:1]), shapely.MultiLineString(PARTS[1:2]), shapely.MultiPolygon(PARTS[2:])]
+
+
+@pytest.mark.parametrize(("part", "whole"), list(zip(PARTS, WHOLES, strict=True)))
+def test_one_kind_of_geometry_in_a_layer(monkeypatch, tmp_path, part, whole):
     """Block by block, also in blocks of geometries of one part alone."""
     monkeypatch.setattr(module, "ROWS", 1)
-    lines = np.array([shapely.LineString([(0, 0), (1, 1)]), shapely.MultiLineString([[(0, 0), (1, 0)]]), None])
-    layer = MapRows({}, module.packed(np.array([*lines[:2], shapely.LineString()])))
-    assert layer.kinds == ["LineString", "MultiLineString"]
-    assert layer.has_several
-    assert not layer.take(slice(0, 1)).has_several
-    _, batches = layer.batches(several=True)
-    binary = np.array([batch.column(0)[0].as_py() for batch in batches], dtype=object)
-    assert binary[2] is None
-    assert [line.wkt for line in module.unpacked(binary[:2])] == [
-        "MULTILINESTRING ((0 0, 1 1))",
-        "MULTILINESTRING ((0 0, 1 0))",
-    ]
-    write(tmp_path / "a.fgb", MapRows({"n": np.arange(2)}, layer.binary[:2], "EPSG:4326"))
-    assert pyogrio.read_info(tmp_path / "a.fgb")["geometry_type"] == "MultiLineString"
+    frame = geopandas.GeoDataFrame(geometry=[part, whole, None, part], crs=4326)
+    write(tmp_path / "a.gpkg", frame)
+    assert pyogrio.read_info(tmp_path / "a.gpkg")["geometry_type"] == whole.geom_type
+    found = geopandas.read_file(tmp_path / "a.gpkg").geometry
+    assert found[2] is None
+    assert [found[k].wkt for k in (0, 1, 3)] == [whole.wkt] * 3
 
 
 @pytest.mark.parametrize("kind", ["parquet", "fgb", "gpkg", "geojson"])
@@ -191,46 +185,3 @@ def test_shapefiles_say_which_names_they_cut(tmp_path):
     with pytest.warns(RenamedColumnWarning, match="as long as the format allows"):
         write(tmp_path / "table.shp", table)
     assert kept(read_points(tmp_path / "table.shp").columns) == kept(table.columns)
-
-
-# Well-known binary
-
-RNG = np.random.default_rng(3)
-LINE = shapely.LineString([(0, 0), (1, 1)])
-PARTS = [shapely.Point(1, 2), LINE, shapely.box(0, 0, 1, 1)]
-WHOLES = [shapely.MultiPoint(PARTS[:1]), shapely.MultiLineString([LINE]), shapely.MultiPolygon(PARTS[2:])]
-
-
-def binary(geometries):
-    return np.asarray(shapely.to_wkb(geometries, byte_order=1, flavor="iso"), dtype=object)
-
-
-def test_points_and_polygons_are_written_as_by_shapely():
-    places = np.concatenate([RNG.normal(size=(20, 2)) * 1e3, [[-0.0, 1e-310]]])
-    assert wkb.points(places).tolist() == binary(shapely.points(places)).tolist()
-    assert wkb.points(places[:0]).shape == (0,)
-    rings = Ragged.of([RNG.normal(size=(size, 2)) for size in (3, 5, 4, 3)])
-    assert wkb.polygons(rings).tolist() == binary([shapely.Polygon(ring) for ring in rings]).tolist()
-
-
-def test_points_of_any_length_are_read_and_other_geometries_refused_with_their_row():
-    places = RNG.normal(size=(3, 2))
-    cells = [*wkb.points(places[:1]), *binary(shapely.points(np.column_stack([places, places[:, :1]])))[1:]]
-
-    def read(cells):
-        return wkb.xy(np.frombuffer(b"".join(cells), np.uint8), np.cumsum([0, *map(len, cells)]), range(11, 15))
-
-    assert np.array_equal(read(cells), places)
-    for other in (binary([LINE])[0], b"\1\1\0\0", bytes([0, 0, 0, 0, 1]) + bytes(16)):
-        with pytest.raises(ValueError, match="row 13: a Point is needed"):
-            read([*cells[:2], other])
-
-
-def test_kinds_and_parts_are_those_of_shapely():
-    cells = np.array([*binary([*PARTS, *WHOLES, shapely.Point(1, 2, 3)]), None], dtype=object)
-    names = ["Point", "LineString", "Polygon", "MultiPoint", "MultiLineString", "MultiPolygon", "Point Z"]
-    assert wkb.kinds(cells) == names
-    assert wkb.is_there(cells).tolist() == [True] * 7 + [False]
-    *found, nothing = wkb.several(cells[[0, 1, 2, 3, 4, 5, 7]])
-    assert nothing is None
-    assert shapely.from_wkb(found).tolist() == WHOLES * 2

@@ -173,8 +173,3 @@ def test_a_column_comes_back_or_is_refused(tmp_path, name, kind):
     if read.columns["v"].dtype.kind in "mM":
         found = [read.columns["v"][k] for k in order]
     assert all(map(same, found, expected(name, kind))), (found, expected(name, kind))
-
-
-def test_names_with_half_letters_are_refused(tmp_path):
-    with pytest.raises(ValueError, match=r"the column name .* has a character that \.csv cannot hold"):
-        write(tmp_path / "a.csv", PointTable([[1, 2]], {"\udfff": [1]}))

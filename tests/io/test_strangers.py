@@ -142,11 +142,6 @@ def gridded_base(path, grid):
         base.execute("UPDATE gpkg_spatial_ref_sys SET definition = ?", [GRIDDED.format(grid)])
 
 
-def zipped(path, name, text):
-    with zipfile.ZipFile(path, "w") as archive:
-        archive.writestr(name, text)
-
-
 REFERENCES = {
     **{f"virtual.{end}": VIRTUAL for end in ("kml", "gml", "gpx", "xlsx", "ods", "gpkg", "shp", "fgb", "dxf", "vrt")},
     "late.kml": '<?xml version="1.0"?><!-- k -->' + VIRTUAL,
@@ -174,7 +169,7 @@ MADE = {
     "grid.shp": gridded_shapes,
     "grid.gpkg": gridded_base,
     "include.gml": schema,
-    "a.zip": lambda path, secret: zipped(path, "a.kml", VIRTUAL.format(secret)),
+    "a.zip": lambda path, secret: archive(path, ("a.kml", VIRTUAL.format(secret))),
 }
 """What names a file in other ways than in its text: that of points, or one of a grid."""
 

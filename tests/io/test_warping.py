@@ -281,16 +281,3 @@ def test_parts_that_touch_at_corners_stay_few_points():
     image = warp(source, fisheye((20.0, 30.0), magnification=12.0))
     assert image.is_valid
     assert shapely.get_num_coordinates(image) < 20_000
-
-
-@pytest.mark.parametrize(
-    ("shapes", "tolerance", "message"),
-    [
-        (shapely.Point(0, 91), 0.01, "latitude 91"),
-        (shapely.Point(0, 1), 0, "tolerance"),
-        (shapely.Point(0, 1), np.inf, "tolerance"),
-    ],
-)
-def test_wrong_input(shapes, tolerance, message):
-    with pytest.raises(ValueError, match=message):
-        warp(shapes, LENSES[0], tolerance=tolerance)
