@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import platform
 import subprocess
 import sys
@@ -20,9 +21,9 @@ if TYPE_CHECKING:
 EXAMPLE = "STEREODEL_GL=egl stereodel doctor"
 
 TRIAL: Final = """
-import dataclasses, json, sys
+import dataclasses, json
 from stereodel.render.gl import describe
-print(json.dumps(dataclasses.asdict(describe(sys.argv[1]))))
+print(json.dumps(dataclasses.asdict(describe())))
 """
 """A process can use only one OpenGL platform, and a driver may crash it, so each is tried in a process of its own."""
 
@@ -64,15 +65,16 @@ def _tried(name: str) -> gl.Description:
     from stereodel.render import gl
 
     try:
+        given = {**os.environ, gl.VARIABLE: name}
         ran = subprocess.run(
-            [sys.executable, "-c", TRIAL, name], capture_output=True, text=True, timeout=SECONDS, check=False
+            [sys.executable, "-c", TRIAL], env=given, capture_output=True, text=True, timeout=SECONDS, check=False
         )
     except subprocess.TimeoutExpired:
-        return gl.Description(name, "argument", problem=f"{name} has drawn nothing in {SECONDS} seconds")
+        return gl.Description(name, gl.VARIABLE, problem=f"{name} has drawn nothing in {SECONDS} seconds")
     if ran.returncode:
         last = (ran.stderr.splitlines() or ["no output"])[-1]
         problem = f"the process that drew on {name} ended with code {ran.returncode}: {last}"
-        return gl.Description(name, "argument", problem=problem)
+        return gl.Description(name, gl.VARIABLE, problem=problem)
     return gl.Description(**json.loads(ran.stdout.splitlines()[-1]))
 
 
@@ -127,7 +129,7 @@ def _rendering(found: Mapping[str, gl.Description], chosen: str, reason: str) ->
 def _verdict(found: gl.Description, chosen: bool) -> str:
     if found.problem:
         return "does not draw" if chosen else f"does not draw: {found.problem}"
-    return "draws" if found.multisamples else "draws, each picture four times: it has no multisampling"
+    return "draws"
 
 
 def _table(rows: Sequence[tuple[str, ...]]) -> str:

@@ -68,8 +68,6 @@ class Film(Generic[T]):
         Width in pixels; the height follows from the pages. Frames that are already pixels keep their size.
     text : bool
         Whether to draw labels.
-    platform : {"osmesa", "egl"}, optional
-        See `stereodel.render.gl`.
 
     Raises
     ------
@@ -95,7 +93,6 @@ class Film(Generic[T]):
     seconds: float | Sequence[float] | None = None
     size: int = 1280
     text: bool = True
-    platform: str | None = None
 
     def __post_init__(self) -> None:
         if len(self.shots) == 0:
@@ -231,7 +228,7 @@ class Film(Generic[T]):
 
     @property
     def _camera(self) -> _Camera[T]:
-        return _Camera(self.draw, self.size, self.text, self.platform)
+        return _Camera(self.draw, self.size, self.text)
 
     def save(self, path: str | os.PathLike[str], *, jobs: int | None = None, progress: bool = True) -> Path:
         """Draw the frames and write the file.
@@ -323,7 +320,6 @@ class _Camera(Generic[T]):
     draw: Callable[[T], Page | Pixels]
     size: int
     text: bool
-    platform: str | None
 
     @of_extra("render")
     def picture(self, shot: T) -> Pixels:
@@ -342,7 +338,7 @@ class _Camera(Generic[T]):
         if not isinstance(drawn, Page):
             return as_frame(drawn, "a picture")
         as_frame_size(self.size, pixel_height(drawn, self.size))
-        return drawn.pixels(size=self.size, text=self.text, platform=self.platform)
+        return drawn.pixels(size=self.size, text=self.text)
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,4 +1,4 @@
-"""Figures: named pictures, from their geometry to their files with captions; the command line shared by all scripts."""
+"""Figures: named pictures, from their geometry to their files; the command line shared by all scripts."""
 
 from __future__ import annotations
 
@@ -9,37 +9,21 @@ import os
 import re
 import sys
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import Any, Final, Literal, Protocol, Self
 
-import numpy as np
-
 from stereodel._arrays import Pixels, as_choice
 from stereodel._extras import of_extra
-from stereodel.drawing.page import Fill, Label, Page, picture_extra
-from stereodel.drawing.page.labels import label_box
+from stereodel.drawing.page import Page, picture_extra
 from stereodel.drawing.page.lengths import LARGEST_SIZE
 from stereodel.drawing.page.sheets import Style, StyledDraw, as_styles
-from stereodel.drawing.page.style import BLACK, LABEL_SIZE, WHITE
 from stereodel.drawing.scene.solid import Solid
-
-TITLE_SIZE: Final = 11.0
-"""Type size of the title in points."""
-
-LEADING: Final = 1.3
-"""Line spacing in units of type size."""
-
-MARGIN: Final = 12.0
-"""Margin around a caption in points."""
 
 STYLE_HELP: Final = "dark, a .toml file of styles, or several with commas"
 """Help of the option --style of scripts."""
-
-DARK: Final = 0.5
-"""Luma of the background below which type on it is white."""
 
 
 def script_of(function: Callable[..., Any], name: str) -> Path | None:
@@ -62,45 +46,6 @@ def parted(docstring: str) -> tuple[str, str]:
     rest = re.sub(r"\A\s*([=\-~^])\1+\s*$", "", rest, count=1, flags=re.MULTILINE)
     paragraphs = [" ".join(part.split()) for part in re.split(r"\n\s*\n", rest)]
     return title.strip(), "\n\n".join(filter(None, paragraphs))
-
-
-def captioned(page: Page) -> Page:
-    """A page with its title and description below the picture; its width is unchanged, its height grows as needed."""
-    if not page.title and not page.description:
-        return page
-    red, green, blue, _ = page.background
-    ink = WHITE if 0.299 * red + 0.587 * green + 0.114 * blue < DARK else BLACK
-    left, right, bottom, top = page.extent
-    unit, room = page.points_per_unit, page.width - 2 * MARGIN
-    paragraphs = [(text, LABEL_SIZE) for text in page.description.split("\n\n") if text]
-    if page.title:
-        paragraphs.insert(0, (page.title, TITLE_SIZE))
-    labels, depth = [], MARGIN
-    for text, size in paragraphs:
-        for line in _broken(text, size, room):
-            depth += LEADING * size
-            anchor = (left + MARGIN / unit, bottom - depth / unit)
-            label = Label(line, anchor, align="left", valign="baseline", size=size, color=ink, name="caption")
-            labels.append(replace(label, formulas=False))
-        depth += (LEADING - 1) * size
-    low = bottom - (depth + MARGIN) / unit
-    corners = np.array([(left, low), (right, low), (right, bottom), (left, bottom), (left, low)])
-    # Items that extend below the page must not show through the caption.
-    ground = Fill((np.linspace(corners[:-1], corners[1:], 4, axis=1),), (red, green, blue, 1.0), "caption-ground")
-    return replace(page, extent=(left, right, low, top), items=(*page.items, ground, *labels))
-
-
-def _broken(text: str, size: float, room: float) -> Iterator[str]:
-    """Lines no longer than `room`; a longer word gets a line of its own."""
-    line = ""
-    for word in text.split():
-        longer = f"{line} {word}".strip()
-        low, high = label_box(Label(longer, (0.0, 0.0), size=size, formulas=False), 1.0)
-        if line and high[0] - low[0] > room:
-            yield line
-            longer = word
-        line = longer
-    yield line
 
 
 Geometry = Mapping[str, Any]
@@ -185,7 +130,6 @@ class Figure:
         *,
         size: int | None = None,
         text: bool = True,
-        caption: bool = False,
         solid: bool = False,
     ) -> dict[str, Any]:
         """Write NAME.png, NAME.svg and NAME.pdf into a folder, and NAME.glb of the picture in space.
@@ -196,8 +140,6 @@ class Figure:
             The folder; created if it does not exist.
         size, text
             As for `Page.save`.
-        caption : bool
-            Whether to write title and description below the picture, if it has text.
         solid : bool
             Whether to also write NAME_solid.png, the picture in space with shading.
 
@@ -222,8 +164,7 @@ class Figure:
             from stereodel.render.save import save_page
 
             page = self._page(geometry)
-            shown = captioned(page) if caption and text else page
-            width, digest = save_page(shown, *files, size=size, text=text, renderer=self.renderer)
+            width, digest = save_page(page, *files, size=size, text=text, renderer=self.renderer)
             if in_space:
                 bodies = self._solid(geometry)
                 files.append(bodies.save(folder / f"{self.name}.glb"))
@@ -240,9 +181,8 @@ class Figure:
 
     def main(self, argv: Sequence[str] | None = None) -> None:
         """Run as a script: write the files and report where; errors become a message and exit code 1."""
-        flags = {"caption": "set title and text of the script below the picture"}
-        if self.in_space is not None:
-            flags["solid"] = f"draw {self.name}_solid.png too, with light and shade"
+        solid = f"draw {self.name}_solid.png too, with light and shade"
+        flags = {} if self.in_space is None else {"solid": solid}
         run_script(self, argv, self.name, "17 cm at 300 dpi", flags)
 
     def _files(self, folder: Path, **options: Any) -> list[str]:

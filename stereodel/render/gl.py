@@ -3,9 +3,7 @@
 Everything goes through pyrender (the distribution pyrender2) on a software renderer, without a window: OSMesa first,
 EGL on a software device as its equal; both are Mesa's llvmpipe and give the same pixels. PyOpenGL fixes its platform
 when it is first imported, so a process has one `Door`, `DOOR`, which chooses before that and opens when it is needed.
-
-Each pixel has four samples. Renderers with a single sample, such as Mesa's softpipe, draw a picture four times, each
-time with another of the four sample positions at the pixel centres.
+Each pixel has four samples, which other renderers, such as Mesa's softpipe, may lack.
 
 A picture is drawn in windows, so that memory does not grow with it. The windows lie on a fixed grid, counted from the
 upper left corner of the picture, whatever part is requested: where OpenGL clips a triangle at the edge of a window it
@@ -67,8 +65,8 @@ STRIDE: Final = 8192
 FAR: Final = 100.0
 """Distance of the camera from bodies in space, in sides of the picture: reflections are those for a distant viewer."""
 
-SAMPLES: Final = ((0.375, 0.125), (0.875, 0.375), (0.125, 0.625), (0.625, 0.875))
-"""Sample positions of llvmpipe in a pixel, from the lower left corner, which are also Direct3D's standard pattern."""
+SAMPLES: Final = 4
+"""Samples of a pixel, which pyrender asks for."""
 
 NEAREST: Final = 0x2600
 CLAMP_TO_EDGE: Final = 0x812F
@@ -121,28 +119,20 @@ class Window:
 
 @dataclass(frozen=True)
 class Description:
-    """The renderer that would be used, for `stereodel doctor`; `problem` is empty if it works.
-
-    Without `multisamples` each picture is drawn four times.
-    """
+    """The renderer that would be used, for `stereodel doctor`; `problem` is empty if it works."""
 
     platform: str
     chosen_by: str
     version: str = ""
     renderer: str = ""
     problem: str = ""
-    multisamples: bool = True
 
 
-def choose(platform: str | None = None) -> tuple[str, str]:
-    """The platform to use, and the reason: "argument", the name of the environment variable, or "found".
+def choose() -> tuple[str, str]:
+    """The platform to use, and the reason: the name of the environment variable, or "found".
 
-    ValueError if `platform` is unknown; OpenGLError if the environment requests an unknown one, or none can be opened.
+    OpenGLError if the environment requests an unknown one, or none can be opened.
     """
-    if platform is not None:
-        if platform not in PLATFORMS:
-            raise ValueError(f'platform must be "osmesa" or "egl", got {platform!r}')
-        return platform, "argument"
     for variable in (VARIABLE, "PYOPENGL_PLATFORM"):
         value = os.environ.get(variable, "")
         if value in PLATFORMS:
@@ -170,19 +160,18 @@ def bands(
     height: int,
     *,
     background: Color = (1.0, 1.0, 1.0, 1.0),
-    platform: str | None = None,
     finish: Callable[[Pixels], Pixels] = lambda pixels: pixels,
 ) -> Iterator[Pixels]:
     """A picture from the top, `BAND` rows (k, width, 3) at a time, in the memory of a band and a window's triangles.
 
-    OpenGLError if there is no usable OpenGL, or this process already draws on another platform; ValueError if the
-    picture has no pixels, or too many items for the depth buffer.
+    OpenGLError if there is no usable OpenGL; ValueError if the picture has no pixels, or too many items for the depth
+    buffer.
 
     part: function of a window that returns all triangles of the picture that touch it, in order; others have no effect.
     background: its opacity is ignored.
     finish: function of the pixels of a window that returns those to yield.
     """
-    context = DOOR.context(platform)
+    context = DOOR.context()
     return _bands(lambda window: finish(context.draw(part(window), window, background)), width, height)
 
 
@@ -192,7 +181,6 @@ def space_bands(
     width: int,
     height: int,
     *,
-    platform: str | None = None,
     finish: Callable[[Pixels], Pixels],
 ) -> Iterator[Pixels]:
     """As `bands`, bodies in space with pyrender's own lighting and depth test.
@@ -201,7 +189,7 @@ def space_bands(
         their nodes' names, see `node_name`, which matters for transparent ones.
     box: left and right, bottom and top, smallest and largest z of the scene, viewed along −z from far away.
     """
-    context = DOOR.context(platform)
+    context = DOOR.context()
     scene = make(context.pyrender)
 
     def drawn(window: Window) -> Pixels:
@@ -243,20 +231,17 @@ def aim(pyrender: Any, scene: Any, box: Sequence[Sequence[float]], width: int, h
     return scene.add(camera, pose=pose)
 
 
-def describe(platform: str | None = None) -> Description:
+def describe() -> Description:
     """The renderer of this process and its versions; a failure is reported as `problem`, never as an exception.
 
     A small test picture is drawn and compared with the expected pixels.
-
-    >>> describe("osmesa").platform
-    'osmesa'
     """
     found = Description("", "")
     try:
-        found = Description(*DOOR.choice(platform))
-        context = DOOR.context(platform)
+        found = Description(*DOOR.choice())
+        context = DOOR.context()
         version, renderer = context.strings()
-        found = replace(found, version=version, renderer=renderer, multisamples=context.multisamples)
+        found = replace(found, version=version, renderer=renderer)
         problem = trial_problem(context.draw(trial_triangles(), Window(0, 0, TRIAL, TRIAL), (1.0, 1.0, 1.0, 1.0)))
         return replace(found, problem=problem and f"{context.platform} draws wrongly: {problem}")
     except (OpenGLError, MissingExtraError, ValueError) as error:
@@ -307,20 +292,18 @@ class Door:
         self._context: _OpenGL | None = None
         self._chosen: tuple[str, str] | None = None
 
-    def context(self, platform: str | None = None) -> _OpenGL:
-        """The context; OpenGLError if there can be none, or another platform was chosen before."""
-        name, reason = self.choice(platform)
+    def context(self) -> _OpenGL:
+        """The context; OpenGLError if there can be none."""
         if self._context is None:
-            self._context = _OpenGL(name)
-            self._chosen = name, reason
+            chosen = self.choice()
+            self._context = _OpenGL(chosen[0])
+            self._chosen = chosen
             atexit.register(self.close)
-        if self._context.platform != name:
-            raise OpenGLError(f"this process draws on {self._context.platform} already; use {name} in a new process")
         return self._context
 
-    def choice(self, platform: str | None) -> tuple[str, str]:
+    def choice(self) -> tuple[str, str]:
         """As `choose`, but the first choice of a process is kept."""
-        return self._chosen if platform is None and self._chosen is not None else choose(platform)
+        return self._chosen or choose()
 
     def close(self) -> None:
         """Release the context."""
@@ -348,8 +331,10 @@ class _OpenGL:
                 with _environment(EGL_DEVICE_ID=device):
                     self._offscreen = self.pyrender.OffscreenRenderer(16, 16)
                 self._shaders = {True: SHADERS, False: self._offscreen._renderer._program_cache.shader_dir}
-                self.multisamples = int(GL.glGetIntegerv(GL.GL_MAX_SAMPLES)) >= len(SAMPLES)
-                mend_offscreen(self._offscreen, GL, multisamples=self.multisamples)
+                samples = int(GL.glGetIntegerv(GL.GL_MAX_SAMPLES))
+                if samples < SAMPLES:
+                    raise OpenGLError(f"{platform} gives {samples} of {SAMPLES} samples a pixel; use Mesa's llvmpipe")
+                mend_offscreen(self._offscreen, GL)
             except OpenGLError:
                 raise
             except Exception as error:
@@ -365,14 +350,13 @@ class _OpenGL:
     def draw_scene(self, scene: Any, window: Window, flags: int, *, own: bool = False, **more: Any) -> Pixels:
         """The pixels of a window of a pyrender scene with a camera, rows from the top, with our own shaders or not.
 
-        flags, more: as for pyrender's renderer. Pictures of the numbers of bodies (SEG) have one sample per pixel.
+        flags, more: as for pyrender's renderer.
         """
         self._offscreen.viewport_width, self._offscreen.viewport_height = window.width, window.height
         self._offscreen._renderer._program_cache.shader_dir = self._shaders[own]
-        once = self.multisamples or bool(flags & self.pyrender.RenderFlags.SEG)
         try:
-            options = {"flags": flags, **more}
-            return self._rendered(scene, options) if once else self._sample_by_sample(scene, options)
+            pixels: Pixels = self._offscreen.render(scene, flags=flags, **more)[0]
+            return pixels
         except MemoryError:
             raise
         except Exception as error:  # pyrender and PyOpenGL raise anything here too
@@ -381,21 +365,6 @@ class _OpenGL:
             # pyrender would keep what it drew, here and in OpenGL, until it draws something else.
             with suppress(Exception):
                 self._offscreen._renderer._update_context(self.pyrender.Scene(), flags)
-
-    def _rendered(self, scene: Any, options: dict[str, Any]) -> Pixels:
-        return self._offscreen.render(scene, **options)[0]
-
-    def _sample_by_sample(self, scene: Any, options: dict[str, Any]) -> Pixels:
-        """The average, rounded half up, of the scene drawn once for each sample position, moved to the pixel centre."""
-        camera = scene.main_camera_node
-        pose, pixel = camera.matrix, 2 * camera.camera.xmag / self._offscreen.viewport_width
-        total = np.full((self._offscreen.viewport_height, self._offscreen.viewport_width, 3), 2, dtype=np.uint16)
-        for sample in SAMPLES:
-            aside = np.eye(4)
-            aside[:2, 3] = pixel * (np.array(sample) - 0.5)
-            scene.set_pose(camera, aside @ pose)
-            total += self._rendered(scene, options)
-        return (total // 4).astype(np.uint8)
 
     def strings(self) -> list[str]:
         """GL_VERSION and GL_RENDERER."""
@@ -409,17 +378,8 @@ class _OpenGL:
             self._offscreen.delete()
 
 
-def mend_offscreen(offscreen: Any, opengl: Any, *, multisamples: bool) -> None:
-    """Make an `OffscreenRenderer` sample each pixel four times, cache shaders, draw in order, and read only colours.
-
-    multisamples: whether OpenGL can sample a pixel four times; otherwise it takes one sample, at the centre, although
-        pyrender asks for four of whatever cannot give them.
-    """
-    if not multisamples:
-        module: Any = sys.modules["pyrender.renderer"]
-        module.glRenderbufferStorageMultisample = lambda target, samples, *rest: (
-            opengl.glRenderbufferStorageMultisample(target, 0, *rest)
-        )
+def mend_offscreen(offscreen: Any, opengl: Any) -> None:
+    """Make an `OffscreenRenderer` sample each pixel four times, cache shaders, draw in order, and read only colours."""
     # OSMesa has framebuffer objects, which multisampling needs, though pyrender denies it.
     offscreen._platform.supports_framebuffers = lambda: True
     renderer = offscreen._renderer

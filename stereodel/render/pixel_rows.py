@@ -61,14 +61,14 @@ SIGNATURE: Final = b"\x89PNG\r\n\x1a\n"
 METERS_PER_POINT: Final = 0.0254 / 72
 
 
-def bare_rows(page: Page, width: int, renderer: Renderer, platform: str | None = None) -> Iterator[Pixels]:
+def bare_rows(page: Page, width: int, renderer: Renderer) -> Iterator[Pixels]:
     """A picture of a page, `width` pixels wide, without its labels, in blocks of rows (k, width, 3)."""
     bare = page.without_labels()
     if as_choice(renderer, ("gl", "agg"), "renderer") == "agg":
         return agg_rows(bare, width)
     large = SUPERSAMPLING * width, SUPERSAMPLING * pixel_height(page, width)
     part, ground = triangulate(bare, *large).within, over_white(page.background)
-    return gl.bands(part, *large, background=ground, platform=platform, finish=averaged)
+    return gl.bands(part, *large, background=ground, finish=averaged)
 
 
 def agg_rows(page: Page, width: int) -> Iterator[Pixels]:

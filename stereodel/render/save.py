@@ -40,13 +40,13 @@ FINEST_DPI: Final = 600
 """Largest resolution of images in vector files in pixels per inch: no press reproduces more."""
 
 
-def draw_page(page: Page, *, size: int | None, text: bool, renderer: Renderer, platform: str | None) -> Pixels:
+def draw_page(page: Page, *, size: int | None, text: bool, renderer: Renderer) -> Pixels:
     """Implementation of `Page.pixels`."""
     shown, width = page if text else page.without_labels(), as_width(page, size)
     warn_of_missing(missing_characters(shown.labels))
     picture = np.empty((pixel_height(page, width), width, 3), dtype=np.uint8)
     top = 0
-    for rows in labelled(bare_rows(shown, width, renderer, platform), shown, width):
+    for rows in labelled(bare_rows(shown, width, renderer), shown, width):
         picture[top : top + len(rows)] = rows
         top += len(rows)
     return picture
@@ -58,7 +58,6 @@ def save_page(
     size: int | None,
     text: bool,
     renderer: Renderer,
-    platform: str | None = None,
     transparent: bool = False,
 ) -> tuple[int, str]:
     """Implementation of `Page.save`, for several files of one picture; images shared by them are drawn once.
@@ -73,33 +72,33 @@ def save_page(
     clear = replace(shown, background=(*page.background[:3], 0.0)) if transparent else shown
     warn_of_missing(missing_characters(shown.labels))
     try:
-        pictures = region_pictures(page, width, platform) if any(kind != ".png" for _, kind in files) else []
+        pictures = region_pictures(page, width) if any(kind != ".png" for _, kind in files) else []
         for target, kind in files:
             if kind != ".png":
                 save_vector(clear, target, pictures=pictures)
             elif transparent:
-                rows = _see_through(shown, width, renderer, platform)
+                rows = _see_through(shown, width, renderer)
                 _write(rows, shown, target, width, channels=4)
             else:
                 passed = PixelDigest((pixel_height(page, width), width, 3))
-                write_png(passed.passed(bare_rows(shown, width, renderer, platform)), shown, target, width)
+                write_png(passed.passed(bare_rows(shown, width, renderer)), shown, target, width)
                 digest = str(passed)
     except OpenGLError as error:
         raise OpenGLError(f"{error}; .svg and .pdf of lines and plain fills need no OpenGL") from error
     return width, digest
 
 
-def region_pictures(page: Page, width: int, platform: str | None = None) -> list[Pixels]:
+def region_pictures(page: Page, width: int) -> list[Pixels]:
     """An image of each item with too many colours for a vector file."""
     size = min(width, print_pixels(page, FINEST_DPI))
     alone = [replace(page, items=(item,)) for item in page.pictured]
-    return [draw_page(part, size=size, text=False, renderer="gl", platform=platform) for part in alone]
+    return [draw_page(part, size=size, text=False, renderer="gl") for part in alone]
 
 
-def _see_through(page: Page, width: int, renderer: Renderer, platform: str | None) -> Iterable[Pixels]:
+def _see_through(page: Page, width: int, renderer: Renderer) -> Iterable[Pixels]:
     """Rows (k, width, 4) on a transparent background, not premultiplied, which follow from white and black ones."""
     white, black = (
-        draw_page(replace(page, background=(*ground, 1.0)), size=width, text=True, renderer=renderer, platform=platform)
+        draw_page(replace(page, background=(*ground, 1.0)), size=width, text=True, renderer=renderer)
         for ground in ((1.0, 1.0, 1.0), (0.0, 0.0, 0.0))
     )
     for top in range(0, len(white), BAND):

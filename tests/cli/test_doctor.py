@@ -57,7 +57,7 @@ def test_doctor_tells_what_draws(platform):
 def test_doctor_says_how_to_get_what_is_missing(monkeypatch, platform, opens, said):
     monkeypatch.setenv("STEREODEL_GL", platform)
     monkeypatch.setattr(gl, "can_open", lambda platform: opens)
-    monkeypatch.setattr(doctor, "_tried", lambda name: gl.Description(name, "argument"))
+    monkeypatch.setattr(doctor, "_tried", lambda name: gl.Description(name, gl.VARIABLE))
     ran = run(app, ["doctor"])
     assert ran.exit_code == 1
     assert all(each in ran.stdout for each in said), ran.stdout
@@ -88,7 +88,7 @@ def test_doctor_names_missing_libraries(monkeypatch):
     """What is not needed for globes is said and no failure."""
     found = _extras.find_spec
     monkeypatch.setattr(_extras, "find_spec", lambda name: None if name == "shapely" else found(name))
-    monkeypatch.setattr(doctor, "tried", lambda: {name: gl.Description(name, "argument") for name in gl.PLATFORMS})
+    monkeypatch.setattr(doctor, "tried", lambda: {name: gl.Description(name, gl.VARIABLE) for name in gl.PLATFORMS})
     ran = run(app, ["doctor"])
     assert ran.exit_code == 0
     (row,) = [line.strip() for line in ran.stdout.splitlines() if " lacks " in line]

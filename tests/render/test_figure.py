@@ -1,9 +1,8 @@
-"""Figures: files whole or not at all; scripts that explain themselves; captions in files and below pictures."""
+"""Figures: files whole or not at all; scripts that explain themselves; captions in files."""
 
 import ast
 import re
 import xml.etree.ElementTree as ET
-from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
@@ -12,10 +11,10 @@ import numpy as np
 import pypdf
 import pytest
 
-from stereodel.drawing.page import Dots, Fill, Label, Page, Stroke
+from stereodel.drawing.page import Dots, Label, Page, Stroke
 from stereodel.drawing.page.style import BLACK
-from stereodel.render.figure import Figure, caption_of, captioned, default_folder, parted
-from stereodel.render.pixel_rows import LabelLayer, pixel_hash
+from stereodel.render.figure import Figure, caption_of, default_folder, parted
+from stereodel.render.pixel_rows import pixel_hash
 from tests.images.scripts import SCRIPTS
 from tools.build import load_drawing
 
@@ -162,43 +161,3 @@ def test_what_is_no_script_has_no_caption_and_docstrings_may_be_of_a_line_or_wit
     assert parted("One line.") == ("One line.", "")
     assert parted("Title\n\nText with ``code`` = 5.") == ("Title", "Text with “code” = 5.")
     assert parted("") == ("", "")
-
-
-def test_a_caption_stands_below_the_picture_within_its_width():
-    below = captioned(page())
-    texts = [label.text.replace(r"\$", "$") for label in below.labels if label.name == "caption"]
-    assert texts[0] == "A title"
-    assert " ".join(texts[1:]) == " ".join(DESCRIPTION.split())
-    assert len(texts) > 4
-    assert (below.width, below.points_per_unit, below.extent[3]) == (300.0, 150.0, 1.0)
-    captions = replace(below, items=tuple(item for item in below.items if item.name == "caption"))
-    rows, columns = np.nonzero(LabelLayer(captions, 600).rows()[..., 3])
-    assert 300 < rows.min() < 340
-    assert below.height * 2 - 40 < rows.max() < below.height * 2 - 16
-    assert 24 <= columns.min() <= 27
-    assert 600 - 24 - 60 < columns.max() <= 600 - 24
-    # Baselines go down evenly, and what leaves the picture below is covered.
-    heights = [label.anchor[1] for label in captions.labels]
-    assert (np.diff(heights) < 0).all()
-    picture = below.pixels(size=600, text=False, renderer="agg")
-    assert (picture[310:] == 255).all()
-    assert np.array_equal(picture[:300], page().pixels(size=600, text=False, renderer="agg"))
-
-
-def test_type_is_white_on_dark_grounds_and_nothing_needs_no_room():
-    dark = captioned(page(background=(0.1, 0.1, 0.3, 1.0)))
-    assert {label.color[:3] for label in dark.labels if label.name == "caption"} == {(1.0, 1.0, 1.0)}
-    (ground,) = [item for item in dark.items if isinstance(item, Fill)]
-    assert ground.color == (0.1, 0.1, 0.3, 1.0)
-    bare = page(title="", description="")
-    assert captioned(bare) is bare
-
-
-def test_scripts_set_captions_on_request(tmp_path):
-    figure = Figure("small", dict, lambda _: page(), renderer="agg")
-    figure.main(["--out", str(tmp_path), "--size", "100", "--caption"])
-    assert iio.imread(tmp_path / "small.png").shape[0] == round(100 * captioned(page()).height / 300)
-    (sheet,) = pypdf.PdfReader(tmp_path / "small.pdf").pages
-    assert "The second costs $5 — or $6." in sheet.extract_text()
-    figure.main(["--out", str(tmp_path), "--size", "100", "--caption", "--no-text"])
-    assert iio.imread(tmp_path / "small.png").shape[0] == 50

@@ -393,7 +393,7 @@ def colors_within(loops: Ragged, owner: Indices, colors: FloatArray, places: Flo
 def winding(paths: Iterable[FloatArray], places: FloatArray) -> FloatArray:
     """Winding numbers of closed runs of cubics (k, 4, 2) about places (n, 2)."""
     found = np.zeros(len(places))
-    for corners in map(_corners, paths):
+    for corners in map(corners_along, paths):
         following = np.roll(corners, -1, axis=0)
         found += [_crossings(corners, following, place).sum() for place in places]
     return found
@@ -408,8 +408,8 @@ def _crossings(start: FloatArray, end: FloatArray, place: FloatArray) -> FloatAr
     return np.where(up & (side > 0), 1.0, 0.0) - np.where(down & (side < 0), 1.0, 0.0)
 
 
-def _corners(path: FloatArray) -> FloatArray:
-    """Points along a path of Bézier curves."""
+def corners_along(path: FloatArray) -> FloatArray:
+    """Points along a path of Bézier curves, close enough to determine its interior."""
     s = BEZIER_STEPS[None, :, None]
     p0, p1, p2, p3 = (path[:, i, None] for i in range(4))
     points = (1 - s) ** 3 * p0 + 3 * s * (1 - s) ** 2 * p1 + 3 * s**2 * (1 - s) * p2 + s**3 * p3

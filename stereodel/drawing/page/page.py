@@ -112,7 +112,6 @@ class Page:
         size: int | None = None,
         text: bool = True,
         renderer: Literal["gl", "agg"] = "gl",
-        platform: str | None = None,
         transparent: bool = False,
     ) -> Path:
         """Write the page as PNG, SVG or PDF, according to the extension of `path`.
@@ -133,8 +132,6 @@ class Page:
         renderer : {"gl", "agg"}
             Renderer of a PNG: OpenGL, or matplotlib, which needs no OpenGL but does not shade balls and rejects regions
             in more than `FEW_COLORS` colours.
-        platform : {"osmesa", "egl"}, optional
-            See `stereodel.render.gl`.
         transparent : bool
             Whether to make the background transparent. A PNG is then drawn twice and held in memory.
 
@@ -170,9 +167,7 @@ class Page:
         True
         """
         with of_extra(picture_extra(Path(path).suffix, renderer)):
-            output("save_page")(
-                self, path, size=size, text=text, renderer=renderer, platform=platform, transparent=transparent
-            )
+            output("save_page")(self, path, size=size, text=text, renderer=renderer, transparent=transparent)
         return Path(path)
 
     def pixels(
@@ -181,13 +176,12 @@ class Page:
         size: int | None = None,
         text: bool = True,
         renderer: Literal["gl", "agg"] = "gl",
-        platform: str | None = None,
     ) -> Pixels:
         """Draw the page: the pixels that `save` writes as PNG.
 
         Parameters
         ----------
-        size, text, renderer, platform
+        size, text, renderer
             As for `save`.
 
         Returns
@@ -208,7 +202,7 @@ class Page:
         [255, 0, 0]
         """
         with of_extra(picture_extra(".png", renderer)):
-            pixels: Pixels = output("draw_page")(self, size=size, text=text, renderer=renderer, platform=platform)
+            pixels: Pixels = output("draw_page")(self, size=size, text=text, renderer=renderer)
         return pixels
 
     def arrays(self) -> Arrays:

@@ -95,16 +95,15 @@ class Solid:
         with of_extra("render"):
             return output("to_trimesh")(self)
 
-    def save(
-        self, path: str | os.PathLike[str], *, size: int | None = None, text: bool = True, platform: str | None = None
-    ) -> Path:
+    def save(self, path: str | os.PathLike[str], *, size: int | None = None, text: bool = True) -> Path:
         """Write a GLB, or a PNG with shading, according to the extension of `path`.
 
         Parameters
         ----------
         path : path-like
-            File to write, first under a temporary name in the same folder; an existing file is replaced. size, text,
-            platform For PNG, as for `Page.save`.
+            File to write, first under a temporary name in the same folder; an existing file is replaced.
+        size, text
+            For PNG, as for `Page.save`.
 
         Returns
         -------
@@ -125,15 +124,15 @@ class Solid:
         as metres.
         """
         with of_extra("render"):
-            output("save_solid")(self, path, size=size, text=text, platform=platform)
+            output("save_solid")(self, path, size=size, text=text)
         return Path(path)
 
-    def pixels(self, *, size: int | None = None, text: bool = True, platform: str | None = None) -> Pixels:
+    def pixels(self, *, size: int | None = None, text: bool = True) -> Pixels:
         """Draw the bodies with shading: the pixels that `save` writes as PNG.
 
         Parameters
         ----------
-        size, text, platform
+        size, text
             As for `Page.pixels`.
 
         Returns
@@ -142,5 +141,5 @@ class Solid:
             sRGB, rows from the top.
         """
         with of_extra("render"):
-            pixels: Pixels = output("draw_solid")(self, size=size, text=text, platform=platform)
+            pixels: Pixels = output("draw_solid")(self, size=size, text=text)
         return pixels

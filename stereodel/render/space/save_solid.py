@@ -59,9 +59,7 @@ GLASS_RIM: Final = 3.0
 """Exponent of the cosine by which glass becomes more opaque toward the limb, where the picture has no line."""
 
 
-def save_solid(
-    solid: Solid, path: str | os.PathLike[str], *, size: int | None, text: bool, platform: str | None = None
-) -> None:
+def save_solid(solid: Solid, path: str | os.PathLike[str], *, size: int | None, text: bool) -> None:
     """Implementation of `Solid.save`."""
     target = Path(path)
     match target.suffix.lower():
@@ -71,7 +69,7 @@ def save_solid(
                 temporary.write_bytes(data)
         case ".png":
             page, width = solid.page if text else solid.page.without_labels(), as_width(solid.page, size)
-            write_png(lit_rows(solid, width, platform), page, target, width)
+            write_png(lit_rows(solid, width), page, target, width)
         case _:
             raise ValueError(f"path must end in .glb or .png, got {target.name!r}")
 
@@ -128,17 +126,17 @@ def page_box(solid: Solid, scene: Any) -> list[list[float]]:
     return [[left, right], [bottom, top], [low - SPACE, high + SPACE]]
 
 
-def draw_solid(solid: Solid, *, size: int | None, text: bool, platform: str | None = None) -> Pixels:
+def draw_solid(solid: Solid, *, size: int | None, text: bool) -> Pixels:
     """Implementation of `Solid.pixels`."""
     page, width = solid.page if text else solid.page.without_labels(), as_width(solid.page, size)
-    return np.concatenate(list(labelled(lit_rows(solid, width, platform), page, width)))
+    return np.concatenate(list(labelled(lit_rows(solid, width), page, width)))
 
 
-def lit_rows(solid: Solid, width: int, platform: str | None = None) -> Iterator[Pixels]:
+def lit_rows(solid: Solid, width: int) -> Iterator[Pixels]:
     """A picture `width` pixels wide, without its labels, in blocks of rows (k, width, 3)."""
     scene, large = to_trimesh(solid), (SUPERSAMPLING * width, SUPERSAMPLING * pixel_height(solid.page, width))
     make = partial(_lit, scene=scene, ground=over_white(solid.page.background))
-    return gl.space_bands(make, page_box(solid, scene), *large, platform=platform, finish=averaged)
+    return gl.space_bands(make, page_box(solid, scene), *large, finish=averaged)
 
 
 def _lit(pyrender: Any, scene: Any, ground: Color) -> Any:

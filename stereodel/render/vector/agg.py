@@ -9,11 +9,11 @@ from typing import Any
 
 import numpy as np
 
-from stereodel._arrays import FloatArray
 from stereodel._extras import of_extra
 from stereodel.constants import PIXEL_ROUNDING
-from stereodel.drawing.page import Beziers, Fill, Label, Page
+from stereodel.drawing.page import Fill, Label, Page
 from stereodel.drawing.page.fonts import families_of, font_properties, quiet_fonts
+from stereodel.drawing.page.items import corners_along
 from stereodel.drawing.page.lengths import pixel_height
 from stereodel.drawing.page.style import TYPE
 from stereodel.render.vector.outlines import Drawn, Filled, Shape, Shown, shapes
@@ -93,7 +93,7 @@ def _turned(fill: Fill) -> Fill:
 
     Runs do not cross, so a run inside an even number of others must be counterclockwise, any other clockwise.
     """
-    turned, outlines = [], [_corners(path) for path in fill.paths]
+    turned, outlines = [], [corners_along(path) for path in fill.paths]
     for path, corners in zip(fill.paths, outlines, strict=True):
         others = [Path(other) for other in outlines if other is not corners]
         depth = sum(other.contains_point(tuple(path[0, 0])) for other in others)
@@ -101,14 +101,6 @@ def _turned(fill: Fill) -> Fill:
         counterclockwise = float(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1))) > 0
         turned.append(path if counterclockwise == (depth % 2 == 0) else path[::-1, ::-1])
     return replace(fill, paths=tuple(turned))
-
-
-def _corners(path: Beziers) -> FloatArray:
-    """Points along a run, close enough to determine its interior."""
-    s = np.linspace(0.0, 1.0, 8, endpoint=False)[None, :, None]
-    p0, p1, p2, p3 = (path[:, i, None] for i in range(4))
-    points = (1 - s) ** 3 * p0 + 3 * s * (1 - s) ** 2 * p1 + 3 * s**2 * (1 - s) * p2 + s**3 * p3
-    return points.reshape(-1, 2)
 
 
 def _draw_label(axes: Axes, label: Label) -> None:
