@@ -7,7 +7,7 @@ import sys
 
 import stereodel
 from stereodel._extras import MissingExtraError
-from stereodel._interrupts import leave
+from stereodel._tasks.interrupts import leave
 
 
 def main() -> None:

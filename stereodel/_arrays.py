@@ -6,6 +6,8 @@ Nothing here modifies its argument; the result may share memory with it and is n
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
+from collections.abc import Hashable
 from typing import Any, TypeVar
 
 import numpy as np
@@ -387,3 +389,18 @@ def as_window(value: Any, size: int, name: str) -> tuple[int, int, int, int]:
     if not (0 <= left < left + width <= size and 0 <= top < top + height <= size):
         raise ValueError(f"{name} is {(left, top, width, height)}, which is not a part of {size} × {size} pixels")
     return left, top, width, height
+
+
+class Keyed(ABC):
+    """Values that hold arrays, which have no truth of their own: equal exactly where their keys are."""
+
+    @property
+    @abstractmethod
+    def _key(self) -> Hashable:
+        """What tells values apart."""
+
+    def __eq__(self, other: object) -> bool:
+        return self._key == other._key if isinstance(other, type(self)) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash(self._key)

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Final
 
 import stereodel
 from stereodel._extras import EXTRAS, installed_version, installing, lacking
-from stereodel._interrupts import stop_if_interrupted
+from stereodel._tasks.interrupts import stop_if_interrupted
 
 if TYPE_CHECKING:
     from stereodel.render import gl

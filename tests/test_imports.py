@@ -17,7 +17,7 @@ ROOT = Path(__file__).resolve().parent.parent
 PACKAGE = ROOT / "stereodel"
 
 BASE = {"constants", "earth"}
-BASE |= {"_arrays", "_docs", "_extras", "_numbers", "_double_double", "_threads", "_values"}
+BASE |= {"_arrays", "_docs", "_extras", "_numbers", "_double_double", "_threads"}
 MATHEMATICS = BASE | {"sphere", "projections", "conformal", "predicates", "triangulation"}
 KERNEL = BASE | {"_kernel", "_spaces"}
 MAY_IMPORT = {
@@ -26,8 +26,6 @@ MAY_IMPORT = {
     "_docs": set(),
     "_files": set(),
     "_extras": set(),
-    "_interrupts": set(),
-    "_values": set(),
     "_kernel": set(),
     "_spaces": {"_arrays", "_kernel", "sphere"},
     "_arrays": BASE,
@@ -52,8 +50,8 @@ MAY_IMPORT = {
     "partitioned": KERNEL
     | {"__init__", "_files", "curves", "interpolation", "io", "sphere", "_tasks", "triangulation"},
     "__init__": MATHEMATICS,
-    "_doctor": {"__init__", "_extras", "_interrupts", "render"},
-    "__main__": {"__init__", "_doctor", "_extras", "_interrupts", "cli"},
+    "_doctor": {"__init__", "_extras", "_tasks", "render"},
+    "__main__": {"__init__", "_doctor", "_extras", "_tasks", "cli"},
     "drawing": MATHEMATICS | {"_spaces", "curves"},
     "render": MATHEMATICS | {"_files", "curves", "drawing"},
     "mpl": MATHEMATICS | {"curves", "data", "drawing", "io"},
@@ -62,7 +60,7 @@ MAY_IMPORT = {
     "film": MATHEMATICS | {"_files", "_kernel", "_tasks", "curves", "drawing", "globe", "render"},
     "cli": MATHEMATICS
     | {"__init__", "_files", "curves", "data", "drawing", "earth", "film", "globe", "interpolation", "io"}
-    | {"_doctor", "_interrupts", "_tasks", "partitioned", "web"},
+    | {"_doctor", "_tasks", "partitioned", "web"},
 }
 # Whatever the table above says some day: data know nothing of pictures, and drawing is without OpenGL.
 NEVER = {("io", "render"), ("io", "globe"), ("io", "film"), ("io", "mpl"), ("drawing", "render"), ("render", "globe")}

@@ -14,7 +14,7 @@ import typer
 from typer.core import TyperCommand, TyperGroup
 
 import stereodel
-from stereodel._interrupts import INTERRUPTED, interrupt, leave, signals, stop_if_interrupted
+from stereodel._tasks.interrupts import INTERRUPTED, interrupt, leave, signals, stop_if_interrupted
 from stereodel._tasks.progress import Progress
 from stereodel._tasks.progress import reporting as on_terminal
 from stereodel.io.formats.names import DataWarning, spelling

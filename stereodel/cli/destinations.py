@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from stereodel._arrays import Column
 from stereodel._files import replacing, said_of
-from stereodel._interrupts import stop_if_interrupted
+from stereodel._tasks.interrupts import stop_if_interrupted
 from stereodel.cli.application import reporting
 from stereodel.io import PointTable, write
 from stereodel.io.formats.delimited import write_csv

@@ -10,7 +10,7 @@ from typing import Annotated, Any
 import typer
 
 from stereodel._extras import optional
-from stereodel._interrupts import stop_if_interrupted
+from stereodel._tasks.interrupts import stop_if_interrupted
 from stereodel.cli import options
 from stereodel.cli.application import ARGUMENTS, NothingToDoError, reporting, say
 from stereodel.io.formats.names import spelling

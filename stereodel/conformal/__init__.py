@@ -1,16 +1,13 @@
 """Conformal maps of the sphere: the Möbius group, the fisheye, maps between bubbles, paths between maps."""
 
-from stereodel.conformal.distortions import Distortion, distortion
 from stereodel.conformal.maps import bubble_to_bubble, fisheye, three_points
 from stereodel.conformal.moebius import MoebiusMap
 from stereodel.conformal.paths import GroupPath, flight, path_between
 
 __all__ = [
-    "Distortion",
     "GroupPath",
     "MoebiusMap",
     "bubble_to_bubble",
-    "distortion",
     "fisheye",
     "flight",
     "path_between",

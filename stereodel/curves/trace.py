@@ -17,7 +17,6 @@ import numpy as np
 
 from stereodel._arrays import BoolArray, FloatArray, Indices
 from stereodel.conformal import MoebiusMap
-from stereodel.conformal.distortions import largest_scale
 from stereodel.constants import LONGEST_EDGE, MOST_PIECES, WHOLE_TURNS
 from stereodel.curves.ragged import Ragged, Rows, offsets_of, spans
 from stereodel.sphere import SphereArc, lonlat_to_xyz
@@ -343,6 +342,19 @@ def _wanted(lens: MoebiusMap, tolerance: float, start: FloatArray, length: Float
     # Long edges are cut because of their length alone: antipodal points do not determine a great circle.
     wanted = np.sqrt(bend * largest_scale(lens, start, length) / tolerance)
     return np.asarray(np.maximum(wanted, length / np.radians(LONGEST_EDGE)))
+
+
+def largest_scale(lens: MoebiusMap, points: FloatArray, radius: FloatArray) -> FloatArray:
+    """The largest local scale within angular distances `radius` (n,) of unit vectors (n, 3), radians."""
+    there = turned(points, lens.right.matrix)
+    size = lens.magnification
+    height = there[:, 2] if size >= 1 else -there[:, 2]
+    across = np.sqrt(there[:, 0] ** 2 + there[:, 1] ** 2)
+    # At the place nearest to the point of largest scale: the focus, or its antipode if the map shrinks.
+    half = np.maximum(np.arctan2(across, height) - radius, 0.0) / 2
+    larger = max(size, 1 / size)
+    scale: FloatArray = larger / (np.cos(half) ** 2 + (larger * np.sin(half)) ** 2)
+    return scale
 
 
 def numbered(arcs: Arcs) -> Arcs:

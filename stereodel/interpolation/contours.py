@@ -7,9 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import AnyIndices, BoolArray, FloatArray, as_levels, as_values, read_only
+from stereodel._arrays import AnyIndices, BoolArray, FloatArray, Keyed, as_levels, as_values, read_only
 from stereodel._docs import shared
-from stereodel._values import Keyed
 from stereodel.interpolation.interpolator import FAMILY, PrecisePoints, one_value_a_place
 from stereodel.sphere.latitudes import Latitude
 from stereodel.sphere.lonlat import as_told

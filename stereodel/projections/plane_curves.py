@@ -8,8 +8,7 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import FloatArray, as_count, as_floats, read_only
-from stereodel._values import Keyed
+from stereodel._arrays import FloatArray, Keyed, as_count, as_floats, read_only
 
 
 @dataclass(frozen=True, eq=False)

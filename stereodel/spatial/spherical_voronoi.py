@@ -11,7 +11,7 @@ from stereodel._arrays import FloatArray, IntArray, as_floats, as_points, as_sca
 from stereodel.spatial.compatibility import other_dimensions
 
 
-class SphericalVoronoi(scipy.spatial.SphericalVoronoi):
+class ExactOnSphere(scipy.spatial.SphericalVoronoi):
     """Voronoi diagram of a sphere with the interface of `scipy.spatial.SphericalVoronoi`, exact.
 
     Parameters
@@ -102,6 +102,10 @@ class SphericalVoronoi(scipy.spatial.SphericalVoronoi):
     def calculate_areas(self) -> FloatArray:
         """Area of each region, (npoints,); together 4π·radius²."""
         return np.array(self._diagram.areas(radius=self.radius))
+
+
+SphericalVoronoi = ExactOnSphere  # under the name that SciPy has, for pickles and help as well
+SphericalVoronoi.__name__ = SphericalVoronoi.__qualname__ = "SphericalVoronoi"
 
 
 def _as_center(center: npt.ArrayLike) -> FloatArray:

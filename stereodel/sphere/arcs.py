@@ -11,9 +11,8 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel import _kernel
-from stereodel._arrays import FloatArray, as_count, as_directions, as_lonlat, as_scalar, as_steps, read_only
+from stereodel._arrays import FloatArray, Keyed, as_count, as_directions, as_lonlat, as_scalar, as_steps, read_only
 from stereodel._double_double import DoubleDouble, cross, dot, unit
-from stereodel._values import Keyed
 from stereodel.constants import UNDECIDED
 from stereodel.sphere.circles import SphereCircle, on_circle, stored_unit
 from stereodel.sphere.coordinates import as_direction, lonlat_to_xyz

@@ -7,9 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import BoolArray, FloatArray, as_count, as_directions, as_scalar, read_only
+from stereodel._arrays import BoolArray, FloatArray, Keyed, as_count, as_directions, as_scalar, read_only
 from stereodel._double_double import DoubleDouble, by_blocks, cross, dot, unit, where
-from stereodel._values import Keyed
 from stereodel.constants import STORED_ERROR, UNDECIDED
 from stereodel.sphere.coordinates import as_direction, tangent_frame
 from stereodel.sphere.degrees import sin_cos_degrees

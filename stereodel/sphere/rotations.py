@@ -14,9 +14,8 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel import _kernel
-from stereodel._arrays import FloatArray, as_matrix, as_quaternion, as_scalar, as_vectors
+from stereodel._arrays import FloatArray, Keyed, as_matrix, as_quaternion, as_scalar, as_vectors
 from stereodel._double_double import DoubleDouble, dot, stack, unit
-from stereodel._values import Keyed
 from stereodel.constants import MATRIX_ERROR
 from stereodel.sphere.coordinates import as_direction, scaled
 from stereodel.sphere.degrees import sin_cos_degrees

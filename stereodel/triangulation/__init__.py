@@ -5,7 +5,7 @@ from stereodel.triangulation.planar_delaunay import PlanarDelaunay
 from stereodel.triangulation.planar_voronoi import PlanarVoronoi
 from stereodel.triangulation.spherical_delaunay import SphericalDelaunay
 from stereodel.triangulation.spherical_voronoi import SphericalVoronoi
-from stereodel.triangulation.theorem import exact_lift, merged_polygons, planar_part, theorem_1_holds
+from stereodel.triangulation.theorem import planar_part
 from stereodel.triangulation.validate import DelaunayCertificate, InvalidTriangulation, check_delaunay
 
 __all__ = [
@@ -18,8 +18,5 @@ __all__ = [
     "SphericalDelaunay",
     "SphericalVoronoi",
     "check_delaunay",
-    "exact_lift",
-    "merged_polygons",
     "planar_part",
-    "theorem_1_holds",
 ]

@@ -7,7 +7,7 @@ import pytest
 import typer
 from typer.testing import CliRunner
 
-from stereodel._interrupts import signals
+from stereodel._tasks.interrupts import signals
 from stereodel.cli import app
 from stereodel.cli.application import Commands, reporting
 

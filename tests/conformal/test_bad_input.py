@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from stereodel.conformal import MoebiusMap, bubble_to_bubble, distortion, fisheye, flight, three_points
+from stereodel.conformal import MoebiusMap, bubble_to_bubble, fisheye, flight, three_points
 from stereodel.sphere import SphereCircle
 
 IDENTITY, LENS, CAP = MoebiusMap.identity(), fisheye((10, 20), magnification=3), SphereCircle.around((20, 50), 10)
@@ -31,8 +31,6 @@ MANY = np.ones((300, 3))
         (lambda: flight((0, 0), (1, 95), magnification=2.0), "latitude 95"),
         (lambda: flight((0, 0), (1, 1), magnification=2.0)(1.01), "t is 1.01, outside"),
         (lambda: flight((0, 0), (1, 1), magnification=2.0, arrival=np.inf), "inf"),
-        (lambda: distortion(LENS, []), "region is empty"),
-        (lambda: distortion(LENS, np.zeros((2, 4))), "region must have shape"),
         (
             lambda: bubble_to_bubble(CAP, CAP, source_point=(20.0, 60.1)),
             "source_point must lie strictly inside",

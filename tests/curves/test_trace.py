@@ -4,11 +4,11 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from stereodel import MoebiusMap, fisheye, lonlat_to_xyz
+from stereodel import MoebiusMap, SphereArc, fisheye, lonlat_to_xyz
 from stereodel.curves.ragged import Ragged
-from stereodel.curves.trace import Edges, great, sides_of, unwrapped
+from stereodel.curves.trace import Edges, great, largest_scale, sides_of, unwrapped
 from tests.curves.oracle import off_lines, units
-from tests.strategies import SEEDS
+from tests.strategies import BETWEEN_POLES, SEEDS, decades
 
 AXES = np.eye(3)
 
@@ -146,3 +146,18 @@ def test_edges_stay_within_their_length():
     near = edges.within(place, reach)
     assert (near | ~comes).all()
     assert near.sum() < 200
+
+
+@given(focus=BETWEEN_POLES, size=decades(-6, 6), at=BETWEEN_POLES, radius=st.floats(0, 3), seed=st.integers(0, 100))
+def test_no_scale_nearby_is_larger_than_the_bound(focus, size, at, radius, seed):
+    lens = fisheye(focus, magnification=size)
+    rng = np.random.default_rng(seed)
+    center = SphereArc.great(at, (at[0] + 1.0, at[1] * 0.5)).start
+    other = rng.normal(size=(200, 3))
+    side = other - np.outer(other @ center, center)
+    side /= np.linalg.norm(side, axis=1, keepdims=True)
+    angle = (radius * rng.random(200))[:, None]
+    points = np.cos(angle) * center + np.sin(angle) * side
+    bound = largest_scale(lens, center[None], np.array([radius]))[0]
+    assert lens.scale_factor(points).max() <= bound * (1 + 1e-6)
+    assert bound <= max(size, 1 / size) * (1 + 1e-12)

@@ -5,15 +5,9 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from stereodel.triangulation.planar_delaunay import PlanarDelaunay
-from stereodel.triangulation.spherical_delaunay import SphericalDelaunay
-from stereodel.triangulation.theorem import (
-    PROJECTION_POLE,
-    exact_lift,
-    merged_polygons,
-    planar_part,
-    theorem_1_holds,
-)
+from figures._theorem import PROJECTION_POLE, exact_lift, merged_polygons, theorem_1_holds
+from stereodel import PlanarDelaunay, SphericalDelaunay
+from stereodel.triangulation import planar_part
 
 GRID = np.array([[x, y] for x in range(-3, 4) for y in range(-2, 3)], dtype=float)
 DYADIC = st.tuples(st.integers(-(2**12), 2**12), st.integers(-(2**12), 2**12))

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from stereodel import SphericalDelaunay, lonlat_to_xyz
-from stereodel.triangulation.theorem import planar_part
+from stereodel.triangulation import planar_part
 from stereodel.web.contents import scattered
 
 from .rooms import link, opened, python_lines, said

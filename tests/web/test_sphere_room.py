@@ -3,9 +3,10 @@
 import numpy as np
 import pytest
 
+from figures._theorem import merged_polygons
 from stereodel import PlanarDelaunay, SphericalDelaunay, Stereographic, in_bubble, lonlat_to_xyz
 from stereodel.sphere import SphereCircle
-from stereodel.triangulation.theorem import merged_polygons, planar_part
+from stereodel.triangulation import planar_part
 from stereodel.web.contents import scattered
 
 from .conftest import LOADED, SCRIPT
