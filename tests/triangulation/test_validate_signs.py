@@ -1,12 +1,14 @@
 """The validator's own predicates against fractions and 800-digit roots, nearly and exactly degenerate."""
 
+from fractions import Fraction
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from mpmath import mpf, workdps
 
-from stereodel.triangulation.validate_signs import PlaneSigns, SphereSigns
+from stereodel.triangulation.validate_signs import PlaneSigns, SphereSigns, _nearly_unit, ray_integers
 from tests import sets
 from tests.exact import cross, dot, fractions, minus, unit
 from tests.reference import incircle_integer, orient2d_integer, sign
@@ -132,3 +134,20 @@ def test_facing_is_the_normal_of_a_great_circle_triangle():
     points = np.array([[3.0, 4, 0], [-4, 3, 0], [4, 3, 0], [-3, -4, 0], [-1, 0, 0], [1, 0, 0]])
     rows = np.array([[2, 0, 1], [0, 2, 1], [0, 1, 3], [5, 2, 4], [5, 2, 3]])
     assert SphereSigns(points).facing(rows).tolist() == [[0, 0, 1], [0, 0, -1], [0, 0, 1], [0, 0, 1], [0, 0, 1]]
+
+
+def test_scaled_vectors_keep_their_direction_exactly():
+    points = np.random.default_rng(0).normal(size=(50, 3)) * [1, 1e-5, 1e5]
+    high, low = _nearly_unit(points)
+    assert np.linalg.norm(high, axis=1) == pytest.approx(1, abs=8 * ULP)
+    for p, h, r in zip(points, high, low, strict=True):
+        p, v = [Fraction(x) for x in p], [Fraction(x) + Fraction(y) for x, y in zip(h, r, strict=True)]
+        assert all(p[k] * v[k - 1] == p[k - 1] * v[k] for k in range(3))
+
+
+def test_ray_integers_keep_directions_down_to_the_subnormals():
+    points = np.array([[5e-324, 0, 1e-323], [1e308, -5e307, 0], [0.75, 0.5, -0.25]])
+    assert ray_integers(points)[[0, 2]].tolist() == [[1, 0, 2], [3, 2, -1]]
+    x, y, z = ray_integers(points)[1]
+    assert Fraction(x, y) == Fraction(1e308) / Fraction(-5e307)
+    assert z == 0
