@@ -74,8 +74,7 @@ def test_readme_example_prints_what_it_says(capsys):
     assert capsys.readouterr().out.split() == printed.split()
 
 
-@pytest.mark.thorough
-@pytest.mark.parametrize("page", ["earth", "interpolation"])
+@pytest.mark.parametrize("page", by_day(["earth", "interpolation", "spatial"], "spatial"))
 def test_the_examples_of_a_page_run(page):
     text = (ROOT / "docs" / f"{page}.md").read_text(encoding="utf-8")
     code = "\n".join(re.findall(r"```python\n(.*?)```", text, re.DOTALL))
@@ -122,11 +121,13 @@ def test_the_start_page_lists_every_extra():
 THEOREM = (ROOT / "docs" / "theorem.md").read_text(encoding="utf-8")
 
 
-def test_what_the_page_of_the_theorem_prints_is_true():
-    """Its dialogues with the interpreter, as one."""
-    dialogue = "\n".join(re.findall(r"```pycon\n(.*?)```", THEOREM, re.DOTALL))
-    test = doctest.DocTestParser().get_doctest(dialogue, {}, "theorem", "docs/theorem.md", 0)
-    assert len(test.examples) > 20
+@pytest.mark.parametrize(("page", "least"), [("theorem", 21), ("spatial", 6)])
+def test_dialogues_of_a_page_are_true(page, least):
+    """With the interpreter, as one."""
+    text = (ROOT / "docs" / f"{page}.md").read_text(encoding="utf-8")
+    dialogue = "\n".join(re.findall(r"```pycon\n(.*?)```", text, re.DOTALL))
+    test = doctest.DocTestParser().get_doctest(dialogue, {}, page, f"docs/{page}.md", 0)
+    assert len(test.examples) >= least
     report: list[str] = []
     doctest.DocTestRunner().run(test, out=report.append)
     assert "".join(report) == ""

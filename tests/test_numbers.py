@@ -146,7 +146,7 @@ CALLS = {
 @pytest.mark.parametrize("call", CALLS)
 def test_any_number_of_workers(call):
     expected = CALLS[call](1)
-    for workers in (2, 3, -1, 10**6, 2**31, 10**30):
+    for workers in (2, np.int64(3), None, -1, 10**6, 2**31, 10**30):
         assert np.array_equal(CALLS[call](workers), expected, equal_nan=True)
 
 

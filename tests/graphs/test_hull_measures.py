@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 import scipy.spatial
 
-from stereodel import PlanarDelaunay, SphericalDelaunay, solid_angle
+from stereodel import SphericalDelaunay, solid_angle
 from stereodel.graphs import hull, hull_area, hull_perimeter
+from tests.spaces import BOTH
 
 
 def test_measures_of_the_plane_are_those_of_scipy(rng):
@@ -62,12 +63,11 @@ def test_points_all_around_have_no_hull(measure):
         measure(lonlat=[[0, 0], [120, 0], [240, 0]])
 
 
-@pytest.mark.parametrize("dimension", [2, 3])
-def test_neighbours_of_points_are_the_ends_of_edges(dimension, rng):
-    points = rng.normal(size=(80, dimension))
+@BOTH
+def test_neighbours_of_points_are_the_ends_of_edges(space, rng):
+    points = space.random(rng, 80)
     points[7] = points[3]
-    kind = PlanarDelaunay if dimension == 2 else SphericalDelaunay
-    triangulation = kind(points)
+    triangulation = space.delaunay(points)
     indptr, indices = triangulation.vertex_neighbor_vertices
     assert indptr.dtype == indices.dtype == np.int32
     found = {(k, other) for k in range(80) for other in indices[indptr[k] : indptr[k + 1]].tolist()}

@@ -14,7 +14,8 @@ import pytest
 
 import stereodel
 from stereodel import _kernel_probe as probe
-from tests.reference import bubble_ray, ray, turn_ray
+from tests.exact import dot, minus
+from tests.reference import bubble_ray, det3, ray, turn_ray
 
 OPEN = 2
 PREDICATES = Path(stereodel.__file__).parent / "kernel" / "predicates"
@@ -62,24 +63,8 @@ def constant(file, name):
     return float(found)
 
 
-def minus(a, b):
-    return [x - y for x, y in zip(a, b, strict=True)]
-
-
-def dot(a, b):
-    total = a[0] * b[0]
-    for x, y in zip(a[1:], b[1:], strict=True):
-        total += x * y
-    return total
-
-
 def cross(a, b):
     return a[0] * b[1] - a[1] * b[0]
-
-
-def determinant(a, u, v):
-    i, j, k = (u[m] * v[n] - u[n] * v[m] for m, n in ((1, 2), (2, 0), (0, 1)))
-    return a[0] * i + a[1] * j + a[2] * k
 
 
 def orient2d(a, b, c):
@@ -97,18 +82,18 @@ def incircle(a, b, c, d):
 def orient3d(a, b, c, d):
     u, v, w = minus(b, a), minus(c, a), minus(d, a)
     turns = ((0, 1, 2), (1, 2, 0), (2, 0, 1))
-    return determinant(u, v, w), sum(abs(u[i]) * (abs(v[j] * w[k]) + abs(v[k] * w[j])) for i, j, k in turns)
+    return det3(u, v, w), sum(abs(u[i]) * (abs(v[j] * w[k]) + abs(v[k] * w[j])) for i, j, k in turns)
 
 
 def turn(a, b, c):
     u, v = minus(b, a), minus(c, a)
-    return determinant(a, u, v), float(dot(a, a) * (dot(u, u) * dot(v, v))) ** 0.5
+    return det3(a, u, v), float(dot(a, a) * (dot(u, u) * dot(v, v))) ** 0.5
 
 
 def bubble(a, b, c, p):
     u, v, w = minus(b, a), minus(c, a), minus(p, a)
     bb, cc, pp = dot(u, u), dot(v, v), dot(w, w)
-    value = bb * determinant(a, v, w) + cc * determinant(a, w, u) + pp * determinant(a, u, v)
+    value = bb * det3(a, v, w) + cc * det3(a, w, u) + pp * det3(a, u, v)
     return -value, bb * (cc + pp) + cc * pp
 
 

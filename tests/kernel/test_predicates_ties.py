@@ -76,18 +76,9 @@ def test_small_integers(vectors):
         assert in_bubble(*four) == ((bubble_ray(*rays) or bubble_tie(*rays)) > 0)
 
 
-REFLECTIONS = [np.diag(signs) for signs in ([-1, 1, 1], [1, -1, 1], [1, 1, -1])]
-REFLECTIONS += [
-    np.array(rows)
-    for rows in (
-        [[0, 1, 0], [1, 0, 0], [0, 0, 1]],
-        [[0, -1, 0], [-1, 0, 0], [0, 0, 1]],
-        [[0, 0, 1], [0, 1, 0], [1, 0, 0]],
-        [[0, 0, -1], [0, 1, 0], [-1, 0, 0]],
-        [[1, 0, 0], [0, 0, 1], [0, 1, 0]],
-        [[1, 0, 0], [0, 0, -1], [0, -1, 0]],
-    )
-]
+SIGNS = list(itertools.product((1, -1), repeat=3))
+REFLECTIONS = [np.array(rows) * signs for rows in itertools.permutations(np.eye(3)) for signs in SIGNS]
+REFLECTIONS = [matrix for matrix in REFLECTIONS if np.array_equal(matrix, matrix.T) and np.trace(matrix) == 1]
 ANY = st.tuples(*[st.floats(0.25, 1.0) | st.floats(-1.0, -0.25)] * 3)
 
 

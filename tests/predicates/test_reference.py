@@ -49,24 +49,6 @@ def test_sums_of_roots_that_cancel(c, n, k, m, nudge):
     assert sign_of_roots([(c, n * k * k), (c, m), (-c * k, n), (-c, m)]) == 0
 
 
-@pytest.mark.parametrize(
-    ("terms", "expected"),
-    [
-        ([], 0),
-        ([(0, 2), (0, 3)], 0),
-        ([(1, 2), (1, 3), (-1, 10)], -1),  # 3.1463 against 3.1623
-        ([(1, 2), (1, 3), (-1, 5), (-1, 1)], -1),
-        ([(99, 9802), (-9801, 1), (-1, 1)], -1),
-        ([(2, 2), (-1, 8), (1, 3)], 1),  # a half that is zero: 2√2 = √8
-        ([(2, 2), (-1, 8), (1, 5), (-1, 3)], 1),
-        ([(1, 10**60 + 1), (-(10**30), 1)], 1),
-    ],
-)
-def test_known_signs(terms, expected):
-    assert sign_of_roots(terms) == expected
-    assert sign_of_roots([(-c, n) for c, n in terms]) == -expected
-
-
 SMALL = SPHERE.places(6)
 
 
@@ -164,9 +146,3 @@ def test_the_sphere(name):
             rays = [ray(tuple(map(float, v))) for v in four]
             assert bubble_ray(*rays) == 0
             assert bubble_tie(*rays) == displaced_bubble(*four)
-
-
-def test_repeated_points_have_no_rule():
-    a, b, c = (ray(v) for v in ((3.0, 4.0, 0.0), (5.0, 0.0, 0.0), (0.0, 1.0, 0.0)))
-    with pytest.raises(ArithmeticError, match="same"):
-        bubble_tie(a, b, b, c) and bubble_tie(b, b, b, c)

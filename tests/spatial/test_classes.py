@@ -141,6 +141,20 @@ def test_every_other_name_of_scipy_spatial():
         _ = stereodel.spatial.NoSuchThing
 
 
+def test_submodules_of_scipy_are_imported_by_their_paths():
+    """A script changes `scipy.spatial` to `stereodel.spatial` wherever that stands."""
+    import stereodel.spatial.distance
+    from stereodel.spatial.distance import cdist
+    from stereodel.spatial.kdtree import KDTree
+    from stereodel.spatial.qhull import ConvexHull, Delaunay
+    from stereodel.spatial.transform import Rotation, Slerp
+
+    assert cdist is scipy.spatial.distance.cdist is stereodel.spatial.distance.cdist
+    assert (KDTree, ConvexHull) == (scipy.spatial.KDTree, scipy.spatial.ConvexHull)
+    assert (Rotation, Slerp) == (scipy.spatial.transform.Rotation, scipy.spatial.transform.Slerp)
+    assert Delaunay is stereodel.spatial.Delaunay
+
+
 @pytest.mark.parametrize(
     "method", [scipy.interpolate.LinearNDInterpolator, scipy.interpolate.CloughTocher2DInterpolator]
 )

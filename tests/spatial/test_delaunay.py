@@ -12,9 +12,7 @@ from stereodel.spatial import Delaunay
 from stereodel.spatial.barycentric import transforms
 from stereodel.spatial.delaunay import Paraboloid
 from tests import sets
-from tests.spatial.oracle import as_sets, random_points
-
-SMALL_SETS = st.lists(st.tuples(st.integers(0, 4), st.integers(0, 4)), max_size=14)
+from tests.spatial.oracle import SMALL_SETS, as_sets, random_points
 
 
 @pytest.fixture(scope="module", params=[(1.0, 0.0), (1e-3, 7.0), (1e6, -3e5)], ids=["unit", "far", "large"])

@@ -8,9 +8,7 @@ from hypothesis import strategies as st
 
 from stereodel.spatial import Voronoi
 from tests import sets
-from tests.spatial.oracle import cycle, random_points, vertex_numbers
-
-SMALL_SETS = st.lists(st.tuples(st.integers(0, 4), st.integers(0, 4)), max_size=14)
+from tests.spatial.oracle import SMALL_SETS, cycle, random_points, vertex_numbers
 
 
 @pytest.mark.parametrize("points", [random_points(), sets.plane("small grid").points], ids=["random", "grid"])

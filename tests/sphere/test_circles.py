@@ -85,12 +85,8 @@ def test_contains_resolves_a_tiny_bubble(radius):
 
 
 def test_points_of_a_great_circle_count_as_inside():
-    assert SphereCircle((0, 90), 0.0).contains([[1, 0, 0], [3, -4, 0], [1, 1, 1e-300], [1, 1, -1e-20]]).tolist() == [
-        True,
-        True,
-        True,
-        False,
-    ]
+    places = [[1, 0, 0], [3, -4, 0], [1, 1, 1e-300], [1, 1, -1e-20]]
+    assert SphereCircle((0, 90), 0.0).contains(places).tolist() == [True, True, True, False]
 
 
 @given(BETWEEN_POLES, BETWEEN_POLES)

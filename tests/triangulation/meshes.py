@@ -3,12 +3,13 @@
 import numpy as np
 from scipy.spatial import ConvexHull, Delaunay
 
+from tests import sets
+
 GOLDEN = (1 + np.sqrt(5)) / 2
 
 
-def unit_normal(n, seed=0):
-    p = np.random.default_rng(seed).normal(size=(n, 3))
-    return p / np.linalg.norm(p, axis=1)[:, None]
+def unit_normal(n, seed):
+    return sets.directions(np.random.default_rng(seed), n)
 
 
 def hull(points):

@@ -16,11 +16,12 @@ import scipy.spatial
 from hypothesis import given
 from hypothesis import strategies as st
 
-from stereodel import PlanarDelaunay, SphericalDelaunay, check_delaunay
+from stereodel import HullInsertion, PlanarDelaunay, SphericalDelaunay, check_delaunay
 from stereodel.predicates import in_bubble, incircle
 from stereodel.triangulation.topology import neighbors_of
 from tests import sets
 from tests.spaces import BOTH, PLANE, SPHERE, readable, rows, space_of
+from tests.spatial.oracle import as_sets
 
 FIXTURES = sorted((Path(__file__).parent.parent / "fixtures" / "delaunator").glob("*.json"))
 POLES = list(itertools.product(range(3), (-1, 1)))
@@ -144,25 +145,6 @@ def test_repetition_and_length_change_no_simplex(space, data):
     assert rows(space.triangulated(twice * factors).simplices) == rows(space.triangulated(points).simplices)
 
 
-@pytest.mark.parametrize("seed", [0, *(pytest.param(k, marks=pytest.mark.thorough) for k in range(1, 12))])
-@pytest.mark.parametrize("one", sets.of("few"))
-def test_parts_of_sets_and_their_diagrams(one, seed):
-    """Everything that holds for all sets."""
-    space, rng = space_of(one.points), np.random.default_rng(seed)
-    points = rng.permutation(one.points)[: rng.integers(len(one.points) + 1)]
-    triangulation = space.triangulated(points)
-    diagram = space.voronoi(triangulation)
-    assert rows(diagram.delaunay().simplices) == rows(triangulation.simplices)
-    assert len(diagram.regions) == len(points)
-    if len(points):
-        names = space.names(points)
-        assert names[triangulation.nearest(points)].tolist() == names.tolist()
-    if space is SPHERE and len(points):
-        assert np.isclose(diagram.areas().sum(), 4 * np.pi, rtol=1e-13)
-    elif triangulation.dimension == 2:
-        assert (triangulation.find_simplex(points) >= 0).all()
-
-
 def test_against_scipy():
     points = np.random.default_rng(0).random((2000, 2))
     triangulation, hull = PLANE.triangulated(points), scipy.spatial.ConvexHull(points)
@@ -173,10 +155,6 @@ def test_against_scipy():
     assert as_sets(triangulation.simplices) == as_sets(scipy.spatial.ConvexHull(points).simplices)
     assert not triangulation.closing.any()
     assert triangulation.convex_hull.shape == (0, 2)
-
-
-def as_sets(table):
-    return {frozenset(row) for row in table.tolist()}
 
 
 @pytest.mark.parametrize("path", FIXTURES, ids=lambda p: p.stem)
@@ -321,11 +299,6 @@ def test_threads_change_nothing_not_even_the_rows(name):
     assert touch.mean() > 0.5
 
 
-def test_workers():
-    for workers in (2, np.int64(5), None):
-        assert PlanarDelaunay(GRID, workers=workers).simplices.tolist() == PlanarDelaunay(GRID).simplices.tolist()
-
-
 @pytest.mark.parametrize(
     "convert",
     [
@@ -350,14 +323,14 @@ def test_accepted_input(convert):
     [
         (PlanarDelaunay, [[0, 0], [1, np.nan]], ValueError, r"points\[1, 1\] is nan"),
         (PlanarDelaunay, [[1j, 0]], TypeError, "points must hold real numbers, not complex128"),
-        (PlanarDelaunay, ["ab"], TypeError, "points must hold real numbers"),
-        (PlanarDelaunay, [[1, 2, 3]], ValueError, r"points must have shape \(n, 2\), got \(1, 3\)"),
         (PlanarDelaunay, [1, 2], ValueError, r"points must have shape \(n, 2\), got \(2,\)"),
         (PlanarDelaunay, np.ma.masked_equal([[1.0, 2.0]], 2), ValueError, r"points\[0, 1\] is masked"),
         (SphericalDelaunay, [[0, 0, 0]], ValueError, r"points\[0\] is the zero vector"),
-        (SphericalDelaunay, [[0, 1]], ValueError, r"points must have shape \(n, 3\), got \(1, 2\)"),
         (SphericalDelaunay.from_lonlat, [[0, 91]], ValueError, r"lonlat\[0, 1\] is latitude 91"),
-        (SphericalDelaunay.from_lonlat, [[0, 0, 1]], ValueError, r"lonlat must have shape \(n, 2\)"),
+        *(
+            (HullInsertion, bad, (TypeError, ValueError), "points")
+            for bad in ([[0, 0, 0]], [[1, np.nan]], "points", [[1, 2], [3]])
+        ),
     ],
 )
 def test_refused_input(make, bad, error, message):
@@ -454,15 +427,6 @@ def test_copies_are_the_same_and_independent(space, duplicate):
     assert len(other.points) + 4 == len(triangulation.points)
     check_delaunay(other)
     check_delaunay(triangulation)
-
-
-def test_simplices_known_from_elsewhere():
-    """What the Voronoi diagram's way back uses."""
-    direct = PlanarDelaunay(GRID)
-    known = PlanarDelaunay._from_simplices(direct.points, direct.simplices[::-1].copy(), direct.duplicates)
-    assert_same(known, direct)
-    known.insert([[0.25, 0.5]])
-    check_delaunay(known)
 
 
 @pytest.mark.thorough

@@ -131,12 +131,6 @@ def test_extending_until_three_points_span():
     assert engine.simplices.tolist() == [[0, 1, 4], [1, 2, 4]]
 
 
-@pytest.mark.parametrize("bad", [np.zeros((3, 4)), [[0, 0, 0]], [[1, np.nan]], "points", [[1, 2], [3]], np.ones(3)])
-def test_bad_points(bad):
-    with pytest.raises((ValueError, TypeError), match="points"):
-        HullInsertion(bad)
-
-
 # What comes before the first facet -----------------------------------------------------------------------------------
 
 

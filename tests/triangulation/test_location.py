@@ -336,13 +336,6 @@ def test_without_points(space):
         none.nearest(query)
 
 
-def test_bad_queries_are_named():
-    with pytest.raises(ValueError, match=r"queries must have shape"):
-        PlanarDelaunay([[0, 0]]).find_simplex([1, 2, 3])
-    with pytest.raises(ValueError, match=r"queries\[0\] is the zero vector"):
-        SphericalDelaunay(np.eye(3)).nearest([[0, 0, 0]])
-
-
 def test_the_kernel_wants_triangles_or_an_order():
     (points, simplices, neighbors), _ = kernel_arrays(np.random.default_rng(11).random((9, 2)))
     with pytest.raises(ValueError, match="same length"):

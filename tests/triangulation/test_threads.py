@@ -3,6 +3,7 @@
 import copy
 import pickle
 import threading
+from functools import partial
 
 import numpy as np
 import pytest
@@ -165,13 +166,7 @@ def test_two_changes_of_copies_at_a_time(space):
         triangulation = space.delaunay(start)
         triangulation.insert(more[:1])
         twins = [copy.copy(triangulation) for _ in range(4)]
-        threads = [
-            threading.Thread(target=twin.insert, args=(more[1 + 9 * k : 10 + 9 * k],)) for k, twin in enumerate(twins)
-        ]
-        for thread in threads:
-            thread.start()
-        for thread in threads:
-            thread.join()
+        at_once(*(partial(twin.insert, more[1 + 9 * k : 10 + 9 * k]) for k, twin in enumerate(twins)))
         for k, twin in enumerate(twins):
             points = np.vstack([start, more[:1], more[1 + 9 * k : 10 + 9 * k]])
             assert np.array_equal(twin.points, points)

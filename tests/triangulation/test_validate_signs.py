@@ -38,13 +38,6 @@ def bubble(quadruple):
     return int(SphereSigns(np.asarray(quadruple, dtype=float)).bubble(np.array([[0, 1, 2, 3]]))[0])
 
 
-def test_conventions():
-    assert PlaneSigns(np.array([[0.0, 0], [1, 0], [0, 1]])).turn(np.array([[0, 1, 2]])) == 1
-    assert PlaneSigns(np.array([[0.0, 0], [1, 0], [0, 1], [0.5, 0.5]])).circle(np.array([[0, 1, 2, 3]])) == 1
-    assert bubble([[1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1]]) == 1
-    assert bubble([[1, 0, 0], [0, 1, 0], [0, 0, 1], [-1, -1, -1]]) == -1
-
-
 @given(st.lists(st.integers(-2, 2), min_size=8, max_size=8), st.sampled_from([0.5, 3.0, 1e6]), st.integers(-900, 900))
 def test_plane_near_a_square(noise, offset, exponent):
     square = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], dtype=float) + offset
@@ -102,15 +95,6 @@ def test_filter_never_contradicts_the_integers(size, is_unit):
     assert (np.sign(value[settled]) == signs._bubble_integers(rows[settled])).all()
 
 
-def test_scaled_vectors_keep_their_direction_exactly():
-    points = np.random.default_rng(0).normal(size=(50, 3)) * [1, 1e-5, 1e5]
-    high, low = _nearly_unit(points)
-    assert np.linalg.norm(high, axis=1) == pytest.approx(1, abs=8 * ULP)
-    for p, h, r in zip(points, high, low, strict=True):
-        p, v = [Fraction(x) for x in p], [Fraction(x) + Fraction(y) for x, y in zip(h, r, strict=True)]
-        assert all(p[k] * v[k - 1] == p[k - 1] * v[k] for k in range(3))
-
-
 @pytest.mark.parametrize("size", [1.0, 1e-3, 1e-7, 1e-9, 1e-11, 1e-13, 1e-15])
 @pytest.mark.parametrize("is_unit", [True, False])
 def test_bubble_in_clusters(size, is_unit):
@@ -137,16 +121,6 @@ def test_bubble_of_small_integers(quadruple):
     assert bubble(quadruple) == bubble_oracle(quadruple)
 
 
-def test_filter_settles_general_position_without_integers():
-    rng = np.random.default_rng(1)
-    for size in (1.0, 1e-4, 1e-8, 1e-11):
-        points = np.array([0.36, 0.48, 0.8]) + size * rng.normal(size=(400, 3))
-        points = sets.unit(points)
-        signs = SphereSigns(points)
-        signs.bubble(np.arange(400).reshape(-1, 4))
-        assert signs.exact_tests <= 2
-
-
 def test_progress_is_the_order_along_the_projection():
     """Projected from the south pole the rays (2x, 2y, 1 − x² − y²) are (x, y): lines x = const have the tangent y."""
     xy = np.array([[0.0, 3], [1, -1], [1, 4], [-2, 2]])
@@ -160,6 +134,15 @@ def test_facing_is_the_normal_of_a_great_circle_triangle():
     points = np.array([[3.0, 4, 0], [-4, 3, 0], [4, 3, 0], [-3, -4, 0], [-1, 0, 0], [1, 0, 0]])
     rows = np.array([[2, 0, 1], [0, 2, 1], [0, 1, 3], [5, 2, 4], [5, 2, 3]])
     assert SphereSigns(points).facing(rows).tolist() == [[0, 0, 1], [0, 0, -1], [0, 0, 1], [0, 0, 1], [0, 0, 1]]
+
+
+def test_scaled_vectors_keep_their_direction_exactly():
+    points = np.random.default_rng(0).normal(size=(50, 3)) * [1, 1e-5, 1e5]
+    high, low = _nearly_unit(points)
+    assert np.linalg.norm(high, axis=1) == pytest.approx(1, abs=8 * ULP)
+    for p, h, r in zip(points, high, low, strict=True):
+        p, v = [Fraction(x) for x in p], [Fraction(x) + Fraction(y) for x, y in zip(h, r, strict=True)]
+        assert all(p[k] * v[k - 1] == p[k - 1] * v[k] for k in range(3))
 
 
 def test_ray_integers_keep_directions_down_to_the_subnormals():
