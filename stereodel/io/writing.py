@@ -28,6 +28,7 @@ from stereodel.io.formats.names import beside
 from stereodel.io.formats.parquet import write_parquet
 from stereodel.io.grids import Grid, write_geotiff
 from stereodel.io.maps.meshes_as_rows import (
+    MESHES,
     Columns,
     Mesh,
     diagram_of,
@@ -107,7 +108,7 @@ def write(
     if kind in PICTURES:
         raise ValueError(f"format is {kind!r}, a picture, but data are written here; save a page, as of `diagram_page`")
     writer = WRITERS[as_choice(kind, tuple(WRITERS), "format")]
-    if not isinstance(thing, Mesh | list) and (unknown := [name for name in options if name != "decimals"]):
+    if not isinstance(thing, (*MESHES, list)) and (unknown := [name for name in options if name != "decimals"]):
         raise TypeError(f"{', '.join(unknown)} is not an option where tables are written")
     with TemporaryDirectory() as folder:
         made = Path(folder, f"{stem}.{kind}")  # libraries go by the extension, and name the layer after the stem
@@ -125,7 +126,7 @@ def write(
 
 def _layer(thing: Any, options: dict[str, Any]) -> MapRows:
     """The rows of a map for any supported `thing`."""
-    if isinstance(thing, Mesh | list):
+    if isinstance(thing, (*MESHES, list)):
         return rows_of(thing, **options)
     if options:
         raise TypeError(f"{', '.join(options)} is not an option of this format")
@@ -140,10 +141,10 @@ def _layer(thing: Any, options: dict[str, Any]) -> MapRows:
 
 
 def _write_csv(thing: Any, path: Path, options: dict[str, Any], progress: Progress | None) -> None:
-    if isinstance(thing, Mesh):
+    if isinstance(thing, MESHES):
         columns = _mesh_columns(thing, **options)
-    elif isinstance(thing, Grid | PointTable):
-        columns = thing.located()
+    elif isinstance(thing, Grid | PointTable | dict):
+        columns = thing if isinstance(thing, dict) else thing.located()
     else:
         columns = from_geodataframe(_layer(thing, options).frame()).located()
     with path.open("w", encoding="utf-8", newline="") as stream:
