@@ -66,7 +66,6 @@ EXTRAS: Final[Mapping[str, Extra]] = {
     "raster": Extra("GeoTIFF", (Library("rasterio", "1.4"),)),
     "jupyter": Extra("the globe in notebooks", (Library("anywidget", "0.9.18"), Library("traitlets", "5.9"))),
     "partitioned": Extra("stereodel.partitioned: triangulations beyond memory, of Parquet", (PYARROW,)),
-    "dask": Extra("the same on a cluster", (Library("distributed", "2025.3"),), ("partitioned",)),
     "mesh": Extra("GLB, PLY, VTP", (TRIMESH, Library("pyvista", "0.44.2"))),
 }
 """By name, as in pyproject.toml; tests compare the two. ``all`` is all of them."""

@@ -88,7 +88,6 @@ DOORS = {
     "from stereodel.io import Grid; Grid([0], [0]).to_xarray()": ["grid"],
     "from stereodel.partitioned import triangulate; triangulate([], 'out')": ["partitioned"],
     "from stereodel.partitioned import triangulate; triangulate([], 'out', cells=True)": ["geo"],
-    "from stereodel.cli.partition import distributed; distributed()": ["cli", "dask"],
     "from stereodel.interpolation import contours; from stereodel.io import to_geodataframe; "
     "to_geodataframe(contours(MESH, POINTS[:, 0], 0.1))": ["geo"],
 }

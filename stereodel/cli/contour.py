@@ -39,7 +39,6 @@ def command(
     """
     from stereodel.cli.application import NothingToDoError, reporting, say
     from stereodel.interpolation import contours
-    from stereodel.io import write
 
     if (levels is None) == (interval is None):
         raise ValueError("give either --levels, values separated by commas, or --interval, a step")
@@ -52,12 +51,7 @@ def command(
         found = contours(table.points(latitude.value), values[:, 0], wanted)
     if not found:
         raise NothingToDoError(f"{table.name}: no lines: no level lies between the values")
-    with reporting(f"writing {output.out}") as shown:
-        destination.write(
-            lambda path: write(
-                path, found, max_segment=max_segment, latitude=latitude.value, crs=table.crs, progress=shown
-            )
-        )
+    destination.put(found, max_segment=max_segment, latitude=latitude.value, crs=table.crs)
     say(f"{output.out}: {len(found)} lines of {len(wanted)} levels")
 
 

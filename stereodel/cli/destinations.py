@@ -8,18 +8,12 @@ import tempfile
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from stereodel._arrays import Column
-from stereodel._files import replacing, said_of
+from stereodel._files import said_of
 from stereodel._tasks.interrupts import stop_if_interrupted
 from stereodel.cli.application import reporting
-from stereodel.io import PointTable, write
-from stereodel.io.formats.delimited import write_csv
-from stereodel.io.maps.meshes_as_rows import Mesh
-
-if TYPE_CHECKING:
-    from stereodel.io.formats.map_rows import MapRows
+from stereodel.io import write
 
 TABLES = ("csv", "geojson", "geojsonl", "parquet", "gpkg", "fgb", "shp", "kml")
 PICTURES = ("svg", "pdf")
@@ -53,25 +47,12 @@ class Destination:
                 error.filename = error.filename or "stdout"
                 raise
 
+    def put(self, thing: Any, **options: Any) -> None:
+        """Write a table, rows of a map, columns, a grid or contours; a mesh also as a picture."""
+        if self.kind in PICTURES:
+            from stereodel.drawing import diagram_page
 
-def save(path: Path, rows: PointTable | MapRows | dict[str, Column]) -> None:
-    """Write a table of points, the rows of a map in the format of the extension, or columns alone as CSV."""
-    if isinstance(rows, dict):
-        with replacing(path) as temporary, temporary.open("w", encoding="utf-8", newline="") as file:
-            write_csv(rows, file)
-        return
-    with reporting(f"writing {len(rows)} rows") as shown:
-        write(path, rows, progress=shown)
-
-
-def save_mesh(path: Path, mesh: Mesh, latitude: str) -> None:
-    """Write cells or triangles as a mesh or picture."""
-    kind = path.suffix.lower().removeprefix(".")
-    if kind in PICTURES:
-        from stereodel.drawing import diagram_page
-
-        diagram_page(mesh).save(path)
-        return
-    with reporting(f"writing {path.name}"):
-        known: dict[str, Any] = {"latitude": latitude} if kind == "nc" else {}
-        write(path, mesh, **known)
+            self.write(diagram_page(thing).save)
+            return
+        with reporting(f"writing {self.name}") as shown:
+            self.write(lambda path: write(path, thing, progress=shown, **options))

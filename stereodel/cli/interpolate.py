@@ -60,8 +60,8 @@ def command(
 
     Give either --at or --grid. Outside the convex hull of the points, linear, smooth and natural leave values empty.
     """
-    from stereodel.cli.destinations import TABLES, save
-    from stereodel.io import Grid, write
+    from stereodel.cli.destinations import TABLES
+    from stereodel.io import Grid
     from stereodel.sphere import lonlat_to_xyz
 
     if (at is None) == (grid is None):
@@ -85,11 +85,11 @@ def command(
         found = interpolated(lonlat_to_xyz(empty.lonlat.reshape(-1, 2), latitude=latitude.value))
         shaped = {name: column.reshape(empty.lonlat.shape[:2]) for name, column in zip(value, found.T, strict=True)}
         filled = replace(empty, values=shaped, units=dict(zip(value, unit or (), strict=False)))
-        destination.write(lambda path: write(path, filled))
+        destination.put(filled)
         return
     asking = at_columns.read(at, columns)
     results = dict(zip(value, interpolated(asking.points(latitude.value)).T, strict=True))
-    destination.write(lambda path: save(path, asking.beside(results)))
+    destination.put(asking.beside(results))
 
 
 def _interpolator(points: FloatArray, values: FloatArray, method: Method) -> Callable[[FloatArray], FloatArray]:

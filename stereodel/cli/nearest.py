@@ -45,7 +45,7 @@ def command(
     the distance. A query point with several sites has several rows, ranked from 1; a query point with no site has none.
     """
     from stereodel.cli.application import say
-    from stereodel.cli.destinations import TABLES, save
+    from stereodel.cli.destinations import TABLES
 
     destination = output.of(TABLES, sites, queries)
     if sites == queries == "-":
@@ -54,7 +54,7 @@ def command(
     asking = of_columns.read(queries, columns)
     pairs = _pairs(chosen.points(latitude.value), asking.points(latitude.value), count, max_distance, exclude_self)
     table = _with_sites(asking.taken(pairs.query), chosen, pairs, keep, ranked=count > 1)
-    destination.write(lambda path: save(path, table))
+    destination.put(table)
     say(f"{output.out}: nearest of {len(chosen)} sites for {len(asking)} points")
 
 

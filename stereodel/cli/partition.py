@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from concurrent.futures import Executor
-from contextlib import contextmanager
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
 
-from stereodel._extras import optional
 from stereodel._tasks.interrupts import stop_if_interrupted
 from stereodel.cli import options
 from stereodel.cli.application import ARGUMENTS, NothingToDoError, reporting, say
@@ -36,9 +32,6 @@ def command(
     partition: Annotated[
         int | None, typer.Option(metavar="COUNT", min=1, help="Points of a partition; 650000 by default.")
     ] = None,
-    scheduler: Annotated[
-        str | None, typer.Option(metavar="ADDRESS", help="Scheduler of Dask whose workers compute.")
-    ] = None,
     shapes: Annotated[bool, typer.Option("--shapes", help="Write the shapes of the cells too.")] = False,
     keep: Annotated[
         list[str] | None, typer.Option(metavar="COLUMN", help="Column to write beside the results, repeatable.")
@@ -57,7 +50,7 @@ def command(
     if (lon is None) != (lat is None):
         raise ValueError("--lon and --lat are given together")
     names = {**ARGUMENTS, "columns": "--plane" if plane else "--lon"}
-    with reporting() as progress, workers(scheduler) as executor, spelling(names):
+    with reporting() as progress, spelling(names):
         try:
             run = triangulate(
                 points[0] if len(points) == 1 else points,
@@ -68,9 +61,7 @@ def command(
                 keep=keep or [],
                 triangles=False,
                 cells=shapes,
-                execution=Execution(
-                    partition or Execution.partition, executor=executor, resume=not overwrite, progress=progress
-                ),
+                execution=Execution(partition or Execution.partition, resume=not overwrite, progress=progress),
             )
         except KeyboardInterrupt:
             raise KeyboardInterrupt(KEPT) from None
@@ -82,23 +73,3 @@ def command(
         raise NothingToDoError(f"{', '.join(points)}: there are no points")
     kind = "" if plane else f", with {latitude.value} latitudes"
     say(f"{out}: cells of {found['points']} points, in {found['partitions']} partitions{kind}")
-
-
-@contextmanager
-def workers(scheduler: str | None) -> Iterator[Executor | None]:
-    """Workers of a scheduler of Dask; None, for processes of this machine, without an address."""
-    if scheduler is None:
-        yield None
-        return
-    library = distributed()
-    try:
-        client = library.Client(scheduler, set_as_default=False)
-    except (OSError, ValueError) as error:
-        raise ValueError(f"--scheduler is {scheduler!r}, where none answers: {error}") from error
-    with client:
-        yield client.get_executor(pure=False, retries=0)
-
-
-def distributed() -> Any:
-    """Dask's library of schedulers and workers."""
-    return optional("distributed", "dask")

@@ -33,7 +33,7 @@ def command(
     shape. If all points lie in one hemisphere, the triangles that close the far side are left out.
     """
     from stereodel.cli.application import NothingToDoError, reporting, say
-    from stereodel.cli.destinations import MESHES, TABLES, save, save_mesh
+    from stereodel.cli.destinations import MESHES, TABLES
     from stereodel.io.rows_of import rows_of
     from stereodel.triangulation.delaunay import as_triangulation
 
@@ -49,9 +49,9 @@ def command(
         raise NothingToDoError(f"{table.name}: no triangles: too few points, or all on one line or great circle")
     what: Literal["triangles", "edges"] = "edges" if edges else "triangles"
     if kind == "csv":
-        destination.write(lambda path: save(path, _corner_rows(triangulation, what, table)))
+        destination.put(_corner_rows(triangulation, what, table))
     elif kind in MESHES:
-        destination.write(lambda path: save_mesh(path, triangulation, latitude.value))
+        destination.put(triangulation, **({"latitude": latitude.value} if kind == "nc" else {}))
     else:
         with reporting(f"drawing {what}") as shown:
             layer = rows_of(
@@ -63,7 +63,7 @@ def command(
                 progress=shown,
             )
         rows = {name: table.rows[layer.columns[name]] for name in "abc" if name in layer.columns}
-        destination.write(lambda path: save(path, replace(layer, columns=rows)))
+        destination.put(replace(layer, columns=rows))
     say(f"{output.out}: {count} triangles of {len(table)} points")
 
 

@@ -46,7 +46,7 @@ def command(
     import numpy as np
 
     from stereodel.cli.application import reporting, say
-    from stereodel.cli.destinations import MESHES, TABLES, save, save_mesh
+    from stereodel.cli.destinations import MESHES, TABLES
     from stereodel.earth import AUTHALIC_RADIUS_KM
     from stereodel.io.formats.names import beside
     from stereodel.io.maps.meshes_as_rows import diagram_of
@@ -66,9 +66,9 @@ def command(
     name = "area" if columns.plane else f"area_{area_unit.value}"
     radius = 1.0 if columns.plane or area_unit is AreaUnit.sr else AUTHALIC_RADIUS_KM
     if kind in MESHES:
-        destination.write(lambda path: save_mesh(path, diagram, latitude.value))
+        destination.put(diagram, **({"latitude": latitude.value} if kind == "nc" else {}))
     elif kind == "csv" and clip is None:
-        destination.write(lambda path: save(path, table.beside({name: diagram.areas(radius=radius)})))
+        destination.put(table.beside({name: diagram.areas(radius=radius)}))
     else:
         with reporting(f"drawing {len(table)} cells") as shown, naming(clip) if clip else nullcontext():
             cells = rows_of(
@@ -83,10 +83,10 @@ def command(
         point, area = cells.columns["point"], np.zeros(len(table))
         area[point] = cells.columns["area"]
         if kind == "csv":
-            destination.write(lambda path: save(path, table.beside({name: area})))
+            destination.put(table.beside({name: area}))
         else:
             rows = table.beside({name: area}, first={"row": table.rows}).located()
             named = {name: values[point] for name, values in beside(["geometry"], rows).items()}
-            destination.write(lambda path: save(path, replace(cells, columns=named)))
+            destination.put(replace(cells, columns=named))
     said = "" if columns.plane else f", with {latitude.value} latitudes"
     say(f"{output.out}: cells of {len(table)} points{said}")

@@ -14,9 +14,9 @@ from stereodel._tasks.progress import Progress
 from stereodel.io.formats import (
     FORMATS,
     PACKED,
-    File,
+    Content,
     FormatName,
-    Rows,
+    Input,
     Source,
     Wanted,
     delimited,  # noqa: F401 - these enter themselves in the table
@@ -26,8 +26,8 @@ from stereodel.io.formats import (
 from stereodel.io.formats.geojson import Features
 from stereodel.io.formats.map_rows import Frame
 from stereodel.io.formats.names import spelled
-from stereodel.io.located import located
 from stereodel.io.map_shapes import Shapes, of_features, of_geometries, of_items
+from stereodel.io.places import located
 from stereodel.io.table import PointTable
 
 
@@ -118,10 +118,10 @@ def read_points(
     wanted = Wanted(lon, lat, plane, layer, crs, skip_missing, progress)
     with naming(source):
         name = os.fspath(source) if isinstance(source, str | os.PathLike) else ""
-        return located(_rows_of(File(source, format), wanted), wanted, name)
+        return located(_rows_of(Input(source, format), wanted), wanted, name)
 
 
-def _rows_of(file: File, wanted: Wanted) -> Rows:
+def _rows_of(file: Input, wanted: Wanted) -> Content:
     if wanted.layer is not None and file.kind != "vector":
         raise ValueError(
             f"{spelled('layer')} is {wanted.layer!r}, but a file of the kind {file.kind} has no layers; leave it out"
@@ -184,7 +184,7 @@ def _shapes_of_file(path: Path) -> Shapes:
     path.stat()  # the system's own message says best that there is none
     with naming(path):
         known = {*PACKED, *(ending for each in FORMATS.values() for ending in each.endings)}
-        file = File(path, None if path.suffix.lower() in known else "vector")
+        file = Input(path, None if path.suffix.lower() in known else "vector")
         found = _rows_of(file, Wanted(choice="give a file with one"))
         if isinstance(found, Features):
             return of_features(found)

@@ -143,8 +143,8 @@ def _layer(thing: Any, options: dict[str, Any]) -> MapRows:
 def _write_csv(thing: Any, path: Path, options: dict[str, Any], progress: Progress | None) -> None:
     if isinstance(thing, MESHES):
         columns = _mesh_columns(thing, **options)
-    elif isinstance(thing, Grid | PointTable):
-        columns = thing.located()
+    elif isinstance(thing, Grid | PointTable | dict):
+        columns = thing if isinstance(thing, dict) else thing.located()
     else:
         columns = from_geodataframe(_layer(thing, options).frame()).located()
     with path.open("w", encoding="utf-8", newline="") as stream:

@@ -17,7 +17,7 @@ from stereodel._arrays import FloatArray
 from stereodel._extras import optional
 from stereodel.io.formats import wkb
 from stereodel.io.formats.names import anew, find_lonlat, has_lonlat, listed, spelled
-from stereodel.io.located import degrees, numbers, transformed
+from stereodel.io.places import degrees, numbers
 from stereodel.sphere import lonlat_to_xyz
 from stereodel.sphere.latitudes import Latitude
 
@@ -61,25 +61,17 @@ class PointColumns:
 
     def points(self, table: Any, rows: Sequence[int]) -> FloatArray:
         """Points of a table of Arrow, as unit vectors, directions or of the plane; messages have numbers of `rows`."""
-        columns = [(name, table[name]) for name in self.names]
+        columns = {name: table[name] for name in self.names}
         if self.form in ("wkb", "point"):
-            columns = coordinates_of(self.form, *columns[0], rows)
-        named = zip(columns, self.axes, strict=True)
+            columns = coordinates_of(self.form, self.names[0], table[self.names[0]], rows)
+        named = zip(columns.items(), self.axes, strict=True)
         places = np.column_stack([doubles_of(column, name, rows, axis=axis) for (name, column), axis in named])
-        if self.surface == "plane":
-            return places
-        if self.form == "xyz":
-            zero = np.flatnonzero(~places.any(axis=1))
-            if len(zero):
-                raise ValueError(f"row {rows[zero[0]]}: is the zero vector, which has no direction")
-            return places
-        if self.crs is not None:
-            places = transformed(places, self.crs, np.asarray(rows))
-        try:
-            return lonlat_to_xyz(places, latitude=self.latitude, workers=1)
-        except ValueError:
-            degrees(places, None, np.asarray(rows))  # whose message has the row
-            raise
+        if self.surface == "sphere" and self.form != "xyz":
+            return lonlat_to_xyz(degrees(places, self.crs, rows), latitude=self.latitude, workers=1)
+        zero = np.flatnonzero(~places.any(axis=1))
+        if len(zero) and self.surface == "sphere":
+            raise ValueError(f"row {rows[zero[0]]}: is the zero vector, which has no direction")
+        return places
 
 
 def find_columns(schema: Any, names: tuple[str, ...] | None, surface: Surface, latitude: Latitude) -> PointColumns:
@@ -125,30 +117,26 @@ def _of_geometries(column: Mapping[str, Any], name: str, surface: Surface, latit
     return PointColumns(form, (name,), surface, latitude, None if in_degrees else json.dumps(crs))
 
 
-def coordinates_of(form: Form, name: str, column: Any, rows: Sequence[int]) -> list[tuple[str, Any]]:
-    """Two columns, with names for messages, of a column of points: well-known binary, structures or pairs of numbers.
+def coordinates_of(form: Form, name: str, column: Any, rows: Sequence[int]) -> dict[str, Any]:
+    """Two columns, by names for messages, of a column of points: well-known binary, or structures of x and y.
 
     >>> import pyarrow, struct
-    >>> coordinates_of("wkb", "g", pyarrow.array([struct.pack("<BIdd", 1, 1, 8.5, 47.4)]), [1])[1][1].to_pylist()
+    >>> coordinates_of("wkb", "g", pyarrow.array([struct.pack("<BIdd", 1, 1, 8.5, 47.4)]), [1])["g.y"].to_pylist()
     [47.4]
     """
     pyarrow = optional("pyarrow", "partitioned")
-    column, types = _whole(column), pyarrow.types
-    if form == "wkb" and not (types.is_binary(column.type) or types.is_large_binary(column.type)):
-        raise TypeError(f"the geometries are {column.type}, not well-known binary")
-    if column.null_count:
-        row = rows[int(np.flatnonzero(column.is_null().to_numpy(zero_copy_only=False))[0])]
-        raise ValueError(f"row {row}: a Point is needed, not no geometry; leave such rows out")
-    if form == "wkb":
-        plain = column.cast(pyarrow.large_binary())
-        _, offsets, values = plain.buffers()
-        starts = np.frombuffer(offsets, np.int64)[plain.offset : plain.offset + len(plain) + 1]
-        return [(name, pyarrow.array(axis)) for axis in wkb.xy(np.frombuffer(values, np.uint8), starts, rows).T]
-    if types.is_struct(column.type):
-        return [(f"{name}.{axis}", column.field(axis)) for axis in ("x", "y")]
-    if not types.is_fixed_size_list(column.type) or column.type.list_size < 2:
-        raise TypeError(f"the geometries {name!r} are {column.type}, not points")
-    return [(name, column.flatten()[axis :: column.type.list_size]) for axis in range(2)]
+    types, kind = pyarrow.types, column.type
+    if not (types.is_struct(kind) if form == "point" else types.is_binary(kind) or types.is_large_binary(kind)):
+        raise TypeError(f"the geometries {name!r} are {kind}, not {'points' if form == 'point' else 'WKB'}")
+    if form == "point":
+        return {
+            f"{name}.{axis}": optional("pyarrow.compute", "partitioned").struct_field(column, axis) for axis in "xy"
+        }
+    plain = _whole(column.cast(pyarrow.large_binary()))
+    _, offsets, values = plain.buffers()
+    starts = np.frombuffer(offsets, np.int64)[plain.offset : plain.offset + len(plain) + 1]
+    places = wkb.xy(np.frombuffer(values or b"", np.uint8), starts, rows)
+    return {f"{name}.{axis}": pyarrow.array(column) for axis, column in zip("xy", places.T, strict=True)}
 
 
 def _whole(column: Any) -> Any:
@@ -162,19 +150,16 @@ def doubles_of(column: Any, name: str, rows: Sequence[int], *, axis: str = "", g
     NumPy would make numbers of booleans, times, text and bytes, too, and round whole numbers.
     """
     types, column = optional("pyarrow", "partitioned").types, _whole(column)
-    if types.is_dictionary(column.type):
-        column = column.dictionary_decode()
-    if types.is_decimal(column.type) or (gaps and types.is_null(column.type)):
-        values = np.array([np.nan if cell is None else float(cell) for cell in column.to_pylist()])
-    elif types.is_floating(column.type):
-        values = column.to_numpy(zero_copy_only=False)
-    elif types.is_integer(column.type):
-        there = column.is_valid().to_numpy(zero_copy_only=False)
+    kind = column.type
+    known = (types.is_floating, types.is_integer, types.is_decimal, *([types.is_null] if gaps else []))
+    if not any(fits(kind) for fits in known):
+        raise TypeError(f"the column {name!r} holds {kind}, not numbers")
+    if types.is_integer(kind) and column.null_count:
         whole = numbers(column.fill_null(0).to_numpy(), axis or name, rows)
-        values = np.where(there, whole, np.nan)
+        values = np.where(column.is_valid().to_numpy(zero_copy_only=False), whole, np.nan)
     else:
-        raise TypeError(f"the column {name!r} holds {column.type}, not numbers")
-    return numbers(values, axis or name, rows, gaps=gaps, advice="leave such rows out")
+        values = column.to_numpy(zero_copy_only=False)
+    return numbers(values, axis or name, rows, gaps=gaps, decimal=True, advice="leave such rows out")
 
 
 @dataclass(frozen=True)

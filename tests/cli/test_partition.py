@@ -1,7 +1,6 @@
 """`stereodel partition`: points in files, results in a folder; and signs of progress, on a terminal alone."""
 
 import io
-from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pyarrow as pa
@@ -9,7 +8,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from stereodel import SphericalVoronoi
-from stereodel.cli import interpolate, partition
+from stereodel.cli import interpolate
 from stereodel.cli.application import reporting, say
 from stereodel.partitioned import Run
 
@@ -75,33 +74,6 @@ def test_an_interruption_keeps_what_is_done(folder, points, run, monkeypatch):
     run("partition", *FILES, "-o", "cells/", "--partition", 100)
     assert solved == []
     assert Run(folder / "cells").statistics["points"] == 300
-
-
-def test_a_scheduler_of_dask(folder, points, run, monkeypatch):
-    """The address is Dask's; what no scheduler answers at is one line."""
-    asked = []
-
-    class Client:
-        def __init__(self, address, **options):
-            asked.append(address)
-            if address != "tcp://here:1":
-                raise OSError("Timed out trying to connect")
-
-        def __enter__(self):
-            return self
-
-        def __exit__(self, *error):
-            asked.append("closed")
-
-        def get_executor(self, **options):
-            assert options == {"pure": False, "retries": 0}
-            return ThreadPoolExecutor(1)
-
-    monkeypatch.setattr(partition, "distributed", lambda: type("distributed", (), {"Client": Client}))
-    run("partition", *FILES, "-o", "cells/", "--scheduler", "tcp://here:1")
-    assert asked == ["tcp://here:1", "closed"]
-    message = run("partition", *FILES, "-o", "other/", "--scheduler", "tcp://there:1", code=2)
-    assert message.startswith("error: --scheduler is 'tcp://there:1', where none answers: Timed out")
 
 
 class Terminal(io.StringIO):

@@ -47,7 +47,7 @@ class Wanted:
         return self.plane
 
 
-class Rows:
+class Content:
     """What a file holds: here, columns alone."""
 
     crs: str | None = None
@@ -69,13 +69,13 @@ class FileFormat(NamedTuple):
 
     endings: tuple[str, ...]
     marks: Mapping[bytes, str]
-    read: Callable[[File, Wanted], Rows]
+    read: Callable[[Input, Wanted], Content]
 
 
 FORMATS: dict[FormatName, FileFormat] = {}
 
 
-class File:
+class Input:
     """A source of rows: its format, and its bytes, read on demand."""
 
     def __init__(self, source: Source, kind: FormatName | None = None) -> None:

@@ -17,7 +17,7 @@ import numpy as np
 from stereodel._arrays import Column, Indices
 from stereodel._tasks.progress import Progress
 from stereodel.constants import MOST_COLUMNS, MOST_LINE
-from stereodel.io.formats import FORMATS, File, FileFormat, Rows, Wanted
+from stereodel.io.formats import FORMATS, Content, FileFormat, Input, Wanted
 from stereodel.io.formats.columns import (
     EXACT_INTEGERS,
     NUMBER,
@@ -44,12 +44,12 @@ COMMENTS = re.compile(r"(?:[ \t]*#[^\r\n]*(?:\r\n?|\n|\Z))+")
 Lines = list[list[str]]
 
 
-def read(file: File, wanted: Wanted) -> Rows:
+def read(file: Input, wanted: Wanted) -> Content:
     """A table of text; columns whose values are all numbers become numeric, but for degrees."""
     named = [name for name in wanted.plane or (wanted.lon, wanted.lat) if name is not None]
     columns, rows, comma = split_columns(decoded(file.content), named, wanted.progress)
     degrees = wanted.axes(list(columns)) if wanted.crs is None and wanted.plane is None else ()
-    return Rows(typed_columns(columns, comma, degrees), rows)
+    return Content(typed_columns(columns, comma, degrees), rows)
 
 
 FORMATS["csv"] = FileFormat((".csv", ".tsv", ".txt"), {}, read)

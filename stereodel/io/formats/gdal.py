@@ -17,7 +17,7 @@ from xml.parsers import expat
 
 from stereodel._extras import OnUse, optional
 from stereodel._tasks.progress import Progress
-from stereodel.io.formats import FORMATS, File, FileFormat, Wanted
+from stereodel.io.formats import FORMATS, FileFormat, Input, Wanted
 from stereodel.io.formats.columns import as_text, check_held, plain
 from stereodel.io.formats.foreign import check_crs, check_stored, self_contained
 from stereodel.io.formats.map_rows import Frame, MapRows, arrow, arrow_column
@@ -62,7 +62,7 @@ LAUNDERED: Final = re.compile(r"field name: '(.*)' to '(.*)'")
 """GDAL's warning for a column name that it shortens."""
 
 
-def read(file: File, wanted: Wanted) -> Frame:
+def read(file: Input, wanted: Wanted) -> Frame:
     """A layer of a file, with or without geometries; `wanted` selects one of several.
 
     ValueError if the file is damaged, its format is not read or refers to other files, or the layer does not exist.

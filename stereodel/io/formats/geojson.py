@@ -17,7 +17,7 @@ import numpy as np
 from stereodel._arrays import Column, FloatArray, as_count
 from stereodel._tasks.progress import Progress
 from stereodel.constants import EMPTY_RATIO, FEW_CELLS
-from stereodel.io.formats import FORMATS, File, FileFormat, Rows, Wanted
+from stereodel.io.formats import FORMATS, Content, FileFormat, Input, Wanted
 from stereodel.io.formats.columns import check_held, column, decoded, objects, plain_cells
 from stereodel.io.formats.foreign import check_crs
 from stereodel.io.formats.map_rows import MapRows, no_point, shapely
@@ -31,7 +31,7 @@ KINDS: Final = ("Point", "MultiPoint", "LineString", "LinearRing", "MultiLineStr
 
 
 @dataclass(frozen=True, eq=False)
-class Features(Rows):
+class Features(Content):
     """Features that were read: properties and geometry of each, and the coordinate system, None for degrees."""
 
     properties: list[Mapping[str, Any]]
@@ -99,7 +99,7 @@ def parsed(text: str) -> Any:
             raise ValueError(f"the file is not JSON: {error}") from error
 
 
-def read(file: File, _: Wanted) -> Features:
+def read(file: Input, _: Wanted) -> Features:
     """The features of a file."""
     return Features.of(parsed(decoded(file.content)))
 

@@ -16,7 +16,7 @@ import numpy as np
 from stereodel._arrays import BoolArray, Column, Geometries, Indices, Packed
 from stereodel._extras import OnUse, optional
 from stereodel._tasks.progress import Progress
-from stereodel.io.formats import Rows, wkb
+from stereodel.io.formats import Content, wkb
 from stereodel.io.formats.columns import as_text, of_objects, plain_cells
 from stereodel.io.formats.names import beside, index_columns, left_out
 
@@ -135,7 +135,7 @@ def arrow_column(values: Any) -> Any:
     return column.cast(arrow.string()) if arrow.types.is_null(column.type) else column
 
 
-class Frame(Rows):
+class Frame(Content):
     """Rows of a frame of pandas or GeoPandas, with or without geometries."""
 
     def __init__(self, frame: Any) -> None:

@@ -11,7 +11,7 @@ from typing import Any, Final
 from stereodel._arrays import Column
 from stereodel._extras import optional
 from stereodel._tasks.progress import Progress
-from stereodel.io.formats import FORMATS, File, FileFormat, Rows, Wanted
+from stereodel.io.formats import FORMATS, Content, FileFormat, Input, Wanted
 from stereodel.io.formats.columns import check_held, column, of_objects
 from stereodel.io.formats.foreign import check_size
 from stereodel.io.formats.gdal import in_degrees, told
@@ -23,7 +23,7 @@ TEXTS: Final = ("string", "binary")
 """Names of Arrow's types that Parquet packs by numbers of distinct values."""
 
 
-def read(file: File, _: Wanted) -> Rows:
+def read(file: Input, _: Wanted) -> Content:
     """A frame with geometries, or columns alone if the file has no metadata of geometries."""
     content = file.content
     parquet = optional("pyarrow.parquet", "geo")
@@ -37,7 +37,7 @@ def read(file: File, _: Wanted) -> Rows:
     check_size(sum(_letters(table[name]) for name in names), len(content))
     with told():
         if b"geo" not in (table.schema.metadata or {}):
-            return Rows({name: _of_arrow(table[name]) for name in table.column_names})
+            return Content({name: _of_arrow(table[name]) for name in table.column_names})
         frame = optional("geopandas", "geo").read_parquet(io.BytesIO(content))
     return Frame(in_degrees(frame))
 

@@ -30,7 +30,7 @@ Columns = dict[str, npt.NDArray[Any]]
 
 def usual_kind(mesh: Mesh) -> str:
     """What a mesh shows by default: cells of a diagram, triangles of a triangulation; TypeError for anything else."""
-    if not isinstance(mesh, Triangulation | Diagram):
+    if not isinstance(mesh, MESHES):
         raise TypeError(f"mesh must be a triangulation or a Voronoi diagram of stereodel, not {type(mesh).__name__}")
     return "cells" if isinstance(mesh, Diagram) else "triangles"
 

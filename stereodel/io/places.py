@@ -9,13 +9,13 @@ import numpy as np
 
 from stereodel._arrays import Column, FloatArray, Indices
 from stereodel._extras import optional
-from stereodel.io.formats import Rows, Wanted
+from stereodel.io.formats import Content, Wanted
 from stereodel.io.formats.columns import EXACT_INTEGERS, doubles, why_not
 from stereodel.io.formats.names import left_out, spelled
 from stereodel.io.table import PointTable
 
 
-def located(found: Rows, wanted: Wanted, name: str = "") -> PointTable:
+def located(found: Content, wanted: Wanted, name: str = "") -> PointTable:
     """A table of what was read: places from its geometries, else from two columns, of degrees, `crs` or a plane.
 
     ValueError gives the first row that lacks a place, or has none on the Earth; `skip_missing` leaves out the former.
@@ -39,7 +39,7 @@ def located(found: Rows, wanted: Wanted, name: str = "") -> PointTable:
     return PointTable(degrees(places, crs, rows), kept, rows, name=name)
 
 
-def degrees(places: FloatArray, crs: str | None, rows: Indices) -> FloatArray:
+def degrees(places: FloatArray, crs: str | None, rows: Sequence[int] | Indices) -> FloatArray:
     """Places in degrees, transformed if `crs` is given; ValueError names the first row with a wrong one."""
     lonlat = places if crs is None else transformed(places, crs, rows)
     endless = np.flatnonzero(~np.isfinite(lonlat).all(axis=1))
@@ -65,7 +65,7 @@ def known_crs(crs: str) -> Any:
         ) from error
 
 
-def transformed(places: FloatArray, crs: str, rows: Indices) -> FloatArray:
+def transformed(places: FloatArray, crs: str, rows: Sequence[int] | Indices) -> FloatArray:
     """Coordinates in another system, easting first, as longitude and latitude."""
     transformer = optional("pyproj", "geo").Transformer.from_crs(known_crs(crs), "EPSG:4326", always_xy=True)
     lonlat = np.column_stack(transformer.transform(*places.T)) if len(places) else places
