@@ -131,19 +131,25 @@ def test_describe_names_platform_and_versions():
     assert "Mesa " in found.version
 
 
-@pytest.mark.parametrize("change", [lambda p: p[::-1], lambda p: p[:, ::-1], lambda p: 0 * p, lambda p: p[..., ::-1]])
-def test_describe_tells_of_wrong_pixels(monkeypatch, change):
-    drawn = gl._OpenGL.draw
-    monkeypatch.setattr(gl._OpenGL, "draw", lambda *given: change(drawn(*given)))
-    assert re.search("draws wrongly: [0-9]+ of 64 pixels", describe().problem)
-
-
-@pytest.mark.parametrize("missing", range(4))
-def test_describe_tells_of_a_missing_triangle(monkeypatch, missing):
+def without_triangle(number):
     shapes = trial_triangles()
-    fewer = replace(shapes, faces=np.delete(shapes.faces, missing, axis=0))
-    monkeypatch.setattr(gl, "trial_triangles", lambda: fewer)
-    assert "draws wrongly" in describe().problem
+    return replace(shapes, faces=np.delete(shapes.faces, number, axis=0))
+
+
+@pytest.mark.parametrize(
+    ("place", "name", "made", "problem"),
+    [
+        *(
+            (gl._OpenGL, "draw", lambda drawn, change=change: lambda *given: change(drawn(*given)), "of 64 pixels")
+            for change in (lambda p: p[::-1], lambda p: p[:, ::-1], lambda p: 0 * p, lambda p: p[..., ::-1])
+        ),
+        *((gl, "trial_triangles", lambda _, k=k: lambda: without_triangle(k), "draws wrongly") for k in range(4)),
+        (gl._OpenGL, "_rendered", lambda _: None, r"gives an OpenGL context but cannot draw \(TypeError: "),
+    ],
+)
+def test_describe_tells_of_what_is_drawn_wrongly(monkeypatch, place, name, made, problem):
+    monkeypatch.setattr(place, name, made(getattr(place, name)))
+    assert re.search(problem, describe().problem)
 
 
 @pytest.fixture
@@ -172,31 +178,18 @@ def test_describe_tells_of_edges_sampled_otherwise(sample_by_sample, monkeypatch
     assert "draws wrongly" in describe().problem
 
 
-def test_describe_tells_of_what_dies_while_it_draws(monkeypatch):
-    def dies(*given):
-        raise RuntimeError("no\nshader")
-
-    monkeypatch.setattr(gl._OpenGL, "_rendered", dies)
-    assert describe().problem.endswith("gives an OpenGL context but cannot draw (RuntimeError: no shader)")
-
-
 def test_a_process_keeps_to_one_platform():
     used = describe().platform
     other = "egl" if used == "osmesa" else "osmesa"
     assert f"draws on {used} already" in describe(other).problem
 
 
-def test_closing_makes_room_for_a_new_context():
+def test_closing_makes_room_for_a_new_context_and_shaders_are_compiled_once(monkeypatch):
     shape = triangles([[[0, 0], [3, 0], [0, 3]]], [[0, 0, 1, 1]], [0])
     before = draw(shape, 4, 4)
     gl.DOOR.close()
     gl.DOOR.close()
     assert np.array_equal(draw(shape, 4, 4), before)
-
-
-def test_shaders_are_compiled_once(monkeypatch):
-    shape = triangles([[[0, 0], [3, 0], [0, 3]]], [[0, 0, 1, 1]], [0])
-    draw(shape, 4, 4)
     from OpenGL.GL import shaders
 
     monkeypatch.setattr(shaders, "compileShader", lambda *source: pytest.fail("a shader is compiled again"))
