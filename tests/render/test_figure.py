@@ -147,6 +147,8 @@ def test_figures_have_the_captions_of_their_scripts(name, tmp_path):
 def test_what_is_no_script_has_no_caption_and_docstrings_may_be_of_a_line_or_without_a_rule():
     assert Figure("nothing", dict, lambda _: Page((0.0, 1.0, 0.0, 1.0))).page().title == ""
     assert Figure("nothing", dict, lambda _: page()).page().title == "A title"
+    with pytest.raises(ValueError, match="renderer is 'svg', but must be one of 'gl', 'agg'"):
+        Figure("nothing", dict, draw, renderer="svg")
     assert parted("One line.") == ("One line.", "")
     assert parted("Title\n\nText with ``code`` = 5.") == ("Title", "Text with “code” = 5.")
     assert parted("") == ("", "")
