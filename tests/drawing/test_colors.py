@@ -36,71 +36,53 @@ BEYOND = r"ink is \(.*\); red, green, blue and opacity must be in \[0, 1\]"
 
 
 @pytest.mark.parametrize(
-    ("value", "message"),
+    ("make", "arguments", "message"),
     [
-        *((value, NONE) for value in ("sky", "", "1.5", 3, None, np.eye(3), ("red", 2.0), (None, 0.1, 0.2))),
-        *(((0.5,) * count, NONE) for count in (2, 5)),
-        *((value, BEYOND) for value in ((255, 0, 0), (0.1, -0.1, 0.2), (0.1, 0.2, 0.3, 1.5), (np.nan, 0.0, 0.0))),
+        *((as_color, (v, "ink"), NONE) for v in ("sky", "", "1.5", 3, None, np.eye(3), ("red", 2.0), (None, 0.1, 0.2))),
+        *((as_color, ((0.5,) * count, "ink"), NONE) for count in (2, 5)),
+        *(
+            (as_color, (value, "ink"), BEYOND)
+            for value in ((255, 0, 0), (0.1, -0.1, 0.2), (0.1, 0.2, 0.3, 1.5), (np.nan, 0.0, 0.0))
+        ),
+        (as_colors, (np.zeros((3, 3)), 4, "cells"), r"cells must have shape \(4, 3\) or \(4, 4\), got \(3, 3\)"),
+        (as_colors, (np.zeros((4, 5)), 4, "cells"), "cells must have shape"),
+        (as_colors, (np.full((4, 3), 200.0), 4, "cells"), r"cells must be in \[0, 1\]; divide"),
+        (as_colors, (-np.ones((4, 3)), 4, "cells"), r"cells must be in \[0, 1\]"),
+        (as_colors, ("no colour", 4, "cells"), "cells is 'no colour', which is not a colour"),
+        (DotStyle, ("k", 1.0, "sky"), "rim is 'sky'"),
+        (LineStyle, ("k", -1.0), "width"),
+        (ColorScale, ("sunset", 0.0, 1.0), "name is 'sunset', which is not a colour map of matplotlib"),
+        (ColorScale, ("viridis", 1.0, 1.0), "high is 1.0"),
+        (ColorScale, ("viridis", 0.0, 1.0, True), "low is 0.0"),
+        (ColorScale, ("viridis", np.nan, 1.0), "low is nan"),
     ],
 )
-def test_what_is_no_colour_is_named(value, message):
+def test_what_is_no_colour_or_scale_is_named(make, arguments, message):
     with pytest.raises(ValueError, match=message):
-        as_color(value, "ink")
+        make(*arguments)
 
 
-def test_styles_take_any_colour():
-    assert LineStyle("k", 1.0) == LineStyle((0.0, 0.0, 0.0, 1.0), 1.0)
-    assert DotStyle("w", 2.0, rim="#000", rim_width=0.5).rim == (0.0, 0.0, 0.0, 1.0)
-    with pytest.raises(ValueError, match="rim is 'sky'"):
-        DotStyle("k", 1.0, "sky")
-    with pytest.raises(ValueError, match="width"):
-        LineStyle("k", -1.0)
-
-
-@pytest.mark.parametrize("one", ["tab:red", "0.5", ("red", 0.25), (0.1, 0.2, 0.3), np.array([0.1, 0.2, 0.3, 0.4])])
-def test_one_colour_is_that_of_all(one):
-    np.testing.assert_array_equal(as_colors(one, 4), [as_color(one)] * 4)
-    assert as_colors(one, 0).shape == (0, 4)
-
-
-def test_colours_of_each_are_opaque_by_default():
+def test_colours_of_all_and_of_each():
+    """Opaque by default; a colour alone is that of all."""
+    for one in ("tab:red", "0.5", ("red", 0.25), (0.1, 0.2, 0.3), np.array([0.1, 0.2, 0.3, 0.4])):
+        np.testing.assert_array_equal(as_colors(one, 4), [as_color(one)] * 4)
+        assert as_colors(one, 0).shape == (0, 4)
     rows = np.linspace(0, 1, 12).reshape(4, 3)
     np.testing.assert_array_equal(as_colors(rows, 4), [as_color(row) for row in rows])
     with_opacity = np.linspace(0, 1, 16).reshape(4, 4)
     np.testing.assert_array_equal(as_colors(with_opacity.tolist(), 4), with_opacity)
+    assert LineStyle("k", 1.0) == LineStyle((0.0, 0.0, 0.0, 1.0), 1.0)
+    assert DotStyle("w", 2.0, rim="#000", rim_width=0.5).rim == (0.0, 0.0, 0.0, 1.0)
 
 
-@pytest.mark.parametrize(
-    ("values", "message"),
-    [
-        (np.zeros((3, 3)), r"cells must have shape \(4, 3\) or \(4, 4\), got \(3, 3\)"),
-        (np.zeros((4, 5)), "cells must have shape"),
-        (np.full((4, 3), 200.0), r"cells must be in \[0, 1\]; divide"),
-        (-np.ones((4, 3)), r"cells must be in \[0, 1\]"),
-        ("no colour", "cells is 'no colour', which is not a colour"),
-    ],
-)
-def test_wrong_colours_are_named(values, message):
-    with pytest.raises(ValueError, match=message):
-        as_colors(values, 4, "cells")
-
-
-def test_linear_and_logarithmic_places():
-    values = [1.0, 10.0, 100.0, 1000.0]
-    np.testing.assert_allclose(
-        ColorScale("viridis", 1.0, 1000.0, log=True).place(values), [0, 1 / 3, 2 / 3, 1], atol=1e-15
-    )
+def test_places_on_scales_and_their_colours():
+    """Linear and logarithmic, where zero gets the first colour; the colours are matplotlib's."""
+    scale, values = ColorScale("viridis", 1.0, 1000.0, log=True), [1.0, 10.0, 100.0, 1000.0]
+    np.testing.assert_allclose(scale.place(values), [0, 1 / 3, 2 / 3, 1], atol=1e-15)
+    assert np.array_equal(scale(0.0), scale(1.0))
     np.testing.assert_allclose(ColorScale("viridis", 0.0, 1000.0).place([0.0, 250.0, 2000.0, -1.0]), [0, 0.25, 1, 0])
-
-
-def test_colours_are_matplotlibs():
-    found = ColorScale("magma", -1.0, 1.0)(np.linspace(-1, 1, 20).reshape(4, 5))
-    np.testing.assert_array_equal(found, colormaps["magma"](np.linspace(-1, 1, 20).reshape(4, 5) / 2 + 0.5)[..., :3])
-
-
-def test_zero_gets_the_first_colour_of_a_logarithmic_scale():
-    scale = ColorScale("inferno", 0.1, 10.0, log=True)
-    assert np.array_equal(scale(0.0), scale(0.1))
+    values = np.linspace(-1, 1, 20).reshape(4, 5)
+    np.testing.assert_array_equal(ColorScale("magma", -1.0, 1.0)(values), colormaps["magma"](values / 2 + 0.5)[..., :3])
 
 
 def test_legend():
@@ -112,17 +94,3 @@ def test_legend():
     picture = Page((1.0, 5.0, 2.0, 2.5), items, width=400.0).pixels(size=400, text=False, renderer="agg")
     shown = scale(10 ** (2 * (np.arange(400) + 0.5) / 400))
     assert np.abs(picture[25] / 255 - shown).max() < 0.02
-
-
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        (("sunset", 0.0, 1.0), "name is 'sunset', which is not a colour map of matplotlib"),
-        (("viridis", 1.0, 1.0), "high is 1.0"),
-        (("viridis", 0.0, 1.0, True), "low is 0.0"),
-        (("viridis", np.nan, 1.0), "low is nan"),
-    ],
-)
-def test_refused_scales(arguments, message):
-    with pytest.raises(ValueError, match=message):
-        ColorScale(*arguments)

@@ -89,9 +89,6 @@ def test_one_warning_a_file_names_the_characters(tmp_path, no_other_fonts):
         assert re.findall(r"U\+(\w+)", str(told[0].message)) == ["4EAC", "6771", "6E2F"]
     shown.save(tmp_path / "b.svg", text=False)  # no type, no warning
     page("東京", font=(CJK,)).save(tmp_path / "c.svg")
-
-
-def test_many_missing_characters_are_counted(tmp_path, no_other_fonts):
     with pytest.warns(MissingCharactersWarning, match=r"U\+4E0B .* and 8 more; boxes"):
         page("".join(chr(0x4E00 + k) for k in range(20))).save(tmp_path / "a.svg")
 

@@ -69,6 +69,7 @@ def test_none_is_left_out_that_has_room(seed):
 
 def test_dots_are_covered_last():
     """To the right there is a dot, to the left none; where all sides have one, the right side comes first."""
+    assert placed_apart([Label("far too long for this disc" * 9, (0.0, 0.0))], 4.0, **DISC) == []
     label = Label("Ulm", (0.0, 0.0))
     (free,) = placed_apart([label], 4.0, **DISC)
     assert (free.offset, free.align) == ((4.0, 0.0), "left")
@@ -78,8 +79,3 @@ def test_dots_are_covered_last():
     every = np.array([box(side).mean(axis=0) / UNIT for side in on_its_sides(label, 4.0)])
     (covering,) = placed_apart([label], 4.0, dots=every, **DISC)
     assert covering.offset == (4.0, 0.0)
-
-
-def test_nothing_to_place():
-    assert placed_apart([], 4.0, **DISC) == []
-    assert placed_apart([Label("far too long for this disc" * 9, (0.0, 0.0))], 4.0, **DISC) == []

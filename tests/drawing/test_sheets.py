@@ -92,17 +92,13 @@ def test_every_item_but_pictures_has_its_dark_colours():
         np.testing.assert_allclose(found, GROUND, atol=1e-3)
     assert picture is light.items[-1]
     assert fill.ball == light.items[0].ball
+    night = replace(light, background=(0.05, 0.05, 0.2, 1.0))
+    assert dark_page(night) is night
+    assert dark_page(dark) is dark
     # Nothing but colours changes.
     for before, after in zip(light.items, dark.items, strict=True):
         changed = {key for key, value in vars(before).items() if np.any(value != vars(after).get(key, value))}
         assert changed <= {"color", "rim", "halo_color", "colors", "by_color"}
-
-
-def test_a_dark_page_stays_as_it_is():
-    night = replace(page(), background=(0.05, 0.05, 0.2, 1.0))
-    assert dark_page(night) is night
-    dark = dark_page(page())
-    assert dark_page(dark) is dark
 
 
 def write(folder, text):
@@ -184,18 +180,12 @@ def test_what_is_wrong_is_said_with_file_and_key(text, message, tmp_path):
         styled(page(), write(tmp_path, text))
 
 
-LENGTHS = {2.5: 2.5, "10": 10, "10pt": 10, "1in": 72, "25.4 mm": 72, "2.54CM": 72, " 1e1 mm ": 28.3465}
-
-
-@pytest.mark.parametrize(("given", "points"), LENGTHS.items())
-def test_lengths(given, points):
-    assert as_length(given, "width") == pytest.approx(points, rel=1e-5)
-
-
-@pytest.mark.parametrize("given", ["", "cm", "1 ell", "-1cm", "0mm", "1.2.3cm", "1cm2", 0, -1, np.nan, np.inf])
-def test_what_is_no_length(given):
-    with pytest.raises(ValueError, match=r"^width is "):
-        as_length(given, "width")
+def test_lengths_and_what_is_none():
+    lengths = {2.5: 2.5, "10": 10, "10pt": 10, "1in": 72, "25.4 mm": 72, "2.54CM": 72, " 1e1 mm ": 28.3465}
+    assert [as_length(length, "width") for length in lengths] == pytest.approx([*lengths.values()], rel=1e-5)
+    for length in ("", "cm", "1 ell", "-1cm", "0mm", "1.2.3cm", "1cm2", 0, -1, np.nan, np.inf):
+        with pytest.raises(ValueError, match=r"^width is "):
+            as_length(length, "width")
 
 
 def test_the_file_of_the_page_on_drawing(tmp_path):

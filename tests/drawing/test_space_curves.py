@@ -94,13 +94,8 @@ def assert_cuts_separate_signs(curve, cuts, function):
         assert len(values) == 0 or np.all(values > 0) or np.all(values < 0)
 
 
-def test_roots_without_a_solution():
-    assert linear_roots(2.0, 1.0, 1.0) == []
-    assert linear_roots(0.0, 0.0, 0.0) == []
-    assert trigonometric_roots(9.0, 1 + 0j, 1j) == []
-
-
-def test_a_circle_seen_face_on_falls_back_to_the_linear_equation():
+def test_roots_where_there_are_none_and_of_a_circle_seen_face_on():
+    assert linear_roots(2.0, 1.0, 1.0) == linear_roots(0.0, 0.0, 0.0) == trigonometric_roots(9.0, 1 + 0j, 1j) == []
     assert trigonometric_roots(0.0, 0.5 + 0j, 1e-17j) == pytest.approx([-np.pi / 2, np.pi / 2])
 
 

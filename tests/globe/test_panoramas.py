@@ -59,46 +59,31 @@ def expected(raster, directions, width, height, window, lens, view):
     return means(interpolated(raster, lonlat[..., 0].ravel(), lonlat[..., 1].ravel()).reshape(lonlat.shape[:2]))
 
 
-@pytest.mark.parametrize("kind", by_day(RASTERS, "rings"))
-@pytest.mark.parametrize(
-    ("size", "window"),
-    [
-        (512, (300, 90, 14, 14)),
-        (1024, (500, 250, 12, 12)),
-        (128, (0, 30, 14, 14)),
-        (128, (60, 0, 14, 4)),
-        (128, (5, 60, 14, 4)),
-    ],
-)
-def test_equirectangular_without_aliasing(kind, size, window):
-    raster, least = RASTERS[kind]
-    left, top, columns, rows = window
-    found = Raster(raster).panorama(LENS, view=VIEW, size=size)
-    assert found.shape == (size // 2, size, 4)
+WINDOWS = [(512, (300, 90, 14, 14)), (1024, (500, 250, 12, 12)), (128, (0, 30, 14, 14)), (128, (60, 0, 14, 4))]
+WINDOWS += [(128, (5, 60, 14, 4))]
+CASES = [(kind, "equirectangular", *where) for kind in RASTERS for where in WINDOWS]
+CASES += [("rings", face, 96, (82, 3, 12, 12)) for face in ORDER]
+CASES += [("rings", "planet", 128, (x, y, 12, 12)) for x, y in ((0, 0), (116, 0), (56, 56), (0, 116), (116, 116))]
+
+
+@pytest.mark.parametrize("case", by_day(CASES, *(case for case in CASES if case[0] == "rings")), ids=str)
+def test_panoramas_without_aliasing(case):
+    """Faces of cubes are those of OpenGL; little planets fill their square."""
+    kind, form, size, window = case
+    (raster, least), (left, top, columns, rows) = RASTERS[kind], window
+    given, view, height = Raster(raster), VIEW, size
+    if form == "planet":
+        found, view, where = given.panorama(LENS, form, size=size, angular_radius=120.0), View(0, -90), planet(120.0)
+    elif form == "equirectangular":
+        found, where, height = given.panorama(LENS, view=VIEW, size=size), equirectangular, size // 2
+    else:
+        faces, where = given.panorama(LENS, "cubemap", view=VIEW, size=size), cubemap(form)
+        assert len(faces) == 6
+        found = faces[ORDER.index(form)]
+    assert found.shape == (height, size, 4)
     assert (found[..., 3] == 255).all()
     part = found[top : top + rows, left : left + columns, 0].astype(float)
-    assert psnr(expected(raster, equirectangular, size, size // 2, window, LENS, VIEW), part) > least
-
-
-@pytest.mark.parametrize("number", range(6))
-def test_faces_of_a_cube_are_those_of_opengl(number):
-    raster, least = RASTERS["rings"]
-    found = Raster(raster).panorama(LENS, "cubemap", view=VIEW, size=96)
-    assert found.shape == (6, 96, 96, 4)
-    window = (82, 3, 12, 12)
-    part = found[number, 3:15, 82:94, 0].astype(float)
-    assert psnr(expected(raster, cubemap(ORDER[number]), 96, 96, window, LENS, VIEW), part) > least
-
-
-@pytest.mark.parametrize("corner", [(0, 0), (116, 0), (56, 56), (0, 116), (116, 116)])
-def test_little_planets_fill_their_square(corner):
-    raster, least = RASTERS["rings"]
-    found = Raster(raster).panorama(LENS, "planet", size=128, angular_radius=120.0)
-    assert (found[..., 3] == 255).all()
-    left, top = corner
-    part = found[top : top + 12, left : left + 12, 0].astype(float)
-    where = (*corner, 12, 12)
-    assert psnr(expected(raster, planet(120.0), 128, 128, where, LENS, View(0, -90)), part) > least
+    assert psnr(expected(raster, where, size, height, window, LENS, view), part) > least
 
 
 def test_nothing_asked_for_is_the_panorama_itself():

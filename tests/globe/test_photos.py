@@ -92,14 +92,6 @@ def test_colours_stay(tmp_path, kind):
     assert read_photo(tmp_path / "gray.png")[1] == b""
 
 
-@pytest.mark.parametrize(("orientation", "turned"), [(3, np.s_[::-1, ::-1]), (2, np.s_[:, ::-1]), (4, np.s_[::-1])])
-def test_pictures_that_lie_are_turned_upright(tmp_path, orientation, turned):
-    exif = Image.Exif()
-    exif[0x0112] = orientation
-    Image.fromarray(picture()).save(tmp_path / "room.png", exif=exif)
-    assert np.array_equal(pixels_of(tmp_path / "room.png")[..., :3], picture()[turned])
-
-
 def test_six_files(tmp_path):
     source = write_photo(tmp_path / "room.png", with_opacity(picture()))
     options = {"form": "cubemap", "size": 16, "view": View(20, 30)}
@@ -168,9 +160,20 @@ def test_modes(tmp_path, picture, expected):
     picture.save(path)
     expected = np.asarray(picture.convert("RGBA")) if expected is None else expected
     assert np.array_equal(Raster.open(path).pixels, expected)
+    for orientation, turned in ((3, np.s_[::-1, ::-1]), (2, np.s_[:, ::-1]), (4, np.s_[::-1])):
+        exif = Image.Exif()
+        exif[0x0112] = orientation  # how the picture lies
+        picture.save(path, exif=exif)
+        assert np.array_equal(Raster.open(path).pixels, expected[turned])
 
 
-def test_palette_with_a_transparent_colour(tmp_path):
+def test_kinds_of_files(tmp_path):
+    """Also a palette with a transparent colour, and a part of the globe."""
+    for kind in ("jpg", "webp", "tif", "bmp", "gif"):
+        Image.new("RGB", (8, 4), (50, 100, 150)).save(tmp_path / f"map.{kind}")
+        found = Raster.open(tmp_path / f"map.{kind}", bounds=(0, 10, 30, 40))
+        assert found.bounds == (0, 10, 30, 40)
+        assert np.abs(found.pixels.astype(int) - [50, 100, 150, 255]).max() <= 4
     picture = Image.new("P", (8, 4), 1)
     picture.putpalette([0, 0, 0, 10, 20, 30])
     picture.paste(0, (0, 0, 4, 4))
@@ -180,49 +183,41 @@ def test_palette_with_a_transparent_colour(tmp_path):
     assert found[0, 7].tolist() == [10, 20, 30, 255]
 
 
-@pytest.mark.parametrize("kind", ["jpg", "webp", "tif", "bmp", "gif"])
-def test_kinds_of_files(tmp_path, kind):
-    Image.new("RGB", (8, 4), (50, 100, 150)).save(tmp_path / f"map.{kind}")
-    found = Raster.open(tmp_path / f"map.{kind}").pixels.astype(int)
-    assert np.abs(found - [50, 100, 150, 255]).max() <= 4
-
-
-def test_a_part_of_the_globe(tmp_path):
-    Image.new("L", (30, 30)).save(tmp_path / "part.png")
-    assert Raster.open(tmp_path / "part.png", bounds=(0, 10, 30, 40)).bounds == (0, 10, 30, 40)
-
-
-def test_damaged_files_are_named(tmp_path):
-    path = tmp_path / "map.jpg"
+def cut_off(path):
     Image.fromarray(np.random.default_rng(1).integers(0, 256, (100, 200, 3), dtype=np.uint8)).save(path)
     path.write_bytes(path.read_bytes()[:3000])
-    with pytest.raises(ValueError, match=r"map\.jpg is damaged or cut off"):
-        Raster.open(path)
 
 
-def test_a_tiff_of_a_few_rows_that_says_it_has_millions(tmp_path):
-    """Pillow would make room for all of them, and leave them black."""
-    path = tmp_path / "map.tif"
+def of_millions_of_rows(path):
+    """A TIFF of a few rows that says so: Pillow would make room for all of them, and leave them black."""
     Image.fromarray(np.zeros((15, 30, 3), np.uint8)).save(path)
     content = path.read_bytes()
     length = b"\x01\x01\x04\0\1\0\0\0"  # the tag of the height, a whole number of 32 bits
     assert content.count(length + b"\x0f") == 1
     path.write_bytes(content.replace(length + b"\x0f\0\0", length + b"\0\0\x20"))
-    with pytest.raises(ValueError, match=r"map\.tif is damaged or cut off: it has pixels of a part"):
-        Raster.open(path)
 
 
-def test_floating_point_numbers_are_no_picture(tmp_path):
-    Image.fromarray(np.zeros((4, 8), np.float32)).save(tmp_path / "heights.tif")
-    with pytest.raises(ValueError, match=r"heights\.tif holds floating-point numbers"):
-        Raster.open(tmp_path / "heights.tif")
+POSTSCRIPT = b"%!PS-Adobe-3.0 EPSF-3.0\n%%BoundingBox: 0 0 20 10\n%%EndComments\nshowpage\n"
+"""Pillow starts Ghostscript for what begins so, whatever the file is called."""
 
 
-def test_what_pillow_gives_to_other_programs_is_not_opened(tmp_path, monkeypatch):
-    """Pillow starts Ghostscript for what begins as PostScript, whatever the file is called."""
+@pytest.mark.parametrize(
+    ("name", "write", "message"),
+    [
+        ("map.jpg", cut_off, "is damaged or cut off"),
+        ("map.tif", of_millions_of_rows, "is damaged or cut off: it has pixels of a part"),
+        (
+            "map.tif",
+            lambda path: Image.fromarray(np.zeros((4, 8), np.float32)).save(path),
+            "holds floating-point numbers",
+        ),
+        ("map.png", lambda path: path.write_bytes(POSTSCRIPT), "is not a picture of a kind that is read"),
+    ],
+)
+def test_what_is_no_picture_is_named(tmp_path, monkeypatch, name, write, message):
     from PIL import EpsImagePlugin
 
     monkeypatch.setattr(EpsImagePlugin, "Ghostscript", lambda *given, **more: pytest.fail("started"))
-    (tmp_path / "map.png").write_bytes(b"%!PS-Adobe-3.0 EPSF-3.0\n%%BoundingBox: 0 0 20 10\n%%EndComments\nshowpage\n")
-    with pytest.raises(ValueError, match=r"map\.png is not a picture of a kind that is read"):
-        Raster.open(tmp_path / "map.png")
+    write(tmp_path / name)
+    with pytest.raises(ValueError, match=f"{re.escape(name)} {message}"):
+        Raster.open(tmp_path / name)

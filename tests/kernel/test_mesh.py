@@ -1,5 +1,6 @@
 """The kernel's meshes under insertion and removal, against the paper's insertion from scratch, and proved Delaunay."""
 
+import itertools
 import subprocess
 import sys
 import threading
@@ -15,7 +16,7 @@ from stereodel.triangulation.topology import neighbors_of
 from tests import sets
 from tests.examples import examples
 from tests.spaces import BOTH, SPHERE, canonical, readable, space_of
-from tests.threads import at_once, begun
+from tests.threads import at_once, begun, until
 
 
 def start(points, by_readable=False):
@@ -195,12 +196,37 @@ def test_equal_directions_of_different_length():
 # As Python holds them ------------------------------------------------------------------------------------------------
 
 
+def test_tests_left_open_are_counted():
+    grid = sets.grid(4, 4)
+    mesh = start(grid[:6])
+    assert set(inconclusive(mesh).values()) == {0}
+    mesh.insert(grid[6:].copy())
+    assert inconclusive(mesh).keys() == {"filter", "double_double", "exact"}
+    assert inconclusive(mesh)["filter"] >= inconclusive(mesh)["exact"] > 0
+    assert inconclusive(start(sets.AXES)).keys() >= {"curvature", "exact"}
+
+
 def test_rows_are_given_in_any_rotation():
     points = np.random.default_rng(15).random((30, 2))
     simplices, neighbors = _kernel.plane.triangulate(points)[:2]
     mesh = _kernel.plane.Mesh(points, np.roll(simplices, 1, axis=1), np.roll(neighbors, 1, axis=1))
     assert np.array_equal(mesh.read()[2], simplices)
     assert np.array_equal(mesh.read()[3], neighbors)
+
+
+@BOTH
+def test_a_state_stays_what_it_was(space):
+    """All who ask share its arrays, which nobody can write to; changes make new ones."""
+    rng = np.random.default_rng(16)
+    mesh = start(space.random(rng, 20))
+    first, again = mesh.read(), mesh.read()
+    assert all(a.ctypes.data == b.ctypes.data for a, b in zip(first[1:4], again[1:4], strict=True))
+    assert not any(array.flags.writeable for array in first[1:5])
+    before = [array.copy() for array in first[1:5]]
+    mesh.insert(space.random(rng, 20))
+    mesh.remove(np.arange(10, dtype=np.int32))
+    del mesh, again
+    assert all(np.array_equal(a, b) for a, b in zip(first[1:5], before, strict=True))
 
 
 @BOTH
@@ -228,6 +254,45 @@ def test_duplicates_out_of_range_are_refused():
 
 
 # Several threads ------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("seconds", [0.5, pytest.param(2.0, marks=pytest.mark.thorough)])
+@BOTH
+def test_readers_beside_a_writer(space, seconds):
+    """Each state that was read is one that the writer made, whole, and none comes before an older one."""
+    rng = np.random.default_rng(21)
+    mesh = start(space.random(rng, 300))
+    made, seen = {0: mesh.read()[1].copy()}, [{} for _ in range(4)]
+    numbers = itertools.count(1)
+
+    def write():
+        points = made[mesh.changes]
+        if len(points) < 330:
+            added = space.random(rng, int(rng.integers(1, 30)))
+            made[next(numbers)] = np.vstack([points, added])
+            mesh.insert(added, 1, 3)
+        else:
+            gone = rng.permutation(len(points))[: int(rng.integers(1, 60))].astype(np.int32)
+            made[next(numbers)] = np.delete(points, gone, axis=0)
+            mesh.remove(gone, 1, 6)
+
+    def reader(own):
+        def read():
+            before = mesh.changes
+            state = mesh.read()
+            assert before <= state[0] <= mesh.changes
+            assert len(state[1]) == len(made[state[0]])
+            own[state[0]] = state
+
+        return until(seconds, read)
+
+    at_once(until(seconds, write), *map(reader, seen))
+    assert mesh.changes == len(made) - 1 > 10  # no reader keeps the writer out
+    assert min(map(len, seen)) > 3  # nor the other way round
+    for own in seen:
+        for number, (_, points, simplices, neighbors, duplicates, _, _) in list(own.items())[::-1][:20]:
+            assert np.array_equal(points, made[number])
+            check_delaunay(points, simplices, duplicates=duplicates, neighbors=neighbors)
 
 
 @BOTH

@@ -323,11 +323,12 @@ def test_zoom_box_and_pan_work_on_the_page():
 def test_lines_are_finer_under_a_zoom():
     axes = axes_of(focus=PARIS)
     pixels(axes)
-    whole = axes.transGlobe.tolerance
-    axes.set_xlim(-0.1, 0.1)
-    axes.set_ylim(-0.1, 0.1)
+    whole, path = axes.transGlobe.tolerance, Path([(0, 40), (40, 60)])
+    coarse = len(axes.transGlobe.transform_path(path).vertices)
+    axes.set(xlim=(-0.1, 0.1), ylim=(-0.1, 0.1))
     pixels(axes)
     assert axes.transGlobe.tolerance == whole / 16
+    assert len(axes.transGlobe.transform_path(path).vertices) == pytest.approx(4 * coarse, rel=0.3)
 
 
 def test_zoom_to_a_box_of_degrees():

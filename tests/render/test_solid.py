@@ -80,14 +80,21 @@ def test_any_scene_is_valid(style, tmp_path):
     assert issues(files) == [[], []]
 
 
-def test_what_has_no_size_is_no_body():
-    made = Scene()
-    made.add_points(np.zeros((0, 3)))
-    made.add_flat_polygon(3 * VIEW.matrix[2] + np.outer([0.0, 1.0, 2.0], VIEW.matrix[0]))
-    made.add_segments([[2, 0, 0]], [[2, 0, 0]], name="chord")
-    solid = made.solid(VIEW)
-    assert list(solid.to_trimesh().geometry) == ["ball"]
-    assert np.array_equal(solid.pixels(size=20), Scene().solid(VIEW).pixels(size=20))
+def test_what_is_hidden_or_has_no_size_is_not_seen():
+    """Behind an opaque ball and in it; without points, area or length it is no body either."""
+    hidden, nothing = Scene(), Scene()
+    hidden.add_circles([SphereCircle.around((200, -30), 30)], style=LineStyle("red", 4.0))
+    hidden.add_curves([CircleArc(np.zeros(3), np.array([0, 0.5, 0.0]), np.array([0.0, 0.0, 0.5]))], name="circle")
+    nothing.add_points(np.zeros((0, 3)))
+    nothing.add_flat_polygon(3 * VIEW.matrix[2] + np.outer([0.0, 1.0, 2.0], VIEW.matrix[0]))
+    nothing.add_segments([[2, 0, 0]], [[2, 0, 0]], name="chord")
+    assert list(nothing.solid(VIEW).to_trimesh().geometry) == ["ball"]
+    ball = Scene().solid(VIEW).pixels(size=80)
+    for made in (hidden, nothing):
+        assert np.array_equal(made.solid(VIEW).pixels(size=80), ball)
+    light = ball.astype(int).sum(axis=2)
+    assert light[24, 28] > light[40, 40] > light[60, 60]  # it comes from the upper left
+    assert light[16:64, 16:64].max() <= 3 * 0xF8  # not burnt out
 
 
 def test_a_file_of_nothing_and_one_of_another_kind_are_refused(solid, tmp_path):
@@ -176,6 +183,7 @@ def test_a_scene_off_the_middle_keeps_its_place():
 def test_colours_are_linear_and_not_rounded(solid):
     tree, _ = parts(glb_bytes(solid))
     materials = {material["name"]: material for material in tree["materials"]}
+    assert linear((0.04045, 0.04046, 1.0, 0.5)) == pytest.approx([0.04045 / 12.92, 0.0031316, 1.0, 0.5], abs=1e-6)
     for name, color in (("delaunay", LINES["delaunay"].color), ("ball", (0xF4 / 255, 0xF6 / 255, 0xF8 / 255, 1.0))):
         assert materials[name]["pbrMetallicRoughness"]["baseColorFactor"] == linear(color)
     assert materials["cell"]["alphaMode"] == "BLEND"
@@ -227,12 +235,6 @@ def test_a_picture_is_that_of_the_page_with_light(tmp_path):
     assert np.array_equal(iio.imread(file), solid.pixels(size=300))
 
 
-def test_light_comes_from_the_upper_left():
-    ball = Scene().solid(View(0, 0)).pixels(size=200).astype(int).sum(axis=2)
-    assert ball[60, 70] > ball[100, 100] > ball[150, 150]
-    assert ball[40:160, 40:160].max() <= 3 * 0xF8  # not burnt out
-
-
 def test_labels_are_those_of_the_page(solid):
     text, bare = solid.pixels(size=300), solid.pixels(size=300, text=False)
     rows, columns = np.nonzero((text != bare).any(axis=2))
@@ -266,13 +268,6 @@ def test_regions_lie_above_the_ball_and_those_before_them(angle):
     assert blue[inside].min() > 100
 
 
-def test_an_opaque_ball_hides_what_is_behind_and_in_it():
-    hidden = Scene()
-    hidden.add_circles([SphereCircle.around((180, 0), 30)], style=LineStyle("red", 4.0))
-    hidden.add_curves([CircleArc(np.zeros(3), np.array([0, 0.5, 0.0]), np.array([0.0, 0.0, 0.5]))], name="circle")
-    assert np.array_equal(hidden.solid(View(0, 0)).pixels(size=80), Scene().solid(View(0, 0)).pixels(size=80))
-
-
 def test_a_sheet_covers_what_is_beyond_it():
     def picture(*corners):
         made = Scene()
@@ -300,22 +295,15 @@ FLAT = Figure("small", lambda: {"style": "solid"}, lambda g: scene(**g).page(VIE
 SPATIAL = replace(FLAT, in_space=lambda g: scene(**g).solid(VIEW, width=100.0))
 
 
-def test_a_figure_in_space_writes_a_glb(tmp_path, capsys):
+def test_a_figure_in_space_writes_a_glb_and_a_flat_one_says_that_it_has_none(tmp_path, capsys):
     SPATIAL.main(["--out", str(tmp_path), "--size", "50"])
     assert sorted(path.suffix for path in tmp_path.iterdir()) == [".glb", ".pdf", ".png", ".svg"]
     assert (tmp_path / "small.glb").read_bytes() == glb_bytes(scene().solid(VIEW, width=100.0))
     SPATIAL.main(["--out", str(tmp_path), "--size", "50", "--solid", "--no-text"])
     assert "small_solid.png" in capsys.readouterr().out
     assert np.array_equal(iio.imread(tmp_path / "small_solid.png"), SPATIAL.solid().pixels(size=50, text=False))
-
-
-def test_a_flat_figure_says_so(tmp_path, capsys):
     with pytest.raises(SystemExit):
         FLAT.main(["--out", str(tmp_path), "--solid"])
     assert "--solid" in capsys.readouterr().err
     with pytest.raises(ValueError, match="figure 'small' shows nothing in space; give it in_space="):
         FLAT.save(tmp_path, size=50, solid=True)
-
-
-def test_linear_light_is_that_of_the_standard():
-    assert linear((0.04045, 0.04046, 1.0, 0.5)) == pytest.approx([0.04045 / 12.92, 0.0031316, 1.0, 0.5], abs=1e-6)

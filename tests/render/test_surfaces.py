@@ -12,9 +12,7 @@ from stereodel.drawing.scene.visibility import SphereRegion
 from stereodel.render.space.surfaces import (
     BALL_LEVELS,
     CURVE_ERROR,
-    TriangleMesh,
     ball,
-    ball_level,
     dashed,
     patch,
     polygon,
@@ -58,12 +56,6 @@ def test_a_tube_is_what_lies_within_its_radius(name, radius):
     assert 0.8 < mesh(made).volume / (np.pi * radius**2 * length) < 1.0
 
 
-@pytest.mark.parametrize("line", [ARC.part(0.5, 0.5), Segment.between([1, 1, 1], [1, 1, 1])])
-def test_what_has_no_length_has_no_tube(line):
-    assert tube(line, 0.1, CURVE_ERROR) is None
-    assert dashed(line, 1.0, 1.0) == []
-
-
 def test_dashes_and_gaps_have_their_lengths():
     pieces = dashed(RING, 0.1, 0.05)
     assert len(pieces) == int(np.ceil(2 * np.pi * 0.6 / 0.15))
@@ -82,10 +74,6 @@ def test_a_ball_is_closed_and_round(level):
     assert np.allclose(np.sqrt(np.sum(made.points**2, axis=1)), 1, rtol=1e-15)
     lowest = made.points[made.faces].mean(axis=1)
     assert made.depth == pytest.approx(1 - np.sqrt(np.sum(lowest**2, axis=1)).min(), rel=0.05)
-
-
-def test_a_ball_is_as_fine_as_is_asked():
-    assert [ball_level(error) for error in (1.0, 0.00114, 0.00113, 1e-9)] == [4, 4, 5, 6]
 
 
 def region(*corners, radius=2.0):
@@ -139,10 +127,3 @@ def test_a_polygon_need_not_be_convex(order):
     assert len(made.faces) == 3
     assert mesh(made).area_faces @ (mesh(made).face_normals @ normal) == pytest.approx(2.5)
     assert mesh(made).area == pytest.approx(2.5)
-
-
-def test_surfaces_are_joined_one_after_the_other():
-    parts = [tube(line, 0.02, CURVE_ERROR) for line in LINES.values()]
-    both = TriangleMesh.joined(parts)
-    assert mesh(both).volume == pytest.approx(sum(mesh(part).volume for part in parts))
-    assert is_closed(both)

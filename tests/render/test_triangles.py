@@ -34,6 +34,9 @@ def quarter_circle(radius):
 
 @pytest.mark.parametrize("radius", [1.0, 50.0, 3000.0])
 def test_chords_stay_near_their_curve(radius):
+    """And runs of straight ones keep their ends and corners."""
+    path = np.array([[[0, 0], [1, 0], [2, 0], [3, 0]], [[3, 0], [3, 1], [3, 2], [3, 3]]], dtype=float)
+    assert flatten(path).tolist() == [[0, 0], [3, 0], [3, 3]]
     points = flatten(quarter_circle(radius))
     middle = (points[:-1] + points[1:]) / 2
     # The cubic itself is off the circle by 2.8e-4 of the radius.
@@ -42,11 +45,6 @@ def test_chords_stay_near_their_curve(radius):
     p = quarter_circle(radius)[0]
     curve = (1 - s) ** 3 * p[0] + 3 * s * (1 - s) ** 2 * p[1] + 3 * s**2 * (1 - s) * p[2] + s**3 * p[3]
     assert distance(points, curve).max() < FLATNESS
-
-
-def test_runs_keep_their_ends_and_corners():
-    path = np.array([[[0, 0], [1, 0], [2, 0], [3, 0]], [[3, 0], [3, 1], [3, 2], [3, 3]]], dtype=float)
-    assert flatten(path).tolist() == [[0, 0], [3, 0], [3, 3]]
 
 
 @given(POINTS, st.floats(1, 20), st.booleans())
@@ -58,13 +56,30 @@ def test_a_ribbon_covers_what_is_near_its_line_and_nothing_else(line, width, clo
     assert not inside[away > width / 2 + 1e-6].any()
 
 
-def test_dashes_begin_at_the_first_point_and_go_round_corners():
-    bent = np.array([[0.0, 0.0], [10.0, 0.0], [10.0, 10.0]])
-    shape = ribbon(bent, 1.0, dash=(4.0, 3.0), round_caps=False)
-    probes = np.array(
-        [[0.5, 0.1], [3.9, 0.1], [4.1, 0.1], [6.9, 0.1], [7.1, 0.1], [9.9, 0.1], [10.1, 0.9], [10.1, 1.1]]
-    )
-    assert (covered(shape, probes) > 0).tolist() == [True, True, False, False, True, True, True, False]
+BENT = np.array([[0.0, 0.0], [10.0, 0.0], [10.0, 10.0]])
+BACK = np.array([[0.0, 0.0], [10.0, 0.0], [0.0, 0.0]])
+POINT = np.array([[3.0, 3.0], [3.0, 3.0]])
+
+
+@pytest.mark.parametrize(
+    ("line", "width", "options", "inside", "outside"),
+    [
+        (
+            BENT,
+            1.0,
+            {"dash": (4.0, 3.0), "round_caps": False},
+            [(0.5, 0.1), (3.9, 0.1), (7.1, 0.1), (9.9, 0.1), (10.1, 0.9)],
+            [(4.1, 0.1), (6.9, 0.1), (10.1, 1.1)],
+        ),
+        (BACK, 4.0, {"round_caps": False}, [(11.5, 0.1)], [(12.1, 0.1), (-0.1, 0.1)]),
+        (POINT, 10.0, {}, [(3.1, 7.8), (7.8, 3.1)], [(6.9, 6.9), (8.2, 3.1)]),
+        (POINT, 10.0, {"round_caps": False}, [], [(3.1, 3.2)]),
+    ],
+    ids=["dashes go round corners", "turning back is rounded", "a point is a disc", "or nothing"],
+)
+def test_ribbons_by_hand(line, width, options, inside, outside):
+    found = covered(ribbon(line, width, **options), np.array([*inside, *outside])) > 0
+    assert found.tolist() == [True] * len(inside) + [False] * len(outside)
 
 
 @given(POINTS, st.floats(0.5, 20), st.floats(0.5, 20))
@@ -76,12 +91,6 @@ def test_dashes_have_their_share_of_the_length(line, dash, gap):
     # Wedges at the bends add less than their radius squared each.
     assert areas(shape).sum() == pytest.approx(0.02 * drawn, abs=len(line) * 4e-4 + 1e-6 * length)
     assert np.isfinite(shape).all()
-
-
-def test_a_point_alone_is_a_disc_or_nothing():
-    point = np.array([[3.0, 3.0], [3.0, 3.0]])
-    assert areas(ribbon(point, 10.0)).sum() == pytest.approx(np.pi * 25, rel=2e-2)
-    assert len(ribbon(point, 10.0, round_caps=False)) == 0
 
 
 def triangle_set(triangles):
@@ -104,11 +113,6 @@ def test_many_ribbons_are_the_ribbons_of_each(lines, width):
     assert triangle_set(together) == triangle_set(np.concatenate(each))
 
 
-def test_turning_back_is_rounded():
-    there_and_back = np.array([[0.0, 0.0], [10.0, 0.0], [0.0, 0.0]])
-    assert covered(ribbon(there_and_back, 4.0, round_caps=False), np.array([[11.5, 0.1]])) == 1
-
-
 @pytest.mark.parametrize("radius", [0.3, 4.0, 200.0])
 def test_discs_are_round_to_the_flatness(radius):
     shape = discs(np.array([[0.0, 0.0], [1000.0, 0.0]]), radius)
@@ -124,8 +128,5 @@ def test_a_region_is_what_the_even_odd_rule_says(runs):
     loops = [np.concatenate([run, run[:1]]) for run in runs]
     points = points[np.min([distance(points, loop) for loop in loops], axis=0) > 1e-6]
     assert np.array_equal(covered(region(runs), points), winding(loops, points) % 2)
-
-
-@pytest.mark.parametrize("flat", [[[0.0, 0.0], [5.0, 0.0], [9.0, 0.0]], [[1.0, 1.0]] * 3, [[0.0, 0.0], [3.0, 4.0]]])
-def test_a_region_without_area_is_empty(flat):
-    assert areas(region([np.array(flat)])).sum() == 0
+    for flat in ([[0.0, 0.0], [5.0, 0.0], [9.0, 0.0]], [[1.0, 1.0]] * 3, [[0.0, 0.0], [3.0, 4.0]]):
+        assert areas(region([np.array(flat)])).sum() == 0

@@ -13,8 +13,12 @@ from stereodel import PlanarVoronoi, SphericalVoronoi, _kernel
 from stereodel.graphs import gabriel_graph, hull
 from stereodel.triangulation.diagram import polygons
 from tests import sets
-from tests.exact import cross, dot, doubles, fractions, minus, unit
+from tests.exact import cross, dot, doubles, minus, unit
 from tests.spaces import PLANE, SPHERE
+
+
+def fractions(vector):
+    return [Fraction(x) for x in vector]
 
 
 def turn_from(p, q, axis):
@@ -26,7 +30,7 @@ def turn_from(p, q, axis):
 
 def exact_axis(points, order):
     """Along vertex 0, from all products of neighbours that are less than a half-turn apart."""
-    p = fractions(points[order].tolist())
+    p = [fractions(points[k].tolist()) for k in order]
     if len(p) == 2 and not any(cross(*p)):
         shortest = min(range(3), key=lambda k: abs(p[0][k]))
         return unit(cross(p[0], [Fraction(int(k == shortest)) for k in range(3)]))
@@ -141,6 +145,13 @@ def test_none_and_one():
     assert one.point_region.tolist() == [0, 0]
     assert one.ridge_points.shape == one.ridge_vertices.shape == (0, 2)
     assert one.ridge_arcs() == []
+
+
+def test_points_off_the_line_or_circle_are_refused():
+    with pytest.raises(ValueError, match="must lie on one great circle"):
+        _kernel.sphere.flat_order(np.eye(3))
+    with pytest.raises(ValueError, match="must lie on one great circle"):
+        _kernel.sphere.flat_order(np.array([[1, 0, 0], [0, 1, 0], [1, 1, 1e-300]]))
 
 
 @given(st.lists(st.integers(-4, 4), max_size=9), st.sampled_from([(1, 0), (0, 1), (-2, 3), (1e-320, 1e300)]))

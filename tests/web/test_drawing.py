@@ -82,13 +82,11 @@ def along(d):
 
 
 def test_arcs_of_svg_are_those_of_the_canvas(drawing):
-    worst = []
-    for arc in drawing("svgArcs(400)"):
-        if not arc["points"]:
-            continue
-        drawn = along(arc["d"])
-        away = np.linalg.norm(np.array(arc["points"])[:, np.newaxis] - drawn, axis=-1).min(axis=1)
-        worst.append(away.max())
+    worst = [
+        np.linalg.norm(np.array(arc["points"])[:, np.newaxis] - along(arc["d"]), axis=-1).min(axis=1).max()
+        for arc in drawing("svgArcs(400)")
+        if arc["points"]
+    ]
     assert len(worst) > 200
     assert max(worst) < 2.5  # pixels: between the points along an arc
 
