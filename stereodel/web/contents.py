@@ -30,7 +30,7 @@ RESOLUTIONS: Final = {"50m": ("110m", "50m"), "110m": ("110m",)}
 LAND_DIGITS: Final = 2
 """Decimals of land in degrees: 1.1 km, a third of a pixel on a globe 4000 pixels across."""
 
-SITE_DIGITS: Final = {"airports": 6, "cities": 5, "gap": 3, "sheet": 3, "stars": 5}
+SITE_DIGITS: Final = {"airports": 6, "cities": 5, "everywhere": 3, "gap": 3, "hemisphere": 3, "sheet": 3, "stars": 5}
 """Digits of the coordinates of the sets, all that they have."""
 
 MOST_POINTS: Final = 1_000_000
@@ -141,8 +141,8 @@ def land_rings(resolution: str) -> str:
 @cache
 def sites(name: str) -> str:
     """One of the small sets, those of `SITE_DIGITS`."""
-    if name in ("gap", "sheet"):
-        places = scattered()[name]
+    if name in (drawn := scattered()):
+        places = drawn[name]
     elif name == "stars":
         places = stars().lonlat[stars().magnitude <= BRIGHT_STAR]
     else:
@@ -156,8 +156,9 @@ def sites(name: str) -> str:
 def scattered() -> dict[str, FloatArray]:
     """The sites that rooms begin with, drawn once and kept so that the first pictures stay.
 
-    "gap": 54 sites, each the farthest of 14 drawn, none within 68° of the first pole of projection; "sheet": 48 places
-    of a sheet of 3 by 2 about its middle, each the farthest of 12 drawn.
+    "gap": 54 sites, each the farthest of 14 drawn, none within 68° of the first pole of projection; "everywhere" and
+    "hemisphere" likewise 72 and 40, these within 75° of (0° E, 0° N); "sheet": 48 places of a sheet of 3 by 2 about its
+    middle, each the farthest of 12 drawn.
     """
     text = resources.files("stereodel.web").joinpath("scattered.json").read_text(encoding="utf-8")
     return {name: np.array(rows) for name, rows in json.loads(text).items()}

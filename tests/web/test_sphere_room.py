@@ -139,7 +139,8 @@ def test_without_facets_nothing_sees_a_site(node):
 
 
 def test_sets_are_places_of_the_sphere_with_facets(node):
-    sets = ask(node, "sphereSets({ gap: given }, null).map((set) => [set.name, [...set.make()]])", GAP.ravel().tolist())
+    stored = {name: scattered()[name].ravel().tolist() for name in ("gap", "everywhere", "hemisphere")}
+    sets = ask(node, "sphereSets(given, null).map((set) => [set.name, [...set.make()]])", stored)
     assert [name for name, _ in sets] == ["gap", "everywhere", "hemisphere", "dodecahedron"]
     for name, places in sets:
         lonlat = np.reshape(places, (-1, 2))

@@ -5,7 +5,7 @@
 
 import { along } from "./drawing/ball.ts";
 import { SphericalVoronoi, type Latitude } from "./kernel/api.ts";
-import { tableLatitude } from "./kernel/coordinates.ts";
+import { tableLonlat } from "./kernel/coordinates.ts";
 import type { SphereSites } from "./rooms/sphere_sites.ts";
 import { lonLatOf, row, type Vector } from "./space.ts";
 
@@ -113,11 +113,11 @@ function digits(degrees: number): number {
 
 /** Longitudes and latitudes of a ring, closed, whose longitudes go on beyond ±180 instead of jumping. */
 function unwrapped(points: readonly Vector[], kind: Latitude): Position[] {
+  const lonlat = tableLonlat(Float64Array.from([...points, points[0]].flatMap(lonLatOf)), kind);
   const ring: Position[] = [];
-  for (const point of [...points, points[0]]) {
-    const [lon, lat] = lonLatOf(point);
-    const before = ring[ring.length - 1]?.[0] ?? lon;
-    ring.push([lon + 360 * Math.round((before - lon) / 360), tableLatitude(lat, kind)]);
+  for (let k = 0; k < lonlat.length; k += 2) {
+    const before = ring[ring.length - 1]?.[0] ?? lonlat[k];
+    ring.push([lonlat[k] + 360 * Math.round((before - lonlat[k]) / 360), lonlat[k + 1]]);
   }
   return ring;
 }

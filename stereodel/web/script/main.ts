@@ -244,7 +244,8 @@ function placeMarks(): void {
 /** The sets are unpacked before the rooms are made, so that links can name them. */
 async function makersOf(contents: Contents): Promise<Makers> {
   const stored: Record<string, Float64Array> = {};
-  for (const name of ["gap", "cities", "airports", "stars", "sheet"]) stored[name] = await contents.set(name);
+  for (const name of ["gap", "everywhere", "hemisphere", "cities", "airports", "stars", "sheet"])
+    stored[name] = await contents.set(name);
   const given = await contents.given();
   const lift = laterScript<LiftRoomMaker>(contents, "lift");
   return {

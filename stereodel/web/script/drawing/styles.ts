@@ -16,8 +16,7 @@ export interface Style {
 
 export const STYLES = {
   graticule: { stroke: "graticule", width: 0.5 },
-  coast: { stroke: "coast", width: 0.7 },
-  land: { fill: "land" },
+  land: { fill: "land", stroke: "coast", width: 0.7 },
   ocean: { fill: "ocean" },
   frame: { stroke: "limb", width: 0.7 },
   limb: { stroke: "limb", width: 1.3 },
@@ -41,7 +40,7 @@ export const STYLES = {
   side: { stroke: "voronoi", width: 1.3 },
   touch: { stroke: "ink", width: 1 },
   tissot: { fill: "tissot", stroke: "coast", width: 0.6 },
-  "patch-line": { stroke: "accent", width: 1 },
+  patch: { stroke: "accent", width: 1, fill: "accent-wash" },
   handle: { stroke: "accent", width: 1.8, fill: "paper" },
   "handle-behind": { stroke: "accent", width: 1.2 },
   "handle-cross": { stroke: "accent", width: 1 },

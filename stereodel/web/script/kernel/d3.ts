@@ -243,7 +243,7 @@ export interface GeoVoronoi<Datum> {
   points: Place[];
   valid: Datum[];
   delaunay: GeoDelaunay | null;
-  /** Where a datum lies; by default its two first numbers, or the centroid of an object of GeoJSON. */
+  /** Where a datum lies; by default its two first numbers, or a point of GeoJSON. */
   x(): Accessor<Datum>;
   x(accessor: Accessor<Datum>): GeoVoronoi<Datum>;
   y(): Accessor<Datum>;
@@ -349,68 +349,12 @@ function distance(a: Place, b: Place): number {
   return 2 * Math.atan2(Math.hypot(x - u, y - v, z - w), Math.hypot(x + u, y + v, z + w));
 }
 
-/** The first two numbers of an array; of an object of GeoJSON the centroid. */
+/** The first two numbers of an array, of a point of GeoJSON or of a feature that is one. */
 function placeOf(datum: unknown): Place {
   if (datum === null || typeof datum !== "object") return [NaN, NaN];
-  if ("type" in datum) return centroid(datum);
-  const [lon, lat] = (datum as unknown[]).slice(0, 2).map((value) => (value === null ? NaN : Number(value)));
+  const { geometry = datum } = datum as { geometry?: unknown };
+  const { coordinates = geometry } = (geometry ?? {}) as { coordinates?: unknown };
+  if (!Array.isArray(coordinates)) return [NaN, NaN];
+  const [lon, lat] = (coordinates as unknown[]).slice(0, 2).map((value) => (value === null ? NaN : Number(value)));
   return [lon ?? NaN, lat ?? NaN];
-}
-
-/** The direction of the sum of the parts of highest dimension: areas, or else lines, or else points. */
-function centroid(object: object): Place {
-  const sums = [0, 1, 2].map(() => new Float64Array(3));
-  addParts(object as GeoJson, sums);
-  const whole = sums.reverse().find((total) => Math.hypot(...total) > NO_DIRECTION);
-  return whole === undefined ? [NaN, NaN] : placesOf(whole)[0];
-}
-
-/** Length of a sum of parts of the unit sphere that is rounding alone. */
-const NO_DIRECTION = 2 ** -40;
-
-interface GeoJson {
-  type: string;
-  geometry?: GeoJson | null;
-  geometries?: GeoJson[];
-  features?: GeoJson[];
-  coordinates?: unknown[];
-}
-
-/** Adds the points, the lines and the areas of an object to the sums of each. */
-function addParts({ type, geometry, geometries, features, coordinates }: GeoJson, sums: Float64Array[]): void {
-  for (const part of [geometry, geometries, features].flat()) if (part) addParts(part, sums);
-  for (const line of linesOf(coordinates ?? [])) {
-    const xyz = lonlatToXyz(line.flatMap(([lon, lat]) => [lon, lat]));
-    if (type.endsWith("Point")) addTo(sums[0], xyz);
-    else addSegments(xyz, type.endsWith("Polygon") ? sums[2] : sums[1], type.endsWith("Polygon"));
-  }
-}
-
-/** All lists of places in nested arrays; a single place as a list of one. */
-function linesOf(nested: unknown[]): Place[][] {
-  if (!Array.isArray(nested[0])) return nested.length === 0 ? [] : [[nested as Place]];
-  return Array.isArray(nested[0][0]) ? nested.flatMap((part) => linesOf(part as unknown[])) : [nested as Place[]];
-}
-
-function addTo(total: Float64Array, xyz: ArrayLike<number>): void {
-  for (let k = 0; k < xyz.length; ++k) total[k % 3] += xyz[k];
-}
-
-/**
- * The integral of x over the area on the right of a ring: half the sum of each side's angle times the normal of its
- * plane (theorem of Stokes). Of lines the middles of the chords by their angles, as d3-geo has it.
- */
-function addSegments(xyz: Float64Array, total: Float64Array, isRing: boolean): void {
-  for (let k = 3; k < xyz.length; k += 3) {
-    const [a, b, c, x, y, z] = xyz.subarray(k - 3, k + 3);
-    const [apart, together] = [Math.hypot(a - x, b - y, c - z), Math.hypot(a + x, b + y, c + z)];
-    const angle = 2 * Math.atan2(apart, together);
-    const sine = Math.sin(angle);
-    if (!isRing) addTo(total, [angle * (a + x), angle * (b + y), angle * (c + z)]);
-    else if (sine > 0)
-      addTo(
-        total,
-        [c * y - b * z, a * z - c * x, b * x - a * y].map((part) => (angle * part) / sine),
-      );
-  }
 }

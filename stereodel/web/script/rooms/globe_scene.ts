@@ -13,10 +13,10 @@ import {
   type Layer,
 } from "../drawing/ball.ts";
 import type { Disc, Pen } from "../drawing/pen.ts";
-import { lonlatToXyz, SphericalVoronoi, type Latitude, type MoebiusMap } from "../kernel/api.ts";
-import { tableLatitude } from "../kernel/coordinates.ts";
+import { lonlatToXyz, SphericalVoronoi, xyzToLonlat, type Latitude, type MoebiusMap } from "../kernel/api.ts";
+import { tableLonlat } from "../kernel/coordinates.ts";
 import type { Painted } from "../panorama.ts";
-import { directionOf, lonLatOf, row } from "../space.ts";
+import { directionOf } from "../space.ts";
 
 /** The radius of the equal circles on Earth, kilometres, and in degrees of a sphere with the Earth's mean radius. */
 const CIRCLE_KILOMETRES = 150;
@@ -115,13 +115,7 @@ export class GlobeScene {
 
   /** Points of the cells' sphere where the globe shows them: at the latitudes of a table. */
   #drawn(xyz: Float64Array): Float64Array {
-    if (this.latitude === "spherical") return xyz;
-    const drawn = new Float64Array(xyz.length);
-    for (let k = 0; 3 * k < xyz.length; ++k) {
-      const [lon, lat] = lonLatOf(row(xyz, k));
-      drawn.set(directionOf(lon, tableLatitude(lat, this.latitude)), 3 * k);
-    }
-    return drawn;
+    return this.latitude === "spherical" ? xyz : lonlatToXyz(tableLonlat(xyzToLonlat(xyz), this.latitude));
   }
 
   /** Sides of the places' cells. */
