@@ -81,7 +81,7 @@ DOORS = {
     "from stereodel.interpolation import *; NearestInterpolator(POINTS, POINTS).weights(POINTS).to_scipy()": ["scipy"],
     "from stereodel.io import write; write('a.nc', MESH)": ["grid"],
     "from stereodel.io import write; write('a.glb', MESH)": ["mesh"],
-    "from stereodel.io import to_polydata; to_polydata(MESH)": ["mesh"],
+    "from stereodel.io import to_polydata; to_polydata(MESH)": ["vtk"],
     "from stereodel.io import *; write('a.nc', Grid([0], [0], {'z': [[1]]}))": ["grid"],
     "from stereodel.io import *; write('a.tif', Grid([0], [0], {'z': [[1]]}))": ["raster"],
     "from stereodel.web import GlobeWidget; GlobeWidget(lonlat=[(10, 48)])": ["jupyter"],
@@ -309,7 +309,7 @@ def test_away_from_a_checkout_the_missing_libraries_are_named(monkeypatch, tmp_p
     here, found = {"trimesh"}, _extras.find_spec
     monkeypatch.setattr(_extras, "find_spec", lambda name: found(name) if name in here else None)
     assert installing("scipy") == f'pip install "scipy>={EXTRAS["scipy"].brings[0].least}"'
-    assert re.findall(r'"(\w+)>=[\d.a-z]+"', installing("mesh")) == ["pyvista"]
+    assert re.findall(r'"(\w+)>=[\d.a-z]+"', installing("vtk")) == ["pyvista"]
     names = ["matplotlib", "pillow", "mapbox_earcut", "pyrender2", "PyOpenGL"]
     assert re.findall(r'"(\w+)>=[\d.a-z]+"', installing("render")) == names
 
@@ -327,7 +327,7 @@ def test_pyproject_brings_what_the_code_asks_for():
         assert [str(r) for r in optional[name] if r.name != "stereodel"] == wanted
         assert {e for r in own[name] for e in r.extras} == set(extra.includes)
     (everything,) = optional["all"]
-    assert everything.extras | {"draw", "render"} == set(EXTRAS)  # both come with films
+    assert everything.extras | {"draw", "render", "vtk"} == set(EXTRAS)  # two come with films, one is too large
     assert set(optional) - set(EXTRAS) == {"all", "test", "docs", "web", "wheels", "dev"}
 
 

@@ -57,7 +57,7 @@ print(f"{len(names) - len(advice)} modules work on NumPy alone, {len(advice)} na
 PYTHON
 [[ $(advice cli) == 'pip install "typer>='*'" "rich>='*'"' ]] || die "$(advice cli): not for an environment without a checkout"
 bare stereodel --version
-bare stereodel --help >said
+refused stereodel --help
 expect said "$(advice cli)"
 refused stereodel voronoi cities.csv -o cells.csv
 expect said "$(advice cli)"
@@ -78,7 +78,7 @@ expect said "$(advice render)"
 
 install 'stereodel[all]'
 bare stereodel doctor >said || cat said # the machine may have no OpenGL
-if grep ' lacks ' said; then exit 1; fi
+if grep ' lacks ' said | grep -v '^  vtk '; then exit 1; fi
 # The scripts without the package beside them: it is the wheel's that they import.
 mkdir repository
 cp -r "$root"/{README.md,tools,figures} repository

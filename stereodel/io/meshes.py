@@ -118,7 +118,7 @@ def to_polydata(mesh: Mesh, *, what: str | None = None) -> Any:
     Raises
     ------
     ImportError
-        Without PyVista (the extra ``mesh``).
+        Without PyVista (the extra ``vtk``).
 
     Examples
     --------
@@ -129,7 +129,7 @@ def to_polydata(mesh: Mesh, *, what: str | None = None) -> Any:
     """
     faces = Faces.of(mesh, what)
     table = np.insert(faces.polygons.values, faces.polygons.offsets[:-1], faces.polygons.sizes)
-    result = optional("pyvista", "mesh").PolyData(_space(faces.nodes), faces=table)
+    result = optional("pyvista", "vtk").PolyData(_space(faces.nodes), faces=table)
     result.cell_data[faces.what] = faces.number
     if faces.what == "point":
         result.cell_data["area"] = faces.areas(mesh)

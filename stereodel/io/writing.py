@@ -206,7 +206,7 @@ def _write_trimesh(thing: Any, path: Path, options: dict[str, Any], progress: Pr
 def _write_polydata(thing: Any, path: Path, options: dict[str, Any], progress: Progress | None) -> None:
     data = to_polydata(thing, **options)
     # In memory first: on a full disk VTK continues, or crashes.
-    writer = optional("vtkmodules.vtkIOXML", "mesh").vtkXMLPolyDataWriter()
+    writer = optional("vtkmodules.vtkIOXML", "vtk").vtkXMLPolyDataWriter()
     writer.SetInputData(data)
     writer.SetDataModeToBinary()
     writer.WriteToOutputStringOn()
