@@ -216,7 +216,7 @@ function share(layer: ReturnType<typeof regionLayer>, map: MoebiusMap): number {
 /** Of each map: the share of the disc that is filled, and the share of places of the disc that are on land. */
 export async function fills(block: string, count: number, grid: number): Promise<[number, number][]> {
   const rings = await land(block);
-  const layer = regionLayer("land", lonlatToXyz(rings.lonlat), rings.offsets, row(AT_SEA, 0), false);
+  const layer = regionLayer("land", null, lonlatToXyz(rings.lonlat), rings.offsets, row(AT_SEA, 0), false);
   const inside = new Inside(rings);
   const points: number[] = [];
   for (let i = 0; i < grid; ++i) {
@@ -254,7 +254,7 @@ function turnedAway(k: number, rings: Rings): View {
 /** Shares of the disc in a slow turn whose far side goes over Antarctica, its pole and its coasts. */
 export async function slowTurn(block: string, frames: number): Promise<number[]> {
   const rings = await land(block);
-  const layer = regionLayer("land", lonlatToXyz(rings.lonlat), rings.offsets, row(AT_SEA, 0), false);
+  const layer = regionLayer("land", null, lonlatToXyz(rings.lonlat), rings.offsets, row(AT_SEA, 0), false);
   const lens = MoebiusMap.fisheye([10, 48], 3);
   return Array.from({ length: frames }, (_, k) =>
     share(layer, lenses.seenThrough(lens, View.above(20, 120 - (90 * k) / frames))),

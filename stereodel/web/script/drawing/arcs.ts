@@ -153,3 +153,44 @@ export function bow(p: ArrayLike<number>, a: number, m: number, b: number): numb
   const flat = Math.sqrt(Math.max(0, sides * sides - (square * double * double) / 4));
   return (seen * square) / (2 * (sides + flat));
 }
+
+/** Lays a line of points [begin, end) into a path, cut at the limb; points nearer than `least` pixels are passed over. */
+export function traceLine(
+  path: Path,
+  disc: Disc,
+  p: ArrayLike<number>,
+  begin: number,
+  end: number,
+  closed: boolean,
+  least = 0.5,
+): void {
+  const count = end - begin;
+  let isDown = false;
+  let [x, y, wasIn] = [0, 0, false];
+  for (let n = 0; n <= count - (closed ? 0 : 1); ++n) {
+    const i = 3 * (begin + (n % count));
+    const [px, py, isIn] = [disc.x + disc.r * p[i], disc.y - disc.r * p[i + 1], p[i + 2] >= 0];
+    if (n > 0 && isIn !== wasIn) {
+      const j = 3 * (begin + n - 1);
+      const t = p[j + 2] / (p[j + 2] - p[i + 2]);
+      const [cx, cy] = [p[j] + t * (p[i] - p[j]), p[j + 1] + t * (p[i + 1] - p[j + 1])];
+      const scale = disc.r / Math.hypot(cx, cy);
+      if (isIn) {
+        path.moveTo((x = disc.x + scale * cx), (y = disc.y - scale * cy));
+        isDown = true;
+      } else {
+        path.lineTo(disc.x + scale * cx, disc.y - scale * cy);
+        isDown = false;
+      }
+    }
+    if (isIn) {
+      if (!isDown) {
+        path.moveTo((x = px), (y = py));
+        isDown = true;
+      } else if (Math.abs(px - x) + Math.abs(py - y) > least || n === count - (closed ? 0 : 1)) {
+        path.lineTo((x = px), (y = py));
+      }
+    }
+    wasIn = isIn;
+  }
+}

@@ -9,9 +9,9 @@ import {
   type SphericalVoronoi,
 } from "../kernel/api.ts";
 import { angle, cross, DEGREE, directionOf, dot, row, unit, type Vector } from "../space.ts";
-import { arcThrough, traceArc, type Side } from "./arcs.ts";
+import { arcThrough, traceArc, traceLine, type Side } from "./arcs.ts";
 import { bentRings } from "./bent_rings.ts";
-import { holdsHidden, traceCap, traceRegions } from "./fill.ts";
+import { holdsHidden, traceCap, traceRegions, type Rings } from "./fill.ts";
 import type { Disc, Path, Pen } from "./pen.ts";
 import type { DotName, StyleName } from "./styles.ts";
 
@@ -83,11 +83,13 @@ export function dotLayer(style: DotName, points: Float64Array): Layer {
 }
 
 /**
- * Regions on the left of rings, such as land with its coast; of their outline, what runs along the limb lies below that.
+ * Regions on the left of rings, filled and outlined, such as land with its coast.
+ * @param outline Style of the rings as lines, if they are drawn.
  * @param place A direction far from all rings, and whether it is in the regions.
  */
 export function regionLayer(
-  style: StyleName,
+  fill: StyleName,
+  outline: StyleName | null,
   points: Float64Array,
   offsets: ArrayLike<number>,
   place: Vector,
@@ -101,14 +103,21 @@ export function regionLayer(
     draw(pen, disc, images, map) {
       const rings = bentRings(points, { points: images.subarray(0, points.length), offsets }, map, disc.r);
       const holds = holdsHidden(rings, row(images, points.length / 3), inside);
-      pen.draw(style, (path) => traceRegions(path, disc, rings, holds));
+      pen.draw(fill, (path) => traceRegions(path, disc, rings, holds));
+      if (outline !== null) pen.draw(outline, (path) => traceOutlines(path, disc, rings));
     },
   };
 }
 
 /** Land with its coast. */
 export function landLayer({ lonlat, offsets }: Places): Layer {
-  return regionLayer("land", lonlatToXyz(lonlat), offsets, AT_SEA, false);
+  return regionLayer("land", "coast", lonlatToXyz(lonlat), offsets, AT_SEA, false);
+}
+
+function traceOutlines(path: Path, disc: Disc, { points, offsets }: Rings): void {
+  for (let ring = 0; ring + 1 < offsets.length; ++ring) {
+    traceLine(path, disc, points, offsets[ring], offsets[ring + 1], true);
+  }
 }
 
 /** Edges of a triangulation as arcs. */

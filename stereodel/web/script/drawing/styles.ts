@@ -16,7 +16,8 @@ export interface Style {
 
 export const STYLES = {
   graticule: { stroke: "graticule", width: 0.5 },
-  land: { fill: "land", stroke: "coast", width: 0.7 },
+  coast: { stroke: "coast", width: 0.7 },
+  land: { fill: "land" },
   ocean: { fill: "ocean" },
   frame: { stroke: "limb", width: 0.7 },
   limb: { stroke: "limb", width: 1.3 },
@@ -40,7 +41,7 @@ export const STYLES = {
   side: { stroke: "voronoi", width: 1.3 },
   touch: { stroke: "ink", width: 1 },
   tissot: { fill: "tissot", stroke: "coast", width: 0.6 },
-  patch: { stroke: "accent", width: 1, fill: "accent-wash" },
+  "patch-line": { stroke: "accent", width: 1 },
   handle: { stroke: "accent", width: 1.8, fill: "paper" },
   "handle-behind": { stroke: "accent", width: 1.2 },
   "handle-cross": { stroke: "accent", width: 1 },

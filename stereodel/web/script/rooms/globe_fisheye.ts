@@ -4,7 +4,7 @@ import { placeOf } from "../drawing/ball.ts";
 import { drawHandle, type Pen } from "../drawing/pen.ts";
 import type { Reason } from "../drawing/plate.ts";
 import type { LabelStyle } from "../drawing/styles.ts";
-import type { MoebiusMap } from "../kernel/api.ts";
+import { Rotation, type MoebiusMap } from "../kernel/api.ts";
 import { arrowed, grabBall } from "../view/ball_hand.ts";
 import { distance, type Gestures, type Hold, type Place } from "../view/hand.ts";
 import { betweenSights, focused, holding, magnified, MOST, sightMap, sourceOf, type Sight } from "../view/lens.ts";
@@ -70,11 +70,14 @@ export class FisheyeGlobe extends GlobePlate {
         this.motion.stop();
         const start = this.#sight;
         const from = pointUnder(this.disc, middle);
+        let turnedBefore: number | null = null;
         return {
-          move: (now, nowSpread) => {
+          move: (now, nowSpread, turn) => {
+            turnedBefore ??= turn;
             const sight = magnified(start, from, nowSpread / spread, this.isNorthUp);
             const to = pointUnder(this.disc, now);
-            const view = holding(sight.view, sight.view.onBall(from), to, this.isNorthUp);
+            let view = holding(sight.view, sight.view.onBall(from), to, this.isNorthUp);
+            if (!this.isNorthUp) view = view.turned(Rotation.about(to, ((turnedBefore - turn) * 180) / Math.PI));
             this.host.set({ sight: { ...sight, view } }, "hand");
           },
         };

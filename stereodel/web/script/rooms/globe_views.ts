@@ -85,5 +85,5 @@ function patchLayer({ focus, magnification }: Lens): Layer {
     });
   });
   const opposite: Vector = [-focus[0], -focus[1], -focus[2]];
-  return regionLayer("patch", Float64Array.from(ring.flat()), [0, ring.length], opposite, false);
+  return regionLayer("seen", "patch-line", Float64Array.from(ring.flat()), [0, ring.length], opposite, false);
 }

@@ -1,9 +1,12 @@
-/** The hand that turns a ball: the grabbed point stays under the pointer. */
+/** The hand that turns a ball: the grabbed point stays under the pointer, a fast drag runs out. */
 
 import type { Disc } from "../drawing/pen.ts";
 import type { Hold, Place } from "./hand.ts";
 import { Motion } from "./motion.ts";
 import { pointUnder, View } from "./view.ts";
+
+/** Speed below which a drag has no run, pixels a millisecond. */
+const SLOW = 0.3;
 
 /** Degrees that an arrow key turns, and with Shift. */
 const STEP = { wide: 5, fine: 1 };
@@ -13,7 +16,7 @@ export interface Turnable {
   readonly view: View;
   readonly isNorthUp: boolean;
   /** Shows another view. */
-  turn(view: View, reason: "hand" | "state"): void;
+  turn(view: View, reason: "hand" | "flight" | "state"): void;
 }
 
 /** Takes hold of a ball; null beside it. */
@@ -24,11 +27,18 @@ export function grabBall(ball: Turnable, motion: Motion, at: Place): Hold | null
   const start = ball.view;
   const grabbed = pointUnder(disc, at);
   const direction = start.onBall(grabbed);
+  let last = at;
+  const turnTo = (to: Place, reason: "hand" | "flight"): void => {
+    const point = pointUnder(disc, to);
+    // Step by step, so that north up follows through the poles as it is the nearest view.
+    ball.turn(ball.isNorthUp ? ball.view.holding(direction, point) : start.dragged(grabbed, point), reason);
+    last = to;
+  };
   return {
-    move(to) {
-      const point = pointUnder(disc, to);
-      // Step by step, so that north up follows through the poles as it is the nearest view.
-      ball.turn(ball.isNorthUp ? ball.view.holding(direction, point) : start.dragged(grabbed, point), "hand");
+    move: (to) => turnTo(to, "hand"),
+    end(speed) {
+      if (Math.hypot(...speed) < SLOW) return;
+      motion.coast((time) => turnTo([last[0] + speed[0] * time, last[1] + speed[1] * time], "flight"));
     },
   };
 }

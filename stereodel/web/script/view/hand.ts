@@ -7,12 +7,13 @@ export type Place = readonly [number, number];
 /** What a press has taken hold of. */
 export interface Hold {
   move(to: Place): void;
-  end?(): void;
+  /** The speed, pixels a millisecond. */
+  end?(speed: Place): void;
 }
 
-/** Two fingers, in what has become of them: their middle and their distance. */
+/** Two fingers, in what has become of them: their middle, their distance and the angle from the first to the second. */
 export interface Pinch {
-  move(middle: Place, spread: number): void;
+  move(middle: Place, spread: number, turn: number): void;
 }
 
 /** What a drawing does about the hand. Whatever is left out is left to the page. */
@@ -41,6 +42,9 @@ const STEADY = { touch: 8, mouse: 3 };
 /** Milliseconds between the clicks of a double one, and their distance in pixels. */
 const DOUBLE = { time: 350, distance: 24 };
 
+/** Milliseconds of a drag's end that tell its speed. */
+const RECENT = 80;
+
 /** Wheel steps, pixels, that magnify by e. */
 const WHEEL = 500;
 
@@ -50,6 +54,7 @@ interface Finger {
   readonly touch: boolean;
   hold: Hold | null;
   isDrag: boolean;
+  readonly track: { at: Place; time: number }[];
 }
 
 /** Follows the hand on a drawing until the function that is returned is called. */
@@ -99,13 +104,15 @@ class Hand {
     const hold = this.#fingers.size === 0 ? this.#gestures.take(at, reachOf(touch)) : null;
     if (hold === null && this.#fingers.size === 0) return;
     this.#plate.canvas.setPointerCapture(event.pointerId);
-    this.#fingers.set(event.pointerId, { at, start: at, touch, hold, isDrag: false });
+    const track = [{ at, time: event.timeStamp }];
+    this.#fingers.set(event.pointerId, { at, start: at, touch, hold, isDrag: false, track });
     if (this.#fingers.size === 2 && this.#gestures.pinch !== undefined) {
       for (const finger of this.#fingers.values()) {
         finger.hold = null;
         finger.isDrag = true;
       }
-      this.#pinch = this.#gestures.pinch(...this.#two());
+      const { middle, spread } = this.#two();
+      this.#pinch = this.#gestures.pinch(middle, spread);
     }
   }
 
@@ -118,9 +125,11 @@ class Hand {
     }
     finger.at = at;
     if (this.#pinch !== null) {
-      this.#pinch.move(...this.#two());
+      const { middle, spread, turn } = this.#two();
+      this.#pinch.move(middle, spread, turn);
       return;
     }
+    finger.track.push({ at, time: event.timeStamp });
     finger.isDrag ||= distance(at, finger.start) > (finger.touch ? STEADY.touch : STEADY.mouse);
     if (finger.isDrag) finger.hold?.move(at);
   }
@@ -135,7 +144,7 @@ class Hand {
       for (const left of this.#fingers.values()) left.hold = this.#gestures.take(left.at, 0);
       return;
     }
-    if (finger.isDrag) finger.hold?.end?.();
+    if (finger.isDrag) finger.hold?.end?.(isCancelled ? [0, 0] : speedOf(finger, event.timeStamp));
     else if (!isCancelled) this.#click(finger, event.timeStamp);
   }
 
@@ -159,9 +168,10 @@ class Hand {
     wheel(this.#plate.placeOf(event), Math.exp((-event.deltaY * unit) / WHEEL));
   }
 
-  #two(): [middle: Place, spread: number] {
+  #two(): { middle: Place; spread: number; turn: number } {
     const [a, b] = [...this.#fingers.values()].map((finger) => finger.at);
-    return [[(a[0] + b[0]) / 2, (a[1] + b[1]) / 2], Math.max(1, distance(a, b))];
+    const middle: Place = [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2];
+    return { middle, spread: Math.max(1, distance(a, b)), turn: Math.atan2(b[1] - a[1], b[0] - a[0]) };
   }
 }
 
@@ -172,4 +182,13 @@ function reachOf(touch: boolean): number {
 /** Of two places of a drawing, pixels. */
 export function distance(a: Place, b: Place): number {
   return Math.hypot(a[0] - b[0], a[1] - b[1]);
+}
+
+/** How fast a finger was at its end, pixels a millisecond; 0 if it had come to rest. */
+function speedOf({ track }: Finger, now: number): Place {
+  const recent = track.filter((point) => now - point.time < RECENT);
+  if (recent.length < 2) return [0, 0];
+  const [first, last] = [recent[0], recent[recent.length - 1]];
+  const time = Math.max(last.time - first.time, 1);
+  return [(last.at[0] - first.at[0]) / time, (last.at[1] - first.at[1]) / time];
 }
