@@ -282,11 +282,18 @@ class Raster:
     ) -> Pixels:
         """As for `warp`, for pixels anywhere on the page.
 
-        place: left and upper edge of the image, then width and height of a pixel, in radii of the disc from its centre,
-            y up.
-        pixels: number of columns and rows.
-        covered: whether opacity on the limb includes the fraction of the pixel covered by the disc. Otherwise it is
-            that of the raster, for an image that is then clipped to the disc.
+        Parameters
+        ----------
+        lens, view, workers
+            As for `warp`.
+        place : tuple of float
+            Left and upper edge of the image, then width and height of a pixel, in radii of the disc from its centre, y
+            up.
+        pixels : tuple of int
+            Numbers of columns and rows.
+        covered : bool
+            Whether opacity on the limb includes the fraction of the pixel covered by the disc. Otherwise it is that of
+            the raster, for an image that is then clipped to the disc.
         """
         reach = 0.0 if view.round else float(np.tan(np.radians(view.angular_radius) / 2))
         projection = "orthographic" if view.round else "stereographic"
