@@ -1,4 +1,4 @@
-// Signs of sums of square roots, by integers alone (the method of stereodel/predicates/integers.py).
+// Signs of sums of square roots, by integers alone (the method of tests/reference.py).
 #pragma once
 
 #include "arithmetic/big_integer.hpp"

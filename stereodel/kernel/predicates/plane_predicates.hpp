@@ -8,7 +8,7 @@
 //
 // orient > 0: counterclockwise; incircle > 0: inside a counterclockwise triangle. Ties of `in_circle` are decided by
 // infinitesimal displacement: the heights x^2 + y^2 grow by e, the more the earlier the point stands in lexicographic
-// order (stereodel/predicates/ties.py).
+// order (tests/reference.py).
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // The last stage of the predicates on directions: integer vectors, square roots by their squares, nothing rounded.
-// The formulas are those of stereodel/predicates/rays.py and ties.py.
+// The formulas are those of tests/reference.py.
 #pragma once
 
 #include "arithmetic/big_integer.hpp"

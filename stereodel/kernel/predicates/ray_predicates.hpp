@@ -1,7 +1,7 @@
 // The predicates on directions by number: the answers of exact arithmetic on the rays through the given doubles.
 //
 // in_bubble: inside the circle of a, b, c that appear counterclockwise from outside the hull; turn > 0: c left of the
-// great circle from a to b. Ties are decided by infinitesimal displacement (stereodel/predicates/ties.py): directions
+// great circle from a to b. Ties are decided by infinitesimal displacement (tests/reference.py): directions
 // move outward, the more the earlier they stand in lexicographic order; four of a great circle move along x, then y,
 // then z.
 #pragma once
