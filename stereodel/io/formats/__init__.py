@@ -9,7 +9,8 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import BinaryIO, Final, Literal, NamedTuple, TextIO
+from types import MappingProxyType
+from typing import Any, BinaryIO, Final, Literal, NamedTuple, TextIO
 
 from stereodel._arrays import Column, Indices, as_choice
 from stereodel._tasks.progress import Progress
@@ -33,6 +34,12 @@ class Wanted:
     layer: str | None = None
     crs: str | None = None
     skip_missing: bool = False
+    skip_invalid: bool = False
+    missing: tuple[str, ...] = ()
+    encoding: str | None = None
+    decimal: str | None = None
+    skip_rows: int = 0
+    wrap: bool = False
     progress: Progress | None = None
     choice: str = ""
     """What to do where a file has several layers, if not to name one."""
@@ -52,6 +59,12 @@ class Content:
 
     crs: str | None = None
     """Coordinate system of the places, None for degrees."""
+
+    understood: Mapping[str, Any] = MappingProxyType({})
+    """How the file was read, for `inspect`: by name, such as ``encoding``."""
+
+    invalid: Mapping[int, str] = MappingProxyType({})
+    """Rows that are left out already, and what is wrong with them."""
 
     def __init__(self, columns: dict[str, Column], rows: Indices | None = None) -> None:
         self._columns, self.rows = columns, rows

@@ -1,7 +1,7 @@
 """Columns: text as numbers where no digit is lost, and what their cells are in formats that have fewer types.
 
-A number is what people and programs write in tables: digits, a sign, a decimal point or comma, an exponent. Other
-notations that Python accepts, such as 1_000 or digits of other scripts, are text, and so are thousands with separators.
+A number is what people and programs write in tables: digits, a sign, a decimal point or comma, an exponent, and blanks
+or apostrophes between thousands. Other notations that Python accepts are text, such as 1_000 or digits of other scripts.
 
 Where a mark may be either, as in 128.928 and 1,234, other numbers decide: a mark is certainly decimal where it cannot
 separate thousands, as in 9,9934 or 0.125.
@@ -9,8 +9,10 @@ separate thousands, as in 9,9934 or 0.125.
 
 from __future__ import annotations
 
+import importlib.util
 import json
 import re
+import warnings
 from collections.abc import Iterable, Mapping
 from decimal import Decimal
 from typing import Any, Final
@@ -18,7 +20,7 @@ from typing import Any, Final
 import numpy as np
 
 from stereodel._arrays import BoolArray, Column, FloatArray
-from stereodel.io.formats.names import listed
+from stereodel.io.formats.names import DataWarning, listed, spelled
 
 MISSING: Final = ("", "na", "n/a", "nan", "null", "none", "<na>", "-")
 """Spellings of a missing value, in any case."""
@@ -44,16 +46,37 @@ EXACT_INTEGERS: Final = 2.0**53
 """Up to this number doubles represent every integer."""
 
 LETTERS: Final = frozenset("0123456789+-.,eE")
-"""What finite numbers are written with."""
+WRITTEN: Final = LETTERS | frozenset(" '’\xa0\u202f\u2009\N{MINUS SIGN}")
+"""What finite numbers are written with, and also with separators of thousands and the minus sign of printers."""
 
 CODE: Final = re.compile(r"^[-+]?0[0-9]", re.MULTILINE)
 """A value that starts, after an optional sign, with a zero and another digit."""
+
+LIKE_POWER: Final = re.compile(r"[0-9]+E[0-9]+")
+"""A code such as 1E3, if all values with an exponent are so and there is no point or sign in the column."""
+
+SPACED: Final = re.compile(r"(?<=[0-9])[ '’\xa0\u202f\u2009](?=[0-9]{3}(?![0-9]))")
+THOUSANDS: Final = {
+    "": re.compile(r"[-+]?[1-9][0-9]{0,2}(?:[ '’\xa0\u202f\u2009][0-9]{3})+(?:[.,][0-9]+)?"),
+    ".": re.compile(r"[-+]?[1-9][0-9]{0,2}(?:\.[0-9]{3})+(?:,[0-9]+)?"),
+    ",": re.compile(r"[-+]?[1-9][0-9]{0,2}(?:,[0-9]{3})+(?:\.[0-9]+)?"),
+}
+"""Numbers whose thousands are separated by blanks or apostrophes, points, or commas."""
+
+OTHER: Final = {".": ",", ",": "."}
+"""What separates thousands where this is the decimal mark."""
 
 UNWRITABLE: Final = {
     "kml": re.compile("[\x00-\x08\x0b-\x1f\ufffe\uffff\ud800-\udfff]"),
     **dict.fromkeys(("gpkg", "fgb", "shp"), re.compile("[\x00\ud800-\udfff]")),
 }
 """Characters that text of a format cannot have: those that XML lacks or changes, and the end of text in GDAL."""
+
+GUESSED_FROM: Final = 1 << 20
+"""Bytes from which an encoding is guessed."""
+
+WESTERN: Final = re.compile("[^\x00-\x7f\xb0\xba\xaaà-öø-ÿÀ-ÖØ-ß€‘’“”–—«»²³µ\xa0ŒœŠšŽžŸ]|[^\x00-\x7f]{3}")
+"""What text in cp1252 hardly has: other signs than letters and quotes, and three of them in a row, as other scripts."""
 
 HALVES: Final = re.compile("[\ud800-\udfff]")
 """Halves of characters, which UTF-8 lacks."""
@@ -62,14 +85,42 @@ LARGEST: Final = {"shp": 1e23, "kml": 1.797693134862315e308}
 """From here on a number has more digits than a shapefile's field, or GDAL's 15 digits of it are infinite."""
 
 
-def decoded(content: bytes) -> str:
-    """Text in UTF-8, or in UTF-16 with a byte order mark; ValueError names the first line that is neither."""
+def decoded(content: bytes, encoding: str | None = None) -> tuple[str, str]:
+    """Text and its encoding: the given one, else UTF-8, UTF-16 with a byte order mark, or a guess, which is told.
+
+    ValueError for an encoding that does not exist or does not fit, and where nothing can be guessed.
+    """
     marked = content.startswith((b"\xff\xfe", b"\xfe\xff"))
+    tried = encoding or ("utf-16" if marked else "utf-8-sig")
     try:
-        return content.decode("utf-16" if marked else "utf-8-sig")
-    except UnicodeDecodeError as error:
-        line = content[: error.start].count(b"\n") + 1
-        raise ValueError(f"line {line} is not text in UTF-8; save the file in that encoding") from error
+        return content.decode("utf-8-sig" if tried.lower() in ("utf-8", "utf8") else tried), tried
+    except LookupError:
+        raise ValueError(f"{spelled('encoding')} is {encoding!r}, which does not exist; cp1252 is one") from None
+    except UnicodeError as error:
+        line = content[: getattr(error, "start", 0)].count(b"\n") + 1
+        if encoding is None and not marked and (guess := _guessed(content)):
+            warnings.warn(
+                f"line {line} is not text in UTF-8; the file is read in the encoding {guess}, which is a guess; "
+                f"{spelled('encoding', '=')} says which it is",
+                DataWarning,
+                stacklevel=2,
+            )
+            return content.decode(guess), guess
+        advice = f"say which encoding the file has with {spelled('encoding', '=')}, such as cp1252"
+        raise ValueError(f"line {line} is not text in {'UTF-8' if encoding is None else encoding}; {advice}") from error
+
+
+def _guessed(content: bytes) -> str | None:
+    """That of Western spreadsheets where it gives letters between others, else what charset_normalizer finds."""
+    head = content[:GUESSED_FROM].rpartition(b"\n")[0] or content
+    if not WESTERN.search(head.decode("cp1252", "replace")):
+        return "cp1252"
+    if importlib.util.find_spec("charset_normalizer") is None:
+        return None
+    from charset_normalizer import from_bytes
+
+    found = from_bytes(head).best()
+    return None if found is None else str(found.encoding)
 
 
 def texts(values: Iterable[str]) -> Column:
@@ -133,7 +184,16 @@ def typed(values: Column, *, comma: bool = False) -> Column:
     if not known:
         return np.full(len(text), np.nan) if len(text) and not any(text) else values
     joined = "\n".join(known)
-    if not LETTERS.issuperset(joined.replace("\n", "")) or CODE.search(joined):
+    if not LETTERS.issuperset(joined.replace("\n", "")):
+        if not WRITTEN.issuperset(joined.replace("\n", "")):
+            return values
+        known = [
+            SPACED.sub("", cell) if THOUSANDS[""].fullmatch(cell) else cell
+            for cell in joined.replace("\N{MINUS SIGN}", "-").split("\n")
+        ]
+        joined = "\n".join(known)
+    codes = "E" in joined and not set("+-.,") & set(joined) and all(LIKE_POWER.fullmatch(c) for c in known if "E" in c)
+    if codes or CODE.search(joined):
         return values
     if "," in joined:
         if not comma or "." in joined:
@@ -166,12 +226,48 @@ def decimal_mark(values: Column) -> tuple[str, bool]:
     return mark, False
 
 
+def grouped(values: Column, decimal: str = "") -> str:
+    """The mark that separates thousands in a column of text, "" if none is sure to do so.
+
+    It does where a number has it several times, or has a decimal mark after it, or where another is known to be the
+    `decimal` mark; and all numbers with the mark have it in these places.
+    """
+    cells = [cell.strip() for cell in values.tolist() if cell.strip().lower() not in MISSING]
+    for mark, other in OTHER.items():
+        having = [cell for cell in cells if mark in cell]
+        sure = decimal == other or any(cell.count(mark) > 1 or other in cell for cell in having)
+        if having and sure and decimal != mark and all(THOUSANDS[mark].fullmatch(cell) for cell in having):
+            plain = [cell.replace(mark, "") for cell in cells]
+            if all(NUMBER.fullmatch(cell) for cell in plain):
+                return mark
+    return ""
+
+
+def blanked(values: Column, missing: Iterable[str]) -> Column:
+    """A column without the values that stand for missing ones: as text or, of numbers, by what they are."""
+    said = [each.strip() for each in missing]
+    if not said:
+        return values
+    amounts = {float(each.replace(",", ".")) for each in said if NUMBER.fullmatch(each)}
+    if values.dtype.kind in "iuf":
+        gone = np.isin(values, list(amounts))
+        return np.where(gone, np.nan, values) if gone.any() else values
+    if values.dtype.kind not in "UO":
+        return values
+    cells = values.tolist()
+    for row, cell in enumerate(cells):
+        text = str(cell).strip()
+        if text in said or (NUMBER.fullmatch(text) and float(text.replace(",", ".")) in amounts):
+            cells[row] = "" if isinstance(cell, str) else None
+    return texts(cells) if values.dtype.kind == "U" else objects(cells)
+
+
 def why_not(cell: str) -> str:
     """Why text is not taken for a number, as the end of a message."""
     if not GROUPED.fullmatch(cell):
         return "is not a number"
     digits = cell.replace(",", ".")
-    return f"may be {digits} or {digits.replace('.', '')}; write thousands without a separator"
+    return f"may be {digits} or {digits.replace('.', '')}; say which mark is decimal with {spelled('decimal', '=')}"
 
 
 def doubles(values: Column, *, decimal: bool = False) -> tuple[FloatArray, BoolArray]:

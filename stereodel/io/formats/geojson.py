@@ -99,9 +99,9 @@ def parsed(text: str) -> Any:
             raise ValueError(f"the file is not JSON: {error}") from error
 
 
-def read(file: Input, _: Wanted) -> Features:
+def read(file: Input, wanted: Wanted) -> Features:
     """The features of a file."""
-    return Features.of(parsed(decoded(file.content)))
+    return Features.of(parsed(decoded(file.content, wanted.encoding)[0]))
 
 
 FORMATS["geojson"] = FileFormat(

@@ -16,11 +16,40 @@ T = TypeVar("T")
 NAMES_SHOWN, NAME_SHOWN = 30, 40
 """Number of columns, and characters of a name, that a message shows."""
 
-NAMES = {
-    "lon": ({"lon", "lng", "long", "longitude"}, {"x"}),
-    "lat": ({"lat", "latitude"}, {"y"}),
+NAMES: Final = {
+    "lon": (
+        *("longitude", "lon", "lng", "long", "longitud", "longitudine", "längengrad", "laengengrad"),
+        *("долгота", "经度", "經度", "経度", "خط الطول"),
+    ),
+    "lat": (
+        *("latitude", "lat", "latitud", "latitudine", "breitengrad"),
+        *("широта", "纬度", "緯度", "خط العرض"),
+    ),
 }
-"""Words for each, the most reliable first."""
+"""Words for each in English, German, French, Spanish, Portuguese, Italian, Russian, Chinese, Japanese and Arabic."""
+
+UNSURE: Final = {
+    "lon": {"x", "xcoord", "länge", "laenge", "الطول"},
+    "lat": {"y", "ycoord", "breite", "العرض"},
+}
+"""Words that are both coordinates where there are no others: *Länge* and *Breite* are also length and width."""
+
+BESIDE: Final = {
+    "coord",
+    "coords",
+    "coordinate",
+    "coordinates",
+    "point",
+    "geogr",
+    "geographische",
+    "deg",
+    "degrees",
+    "grad",
+}
+"""What may stand beside a word that is unsure."""
+
+IDEOGRAPHS: Final = "\u3040"
+"""From here on a name is not written in words."""
 
 SPELLING: Final[ContextVar[Mapping[str, str]]] = ContextVar("SPELLING", default=MappingProxyType({}))
 
@@ -35,9 +64,9 @@ def spelled(argument: str, value: str = "") -> str:
     return SPELLING.get().get(argument, argument + value)
 
 
-def left_out() -> str:
-    """What to do about rows without a value."""
-    return f"leave such rows out with {spelled('skip_missing', '=True')}"
+def left_out(option: str = "skip_missing") -> str:
+    """What to do about rows without a value, or about those that are wrong."""
+    return f"leave such rows out with {spelled(option, '=True')}"
 
 
 def anew() -> str:
@@ -133,13 +162,16 @@ def _find(names: Sequence[str], kind: str, given: str | None) -> str:
         if len(same) != 1:
             raise ValueError(f"{spelled(kind)} is {given!r}, which is not one of the columns {listed(names)}")
         return same[0]
-    sure, unsure = NAMES[kind]
-    meant = max(sure, key=len)
-    plain = {name: name.strip().lower() for name in names}
+    sure, meant = NAMES[kind], NAMES[kind][0]
+    plain = {name: name.strip().casefold() for name in names}
     for matching in (
         [name for name in names if plain[name] in sure],
-        [name for name in names if any(map(plain[name].__contains__, sure)) and sure & words(name)],
-        [name for name in names if plain[name] in unsure],
+        [name for name in names if any(_is_word(word, plain[name], name) for word in sure)],
+        [
+            name
+            for name in names
+            if plain[name] in UNSURE[kind] or (words(name) - BESIDE and words(name) - BESIDE <= UNSURE[kind])
+        ],
     ):
         if len(matching) == 1:
             return matching[0]
@@ -149,9 +181,13 @@ def _find(names: Sequence[str], kind: str, given: str | None) -> str:
     raise ValueError(f"no column looks like the {meant}; {advice}")
 
 
+def _is_word(word: str, plain: str, name: str) -> bool:
+    return word in plain and (word > IDEOGRAPHS or word in words(name))
+
+
 def words(name: str) -> set[str]:
     """Words of a column name in lower case, split at punctuation and where a capital follows a small letter."""
-    return set(re.split(r"[^a-z]+", re.sub(r"(?<=[a-z])(?=[A-Z])", " ", name).lower()))
+    return set(re.split(r"[\W\d_]+", re.sub(r"(?<=[a-z])(?=[A-Z])", " ", name).casefold())) - {""}
 
 
 def listed(names: Sequence[str]) -> str:
