@@ -1,9 +1,12 @@
-"""Options that several commands share: words for typer, tables to read, and texts as numbers."""
+"""Options that several commands share: words for typer, tables to read, files to write, and texts as numbers."""
 
 from __future__ import annotations
 
+import shutil
 import sys
-from collections.abc import Callable, Mapping
+import tempfile
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from copy import copy
 from dataclasses import MISSING, dataclass, fields, is_dataclass, replace
 from enum import StrEnum
@@ -15,12 +18,13 @@ from typing import TYPE_CHECKING, Annotated, Any, get_type_hints
 import typer
 
 from stereodel._arrays import as_scalar
+from stereodel._files import said_of
+from stereodel._tasks.interrupts import stop_if_interrupted
 from stereodel.cli.application import ARGUMENTS, NothingToDoError, reporting
 from stereodel.constants import LARGEST_MAGNIFICATION
 from stereodel.io.formats.names import spelling
 
 if TYPE_CHECKING:
-    from stereodel.cli.destinations import Destination
     from stereodel.io import PointTable
 
 
@@ -34,6 +38,10 @@ class Latitude(StrEnum):
 
 SAME = {"json": "geojson", "geoparquet": "parquet"}
 """Alternative extensions of formats."""
+
+TABLES = ("csv", "geojson", "geojsonl", "parquet", "gpkg", "fgb", "shp", "kml")
+PICTURES = ("svg", "pdf")
+MESHES = ("nc", "glb", "ply", "vtp", *PICTURES)
 
 Place = tuple[float, float]
 """Longitude and latitude in degrees."""
@@ -71,6 +79,31 @@ Magnify = Annotated[float, typer.Option(metavar="S", callback=_magnification, he
 
 
 @dataclass(frozen=True)
+class Destination:
+    """A file, or stdout when `name` is "-"; `kind` is its format, such as "csv"."""
+
+    name: str
+    kind: str
+
+    @contextmanager
+    def file(self) -> Iterator[Path]:
+        """Where to write; for stdout a temporary file, which is copied there when it is complete."""
+        stop_if_interrupted()
+        if self.name != "-":
+            yield Path(self.name)
+            return
+        with tempfile.TemporaryDirectory() as folder:
+            whole = Path(folder, f"stdout.{self.kind}")
+            with said_of("stdout", folder):
+                yield whole
+            if sys.stdout is None:
+                raise ValueError("stdout is closed; name a file with --out")
+            with said_of("stdout"), whole.open("rb") as source:
+                shutil.copyfileobj(source, sys.stdout.buffer)
+                sys.stdout.buffer.flush()
+
+
+@dataclass(frozen=True)
 class File:
     """What a command writes: a file, or stdout."""
 
@@ -85,8 +118,6 @@ class File:
 
         An existing file is replaced only with --overwrite, an input never.
         """
-        from stereodel.cli.destinations import Destination
-
         name, path, kind = self.out, Path(self.out), getattr(self, "format", None)
         if name != "-" and kind is not None:
             raise ValueError(f"--format is for stdout (--out -); the format of {name} is given by its extension")
@@ -150,7 +181,7 @@ class Table:
     def read(self, name: str, plane: tuple[str, str] | None = None) -> PointTable:
         """The table in a file, or on stdin if `name` is "-"; NothingToDoError for one without points."""
         from stereodel.io import read_points
-        from stereodel.io.reading import naming
+        from stereodel.io.formats.names import naming
 
         shown = "stdin" if name == "-" else name
         source = sys.stdin.buffer if name == "-" else name

@@ -5,30 +5,80 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
+from functools import cached_property
 from pathlib import Path
-from typing import Any
+from tempfile import TemporaryDirectory
+from typing import Any, Final
 
 import numpy as np
 
+from stereodel._arrays import as_choice
 from stereodel._tasks.progress import Progress
-from stereodel.io.formats import (
-    FORMATS,
-    PACKED,
-    Content,
-    FormatName,
-    Input,
-    Source,
-    Wanted,
-    delimited,  # noqa: F401 - these enter themselves in the table
-    gdal,  # noqa: F401
-    parquet,  # noqa: F401
-)
-from stereodel.io.formats.geojson import Features
+from stereodel.io.formats import Content, FileFormat, FormatName, Source, Wanted, delimited, gdal, geojson, parquet
+from stereodel.io.formats.foreign import unpacked
 from stereodel.io.formats.map_rows import Frame
-from stereodel.io.formats.names import spelled
+from stereodel.io.formats.names import naming, spelled
 from stereodel.io.map_shapes import Shapes, of_features, of_geometries, of_items
-from stereodel.io.places import located
-from stereodel.io.table import PointTable
+from stereodel.io.table import PointTable, located
+
+FORMATS: Final[dict[FormatName, FileFormat]] = {
+    "csv": delimited.FORMAT,
+    "geojson": geojson.FORMAT,
+    "parquet": parquet.FORMAT,
+    "vector": gdal.FORMAT,
+}
+
+PACKED: Final = (".gz", ".bz2")
+"""Extensions of compressed files."""
+
+
+class SourceFile:
+    """A source of rows: its format, and its bytes, read on demand."""
+
+    def __init__(self, source: Source, kind: FormatName | None = None) -> None:
+        self._source = source
+        self.path = Path(source) if isinstance(source, str | os.PathLike) else None
+        self.kind: FormatName = as_choice(kind or self._found(), tuple(FORMATS), "format")
+
+    def _found(self) -> FormatName:
+        """The format from the extension of the path, ignoring that of compression, else from the first bytes."""
+        kinds = {ending: kind for kind, known in FORMATS.items() for ending in known.endings}
+        endings = [ending.lower() for ending in self.path.suffixes[-2:]] if self.path is not None else []
+        if endings[-1:] and endings[-1] in PACKED:
+            endings.pop()
+        return kinds.get(endings[-1] if endings else "") or kinds[self._ending]
+
+    @cached_property
+    def content(self) -> bytes:
+        """The decompressed bytes."""
+        content = self._source.read() if self.path is None else self.path.read_bytes()  # type: ignore[union-attr]
+        return content.encode() if isinstance(content, str) else unpacked(content)
+
+    @contextmanager
+    def on_disk(self) -> Iterator[Path]:
+        """Where GDAL finds the file, as it needs the extension and any companion files."""
+        if self.path is not None and self.path.suffix.lower() not in PACKED:
+            if not self.path.is_dir():  # as some formats are
+                self.path.open("rb").close()  # the system's own message says best why it cannot be read
+            yield self.path
+            return
+        with TemporaryDirectory() as folder:
+            within = Path(self.path.stem).suffix if self.path is not None else ""
+            named = Path(folder, f"points{within or self._ending}")
+            named.write_bytes(self.content)
+            yield named
+
+    @property
+    def _ending(self) -> str:
+        """The extension that matches the first bytes; XML may be KML or GPX, a zip archive a spreadsheet."""
+        start = self.content[:64].lstrip(b"\xef\xbb\xbf \t\r\n")
+        marks = {mark: ending for known in FORMATS.values() for mark, ending in known.marks.items()}
+        found = next((ending for mark, ending in marks.items() if start.startswith(mark)), ".csv")
+        if found == ".zip" and b"xl/workbook.xml" in self.content:
+            return ".xlsx"
+        if found == ".zip" and b"opendocument.spreadsheet" in self.content[:100]:
+            return ".ods"
+        return ".gpx" if found == ".kml" and b"<gpx" in self.content[:1000] else found
 
 
 def read_points(
@@ -118,10 +168,10 @@ def read_points(
     wanted = Wanted(lon, lat, plane, layer, crs, skip_missing, progress)
     with naming(source):
         name = os.fspath(source) if isinstance(source, str | os.PathLike) else ""
-        return located(_rows_of(Input(source, format), wanted), wanted, name)
+        return located(_rows_of(SourceFile(source, format), wanted), wanted, name)
 
 
-def _rows_of(file: Input, wanted: Wanted) -> Content:
+def _rows_of(file: SourceFile, wanted: Wanted) -> Content:
     if wanted.layer is not None and file.kind != "vector":
         raise ValueError(
             f"{spelled('layer')} is {wanted.layer!r}, but a file of the kind {file.kind} has no layers; leave it out"
@@ -184,21 +234,10 @@ def _shapes_of_file(path: Path) -> Shapes:
     path.stat()  # the system's own message says best that there is none
     with naming(path):
         known = {*PACKED, *(ending for each in FORMATS.values() for ending in each.endings)}
-        file = Input(path, None if path.suffix.lower() in known else "vector")
+        file = SourceFile(path, None if path.suffix.lower() in known else "vector")
         found = _rows_of(file, Wanted(choice="give a file with one"))
-        if isinstance(found, Features):
+        if isinstance(found, geojson.Features):
             return of_features(found)
         if not (isinstance(found, Frame) and hasattr(found.frame, "to_crs")):
             raise ValueError("the file is a table without geometries")
         return shapes_of(found.frame)
-
-
-@contextmanager
-def naming(source: Any) -> Iterator[None]:
-    """Begin errors with the name of the file, unless it stands there already."""
-    try:
-        yield
-    except ValueError as error:
-        if not isinstance(source, str | os.PathLike) or str(error).startswith(f"{os.fspath(source)}: "):
-            raise
-        raise ValueError(f"{os.fspath(source)}: {error}") from error

@@ -17,7 +17,7 @@ from xml.parsers import expat
 
 from stereodel._extras import OnUse, optional
 from stereodel._tasks.progress import Progress
-from stereodel.io.formats import FORMATS, FileFormat, Input, Wanted
+from stereodel.io.formats import FileFormat, Input, Wanted
 from stereodel.io.formats.columns import as_text, check_held, plain
 from stereodel.io.formats.foreign import check_crs, check_stored, self_contained
 from stereodel.io.formats.map_rows import Frame, MapRows, arrow, arrow_column
@@ -74,7 +74,7 @@ def read(file: Input, wanted: Wanted) -> Frame:
         return Frame(in_degrees(_read_frame(source, wanted.layer, wanted.choice)))
 
 
-FORMATS["vector"] = FileFormat(
+FORMAT = FileFormat(
     (".gpkg", ".shp", ".fgb", ".kml", ".kmz", ".gml", ".gpx", ".zip", ".xlsx", ".ods"),
     {
         b"SQLite format 3": ".gpkg",

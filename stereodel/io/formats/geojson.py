@@ -17,7 +17,7 @@ import numpy as np
 from stereodel._arrays import Column, FloatArray, as_count
 from stereodel._tasks.progress import Progress
 from stereodel.constants import EMPTY_RATIO, FEW_CELLS
-from stereodel.io.formats import FORMATS, Content, FileFormat, Input, Wanted
+from stereodel.io.formats import Content, FileFormat, Input, Wanted
 from stereodel.io.formats.columns import check_held, column, decoded, objects, plain_cells
 from stereodel.io.formats.foreign import check_crs
 from stereodel.io.formats.map_rows import MapRows, no_point, shapely
@@ -104,9 +104,7 @@ def read(file: Input, _: Wanted) -> Features:
     return Features.of(parsed(decoded(file.content)))
 
 
-FORMATS["geojson"] = FileFormat(
-    (".geojson", ".json", ".geojsonl", ".geojsons"), {b"{": ".geojson", b"\x1e{": ".geojson"}, read
-)
+FORMAT = FileFormat((".geojson", ".json", ".geojsonl", ".geojsons"), {b"{": ".geojson", b"\x1e{": ".geojson"}, read)
 
 
 def _kind_of(content: Any) -> Any:

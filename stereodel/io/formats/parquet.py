@@ -11,7 +11,7 @@ from typing import Any, Final
 from stereodel._arrays import Column
 from stereodel._extras import optional
 from stereodel._tasks.progress import Progress
-from stereodel.io.formats import FORMATS, Content, FileFormat, Input, Wanted
+from stereodel.io.formats import Content, FileFormat, Input, Wanted
 from stereodel.io.formats.columns import check_held, column, of_objects
 from stereodel.io.formats.foreign import check_size
 from stereodel.io.formats.gdal import in_degrees, told
@@ -42,7 +42,7 @@ def read(file: Input, _: Wanted) -> Content:
     return Frame(in_degrees(frame))
 
 
-FORMATS["parquet"] = FileFormat((".parquet", ".geoparquet"), {b"PAR1": ".parquet"}, read)
+FORMAT = FileFormat((".parquet", ".geoparquet"), {b"PAR1": ".parquet"}, read)
 
 
 def _of_arrow(values: Any) -> Column:
