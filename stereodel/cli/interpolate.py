@@ -14,7 +14,7 @@ from stereodel.cli import options
 if TYPE_CHECKING:
     from stereodel._arrays import FloatArray
 
-GRIDS = ("csv", "nc", "tif", "tiff")
+GRIDS = ("csv", "nc", "tif")
 PIECE = 100_000  # rows between two signs of progress
 EXAMPLE = "stereodel interpolate stations.csv --value temperature --grid 5 -o temperature.csv"
 

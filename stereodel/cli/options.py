@@ -36,9 +36,6 @@ class Latitude(StrEnum):
     authalic = "authalic"
 
 
-SAME = {"json": "geojson", "geoparquet": "parquet"}
-"""Alternative extensions of formats."""
-
 TABLES = ("csv", "geojson", "geojsonl", "parquet", "gpkg", "fgb", "shp", "kml")
 PICTURES = ("svg", "pdf")
 MESHES = ("nc", "glb", "ply", "vtp", *PICTURES)
@@ -118,11 +115,13 @@ class File:
 
         An existing file is replaced only with --overwrite, an input never.
         """
+        from stereodel.io.writing import SAME
+
         name, path, kind = self.out, Path(self.out), getattr(self, "format", None)
         if name != "-" and kind is not None:
             raise ValueError(f"--format is for stdout (--out -); the format of {name} is given by its extension")
         chosen = ((kind or allowed[0]) if name == "-" else path.suffix).lower().removeprefix(".")
-        chosen = SAME.get(chosen, chosen)
+        chosen = chosen if chosen in allowed else SAME.get(chosen, chosen)
         if name == "-" and chosen == "shp":
             raise ValueError("a shapefile is several files, and stdout is one; name a file with --out")
         if chosen not in allowed:
@@ -150,33 +149,41 @@ class Output(File):
 
 
 @dataclass(frozen=True)
-class Table:
-    """How a table of places of the Earth is read."""
+class Where:
+    """What says where a table has its places; `of` is the option that names the table, where there is a second one."""
 
     lon: Annotated[
-        str | None, typer.Option(metavar="COLUMN", help="Column of longitudes; recognised by its name by default.")
+        str | None, typer.Option(metavar="COLUMN", help="Column of longitudes{of}; recognised by its name by default.")
     ] = None
     lat: Annotated[
-        str | None, typer.Option(metavar="COLUMN", help="Column of latitudes; recognised by its name by default.")
+        str | None, typer.Option(metavar="COLUMN", help="Column of latitudes{of}; recognised by its name by default.")
     ] = None
     layer_name: Annotated[
-        str | None, typer.Option(metavar="NAME", help="Layer of the points, if the file has several.")
+        str | None, typer.Option(metavar="NAME", help="Layer of the points{of}, if the file has several.")
     ] = None
     crs: Annotated[
         str | None,
         typer.Option(
             metavar="NAME",
-            help="Coordinate system of the columns, e.g. EPSG:25832; by default degrees, or in a plane none.",
+            help="Coordinate system of the columns{of}, e.g. EPSG:25832; by default degrees, or in a plane none.",
         ),
     ] = None
-    skip_missing: Annotated[
-        bool, typer.Option("--skip-missing", help="Leave out rows without a position or a value, instead of stopping.")
-    ] = False
+    of: str = ""
 
     @property
     def given(self) -> dict[str, object]:
         """Values by option, to be refused where there is no table."""
-        return {f"--{field.name.replace('_', '-')}": getattr(self, field.name) for field in fields(self)}
+        named = {field.name: getattr(self, field.name) for field in fields(self) if field.name != "of"}
+        return {f"{self.of or '-'}-{name.replace('_', '-')}": value for name, value in named.items()}
+
+
+@dataclass(frozen=True)
+class Table(Where):
+    """How a table of places of the Earth is read."""
+
+    skip_missing: Annotated[
+        bool, typer.Option("--skip-missing", help="Leave out rows without a position or a value, instead of stopping.")
+    ] = False
 
     def read(self, name: str, plane: tuple[str, str] | None = None) -> PointTable:
         """The table in a file, or on stdin if `name` is "-"; NothingToDoError for one without points."""
@@ -216,22 +223,8 @@ class AnyTable(Table):
 
 
 @dataclass(frozen=True)
-class SecondTable:
-    """How the table that an option names, `of`, is read, where it differs from the first one."""
-
-    of: str
-    lon: Annotated[str | None, typer.Option(metavar="COLUMN", help="Column of longitudes of {of}.")] = None
-    lat: Annotated[str | None, typer.Option(metavar="COLUMN", help="Column of latitudes of {of}.")] = None
-    layer_name: Annotated[str | None, typer.Option(metavar="NAME", help="Layer of {of}, if the file has several.")] = (
-        None
-    )
-    crs: Annotated[str | None, typer.Option(metavar="NAME", help="Coordinate system of the columns of {of}.")] = None
-
-    @property
-    def given(self) -> dict[str, object]:
-        """As for `Table`."""
-        names = [field.name for field in fields(self)[1:]]
-        return {f"{self.of}-{name.replace('_', '-')}": getattr(self, name) for name in names}
+class SecondTable(Where):
+    """How the table that an option names is read, where it differs from the first one."""
 
     def read(self, name: str, first: AnyTable) -> PointTable:
         """The table; in a plane both have the columns of --plane, and by default the coordinate system of the first."""
@@ -260,7 +253,7 @@ def grouped(command: Callable[..., None]) -> Callable[..., None]:
         names = {key: f"{of.removeprefix('--')}_{key}" if of else key for key in options}
         for key, field in options.items():
             option = copy(hints[key].__metadata__[0])
-            option.help = option.help.format(of=of)
+            option.help = option.help.format(of=of and f" of {of}")
             default = Parameter.empty if field.default is MISSING else field.default
             typed = Annotated[hints[key].__origin__, option]  # type: ignore[valid-type]
             parameters.append(Parameter(names[key], Parameter.KEYWORD_ONLY, default=default, annotation=typed))
