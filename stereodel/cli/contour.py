@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -39,6 +39,7 @@ def command(
     """
     from stereodel.cli.application import NothingToDoError, reporting, say
     from stereodel.interpolation import contours
+    from stereodel.io import write
 
     if (levels is None) == (interval is None):
         raise ValueError("give either --levels, values separated by commas, or --interval, a step")
@@ -51,7 +52,9 @@ def command(
         found = contours(table.points(latitude.value), values[:, 0], wanted)
     if not found:
         raise NothingToDoError(f"{table.name}: no lines: no level lies between the values")
-    destination.put(found, max_segment=max_segment, latitude=latitude.value, crs=table.crs)
+    drawn: dict[str, Any] = {"max_segment": max_segment, "latitude": latitude.value, "crs": table.crs}
+    with reporting(f"writing {output.out}") as told, destination.file() as path:
+        write(path, found, progress=told, **drawn)
     say(f"{output.out}: {len(found)} lines of {len(wanted)} levels")
 
 

@@ -14,7 +14,7 @@ from stereodel.cli import options
 if TYPE_CHECKING:
     from stereodel._arrays import FloatArray
 
-GRIDS = ("csv", "nc", "tif", "tiff")
+GRIDS = ("csv", "nc", "tif")
 PIECE = 100_000  # rows between two signs of progress
 EXAMPLE = "stereodel interpolate stations.csv --value temperature --grid 5 -o temperature.csv"
 
@@ -60,8 +60,8 @@ def command(
 
     Give either --at or --grid. Outside the convex hull of the points, linear, smooth and natural leave values empty.
     """
-    from stereodel.cli.destinations import TABLES
-    from stereodel.io import Grid
+    from stereodel.cli.application import reporting
+    from stereodel.io import Grid, PointTable, write
     from stereodel.sphere import lonlat_to_xyz
 
     if (at is None) == (grid is None):
@@ -76,7 +76,7 @@ def command(
         raise ValueError("--grid is one of longitudes and latitudes; give the points of a plane with --at")
     if at == points == "-":
         raise ValueError("POINTS and --at cannot both be stdin")
-    destination = output.of(TABLES if grid is None else GRIDS, points, at)
+    destination = output.of(options.TABLES if grid is None else GRIDS, points, at)
     if grid is not None:
         empty = Grid.regular(grid, None if box is None else options.box_of(box, "--box"), centers=centers)
     values, table = columns.read(points).values(value, skip_missing=columns.skip_missing)
@@ -84,12 +84,12 @@ def command(
     if at is None:
         found = interpolated(lonlat_to_xyz(empty.lonlat.reshape(-1, 2), latitude=latitude.value))
         shaped = {name: column.reshape(empty.lonlat.shape[:2]) for name, column in zip(value, found.T, strict=True)}
-        filled = replace(empty, values=shaped, units=dict(zip(value, unit or (), strict=False)))
-        destination.put(filled)
-        return
-    asking = at_columns.read(at, columns)
-    results = dict(zip(value, interpolated(asking.points(latitude.value)).T, strict=True))
-    destination.put(asking.beside(results))
+        result: Grid | PointTable = replace(empty, values=shaped, units=dict(zip(value, unit or (), strict=False)))
+    else:
+        asking = at_columns.read(at, columns)
+        result = asking.beside(dict(zip(value, interpolated(asking.points(latitude.value)).T, strict=True)))
+    with reporting(f"writing {output.out}") as told, destination.file() as path:
+        write(path, result, progress=told)
 
 
 def _interpolator(points: FloatArray, values: FloatArray, method: Method) -> Callable[[FloatArray], FloatArray]:

@@ -44,17 +44,18 @@ def command(
     Writes the columns of the query points, then the row number of each site in its table, the columns kept from it, and
     the distance. A query point with several sites has several rows, ranked from 1; a query point with no site has none.
     """
-    from stereodel.cli.application import say
-    from stereodel.cli.destinations import TABLES
+    from stereodel.cli.application import reporting, say
+    from stereodel.io import write
 
-    destination = output.of(TABLES, sites, queries)
+    destination = output.of(options.TABLES, sites, queries)
     if sites == queries == "-":
         raise ValueError("SITES and --of cannot both be stdin")
     chosen = columns.read(sites)
     asking = of_columns.read(queries, columns)
     pairs = _pairs(chosen.points(latitude.value), asking.points(latitude.value), count, max_distance, exclude_self)
     table = _with_sites(asking.taken(pairs.query), chosen, pairs, keep, ranked=count > 1)
-    destination.put(table)
+    with reporting(f"writing {output.out}") as told, destination.file() as path:
+        write(path, table, progress=told)
     say(f"{output.out}: nearest of {len(chosen)} sites for {len(asking)} points")
 
 

@@ -1,9 +1,12 @@
-"""Options that several commands share: words for typer, tables to read, and texts as numbers."""
+"""Options that several commands share: words for typer, tables to read, files to write, and texts as numbers."""
 
 from __future__ import annotations
 
+import shutil
 import sys
-from collections.abc import Callable, Mapping
+import tempfile
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from copy import copy
 from dataclasses import MISSING, dataclass, fields, is_dataclass, replace
 from enum import StrEnum
@@ -15,12 +18,13 @@ from typing import TYPE_CHECKING, Annotated, Any, get_type_hints
 import typer
 
 from stereodel._arrays import as_scalar
+from stereodel._files import said_of
+from stereodel._tasks.interrupts import stop_if_interrupted
 from stereodel.cli.application import ARGUMENTS, NothingToDoError, reporting
 from stereodel.constants import LARGEST_MAGNIFICATION
 from stereodel.io.formats.names import spelling
 
 if TYPE_CHECKING:
-    from stereodel.cli.destinations import Destination
     from stereodel.io import PointTable
 
 
@@ -32,8 +36,9 @@ class Latitude(StrEnum):
     authalic = "authalic"
 
 
-SAME = {"json": "geojson", "geoparquet": "parquet"}
-"""Alternative extensions of formats."""
+TABLES = ("csv", "geojson", "geojsonl", "parquet", "gpkg", "fgb", "shp", "kml")
+PICTURES = ("svg", "pdf")
+MESHES = ("nc", "glb", "ply", "vtp", *PICTURES)
 
 Place = tuple[float, float]
 """Longitude and latitude in degrees."""
@@ -71,6 +76,31 @@ Magnify = Annotated[float, typer.Option(metavar="S", callback=_magnification, he
 
 
 @dataclass(frozen=True)
+class Destination:
+    """A file, or stdout when `name` is "-"; `kind` is its format, such as "csv"."""
+
+    name: str
+    kind: str
+
+    @contextmanager
+    def file(self) -> Iterator[Path]:
+        """Where to write; for stdout a temporary file, which is copied there when it is complete."""
+        stop_if_interrupted()
+        if self.name != "-":
+            yield Path(self.name)
+            return
+        with tempfile.TemporaryDirectory() as folder:
+            whole = Path(folder, f"stdout.{self.kind}")
+            with said_of("stdout", folder):
+                yield whole
+            if sys.stdout is None:
+                raise ValueError("stdout is closed; name a file with --out")
+            with said_of("stdout"), whole.open("rb") as source:
+                shutil.copyfileobj(source, sys.stdout.buffer)
+                sys.stdout.buffer.flush()
+
+
+@dataclass(frozen=True)
 class File:
     """What a command writes: a file, or stdout."""
 
@@ -85,13 +115,13 @@ class File:
 
         An existing file is replaced only with --overwrite, an input never.
         """
-        from stereodel.cli.destinations import Destination
+        from stereodel.io.writing import SAME
 
         name, path, kind = self.out, Path(self.out), getattr(self, "format", None)
         if name != "-" and kind is not None:
             raise ValueError(f"--format is for stdout (--out -); the format of {name} is given by its extension")
         chosen = ((kind or allowed[0]) if name == "-" else path.suffix).lower().removeprefix(".")
-        chosen = SAME.get(chosen, chosen)
+        chosen = chosen if chosen in allowed else SAME.get(chosen, chosen)
         if name == "-" and chosen == "shp":
             raise ValueError("a shapefile is several files, and stdout is one; name a file with --out")
         if chosen not in allowed:
@@ -119,52 +149,73 @@ class Output(File):
 
 
 @dataclass(frozen=True)
-class Table:
-    """How a table of places of the Earth is read."""
+class Where:
+    """What says where a table has its places; `of` is the option that names the table, where there is a second one."""
 
     lon: Annotated[
-        str | None, typer.Option(metavar="COLUMN", help="Column of longitudes; recognised by its name by default.")
+        str | None, typer.Option(metavar="COLUMN", help="Column of longitudes{of}; recognised by its name by default.")
     ] = None
     lat: Annotated[
-        str | None, typer.Option(metavar="COLUMN", help="Column of latitudes; recognised by its name by default.")
+        str | None, typer.Option(metavar="COLUMN", help="Column of latitudes{of}; recognised by its name by default.")
     ] = None
     layer_name: Annotated[
-        str | None, typer.Option(metavar="NAME", help="Layer of the points, if the file has several.")
+        str | None, typer.Option(metavar="NAME", help="Layer of the points{of}, if the file has several.")
     ] = None
     crs: Annotated[
         str | None,
         typer.Option(
             metavar="NAME",
-            help="Coordinate system of the columns, e.g. EPSG:25832; by default degrees, or in a plane none.",
+            help="Coordinate system of the columns{of}, e.g. EPSG:25832; by default degrees, or in a plane none.",
         ),
     ] = None
-    skip_missing: Annotated[
-        bool, typer.Option("--skip-missing", help="Leave out rows without a position or a value, instead of stopping.")
-    ] = False
+    of: str = ""
 
     @property
     def given(self) -> dict[str, object]:
         """Values by option, to be refused where there is no table."""
-        return {f"--{field.name.replace('_', '-')}": getattr(self, field.name) for field in fields(self)}
+        named = {field.name: getattr(self, field.name) for field in fields(self) if field.name != "of"}
+        return {f"{self.of or '-'}-{name.replace('_', '-')}": value for name, value in named.items()}
+
+
+@dataclass(frozen=True)
+class Table(Where):
+    """How a table of places of the Earth is read."""
+
+    encoding: Annotated[
+        str | None, typer.Option(metavar="NAME", help="Encoding of text, e.g. cp1252; UTF-8 or a guess by default.")
+    ] = None
+    decimal: Annotated[
+        str | None, typer.Option(metavar="MARK", help="Decimal mark of text, . or ,; the other separates thousands.")
+    ] = None
+    skip_rows: Annotated[
+        int, typer.Option(metavar="N", min=0, help="Lines above the header; the header is found by default.")
+    ] = 0
+    missing: Annotated[
+        list[str] | None, typer.Option(metavar="VALUE", help="Value that stands for a missing one; repeatable.")
+    ] = None
+    skip_missing: Annotated[
+        bool, typer.Option("--skip-missing", help="Leave out rows without a position or a value, instead of stopping.")
+    ] = False
+    skip_invalid: Annotated[
+        bool, typer.Option("--skip-invalid", help="Leave out rows with a wrong position, too, and say how many.")
+    ] = False
+    wrap: Annotated[bool, typer.Option("--wrap", help="Accept longitudes beyond ±360.")] = False
+
+    @property
+    def arguments(self) -> dict[str, Any]:
+        """The options as `read_points` takes them."""
+        named = {field.name: getattr(self, field.name) for field in fields(Table) if field.name != "of"}
+        return named | {"layer": named.pop("layer_name"), "missing": named["missing"] or ()}
 
     def read(self, name: str, plane: tuple[str, str] | None = None) -> PointTable:
         """The table in a file, or on stdin if `name` is "-"; NothingToDoError for one without points."""
         from stereodel.io import read_points
-        from stereodel.io.reading import naming
+        from stereodel.io.formats.names import naming
 
         shown = "stdin" if name == "-" else name
         source = sys.stdin.buffer if name == "-" else name
         with reporting(f"reading {shown}") as told, naming(shown if name == "-" else None):
-            table = read_points(
-                source,
-                lon=self.lon,
-                lat=self.lat,
-                plane=plane,
-                layer=self.layer_name,
-                crs=self.crs,
-                skip_missing=self.skip_missing,
-                progress=told,
-            )
+            table = read_points(source, plane=plane, progress=told, **self.arguments)
         if len(table) == 0:
             raise NothingToDoError(f"{shown}: there are no points")
         return table if table.name else replace(table, name=shown)
@@ -185,27 +236,14 @@ class AnyTable(Table):
 
 
 @dataclass(frozen=True)
-class SecondTable:
-    """How the table that an option names, `of`, is read, where it differs from the first one."""
-
-    of: str
-    lon: Annotated[str | None, typer.Option(metavar="COLUMN", help="Column of longitudes of {of}.")] = None
-    lat: Annotated[str | None, typer.Option(metavar="COLUMN", help="Column of latitudes of {of}.")] = None
-    layer_name: Annotated[str | None, typer.Option(metavar="NAME", help="Layer of {of}, if the file has several.")] = (
-        None
-    )
-    crs: Annotated[str | None, typer.Option(metavar="NAME", help="Coordinate system of the columns of {of}.")] = None
-
-    @property
-    def given(self) -> dict[str, object]:
-        """As for `Table`."""
-        names = [field.name for field in fields(self)[1:]]
-        return {f"{self.of}-{name.replace('_', '-')}": getattr(self, name) for name in names}
+class SecondTable(Where):
+    """How the table that an option names is read, where it differs from the first one."""
 
     def read(self, name: str, first: AnyTable) -> PointTable:
         """The table; in a plane both have the columns of --plane, and by default the coordinate system of the first."""
         crs = self.crs or (first.crs if first.plane else None)
-        table = replace(first, lon=self.lon, lat=self.lat, layer_name=self.layer_name, crs=crs)
+        own_place = {"lon": self.lon, "lat": self.lat, "layer_name": self.layer_name, "crs": crs}
+        table = replace(first, **own_place, encoding=None, skip_rows=0)
         own = {key: f"{self.of}{ARGUMENTS[key][1:]}" for key in ("lon", "lat", "layer", "crs")}
         with spelling({**ARGUMENTS, **own}):
             return table.read(name)
@@ -229,7 +267,7 @@ def grouped(command: Callable[..., None]) -> Callable[..., None]:
         names = {key: f"{of.removeprefix('--')}_{key}" if of else key for key in options}
         for key, field in options.items():
             option = copy(hints[key].__metadata__[0])
-            option.help = option.help.format(of=of)
+            option.help = option.help.format(of=of and f" of {of}")
             default = Parameter.empty if field.default is MISSING else field.default
             typed = Annotated[hints[key].__origin__, option]  # type: ignore[valid-type]
             parameters.append(Parameter(names[key], Parameter.KEYWORD_ONLY, default=default, annotation=typed))

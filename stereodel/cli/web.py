@@ -63,8 +63,8 @@ def command(
         lonlat, name = table.places, Path(table.name).name
         names = next((column.tolist() for key, column in table.columns.items() if key.strip().lower() == "name"), None)
     given: dict[str, Any] = {"lonlat": lonlat, "names": names, "name": name}
-    with reporting(f"writing {target}"):
-        destination.write(lambda path: web(path, **given, resolution=resolution.value, latitude=latitude.value))
+    with reporting(f"writing {target}"), destination.file() as path:
+        web(path, **given, resolution=resolution.value, latitude=latitude.value)
     say(f"{target}: the page" + ("" if lonlat is None else f" with {len(lonlat)} points, {latitude.value} latitudes"))
     if open_it and not webbrowser.open(Path(target).resolve().as_uri()):
         raise OSError(f"{target}: is written, but there is no browser to open it")

@@ -7,9 +7,10 @@ install them.
 from stereodel.io.formats.geojson import to_geojson
 from stereodel.io.formats.names import DataWarning, RenamedColumnWarning
 from stereodel.io.grids import Grid
+from stereodel.io.inspection import Inspection
 from stereodel.io.maps.warping import warp
 from stereodel.io.meshes import from_ugrid, to_polydata, to_trimesh, to_ugrid
-from stereodel.io.reading import from_geodataframe, read_points
+from stereodel.io.reading import inspect, read_points
 from stereodel.io.rows_of import to_geodataframe
 from stereodel.io.table import PointTable
 from stereodel.io.writing import write
@@ -17,10 +18,11 @@ from stereodel.io.writing import write
 __all__ = [
     "DataWarning",
     "Grid",
+    "Inspection",
     "PointTable",
     "RenamedColumnWarning",
-    "from_geodataframe",
     "from_ugrid",
+    "inspect",
     "read_points",
     "to_geodataframe",
     "to_geojson",

@@ -16,7 +16,7 @@ from stereodel._arrays import FloatArray, Geometries, Indices
 from stereodel.curves.ragged import Ragged
 from stereodel.io.formats.geojson import Features
 from stereodel.io.formats.map_rows import POINT, POLYGON, shapely
-from stereodel.io.places import degrees
+from stereodel.io.table import degrees
 
 Placed = list[tuple[int, FloatArray]]
 """Numbers of features or polygons, and positions of each."""

@@ -3,36 +3,88 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator, Mapping
+import warnings
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from functools import cached_property
 from pathlib import Path
-from typing import Any
+from tempfile import TemporaryDirectory
+from typing import Any, Final, Literal
 
 import numpy as np
 
+from stereodel._arrays import as_choice
 from stereodel._tasks.progress import Progress
-from stereodel.io.formats import (
-    FORMATS,
-    PACKED,
-    Content,
-    FormatName,
-    Input,
-    Source,
-    Wanted,
-    delimited,  # noqa: F401 - these enter themselves in the table
-    gdal,  # noqa: F401
-    parquet,  # noqa: F401
-)
-from stereodel.io.formats.geojson import Features
-from stereodel.io.formats.map_rows import Frame
-from stereodel.io.formats.names import spelled
+from stereodel.io.formats import Content, FileFormat, FormatName, Source, Wanted, delimited, gdal, geojson, parquet
+from stereodel.io.formats.foreign import unpacked
+from stereodel.io.formats.map_rows import Frame, content_of, is_frame
+from stereodel.io.formats.names import DataWarning, naming, spelled
+from stereodel.io.inspection import Inspection, summary
 from stereodel.io.map_shapes import Shapes, of_features, of_geometries, of_items
-from stereodel.io.places import located
-from stereodel.io.table import PointTable
+from stereodel.io.table import PointTable, located
+
+FORMATS: Final[dict[FormatName, FileFormat]] = {
+    "csv": delimited.FORMAT,
+    "geojson": geojson.FORMAT,
+    "parquet": parquet.FORMAT,
+    "vector": gdal.FORMAT,
+}
+
+PACKED: Final = (".gz", ".bz2")
+"""Extensions of compressed files."""
+
+
+class SourceFile:
+    """A source of rows: its format, and its bytes, read on demand."""
+
+    def __init__(self, source: Source, kind: FormatName | None = None) -> None:
+        self._source = source
+        self.path = Path(source) if isinstance(source, str | os.PathLike) else None
+        self.kind: FormatName = as_choice(kind or self._found(), tuple(FORMATS), "format")
+
+    def _found(self) -> FormatName:
+        """The format from the extension of the path, ignoring that of compression, else from the first bytes."""
+        kinds = {ending: kind for kind, known in FORMATS.items() for ending in known.endings}
+        endings = [ending.lower() for ending in self.path.suffixes[-2:]] if self.path is not None else []
+        if endings[-1:] and endings[-1] in PACKED:
+            endings.pop()
+        return kinds.get(endings[-1] if endings else "") or kinds[self._ending]
+
+    @cached_property
+    def content(self) -> bytes:
+        """The decompressed bytes."""
+        content = self._source.read() if self.path is None else self.path.read_bytes()  # type: ignore[union-attr]
+        return content.encode() if isinstance(content, str) else unpacked(content)
+
+    @contextmanager
+    def on_disk(self) -> Iterator[Path]:
+        """Where GDAL finds the file, as it needs the extension and any companion files."""
+        if self.path is not None and self.path.suffix.lower() not in PACKED:
+            if not self.path.is_dir():  # as some formats are
+                self.path.open("rb").close()  # the system's own message says best why it cannot be read
+            yield self.path
+            return
+        with TemporaryDirectory() as folder:
+            within = Path(self.path.stem).suffix if self.path is not None else ""
+            named = Path(folder, f"points{within or self._ending}")
+            named.write_bytes(self.content)
+            yield named
+
+    @property
+    def _ending(self) -> str:
+        """The extension that matches the first bytes; XML may be KML or GPX, a zip archive a spreadsheet."""
+        start = self.content[:64].lstrip(b"\xef\xbb\xbf \t\r\n")
+        marks = {mark: ending for known in FORMATS.values() for mark, ending in known.marks.items()}
+        found = next((ending for mark, ending in marks.items() if start.startswith(mark)), ".csv")
+        if found == ".zip" and b"xl/workbook.xml" in self.content:
+            return ".xlsx"
+        if found == ".zip" and b"opendocument.spreadsheet" in self.content[:100]:
+            return ".ods"
+        return ".gpx" if found == ".kml" and b"<gpx" in self.content[:1000] else found
 
 
 def read_points(
-    source: Source,
+    source: Source | Any,
     *,
     lon: str | None = None,
     lat: str | None = None,
@@ -40,18 +92,27 @@ def read_points(
     format: FormatName | None = None,
     layer: str | None = None,
     crs: str | None = None,
+    encoding: str | None = None,
+    decimal: Literal[".", ","] | None = None,
+    skip_rows: int = 0,
+    missing: Sequence[str | float] = (),
     skip_missing: bool = False,
+    skip_invalid: bool = False,
+    wrap: bool = False,
     progress: Progress | None = None,
 ) -> PointTable:
     r"""Read a table of points with longitude and latitude, or with coordinates of a plane.
 
     Parameters
     ----------
-    source : path-like or stream
-        A file, or an open stream of text or bytes.
+    source : path-like, stream or frame
+        A file, an open stream of text or bytes, or a frame: of GeoPandas (with points), pandas, polars, Arrow, DuckDB
+        or anything that speaks Arrow's interface.
     lon, lat : str, optional
-        Names of the columns, in degrees. By default the columns whose names are or contain one of the words lon, lng,
-        long, longitude and lat, latitude, else x and y, ignoring case. Files with geometries need none.
+        Names of the columns, in degrees. By default the columns whose names are or contain the words for longitude and
+        latitude in one of ten languages or lon, lng, long and lat, else x and y, ignoring case; else a column that has
+        both, as well-known text or as ``48.4, 10``. Give the name of such a column for both. Files with geometries
+        need none.
     plane : tuple of str, optional
         Names of the columns of both coordinates of a plane, in place of `lon` and `lat`. Geometries that the file has
         beside are left out.
@@ -63,8 +124,21 @@ def read_points(
     crs : str, optional
         Coordinate reference system of the columns `lon` and `lat` (easting first), such as "EPSG:25832"; by default
         they are in degrees. Files with geometries state their own. Coordinates of a `plane` stay as they are.
+    encoding : str, optional
+        Encoding of text, such as "cp1252", which Excel writes. By default UTF-8, or UTF-16 with a byte order mark; what
+        is neither is guessed, with a `DataWarning`: cp1252, or what ``charset-normalizer`` finds if it is installed.
+    decimal : {".", ","}, optional
+        The decimal mark of text; the other one separates thousands. Recognised by default.
+    skip_rows : int
+        Number of lines of text above the header. By default the header is found.
+    missing : sequence of str or float
+        Values that stand for missing ones, such as -9999, in any column.
     skip_missing : bool
         Whether to leave out rows without a place, which are an error by default.
+    skip_invalid : bool
+        Whether to leave out rows with a wrong place or number of fields, too, with a `DataWarning` that counts them.
+    wrap : bool
+        Whether to accept longitudes beyond ±360°, which in tables mostly stand for missing ones.
     progress : callable, optional
         Called repeatedly with the name of the stage, and how many characters of a text table are read, of how many.
 
@@ -76,9 +150,9 @@ def read_points(
     Raises
     ------
     ValueError
-        If the file is damaged; if a coordinate is missing or not a number, or a latitude is outside [−90, 90] (the
-        message gives the row, counted from 1 for the first row of data); if no column or several may be longitude or
-        latitude (the message lists the columns); or if a geometry is not a point.
+        If the file is damaged; if a coordinate is missing or not a number, a latitude is outside [−90, 90] or a
+        longitude outside [−360, 360] (the message gives the row, counted from 1 for the first row of data); if no
+        column or several may be longitude or latitude (the message lists the columns); or if a geometry is not a point.
     ImportError
         If libraries for formats other than CSV and GeoJSON, or for coordinate systems, are missing (the extra
         ``geo``).
@@ -87,15 +161,20 @@ def read_points(
 
     Notes
     -----
-    Text is UTF-8, or UTF-16 with a byte order mark, and may be compressed with gzip or bzip2. CSV: separated by commas,
+    Text may be compressed with gzip or bzip2. CSV: separated by commas,
     semicolons, tabs, vertical bars or blanks; decimal commas are accepted with any separator but the comma; the first
     line is a header unless most of its fields are numbers; leading lines that begin with # are comments. A column
     becomes numeric if all its values are numbers whose digits a double can hold and none has a leading zero followed by
-    digits. Where each point or comma in a column may separate thousands (128.928, 1,234), the other numbers of the
-    table decide: if theirs is the same decimal mark, and no other, it is decimal, and so is a point if they have none;
-    else the column stays text, with a `DataWarning`. Marks in degrees are decimal. If columns of a GeoJSON file's
-    properties would have more than a million cells, and more than fifty for each property of a feature, those that
-    fewer than one in fifty features have are together, as mappings, in a column ``others``, with a `DataWarning`.
+    digits. Degrees may be angles, such as 10°59'07"E, 170 41.4 W and N48.5.
+
+    Where each point or comma in a column may separate thousands (128.928, 1,234), the other numbers of the table
+    decide: if theirs is the same decimal mark, and no other, it is decimal, and so is a point if they have none; if
+    theirs is the other mark, and no other, it separates thousands, which a `DataWarning` says; else the column stays
+    text, with a `DataWarning`. A row of units below the header and one of totals at the end are left out, too. Marks
+    in degrees are decimal. If columns of a GeoJSON file's properties would have more than a million cells, and more
+    than fifty for each property of a feature, those that fewer than one in fifty features have are together, as
+    mappings, in a column ``others``, with a `DataWarning`.
+
     Geometries in another coordinate system (in GeoJSON, with a member ``crs``) are transformed to EPSG:4326; without
     one they are taken as longitude and latitude in degrees. A MultiPoint with one point counts as a point.
 
@@ -108,20 +187,34 @@ def read_points(
     ([[-78.5, -0.2], [10.0, 48.4]], [1763000, 129000])
     >>> read_points(io.StringIO("site,east,north\nA,3500,5400"), plane=("east", "north")).places.tolist()
     [[3500.0, 5400.0]]
-    >>> read_points(io.StringIO("lon,lat\n5,7\n7,95.2"))
+    >>> read_points(io.StringIO("lon,lat\n5,7\n7,95.2"))  # doctest: +ELLIPSIS
     Traceback (most recent call last):
         ...
-    ValueError: row 2: latitude 95.2 is outside [-90, 90]; is it the longitude, or not in degrees?
+    ValueError: row 2: latitude 95.2 is outside [-90, 90]; is it the longitude, or not in degrees? ...
     """
-    if plane is not None and (lon is not None or lat is not None):
-        raise ValueError("plane names the columns of both coordinates; leave out lon and lat")
-    wanted = Wanted(lon, lat, plane, layer, crs, skip_missing, progress)
+    options = Wanted(
+        *(lon, lat, plane, layer, crs, skip_missing, skip_invalid, _marks(missing), encoding, decimal, skip_rows, wrap),
+        progress=progress,
+    )
     with naming(source):
-        name = os.fspath(source) if isinstance(source, str | os.PathLike) else ""
-        return located(_rows_of(Input(source, format), wanted), wanted, name)
+        content, named, _ = _content(source, options, format)
+        return located(content, options, named)
 
 
-def _rows_of(file: Input, wanted: Wanted) -> Content:
+def _marks(missing: Any) -> tuple[str, ...]:
+    return tuple(map(str, [missing] if isinstance(missing, str | float | int) else missing))
+
+
+def _content(source: Any, wanted: Wanted, kind: FormatName | None) -> tuple[Content, str, str]:
+    """What a source holds, its name for messages, and its format."""
+    wanted.check()
+    if is_frame(source):
+        return content_of(source), "", "frame"
+    file = SourceFile(source, kind)
+    return _rows_of(file, wanted), os.fspath(source) if isinstance(source, str | os.PathLike) else "", file.kind
+
+
+def _rows_of(file: SourceFile, wanted: Wanted) -> Content:
     if wanted.layer is not None and file.kind != "vector":
         raise ValueError(
             f"{spelled('layer')} is {wanted.layer!r}, but a file of the kind {file.kind} has no layers; leave it out"
@@ -129,34 +222,43 @@ def _rows_of(file: Input, wanted: Wanted) -> Content:
     return FORMATS[file.kind].read(file, wanted)
 
 
-def from_geodataframe(frame: Any) -> PointTable:
-    """Points of a GeoDataFrame or GeoSeries.
+def inspect(source: Source | Any, *, format: FormatName | None = None, **options: Any) -> Inspection:
+    r"""What `read_points` understands of a source, without reading it for good.
 
     Parameters
     ----------
-    frame : geopandas.GeoDataFrame or geopandas.GeoSeries
-        Rows of points. Those in another coordinate system are transformed to EPSG:4326; without one they are taken as
-        longitude and latitude in degrees.
+    source : path-like, stream or frame
+        As for `read_points`.
+    format, **options
+        As for `read_points`; rows that are wrong are left out and named.
 
     Returns
     -------
-    PointTable
-        With the columns that are not geometries, preceded by the index where GeoPandas writes it to files: if it has a
-        name or several levels, or is not made of integers.
+    Inspection
+        Encoding, separator, header, columns and their ranges, places, rows that are left out and why, duplicates,
+        values far outside all others, and the options that say the same.
 
     Raises
     ------
     ValueError
-        If a geometry is missing, empty or not a point, or its latitude is outside [−90, 90].
+        If the file is damaged, or an option is wrong.
+    ImportError, OSError
+        As for `read_points`.
 
     Examples
     --------
-    >>> import geopandas
-    >>> frame = geopandas.GeoDataFrame({"name": ["Ulm"]}, geometry=geopandas.points_from_xy([10.0], [48.4]), crs=4326)
-    >>> from_geodataframe(frame).lonlat.tolist()
-    [[10.0, 48.4]]
+    >>> import io
+    >>> report = inspect(io.StringIO("lon,lat,temp\n10,48,-9999\n11,49,12\n12,99,14\n13,50,15"))
+    >>> report.found["left_out"], report.found["far"], report.found["options"]["missing"]
+    ({3: 'latitude 99.0 is outside [-90, 90]'}, {'temp': {-9999.0: 1}}, [-9999.0])
     """
-    return located(Frame(frame), Wanted())
+    wanted = Wanted(**(options | {"skip_invalid": True, "missing": _marks(options.get("missing", ()))}))
+    with naming(source), warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always", DataWarning)
+        content, named, kind = _content(source, wanted, format)
+    report = summary(named, content, wanted, kind)
+    report.found["notes"][:0] = [str(each.message) for each in said]
+    return report
 
 
 def shapes_of(source: Any) -> Shapes:
@@ -184,21 +286,10 @@ def _shapes_of_file(path: Path) -> Shapes:
     path.stat()  # the system's own message says best that there is none
     with naming(path):
         known = {*PACKED, *(ending for each in FORMATS.values() for ending in each.endings)}
-        file = Input(path, None if path.suffix.lower() in known else "vector")
+        file = SourceFile(path, None if path.suffix.lower() in known else "vector")
         found = _rows_of(file, Wanted(choice="give a file with one"))
-        if isinstance(found, Features):
+        if isinstance(found, geojson.Features):
             return of_features(found)
         if not (isinstance(found, Frame) and hasattr(found.frame, "to_crs")):
             raise ValueError("the file is a table without geometries")
         return shapes_of(found.frame)
-
-
-@contextmanager
-def naming(source: Any) -> Iterator[None]:
-    """Begin errors with the name of the file, unless it stands there already."""
-    try:
-        yield
-    except ValueError as error:
-        if not isinstance(source, str | os.PathLike) or str(error).startswith(f"{os.fspath(source)}: "):
-            raise
-        raise ValueError(f"{os.fspath(source)}: {error}") from error

@@ -1,7 +1,8 @@
-"""Tables of points: their places on the Earth or in a plane, and their other columns."""
+"""Tables of points: their places on the Earth or in a plane, their other columns, and what is said of wrong rows."""
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType
@@ -10,8 +11,11 @@ from typing import Any, Final, Literal
 import numpy as np
 
 from stereodel._arrays import BoolArray, Column, FloatArray, Indices, as_choice, as_lonlat, as_points, read_only
-from stereodel.io.formats.columns import doubles, why_not
-from stereodel.io.formats.names import beside, left_out
+from stereodel._extras import optional
+from stereodel.io.formats import Content, Wanted, notation
+from stereodel.io.formats.columns import EXACT_INTEGERS, blanked, doubles, far, why_not
+from stereodel.io.formats.map_rows import content_of, is_frame
+from stereodel.io.formats.names import DataWarning, beside, has_lonlat, left_out, naming, spelled
 from stereodel.sphere import lonlat_to_xyz
 from stereodel.sphere.latitudes import Latitude
 
@@ -30,8 +34,8 @@ class PointTable:
     ----------
     places : (n, 2) array_like
         Longitude and latitude in degrees, latitude in [−90, 90]; or coordinates of the plane.
-    columns : mapping of str to (n,) array_like, optional
-        The other columns by name.
+    columns : mapping of str to (n,) array_like, or frame, optional
+        The other columns by name; a frame is any of pandas, polars, Arrow or DuckDB.
     rows : (n,) array_like of int, optional
         Row number of each point in its source, for messages; the first row of data is 1.
     surface : {"sphere", "plane"}
@@ -82,7 +86,8 @@ class PointTable:
             object.__setattr__(self, "crs", DEGREES)
         given = np.asarray(self.rows, dtype=np.intp)
         rows = given if given.size else np.arange(1, len(places) + 1)
-        columns = {str(name): read_only(np.asarray(values)) for name, values in self.columns.items()}
+        named = content_of(self.columns).columns() if is_frame(self.columns) else self.columns
+        columns = {str(name): read_only(np.asarray(values)) for name, values in named.items()}
         for name, values in {**columns, "rows": rows}.items():
             if values.ndim < 1 or len(values) != len(places):
                 raise ValueError(f"column {name!r} has shape {values.shape}, but there are {len(places)} points")
@@ -126,22 +131,16 @@ class PointTable:
 
     def column(self, name: str) -> Column:
         """A column by name; ValueError lists the columns that exist."""
-        if name not in self.columns:
-            known = ", ".join(self.columns) or "none besides the coordinates"
-            raise ValueError(self._said(f"there is no column {name!r}; the columns are {known}"))
+        with naming(self.name):
+            if name not in self.columns:
+                known = ", ".join(self.columns) or "none besides the coordinates"
+                raise ValueError(f"there is no column {name!r}; the columns are {known}")
         return self.columns[name]
 
     def numbers(self, name: str) -> FloatArray:
-        """A column of numbers, NaN where a cell is empty; ValueError names the first row that holds text."""
-        column = self.column(name)
-        if column.dtype.kind in "iuf":
-            return column.astype(np.float64)
-        values, wrong = doubles(column)
-        if wrong.any():
-            row = np.flatnonzero(wrong)[0]
-            said = str(column.tolist()[row]).strip()
-            raise ValueError(self._said(f"row {self.rows[row]}: the {name} {said!r} {why_not(said)}"))
-        return values
+        """A column of finite numbers, NaN where a cell is empty; ValueError names the first row that holds another."""
+        with naming(self.name):
+            return numbers(self.column(name), name, self.rows, gaps=True)
 
     def values(self, names: Sequence[str], *, skip_missing: bool = False) -> tuple[FloatArray, PointTable]:
         """Columns of numbers (n, number of names) and their points, without incomplete rows if `skip_missing`.
@@ -149,10 +148,15 @@ class PointTable:
         ValueError names the first row where a number is missing.
         """
         values = np.column_stack([self.numbers(name) for name in names])
+        for name, column in zip(names, values.T, strict=True):
+            for value, count in far(column).items():
+                said = f"{count} of the values of {name!r} are {value:g}, far outside all others"
+                warnings.warn(f"{said}; {spelled('missing', '=')} leaves them out", DataWarning, stacklevel=2)
         missing = np.argwhere(~np.isfinite(values))
         if len(missing) and not skip_missing:
             row, column = missing[0]
-            raise ValueError(self._said(f"row {self.rows[row]}: {names[column]} is missing; {left_out()}"))
+            with naming(self.name):
+                raise ValueError(f"row {self.rows[row]}: {names[column]} is missing; {left_out()}")
         kept = np.ones(len(values), dtype=np.bool_)
         kept[missing[:, 0]] = False
         return values[kept], self.taken(kept)
@@ -172,5 +176,183 @@ class PointTable:
         columns = {name: values[which] for name, values in self.columns.items()}
         return replace(self, places=self.places[which], columns=columns, rows=self.rows[which])
 
-    def _said(self, message: str) -> str:
-        return f"{self.name}: {message}" if self.name else message
+
+def located(found: Content, wanted: Wanted, name: str = "") -> PointTable:
+    """A table of what was read: places from its geometries, else from columns, of degrees, `crs` or a plane.
+
+    ValueError gives the first row that lacks a place, or has none on the Earth; `skip_missing` leaves out the former,
+    `skip_invalid` both, with a warning. What is left out is in `found.invalid`.
+    """
+    gaps = wanted.skip_missing or wanted.skip_invalid
+    pair = None if wanted.plane else found.places(skip_missing=gaps)
+    columns, crs = {key: blanked(np.asarray(each), wanted.missing) for key, each in found.columns().items()}, found.crs
+    if pair is None:
+        pair, columns, crs = _place_columns(columns, wanted, found.understood)
+    named = wanted.plane or (("longitude", "latitude") if crs is None else ("easting", "northing"))
+    rows = np.arange(1, len(pair[0]) + 1) if found.rows is None else found.rows
+    decimal, wrong = wanted.plane is None and crs is None, found.invalid if wanted.skip_invalid else None
+    both = zip(named, pair, strict=True)
+    places = np.column_stack(
+        [numbers(each, axis, rows, gaps=gaps, decimal=decimal, wrong=wrong) for axis, each in both]
+    )
+
+    def there() -> tuple[FloatArray, Indices, dict[str, Column]]:
+        kept = ~np.isnan(places).any(axis=1)
+        return places[kept], rows[kept], {key: values[kept] for key, values in columns.items()}
+
+    places, rows, columns = there()
+    if wanted.plane is None:
+        places = degrees(places, crs, rows, wrap=wanted.wrap, wrong=wrong)
+        places, rows, columns = there()
+    if found.invalid:
+        _, first = sorted(found.invalid.items())[0]
+        more = " and so on" if len(found.invalid) > 1 else ""
+        said = f"{len(found.invalid)} rows are left out: row {min(found.invalid)} {first}{more}"
+        warnings.warn(said, DataWarning, stacklevel=2)
+    if wanted.plane is not None:
+        return PointTable(places, columns, rows, "plane", wanted.plane, crs and known_crs(crs).to_string(), name)
+    return PointTable(places, columns, rows, name=name)
+
+
+def _place_columns(
+    columns: dict[str, Column], wanted: Wanted, understood: dict[str, Any]
+) -> tuple[tuple[Column, Column], dict[str, Column], str | None]:
+    """Both coordinates of columns, the other columns, and the coordinate system.
+
+    They are two columns or, where none has their names or both are said to be the same one, one that has both.
+    """
+    names, crs = list(columns), wanted.crs
+    same = wanted.lon is not None and wanted.lon == wanted.lat
+    if wanted.plane is None and (same or not (wanted.lon or wanted.lat or has_lonlat(names))):
+        asked = [name for name in names if not same or name == wanted.lon]
+        every = {name: each for name in asked if (each := notation.both(columns[name], name)) is not None}
+        found = {name: each for name, each in every.items() if each.how == notation.WELL_KNOWN} or every
+        if len(found) == 1:
+            ((name, each),) = found.items()
+            understood["place"] = f"{name}: {each.how}"
+            if not same and each.how != notation.WELL_KNOWN:
+                warnings.warn(f"column {name!r} is read as {each.how}", DataWarning, stacklevel=2)
+            return (each.x, each.y), {key: columns[key] for key in names if key != name}, each.crs or crs
+        if same and names.count(str(wanted.lon)):
+            raise ValueError(
+                f"column {wanted.lon!r} is to have both coordinates, as POINT (10 48.4) or '48.4, 10', but has not"
+            )
+    axes = wanted.axes(names)
+    understood["place"] = ", ".join(axes)
+    return (columns[axes[0]], columns[axes[1]]), {key: columns[key] for key in names if key not in axes}, crs
+
+
+def degrees(
+    places: FloatArray,
+    crs: str | None,
+    rows: Sequence[int] | Indices,
+    *,
+    wrap: bool = True,
+    wrong: dict[int, str] | None = None,
+) -> FloatArray:
+    """Places in degrees, transformed if `crs` is given; ValueError names the first row with a wrong one.
+
+    With `wrong`, those are NaN, and it takes their rows. Without `wrap`, longitudes beyond ±360° are wrong.
+    """
+    lonlat = places if crs is None else transformed(places, crs, rows, wrong=wrong)
+    lonlat = lonlat if wrong is None else lonlat.copy()
+
+    def check(bad: Any, what: str, axis: int, advice: str) -> None:
+        found = np.flatnonzero(bad)
+        if wrong is not None:
+            wrong.update({int(rows[row]): what.format(lonlat[row, axis]) for row in found.tolist()})
+            lonlat[found] = np.nan
+        elif len(found):
+            said = what.format(lonlat[found[0], axis])
+            raise ValueError(f"row {rows[found[0]]}: {said}{_more(found)}; {advice}")
+
+    skip = left_out("skip_invalid")
+    if wrong is None:
+        check(~np.isfinite(lonlat).all(axis=1), "a coordinate is not finite", 0, skip)
+    advice = f"is it the longitude, or not in degrees? {skip}"
+    check(np.greater(np.abs(lonlat[:, 1]), 90.0), "latitude {} is outside [-90, 90]", 1, advice)
+    if not wrap and crs is None:
+        advice = f"{skip}, or take it as it is with {spelled('wrap', '=True')}"
+        check(np.abs(lonlat[:, 0]) > 360.0, "longitude {} is outside [-360, 360]", 0, advice)
+    return lonlat
+
+
+def known_crs(crs: str) -> Any:
+    """The coordinate system of this name; ValueError if PROJ does not know it."""
+    pyproj = optional("pyproj", "geo")
+    try:
+        return pyproj.CRS(crs)
+    except pyproj.exceptions.CRSError as error:
+        raise ValueError(
+            f"{spelled('crs')} is {crs!r}, which PROJ does not know; give one such as EPSG:25832"
+        ) from error
+
+
+def transformed(
+    places: FloatArray, crs: str, rows: Sequence[int] | Indices, *, wrong: dict[int, str] | None = None
+) -> FloatArray:
+    """Coordinates in another system, easting first, as longitude and latitude; NaN where there are none, if `wrong`."""
+    transformer = optional("pyproj", "geo").Transformer.from_crs(known_crs(crs), "EPSG:4326", always_xy=True)
+    lonlat = np.column_stack(transformer.transform(*places.T)) if len(places) else places
+    lost = np.flatnonzero(~np.isfinite(lonlat).all(axis=1))
+    if len(lost) and wrong is not None:
+        lonlat[lost] = np.nan
+        wrong.update({int(rows[row]): f"has no longitude and latitude in {crs}" for row in lost.tolist()})
+    elif len(lost):
+        x, y = places[lost[0]]
+        raise ValueError(f"row {rows[lost[0]]}: ({x}, {y}) has no longitude and latitude in {crs}{_more(lost)}")
+    return lonlat
+
+
+def numbers(
+    values: Column,
+    name: str,
+    rows: Sequence[int] | Indices,
+    *,
+    gaps: bool = False,
+    decimal: bool = False,
+    advice: str = "",
+    wrong: dict[int, str] | None = None,
+) -> FloatArray:
+    """A column as finite numbers, with NaN for missing ones if `gaps`; ValueError names the first invalid row.
+
+    With `decimal`, cells of text may be angles in degrees, minutes and seconds. With `wrong`, invalid numbers are NaN,
+    and it takes their rows.
+    """
+    array = np.asarray(values)
+    told: dict[int, str] = {}
+    if array.dtype.kind in "iuf":
+        result = array.astype(np.float64)
+        large = np.flatnonzero(np.abs(result) >= EXACT_INTEGERS).tolist() if array.dtype.kind in "iu" else []
+        rounded = [place for place in large if int(array[place]) != int(result[place])]
+        if rounded:
+            said = f"row {rows[rounded[0]]}: the {name} {array[rounded[0]]} is not a double{_more(rounded)}"
+            raise ValueError(f"{said}; subtract an origin that all share, or round it yourself")
+    else:
+        result, bad = doubles(array, decimal=decimal)
+        for place in np.flatnonzero(bad).tolist():
+            said = str(array[place]).strip()
+            found = notation.angle(said) if decimal else None
+            if found is not None and found.axis in ("", name):
+                result[place] = found.degrees
+            else:
+                told[place] = f"the {name} {said!r} {why_not(said) if found is None else f'is a {found.axis}'}"
+    if told and wrong is None:
+        first = min(told)
+        raise ValueError(f"row {rows[first]}: {told[first]}{_more([*told])}")
+    endless = np.isinf(result) if gaps and wrong is None else ~np.isfinite(result)
+    for place in np.flatnonzero(endless).tolist():
+        missing = bool(np.isnan(result[place]))
+        told.setdefault(place, f"the {name} {'is missing' if missing else f'is {result[place]}, but must be finite'}")
+    if wrong is not None:
+        wrong.update({int(rows[place]): said for place, said in told.items()})
+        result[[*told]] = np.nan
+    elif told:
+        first = min(told)
+        drop = (advice or left_out()) if np.isnan(result[first]) else "correct or drop such rows first"
+        raise ValueError(f"row {rows[first]}: {told[first]}{_more([*told])}; {drop}")
+    return result
+
+
+def _more(places: Sequence[int] | Indices) -> str:
+    return f" (and {len(places) - 1} more rows like it)" if len(places) > 1 else ""

@@ -38,7 +38,7 @@ from stereodel.io.maps.meshes_as_rows import (
     usual_kind,
 )
 from stereodel.io.meshes import to_polydata, to_trimesh, to_ugrid
-from stereodel.io.reading import from_geodataframe
+from stereodel.io.reading import read_points
 from stereodel.io.rows_of import rows_of
 from stereodel.io.table import AXES, PointTable
 from stereodel.sphere.latitudes import Latitude
@@ -146,7 +146,7 @@ def _write_csv(thing: Any, path: Path, options: dict[str, Any], progress: Progre
     elif isinstance(thing, Grid | PointTable | dict):
         columns = thing if isinstance(thing, dict) else thing.located()
     else:
-        columns = from_geodataframe(_layer(thing, options).frame()).located()
+        columns = read_points(_layer(thing, options).frame()).located()
     with path.open("w", encoding="utf-8", newline="") as stream:
         write_csv(columns, stream)
 

@@ -17,7 +17,7 @@ from stereodel._arrays import FloatArray
 from stereodel._extras import optional
 from stereodel.io.formats import wkb
 from stereodel.io.formats.names import anew, find_lonlat, has_lonlat, listed, spelled
-from stereodel.io.places import degrees, numbers
+from stereodel.io.table import degrees, numbers
 from stereodel.sphere import lonlat_to_xyz
 from stereodel.sphere.latitudes import Latitude
 

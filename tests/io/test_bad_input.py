@@ -16,7 +16,6 @@ from stereodel.interpolation import contours
 from stereodel.io import (
     Grid,
     PointTable,
-    from_geodataframe,
     from_ugrid,
     read_points,
     to_geodataframe,
@@ -140,7 +139,7 @@ def read(**options):
 
 
 def to_points(wrong):
-    return lambda: from_geodataframe(geopandas.GeoSeries([shapely.Point(0, 0), wrong]))
+    return lambda: read_points(geopandas.GeoSeries([shapely.Point(0, 0), wrong]))
 
 
 def face(entries, value):

@@ -18,7 +18,7 @@ from stereodel import (
 )
 from stereodel.earth import AUTHALIC_RADIUS_KM
 from stereodel.interpolation import contours
-from stereodel.io import from_geodataframe, to_geodataframe
+from stereodel.io import read_points, to_geodataframe
 from tests import sets
 from tests.examples import examples
 
@@ -150,14 +150,14 @@ def test_back_from_sites():
     diagram = SphericalVoronoi(SPHERE)
     for latitude in ("spherical", "geodetic", "authalic"):
         sites = to_geodataframe(diagram, what="sites", latitude=latitude)
-        table = from_geodataframe(sites.to_crs(3857))
+        table = read_points(sites.to_crs(3857))
         assert angular_distance(lonlat_to_xyz(table.lonlat, latitude=latitude), SPHERE).max() < 1e-11
         assert table.columns["point"].tolist() == list(range(len(SPHERE)))
 
 
 def test_points_without_a_coordinate_system_are_degrees():
     series = geopandas.GeoSeries(geopandas.points_from_xy([5, 7], [50, 51]))
-    assert from_geodataframe(series).lonlat.tolist() == [[5, 50], [7, 51]]
+    assert read_points(series).lonlat.tolist() == [[5, 50], [7, 51]]
 
 
 AXIS = np.array([0.5, 0.3, 0.8])

@@ -11,7 +11,7 @@ import pytest
 import shapely
 
 from stereodel import PlanarVoronoi, SphericalVoronoi
-from stereodel.io import PointTable, RenamedColumnWarning, from_geodataframe, read_points, to_geodataframe, write
+from stereodel.io import PointTable, RenamedColumnWarning, read_points, to_geodataframe, write
 from stereodel.io.formats import map_rows as module
 from stereodel.io.rows_of import rows_of
 
@@ -36,20 +36,20 @@ def test_an_index_that_says_something_is_kept(tmp_path, kind):
     write(tmp_path / f"a.{kind}", named)
     table = read_points(tmp_path / f"a.{kind}")
     assert sorted(table.columns["code"].tolist()) == ["k", "q", "u"]
-    assert from_geodataframe(named).columns["code"].tolist() == ["u", "q", "k"]
-    assert from_geodataframe(named.geometry).columns["code"].tolist() == ["u", "q", "k"]
+    assert read_points(named).columns["code"].tolist() == ["u", "q", "k"]
+    assert read_points(named.geometry).columns["code"].tolist() == ["u", "q", "k"]
     back = to_geodataframe(
-        SphericalVoronoi.from_lonlat(from_geodataframe(named).lonlat), columns=from_geodataframe(named).columns
+        SphericalVoronoi.from_lonlat(read_points(named).lonlat), columns=read_points(named).columns
     )
     assert back["code"].tolist() == ["u", "q", "k"]
-    assert list(from_geodataframe(frame[frame["v"] > 1]).columns) == ["v"]
+    assert list(read_points(frame[frame["v"] > 1]).columns) == ["v"]
 
 
 def test_levels_of_an_index_and_names_that_are_taken():
     levels = pd.MultiIndex.from_tuples([("a", 1), ("b", 2), ("c", 3)], names=["v", None])
     frame = geopandas.GeoDataFrame({"v": [7, 8, 9]}, geometry=POINTS, crs=4326).set_index(levels)
     with pytest.warns(UserWarning, match="'v' is written as 'v_1'"):
-        columns = from_geodataframe(frame).columns
+        columns = read_points(frame).columns
     assert {name: values.tolist() for name, values in columns.items()} == {
         "v_1": ["a", "b", "c"],
         "level_1": [1, 2, 3],

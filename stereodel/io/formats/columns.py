@@ -1,7 +1,8 @@
 """Columns: text as numbers where no digit is lost, and what their cells are in formats that have fewer types.
 
 A number is what people and programs write in tables: digits, a sign, a decimal point or comma, an exponent, and blanks
-or apostrophes between thousands. Other notations that Python accepts are text, such as 1_000 or digits of other scripts.
+or apostrophes between thousands. Other notations that Python accepts, such as 1_000 or digits of other scripts, are
+text.
 
 Where a mark may be either, as in 128.928 and 1,234, other numbers decide: a mark is certainly decimal where it cannot
 separate thousands, as in 9,9934 or 0.125.
@@ -62,6 +63,11 @@ THOUSANDS: Final = {
     ",": re.compile(r"[-+]?[1-9][0-9]{0,2}(?:,[0-9]{3})+(?:\.[0-9]+)?"),
 }
 """Numbers whose thousands are separated by blanks or apostrophes, points, or commas."""
+
+SENTINELS: Final = frozenset(
+    (99.0, 999.0, 9999.0, 99999.0, 999.9, 9999.9, 32767.0, 32768.0, 1e20, 9.969209968386869e36)
+)
+"""Sizes of numbers by which archives of measurements mark missing ones."""
 
 OTHER: Final = {".": ",", ",": "."}
 """What separates thousands where this is the decimal mark."""
@@ -260,6 +266,24 @@ def blanked(values: Column, missing: Iterable[str]) -> Column:
         if text in said or (NUMBER.fullmatch(text) and float(text.replace(",", ".")) in amounts):
             cells[row] = "" if isinstance(cell, str) else None
     return texts(cells) if values.dtype.kind == "U" else objects(cells)
+
+
+def far(values: FloatArray) -> dict[float, int]:
+    """The least and greatest numbers that lie far outside all others, as -9999 does, and how many there are of each.
+
+    Far is ten times as far from the next one as the others are from each other; of numbers that stand for missing
+    ones, once.
+    """
+    known = values[np.isfinite(values)]
+    result = {}
+    for end, sign in ((known.min(), 1.0), (known.max(), -1.0)) if len(known) else ():
+        others = known[known != end]
+        if len(others) > 1 and (spread := float(np.ptp(others))) > 0.0:
+            gap = float(np.min(sign * (others - end)))
+            times = 1.0 if abs(float(end)) in SENTINELS else 10.0
+            if gap > times * spread:
+                result[float(end)] = int((known == end).sum())
+    return result
 
 
 def why_not(cell: str) -> str:

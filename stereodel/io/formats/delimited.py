@@ -7,7 +7,7 @@ import io
 import re
 import warnings
 from collections import Counter
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from itertools import islice
 from types import SimpleNamespace
 from typing import Any, Final, TextIO
@@ -17,7 +17,7 @@ import numpy as np
 from stereodel._arrays import Column
 from stereodel._tasks.progress import Progress
 from stereodel.constants import MOST_COLUMNS, MOST_LINE
-from stereodel.io.formats import FORMATS, Content, FileFormat, Input, Wanted
+from stereodel.io.formats import Content, FileFormat, Input, Wanted
 from stereodel.io.formats.columns import (
     EXACT_INTEGERS,
     NUMBER,
@@ -61,7 +61,23 @@ SEPARATED: Final = re.compile(r"sep=([^\r\n])\r?\n", re.IGNORECASE)
 Lines = list[list[str]]
 
 
-class Lined:
+class Cells:
+    """Rows of text, as of a sheet."""
+
+    separator: str | None = "\t"
+    above = 0
+
+    def __init__(self, rows: Iterable[list[str]]) -> None:
+        self._cells = rows
+
+    def __iter__(self) -> Iterator[list[str]]:
+        return iter(self._cells)
+
+    def told(self, progress: Progress | None) -> None:
+        """Say how much is read; here, all."""
+
+
+class Lined(Cells):
     """The rows of a text table as lists of fields, what separates them, and the number of lines above."""
 
     def __init__(self, text: str, above: int = 0) -> None:
@@ -94,10 +110,10 @@ def read(file: Input, wanted: Wanted) -> Content:
     return tabulated(Lined(text[sum(map(len, passed)) :], len(passed)), wanted, encoding)
 
 
-FORMATS["csv"] = FileFormat((".csv", ".tsv", ".txt"), {}, read)
+FORMAT = FileFormat((".csv", ".tsv", ".txt"), {}, read)
 
 
-def tabulated(lined: Lined, wanted: Wanted, encoding: str = "") -> Content:
+def tabulated(lined: Cells, wanted: Wanted, encoding: str = "") -> Content:
     """A table of rows of text: its header found, rows of units and totals left out, numbers typed."""
     named = [name for name in wanted.plane or (wanted.lon, wanted.lat) if name is not None]
     columns, invalid, titles = _split(lined, named, wanted)
@@ -105,7 +121,8 @@ def tabulated(lined: Lined, wanted: Wanted, encoding: str = "") -> Content:
         _note(f"{titles} {'rows' if titles > 1 else 'row'} above the header left out", "skip_rows")
     places: tuple[str, ...] = wanted.plane or ()
     decimals: tuple[str, ...] = ()
-    if wanted.crs is None and wanted.plane is None and (named or has_lonlat(list(columns))):
+    alike = wanted.lon is not None and wanted.lon == wanted.lat
+    if wanted.crs is None and wanted.plane is None and not alike and (named or has_lonlat(list(columns))):
         places = decimals = wanted.axes(list(columns))
     columns = {name: blanked(values, wanted.missing) for name, values in columns.items()}
     count = len(next(iter(columns.values()), ()))
@@ -118,10 +135,10 @@ def tabulated(lined: Lined, wanted: Wanted, encoding: str = "") -> Content:
         columns, rows = {name: values[kept] for name, values in columns.items()}, rows[kept] - (0 in words)
     typed_ones, thousands = typed_columns(columns, lined.separator != ",", decimals, wanted.decimal)
     found = Content(typed_ones, rows)
-    found.invalid = invalid
-    found.understood = {
+    found.invalid.update(invalid)
+    found.understood |= {
         "encoding": encoding,
-        "separator": {None: "blanks", "\t": "tab"}.get(lined.separator, lined.separator),
+        "separator": encoding and {None: "blanks", "\t": "tab"}.get(lined.separator, lined.separator),
         "header": lined.above + titles + 1,
         "thousands": thousands,
         **dict.fromkeys(words.values(), True),
@@ -174,7 +191,7 @@ def _note(what: str, option: str = "") -> None:
     warnings.warn(f"{what}{advice}", DataWarning, stacklevel=2)
 
 
-def _split(lined: Lined, wanted: Collection[str], how: Wanted) -> tuple[dict[str, Column], dict[int, str], int]:
+def _split(lined: Cells, wanted: Collection[str], how: Wanted) -> tuple[dict[str, Column], dict[int, str], int]:
     """Columns of a table as text, rows that are left out and why, and the number of rows above the header.
 
     A first line that contains one of the names `wanted` is a header.

@@ -17,11 +17,11 @@ from xml.parsers import expat
 
 from stereodel._extras import OnUse, optional
 from stereodel._tasks.progress import Progress
-from stereodel.io.formats import FORMATS, FileFormat, Input, Wanted
+from stereodel.io.formats import Content, FileFormat, Input, Wanted, delimited
 from stereodel.io.formats.columns import as_text, check_held, plain
 from stereodel.io.formats.foreign import check_crs, check_stored, self_contained
 from stereodel.io.formats.map_rows import Frame, MapRows, arrow, arrow_column
-from stereodel.io.formats.names import DataWarning, RenamedColumnWarning, beside, listed, spelled
+from stereodel.io.formats.names import DataWarning, RenamedColumnWarning, beside, has_lonlat, listed, spelled
 from stereodel.io.formats.wkb import is_there
 
 pyogrio: Any = OnUse(lambda: optional("pyogrio", "geo"))
@@ -55,6 +55,9 @@ SHAPES: Final = b"\x00\x00\x27\x0a"
 HEADER: Final = 32
 """Bytes that every ``.dbf`` has; 4 to 11 are the number of its rows, where they begin, and the length of a row."""
 
+SHEETS: Final = (".xlsx", ".ods")
+"""Spreadsheets, whose headers GDAL takes for data where all cells are text."""
+
 GPX_FIELDS: Final = 100
 """From so many columns on, GDAL reads no rows of GPX, in silence."""
 
@@ -62,8 +65,10 @@ LAUNDERED: Final = re.compile(r"field name: '(.*)' to '(.*)'")
 """GDAL's warning for a column name that it shortens."""
 
 
-def read(file: Input, wanted: Wanted) -> Frame:
+def read(file: Input, wanted: Wanted) -> Content:
     """A layer of a file, with or without geometries; `wanted` selects one of several.
+
+    The header of a sheet is found as that of a table of text, where GDAL does not find it.
 
     ValueError if the file is damaged, its format is not read or refers to other files, or the layer does not exist.
     """
@@ -71,10 +76,17 @@ def read(file: Input, wanted: Wanted) -> Frame:
     optional("geopandas", "geo")
     with file.on_disk() as path, self_contained(path) as source:
         _check_whole(source)
-        return Frame(in_degrees(_read_frame(source, wanted.layer, wanted.choice)))
+        frame = in_degrees(_read_frame(source, wanted.layer, wanted.choice))
+        names = {wanted.lon, wanted.lat, *(wanted.plane or ())} & set(frame.columns)
+        if source.suffix not in SHEETS or names or has_lonlat([str(name) for name in frame.columns]):
+            return Frame(frame)
+        cells = _read_frame(source, wanted.layer, wanted.choice, HEADERS="DISABLE")
+        text = cells.astype(object).where(cells.notna(), "").astype(str)
+        rows = (row for row in text.to_numpy().tolist() if any(row))
+        return delimited.tabulated(delimited.Cells(rows), wanted)
 
 
-FORMATS["vector"] = FileFormat(
+FORMAT = FileFormat(
     (".gpkg", ".shp", ".fgb", ".kml", ".kmz", ".gml", ".gpx", ".zip", ".xlsx", ".ods"),
     {
         b"SQLite format 3": ".gpkg",
@@ -97,7 +109,7 @@ def in_degrees(frame: Any) -> Any:
         return frame if crs is None else frame.to_crs("EPSG:4326")
 
 
-def _read_frame(path: Path, layer: str | None, choice: str) -> Any:
+def _read_frame(path: Path, layer: str | None, choice: str, **options: str) -> Any:
     with warnings.catch_warnings(record=True) as said:
         warnings.simplefilter("always", RuntimeWarning)
         chosen = _chosen(path, layer, choice)
@@ -107,10 +119,12 @@ def _read_frame(path: Path, layer: str | None, choice: str) -> Any:
             info = pyogrio.read_info(path, layer=chosen)
             if info["driver"] == DRIVERS["fgb"]:  # of damaged ones GDAL makes tables on which Arrow crashes
                 pyogrio.read_arrow(path, layer=chosen)[1].validate(full=True)
-            frame = pyogrio.read_dataframe(path, layer=chosen, use_arrow=True, arrow_to_pandas_kwargs=objects)
+            frame = pyogrio.read_dataframe(
+                path, layer=chosen, use_arrow=True, arrow_to_pandas_kwargs=objects, **options
+            )
     if info["driver"] == "GPX" and len(info["fields"]) >= GPX_FIELDS:
         raise ValueError(f"GDAL reads no rows of GPX with {GPX_FIELDS} columns; leave out some extensions")
-    if len(frame) < info["features"]:  # -1 where GDAL has to read all to know
+    if not options and len(frame) < info["features"]:  # -1 where GDAL has to read all to know
         raise ValueError(f"the file is damaged: {len(frame)} of its {info['features']} rows can be read")
     own = [
         str(each.message).replace(str(path), path.name) for each in said if issubclass(each.category, RuntimeWarning)

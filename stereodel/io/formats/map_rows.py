@@ -17,7 +17,7 @@ from stereodel._arrays import BoolArray, Column, Geometries, Indices, Packed
 from stereodel._extras import OnUse, optional
 from stereodel._tasks.progress import Progress
 from stereodel.io.formats import Content, wkb
-from stereodel.io.formats.columns import as_text, of_objects, plain_cells
+from stereodel.io.formats.columns import as_text, column, of_objects, plain_cells
 from stereodel.io.formats.names import beside, index_columns, left_out
 
 shapely: Any = OnUse(lambda: optional("shapely", "geo"))
@@ -133,6 +133,27 @@ def arrow_column(values: Any) -> Any:
     if isinstance(column, arrow.ChunkedArray):
         column = column.combine_chunks()
     return column.cast(arrow.string()) if arrow.types.is_null(column.type) else column
+
+
+def of_arrow(values: Any) -> Column:
+    """An Arrow column as an array; integers with missing values do not become doubles if that would round them."""
+    whole = arrow.types.is_integer(values.type)
+    return column(values.to_pylist()) if whole and values.null_count else of_objects(values.to_numpy())
+
+
+def is_frame(source: Any) -> bool:
+    """Whether something is a frame, of pandas, polars, Arrow, DuckDB or any other library that speaks Arrow."""
+    return hasattr(source, "__arrow_c_stream__") or hasattr(source, "to_crs")
+
+
+def content_of(frame: Any) -> Content:
+    """The rows of a frame, with places if it has geometries; ImportError without PyArrow."""
+    if hasattr(frame, "to_crs"):
+        return Frame(frame)
+    table = arrow.table(frame)
+    found = {name: of_arrow(table[name]) for name in table.column_names if not name.startswith("__index_level_")}
+    index = index_columns(frame) if hasattr(getattr(frame, "index", None), "nlevels") else {}
+    return Content(beside(found, {name: of_objects(np.asarray(each)) for name, each in index.items()}) | found)
 
 
 class Frame(Content):

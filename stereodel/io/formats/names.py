@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 import warnings
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -82,6 +83,17 @@ def spelling(options: Mapping[str, str]) -> Iterator[None]:
         yield
     finally:
         SPELLING.reset(token)
+
+
+@contextmanager
+def naming(source: Any) -> Iterator[None]:
+    """Begin errors with the name of the file, unless it stands there already."""
+    try:
+        yield
+    except ValueError as error:
+        if not isinstance(source, str | os.PathLike) or not source or str(error).startswith(f"{os.fspath(source)}: "):
+            raise
+        raise ValueError(f"{os.fspath(source)}: {error}") from error
 
 
 def find_lonlat(names: Sequence[str], lon: str | None = None, lat: str | None = None) -> tuple[str, str]:

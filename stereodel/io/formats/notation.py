@@ -37,6 +37,8 @@ BETWEEN: Final = tuple(re.compile(each) for each in (r"[;/|]", r",\s", r",", r"(
 COMMA: Final = re.compile(r"[-+]?[0-9]+,[0-9]+")
 """A number with a decimal comma, or two whole ones."""
 
+WELL_KNOWN: Final = "well-known text"
+
 LOOKED_AT: Final = 20
 """Cells from which it is known whether a column has both coordinates."""
 
@@ -48,13 +50,13 @@ class Angle(NamedTuple):
     axis: str
 
 
-class Places(NamedTuple):
+class Both(NamedTuple):
     """Both coordinates of a column's cells, as text where they are plain numbers, "" where there are none."""
 
     x: Column
     y: Column
     how: str
-    """What the column was read as: "WKT", "latitude, longitude" or "longitude, latitude"."""
+    """What the column was read as: `WELL_KNOWN`, "latitude, longitude" or "longitude, latitude"."""
     crs: str | None
 
 
@@ -78,7 +80,7 @@ def angle(cell: str) -> Angle | None:
     return Angle(-size if found["sign"] == "-" or (letter and letter in NEGATIVE) else size, axis)
 
 
-def places(values: Column, name: str) -> Places | None:
+def both(values: Column, name: str) -> Both | None:
     """Both coordinates of every cell of a column, where its first ones have two; None where they have not.
 
     A cell is a point of well-known text, or two angles. Letters say which is which; without them latitude comes first,
@@ -108,10 +110,10 @@ def places(values: Column, name: str) -> Places | None:
             )
             lon, lat = reversed(pair) if swap else pair
             x[row], y[row] = repr(lon.degrees), repr(lat.degrees)
-    return Places(texts(x), texts(y), "longitude, latitude" if lon_first else "latitude, longitude", None)
+    return Both(texts(x), texts(y), "longitude, latitude" if lon_first else "latitude, longitude", None)
 
 
-def _well_known(cells: list[str]) -> Places:
+def _well_known(cells: list[str]) -> Both:
     points = [WKT.fullmatch(cell) for cell in cells]
     systems = {point["srid"] for point in points if point is not None} - {None, "4326"}
     if len(systems) > 1:
@@ -120,7 +122,7 @@ def _well_known(cells: list[str]) -> Places:
         texts(cell if point is None else point[axis] for cell, point in zip(cells, points, strict=True))
         for axis in "xy"
     )
-    return Places(x, y, "WKT", f"EPSG:{systems.pop()}" if systems else None)
+    return Both(x, y, WELL_KNOWN, f"EPSG:{systems.pop()}" if systems else None)
 
 
 def _pair(cell: str) -> tuple[Angle, Angle] | None:

@@ -8,14 +8,13 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Final
 
-from stereodel._arrays import Column
 from stereodel._extras import optional
 from stereodel._tasks.progress import Progress
-from stereodel.io.formats import FORMATS, Content, FileFormat, Input, Wanted
-from stereodel.io.formats.columns import check_held, column, of_objects
+from stereodel.io.formats import Content, FileFormat, Input, Wanted
+from stereodel.io.formats.columns import check_held
 from stereodel.io.formats.foreign import check_size
 from stereodel.io.formats.gdal import in_degrees, told
-from stereodel.io.formats.map_rows import Frame, MapRows
+from stereodel.io.formats.map_rows import Frame, MapRows, of_arrow
 
 VERSION: Final = "1.0.0"
 
@@ -37,18 +36,12 @@ def read(file: Input, _: Wanted) -> Content:
     check_size(sum(_letters(table[name]) for name in names), len(content))
     with told():
         if b"geo" not in (table.schema.metadata or {}):
-            return Content({name: _of_arrow(table[name]) for name in table.column_names})
+            return Content({name: of_arrow(table[name]) for name in table.column_names})
         frame = optional("geopandas", "geo").read_parquet(io.BytesIO(content))
     return Frame(in_degrees(frame))
 
 
-FORMATS["parquet"] = FileFormat((".parquet", ".geoparquet"), {b"PAR1": ".parquet"}, read)
-
-
-def _of_arrow(values: Any) -> Column:
-    """An Arrow column as an array; integers with missing values do not become doubles if that would round them."""
-    whole = optional("pyarrow", "geo").types.is_integer(values.type)
-    return column(values.to_pylist()) if whole and values.null_count else of_objects(values.to_numpy())
+FORMAT = FileFormat((".parquet", ".geoparquet"), {b"PAR1": ".parquet"}, read)
 
 
 def _letters(column: Any) -> int:

@@ -6,7 +6,6 @@ TopoJSON; the arc of a side is ``np.maximum(side, ~side)``.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -16,6 +15,7 @@ from stereodel._arrays import FloatArray, Indices, IntArray
 from stereodel._spaces import SPHERE
 from stereodel.curves.ragged import Ragged
 from stereodel.curves.trace import Arcs, great
+from stereodel.io.formats.map_rows import content_of, is_frame
 from stereodel.sphere import xyz_to_lonlat
 from stereodel.sphere.latitudes import Latitude
 from stereodel.triangulation import PlanarVoronoi, SphericalVoronoi
@@ -35,9 +35,10 @@ def usual_kind(mesh: Mesh) -> str:
     return "cells" if isinstance(mesh, Diagram) else "triangles"
 
 
-def point_columns(columns: Mapping[str, npt.ArrayLike] | None, count: int) -> Columns:
-    """The columns as arrays with a value for each of `count` points."""
-    given = {name: np.asarray(values) for name, values in (columns or {}).items()}
+def point_columns(columns: Any, count: int) -> Columns:
+    """The columns of a mapping or a frame as arrays with a value for each of `count` points."""
+    named: Any = content_of(columns).columns() if is_frame(columns) else columns or {}
+    given = {name: np.asarray(values) for name, values in named.items()}
     for name, values in given.items():
         if values.ndim < 1 or len(values) != count:
             raise ValueError(f"columns[{name!r}] has shape {values.shape}, but there are {count} points")
