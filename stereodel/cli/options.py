@@ -242,8 +242,9 @@ class SecondTable(Where):
     def read(self, name: str, first: AnyTable) -> PointTable:
         """The table; in a plane both have the columns of --plane, and by default the coordinate system of the first."""
         crs = self.crs or (first.crs if first.plane else None)
-        own_place = {"lon": self.lon, "lat": self.lat, "layer_name": self.layer_name, "crs": crs}
-        table = replace(first, **own_place, encoding=None, skip_rows=0)
+        table = replace(
+            first, lon=self.lon, lat=self.lat, layer_name=self.layer_name, crs=crs, encoding=None, skip_rows=0
+        )
         own = {key: f"{self.of}{ARGUMENTS[key][1:]}" for key in ("lon", "lat", "layer", "crs")}
         with spelling({**ARGUMENTS, **own}):
             return table.read(name)

@@ -47,7 +47,7 @@ class Inspection:
     rows        2
     extent      9.99, 48.4, 10.1, 54.3
     columns     name: text, 'Ulm', 'Kiel'
-    options     lon=Länge, lat=Breite
+    options     lon='Länge' lat='Breite'
     """
 
     found: dict[str, Any]
@@ -128,6 +128,17 @@ def _options(found: Mapping[str, Any], wanted: Wanted) -> dict[str, Any]:
     return result
 
 
+def _said(name: str, value: Any) -> str:
+    """An argument with its value, as it is typed in Python or on the command line."""
+    option = spelled(name)
+    if option == name:
+        return f"{name}={value!r}"
+    if value is True:
+        return option
+    parts = [f"{each:.12g}" if isinstance(each, float) else str(each) for each in np.atleast_1d(value).tolist()]
+    return f"{option} {' '.join(parts)}" if name == "plane" else " ".join(f"{option}={each}" for each in parts)
+
+
 def _lines(found: Mapping[str, Any]) -> list[tuple[str, str]]:
     """The lines of the text: what is not there is left out."""
     lines = [(name, str(found[name])) for name in ("file", "format", "encoding", "separator") if found.get(name)]
@@ -149,9 +160,5 @@ def _lines(found: Mapping[str, Any]) -> list[tuple[str, str]]:
         lines.append(("columns" if not number else "", f"{name}: {each['type']}, {values}{gaps}"))
     lines += [("far outside", f"{key}: {each}") for key, each in found["far"].items()]
     lines += [("note", note) for note in found["notes"]]
-    said = (
-        f"{spelled(name, '=')} {value}" if spelled(name) != name else f"{name}={value}"
-        for name, value in found["options"].items()
-    )
-    lines.append(("options", ", ".join(said) or "none are needed"))
+    lines.append(("options", " ".join(_said(*each) for each in found["options"].items()) or "none are needed"))
     return lines + [("problem", found["problem"])] * bool(found["problem"])

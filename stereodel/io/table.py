@@ -205,10 +205,9 @@ def located(found: Content, wanted: Wanted, name: str = "") -> PointTable:
         places = degrees(places, crs, rows, wrap=wanted.wrap, wrong=wrong)
         places, rows, columns = there()
     if found.invalid:
-        _, first = sorted(found.invalid.items())[0]
-        more = " and so on" if len(found.invalid) > 1 else ""
-        said = f"{len(found.invalid)} rows are left out: row {min(found.invalid)} {first}{more}"
-        warnings.warn(said, DataWarning, stacklevel=2)
+        first, many = min(found.invalid), len(found.invalid)
+        said = f"{many} {'rows are' if many > 1 else 'row is'} left out: row {first}: {found.invalid[first]}"
+        warnings.warn(said + (f" (and {many - 1} more)" if many > 1 else ""), DataWarning, stacklevel=2)
     if wanted.plane is not None:
         return PointTable(places, columns, rows, "plane", wanted.plane, crs and known_crs(crs).to_string(), name)
     return PointTable(places, columns, rows, name=name)

@@ -47,7 +47,6 @@ lon,lat|1,2|inf,4 → row 2: the longitude is inf, but must be finite
 lon,lat|1,2|3 → row 2 has 1 fields, but there are 2 columns
  → the table is empty
 name,lon,lat,lon| → several columns with the name 'lon'
-name,lon,lat|Ulm,1,2|K\xf6ln,3,4| → line 3 is not text in UTF-8
 a,10,48.4|b,2,51 → column_1', 'column_2', 'column_3
 {] → not JSON
 {"type": "Point"} → row 1: the longitude is missing

@@ -38,9 +38,7 @@ def test_an_index_that_says_something_is_kept(tmp_path, kind):
     assert sorted(table.columns["code"].tolist()) == ["k", "q", "u"]
     assert read_points(named).columns["code"].tolist() == ["u", "q", "k"]
     assert read_points(named.geometry).columns["code"].tolist() == ["u", "q", "k"]
-    back = to_geodataframe(
-        SphericalVoronoi.from_lonlat(read_points(named).lonlat), columns=read_points(named).columns
-    )
+    back = to_geodataframe(SphericalVoronoi.from_lonlat(read_points(named).lonlat), columns=read_points(named).columns)
     assert back["code"].tolist() == ["u", "q", "k"]
     assert list(read_points(frame[frame["v"] > 1]).columns) == ["v"]
 

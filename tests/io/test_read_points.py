@@ -2,6 +2,7 @@
 
 import gzip
 import io
+import re
 import warnings
 
 import geopandas
@@ -53,16 +54,16 @@ def test_a_separator_inside_quotes_is_text():
 @pytest.mark.parametrize(
     ("header", "row", "values"),
     [
-        ("lon;lat;pop;mm", "9,9934;48,4011;128.928;118,69", ["128.928", 118.69]),
-        ("lon;lat;pop", "9,123;48,456;128.928", ["128.928"]),  # degrees have no thousands
+        ("lon;lat;pop;mm", "9,9934;48,4011;128.928;118,69", [128928, 118.69]),
+        ("lon;lat;pop", "9,123;48,456;128.928", [128928]),  # degrees have no thousands
         ("lon;lat;pop", "9;48;-128.928", [-128.928]),  # nothing speaks for the comma
         ("lon\tlat\tpop", "9.123\t48.456\t128.928", [128.928]),
-        ("lon;lat;pop", "9.5;48.25;1,234", ["1,234"]),
+        ("lon;lat;pop", "9.5;48.25;1,234", [1234]),
         ("lon;lat;pop", "9,5;48,25;1,234", [1.234]),
         ("lon;lat;pop", "9;48;1,234", ["1,234"]),
         ("lon;lat;pop;mm", "9;48;0,234;1,234", [0.234, 1.234]),
         ("lon;lat;pop;mm;kg", "9,5;48;1.234;0.5;1,234", ["1.234", 0.5, "1,234"]),
-        ('lon,lat,"pop"', '"9,5","48,25",1.234', ["1.234"]),
+        ('lon,lat,"pop"', '"9,5","48,25",1.234', [1234]),
         ("lon;lat;pop;day", "9;48;1.234;24.12.2000", [1.234, "24.12.2000"]),
     ],
 )
@@ -71,8 +72,16 @@ def test_marks_that_may_separate_thousands_are_read_as_those_of_the_other_number
         warnings.simplefilter("always")
         table = read_points(io.StringIO(f"{header}\n{row}\n{row}"))
     assert [column.tolist() for column in table.columns.values()] == [[value] * 2 for value in values]
-    kept = [value for value in values if isinstance(value, str) and value != "24.12.2000"]
-    assert [str(each.message).split("kept as text: ")[1].split(" may be ")[0] for each in said] == list(map(repr, kept))
+    told = {each.split("'")[3]: each for each in (str(one.message) for one in said)}
+    kept = {value for value in values if isinstance(value, str) and value != "24.12.2000"}
+    grouped = {cell for cell in row.replace('"', "").split(";" if ";" in header else ",") if value_of(cell) in values}
+    assert {cell for cell, each in told.items() if "kept as text" in each} == kept
+    assert {cell for cell, each in told.items() if "between thousands" in each} == grouped
+
+
+def value_of(cell):
+    """The number of a cell whose one mark separates thousands."""
+    return int(re.sub("[.,]", "", cell)) if re.fullmatch(r"[0-9]+[.,][0-9]{3}", cell) else None
 
 
 def test_a_place_in_metres_has_no_doubtful_marks():
@@ -81,11 +90,17 @@ def test_a_place_in_metres_has_no_doubtful_marks():
         lambda: read_points(io.StringIO(text), lon="east", lat="north", crs="EPSG:3857"),
         lambda: read_points(io.StringIO(text), plane=("east", "north")),
     ):
-        with (
-            pytest.warns(DataWarning, match="'east' is kept as text"),
-            pytest.raises(ValueError, match=r"row 1: the east\w* '567.890' may be 567.890 or 567890; write thousands"),
+        with pytest.warns(
+            DataWarning, match="'east' has marks between thousands: '567.890' is 567890; decimal= says it"
         ):
             read()
+    with (
+        pytest.warns(DataWarning, match="'east' is kept as text"),
+        pytest.raises(
+            ValueError, match=r"row 1: the east '567.890' may be 567.890 or 567890; say which mark is decimal"
+        ),
+    ):
+        read_points(io.StringIO("east;north;rain;snow\n567.890;54321;2,5;0.5\n"), plane=("east", "north"))
     table = read_points(io.StringIO(text.replace("2,5", "2.5")), plane=("east", "north"))
     assert table.places.tolist() == [[567.890, 54321]]
 

@@ -81,6 +81,12 @@ UNWRITABLE: Final = {
 GUESSED_FROM: Final = 1 << 20
 """Bytes from which an encoding is guessed."""
 
+GUESSES: Final = (
+    *("cp1250", "cp1251", "cp1252", "cp1253", "cp1254", "cp1255", "cp1256", "koi8_r", "cp866"),
+    *("cp932", "euc_jp", "gb18030", "big5", "cp949"),
+)
+"""Encodings that tables without Unicode have."""
+
 WESTERN: Final = re.compile("[^\x00-\x7f\xb0\xba\xaaà-öø-ÿÀ-ÖØ-ß€‘’“”–—«»²³µ\xa0ŒœŠšŽžŸ]|[^\x00-\x7f]{3}")
 """What text in cp1252 hardly has: other signs than letters and quotes, and three of them in a row, as other scripts."""
 
@@ -125,7 +131,7 @@ def _guessed(content: bytes) -> str | None:
         return None
     from charset_normalizer import from_bytes
 
-    found = from_bytes(head).best()
+    found = from_bytes(head, cp_isolation=[*GUESSES]).best()
     return None if found is None else str(found.encoding)
 
 

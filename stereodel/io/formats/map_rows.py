@@ -153,7 +153,8 @@ def content_of(frame: Any) -> Content:
     table = arrow.table(frame)
     found = {name: of_arrow(table[name]) for name in table.column_names if not name.startswith("__index_level_")}
     index = index_columns(frame) if hasattr(getattr(frame, "index", None), "nlevels") else {}
-    return Content(beside(found, {name: of_objects(np.asarray(each)) for name, each in index.items()}) | found)
+    more = {name: of_objects(np.asarray(each)) for name, each in index.items() if name not in table.column_names}
+    return Content(more | found)
 
 
 class Frame(Content):

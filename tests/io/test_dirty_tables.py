@@ -1,0 +1,241 @@
+"""Tables as people have them: what is read, what is said of it, and what is refused with the option that helps."""
+
+import io
+import json
+import warnings
+
+import duckdb
+import geopandas
+import numpy as np
+import pandas as pd
+import polars as pl
+import pyarrow as pa
+import pytest
+
+from stereodel import SphericalVoronoi
+from stereodel.io import DataWarning, PointTable, inspect, read_points, to_geodataframe, write
+from tests.workbooks import workbook
+
+ULM, KIEL = (9.99, 48.4), (10.1, 54.3)
+TWO = [ULM, KIEL]
+READ = [
+    # content, options, places, columns, notes
+    ("sep=;\nname;lon;lat\nUlm;9,99;48,4\nKiel;10,1;54,3", {}, TWO, {"name": ["Ulm", "Kiel"]}, ""),
+    (
+        "Report 2024\nby us\n\nname,lon,lat\nUlm,9.99,48.4\nKiel,10.1,54.3",
+        {},
+        TWO,
+        {"name": ["Ulm", "Kiel"]},
+        "2 rows above",
+    ),
+    ("Report;;\n;;\nname;lon;lat\nUlm;9,99;48,4\nKiel;10,1;54,3", {}, TWO, {"name": ["Ulm", "Kiel"]}, "1 row above"),
+    ("a\nb,c,d\nlon,lat,v\n9.99,48.4,1\n10.1,54.3,2", {"skip_rows": 2}, TWO, {"v": [1, 2]}, ""),
+    ("lon,lat,rain\ndeg,deg,mm\n9.99,48.4,7\n10.1,54.3,8", {}, TWO, {"rain": [7, 8]}, "a row of units is left out"),
+    (
+        "name,lon,lat,n\nUlm,9.99,48.4,7\nKiel,10.1,54.3,8\nTotal,,,15",
+        {},
+        TWO,
+        {"n": [7, 8]},
+        "a row of totals is left",
+    ),
+    (
+        "name;lon;lat;n\nUlm;9,99;48,4;128.928\nKiel;10,1;54,3;1.085.664",
+        {},
+        TWO,
+        {"name": ["Ulm", "Kiel"], "n": [128928, 1085664]},
+        "thousands",
+    ),
+    ("n;lon;lat\n1.234;9,99;48,4\n2.345;10,1;54,3", {"decimal": ","}, TWO, {"n": [1234, 2345]}, ""),
+    ("n;lon;lat\n1.234;9;48\n2.345;10;54", {"decimal": "."}, [(9, 48), (10, 54)], {"n": [1.234, 2.345]}, ""),
+    ("n;lon;lat\n1'763'000;9.99;48.4\n12;10.1;54.3", {}, TWO, {"n": [1763000, 12]}, ""),
+    ("n;lon;lat\n1\u202f763\u202f000,5;9,99;48,4\n12;10,1;54,3", {}, TWO, {"n": [1763000.5, 12]}, ""),
+    ("n;lon;lat\n\u22125;9,99;48,4\n12;10,1;54,3", {}, TWO, {"n": [-5, 12]}, ""),
+    ("t,lon,lat\n-9999,9.99,48.4\n12.5,10.1,54.3", {"missing": [-9999]}, TWO, {"t": [None, 12.5]}, ""),
+    ("t,lon,lat\nkeine,9.99,48.4\n12.5,10.1,54.3", {"missing": "keine"}, TWO, {"t": [None, 12.5]}, ""),
+    ("lon,lat\n-9999,48\n9.99,48.4", {"missing": ["-9999"], "skip_missing": True}, [ULM], {}, ""),
+    (
+        "lon,lat\n9.99,48.4\n181,91\n10.1,54.3\nx,3",
+        {"skip_invalid": True},
+        TWO,
+        {},
+        "2 rows are left out: row 2: latitude 91",
+    ),
+    ("lon,lat\n9.99,48.4\n1,2,3\n10.1,54.3", {"skip_invalid": True}, TWO, {}, "1 row is left out: row 2: has 3 fields"),
+    ("lon,lat\n9.99,48.4\n99999,3", {"skip_invalid": True}, [ULM], {}, "row 2: longitude 99999.0 is outside"),
+    ("lon,lat\n729.99,48.4", {"wrap": True}, [(729.99, 48.4)], {}, ""),
+    ("lon,lat,\n9.99,48.4,\n10.1,54.3,,", {}, TWO, {}, ""),
+    ("id,lon,lat\n1E3,9.99,48.4\n2E5,10.1,54.3", {}, TWO, {"id": ["1E3", "2E5"]}, ""),
+    ("id,lon,lat\n1E3,9.99,48.4\n7,10.1,54.3", {}, TWO, {"id": ["1E3", "7"]}, ""),
+    ("v,lon,lat\n1e16,9.99,48.4\n1.5E3,10.1,54.3", {}, TWO, {"v": [1e16, 1500]}, ""),
+    ("v,lon,lat\n1E+16,9.99,48.4\n2,10.1,54.3", {}, TWO, {"v": [1e16, 2]}, ""),
+    ("lon\tlat\n10°59'07″E\t48°24'N", {}, [(10.985277777777778, 48.4)], {}, ""),
+    ("lon;lat\n170 41,4 W;S 12° 30' 15,5''", {}, [(-170.69, -12.504305555555556)], {}, ""),
+    ("lon,lat\n170.70W,12:30:15\n\u22125°,1d30m", {}, [(-170.7, 12.504166666666666), (-5, 1.5)], {}, ""),
+    ("wkt,v\nPOINT (9.99 48.4),1\nPOINT Z (10.1 54.3 7),2", {}, TWO, {"v": [1, 2]}, ""),
+    ("g;v\nSRID=3857;1", {"lon": "g", "lat": "g"}, "column 'g' is to have both coordinates", {}, ""),
+    ('where,v\n"48.4, 9.99",1\n"54.3, 10.1",2', {}, TWO, {"v": [1, 2]}, "'where' is read as latitude, longitude"),
+    ("lonlat,v\n9.99 48.4,1\n10.1 54.3,2", {}, TWO, {"v": [1, 2]}, "'lonlat' is read as longitude, latitude"),
+    ("at;v\n48°24'N 9°59'24″E;1", {}, [(9.99, 48.4)], {"v": [1]}, "'at' is read as latitude, longitude"),
+    ('at,v\n"48.4, 9.99",1', {"lon": "at", "lat": "at"}, [ULM], {"v": [1]}, ""),
+    *[
+        (f"{lon};{lat}\n9,99;48,4\n10,1;54,3", {}, TWO, {}, "")
+        for lon, lat in (
+            *(("Länge", "Breite"), ("Längengrad", "Breitengrad"), ("geogr. Länge", "geogr. Breite")),
+            *(("longitud", "latitud"), ("Longitudine", "Latitudine"), ("долгота", "широта"), ("经度", "纬度")),
+            *(("経度", "緯度"), ("خط الطول", "خط العرض"), ("X_COORD", "Y_COORD"), ("POINT_X", "POINT_Y")),
+        )
+    ],
+    # refused, with the option that helps
+    (
+        "lon,lat\n9,48\n99999,3",
+        {},
+        r"row 2: longitude 99999.0 is outside .* skip_invalid=True, or .* wrap=True",
+        {},
+        "",
+    ),
+    (
+        "lon,lat\n9,48\n181,91",
+        {},
+        "row 2: latitude 91.0 is outside .* leave such rows out with skip_invalid=True",
+        {},
+        "",
+    ),
+    ("lon,lat\n9,48\n1,2,3", {}, "row 2 has 3 fields, .* skip_invalid=True", {}, ""),
+    ("lon,lat\n48°N,9°E", {}, "row 1: the longitude '48°N' is a latitude", {}, ""),
+    ("lon,lat\n9°O,48°", {}, "row 1: the longitude '9°O' is not a number", {}, ""),
+    ("lon,lat\n9°75',48", {}, "row 1: the longitude .9°75'. is not a number", {}, ""),
+    ("lon,lat\n9,48", {"encoding": "cp1525"}, "encoding is 'cp1525', which does not exist", {}, ""),
+    ("lon,lat\n9,48", {"decimal": "x"}, "decimal is 'x', but must be one of", {}, ""),
+    (
+        "v\nSRID=1;POINT(1 2)\nSRID=2;POINT(1 2)".replace("v", "v\t").replace(")", ")\t"),
+        {},
+        "several coordinate systems, 1, 2",
+        {},
+        "",
+    ),
+]
+
+
+@pytest.mark.parametrize(("content", "options", "places", "columns", "note"), READ)
+def test_a_dirty_table(content, options, places, columns, note):
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always", DataWarning)
+        if isinstance(places, str):
+            with pytest.raises(ValueError, match=places):
+                read_points(io.StringIO(content), **options)
+            return
+        table = read_points(io.StringIO(content), **options)
+    assert table.places.tolist() == [list(place) for place in places]
+    got = {name: [None if each != each else each for each in values.tolist()] for name, values in table.columns.items()}
+    assert got == columns
+    told = [str(each.message) for each in said]
+    assert len(told) == bool(note)
+    assert note in "".join(told)
+
+
+@pytest.mark.parametrize(
+    ("text", "encoding", "guess"),
+    [
+        ("Stadt,lon,lat\nKöln,6.9,50.9\nMünchen,11.6,48.1\n", "cp1252", "cp1252"),
+        ("ville,lon,lat\nOrléans,1.9,47.9\n", "latin-1", "cp1252"),
+        ("miasto,lon,lat\nŁódź,19.4,51.7\nKraków,19.9,50\nGdańsk,18.6,54.3\n", "cp1250", "cp1250"),
+        ("город,lon,lat\nМосква,37.6,55.7\nКазань,49.1,55.8\nСамара,50.1,53.2\n", "cp1251", "cp1251"),
+        ("都市,lon,lat\n東京,139.7,35.7\n大阪,135.5,34.7\n名古屋,136.9,35.2\n", "shift_jis", "cp932"),
+    ],
+)
+def test_encodings(text, encoding, guess):
+    expected = read_points(io.StringIO(text))
+    told = read_points(io.BytesIO(text.encode(encoding)), encoding=encoding)
+    with pytest.warns(DataWarning, match=f"is not text in UTF-8; the file is read in the encoding {guess}, which is a"):
+        guessed = read_points(io.BytesIO(text.encode(encoding)))
+    for table in (told, guessed):
+        assert table.lonlat.tolist() == expected.lonlat.tolist()
+        assert [values.tolist() for values in table.columns.values()] == [c.tolist() for c in expected.columns.values()]
+    utf16 = read_points(io.BytesIO(text.encode("utf-16")))
+    assert [*utf16.columns] == [*expected.columns]
+    with pytest.raises(ValueError, match="line 2 is not text in ascii; say which encoding the file has with encoding="):
+        read_points(io.BytesIO(text.replace("都市", "a").replace("город", "a").encode()), encoding="ascii")
+
+
+def test_sheets_of_text_with_titles_and_several_sheets(tmp_path):
+    path = tmp_path / "book.xlsx"
+    plain = [["name", "lon", "lat"], ["Ulm", "9.99", "48.4"], ["Kiel", "10.1", "54.3"]]
+    titled = [["Report", "", ""], *plain[:1], ["Ulm", 9.99, 48.4], ["Kiel", 10.1, 54.3]]
+    workbook(path, {"Text": plain, "Titel": titled})
+    for sheet in ("Text", "Titel"):
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", DataWarning)
+            table = read_points(path, layer=sheet)
+        assert table.lonlat.tolist() == [list(place) for place in TWO]
+        assert table.columns["name"].tolist() == ["Ulm", "Kiel"]
+    with pytest.raises(ValueError, match="several layers, 'Text', 'Titel'; say which with layer="):
+        read_points(path)
+
+
+COLUMNS = {"lon": [9.99, 10.1], "lat": [48.4, 54.3], "name": ["Ulm", "Kiel"], "n": [1, 2**53 + 1]}
+
+
+@pytest.mark.parametrize(
+    "frame", [pd.DataFrame, pl.DataFrame, pa.table, lambda columns: duckdb.sql("SELECT * FROM given")]
+)
+def test_frames_at_every_door(tmp_path, frame):
+    source = frame(COLUMNS)
+    table = read_points(source)
+    assert table.lonlat.tolist() == [list(place) for place in TWO]
+    assert [values.tolist() for values in table.columns.values()] == [COLUMNS["name"], COLUMNS["n"]]
+    diagram, others = SphericalVoronoi(table.points()), frame({"name": COLUMNS["name"]})
+    assert to_geodataframe(diagram, columns=others)["name"].tolist() == COLUMNS["name"]
+    write(tmp_path / "a.csv", diagram, columns=others)
+    assert "Kiel" in (tmp_path / "a.csv").read_text()
+    assert PointTable(TWO, others).columns["name"].tolist() == COLUMNS["name"]
+    assert inspect(source).found["rows"] == 2
+
+
+def test_an_index_and_geometries_of_frames():
+    named = pd.DataFrame(COLUMNS).set_index("name")
+    assert read_points(named).columns["name"].tolist() == COLUMNS["name"]
+    points = geopandas.points_from_xy(*np.transpose(TWO))
+    assert read_points(geopandas.GeoSeries(points, crs=4326)).lonlat.tolist() == [list(place) for place in TWO]
+
+
+DIRTY = "Bericht\n\nStadt;Länge;Breite;n;t\nKöln;6,95;50,94;1.085.664;-9999\nUlm;9,99;48,4;128.928;12,5\nX;181;91;5;13\nUlm;9,99;48,4;7;14"
+
+
+def test_inspect_says_what_was_understood():
+    report = inspect(io.BytesIO(DIRTY.encode("cp1252")))
+    found = report.found
+    assert (found["encoding"], found["separator"], found["place"]) == ("cp1252", ";", "Länge, Breite")
+    assert (found["rows"], found["duplicates"], found["extent"]) == (3, 1, [6.95, 48.4, 9.99, 50.94])
+    assert found["left_out"] == {3: "latitude 91.0 is outside [-90, 90]"}
+    assert found["far"] == {"t": {-9999.0: 1}}
+    assert found["columns"]["n"] == {"type": "integer", "range": [7, 1085664], "missing": 0}
+    assert found["columns"]["Stadt"]["examples"] == ["Köln", "Ulm"]
+    assert json.loads(json.dumps(found))["thousands"] == {"n": "."}
+    options = dict(found["options"])
+    assert options == {
+        "encoding": "cp1252",
+        "lon": "Länge",
+        "lat": "Breite",
+        "decimal": ",",
+        "missing": [-9999.0],
+        "skip_invalid": True,
+    }
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always", DataWarning)
+        table = read_points(io.BytesIO(DIRTY.encode("cp1252")), **options)
+    assert ["title" if "above" in str(each.message) else "left" for each in said] == ["title", "left"]
+    assert np.isnan(table.columns["t"][0])
+    text = str(report)
+    assert "left out    row 3: latitude 91.0" in text
+    assert (
+        "options     encoding='cp1252' lon='Länge' lat='Breite' decimal=',' missing=[-9999.0] skip_invalid=True" in text
+    )
+
+
+def test_inspect_answers_where_reading_cannot():
+    found = inspect(io.StringIO("a,b\n1,2\n3,4")).found
+    assert "no column looks like the longitude" in found["problem"]
+    assert found["columns"]["a"] == {"type": "integer", "range": [1, 3], "missing": 0}
+    assert inspect(io.StringIO("lon,lat\n48,9\n50,-89\n60,-80"), lon="lat", lat="lon").found["swapped"] is False
+    with pytest.warns(DataWarning, match="1 of the values of 't' are -9999, far outside all others; missing= leaves"):
+        read_points(io.StringIO("lon,lat,t\n1,2,-9999\n2,3,4\n3,4,5")).values(["t"])
