@@ -23,29 +23,8 @@ from stereodel._files import replacing
 
 PAGE: Final = Path(__file__).resolve().parent.parent / "docs" / "names.md"
 
-PACKAGES: Final = (
-    "stereodel.triangulation",
-    "stereodel.interpolation",
-    "stereodel.graphs",
-    "stereodel.partitioned",
-    "stereodel.relaxation",
-    "stereodel.predicates",
-    "stereodel.projections",
-    "stereodel.sphere",
-    "stereodel.earth",
-    "stereodel.conformal",
-    "stereodel.spatial",
-    "stereodel.data",
-    "stereodel.io",
-    "stereodel.xarray",
-    "stereodel.drawing",
-    "stereodel.render",
-    "stereodel.film",
-    "stereodel.globe",
-    "stereodel.mpl",
-    "stereodel.web",
-)
-"""All that users import from; each has its place on the page."""
+PACKAGES: Final = tuple(re.findall(r"<!-- names: (\S+) -->", PAGE.read_text(encoding="utf-8")))
+"""All that users import from: what has its place on the page."""
 
 LONGEST_DEFAULT: Final = 24
 """Characters of a default that a signature shows; of a longer one it says only that it is there."""
