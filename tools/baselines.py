@@ -90,9 +90,6 @@ SAMPLES: Final = 1000
 PACKING: Final = [{"id": lzma.FILTER_LZMA2, "preset": 9, "lc": 0, "lp": 3, "pb": 3}]
 """Of stored arrays, for numbers of eight bytes: 3 % smaller than what is usual."""
 
-MISSING: Final = "missing"
-"""The difference of a name that only one side has."""
-
 SIZE: Final = 640
 """Width of the stored pictures in pixels."""
 
@@ -177,7 +174,7 @@ def array_differences(expected: Arrays, actual: Arrays, *, tolerance: float = GO
     found = {}
     for name in sorted({*expected, *actual}):
         if name not in actual:
-            found[name] = MISSING
+            found[name] = "missing"
         elif name not in expected:
             found[name] = "not expected"
         elif wrong := _array_difference(expected[name], actual[name], tolerance):

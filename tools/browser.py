@@ -59,22 +59,17 @@ FONTS: Final = """<?xml version="1.0"?><!DOCTYPE fontconfig SYSTEM "urn:fontconf
 Pixels = npt.NDArray[np.uint8]
 
 
-def executable() -> Path:
-    """The browser; a FileNotFoundError where there is none."""
-    for name in NAMES:
-        if found := shutil.which(name):
-            return Path(found)
-    raise FileNotFoundError(f"there is no browser here, none of {', '.join(NAMES)}; get one with: make system")
-
-
 @contextmanager
 def chromium() -> Iterator[Browser]:
-    """A browser, which ends with the block."""
+    """A browser, which ends with the block; a FileNotFoundError where there is none."""
+    found = next(filter(None, map(shutil.which, NAMES)), None)
+    if found is None:
+        raise FileNotFoundError(f"there is no browser here, none of {', '.join(NAMES)}; get one with: make system")
     with tempfile.TemporaryDirectory() as folder, sync_playwright() as playwright:
         fonts = Path(folder, "fonts.conf")
         fonts.write_text(FONTS.format(fonts=Path(mpl.get_data_path(), "fonts", "ttf"), cache=folder))
         browser = playwright.chromium.launch(
-            executable_path=executable(),
+            executable_path=found,
             args=list(OPTIONS),
             chromium_sandbox=os.geteuid() != 0,  # the sandbox of Chromium refuses to run as root
             env={**os.environ, "FONTCONFIG_FILE": str(fonts)},
