@@ -20,14 +20,13 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 import scipy
 from scipy import ndimage
 
 from benchmarks import pages
 from benchmarks.rounds import fastest
 from stereodel import MoebiusMap, fisheye
-from stereodel._arrays import FloatArray
+from stereodel._arrays import FloatArray, Pixels
 from stereodel.drawing import View
 from stereodel.globe import Raster
 from tests.globe.supersampling import checkerboard, psnr, reference, zone_plate
@@ -38,7 +37,6 @@ CHANNELS = ("rings", "squares", "clouds")
 VIEW = View(20.0, 40.0)
 LENSES = {"no lens": MoebiusMap.identity(), "S = 4": fisheye((20.0, 40.0), magnification=4.0)}
 REPETITIONS = 3
-Pixels = npt.NDArray[np.uint8]
 Row = dict[str, Any]
 
 

@@ -19,9 +19,10 @@ from typing import Any, Final
 
 import matplotlib as mpl
 import numpy as np
-import numpy.typing as npt
 from PIL import Image
 from playwright.sync_api import Browser, CDPSession, ConsoleMessage, Page, sync_playwright
+
+from stereodel._arrays import Pixels
 
 NAMES: Final = ("chromium", "chromium-browser", "google-chrome-stable", "google-chrome")
 """What the browser is called on different systems."""
@@ -55,8 +56,6 @@ INK: Final = 24
 FONTS: Final = """<?xml version="1.0"?><!DOCTYPE fontconfig SYSTEM "urn:fontconfig:fonts.dtd">
 <fontconfig><dir>{fonts}</dir><cachedir>{cache}</cachedir></fontconfig>
 """
-
-Pixels = npt.NDArray[np.uint8]
 
 
 @contextmanager
