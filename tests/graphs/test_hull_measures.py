@@ -55,14 +55,6 @@ def test_arcs_have_no_area():
     assert hull_perimeter(lonlat=arc) == pytest.approx(180)
 
 
-@pytest.mark.parametrize("measure", [hull_area, hull_perimeter])
-def test_points_all_around_have_no_hull(measure):
-    with pytest.raises(ValueError, match="points have no hull: on the sphere"):
-        measure(np.concatenate([np.eye(3), -np.eye(3)]))
-    with pytest.raises(ValueError, match="open hemisphere"):
-        measure(lonlat=[[0, 0], [120, 0], [240, 0]])
-
-
 @BOTH
 def test_neighbours_of_points_are_the_ends_of_edges(space, rng):
     points = space.random(rng, 80)

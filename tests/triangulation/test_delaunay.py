@@ -16,7 +16,7 @@ import scipy.spatial
 from hypothesis import given
 from hypothesis import strategies as st
 
-from stereodel import HullInsertion, PlanarDelaunay, SphericalDelaunay, check_delaunay
+from stereodel import PlanarDelaunay, SphericalDelaunay, check_delaunay
 from stereodel.predicates import in_bubble, incircle
 from stereodel.triangulation.topology import neighbors_of
 from tests import sets
@@ -316,26 +316,6 @@ def test_accepted_input(convert):
     before = copy.deepcopy(given_points)
     assert PlanarDelaunay(given_points).simplices.tolist() == PlanarDelaunay(GRID).simplices.tolist()
     assert np.array_equal(np.asarray(before, dtype=float), np.asarray(given_points, dtype=float))
-
-
-@pytest.mark.parametrize(
-    ("make", "bad", "error", "message"),
-    [
-        (PlanarDelaunay, [[0, 0], [1, np.nan]], ValueError, r"points\[1, 1\] is nan"),
-        (PlanarDelaunay, [[1j, 0]], TypeError, "points must hold real numbers, not complex128"),
-        (PlanarDelaunay, [1, 2], ValueError, r"points must have shape \(n, 2\), got \(2,\)"),
-        (PlanarDelaunay, np.ma.masked_equal([[1.0, 2.0]], 2), ValueError, r"points\[0, 1\] is masked"),
-        (SphericalDelaunay, [[0, 0, 0]], ValueError, r"points\[0\] is the zero vector"),
-        (SphericalDelaunay.from_lonlat, [[0, 91]], ValueError, r"lonlat\[0, 1\] is latitude 91"),
-        *(
-            (HullInsertion, bad, (TypeError, ValueError), "points")
-            for bad in ([[0, 0, 0]], [[1, np.nan]], "points", [[1, 2], [3]])
-        ),
-    ],
-)
-def test_refused_input(make, bad, error, message):
-    with pytest.raises(error, match=message):
-        make(bad)
 
 
 def in_lexicographic_order(triangulation):

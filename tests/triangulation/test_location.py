@@ -314,26 +314,10 @@ def test_shapes(space):
         assert triangulation.nearest(np.ones((*shape, space.width)), k=np.int64(2)).shape == (*shape, 2)
 
 
-@pytest.mark.parametrize(
-    ("k", "error", "message"),
-    [
-        (0, ValueError, "k is 0, but must be at least 1"),
-        (4, ValueError, "k is 4, but must be at most 3"),
-        (1.5, TypeError, "k must be one integer"),
-        (True, TypeError, "k must be one integer"),
-    ],
-)
-def test_wrong_k(k, error, message):
-    with pytest.raises(error, match=message):
-        PlanarDelaunay([[0, 0], [1, 0], [0, 1]]).nearest([0, 0], k=k)
-
-
 @BOTH
 def test_without_points(space):
     none, query = space.delaunay([]), np.ones((1, space.width))
     assert none.find_simplex(query).tolist() == [-1]
-    with pytest.raises(ValueError, match="at least one point"):
-        none.nearest(query)
 
 
 def test_the_kernel_wants_triangles_or_an_order():
