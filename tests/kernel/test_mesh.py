@@ -246,13 +246,6 @@ def test_changes_anew_and_of_what_is_there(space):
         prove_equal(mesh, np.delete(both, gone, axis=0), by_readable=False)
 
 
-def test_duplicates_out_of_range_are_refused():
-    points = np.random.default_rng(18).random((20, 2))
-    simplices, neighbors = _kernel.plane.triangulate(points)[:2]
-    with pytest.raises(ValueError, match="dropped, kept"):
-        _kernel.plane.Mesh(points, simplices, neighbors, np.array([[3, 20]], dtype=np.int32))
-
-
 # Several threads ------------------------------------------------------------------------------------------------------
 
 

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial import cKDTree
 
-from stereodel import PlanarDelaunay, SphericalDelaunay, _kernel
+from stereodel import PlanarDelaunay, SphericalDelaunay
 from stereodel import _kernel_probe as probe
 from stereodel.triangulation.topology import neighbors_of
 from tests import sets
@@ -318,22 +318,3 @@ def test_shapes(space):
 def test_without_points(space):
     none, query = space.delaunay([]), np.ones((1, space.width))
     assert none.find_simplex(query).tolist() == [-1]
-
-
-def test_the_kernel_wants_triangles_or_an_order():
-    (points, simplices, neighbors), _ = kernel_arrays(np.random.default_rng(11).random((9, 2)))
-    with pytest.raises(ValueError, match="same length"):
-        _kernel.plane.find_simplex(points, simplices, neighbors[1:], points)
-    with pytest.raises(ValueError, match="no triangles"):
-        _kernel.plane.nearest(points, simplices[:0], neighbors[:0], points)
-    points, none = np.array([[0.0, 0.0], [1.0, 0.0]]), np.zeros((0, 2), dtype=np.int32)
-    for order, k, message in (
-        ([], 1, "must hold a point"),
-        ([0, 2], 1, "out of range"),
-        ([-1, 1], 1, "out of range"),
-        ([1], 2, "every point"),
-        ([0, 1], 0, "k must be"),
-        ([0, 1], 3, "k must be"),
-    ):
-        with pytest.raises(ValueError, match=message):
-            _kernel.plane.nearest_flat(points, np.array(order, dtype=np.int32), none, points, k)
