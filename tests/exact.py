@@ -65,6 +65,18 @@ def angle(a, b):
     return mpmath.atan2(mpmath.sqrt(dot(across, across)), dot(a, b))
 
 
+def turn(a, b, about):
+    """From one direction to another, counterclockwise about an axis, in [0, 2π)."""
+    a, b = unit(a), unit(b)
+    found = mpmath.atan2(dot(about, cross(a, b)), dot(a, b))
+    return found if found >= 0 else found + 2 * mpmath.pi
+
+
+def volume(a, b, c, d):
+    """The determinant of the differences from the first, in whatever numbers they are."""
+    return dot(minus(b, a), cross(minus(c, a), minus(d, a)))
+
+
 def direction(lon, lat):
     lon, lat = (mpmath.radians(mpmath.mpf(float(v))) for v in (lon, lat))
     return [mpmath.cos(lat) * mpmath.cos(lon), mpmath.cos(lat) * mpmath.sin(lon), mpmath.sin(lat)]

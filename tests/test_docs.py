@@ -74,15 +74,10 @@ def test_readme_example_prints_what_it_says(capsys):
     assert capsys.readouterr().out.split() == printed.split()
 
 
-@pytest.mark.parametrize("page", by_day(["earth", "interpolation", "spatial"], "spatial"))
-def test_the_examples_of_a_page_run(page):
-    text = (ROOT / "docs" / f"{page}.md").read_text(encoding="utf-8")
-    code = "\n".join(re.findall(r"```python\n(.*?)```", text, re.DOTALL))
-    assert code
-    exec(compile(code, f"docs/{page}.md", "exec"), {})
+PAGES = ["start", "graphs", "tour", "files", "partitioned", "earth", "interpolation", "spatial"]
 
 
-@pytest.mark.parametrize("page", by_day(["start", "graphs", "tour", "files", "partitioned"], "start", "graphs"))
+@pytest.mark.parametrize("page", by_day(PAGES, "start", "graphs", "spatial"))
 def test_a_page_runs_cell_by_cell(page, tmp_path, monkeypatch, capsys):
     """As a notebook does: one namespace, one folder, and after each cell what the page says that it prints."""
     monkeypatch.chdir(tmp_path)
@@ -92,7 +87,7 @@ def test_a_page_runs_cell_by_cell(page, tmp_path, monkeypatch, capsys):
     names = {"__name__": "__main__"}
     for code, printed in cells:
         exec(compile(code, f"docs/{page}.md", "exec"), names)
-        assert capsys.readouterr().out == printed
+        assert capsys.readouterr().out == printed or page == "interpolation"  # which does not show it
 
 
 def toctree(page):
@@ -164,7 +159,7 @@ def test_the_gallery_runs_every_script():
 
 # Commands that pages show run, and print what is said.
 
-PAGES = ["docs/command_line.md", "docs/start.md", "README.md"]
+SHOWN = ["docs/command_line.md", "docs/start.md", "README.md"]
 BY_DAY = ["stereodel voronoi cities.csv -o -"]
 """The others draw pictures, or ask of one command more what tests/cli asks of it."""
 
@@ -172,7 +167,7 @@ SHELL = f"stereodel() {{ '{sys.executable}' -c 'from stereodel.cli import app; a
 
 
 def pages():
-    for page in PAGES:
+    for page in SHOWN:
         for command, printed in sessions((ROOT / page).read_text(encoding="utf-8")):
             day = command in BY_DAY and page == "README.md"
             yield pytest.param(page, command, printed, id=command, marks=[] if day else pytest.mark.thorough)

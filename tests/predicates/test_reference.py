@@ -11,7 +11,7 @@ from mpmath import mp, mpf, workdps
 
 from stereodel import in_bubble
 from tests import sets
-from tests.exact import cross, dot, minus, unit
+from tests.exact import cross, dot, unit, volume
 from tests.reference import (
     bubble_ray,
     bubble_tie,
@@ -57,9 +57,7 @@ def sign_of(value, zero="1e-250"):
 
 
 def bubble(a, b, c, p):
-    a, *others = map(unit, (a, b, c, p))
-    u, v, w = (minus(other, a) for other in others)
-    return dot(u, cross(v, w))
+    return volume(*map(unit, (a, b, c, p)))
 
 
 @given(SMALL, SMALL, SMALL, SMALL)
@@ -115,8 +113,7 @@ def displaced_bubble(*vectors):
         ]
         for k, u in enumerate(units)
     ]
-    u, v, w = (minus(other, moved[0]) for other in moved[1:])
-    value = dot(u, cross(v, w))
+    value = volume(*moved)
     assert abs(value) > mpf(10) ** -560
     return int(mp.sign(value))
 
