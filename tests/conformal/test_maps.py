@@ -5,17 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from stereodel.conformal import MoebiusMap, bubble_to_bubble, fisheye
-from stereodel.sphere import (
-    Rotation,
-    SphereArc,
-    SphereCircle,
-    angular_distance,
-    graticule,
-    lonlat_to_xyz,
-    meridian,
-    parallel,
-)
+from stereodel import MoebiusMap, Rotation, SphereArc, SphereCircle, angular_distance, bubble_to_bubble, fisheye
+from stereodel.sphere import graticule, lonlat_to_xyz, meridian, parallel
 from tests.examples import examples
 from tests.strategies import BETWEEN_POLES, decades
 

@@ -6,19 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from stereodel.sphere import (
-    SphereArc,
-    SphereCircle,
-    angular_distance,
-    graticule,
-    graticule_patch,
-    great_circle_points,
-    lonlat_to_xyz,
-    meridian,
-    parallel,
-    solid_angle,
-    xyz_to_lonlat,
-)
+from stereodel import SphereArc, SphereCircle, angular_distance, great_circle_points, lonlat_to_xyz, xyz_to_lonlat
+from stereodel.sphere import graticule, graticule_patch, meridian, parallel, solid_angle
 from tests.exact import cross, distance, dot, mp, normalized
 from tests.strategies import BETWEEN_POLES, LONLAT, decades
 

@@ -303,15 +303,12 @@ def test_after_changes():
 
 
 @BOTH
-def test_shapes(space):
+def test_numbers_of_one_query_are_integers_of_python(space):
     triangulation = space.delaunay(space.random(np.random.default_rng(0), 9))
     for method in (triangulation.find_simplex, triangulation.nearest):
-        assert method(np.ones((4, 5, space.width))).shape == (4, 5)
         assert method(np.ones((4, space.width))).dtype == np.int32
         assert type(method(np.ones(space.width))) is int
-        assert method(np.ones((0, space.width))).shape == (0,)
-    for shape in ((), (0,), (4, 5)):
-        assert triangulation.nearest(np.ones((*shape, space.width)), k=np.int64(2)).shape == (*shape, 2)
+    assert triangulation.nearest(np.ones(space.width), k=np.int64(2)).shape == (2,)
 
 
 @BOTH
