@@ -18,23 +18,14 @@ from tests.examples import examples
 from tools.data_sets import dump
 
 FOLDER = Path(stored.__file__).parent
-SETS = {
-    "airports": data.airports,
-    "cities": data.cities,
-    "stars": data.stars,
-    "coastlines_50m": data.coastlines,
-    "coastlines_110m": lambda: data.coastlines("110m"),
-    "land_10m": lambda: data.land("10m"),
-    "borders_10m": lambda: data.borders("10m"),
-    "rivers_10m": lambda: data.rivers("10m"),
-    "rivers_50m": data.rivers,
-    "rivers_110m": lambda: data.rivers("110m"),
-    "lakes_10m": lambda: data.lakes("10m"),
-    "lakes_50m": data.lakes,
-    "lakes_110m": lambda: data.lakes("110m"),
-}
 OTHERS = {"countries_50m", "countries_110m", "blue_marble"}
 """Stored as lines that several sets share (tests/data/test_natural_earth.py), or as a picture (below)."""
+SETS = sorted(data.sources().keys() - OTHERS)
+
+
+def loaded(name):
+    kind, _, resolution = name.partition("_")
+    return getattr(data, kind)(*filter(None, [resolution]))
 
 
 @pytest.mark.parametrize("name", data.sources())
@@ -47,7 +38,6 @@ def test_files_are_those_of_the_table(name):
 
 
 def test_every_file_is_in_the_table_and_all_are_small():
-    assert set(data.sources()) == SETS.keys() | OTHERS
     files = {path.name for path in FOLDER.iterdir() if path.suffix not in (".py", ".md", ".json", "")}
     assert files == {entry["file"] for entry in data.sources().values()}
     assert sum((FOLDER / name).stat().st_size for name in files) < 6e6
@@ -62,13 +52,13 @@ def test_another_file_is_refused(monkeypatch):
 
 @pytest.mark.parametrize("name", SETS)
 def test_columns_are_of_one_length_and_nobody_can_change_them(name):
-    table = SETS[name]()
+    table = loaded(name)
     assert len(table.lonlat) == data.sources()[name]["rows"]
     for field in dataclasses.fields(table):
         column = getattr(table, field.name)
         assert not column.flags.writeable
         assert len(column) == len(table.lonlat) or hasattr(table, "__geo_interface__")
-    assert SETS[name]().lonlat is table.lonlat
+    assert loaded(name).lonlat is table.lonlat
     assert np.abs(table.lonlat[:, 1]).max() <= 90
     with pytest.raises(dataclasses.FrozenInstanceError):
         table.lonlat = None
