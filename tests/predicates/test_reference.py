@@ -12,16 +12,7 @@ from mpmath import mp, mpf, workdps
 from stereodel import in_bubble
 from tests import sets
 from tests.exact import cross, dot, unit, volume
-from tests.reference import (
-    bubble_ray,
-    bubble_tie,
-    compare_directions,
-    incircle_tie,
-    ray,
-    sign,
-    sign_of_roots,
-    turn_ray,
-)
+from tests.reference import bubble_ray, bubble_tie, compare_directions, incircle_tie, ray, sign, sign_of_roots, turn_ray
 from tests.spaces import SPHERE
 
 COEFFICIENT = st.integers(-(10**20), 10**20)
