@@ -32,16 +32,11 @@ def norm(a):
     return mpmath.sqrt(dot(a, a))
 
 
-def normalized(v):
-    length = norm(v)
-    return [x / length for x in v]
-
-
 def unit(a):
-    """Of length one; doubles, fractions and integers are taken as they stand."""
-    return normalized(
-        [mpmath.mpf(x.numerator) / x.denominator if hasattr(x, "numerator") else mpmath.mpf(x) for x in a]
-    )
+    """Of length one; doubles, fractions, integers and many digits are taken as they stand."""
+    a = [mpmath.mpf(x.numerator) / x.denominator if hasattr(x, "numerator") else mpmath.mpf(x) for x in a]
+    length = norm(a)
+    return [x / length for x in a]
 
 
 def normal_of(a, b, c):

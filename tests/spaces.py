@@ -63,9 +63,8 @@ class Space:
 
     def on_grid(self, xy):
         """Points of the plane, or directions that have them as gnomonic images."""
-        return (
-            np.asarray(xy, dtype=float) if self.width == 2 else np.insert(np.asarray(xy, dtype=float), 2, 4.0, axis=1)
-        )
+        points = np.asarray(xy, dtype=float)
+        return points if self.width == 2 else np.insert(points, 2, 4.0, axis=1)
 
     def triangulated(self, points, **options):
         """By the public class, and proved."""

@@ -17,8 +17,8 @@ from stereodel.interpolation import (
     SmoothInterpolator,
     estimate_gradients,
 )
-from tests import sets
-from tests.exact import cross, dot, mp, normalized
+from tests import exact, sets
+from tests.exact import cross, dot, mp
 from tests.interpolation.known import known, slopes
 from tests.sets import unit
 from tests.strategies import GRID_DIRECTIONS
@@ -265,7 +265,7 @@ def test_clusters_are_as_accurate_as_the_whole(method, spread, rng):
 
 def exact_weights(corners, query):
     """Barycentric coordinates of the ray or point in the plane triangle of unit vectors or points."""
-    *corners, query = (normalized(mp(p)) if len(p) == 3 else [*mp(p), mpmath.mpf(1)] for p in (*corners, query))
+    *corners, query = (exact.unit(p) if len(p) == 3 else [*mp(p), mpmath.mpf(1)] for p in (*corners, query))
     areas = [dot(query, cross(corners[k - 2], corners[k - 1])) for k in range(3)]
     return [float(area / sum(areas)) for area in areas]
 

@@ -11,12 +11,9 @@ from stereodel.relaxation import lloyd
 from stereodel.sphere.latitudes import KINDS
 from stereodel.triangulation import HullInsertion, PlanarDelaunay, PlanarVoronoi
 from tests import sets
+from tests.graphs.test_proximity import FROM_THE_INSIDE
 from tests.interpolation.known import KINDS as INTERPOLATORS
 
-GRAPHS = [
-    *(graphs.gabriel_graph, graphs.hull, graphs.minimum_spanning_tree),
-    *(graphs.relative_neighborhood_graph, graphs.urquhart_graph),
-]
 MADE = [SphericalDelaunay.from_lonlat, SphericalVoronoi.from_lonlat, HullInsertion.from_lonlat]
 
 
@@ -107,7 +104,7 @@ def test_interpolators(kind, latitude):
 
 
 @pytest.mark.parametrize("latitude", KINDS)
-@pytest.mark.parametrize("graph", GRAPHS)
+@pytest.mark.parametrize("graph", [graphs.hull, *FROM_THE_INSIDE])
 def test_graphs(graph, latitude):
     lonlat = places(80) / [9, 3]  # in a hemisphere, so that there is a hull
     expected = graph(lonlat_to_xyz(lonlat, latitude=latitude))
