@@ -64,20 +64,6 @@ def test_columns_are_of_one_length_and_nobody_can_change_them(name):
         table.lonlat = None
 
 
-@pytest.mark.parametrize(
-    ("icao", "iata", "name", "country", "place"),
-    [
-        ("EGLL", "LHR", "London Heathrow Airport", "GB", (-0.4619, 51.4706)),
-        ("NZSP", "", "South Pole Station Airport", "AQ", (0.0, -90.0)),
-    ],
-)
-def test_an_airport(icao, iata, name, country, place):
-    table = data.airports()
-    (row,) = np.flatnonzero(table.icao == icao)
-    assert (table.iata[row], table.name[row], table.country[row]) == (iata, name, country)
-    np.testing.assert_allclose(table.lonlat[row], place, atol=1e-3)
-
-
 def test_population():
     table = data.cities()
     assert table.population.min() == 0
@@ -86,16 +72,27 @@ def test_population():
     assert 5e6 < table.population[tokyo] < 2e7
 
 
-@pytest.mark.parametrize(
-    ("hip", "place", "magnitude", "color_index"),
-    [(11767, (37.946, 89.264), 2.1, 0.6), (27989, (88.793, 7.407), 0.4, 1.5), (24436, (78.634, -8.202), 0.2, 0.0)],
-)
-def test_polaris_betelgeuse_rigel(hip, place, magnitude, color_index):
-    table = data.stars()
-    (row,) = np.flatnonzero(table.hip == hip)
+KNOWN = [
+    (
+        "airports",
+        {"icao": "EGLL", "iata": "LHR", "name": "London Heathrow Airport", "country": "GB"},
+        (-0.4619, 51.4706),
+    ),
+    ("airports", {"icao": "NZSP", "iata": "", "name": "South Pole Station Airport", "country": "AQ"}, (0.0, -90.0)),
+    ("stars", {"hip": 11767, "magnitude": 2.1, "color_index": 0.6}, (37.946, 89.264)),  # Polaris
+    ("stars", {"hip": 27989, "magnitude": 0.4, "color_index": 1.5}, (88.793, 7.407)),  # Betelgeuse
+    ("stars", {"hip": 24436, "magnitude": 0.2, "color_index": 0.0}, (78.634, -8.202)),  # Rigel
+]
+
+
+@pytest.mark.parametrize(("name", "columns", "place"), KNOWN)
+def test_a_known_row(name, columns, place):
+    table, key = loaded(name), next(iter(columns))
+    (row,) = np.flatnonzero(getattr(table, key) == columns[key])
     np.testing.assert_allclose(table.lonlat[row], place, atol=1e-3)
-    assert table.magnitude[row] == pytest.approx(magnitude, abs=0.3)
-    assert table.color_index[row] == pytest.approx(color_index, abs=0.1)
+    for column, value in columns.items():
+        tolerance = {"magnitude": 0.3, "color_index": 0.1}.get(column)
+        assert getattr(table, column)[row] == (value if tolerance is None else pytest.approx(value, abs=tolerance))
 
 
 def test_airports_can_be_triangulated():
