@@ -25,7 +25,6 @@ BALLS = [(1, 0, 0), (0, 1, 0), (0, 0, 1), (-1, 0, 0)]
 NOT_COPIED = {
     *("Answers", "Run"),  # of a folder with results: tests/partitioned
     *("FisheyeAxes", "GlobeWidget", "StereodelAccessor"),  # of matplotlib, Jupyter and xarray, which copy them
-    *("Delaunay", "Voronoi"),  # of stereodel.spatial: tests/spatial, as stereodel.spatial.SphericalVoronoi
 }
 
 
@@ -69,7 +68,8 @@ def examples():
     yield from (getattr(interpolation, name)(plane, range(5)) for name in others)
     yield io.Grid(grid.lon, grid.lat, {"v": np.ones((3, 4))}, {"v": "m"})
     yield io.PointTable(LONLAT[:2], {"name": ["a", "b"], "v": np.array([1, None], dtype=object)}, rows=[4, 7])
-    yield from (relaxed, relaxed.quality(), relaxation.Progress(1, 2.0, 3.0), spatial.SphericalVoronoi(BALLS))
+    yield from (relaxed, relaxed.quality(), relaxation.Progress(1, 2.0, 3.0))
+    yield from (spatial.Delaunay(PLANE), spatial.Voronoi(PLANE), spatial.SphericalVoronoi(BALLS))
     yield from (render.Figure("empty", dict, len, renderer="agg"), partitioned.Execution(jobs=2))
 
 

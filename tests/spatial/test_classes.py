@@ -1,8 +1,6 @@
 """What the three classes of `stereodel.spatial` share with SciPy's: names, types, copies, errors."""
 
-import copy
 import inspect
-import pickle
 
 import numpy as np
 import pytest
@@ -66,20 +64,6 @@ def test_same_signatures(pair):
     names = {"__init__"} | {n for n in dir(theirs) if not n.startswith("_") and callable(getattr(theirs, n))}
     for name in names:
         assert parameters(getattr(ours, name)) == parameters(getattr(theirs, name)), name
-
-
-@pytest.mark.parametrize("again", [copy.copy, copy.deepcopy, lambda one: pickle.loads(pickle.dumps(one))])
-@pytest.mark.parametrize("name", POINTS)
-def test_copies(name, again):
-    one = getattr(stereodel.spatial, name)(POINTS[name])
-    other = again(one)
-    for attribute in ("points", "simplices", "neighbors", "vertices"):
-        if hasattr(one, attribute):
-            np.testing.assert_array_equal(getattr(other, attribute), getattr(one, attribute))
-    if name == "Delaunay":
-        np.testing.assert_array_equal(other.find_simplex(FLAT), one.find_simplex(FLAT))
-    else:
-        assert other.regions == one.regions
 
 
 @pytest.mark.parametrize("name", POINTS)

@@ -286,6 +286,24 @@ def test_contract_of_the_arrays(space):
     assert np.array_equal(triangulation.neighbors, lazy.neighbors)
 
 
+@BOTH
+def test_neighbours_of_points_are_the_ends_of_edges(space):
+    points = space.random(np.random.default_rng(1), 80)
+    points[7] = points[3]
+    triangulation = space.delaunay(points)
+    indptr, indices = triangulation.vertex_neighbor_vertices
+    assert indptr.dtype == indices.dtype == np.int32
+    found = {(k, other) for k in range(80) for other in indices[indptr[k] : indptr[k + 1]].tolist()}
+    edges = {tuple(edge) for edge in triangulation.edges.tolist()}
+    assert found == edges | {(b, a) for a, b in edges}
+    assert len(indices) == 2 * len(edges)
+    assert indptr[8] == indptr[7]
+    assert all((np.diff(indices[indptr[k] : indptr[k + 1]]) > 0).all() for k in range(80))
+    assert not indices.flags.writeable
+    triangulation.remove([0])
+    assert len(triangulation.vertex_neighbor_vertices[0]) == 80
+
+
 LARGER = {
     "plane": sets.plane("random"),
     "plane grid": sets.plane("lattice"),
