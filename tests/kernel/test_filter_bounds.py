@@ -116,7 +116,7 @@ def truth(name):
 
 @pytest.mark.parametrize("name", FILTERS)
 def test_the_filter_leaves_it_open(name):
-    """The value in doubles has the wrong sign, and is larger than a fifth of the bound; than the bound it is not."""
+    """As it must: the value in doubles has the wrong sign; it is larger than a fifth of the bound, which is enough."""
     form, roundings = FILTERS[name]
     value, permanent = form(*points(name))
     assert np.sign(value) == -truth(name) != 0
