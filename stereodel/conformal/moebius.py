@@ -26,7 +26,6 @@ from stereodel.constants import LARGEST_EXPONENT, LARGEST_MAGNIFICATION, STORED_
 from stereodel.sphere import Rotation, SphereArc, SphereCircle
 from stereodel.sphere.arcs import swept_angle
 from stereodel.sphere.circles import light_cone, on_circle, one_plus_minus
-from stereodel.sphere.coordinates import as_sphere_points
 
 _FLIP = Rotation(np.array([0.0, 1.0, 0.0, 0.0]))
 """Half a turn about x: it turns the fisheye of magnification 1/S along z into that of S, exactly."""
@@ -327,18 +326,6 @@ class MoebiusMap:
         At the second it does the inverse. k is 1 for the identity and for parabolic maps.
         """
         return multiplier_of(self.biquaternion)
-
-    def tissot(self, points: npt.ArrayLike, radius: float) -> list[SphereCircle]:
-        """Exact images of circles of equal size, which are circles.
-
-        Parameters
-        ----------
-        points : array_like, shape (n, 2) or (n, 3)
-            Centres of the circles: rows (lon, lat) in degrees, or directions.
-        radius : float
-            Angular radius in degrees, in (0, 180).
-        """
-        return [self.image_of(SphereCircle.around(point, radius)) for point in as_sphere_points(points)]
 
     def is_close(self, other: MoebiusMap, *, tolerance: float = 4 * STORED_ERROR) -> bool:
         """Whether two maps agree up to `tolerance`: in rad for points and images, relative for S."""

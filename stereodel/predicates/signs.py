@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 import numpy.typing as npt
@@ -52,8 +53,7 @@ def orient2d(a: npt.ArrayLike, b: npt.ArrayLike, c: npt.ArrayLike) -> SignArray 
     >>> orient2d([0, 0], [1, 0], [[0, 1], [2, 0], [0, -1e-300]])
     array([ 1,  0, -1], dtype=int8)
     """
-    points = (as_vectors(p, 2, name) for p, name in ((a, "a"), (b, "b"), (c, "c")))
-    return _over_rows(_kernel.plane.turn, *points)
+    return _over_rows(_kernel.plane.turn, partial(as_vectors, dimension=2), a=a, b=b, c=c)
 
 
 @shared(**_SHARED)
@@ -80,8 +80,7 @@ def incircle(a: npt.ArrayLike, b: npt.ArrayLike, c: npt.ArrayLike, d: npt.ArrayL
     >>> incircle([0, 0], [1, 0], [0, 1], [[0.5, 0.5], [1, 1], [2, 2]])
     array([ 1,  0, -1], dtype=int8)
     """
-    points = (as_vectors(p, 2, name) for p, name in ((a, "a"), (b, "b"), (c, "c"), (d, "d")))
-    return _over_rows(_kernel.plane.in_circle, *points)
+    return _over_rows(_kernel.plane.in_circle, partial(as_vectors, dimension=2), a=a, b=b, c=c, d=d)
 
 
 @shared(**_SHARED)
@@ -107,8 +106,7 @@ def orient3d(a: npt.ArrayLike, b: npt.ArrayLike, c: npt.ArrayLike, d: npt.ArrayL
     >>> orient3d([0, 0, 0], [1, 0, 0], [0, 1, 0], [[0, 0, 1], [5, 5, 0], [0, 0, -1e-200]])
     array([ 1,  0, -1], dtype=int8)
     """
-    points = (as_vectors(p, 3, name) for p, name in ((a, "a"), (b, "b"), (c, "c"), (d, "d")))
-    return _over_rows(_kernel.orient3d, *points)
+    return _over_rows(_kernel.orient3d, partial(as_vectors, dimension=3), a=a, b=b, c=c, d=d)
 
 
 @shared(**_SHARED)
@@ -136,12 +134,14 @@ def in_bubble(a: npt.ArrayLike, b: npt.ArrayLike, c: npt.ArrayLike, p: npt.Array
     >>> in_bubble([1, 0, 0], [0, 2, 0], [0, 0, 3], [[1, 1, 1], [-1, 0, 0], [0, 0, 7]])
     array([ 1, -1,  0], dtype=int8)
     """
-    points = (as_directions(v, name) for v, name in ((a, "a"), (b, "b"), (c, "c"), (p, "p")))
-    return _over_rows(_kernel.sphere.in_circle, *points)
+    return _over_rows(_kernel.sphere.in_circle, as_directions, a=a, b=b, c=c, p=p)
 
 
-def _over_rows(signs: Callable[..., SignArray], *points: FloatArray) -> SignArray | int:
+def _over_rows(
+    signs: Callable[..., SignArray], check: Callable[..., FloatArray], **given: npt.ArrayLike
+) -> SignArray | int:
     """Signs for points of any leading shape, broadcast together; an int for single points."""
+    points = [check(point, name=name) for name, point in given.items()]
     leading = np.broadcast_shapes(*(p.shape[:-1] for p in points))
     workers = thread_count(None, math.prod(leading))
     result = signs(*(_rows(p, leading) for p in points), workers=workers)

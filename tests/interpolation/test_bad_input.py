@@ -18,7 +18,7 @@ WEIGHTS = LINEAR.weights([0, 0])
         (5.0, r"values must have shape \(3, \.\.\.\)"),
         ([1.0, np.inf, 2.0], r"values\[1\] is inf; every value must be finite, or NaN where it is not known"),
         ([1.0, "a", 2.0], "values must hold real numbers"),
-        (np.zeros((24, 3)), r"shape \(3, \.\.\.\).*got \(24, 3\).*np\.moveaxis\(values, 1, 0\)"),
+        (np.zeros((24, 3)), r"shape \(3, \.\.\.\).*got \(24, 3\)"),
     ],
 )
 @pytest.mark.parametrize("kind", KINDS)
@@ -40,10 +40,10 @@ def test_values_that_are_none(kind, values, message):
             lambda: SmoothInterpolator(THREE, VALUES, gradients=np.zeros((3, 3))),
             r"gradients must have shape \(3, 2\), a vector for each value, got \(3, 3\)",
         ),
-        (lambda: WEIGHTS @ np.zeros((24, 3)), r"got \(24, 3\).*axis=1 to Weights\.apply"),
+        (lambda: WEIGHTS @ np.zeros((24, 3)), r"got \(24, 3\)"),
         (
             lambda: WEIGHTS.apply(np.zeros((3, 24)), axis=-1),
-            r"shape \(\.\.\., 3\), one entry for each point, got \(3, 24\).*np\.moveaxis\(values, 0, -1\)",
+            r"shape \(\.\.\., 3\), one entry for each point, got \(3, 24\)",
         ),
         (lambda: WEIGHTS.apply(np.zeros(3), axis=7), "3 along axis 7"),
         (

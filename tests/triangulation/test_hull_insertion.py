@@ -9,7 +9,7 @@ from scipy.spatial import ConvexHull
 from stereodel import RectangleLift
 from stereodel.predicates import in_bubble
 from stereodel.triangulation import HullInsertion, SphericalDelaunay, check_delaunay
-from stereodel.triangulation.hull_insertion import insertion_order, spanning_points
+from stereodel.triangulation.hull_insertion import spanning_points
 from stereodel.triangulation.sites import GHOST, PlaneSites, RaySites
 from tests import sets
 from tests.spaces import canonical, space_of
@@ -152,9 +152,3 @@ def test_extending_until_three_points_span():
 def test_the_first_points_that_span(points, expected):
     points = np.array(points, dtype=float)
     assert spanning_points(asked(points), range(len(points))) == expected
-
-
-def test_the_order_of_insertion_goes_short_ways():
-    points = np.random.default_rng(0).random((4096, 2))
-    steps = np.linalg.norm(np.diff(points[insertion_order(points)], axis=0), axis=1)
-    assert np.median(steps) < 0.05 < np.median(np.linalg.norm(np.diff(points, axis=0), axis=1))
