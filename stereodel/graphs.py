@@ -16,8 +16,8 @@ from stereodel import _kernel
 from stereodel._arrays import AnyIndices, BoolArray, FloatArray, IntArray, locked
 from stereodel._docs import shared
 from stereodel._spaces import PLANE
+from stereodel.sphere.coordinates import LONLAT
 from stereodel.sphere.latitudes import Latitude
-from stereodel.sphere.lonlat import LONLAT
 from stereodel.sphere.vectors import units
 from stereodel.triangulation.delaunay import (
     Triangulation,

@@ -42,12 +42,6 @@ class Pieces:
     seen: BoolArray
     along: BoolArray
 
-    @classmethod
-    def uncut(cls, arcs: Arcs, *, seen: bool) -> Pieces:
-        """Arcs without cuts, all of them visible or none."""
-        none = np.zeros(len(arcs), dtype=bool)
-        return cls(arcs, none, none, np.full(len(arcs), seen), none)
-
     @cached_property
     def of_edge(self) -> Indices:
         """Offsets of the pieces of each edge, up to the last edge that has pieces."""

@@ -24,7 +24,7 @@ _UNKNOWNS = 5
 def estimate_gradients(points: npt.ArrayLike | Triangulation, values: npt.ArrayLike) -> FloatArray:
     """Gradients at the points of a function known only at these points.
 
-    {sites}
+    {points}
     {values}
 
     Returns

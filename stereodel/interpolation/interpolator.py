@@ -13,8 +13,8 @@ from stereodel._arrays import AnyIndices, FloatArray, as_choice, as_values, lock
 from stereodel._docs import by_name, shared
 from stereodel._double_double import ROWS, DoubleDouble, unit
 from stereodel._spaces import SPHERE, surface_of
+from stereodel.sphere.coordinates import BY_NAME, IN_ROWS, LONLAT, as_asked
 from stereodel.sphere.latitudes import Latitude
-from stereodel.sphere.lonlat import BY_NAME, IN_ROWS, LONLAT, as_asked
 from stereodel.triangulation.delaunay import Triangulation, as_triangulation
 
 FAMILY: Final = {
@@ -22,14 +22,8 @@ FAMILY: Final = {
         Parameters
         ----------
         points : (n, 2) or (n, 3) array_like, PlanarDelaunay or SphericalDelaunay
-            Points of the plane, directions, or a triangulation of them. For longitude and latitude use `from_lonlat`.
-        """,
-    "sites": """
-        Parameters
-        ----------
-        points : (n, 2) or (n, 3) array_like, PlanarDelaunay or SphericalDelaunay
             Points of the plane, directions, or a triangulation of them; for longitude and latitude, one made by
-            `SphericalDelaunay.from_lonlat`.
+            `SphericalDelaunay.from_lonlat`, or the method of this name.
         """,
     "values": """
         values : (n, ...) array_like

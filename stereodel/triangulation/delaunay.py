@@ -24,8 +24,8 @@ from stereodel._docs import by_name, shared
 from stereodel._spaces import SPHERE, PlaneOrSphere, surface_of
 from stereodel._threads import thread_count
 from stereodel.constants import REBUILD_INSERTING, REBUILD_REMOVING
+from stereodel.sphere.coordinates import BY_NAME, LONLAT, as_asked, as_sites, refuse_lonlat
 from stereodel.sphere.latitudes import Latitude
-from stereodel.sphere.lonlat import BY_NAME, LONLAT, as_asked, as_sites, refuse_lonlat
 from stereodel.triangulation.topology import adjacency_of, boundary_of, edges_of, neighbors_of
 
 if TYPE_CHECKING:

@@ -24,8 +24,8 @@ from stereodel._arrays import (
 )
 from stereodel._docs import shared
 from stereodel._spaces import surface_of
+from stereodel.sphere.coordinates import LONLAT, as_asked, as_sites, as_told
 from stereodel.sphere.latitudes import Latitude
-from stereodel.sphere.lonlat import LONLAT, as_asked, as_sites, as_told
 from stereodel.triangulation.sites import GHOST, SITES, InsertionSites
 from stereodel.triangulation.topology import Edge, Facet, Facets, as_rows
 

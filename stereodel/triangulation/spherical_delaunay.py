@@ -9,8 +9,8 @@ import numpy.typing as npt
 from stereodel._arrays import BoolArray, FloatArray
 from stereodel._docs import by_name, shared
 from stereodel._spaces import SPHERE
+from stereodel.sphere.coordinates import IN_ROWS, LONLAT, as_sites, as_told
 from stereodel.sphere.latitudes import Latitude
-from stereodel.sphere.lonlat import IN_ROWS, LONLAT, as_sites, as_told
 from stereodel.triangulation.delaunay import FAMILY, Triangulation
 
 
