@@ -49,14 +49,6 @@ def boost_points(points: DoubleDouble, magnification: DoubleDouble) -> DoubleDou
     return stack([points[..., 0] * 2.0 / total, points[..., 1] * 2.0 / total, (lower - upper) / total])
 
 
-def boost_circle(circle: Circle, magnification: DoubleDouble) -> Circle:
-    """Image of the circle n·x = cos α, n a unit vector, with its interior; sin α is invariant before normalisation."""
-    normal, cosine, sine = circle
-    plus, minus = light_cone(normal, cosine, sine)
-    plus, minus = plus / magnification, minus * magnification
-    return stack([normal[0], normal[1], (plus + minus) * 0.5]), (plus - minus) * 0.5, sine
-
-
 @dataclass(frozen=True)
 class MoebiusMap:
     """A conformal map of the sphere: rotation `right`, then the fisheye along +z, then rotation `left`.
@@ -243,8 +235,11 @@ class MoebiusMap:
 
     def _circle_image(self, circle: SphereCircle) -> Circle:
         normal, cosine, sine = circle.exact_parts()
-        normal, cosine, sine = boost_circle((self.right.apply(normal), cosine, sine), self._size)
-        return self.left.apply(normal), cosine, sine
+        normal = self.right.apply(normal)
+        plus, minus = light_cone(normal, cosine, sine)
+        plus, minus = plus / self._size, minus * self._size
+        normal = stack([normal[0], normal[1], (plus + minus) * 0.5])
+        return self.left.apply(normal), (plus - minus) * 0.5, sine  # sin α is invariant before normalisation
 
     def __matmul__(self, other: MoebiusMap) -> MoebiusMap:
         """The map `other`, then this one: the exact composition with its parameters rounded once.

@@ -12,7 +12,7 @@ from stereodel._docs import shared
 from stereodel.interpolation.interpolator import FAMILY, PrecisePoints, one_value_a_place
 from stereodel.sphere.coordinates import as_told
 from stereodel.sphere.latitudes import Latitude
-from stereodel.triangulation.delaunay import Triangulation, as_triangulation, open_triangles
+from stereodel.triangulation.delaunay import Triangulation, as_triangulation, state_of
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,7 +109,7 @@ class _Network:
         self._latitude = triangulation.latitude
         self._values = values
         self._simplices, self._neighbors = triangulation.simplices, triangulation.neighbors
-        self._inside: BoolArray = open_triangles(triangulation) & ~np.isnan(values[self._simplices]).any(axis=1)
+        self._inside: BoolArray = state_of(triangulation).open & ~np.isnan(values[self._simplices]).any(axis=1)
 
     def contours(self, level: float) -> list[Contour]:
         """All pieces of one level."""

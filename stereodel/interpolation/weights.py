@@ -190,23 +190,14 @@ class WeightedInterpolator(Interpolator):
     ) -> Weights:
         """Weights of the points at queries, for use with other values such as time series.
 
-        Parameters
-        ----------
-        queries : array_like of shape (..., 2) or (..., 3)
-            As for a call.
         {asked}
-        workers : int, optional
-            As for a call.
 
         Returns
         -------
         Weights
             ``weights @ values`` is the result of an interpolator of these values at the queries.
 
-        Raises
-        ------
-        ValueError, TypeError
-            As a call does.
+        {asked_raises}
 
         Examples
         --------

@@ -10,7 +10,7 @@ and gives results in degrees. All of them use these functions.
 from __future__ import annotations
 
 from functools import partial
-from typing import Final, NamedTuple
+from typing import Final
 
 import numpy as np
 import numpy.typing as npt
@@ -220,8 +220,21 @@ LONLAT: Final = {
             The kind of latitude of `lonlat`, as in `lonlat_to_xyz`; "spherical" by default.
         """,
     "asked": """
+        Parameters
+        ----------
+        queries : array_like of shape (..., 2) or (..., 3)
+            Points of the plane, or directions.
         lonlat : (..., 2) array_like, optional
             In place of `queries`: (longitude, latitude) in degrees, with the points' kind of latitude.
+        workers : int, optional
+            Threads; -1 for all processors. By default those of the triangulation, for many queries.
+        """,
+    "asked_raises": """
+        Raises
+        ------
+        ValueError, TypeError
+            For values that are not finite real numbers, zero vectors, or another last axis; for `lonlat` where the
+            points were not given by longitude and latitude.
         """,
 }
 """What docstrings say of it."""
@@ -234,22 +247,17 @@ BY_NAME: Final = "give longitude and latitude by name, lonlat=np.column_stack([l
 """The same of queries."""
 
 
-class Sites(NamedTuple):
-    """Points of the plane, (n, 2), or directions, (n, 3), and their kind of latitude if they were given by one."""
-
-    points: FloatArray
-    latitude: Latitude | None
-
-
-def as_sites(points: npt.ArrayLike | None, lonlat: npt.ArrayLike | None, latitude: Latitude | None) -> Sites:
-    """What is given as `points`, or in their place as `lonlat` of some `latitude`."""
+def as_sites(
+    points: npt.ArrayLike | None, lonlat: npt.ArrayLike | None, latitude: Latitude | None
+) -> tuple[FloatArray, Latitude | None]:
+    """Points of the plane, (n, 2), or directions, (n, 3), and their kind of latitude if given by `lonlat`."""
     if points is not None:
         refuse_lonlat(lonlat, latitude)
-        return Sites(as_plane_or_sphere(points), None)
+        return as_plane_or_sphere(points), None
     if lonlat is None:
         raise TypeError("points are missing; give points, or longitude and latitude by lonlat=")
     kind: Latitude = "spherical" if latitude is None else latitude
-    return Sites(lonlat_to_xyz(as_points(lonlat, 2, "lonlat", hint=IN_ROWS), latitude=kind), kind)
+    return lonlat_to_xyz(as_points(lonlat, 2, "lonlat", hint=IN_ROWS), latitude=kind), kind
 
 
 def refuse_lonlat(lonlat: npt.ArrayLike | None, latitude: Latitude | None) -> None:

@@ -92,12 +92,12 @@ class _State:
 
     @cached_property
     def closing(self) -> BoolArray | None:
-        """Triangles that no query can lie in; None in the plane, where there are none."""
+        """Whether no query can lie in a triangle, (m,), as the kernel takes it; None in the plane, where any can."""
         return locked(SPHERE.kernel.closing(self.points, self.simplices)) if self._surface is SPHERE else None
 
     @cached_property
     def open(self) -> BoolArray:
-        """Triangles that a query can lie in."""
+        """Whether a query can lie in a triangle, (m,)."""
         return locked(np.ones(len(self.simplices), dtype=np.bool_) if self.closing is None else ~self.closing)
 
     @cached_property
@@ -277,24 +277,14 @@ class Triangulation:
     ) -> IntArray | int:
         """Triangle that contains each query, exactly.
 
-        Parameters
-        ----------
-        queries : array_like of shape (..., 2) or (..., 3)
-            Points of the plane, or directions.
         {asked}
-        workers : int, optional
-            Threads; -1 for all processors. By default those of the constructor, for many queries.
 
         Returns
         -------
         int32 array of the leading shape, or int for a single query
             Index into `simplices`; the lowest one on a shared edge or vertex; -1 outside `convex_hull`.
 
-        Raises
-        ------
-        ValueError, TypeError
-            For values that are not finite real numbers, zero vectors, or another last axis; for `lonlat` where the
-            points were not given by longitude and latitude.
+        {asked_raises}
         """
         now = self._now()
         array, flat, threads = self._as_queries(as_asked(queries, lonlat, self._latitude), workers)
@@ -312,16 +302,10 @@ class Triangulation:
     ) -> IntArray | int:
         """Nearest point of each query, or the k nearest, exactly.
 
-        Parameters
-        ----------
-        queries : array_like of shape (..., 2) or (..., 3)
-            Points of the plane, or directions.
         {asked}
         k : int, optional
             Number of points, 1 to the number of all points; by default only the nearest, without an axis of its
             own.
-        workers : int, optional
-            Threads; -1 for all processors. By default those of the constructor, for many queries.
 
         Returns
         -------
@@ -330,12 +314,8 @@ class Triangulation:
             order of their distances (angles on the sphere), equally near ones in the order of their indices; duplicates
             count like all other points.
 
-        Raises
-        ------
-        ValueError, TypeError
-            For values that are not finite real numbers, zero vectors, another last axis, a triangulation without
-            points, or `k` below 1 or above the number of points; for `lonlat` where the points were not given by
-            longitude and latitude.
+        {asked_raises}
+            For a triangulation without points, and `k` below 1 or above the number of points.
 
         Notes
         -----
@@ -435,16 +415,6 @@ def threads_of(triangulation: Triangulation, workers: int | None, size: int | No
     return thread_count(chosen, len(triangulation.points) if size is None else size)
 
 
-def flat_order(triangulation: Triangulation) -> IntArray:
-    """Without triangles: the distinct points in the order along their line or great circle."""
-    return triangulation._now().flat_order
-
-
-def open_triangles(triangulation: Triangulation) -> BoolArray:
-    """Whether a query can lie in a triangle, (m,): all but the closing ones of the sphere."""
-    return triangulation._now().open
-
-
-def closing_triangles(triangulation: Triangulation) -> BoolArray | None:
-    """The others, as the kernel takes them; None in the plane."""
-    return triangulation._now().closing
+def state_of(triangulation: Triangulation) -> _State:
+    """The triangulation as it is now, with what the other modules of the library want of it."""
+    return triangulation._now()

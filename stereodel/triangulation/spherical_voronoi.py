@@ -45,8 +45,6 @@ class SphericalVoronoi(Diagram[SphericalDelaunay], surface=SPHERE):
     {numbers}
     latitude : str or None
         The kind of latitude by which the points were given (`from_lonlat`); None for directions.
-    lonlat, vertices_lonlat : (n, 2) and (v, 2) arrays
-        `points` and `vertices` in degrees, of that latitude.
 
     Raises
     ------
