@@ -149,6 +149,6 @@ def asked(points):
 
 def readable(points):
     """The paper's insertion, run to its end: the reference of the kernel."""
-    engine = HullInsertion(np.ascontiguousarray(points, dtype=float), spatial=True)
+    engine = HullInsertion(np.ascontiguousarray(points, dtype=float))
     engine.run()
     return engine

@@ -329,7 +329,7 @@ def add_points(globe: Globe, table: PointTable, shown: frozenset[str], labels: s
 def motion_of(aim: Aim, stops: Sequence[options.Place]) -> Motion:
     """A flight if there are stops, a turn if nothing is magnified, otherwise a growing lens."""
     from stereodel import MoebiusMap
-    from stereodel.conformal import path_between
+    from stereodel.conformal import GroupPath
     from stereodel.film import Flight, Morph, Spin, Stop
 
     if aim.projection == Projection.hemispheres or (aim.projection != Projection.globe and stops):
@@ -339,7 +339,7 @@ def motion_of(aim: Aim, stops: Sequence[options.Place]) -> Motion:
     if aim.magnification == 1:
         lon, lat = aim.middle or aim.place
         return Spin(aim.lens, seconds=SECONDS, lon=lon, lat=lat)
-    return Morph(path_between(MoebiusMap.identity(), aim.lens), aim.views[0], seconds=SECONDS, back=True)
+    return Morph(GroupPath(MoebiusMap.identity(), aim.lens), aim.views[0], seconds=SECONDS, back=True)
 
 
 def save_film(globe: Globe, motion: Motion, path: Path, *, size: int, fps: float) -> None:

@@ -69,9 +69,9 @@ def command(
 
 def _corner_rows(triangulation: Triangulation, what: str, table: PointTable) -> dict[str, Column]:
     """Row numbers of the corners of all triangles except those that close the far side, or of their edges."""
-    from stereodel.triangulation.delaunay import open_triangles
+    from stereodel.triangulation.delaunay import state_of
     from stereodel.triangulation.topology import edges_of
 
-    simplices = triangulation.simplices[open_triangles(triangulation)]
+    simplices = triangulation.simplices[state_of(triangulation).open]
     corners = simplices if what == "triangles" else edges_of(simplices)
     return dict(zip("abc", table.rows[corners].T, strict=False))

@@ -317,8 +317,7 @@ class Morph:
 
     Parameters
     ----------
-    path : GroupPath
-        See `stereodel.conformal.path_between`.
+    path : stereodel.conformal.GroupPath
     view : View or StereographicView
     seconds : float
         Duration, including the way back if there is one.
@@ -327,8 +326,8 @@ class Morph:
 
     Examples
     --------
-    >>> from stereodel.conformal import path_between
-    >>> grow = Morph(path_between(MoebiusMap.identity(), fisheye((10.0, 50.0), magnification=16.0)), View(10.0, 50.0))
+    >>> from stereodel.conformal import GroupPath
+    >>> grow = Morph(GroupPath(MoebiusMap.identity(), fisheye((10.0, 50.0), magnification=16.0)), View(10.0, 50.0))
     >>> [round(grow(time)[0].magnification, 9) for time in (0.0, 2.0, 4.0)]
     [1.0, 4.0, 16.0]
     """

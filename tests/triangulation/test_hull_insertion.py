@@ -9,10 +9,9 @@ from scipy.spatial import ConvexHull
 from stereodel import RectangleLift
 from stereodel.predicates import in_bubble
 from stereodel.triangulation import HullInsertion, SphericalDelaunay, check_delaunay
-from stereodel.triangulation.hull_insertion import insertion_order
 from stereodel.triangulation.sites import GHOST
 from tests import sets
-from tests.spaces import asked, canonical, space_of
+from tests.spaces import canonical, space_of
 
 SOME = [
     *sets.named("sphere", "unit", "cap", "octahedron", "cube", "rim and pole", "rim and poles", "closed hemisphere"),
@@ -123,9 +122,3 @@ def test_extending_until_three_points_span():
     engine.extend([[0.0, 1.0]])
     engine.run()
     assert engine.simplices.tolist() == [[0, 1, 4], [1, 2, 4]]
-
-
-def test_the_order_of_insertion_goes_short_ways():
-    points = np.random.default_rng(0).random((4096, 2))
-    steps = np.linalg.norm(np.diff(points[insertion_order(points)], axis=0), axis=1)
-    assert np.median(steps) < 0.05 < np.median(np.linalg.norm(np.diff(points, axis=0), axis=1))

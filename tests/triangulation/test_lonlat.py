@@ -66,7 +66,7 @@ def test_changes_speak_it_too():
 
 def test_hull_insertion_goes_on_with_it():
     lonlat = places(40)
-    begun = HullInsertion.from_lonlat(lonlat[:10], latitude="authalic", spatial=True)
+    begun = HullInsertion.from_lonlat(lonlat[:10], latitude="authalic")
     begun.extend(lonlat=lonlat[10:])
     begun.run()
     assert same(begun.lonlat, lonlat)
