@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from enum import StrEnum
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
@@ -15,17 +14,9 @@ if TYPE_CHECKING:
     from stereodel._arrays import FloatArray
 
 GRIDS = ("csv", "nc", "tif")
+Method = Literal["nearest", "linear", "smooth", "natural"]
 PIECE = 100_000  # rows between two signs of progress
 EXAMPLE = "stereodel interpolate stations.csv --value temperature --grid 5 -o temperature.csv"
-
-
-class Method(StrEnum):
-    """Methods of interpolation."""
-
-    nearest = "nearest"
-    linear = "linear"
-    smooth = "smooth"
-    natural = "natural"
 
 
 @options.grouped
@@ -51,10 +42,10 @@ def command(
     unit: Annotated[
         list[str] | None, typer.Option(metavar="NAME", help="Unit of the values, for grids; one for each --value.")
     ] = None,
-    method: Annotated[Method, typer.Option(help="Method of interpolation.")] = Method.linear,
+    method: Annotated[Method, typer.Option(help="Method of interpolation.")] = "linear",
     columns: options.AnyTable,
     at_columns: Annotated[options.SecondTable, "--at"],
-    latitude: options.LatitudeKind = options.Latitude.authalic,
+    latitude: options.LatitudeKind = "authalic",
 ) -> None:
     """Interpolate values at other points, or on a grid of longitude and latitude.
 
@@ -80,14 +71,14 @@ def command(
     if grid is not None:
         empty = Grid.regular(grid, None if box is None else options.box_of(box, "--box"), centers=centers)
     values, table = columns.read(points).values(value, skip_missing=columns.skip_missing)
-    interpolated = _interpolator(table.points(latitude.value), values, method)
+    interpolated = _interpolator(table.points(latitude), values, method)
     if at is None:
-        found = interpolated(lonlat_to_xyz(empty.lonlat.reshape(-1, 2), latitude=latitude.value))
+        found = interpolated(lonlat_to_xyz(empty.lonlat.reshape(-1, 2), latitude=latitude))
         shaped = {name: column.reshape(empty.lonlat.shape[:2]) for name, column in zip(value, found.T, strict=True)}
         result: Grid | PointTable = replace(empty, values=shaped, units=dict(zip(value, unit or (), strict=False)))
     else:
         asking = at_columns.read(at, columns)
-        result = asking.beside(dict(zip(value, interpolated(asking.points(latitude.value)).T, strict=True)))
+        result = asking.beside(dict(zip(value, interpolated(asking.points(latitude)).T, strict=True)))
     with reporting(f"writing {output.out}") as told, destination.file() as path:
         write(path, result, progress=told)
 
@@ -100,7 +91,7 @@ def _interpolator(points: FloatArray, values: FloatArray, method: Method) -> Cal
     from stereodel.interpolation.methods import METHODS
 
     with reporting("triangulating"):
-        interpolator = METHODS[method.value](points, values)
+        interpolator = METHODS[method](points, values)
 
     def interpolated(queries: FloatArray) -> FloatArray:
         found = np.empty((len(queries), values.shape[1]))

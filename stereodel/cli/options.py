@@ -9,7 +9,6 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from copy import copy
 from dataclasses import MISSING, dataclass, fields, is_dataclass, replace
-from enum import StrEnum
 from inspect import Parameter, signature
 from math import isfinite
 from pathlib import Path
@@ -23,17 +22,10 @@ from stereodel._tasks.interrupts import stop_if_interrupted
 from stereodel.cli.application import ARGUMENTS, NothingToDoError, reporting
 from stereodel.constants import LARGEST_MAGNIFICATION
 from stereodel.io.formats.names import spelling
+from stereodel.sphere.latitudes import Latitude
 
 if TYPE_CHECKING:
     from stereodel.io import PointTable
-
-
-class Latitude(StrEnum):
-    """The kind of latitude in a table."""
-
-    spherical = "spherical"
-    geodetic = "geodetic"
-    authalic = "authalic"
 
 
 TABLES = ("csv", "geojson", "geojsonl", "parquet", "gpkg", "fgb", "shp", "kml")

@@ -23,10 +23,9 @@ from stereodel._arrays import BoolArray, FloatArray, Indices, LongArray
 from stereodel._tasks.kept import Note
 from stereodel.interpolation import LinearInterpolator, NaturalNeighborInterpolator
 from stereodel.partitioned.files import FilesGiven, doubles_of, slices, unchanged
-from stereodel.partitioned.index import Index, Sample
 from stereodel.partitioned.passes import Execution, Passes, Results, execute, totals
 from stereodel.partitioned.plan import Plan, Question, source_of
-from stereodel.partitioned.rounds import Mesh, Rounds, Verdict, clock, measured, triangulation
+from stereodel.partitioned.rounds import Index, Mesh, Rounds, Sample, Verdict, clock, measured, triangulation
 from stereodel.partitioned.stars import distances, write_rows
 from stereodel.partitioned.store import KEPT, Columns, Store, load_plan
 from stereodel.triangulation import SphericalDelaunay
