@@ -32,6 +32,7 @@ ARGUMENTS: Final = {
     "crs": "--crs",
     "skip_missing": "--skip-missing",
     "spacing": "--grid",
+    "bounds": "--box",
     "columns": "--lon",
     "keep": "--keep",
     "resume": "--overwrite",

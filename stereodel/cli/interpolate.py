@@ -69,7 +69,8 @@ def command(
         raise ValueError("POINTS and --at cannot both be stdin")
     destination = output.of(options.TABLES if grid is None else GRIDS, points, at)
     if grid is not None:
-        empty = Grid.regular(grid, None if box is None else options.box_of(box, "--box"), centers=centers)
+        sides = box and options.numbers(box, "--box", "W,S,E,N in degrees", "-25,34,45,72", 4)
+        empty = Grid.regular(grid, sides or None, centers=centers)
     values, table = columns.read(points).values(value, skip_missing=columns.skip_missing)
     interpolated = _interpolator(table.points(latitude), values, method)
     if at is None:

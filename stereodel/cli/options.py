@@ -177,7 +177,7 @@ class Table(Where):
         bool, typer.Option("--skip-missing", help="Leave out rows without a position or a value, instead of stopping.")
     ] = False
 
-    def read(self, name: str, plane: tuple[str, str] | None = None) -> PointTable:
+    def read(self, name: str) -> PointTable:
         """The table in a file, or on stdin if `name` is "-"; NothingToDoError for one without points."""
         from stereodel.io import read_points
         from stereodel.io.formats.names import naming
@@ -189,7 +189,7 @@ class Table(Where):
                 source,
                 lon=self.lon,
                 lat=self.lat,
-                plane=plane,
+                plane=getattr(self, "plane", None),
                 layer=self.layer_name,
                 crs=self.crs,
                 skip_missing=self.skip_missing,
@@ -208,10 +208,6 @@ class AnyTable(Table):
         tuple[str, str] | None,
         typer.Option(metavar="X Y", help="Columns of coordinates in a plane, instead of longitude and latitude."),
     ] = None
-
-    def read(self, name: str, plane: tuple[str, str] | None = None) -> PointTable:
-        """As for `Table`."""
-        return super().read(name, plane or self.plane)
 
 
 @dataclass(frozen=True)
@@ -287,11 +283,3 @@ def place(text: str, option: str) -> Place:
     if not -90 <= lat <= 90:
         raise ValueError(f"{option} is {text!r}, but its latitude is outside [-90, 90]; the longitude comes first")
     return lon, lat
-
-
-def box_of(text: str, option: str) -> tuple[float, float, float, float]:
-    """Bounds of a box "W,S,E,N" in degrees; the eastern one exceeds 180 if the box crosses ±180°."""
-    west, south, east, north = numbers(text, option, "W,S,E,N in degrees", "-25,34,45,72", 4)
-    if not -90 <= south < north <= 90:
-        raise ValueError(f"{option} is {text!r}, but its south border must be below its north border in [-90, 90]")
-    return west, south, east if east > west else east + 360.0, north

@@ -38,11 +38,7 @@ FOLDER_SIZE: Final = 10_000
 
 @dataclass(frozen=True)
 class Pixel:
-    """A pixel of HEALPix in the NESTED scheme.
-
-    >>> Pixel(5, 10_417).path(".parquet").as_posix()
-    'dataset/Norder=5/Dir=10000/Npix=10417.parquet'
-    """
+    """A pixel of HEALPix in the NESTED scheme."""
 
     order: int
     number: int

@@ -190,7 +190,7 @@ def execute(
         _begin(store, execution.resume)
         if not (folder / REPORT).exists():
             with Crew(execution.jobs, executor=execution.executor) as crew:
-                Passes(results, store, crew, execution.limit, execution.progress).run()
+                Passes(results, store, crew, execution.limit, execution.progress or (lambda *_: None)).run()
             _publish(store)
         else:
             check_results(folder, plan, load_json(folder / REPORT)["partitions"])
@@ -339,7 +339,7 @@ class Passes:
     store: Store
     crew: Crew
     limit: int
-    progress: Progress | None
+    progress: Progress
 
     def run(self) -> None:
         """All of them, and the report, when all files are as they should be."""
@@ -376,17 +376,13 @@ class Passes:
             found = {task: note for task in tasks if (note := notes.note(name, task)) is not None}
             left = [task for task in tasks if task not in found]
             if left or not attempt:
-                self._say(name, len(found), len(tasks))
+                self.progress(name, len(found), len(tasks))
             if not left:
                 return list(found.values())
             for done, (_, outcome) in enumerate(self.crew.each(work, left), len(found) + 1):
                 outcome.value()
-                self._say(name, done, len(tasks))
+                self.progress(name, done, len(tasks))
         raise ValueError(f"{notes.path(name, left[0])} or files in it are deleted while the run works there")
-
-    def _say(self, name: str, done: int, of: int) -> None:
-        if self.progress is not None:
-            self.progress(name, done, of)
 
     def _collected(self) -> tuple[bool, list[int]]:
         """Points in partitions: whether those are files, and which of them have points."""

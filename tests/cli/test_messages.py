@@ -88,7 +88,7 @@ interpolate PEOPLE --grid 7 → --grid is 7, but 180 must be a whole multiple of
 interpolate PEOPLE --grid 1e-05 → --grid is 1e-05, which makes a grid of 36000000 × 18000001 places; 1073741824 are the
 interpolate PEOPLE --grid nan → --grid is nan; every value must be a finite number
 interpolate PEOPLE --grid 5 --box=0,0,7 → --box is '0,0,7', but must be W,S,E,N in degrees, e.g. --box=-25,34,45,72
-interpolate PEOPLE --grid 5 --box=0,9,7,5 → --box is '0,9,7,5', but its south border must be below its north border
+interpolate PEOPLE --grid 5 --box=0,9,7,5 → --box is (0.0, 9.0, 7.0, 5.0), but south must be below north
 interpolate PEOPLE --grid 5 --box=nan,5,7,9 → --box is 'nan,5,7,9', but must be W,S,E,N in degrees
 interpolate PEOPLE → either --at
 interpolate PEOPLE --grid 1 --plane lon lat → --at
