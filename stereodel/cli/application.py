@@ -33,6 +33,7 @@ ARGUMENTS: Final = {
     "skip_missing": "--skip-missing",
     "spacing": "--grid",
     "bounds": "--box",
+    "max_segment": "--max-segment",
     "columns": "--lon",
     "keep": "--keep",
     "resume": "--overwrite",

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING, Annotated, Literal
 
@@ -72,20 +71,22 @@ def command(
         sides = box and options.numbers(box, "--box", "W,S,E,N in degrees", "-25,34,45,72", 4)
         empty = Grid.regular(grid, sides or None, centers=centers)
     values, table = columns.read(points).values(value, skip_missing=columns.skip_missing)
-    interpolated = _interpolator(table.points(latitude), values, method)
+    sites = table.points(latitude)
     if at is None:
-        found = interpolated(lonlat_to_xyz(empty.lonlat.reshape(-1, 2), latitude=latitude))
+        nodes = lonlat_to_xyz(empty.lonlat.reshape(-1, 2), latitude=latitude)
+        found = _interpolated(sites, values, method, nodes)
         shaped = {name: column.reshape(empty.lonlat.shape[:2]) for name, column in zip(value, found.T, strict=True)}
         result: Grid | PointTable = replace(empty, values=shaped, units=dict(zip(value, unit or (), strict=False)))
     else:
         asking = at_columns.read(at, columns)
-        result = asking.beside(dict(zip(value, interpolated(asking.points(latitude)).T, strict=True)))
+        found = _interpolated(sites, values, method, asking.points(latitude))
+        result = asking.beside(dict(zip(value, found.T, strict=True)))
     with reporting(f"writing {output.out}") as told, destination.file() as path:
         write(path, result, progress=told)
 
 
-def _interpolator(points: FloatArray, values: FloatArray, method: Method) -> Callable[[FloatArray], FloatArray]:
-    """A function from queries to values, (n, number of columns), that reports its progress."""
+def _interpolated(points: FloatArray, values: FloatArray, method: Method, queries: FloatArray) -> FloatArray:
+    """Values at queries, (n, number of columns)."""
     import numpy as np
 
     from stereodel.cli.application import reporting
@@ -93,14 +94,10 @@ def _interpolator(points: FloatArray, values: FloatArray, method: Method) -> Cal
 
     with reporting("triangulating"):
         interpolator = METHODS[method](points, values)
-
-    def interpolated(queries: FloatArray) -> FloatArray:
-        found = np.empty((len(queries), values.shape[1]))
-        with reporting("interpolating") as shown:
-            for start in range(0, len(queries), PIECE):
-                piece = slice(start, min(start + PIECE, len(queries)))
-                found[piece] = interpolator(queries[piece])
-                shown("interpolating", piece.stop, len(queries))
-        return found
-
-    return interpolated
+    found = np.empty((len(queries), values.shape[1]))
+    with reporting("interpolating") as shown:
+        for start in range(0, len(queries), PIECE):
+            piece = slice(start, min(start + PIECE, len(queries)))
+            found[piece] = interpolator(queries[piece])
+            shown("interpolating", piece.stop, len(queries))
+    return found

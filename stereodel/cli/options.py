@@ -40,21 +40,13 @@ def _magnification(value: float) -> float:
     return as_scalar(value, "--magnify", low=1 / LARGEST_MAGNIFICATION, high=LARGEST_MAGNIFICATION)
 
 
-def _segment(value: float) -> float:
-    from stereodel.io.rows_of import LARGEST_SEGMENT
-
-    return as_scalar(value, "--max-segment", low=0.0, high=LARGEST_SEGMENT, open_low=True)
-
-
 Points = Annotated[
     str, typer.Argument(metavar="POINTS", help="Table of points: .csv, .geojson, .gpkg, .shp, .xlsx …; - is stdin.")
 ]
 Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace the file if it exists.")]
 MaxSegment = Annotated[
     float,
-    typer.Option(
-        "--max-segment", metavar="DEGREES", callback=_segment, help="Longest straight piece of an arc, in map formats."
-    ),
+    typer.Option("--max-segment", metavar="DEGREES", help="Longest straight piece of an arc, in map formats."),
 ]
 LatitudeKind = Annotated[
     Latitude,

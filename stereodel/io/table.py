@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 from typing import Any, Final, Literal
@@ -134,24 +134,15 @@ class PointTable:
                 raise ValueError(f"there is no column {name!r}; the columns are {known}")
         return self.columns[name]
 
-    def numbers(self, name: str) -> FloatArray:
-        """A column of finite numbers, NaN where a cell is empty; ValueError names the first row that holds another."""
+    def numbers(self, name: str, *, gaps: bool = True) -> FloatArray:
+        """A column of finite numbers, NaN where a cell is empty if `gaps`; ValueError names the first other row."""
         with naming(self.name):
-            return numbers(self.column(name), name, self.rows, gaps=True)
+            return numbers(self.column(name), name, self.rows, gaps=gaps)
 
     def values(self, names: Sequence[str], *, skip_missing: bool = False) -> tuple[FloatArray, PointTable]:
-        """Columns of numbers (n, number of names) and their points, without incomplete rows if `skip_missing`.
-
-        ValueError names the first row where a number is missing.
-        """
-        values = np.column_stack([self.numbers(name) for name in names])
-        missing = np.argwhere(~np.isfinite(values))
-        if len(missing) and not skip_missing:
-            row, column = missing[0]
-            with naming(self.name):
-                raise ValueError(f"row {self.rows[row]}: {names[column]} is missing; {left_out()}")
-        kept = np.ones(len(values), dtype=np.bool_)
-        kept[missing[:, 0]] = False
+        """Columns of numbers (n, number of names) and their points, without incomplete rows if `skip_missing`."""
+        values = np.column_stack([self.numbers(name, gaps=skip_missing) for name in names])
+        kept = np.flatnonzero(~np.isnan(values).any(axis=1))
         return values[kept], self.taken(kept)
 
     def beside(self, results: Mapping[str, Column], *, first: Mapping[str, Column] | None = None) -> PointTable:
@@ -197,15 +188,9 @@ def located(found: Content, wanted: Wanted, name: str = "") -> PointTable:
 def degrees(places: FloatArray, crs: str | None, rows: Sequence[int] | Indices) -> FloatArray:
     """Places in degrees, transformed if `crs` is given; ValueError names the first row with a wrong one."""
     lonlat = places if crs is None else transformed(places, crs, rows)
-    endless = np.flatnonzero(~np.isfinite(lonlat).all(axis=1))
-    if len(endless):
-        raise ValueError(f"row {rows[endless[0]]}: a coordinate is not finite{_more(endless)}")
-    outside = np.flatnonzero(np.abs(lonlat[:, 1]) > 90.0)
-    if len(outside):
-        raise ValueError(
-            f"row {rows[outside[0]]}: latitude {lonlat[outside[0], 1]} is outside [-90, 90]{_more(outside)}; "
-            "is it the longitude, or not in degrees?"
-        )
+    _refuse(~np.isfinite(lonlat).all(axis=1), rows, lambda k: "a coordinate is not finite")
+    advice = "is it the longitude, or not in degrees?"
+    _refuse(np.abs(lonlat[:, 1]) > 90.0, rows, lambda k: f"latitude {lonlat[k, 1]} is outside [-90, 90]", advice)
     return lonlat
 
 
@@ -224,10 +209,8 @@ def transformed(places: FloatArray, crs: str, rows: Sequence[int] | Indices) -> 
     """Coordinates in another system, easting first, as longitude and latitude."""
     transformer = optional("pyproj", "geo").Transformer.from_crs(known_crs(crs), "EPSG:4326", always_xy=True)
     lonlat = np.column_stack(transformer.transform(*places.T)) if len(places) else places
-    lost = np.flatnonzero(~np.isfinite(lonlat).all(axis=1))
-    if len(lost):
-        x, y = places[lost[0]]
-        raise ValueError(f"row {rows[lost[0]]}: ({x}, {y}) has no longitude and latitude in {crs}{_more(lost)}")
+    lost = ~np.isfinite(lonlat).all(axis=1)
+    _refuse(lost, rows, lambda k: f"({places[k, 0]}, {places[k, 1]}) has no longitude and latitude in {crs}")
     return lonlat
 
 
@@ -244,27 +227,24 @@ def numbers(
     array = np.asarray(values)
     if array.dtype.kind in "iuf":
         result = array.astype(np.float64)
-        large = np.flatnonzero(np.abs(result) >= EXACT_INTEGERS).tolist() if array.dtype.kind in "iu" else []
-        rounded = [place for place in large if int(array[place]) != int(result[place])]
-        if rounded:
-            said = f"row {rows[rounded[0]]}: the {name} {array[rounded[0]]} is not a double{_more(rounded)}"
-            raise ValueError(f"{said}; subtract an origin that all share, or round it yourself")
+        rounded = np.zeros(len(array), dtype=np.bool_)
+        for k in np.flatnonzero(np.abs(result) >= EXACT_INTEGERS).tolist() if array.dtype.kind in "iu" else []:
+            rounded[k] = int(array[k]) != int(result[k])
+        remedy = "subtract an origin that all share, or round it yourself"
+        _refuse(rounded, rows, lambda k: f"the {name} {array[k]} is not a double", remedy)
     else:
         result, wrong = doubles(array, decimal=decimal)
-        if wrong.any():
-            places = np.flatnonzero(wrong)
-            said = str(array[places[0]]).strip()
-            raise ValueError(f"row {rows[places[0]]}: the {name} {said!r} {why_not(said)}{_more(places)}")
-    bad = np.flatnonzero(np.isinf(result) if gaps else ~np.isfinite(result))
-    if len(bad):
-        missing = bool(np.isnan(result[bad[0]]))
-        what = "is missing" if missing else f"is {result[bad[0]]}, but must be finite"
-        raise ValueError(
-            f"row {rows[bad[0]]}: the {name} {what}{_more(bad)}; "
-            + ((advice or left_out()) if missing else "correct or drop such rows first")
-        )
+        _refuse(wrong, rows, lambda k: f"the {name} {str(array[k]).strip()!r} {why_not(str(array[k]).strip())}")
+    remedy = "correct or drop such rows first"
+    _refuse(np.isinf(result), rows, lambda k: f"the {name} is {result[k]}, but must be finite", remedy)
+    if not gaps:
+        _refuse(np.isnan(result), rows, lambda k: f"the {name} is missing", advice or left_out())
     return result
 
 
-def _more(places: Sequence[int] | Indices) -> str:
-    return f" (and {len(places) - 1} more rows like it)" if len(places) > 1 else ""
+def _refuse(wrong: Any, rows: Sequence[int] | Indices, said: Callable[[int], str], advice: str = "") -> None:
+    """A ValueError for the first row that is wrong, how many more there are, and what to do about them."""
+    places = np.flatnonzero(wrong)
+    if len(places):
+        more = f" (and {len(places) - 1} more rows like it)" if len(places) > 1 else ""
+        raise ValueError(f"row {rows[places[0]]}: {said(places[0])}{more}{advice and '; '}{advice}")

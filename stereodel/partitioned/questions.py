@@ -63,7 +63,7 @@ FAMILY: Final = {
         TypeError
             For targets or values of another type than numbers.
         MemoryError
-            Where a target needs more than `Execution.limit` points, naming it.
+            Where a target needs more than `Execution.limit` points, with its number.
         RuntimeError, OSError, ImportError
             As in `triangulate`.
         """,
@@ -120,12 +120,9 @@ class TargetRounds(Rounds[tuple[Indices, Columns]]):
             room = self.limit if len(rows) == 1 else min(ROOM, self.limit)
             left, count = yield from self.answers(rows, np.zeros(len(self.index), dtype=np.bool_), room)
             if len(left) == 1 and count > self.limit:
-                plan, number = self.store.plan, int(self.numbers[left[0]])
-                file = int(np.searchsorted(plan.firsts, number, side="right")) - 1
-                row = number - int(plan.firsts[file]) + 1
                 raise MemoryError(
-                    f"{plan.files[file].path}: row {row}: this target may need {count} points at once, more than "
-                    f"limit={self.limit}; give a higher limit"
+                    f"target {self.numbers[left[0]]} may need {count} points at once, more than limit={self.limit}; "
+                    "give a higher limit"
                 )
             if len(left):
                 waiting += [left[len(left) // 2 :], left[: len(left) // 2]]

@@ -80,7 +80,7 @@ interpolate PEOPLE --at wrong.csv → wrong.csv: no column looks like the longit
 interpolate PEOPLE --at cities.csv --at-lat x → cities.csv: --at-lat is 'x', which is not one of the columns
 interpolate PEOPLE --at cities.csv --at-crs x → cities.csv: --at-crs is 'x', which PROJ does not know;
 interpolate cities.csv --value x --grid 5 → cities.csv: there is no column 'x'; the columns
-interpolate gappy.csv --value size --grid 5 → gappy.csv: row 1: size is missing; leave such rows out with --skip-missin
+interpolate gappy.csv --value size --grid 5 → gappy.csv: row 1: the size is missing; leave such rows out
 interpolate PEOPLE --at cities.csv --box=0,0,9,9 --centers → --box and --centers are for a --grid, and there is none
 interpolate PEOPLE --grid 5 --at-lon x → --at-lon is for the table --at, and there is none
 interpolate PEOPLE --grid 0 → --grid is 0.0, outside (0, 180]
