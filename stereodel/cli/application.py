@@ -32,6 +32,8 @@ ARGUMENTS: Final = {
     "crs": "--crs",
     "skip_missing": "--skip-missing",
     "spacing": "--grid",
+    "bounds": "--box",
+    "max_segment": "--max-segment",
     "columns": "--lon",
     "keep": "--keep",
     "resume": "--overwrite",

@@ -133,7 +133,7 @@ def command(
     globe makes one turn if nothing is magnified.
     """
     from stereodel.cli.application import reporting
-    from stereodel.io.reading import naming
+    from stereodel.io.formats.names import naming
 
     layers = [layer_of(text) for text in layer or ()]
     read_from = (points, texture, *(str(path) for path, _ in layers), *(style or ()))
@@ -167,14 +167,11 @@ def command(
     if filming:
         motion = motion_of(aim, [options.place(text, "--fly") for text in fly or ()])
         fps = GIF_FPS if destination.kind == "gif" else FPS
-        destination.write(lambda path: save_film(drawing, motion, path, size=size or 720, fps=fps))
+        with destination.file() as target:
+            save_film(drawing, motion, target, size=size or 720, fps=fps)
         return
-    with reporting("drawing"):
-        destination.write(
-            lambda path: drawing.save(
-                path, aim.lens, aim.views, style=style or (), legend=legend, width=WIDTH, size=size or 1600
-            )
-        )
+    with reporting("drawing"), destination.file() as target:
+        drawing.save(target, aim.lens, aim.views, style=style or (), legend=legend, width=WIDTH, size=size or 1600)
 
 
 @dataclass(frozen=True)

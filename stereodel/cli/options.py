@@ -1,12 +1,14 @@
-"""Options that several commands share: words for typer, tables to read, and texts as numbers."""
+"""Options that several commands share: words for typer, tables to read, files to write, and texts as numbers."""
 
 from __future__ import annotations
 
+import shutil
 import sys
-from collections.abc import Callable, Mapping
+import tempfile
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from copy import copy
 from dataclasses import MISSING, dataclass, fields, is_dataclass, replace
-from enum import StrEnum
 from inspect import Parameter, signature
 from math import isfinite
 from pathlib import Path
@@ -15,25 +17,20 @@ from typing import TYPE_CHECKING, Annotated, Any, get_type_hints
 import typer
 
 from stereodel._arrays import as_scalar
+from stereodel._files import said_of
+from stereodel._tasks.interrupts import stop_if_interrupted
 from stereodel.cli.application import ARGUMENTS, NothingToDoError, reporting
 from stereodel.constants import LARGEST_MAGNIFICATION
 from stereodel.io.formats.names import spelling
+from stereodel.sphere.latitudes import Latitude
 
 if TYPE_CHECKING:
-    from stereodel.cli.destinations import Destination
     from stereodel.io import PointTable
 
 
-class Latitude(StrEnum):
-    """The kind of latitude in a table."""
-
-    spherical = "spherical"
-    geodetic = "geodetic"
-    authalic = "authalic"
-
-
-SAME = {"json": "geojson", "geoparquet": "parquet"}
-"""Alternative extensions of formats."""
+TABLES = ("csv", "geojson", "geojsonl", "parquet", "gpkg", "fgb", "shp", "kml")
+PICTURES = ("svg", "pdf")
+MESHES = ("nc", "glb", "ply", "vtp", *PICTURES)
 
 Place = tuple[float, float]
 """Longitude and latitude in degrees."""
@@ -43,21 +40,13 @@ def _magnification(value: float) -> float:
     return as_scalar(value, "--magnify", low=1 / LARGEST_MAGNIFICATION, high=LARGEST_MAGNIFICATION)
 
 
-def _segment(value: float) -> float:
-    from stereodel.io.rows_of import LARGEST_SEGMENT
-
-    return as_scalar(value, "--max-segment", low=0.0, high=LARGEST_SEGMENT, open_low=True)
-
-
 Points = Annotated[
     str, typer.Argument(metavar="POINTS", help="Table of points: .csv, .geojson, .gpkg, .shp, .xlsx …; - is stdin.")
 ]
 Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace the file if it exists.")]
 MaxSegment = Annotated[
     float,
-    typer.Option(
-        "--max-segment", metavar="DEGREES", callback=_segment, help="Longest straight piece of an arc, in map formats."
-    ),
+    typer.Option("--max-segment", metavar="DEGREES", help="Longest straight piece of an arc, in map formats."),
 ]
 LatitudeKind = Annotated[
     Latitude,
@@ -68,6 +57,31 @@ LatitudeKind = Annotated[
     ),
 ]
 Magnify = Annotated[float, typer.Option(metavar="S", callback=_magnification, help="Magnification at the focus.")]
+
+
+@dataclass(frozen=True)
+class Destination:
+    """A file, or stdout when `name` is "-"; `kind` is its format, such as "csv"."""
+
+    name: str
+    kind: str
+
+    @contextmanager
+    def file(self) -> Iterator[Path]:
+        """Where to write; for stdout a temporary file, which is copied there when it is complete."""
+        stop_if_interrupted()
+        if self.name != "-":
+            yield Path(self.name)
+            return
+        with tempfile.TemporaryDirectory() as folder:
+            whole = Path(folder, f"stdout.{self.kind}")
+            with said_of("stdout", folder):
+                yield whole
+            if sys.stdout is None:
+                raise ValueError("stdout is closed; name a file with --out")
+            with said_of("stdout"), whole.open("rb") as source:
+                shutil.copyfileobj(source, sys.stdout.buffer)
+                sys.stdout.buffer.flush()
 
 
 @dataclass(frozen=True)
@@ -85,13 +99,13 @@ class File:
 
         An existing file is replaced only with --overwrite, an input never.
         """
-        from stereodel.cli.destinations import Destination
+        from stereodel.io.writing import SAME
 
         name, path, kind = self.out, Path(self.out), getattr(self, "format", None)
         if name != "-" and kind is not None:
             raise ValueError(f"--format is for stdout (--out -); the format of {name} is given by its extension")
         chosen = ((kind or allowed[0]) if name == "-" else path.suffix).lower().removeprefix(".")
-        chosen = SAME.get(chosen, chosen)
+        chosen = chosen if chosen in allowed else SAME.get(chosen, chosen)
         if name == "-" and chosen == "shp":
             raise ValueError("a shapefile is several files, and stdout is one; name a file with --out")
         if chosen not in allowed:
@@ -119,38 +133,46 @@ class Output(File):
 
 
 @dataclass(frozen=True)
-class Table:
-    """How a table of places of the Earth is read."""
+class Where:
+    """What says where a table has its places; `of` is the option that names the table, where there is a second one."""
 
     lon: Annotated[
-        str | None, typer.Option(metavar="COLUMN", help="Column of longitudes; recognised by its name by default.")
+        str | None, typer.Option(metavar="COLUMN", help="Column of longitudes{of}; recognised by its name by default.")
     ] = None
     lat: Annotated[
-        str | None, typer.Option(metavar="COLUMN", help="Column of latitudes; recognised by its name by default.")
+        str | None, typer.Option(metavar="COLUMN", help="Column of latitudes{of}; recognised by its name by default.")
     ] = None
     layer_name: Annotated[
-        str | None, typer.Option(metavar="NAME", help="Layer of the points, if the file has several.")
+        str | None, typer.Option(metavar="NAME", help="Layer of the points{of}, if the file has several.")
     ] = None
     crs: Annotated[
         str | None,
         typer.Option(
             metavar="NAME",
-            help="Coordinate system of the columns, e.g. EPSG:25832; by default degrees, or in a plane none.",
+            help="Coordinate system of the columns{of}, e.g. EPSG:25832; by default degrees, or in a plane none.",
         ),
     ] = None
-    skip_missing: Annotated[
-        bool, typer.Option("--skip-missing", help="Leave out rows without a position or a value, instead of stopping.")
-    ] = False
+    of: str = ""
 
     @property
     def given(self) -> dict[str, object]:
         """Values by option, to be refused where there is no table."""
-        return {f"--{field.name.replace('_', '-')}": getattr(self, field.name) for field in fields(self)}
+        named = {field.name: getattr(self, field.name) for field in fields(self) if field.name != "of"}
+        return {f"{self.of or '-'}-{name.replace('_', '-')}": value for name, value in named.items()}
 
-    def read(self, name: str, plane: tuple[str, str] | None = None) -> PointTable:
+
+@dataclass(frozen=True)
+class Table(Where):
+    """How a table of places of the Earth is read."""
+
+    skip_missing: Annotated[
+        bool, typer.Option("--skip-missing", help="Leave out rows without a position or a value, instead of stopping.")
+    ] = False
+
+    def read(self, name: str) -> PointTable:
         """The table in a file, or on stdin if `name` is "-"; NothingToDoError for one without points."""
         from stereodel.io import read_points
-        from stereodel.io.reading import naming
+        from stereodel.io.formats.names import naming
 
         shown = "stdin" if name == "-" else name
         source = sys.stdin.buffer if name == "-" else name
@@ -159,7 +181,7 @@ class Table:
                 source,
                 lon=self.lon,
                 lat=self.lat,
-                plane=plane,
+                plane=getattr(self, "plane", None),
                 layer=self.layer_name,
                 crs=self.crs,
                 skip_missing=self.skip_missing,
@@ -179,28 +201,10 @@ class AnyTable(Table):
         typer.Option(metavar="X Y", help="Columns of coordinates in a plane, instead of longitude and latitude."),
     ] = None
 
-    def read(self, name: str, plane: tuple[str, str] | None = None) -> PointTable:
-        """As for `Table`."""
-        return super().read(name, plane or self.plane)
-
 
 @dataclass(frozen=True)
-class SecondTable:
-    """How the table that an option names, `of`, is read, where it differs from the first one."""
-
-    of: str
-    lon: Annotated[str | None, typer.Option(metavar="COLUMN", help="Column of longitudes of {of}.")] = None
-    lat: Annotated[str | None, typer.Option(metavar="COLUMN", help="Column of latitudes of {of}.")] = None
-    layer_name: Annotated[str | None, typer.Option(metavar="NAME", help="Layer of {of}, if the file has several.")] = (
-        None
-    )
-    crs: Annotated[str | None, typer.Option(metavar="NAME", help="Coordinate system of the columns of {of}.")] = None
-
-    @property
-    def given(self) -> dict[str, object]:
-        """As for `Table`."""
-        names = [field.name for field in fields(self)[1:]]
-        return {f"{self.of}-{name.replace('_', '-')}": getattr(self, name) for name in names}
+class SecondTable(Where):
+    """How the table that an option names is read, where it differs from the first one."""
 
     def read(self, name: str, first: AnyTable) -> PointTable:
         """The table; in a plane both have the columns of --plane, and by default the coordinate system of the first."""
@@ -229,7 +233,7 @@ def grouped(command: Callable[..., None]) -> Callable[..., None]:
         names = {key: f"{of.removeprefix('--')}_{key}" if of else key for key in options}
         for key, field in options.items():
             option = copy(hints[key].__metadata__[0])
-            option.help = option.help.format(of=of)
+            option.help = option.help.format(of=of and f" of {of}")
             default = Parameter.empty if field.default is MISSING else field.default
             typed = Annotated[hints[key].__origin__, option]  # type: ignore[valid-type]
             parameters.append(Parameter(names[key], Parameter.KEYWORD_ONLY, default=default, annotation=typed))
@@ -271,11 +275,3 @@ def place(text: str, option: str) -> Place:
     if not -90 <= lat <= 90:
         raise ValueError(f"{option} is {text!r}, but its latitude is outside [-90, 90]; the longitude comes first")
     return lon, lat
-
-
-def box_of(text: str, option: str) -> tuple[float, float, float, float]:
-    """Bounds of a box "W,S,E,N" in degrees; the eastern one exceeds 180 if the box crosses ±180°."""
-    west, south, east, north = numbers(text, option, "W,S,E,N in degrees", "-25,34,45,72", 4)
-    if not -90 <= south < north <= 90:
-        raise ValueError(f"{option} is {text!r}, but its south border must be below its north border in [-90, 90]")
-    return west, south, east if east > west else east + 360.0, north

@@ -77,16 +77,14 @@ def command(
     if at is None and magnify != 1:
         at = seen or (0.0, -90.0 if to == Form.planet else 0.0)
     lens = fisheye(at, magnification=magnify) if at else None
-    with reporting("drawing"):
-        destination.write(
-            lambda path: save_panorama(
-                picture,
-                path,
-                lens,
-                to.value,
-                view=View(*seen) if seen else None,
-                size=width,
-                angular_radius=angular_radius,
-                faces=faces,
-            )
+    with reporting("drawing"), destination.file() as path:
+        save_panorama(
+            picture,
+            path,
+            lens,
+            to.value,
+            view=View(*seen) if seen else None,
+            size=width,
+            angular_radius=angular_radius,
+            faces=faces,
         )

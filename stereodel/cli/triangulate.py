@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
@@ -25,7 +25,7 @@ def command(
     edges: Annotated[bool, typer.Option("--edges", help="Write the edges instead of the triangles.")] = False,
     max_segment: options.MaxSegment = 1.0,
     columns: options.AnyTable,
-    latitude: options.LatitudeKind = options.Latitude.authalic,
+    latitude: options.LatitudeKind = "authalic",
 ) -> None:
     """Write the Delaunay triangles of points, or their edges.
 
@@ -33,37 +33,44 @@ def command(
     shape. If all points lie in one hemisphere, the triangles that close the far side are left out.
     """
     from stereodel.cli.application import NothingToDoError, reporting, say
-    from stereodel.cli.destinations import MESHES, TABLES
+    from stereodel.io import write
     from stereodel.io.rows_of import rows_of
     from stereodel.triangulation.delaunay import as_triangulation
 
-    destination = output.of(TABLES + MESHES, points)
+    destination = output.of(options.TABLES + options.MESHES, points)
     kind = destination.kind
-    if edges and kind in MESHES:
-        raise ValueError(f"{output.out}: holds faces, not edges; leave out --edges or choose {', '.join(TABLES)}")
+    if edges and kind in options.MESHES:
+        tables = ", ".join(options.TABLES)
+        raise ValueError(f"{output.out}: holds faces, not edges; leave out --edges or choose {tables}")
     table = columns.read(points)
     with reporting(f"triangulating {len(table)} points"):
-        triangulation = as_triangulation(table.points(latitude.value))
+        triangulation = as_triangulation(table.points(latitude))
     count = len(_corner_rows(triangulation, "triangles", table)["a"])
     if count == 0:
         raise NothingToDoError(f"{table.name}: no triangles: too few points, or all on one line or great circle")
     what: Literal["triangles", "edges"] = "edges" if edges else "triangles"
+    found: Any = triangulation
     if kind == "csv":
-        destination.put(_corner_rows(triangulation, what, table))
-    elif kind in MESHES:
-        destination.put(triangulation, **({"latitude": latitude.value} if kind == "nc" else {}))
-    else:
+        found = _corner_rows(triangulation, what, table)
+    elif kind not in options.MESHES:
         with reporting(f"drawing {what}") as shown:
             layer = rows_of(
                 triangulation,
                 what=what,
-                latitude=latitude.value,
+                latitude=latitude,
                 max_segment=max_segment,
                 crs=table.crs,
                 progress=shown,
             )
         rows = {name: table.rows[layer.columns[name]] for name in "abc" if name in layer.columns}
-        destination.put(replace(layer, columns=rows))
+        found = replace(layer, columns=rows)
+    with reporting(f"writing {output.out}") as told, destination.file() as path:
+        if kind in options.PICTURES:
+            from stereodel.drawing import diagram_page
+
+            diagram_page(triangulation).save(path)
+        else:
+            write(path, found, progress=told, **({"latitude": latitude} if kind == "nc" else {}))
     say(f"{output.out}: {count} triangles of {len(table)} points")
 
 

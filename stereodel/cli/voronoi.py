@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from contextlib import nullcontext
 from dataclasses import replace
-from enum import StrEnum
-from typing import Annotated
+from typing import Annotated, Any, Literal
 
 import typer
 
@@ -14,19 +12,12 @@ from stereodel.cli import options
 EXAMPLE = "stereodel voronoi cities.csv -o cells.gpkg"
 
 
-class AreaUnit(StrEnum):
-    """Units of areas on the sphere."""
-
-    km2 = "km2"
-    sr = "sr"
-
-
 @options.grouped
 def command(
     *,
     points: options.Points,
     output: options.Output,
-    area_unit: Annotated[AreaUnit, typer.Option(help="Unit of the areas, not in a plane.")] = AreaUnit.km2,
+    area_unit: Annotated[Literal["km2", "sr"], typer.Option(help="Unit of the areas, not in a plane.")] = "km2",
     max_segment: options.MaxSegment = 1.0,
     clip: Annotated[
         str | None,
@@ -35,7 +26,7 @@ def command(
         ),
     ] = None,
     columns: options.AnyTable,
-    latitude: options.LatitudeKind = options.Latitude.authalic,
+    latitude: options.LatitudeKind = "authalic",
 ) -> None:
     """Write the Voronoi cell of each point, the region nearer to it than to any other, with its area.
 
@@ -45,48 +36,44 @@ def command(
     """
     import numpy as np
 
+    from stereodel import PlanarVoronoi, SphericalVoronoi
     from stereodel.cli.application import reporting, say
-    from stereodel.cli.destinations import MESHES, TABLES
     from stereodel.earth import AUTHALIC_RADIUS_KM
-    from stereodel.io.formats.names import beside
-    from stereodel.io.maps.meshes_as_rows import diagram_of
-    from stereodel.io.reading import naming
+    from stereodel.io import write
+    from stereodel.io.formats.names import beside, naming
     from stereodel.io.rows_of import rows_of
-    from stereodel.triangulation.delaunay import as_triangulation
 
-    destination = output.of(TABLES + MESHES, points, clip)
+    destination = output.of(options.TABLES + options.MESHES, points, clip)
     kind = destination.kind
-    if kind in MESHES:
-        options.refuse({"--clip": clip}, f"{', '.join(TABLES)}, and {output.out} holds whole cells")
+    if kind in options.MESHES:
+        options.refuse({"--clip": clip}, f"{', '.join(options.TABLES)}, and {output.out} holds whole cells")
     if columns.plane is not None:
         options.refuse({"--clip": clip}, "cells of the sphere, not of a plane")
     table = columns.read(points)
     with reporting(f"cells of {len(table)} points"):
-        diagram = diagram_of(as_triangulation(table.points(latitude.value)))
-    name = "area" if columns.plane else f"area_{area_unit.value}"
-    radius = 1.0 if columns.plane or area_unit is AreaUnit.sr else AUTHALIC_RADIUS_KM
-    if kind in MESHES:
-        destination.put(diagram, **({"latitude": latitude.value} if kind == "nc" else {}))
-    elif kind == "csv" and clip is None:
-        destination.put(table.beside({name: diagram.areas(radius=radius)}))
-    else:
-        with reporting(f"drawing {len(table)} cells") as shown, naming(clip) if clip else nullcontext():
-            cells = rows_of(
-                diagram,
-                latitude=latitude.value,
-                radius=radius,
-                max_segment=max_segment,
-                clip=clip,
-                crs=table.crs,
-                progress=shown,
-            )
+        diagram = (PlanarVoronoi if columns.plane else SphericalVoronoi)(table.points(latitude))
+    name = "area" if columns.plane else f"area_{area_unit}"
+    radius = 1.0 if columns.plane or area_unit == "sr" else AUTHALIC_RADIUS_KM
+    found: Any = diagram
+    if kind == "csv" and clip is None:
+        found = table.beside({name: diagram.areas(radius=radius)})
+    elif kind not in options.MESHES:
+        drawn: dict[str, Any] = {"latitude": latitude, "radius": radius, "max_segment": max_segment, "clip": clip}
+        with reporting(f"drawing {len(table)} cells") as told, naming(clip):
+            cells = rows_of(diagram, crs=table.crs, progress=told, **drawn)
         point, area = cells.columns["point"], np.zeros(len(table))
         area[point] = cells.columns["area"]
         if kind == "csv":
-            destination.put(table.beside({name: area}))
+            found = table.beside({name: area})
         else:
-            rows = table.beside({name: area}, first={"row": table.rows}).located()
-            named = {name: values[point] for name, values in beside(["geometry"], rows).items()}
-            destination.put(replace(cells, columns=named))
-    said = "" if columns.plane else f", with {latitude.value} latitudes"
+            rows = table.beside({name: area}, first={"row": table.rows}).taken(point)
+            found = replace(cells, columns=beside(["geometry"], rows.located()))
+    with reporting(f"writing {output.out}") as told, destination.file() as path:
+        if kind in options.PICTURES:
+            from stereodel.drawing import diagram_page
+
+            diagram_page(diagram).save(path)
+        else:
+            write(path, found, progress=told, **({"latitude": latitude} if kind == "nc" else {}))
+    said = "" if columns.plane else f", with {latitude} latitudes"
     say(f"{output.out}: cells of {len(table)} points{said}")

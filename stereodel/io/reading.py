@@ -3,32 +3,84 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import pairwise
 from pathlib import Path
-from typing import Any
+from tempfile import TemporaryDirectory
+from typing import Any, Final
 
 import numpy as np
 
+from stereodel._arrays import FloatArray, Geometries, Indices, as_choice
 from stereodel._tasks.progress import Progress
-from stereodel.io.formats import (
-    FORMATS,
-    PACKED,
-    Content,
-    FormatName,
-    Input,
-    Source,
-    Wanted,
-    delimited,  # noqa: F401 - these enter themselves in the table
-    gdal,  # noqa: F401
-    parquet,  # noqa: F401
-)
-from stereodel.io.formats.geojson import Features
-from stereodel.io.formats.map_rows import Frame
-from stereodel.io.formats.names import spelled
-from stereodel.io.map_shapes import Shapes, of_features, of_geometries, of_items
-from stereodel.io.places import located
-from stereodel.io.table import PointTable
+from stereodel.curves.ragged import Ragged
+from stereodel.io.formats import Content, FileFormat, FormatName, Source, Wanted, delimited, gdal, geojson, parquet
+from stereodel.io.formats.foreign import unpacked
+from stereodel.io.formats.map_rows import POINT, POLYGON, Frame, shapely
+from stereodel.io.formats.names import naming, spelled
+from stereodel.io.table import PointTable, degrees, located
+
+FORMATS: Final[dict[FormatName, FileFormat]] = {
+    "csv": delimited.FORMAT,
+    "geojson": geojson.FORMAT,
+    "parquet": parquet.FORMAT,
+    "vector": gdal.FORMAT,
+}
+
+PACKED: Final = (".gz", ".bz2")
+"""Extensions of compressed files."""
+
+
+class SourceFile:
+    """A source of rows: its format, and its bytes, read on demand."""
+
+    def __init__(self, source: Source, kind: FormatName | None = None) -> None:
+        self._source = source
+        self.path = Path(source) if isinstance(source, str | os.PathLike) else None
+        self.kind: FormatName = as_choice(kind or self._found(), tuple(FORMATS), "format")
+
+    def _found(self) -> FormatName:
+        """The format from the extension of the path, ignoring that of compression, else from the first bytes."""
+        kinds = {ending: kind for kind, known in FORMATS.items() for ending in known.endings}
+        endings = [ending.lower() for ending in self.path.suffixes[-2:]] if self.path is not None else []
+        if endings[-1:] and endings[-1] in PACKED:
+            endings.pop()
+        return kinds.get(endings[-1] if endings else "") or kinds[self._ending]
+
+    @cached_property
+    def content(self) -> bytes:
+        """The decompressed bytes."""
+        content = self._source.read() if self.path is None else self.path.read_bytes()  # type: ignore[union-attr]
+        return content.encode() if isinstance(content, str) else unpacked(content)
+
+    @contextmanager
+    def on_disk(self) -> Iterator[Path]:
+        """Where GDAL finds the file, as it needs the extension and any companion files."""
+        if self.path is not None and self.path.suffix.lower() not in PACKED:
+            if not self.path.is_dir():  # as some formats are
+                self.path.open("rb").close()  # the system's own message says best why it cannot be read
+            yield self.path
+            return
+        with TemporaryDirectory() as folder:
+            within = Path(self.path.stem).suffix if self.path is not None else ""
+            named = Path(folder, f"points{within or self._ending}")
+            named.write_bytes(self.content)
+            yield named
+
+    @property
+    def _ending(self) -> str:
+        """The extension that matches the first bytes; XML may be KML or GPX, a zip archive a spreadsheet."""
+        start = self.content[:64].lstrip(b"\xef\xbb\xbf \t\r\n")
+        marks = {mark: ending for known in FORMATS.values() for mark, ending in known.marks.items()}
+        found = next((ending for mark, ending in marks.items() if start.startswith(mark)), ".csv")
+        if found == ".zip" and b"xl/workbook.xml" in self.content:
+            return ".xlsx"
+        if found == ".zip" and b"opendocument.spreadsheet" in self.content[:100]:
+            return ".ods"
+        return ".gpx" if found == ".kml" and b"<gpx" in self.content[:1000] else found
 
 
 def read_points(
@@ -118,10 +170,10 @@ def read_points(
     wanted = Wanted(lon, lat, plane, layer, crs, skip_missing, progress)
     with naming(source):
         name = os.fspath(source) if isinstance(source, str | os.PathLike) else ""
-        return located(_rows_of(Input(source, format), wanted), wanted, name)
+        return located(_rows_of(SourceFile(source, format), wanted), wanted, name)
 
 
-def _rows_of(file: Input, wanted: Wanted) -> Content:
+def _rows_of(file: SourceFile, wanted: Wanted) -> Content:
     if wanted.layer is not None and file.kind != "vector":
         raise ValueError(
             f"{spelled('layer')} is {wanted.layer!r}, but a file of the kind {file.kind} has no layers; leave it out"
@@ -159,6 +211,67 @@ def from_geodataframe(frame: Any) -> PointTable:
     return located(Frame(frame), Wanted())
 
 
+Placed = list[tuple[int, FloatArray]]
+"""Numbers of features or polygons, and positions of each."""
+
+
+@dataclass(frozen=True, eq=False)
+class Shapes:
+    """All points, lines and polygons of a source, with the numbers of their features; degrees, longitude first.
+
+    Rings are closed, with the first point repeated at the end, the outer one of each polygon before its holes;
+    orientations are those of the source.
+    """
+
+    properties: Sequence[Mapping[str, Any]]
+    points: FloatArray
+    point_feature: Indices
+    lines: Ragged
+    line_feature: Indices
+    rings: Ragged
+    ring_polygon: Indices
+    polygon_feature: Indices
+
+    @property
+    def polygons(self) -> list[list[FloatArray]]:
+        """The rings of each polygon, the outer one first."""
+        rings, first = list(self.rings), np.searchsorted(self.ring_polygon, np.arange(len(self.polygon_feature) + 1))
+        return [rings[a:b] for a, b in pairwise(first.tolist())]
+
+    def in_degrees(self, crs: str | None) -> Shapes:
+        """The same of coordinates in another system; ValueError names the row of a place that has no degrees."""
+        ring_feature = self.polygon_feature[self.ring_polygon]
+        return replace(
+            self,
+            points=degrees(self.points, crs, self.point_feature + 1),
+            lines=replace(self.lines, values=degrees(self.lines.values, crs, self.line_feature[self.lines.row] + 1)),
+            rings=replace(self.rings, values=degrees(self.rings.values, crs, ring_feature[self.rings.row] + 1)),
+        )
+
+    def column(self, name: str) -> FloatArray:
+        """A property of each feature as a number, NaN if lacking; ValueError if none has it, or for other values."""
+        if not any(name in entry for entry in self.properties):
+            known = sorted({str(key) for entry in self.properties for key in entry})
+            raise ValueError(
+                f"column {name!r} is not a property of the features; they have {', '.join(known) or 'none'}"
+            )
+        values = [entry.get(name) for entry in self.properties]
+        try:
+            return np.array([np.nan if value is None else float(value) for value in values])
+        except (TypeError, ValueError):
+            raise ValueError(
+                f"column {name!r} holds something that is not a number; name a column of numbers"
+            ) from None
+
+    def words(self, name: str) -> list[str | None] | None:
+        """A property of each feature as text, None for features that lack it; None if any value is not text."""
+        values = [entry.get(name) for entry in self.properties]
+        given = [value for value in values if value is not None]
+        if not given or not all(isinstance(value, str) for value in given):
+            return None
+        return values
+
+
 def shapes_of(source: Any) -> Shapes:
     """The shapes of a file, of GeoJSON, of a frame, or of geometries: one feature for each row.
 
@@ -169,9 +282,9 @@ def shapes_of(source: Any) -> Shapes:
     if isinstance(source, str | os.PathLike):
         return _shapes_of_file(Path(source))
     if hasattr(source, "to_crs"):
-        degrees = source if source.crs is None else source.to_crs("EPSG:4326")
-        others = degrees.drop(columns=degrees.geometry.name).to_dict("records") if hasattr(degrees, "columns") else None
-        return of_geometries(np.asarray(degrees.geometry, dtype=object), others)
+        frame = source if source.crs is None else source.to_crs("EPSG:4326")
+        others = frame.drop(columns=frame.geometry.name).to_dict("records") if hasattr(frame, "columns") else None
+        return of_geometries(np.asarray(frame.geometry, dtype=object), others)
     alone = isinstance(source, Mapping) or hasattr(source, "geom_type")
     if alone or isinstance(getattr(source, "__geo_interface__", None), Mapping):
         return of_items([source])
@@ -184,21 +297,67 @@ def _shapes_of_file(path: Path) -> Shapes:
     path.stat()  # the system's own message says best that there is none
     with naming(path):
         known = {*PACKED, *(ending for each in FORMATS.values() for ending in each.endings)}
-        file = Input(path, None if path.suffix.lower() in known else "vector")
+        file = SourceFile(path, None if path.suffix.lower() in known else "vector")
         found = _rows_of(file, Wanted(choice="give a file with one"))
-        if isinstance(found, Features):
+        if isinstance(found, geojson.Features):
             return of_features(found)
         if not (isinstance(found, Frame) and hasattr(found.frame, "to_crs")):
             raise ValueError("the file is a table without geometries")
         return shapes_of(found.frame)
 
 
-@contextmanager
-def naming(source: Any) -> Iterator[None]:
-    """Begin errors with the name of the file, unless it stands there already."""
-    try:
-        yield
-    except ValueError as error:
-        if not isinstance(source, str | os.PathLike) or str(error).startswith(f"{os.fspath(source)}: "):
-            raise
-        raise ValueError(f"{os.fspath(source)}: {error}") from error
+def of_items(items: list[Any]) -> Shapes:
+    """Shapes of Shapely's geometries, or of other objects with `__geo_interface__`, one feature each."""
+    if all(item is None or hasattr(item, "geom_type") for item in items):
+        geometries = np.empty(len(items), dtype=object)
+        geometries[:] = items
+        return of_geometries(geometries)
+    contents = [item if isinstance(item, Mapping) else getattr(item, "__geo_interface__", None) for item in items]
+    for number, content in enumerate(contents):
+        if not isinstance(content, Mapping):
+            raise TypeError(f"source[{number}] must be a geometry or GeoJSON, got {type(items[number]).__name__}")
+    return of_features(geojson.Features.of(*contents))
+
+
+def of_features(features: geojson.Features) -> Shapes:
+    """Shapes of what was read from GeoJSON."""
+    points, lines, rings, polygons = Placed(), Placed(), Placed(), list[int]()
+    for number, kind, part in features.parts():
+        if kind.endswith("Polygon"):
+            rings += [(len(polygons), ring) for ring in part]
+            polygons.append(number)
+        else:
+            (points if kind.endswith("Point") else lines).append((number, part[0]))
+    (of, at), (line_feature, along), (ring_polygon, around) = map(_unzipped, (points, lines, rings))
+    polygon_feature = np.array(polygons, dtype=np.intp)
+    point_feature = np.repeat(of, at.sizes)
+    shapes = (at.values, point_feature, along, line_feature, around, ring_polygon, polygon_feature)
+    return Shapes(features.properties, *shapes).in_degrees(features.crs)
+
+
+def of_geometries(geometries: Geometries, properties: list[Mapping[str, Any]] | None = None) -> Shapes:
+    """Shapes of Shapely's geometries, one feature each."""
+    # A copy, as pandas gives arrays that are read-only, which Shapely takes since 2.2.
+    parts, feature = np.array(geometries), np.arange(len(geometries))
+    while (shapely.get_type_id(parts) > POLYGON).any():
+        parts, inner = shapely.get_parts(parts, return_index=True)
+        feature = feature[inner]
+    there = ~(shapely.is_missing(parts) | shapely.is_empty(parts))
+    parts, feature = parts[there], feature[there]
+    kind = shapely.get_type_id(parts)
+    point, line, polygon = kind == POINT, (kind != POINT) & (kind != POLYGON), kind == POLYGON
+    rings, owner = shapely.get_rings(parts[polygon], return_index=True)
+    rows = [
+        Ragged.grouped(lonlat.reshape(-1, 2), row, len(of))
+        for of in (parts[line], rings)
+        for lonlat, row in [shapely.get_coordinates(of, return_index=True)]
+    ]
+    points = shapely.get_coordinates(parts[point]).reshape(-1, 2)
+    named = properties or [{}] * len(geometries)
+    found = Shapes(named, points, feature[point], rows[0], feature[line], rows[1], owner, feature[polygon])
+    return found.in_degrees(None)
+
+
+def _unzipped(rows: Placed) -> tuple[Indices, Ragged]:
+    numbers, places = [number for number, _ in rows], [positions for _, positions in rows]
+    return np.array(numbers, dtype=np.intp), Ragged.of(places, np.zeros((0, 2)))

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import Any, Literal
+from collections.abc import Callable, Mapping, Sequence
+from functools import wraps
+from typing import Any, Literal, ParamSpec
 
 import numpy as np
 import numpy.typing as npt
@@ -21,7 +22,7 @@ from stereodel.curves.trace import Arcs, great
 from stereodel.interpolation import Contour
 from stereodel.io.formats import wkb
 from stereodel.io.formats.map_rows import MapRows, packed, shapely
-from stereodel.io.formats.names import beside
+from stereodel.io.formats.names import beside, spelled
 from stereodel.io.maps.clipping import clipped
 from stereodel.io.maps.meshes_as_rows import (
     Columns,
@@ -45,9 +46,10 @@ from stereodel.triangulation import PlanarVoronoi
 What = Literal["cells", "triangles", "edges", "ridges", "sites"]
 WHAT = ("cells", "triangles", "edges", "ridges", "sites")
 LARGEST_SEGMENT = 90.0
+_P = ParamSpec("_P")
 
 
-def to_geodataframe(
+def rows_of(
     mesh: Mesh | list[Contour],
     *,
     what: What | None = None,
@@ -58,7 +60,8 @@ def to_geodataframe(
     bounds: npt.ArrayLike | None = None,
     crs: Any = None,
     clip: Any = None,
-) -> Any:
+    progress: Progress | None = None,
+) -> MapRows:
     """Cells, triangles, edges, ridges, sites or contours as a GeoDataFrame.
 
     Parameters
@@ -88,6 +91,8 @@ def to_geodataframe(
         Polygons to which cells or triangles of the sphere are clipped, in degrees or with a coordinate system of their
         own; "land" is the land of Natural Earth, 1:50 000 000. What lies outside has no row; ``area`` is the area
         inside.
+    progress : callable, optional
+        Called repeatedly with the name of the stage, how much of it is done, and how much there is.
 
     Returns
     -------
@@ -133,27 +138,7 @@ def to_geodataframe(
     4      4    N  2.094       Polygon
     5      5    S  2.094       Polygon
     """
-    optional("geopandas", "geo")
-    return rows_of(**locals()).frame()
-
-
-def rows_of(
-    mesh: Mesh | list[Contour],
-    *,
-    what: What | None = None,
-    columns: Mapping[str, npt.ArrayLike] | None = None,
-    latitude: Latitude | None = None,
-    radius: float = 1.0,
-    max_segment: float = 1.0,
-    bounds: npt.ArrayLike | None = None,
-    crs: Any = None,
-    clip: Any = None,
-    progress: Progress | None = None,
-) -> MapRows:
-    """The rows of `to_geodataframe` for writing to files, without creating a Shapely geometry for each."""
-    # The parameters stand in both functions: documentation, type checkers and, for options of `write`, error messages
-    # read them from the signatures.
-    as_scalar(max_segment, "max_segment", low=0.0, high=LARGEST_SEGMENT, open_low=True)
+    as_scalar(max_segment, spelled("max_segment"), low=0.0, high=LARGEST_SEGMENT, open_low=True)
     if isinstance(mesh, list):
         if what is not None or columns or bounds is not None or clip is not None:
             raise ValueError(
@@ -189,6 +174,22 @@ def rows_of(
     layer = MapRows(found, binary, crs if box else "EPSG:4326")
     kept = wkb.is_there(binary)
     return layer if kept.all() else layer.take(kept)
+
+
+def _framed(rows: Callable[_P, MapRows]) -> Callable[_P, Any]:
+    """A function that makes a GeoDataFrame, with the parameters and the docstring of one that makes rows."""
+
+    @wraps(rows)
+    def to_geodataframe(*args: _P.args, **options: _P.kwargs) -> Any:
+        optional("geopandas", "geo")
+        return rows(*args, **options).frame()
+
+    to_geodataframe.__name__ = to_geodataframe.__qualname__ = "to_geodataframe"
+    return to_geodataframe
+
+
+to_geodataframe = _framed(rows_of)
+"""`rows_of` for writing to files is without a Shapely geometry for each row."""
 
 
 def _faces(

@@ -1,8 +1,8 @@
-"""Tables of points: their places on the Earth or in a plane, and their other columns."""
+"""Tables of points: their places on the Earth or in a plane, their other columns, and what is said of wrong rows."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 from typing import Any, Final, Literal
@@ -10,8 +10,10 @@ from typing import Any, Final, Literal
 import numpy as np
 
 from stereodel._arrays import BoolArray, Column, FloatArray, Indices, as_choice, as_lonlat, as_points, read_only
-from stereodel.io.formats.columns import doubles, why_not
-from stereodel.io.formats.names import beside, left_out
+from stereodel._extras import optional
+from stereodel.io.formats import Content, Wanted
+from stereodel.io.formats.columns import EXACT_INTEGERS, doubles, why_not
+from stereodel.io.formats.names import beside, left_out, naming, spelled
 from stereodel.sphere import lonlat_to_xyz
 from stereodel.sphere.latitudes import Latitude
 
@@ -126,35 +128,21 @@ class PointTable:
 
     def column(self, name: str) -> Column:
         """A column by name; ValueError lists the columns that exist."""
-        if name not in self.columns:
-            known = ", ".join(self.columns) or "none besides the coordinates"
-            raise ValueError(self._said(f"there is no column {name!r}; the columns are {known}"))
+        with naming(self.name):
+            if name not in self.columns:
+                known = ", ".join(self.columns) or "none besides the coordinates"
+                raise ValueError(f"there is no column {name!r}; the columns are {known}")
         return self.columns[name]
 
-    def numbers(self, name: str) -> FloatArray:
-        """A column of numbers, NaN where a cell is empty; ValueError names the first row that holds text."""
-        column = self.column(name)
-        if column.dtype.kind in "iuf":
-            return column.astype(np.float64)
-        values, wrong = doubles(column)
-        if wrong.any():
-            row = np.flatnonzero(wrong)[0]
-            said = str(column.tolist()[row]).strip()
-            raise ValueError(self._said(f"row {self.rows[row]}: the {name} {said!r} {why_not(said)}"))
-        return values
+    def numbers(self, name: str, *, gaps: bool = True) -> FloatArray:
+        """A column of finite numbers, NaN where a cell is empty if `gaps`; ValueError names the first other row."""
+        with naming(self.name):
+            return numbers(self.column(name), name, self.rows, gaps=gaps)
 
     def values(self, names: Sequence[str], *, skip_missing: bool = False) -> tuple[FloatArray, PointTable]:
-        """Columns of numbers (n, number of names) and their points, without incomplete rows if `skip_missing`.
-
-        ValueError names the first row where a number is missing.
-        """
-        values = np.column_stack([self.numbers(name) for name in names])
-        missing = np.argwhere(~np.isfinite(values))
-        if len(missing) and not skip_missing:
-            row, column = missing[0]
-            raise ValueError(self._said(f"row {self.rows[row]}: {names[column]} is missing; {left_out()}"))
-        kept = np.ones(len(values), dtype=np.bool_)
-        kept[missing[:, 0]] = False
+        """Columns of numbers (n, number of names) and their points, without incomplete rows if `skip_missing`."""
+        values = np.column_stack([self.numbers(name, gaps=skip_missing) for name in names])
+        kept = np.flatnonzero(~np.isnan(values).any(axis=1))
         return values[kept], self.taken(kept)
 
     def beside(self, results: Mapping[str, Column], *, first: Mapping[str, Column] | None = None) -> PointTable:
@@ -172,5 +160,91 @@ class PointTable:
         columns = {name: values[which] for name, values in self.columns.items()}
         return replace(self, places=self.places[which], columns=columns, rows=self.rows[which])
 
-    def _said(self, message: str) -> str:
-        return f"{self.name}: {message}" if self.name else message
+
+def located(found: Content, wanted: Wanted, name: str = "") -> PointTable:
+    """A table of what was read: places from its geometries, else from two columns, of degrees, `crs` or a plane.
+
+    ValueError gives the first row that lacks a place, or has none on the Earth; `skip_missing` leaves out the former.
+    """
+    pair = None if wanted.plane else found.places(skip_missing=wanted.skip_missing)
+    columns, crs = found.columns(), found.crs
+    if pair is None:
+        axes, crs = wanted.axes(list(columns)), wanted.crs
+        pair = columns[axes[0]], columns[axes[1]]
+        columns = {key: values for key, values in columns.items() if key not in axes}
+    named = wanted.plane or (("longitude", "latitude") if crs is None else ("easting", "northing"))
+    rows = np.arange(1, len(pair[0]) + 1) if found.rows is None else found.rows
+    decimal, gaps = wanted.plane is None and crs is None, wanted.skip_missing
+    both = zip(named, pair, strict=True)
+    places = np.column_stack([numbers(each, axis, rows, gaps=gaps, decimal=decimal) for axis, each in both])
+    there = ~np.isnan(places).any(axis=1)
+    places, rows = places[there], rows[there]
+    kept = {key: np.asarray(values)[there] for key, values in columns.items()}
+    if wanted.plane is not None:
+        return PointTable(places, kept, rows, "plane", wanted.plane, crs and known_crs(crs).to_string(), name)
+    return PointTable(degrees(places, crs, rows), kept, rows, name=name)
+
+
+def degrees(places: FloatArray, crs: str | None, rows: Sequence[int] | Indices) -> FloatArray:
+    """Places in degrees, transformed if `crs` is given; ValueError names the first row with a wrong one."""
+    lonlat = places if crs is None else transformed(places, crs, rows)
+    _refuse(~np.isfinite(lonlat).all(axis=1), rows, lambda k: "a coordinate is not finite")
+    advice = "is it the longitude, or not in degrees?"
+    _refuse(np.abs(lonlat[:, 1]) > 90.0, rows, lambda k: f"latitude {lonlat[k, 1]} is outside [-90, 90]", advice)
+    return lonlat
+
+
+def known_crs(crs: str) -> Any:
+    """The coordinate system of this name; ValueError if PROJ does not know it."""
+    pyproj = optional("pyproj", "geo")
+    try:
+        return pyproj.CRS(crs)
+    except pyproj.exceptions.CRSError as error:
+        raise ValueError(
+            f"{spelled('crs')} is {crs!r}, which PROJ does not know; give one such as EPSG:25832"
+        ) from error
+
+
+def transformed(places: FloatArray, crs: str, rows: Sequence[int] | Indices) -> FloatArray:
+    """Coordinates in another system, easting first, as longitude and latitude."""
+    transformer = optional("pyproj", "geo").Transformer.from_crs(known_crs(crs), "EPSG:4326", always_xy=True)
+    lonlat = np.column_stack(transformer.transform(*places.T)) if len(places) else places
+    lost = ~np.isfinite(lonlat).all(axis=1)
+    _refuse(lost, rows, lambda k: f"({places[k, 0]}, {places[k, 1]}) has no longitude and latitude in {crs}")
+    return lonlat
+
+
+def numbers(
+    values: Column,
+    name: str,
+    rows: Sequence[int] | Indices,
+    *,
+    gaps: bool = False,
+    decimal: bool = False,
+    advice: str = "",
+) -> FloatArray:
+    """A column as finite numbers, with NaN for missing ones if `gaps`; ValueError names the first invalid row."""
+    array = np.asarray(values)
+    if array.dtype.kind in "iuf":
+        result = array.astype(np.float64)
+        rounded = np.zeros(len(array), dtype=np.bool_)
+        for k in np.flatnonzero(np.abs(result) >= EXACT_INTEGERS).tolist() if array.dtype.kind in "iu" else []:
+            rounded[k] = int(array[k]) != int(result[k])
+        remedy = "subtract an origin that all share, or round it yourself"
+        _refuse(rounded, rows, lambda k: f"the {name} {array[k]} is not a double", remedy)
+    else:
+        result, wrong = doubles(array, decimal=decimal)
+        _refuse(wrong, rows, lambda k: f"the {name} {str(array[k]).strip()!r} {why_not(str(array[k]).strip())}")
+    remedy = "correct or drop such rows first"
+    _refuse(np.isinf(result), rows, lambda k: f"the {name} is {result[k]}, but must be finite", remedy)
+    if not gaps:
+        _refuse(np.isnan(result), rows, lambda k: f"the {name} is missing", advice or left_out())
+    return result
+
+
+def _refuse(wrong: Any, rows: Sequence[int] | Indices, said: Callable[[int], str], advice: str = "") -> None:
+    """A ValueError for the first row that is wrong, how many more there are, and what to do about them."""
+    places = np.flatnonzero(wrong)
+    if len(places):
+        more = f" (and {len(places) - 1} more rows like it)" if len(places) > 1 else ""
+        raise ValueError(f"row {rows[places[0]]}: {said(places[0])}{more}{advice and '; '}{advice}")

@@ -8,7 +8,7 @@ import os
 from collections.abc import Collection, Sequence
 from dataclasses import asdict, dataclass, fields, replace
 from functools import cached_property
-from itertools import pairwise
+from itertools import pairwise, zip_longest
 from pathlib import Path
 from typing import Any, Final, NamedTuple
 
@@ -201,18 +201,11 @@ class Plan:
 
     def differs(self, other: Plan) -> str:
         """What another plan has otherwise, in words; empty if nothing."""
-        mine, its = {file.name: file for file in self.files}, {file.name: file for file in other.files}
-        for name in [*mine, *(name for name in its if name not in mine)]:
-            if name not in its:
-                return f"{name} is missing"
-            if name not in mine:
-                return f"{name} was not there"
-            if mine[name] != its[name]:
-                return f"{mine[name].path} has changed since"
-        for name in (field.name for field in fields(self) if field.name != "files"):
-            if getattr(self, name) != getattr(other, name):
-                return f"{name} was {getattr(self, name)}, and is {getattr(other, name)}"
-        return "" if self == other else "files are in another order"
+        for mine, its in zip_longest(self.files, other.files):
+            if mine != its:
+                return f"{(mine or its).path} is new, missing or has changed since"
+        names = (field.name for field in fields(self) if getattr(self, field.name) != getattr(other, field.name))
+        return next((f"{name} was {getattr(self, name)}, and is {getattr(other, name)}" for name in names), "")
 
 
 def _with_tuples(given: dict[str, Any]) -> dict[str, Any]:
@@ -220,16 +213,7 @@ def _with_tuples(given: dict[str, Any]) -> dict[str, Any]:
 
 
 def _cut(files: Sequence[PointFile], size: int) -> tuple[tuple[RowRange, ...], ...]:
-    """Rows of files in order, in tasks of about `size`: small files grouped, those half as large again cut evenly.
-
-    >>> files = [PointFile("", str(k), rows, 0, 0) for k, rows in enumerate([9, 2, 2, 0, 5])]
-    >>> for task in _cut(files, 4):
-    ...     print(*map(tuple, task))
-    (0, 0, 4)
-    (0, 4, 9)
-    (1, 0, 2) (2, 0, 2)
-    (4, 0, 5)
-    """
+    """Rows of files in order, in tasks of about `size`: small files grouped, those half as large again cut evenly."""
     tasks: list[list[RowRange]] = []
     room = 0
     for number, file in enumerate(files):

@@ -46,7 +46,7 @@ def test_missing_values(folder, run, rows):
     (folder / "holes.csv").write_text("lon,lat,t\n0,0,1\n90,0,\n0,90,3\n", encoding="utf-8")
     options = ("interpolate", "holes.csv", "--value", "t", "--at", "holes.csv", "--method", "nearest", "-o", "-")
     message = run(*options, code=2)
-    assert "holes.csv: row 2: t is missing" in message
+    assert "holes.csv: row 2: the t is missing" in message
     assert "--skip-missing" in message
     assert [row["t"] for row in rows(run(*options, "--skip-missing"))] == ["1", "1", "3"]
 

@@ -80,7 +80,7 @@ interpolate PEOPLE --at wrong.csv → wrong.csv: no column looks like the longit
 interpolate PEOPLE --at cities.csv --at-lat x → cities.csv: --at-lat is 'x', which is not one of the columns
 interpolate PEOPLE --at cities.csv --at-crs x → cities.csv: --at-crs is 'x', which PROJ does not know;
 interpolate cities.csv --value x --grid 5 → cities.csv: there is no column 'x'; the columns
-interpolate gappy.csv --value size --grid 5 → gappy.csv: row 1: size is missing; leave such rows out with --skip-missin
+interpolate gappy.csv --value size --grid 5 → gappy.csv: row 1: the size is missing; leave such rows out
 interpolate PEOPLE --at cities.csv --box=0,0,9,9 --centers → --box and --centers are for a --grid, and there is none
 interpolate PEOPLE --grid 5 --at-lon x → --at-lon is for the table --at, and there is none
 interpolate PEOPLE --grid 0 → --grid is 0.0, outside (0, 180]
@@ -88,7 +88,7 @@ interpolate PEOPLE --grid 7 → --grid is 7, but 180 must be a whole multiple of
 interpolate PEOPLE --grid 1e-05 → --grid is 1e-05, which makes a grid of 36000000 × 18000001 places; 1073741824 are the
 interpolate PEOPLE --grid nan → --grid is nan; every value must be a finite number
 interpolate PEOPLE --grid 5 --box=0,0,7 → --box is '0,0,7', but must be W,S,E,N in degrees, e.g. --box=-25,34,45,72
-interpolate PEOPLE --grid 5 --box=0,9,7,5 → --box is '0,9,7,5', but its south border must be below its north border
+interpolate PEOPLE --grid 5 --box=0,9,7,5 → --box is (0.0, 9.0, 7.0, 5.0), but south must be below north
 interpolate PEOPLE --grid 5 --box=nan,5,7,9 → --box is 'nan,5,7,9', but must be W,S,E,N in degrees
 interpolate PEOPLE → either --at
 interpolate PEOPLE --grid 1 --plane lon lat → --at

@@ -9,7 +9,7 @@ from typer.testing import CliRunner
 
 from stereodel import PlanarDelaunay, SphericalDelaunay, check_delaunay, lonlat_to_xyz
 from stereodel.cli import app
-from stereodel.cli.destinations import TABLES
+from stereodel.cli.options import TABLES
 from stereodel.earth import AUTHALIC_RADIUS_KM
 from stereodel.io import read_points
 

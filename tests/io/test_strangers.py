@@ -346,20 +346,6 @@ def test_long_lines_are_read(tmp_path):
         assert table.columns["a"].tolist() == [line, line]
 
 
-@pytest.mark.parametrize("where", ["", " WHERE i <> 'other'"])
-def test_a_view_of_one_table_is_read(tmp_path, where):
-    computed(f"CREATE VIEW v AS SELECT fid, geom, i AS named FROM t{where}")(tmp_path / "a.gpkg")
-    assert read_points(tmp_path / "a.gpkg").columns["named"].tolist() == ["topsecret"]
-
-
-def test_a_view_of_a_view_is_not(tmp_path):
-    computed("CREATE VIEW v AS SELECT fid, geom FROM w")(tmp_path / "a.gpkg")
-    with sqlite3.connect(tmp_path / "a.gpkg") as base:
-        base.execute(f"CREATE VIEW w AS SELECT 1 AS fid, a.name AS geom FROM {PRODUCT}")
-    with pytest.raises(ValueError, match="the layer 'v' is not stored in the file, but computed"):
-        read_points(tmp_path / "a.gpkg")
-
-
 def test_what_is_packed_well_is_read(tmp_path):
     text = KML.format(PLACE).encode()
     (tmp_path / "a.kml.gz").write_bytes(gzip.compress(text))

@@ -192,7 +192,7 @@ def test_no_target_and_no_point(tmp_path, octahedron):
 ASKED = [
     ("nearest", "wrong", {}, ValueError, r"000\.parquet: row 2: the x is missing"),
     ("nearest", "right", {"k": 7}, ValueError, "k is 7, but must be at most 6"),
-    ("nearest", "right", {"limit": 1}, MemoryError, r"000\.parquet: row 1: this target may need 3 points.* limit=1"),
+    ("nearest", "right", {"limit": 1}, MemoryError, r"target 0 may need 3 points.* limit=1"),
     (
         "interpolate",
         "right",

@@ -1,26 +1,20 @@
-"""What knows a file format: each module enters itself in `FORMATS`, and loads libraries only to read and write."""
+"""What knows a file format: each module has one for the table of `reading`, and loads libraries only on use."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import AbstractContextManager
 from dataclasses import dataclass
-from functools import cached_property
 from pathlib import Path
-from tempfile import TemporaryDirectory
-from typing import BinaryIO, Final, Literal, NamedTuple, TextIO
+from typing import BinaryIO, Literal, NamedTuple, Protocol, TextIO
 
-from stereodel._arrays import Column, Indices, as_choice
+from stereodel._arrays import Column, Indices
 from stereodel._tasks.progress import Progress
-from stereodel.io.formats.foreign import unpacked
 from stereodel.io.formats.names import find_lonlat, listed
 
 Source = str | os.PathLike[str] | BinaryIO | TextIO
 FormatName = Literal["csv", "geojson", "parquet", "vector"]
-
-PACKED: Final = (".gz", ".bz2")
-"""Extensions of compressed files."""
 
 
 @dataclass(frozen=True)
@@ -47,6 +41,17 @@ class Wanted:
         return self.plane
 
 
+class Input(Protocol):
+    """A source of rows: its bytes, decompressed, and where it is on the disk, for what has to read it there."""
+
+    @property
+    def content(self) -> bytes:
+        """The bytes, read on demand."""
+
+    def on_disk(self) -> AbstractContextManager[Path]:
+        """A file with the extension of its format, and with any companion files."""
+
+
 class Content:
     """What a file holds: here, columns alone."""
 
@@ -70,55 +75,3 @@ class FileFormat(NamedTuple):
     endings: tuple[str, ...]
     marks: Mapping[bytes, str]
     read: Callable[[Input, Wanted], Content]
-
-
-FORMATS: dict[FormatName, FileFormat] = {}
-
-
-class Input:
-    """A source of rows: its format, and its bytes, read on demand."""
-
-    def __init__(self, source: Source, kind: FormatName | None = None) -> None:
-        self._source = source
-        self.path = Path(source) if isinstance(source, str | os.PathLike) else None
-        self.kind: FormatName = as_choice(kind or self._found(), tuple(FORMATS), "format")
-
-    def _found(self) -> FormatName:
-        """The format from the extension of the path, ignoring that of compression, else from the first bytes."""
-        kinds = {ending: kind for kind, known in FORMATS.items() for ending in known.endings}
-        endings = [ending.lower() for ending in self.path.suffixes[-2:]] if self.path is not None else []
-        if endings[-1:] and endings[-1] in PACKED:
-            endings.pop()
-        return kinds.get(endings[-1] if endings else "") or kinds[self._ending]
-
-    @cached_property
-    def content(self) -> bytes:
-        """The decompressed bytes."""
-        content = self._source.read() if self.path is None else self.path.read_bytes()  # type: ignore[union-attr]
-        return content.encode() if isinstance(content, str) else unpacked(content)
-
-    @contextmanager
-    def on_disk(self) -> Iterator[Path]:
-        """Where GDAL finds the file, as it needs the extension and any companion files."""
-        if self.path is not None and self.path.suffix.lower() not in PACKED:
-            if not self.path.is_dir():  # as some formats are
-                self.path.open("rb").close()  # the system's own message says best why it cannot be read
-            yield self.path
-            return
-        with TemporaryDirectory() as folder:
-            within = Path(self.path.stem).suffix if self.path is not None else ""
-            named = Path(folder, f"points{within or self._ending}")
-            named.write_bytes(self.content)
-            yield named
-
-    @property
-    def _ending(self) -> str:
-        """The extension that matches the first bytes; XML may be KML or GPX, a zip archive a spreadsheet."""
-        start = self.content[:64].lstrip(b"\xef\xbb\xbf \t\r\n")
-        marks = {mark: ending for known in FORMATS.values() for mark, ending in known.marks.items()}
-        found = next((ending for mark, ending in marks.items() if start.startswith(mark)), ".csv")
-        if found == ".zip" and b"xl/workbook.xml" in self.content:
-            return ".xlsx"
-        if found == ".zip" and b"opendocument.spreadsheet" in self.content[:100]:
-            return ".ods"
-        return ".gpx" if found == ".kml" and b"<gpx" in self.content[:1000] else found

@@ -17,7 +17,7 @@ import numpy as np
 from stereodel._arrays import Column, Indices
 from stereodel._tasks.progress import Progress
 from stereodel.constants import MOST_COLUMNS, MOST_LINE
-from stereodel.io.formats import FORMATS, Content, FileFormat, Input, Wanted
+from stereodel.io.formats import Content, FileFormat, Input, Wanted
 from stereodel.io.formats.columns import (
     EXACT_INTEGERS,
     NUMBER,
@@ -52,7 +52,7 @@ def read(file: Input, wanted: Wanted) -> Content:
     return Content(typed_columns(columns, comma, degrees), rows)
 
 
-FORMATS["csv"] = FileFormat((".csv", ".tsv", ".txt"), {}, read)
+FORMAT = FileFormat((".csv", ".tsv", ".txt"), {}, read)
 
 
 def typed_columns(columns: dict[str, Column], comma: bool, degrees: Collection[str]) -> dict[str, Column]:

@@ -17,7 +17,7 @@ from xml.parsers import expat
 
 from stereodel._extras import OnUse, optional
 from stereodel._tasks.progress import Progress
-from stereodel.io.formats import FORMATS, FileFormat, Input, Wanted
+from stereodel.io.formats import FileFormat, Input, Wanted
 from stereodel.io.formats.columns import as_text, check_held, plain
 from stereodel.io.formats.foreign import check_crs, check_stored, self_contained
 from stereodel.io.formats.map_rows import Frame, MapRows, arrow, arrow_column
@@ -74,7 +74,7 @@ def read(file: Input, wanted: Wanted) -> Frame:
         return Frame(in_degrees(_read_frame(source, wanted.layer, wanted.choice)))
 
 
-FORMATS["vector"] = FileFormat(
+FORMAT = FileFormat(
     (".gpkg", ".shp", ".fgb", ".kml", ".kmz", ".gml", ".gpx", ".zip", ".xlsx", ".ods"),
     {
         b"SQLite format 3": ".gpkg",
@@ -176,8 +176,9 @@ def write_layer(layer: MapRows, path: Path, *, progress: Progress | None = None)
     named = beside([layer.name, *RESERVED[kind]], layer.columns, any_case=True)
     check_held(named, kind)
     whole = replace(layer, columns={name: plain_column(values, kind) for name, values in named.items()})
-    kinds = sorted({SEVERAL.get(found, found) for found in layer.kinds}) if layer.has_several else layer.kinds
-    schema, batches = whole.batches(progress, several=layer.has_several)
+    several = any(found.startswith("Multi") for found in layer.kinds)  # then all need to be, in formats of one kind
+    kinds = sorted({SEVERAL.get(found, found) for found in layer.kinds}) if several else layer.kinds
+    schema, batches = whole.batches(progress, several=several)
     memory = BytesIO()
     with told(writing=True), warnings.catch_warnings(record=True) as said:
         warnings.simplefilter("always")

@@ -17,7 +17,7 @@ import numpy as np
 from stereodel._arrays import Column, FloatArray, as_count
 from stereodel._tasks.progress import Progress
 from stereodel.constants import EMPTY_RATIO, FEW_CELLS
-from stereodel.io.formats import FORMATS, Content, FileFormat, Input, Wanted
+from stereodel.io.formats import Content, FileFormat, Input, Wanted
 from stereodel.io.formats.columns import check_held, column, decoded, objects, plain_cells
 from stereodel.io.formats.foreign import check_crs
 from stereodel.io.formats.map_rows import MapRows, no_point, shapely
@@ -45,9 +45,8 @@ class Features(Content):
         rows: list[Any] = []
         systems: set[str | None] = set()
         for content in contents:
-            found = _rows_of(content)
-            rows += found
-            systems |= _systems_of(content, found)
+            rows += _rows_of(content)
+            systems |= _systems_of(content)
         if len(systems) > 1:
             names = ", ".join(sorted(name or "degrees" for name in systems))
             raise ValueError(f"there are several coordinate systems, {names}; give features of one")
@@ -104,9 +103,7 @@ def read(file: Input, _: Wanted) -> Features:
     return Features.of(parsed(decoded(file.content)))
 
 
-FORMATS["geojson"] = FileFormat(
-    (".geojson", ".json", ".geojsonl", ".geojsons"), {b"{": ".geojson", b"\x1e{": ".geojson"}, read
-)
+FORMAT = FileFormat((".geojson", ".json", ".geojsonl", ".geojsons"), {b"{": ".geojson", b"\x1e{": ".geojson"}, read)
 
 
 def _kind_of(content: Any) -> Any:
@@ -134,25 +131,12 @@ def _rows_of(content: Any) -> Sequence[Any]:
     return rows
 
 
-def _systems_of(content: Any, rows: Sequence[Any]) -> set[str | None]:
-    """Coordinate systems of features: whatever is in an object has that of the object, unless it names its own."""
-    around, found, named = _system(content, None), set[str | None](), list[tuple[Any, str | None]]()
-    for row in rows:
-        system, geometry = _system(row, around), row.get("geometry")
-        if isinstance(geometry, Mapping) and ("crs" in geometry or "geometries" in geometry):
-            named.append((geometry, system))
-        else:
-            found.add(system)
-    while named:
-        geometry, around = named.pop()
-        system, parts = _system(geometry, around), geometry.get("geometries")
-        inside = (
-            [(part, system) for part in parts if isinstance(part, Mapping)] if isinstance(parts, list | tuple) else []
-        )
-        named += inside
-        if not inside:
-            found.add(system)
-    return found
+def _systems_of(thing: Mapping[str, Any], around: str | None = None) -> set[str | None]:
+    """Coordinate systems in an object: what is inside has that of the object, unless it names its own."""
+    system = _system(thing, around)
+    inside = next((thing[name] for name in ("features", "geometries") if name in thing), (thing.get("geometry"),))
+    parts = [part for part in inside if isinstance(part, Mapping)] if isinstance(inside, list | tuple) else []
+    return set().union(*(_systems_of(part, system) for part in parts)) or {system}
 
 
 def _system(thing: Mapping[str, Any], around: str | None) -> str | None:

@@ -11,16 +11,13 @@ from typing import Any, Final
 from stereodel._arrays import Column
 from stereodel._extras import optional
 from stereodel._tasks.progress import Progress
-from stereodel.io.formats import FORMATS, Content, FileFormat, Input, Wanted
+from stereodel.io.formats import Content, FileFormat, Input, Wanted
 from stereodel.io.formats.columns import check_held, column, of_objects
 from stereodel.io.formats.foreign import check_size
 from stereodel.io.formats.gdal import in_degrees, told
 from stereodel.io.formats.map_rows import Frame, MapRows
 
 VERSION: Final = "1.0.0"
-
-TEXTS: Final = ("string", "binary")
-"""Names of Arrow's types that Parquet packs by numbers of distinct values."""
 
 
 def read(file: Input, _: Wanted) -> Content:
@@ -32,7 +29,7 @@ def read(file: Input, _: Wanted) -> Content:
     check_size(8 * found.num_rows * found.num_columns, len(content))
     with told():
         # Text that repeats is read as it is packed, each once.
-        names = [field.name for field in parquet.read_schema(io.BytesIO(content)) if field.type in TEXTS]
+        names = [field.name for field in parquet.read_schema(io.BytesIO(content)) if field.type in ("string", "binary")]
         table = parquet.read_table(io.BytesIO(content), read_dictionary=names)
     check_size(sum(_letters(table[name]) for name in names), len(content))
     with told():
@@ -42,7 +39,7 @@ def read(file: Input, _: Wanted) -> Content:
     return Frame(in_degrees(frame))
 
 
-FORMATS["parquet"] = FileFormat((".parquet", ".geoparquet"), {b"PAR1": ".parquet"}, read)
+FORMAT = FileFormat((".parquet", ".geoparquet"), {b"PAR1": ".parquet"}, read)
 
 
 def _of_arrow(values: Any) -> Column:
