@@ -8,9 +8,8 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Final, TypeVar
+from typing import TYPE_CHECKING, Annotated, Any, Final, Literal, TypeVar
 
 import typer
 
@@ -56,12 +55,7 @@ LAYER_KEYS = ("color", "width", "outline", "size", "column")
 """Of `--layer FILE,key=…`."""
 
 
-class Projection(StrEnum):
-    """Projections of the sphere to the page."""
-
-    globe = "globe"
-    stereographic = "stereographic"
-    hemispheres = "hemispheres"
+Projection = Literal["globe", "stereographic", "hemispheres"]
 
 
 @options.grouped
@@ -92,7 +86,7 @@ def command(
     ] = None,
     projection: Annotated[
         Projection, typer.Option("--projection", help="A globe, or flat stereographic maps of half or all of it.")
-    ] = Projection.globe,
+    ] = "globe",
     texture: Annotated[
         str | None,
         typer.Option(
@@ -216,9 +210,9 @@ class Aim:
         from stereodel.globe import hemispheres
 
         lon, lat = self.middle or self.place
-        if self.projection == Projection.hemispheres:
+        if self.projection == "hemispheres":
             return hemispheres(lon, lat, flat=True)
-        return (View(lon, lat) if self.projection == Projection.globe else StereographicView(lon, lat),)
+        return (View(lon, lat) if self.projection == "globe" else StereographicView(lon, lat),)
 
 
 def middle_of(points: FloatArray) -> options.Place:
@@ -267,8 +261,7 @@ def layer_of(text: str) -> tuple[Path, dict[str, Any]]:
     An existing file whose name contains commas and equals signs is taken literally.
     """
     from stereodel.drawing.page.colors import as_color
-    from stereodel.drawing.page.lengths import as_length
-    from stereodel.drawing.page.style import MAP_DOT, MAP_FILLS, MAP_LINES, LineStyle
+    from stereodel.drawing.page.style import MAP_DOT, MAP_FILLS, MAP_LINES, LineStyle, as_length
 
     path, *given = [text] if Path(text).exists() else re.split(r",(?=\w+=)", text)
     looks = dict(part.split("=", 1) for part in given)
@@ -332,8 +325,8 @@ def motion_of(aim: Aim, stops: Sequence[options.Place]) -> Motion:
     from stereodel.conformal import path_between
     from stereodel.film import Flight, Morph, Spin, Stop
 
-    if aim.projection == Projection.hemispheres or (aim.projection != Projection.globe and stops):
-        raise ValueError(f"--projection {aim.projection.value} cannot move; films are of the globe")
+    if aim.projection == "hemispheres" or (aim.projection != "globe" and stops):
+        raise ValueError(f"--projection {aim.projection} cannot move; films are of the globe")
     if stops:
         return Flight([Stop(place, aim.magnification) for place in (aim.place, *stops)])
     if aim.magnification == 1:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from enum import StrEnum
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from stereodel.cli import options
+from stereodel.interpolation.methods import METHODS, Method
 
 if TYPE_CHECKING:
     from stereodel._arrays import FloatArray
@@ -17,15 +17,6 @@ if TYPE_CHECKING:
 GRIDS = ("csv", "nc", "tif", "tiff")
 PIECE = 100_000  # rows between two signs of progress
 EXAMPLE = "stereodel interpolate stations.csv --value temperature --grid 5 -o temperature.csv"
-
-
-class Method(StrEnum):
-    """Methods of interpolation."""
-
-    nearest = "nearest"
-    linear = "linear"
-    smooth = "smooth"
-    natural = "natural"
 
 
 @options.grouped
@@ -51,10 +42,10 @@ def command(
     unit: Annotated[
         list[str] | None, typer.Option(metavar="NAME", help="Unit of the values, for grids; one for each --value.")
     ] = None,
-    method: Annotated[Method, typer.Option(help="Method of interpolation.")] = Method.linear,
+    method: Annotated[Method, typer.Option(help="Method of interpolation.")] = "linear",
     columns: options.AnyTable,
     at_columns: Annotated[options.SecondTable, "--at"],
-    latitude: options.LatitudeKind = options.Latitude.authalic,
+    latitude: options.LatitudeKind = "authalic",
 ) -> None:
     """Interpolate values at other points, or on a grid of longitude and latitude.
 
@@ -80,15 +71,15 @@ def command(
     if grid is not None:
         empty = Grid.regular(grid, None if box is None else options.box_of(box, "--box"), centers=centers)
     values, table = columns.read(points).values(value, skip_missing=columns.skip_missing)
-    interpolated = _interpolator(table.points(latitude.value), values, method)
+    interpolated = _interpolator(table.points(latitude), values, method)
     if at is None:
-        found = interpolated(lonlat_to_xyz(empty.lonlat.reshape(-1, 2), latitude=latitude.value))
+        found = interpolated(lonlat_to_xyz(empty.lonlat.reshape(-1, 2), latitude=latitude))
         shaped = {name: column.reshape(empty.lonlat.shape[:2]) for name, column in zip(value, found.T, strict=True)}
         filled = replace(empty, values=shaped, units=dict(zip(value, unit or (), strict=False)))
         destination.put(filled)
         return
     asking = at_columns.read(at, columns)
-    results = dict(zip(value, interpolated(asking.points(latitude.value)).T, strict=True))
+    results = dict(zip(value, interpolated(asking.points(latitude)).T, strict=True))
     destination.put(asking.beside(results))
 
 
@@ -97,10 +88,9 @@ def _interpolator(points: FloatArray, values: FloatArray, method: Method) -> Cal
     import numpy as np
 
     from stereodel.cli.application import reporting
-    from stereodel.interpolation.methods import METHODS
 
     with reporting("triangulating"):
-        interpolator = METHODS[method.value](points, values)
+        interpolator = METHODS[method](points, values)
 
     def interpolated(queries: FloatArray) -> FloatArray:
         found = np.empty((len(queries), values.shape[1]))

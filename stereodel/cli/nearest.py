@@ -37,7 +37,7 @@ def command(
     ] = False,
     columns: options.AnyTable,
     of_columns: Annotated[options.SecondTable, "--of"],
-    latitude: options.LatitudeKind = options.Latitude.authalic,
+    latitude: options.LatitudeKind = "authalic",
 ) -> None:
     """Find the sites nearest to each query point, and their distances in kilometres.
 
@@ -52,7 +52,7 @@ def command(
         raise ValueError("SITES and --of cannot both be stdin")
     chosen = columns.read(sites)
     asking = of_columns.read(queries, columns)
-    pairs = _pairs(chosen.points(latitude.value), asking.points(latitude.value), count, max_distance, exclude_self)
+    pairs = _pairs(chosen.points(latitude), asking.points(latitude), count, max_distance, exclude_self)
     table = _with_sites(asking.taken(pairs.query), chosen, pairs, keep, ranked=count > 1)
     destination.put(table)
     say(f"{output.out}: nearest of {len(chosen)} sites for {len(asking)} points")

@@ -6,7 +6,6 @@ import sys
 from collections.abc import Callable, Mapping
 from copy import copy
 from dataclasses import MISSING, dataclass, fields, is_dataclass, replace
-from enum import StrEnum
 from inspect import Parameter, signature
 from math import isfinite
 from pathlib import Path
@@ -18,18 +17,11 @@ from stereodel._arrays import as_scalar
 from stereodel.cli.application import ARGUMENTS, NothingToDoError, reporting
 from stereodel.constants import LARGEST_MAGNIFICATION
 from stereodel.io.formats.names import spelling
+from stereodel.sphere.latitudes import Latitude
 
 if TYPE_CHECKING:
     from stereodel.cli.destinations import Destination
     from stereodel.io import PointTable
-
-
-class Latitude(StrEnum):
-    """The kind of latitude in a table."""
-
-    spherical = "spherical"
-    geodetic = "geodetic"
-    authalic = "authalic"
 
 
 SAME = {"json": "geojson", "geoparquet": "parquet"}

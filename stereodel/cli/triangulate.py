@@ -25,7 +25,7 @@ def command(
     edges: Annotated[bool, typer.Option("--edges", help="Write the edges instead of the triangles.")] = False,
     max_segment: options.MaxSegment = 1.0,
     columns: options.AnyTable,
-    latitude: options.LatitudeKind = options.Latitude.authalic,
+    latitude: options.LatitudeKind = "authalic",
 ) -> None:
     """Write the Delaunay triangles of points, or their edges.
 
@@ -43,7 +43,7 @@ def command(
         raise ValueError(f"{output.out}: holds faces, not edges; leave out --edges or choose {', '.join(TABLES)}")
     table = columns.read(points)
     with reporting(f"triangulating {len(table)} points"):
-        triangulation = as_triangulation(table.points(latitude.value))
+        triangulation = as_triangulation(table.points(latitude))
     count = len(_corner_rows(triangulation, "triangles", table)["a"])
     if count == 0:
         raise NothingToDoError(f"{table.name}: no triangles: too few points, or all on one line or great circle")
@@ -51,13 +51,13 @@ def command(
     if kind == "csv":
         destination.put(_corner_rows(triangulation, what, table))
     elif kind in MESHES:
-        destination.put(triangulation, **({"latitude": latitude.value} if kind == "nc" else {}))
+        destination.put(triangulation, **({"latitude": latitude} if kind == "nc" else {}))
     else:
         with reporting(f"drawing {what}") as shown:
             layer = rows_of(
                 triangulation,
                 what=what,
-                latitude=latitude.value,
+                latitude=latitude,
                 max_segment=max_segment,
                 crs=table.crs,
                 progress=shown,

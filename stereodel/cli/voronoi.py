@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from contextlib import nullcontext
 from dataclasses import replace
-from enum import StrEnum
-from typing import Annotated
+from typing import Annotated, Literal
 
 import typer
 
@@ -14,19 +13,12 @@ from stereodel.cli import options
 EXAMPLE = "stereodel voronoi cities.csv -o cells.gpkg"
 
 
-class AreaUnit(StrEnum):
-    """Units of areas on the sphere."""
-
-    km2 = "km2"
-    sr = "sr"
-
-
 @options.grouped
 def command(
     *,
     points: options.Points,
     output: options.Output,
-    area_unit: Annotated[AreaUnit, typer.Option(help="Unit of the areas, not in a plane.")] = AreaUnit.km2,
+    area_unit: Annotated[Literal["km2", "sr"], typer.Option(help="Unit of the areas, not in a plane.")] = "km2",
     max_segment: options.MaxSegment = 1.0,
     clip: Annotated[
         str | None,
@@ -35,7 +27,7 @@ def command(
         ),
     ] = None,
     columns: options.AnyTable,
-    latitude: options.LatitudeKind = options.Latitude.authalic,
+    latitude: options.LatitudeKind = "authalic",
 ) -> None:
     """Write the Voronoi cell of each point, the region nearer to it than to any other, with its area.
 
@@ -62,18 +54,18 @@ def command(
         options.refuse({"--clip": clip}, "cells of the sphere, not of a plane")
     table = columns.read(points)
     with reporting(f"cells of {len(table)} points"):
-        diagram = diagram_of(as_triangulation(table.points(latitude.value)))
-    name = "area" if columns.plane else f"area_{area_unit.value}"
-    radius = 1.0 if columns.plane or area_unit is AreaUnit.sr else AUTHALIC_RADIUS_KM
+        diagram = diagram_of(as_triangulation(table.points(latitude)))
+    name = "area" if columns.plane else f"area_{area_unit}"
+    radius = 1.0 if columns.plane or area_unit == "sr" else AUTHALIC_RADIUS_KM
     if kind in MESHES:
-        destination.put(diagram, **({"latitude": latitude.value} if kind == "nc" else {}))
+        destination.put(diagram, **({"latitude": latitude} if kind == "nc" else {}))
     elif kind == "csv" and clip is None:
         destination.put(table.beside({name: diagram.areas(radius=radius)}))
     else:
         with reporting(f"drawing {len(table)} cells") as shown, naming(clip) if clip else nullcontext():
             cells = rows_of(
                 diagram,
-                latitude=latitude.value,
+                latitude=latitude,
                 radius=radius,
                 max_segment=max_segment,
                 clip=clip,
@@ -88,5 +80,5 @@ def command(
             rows = table.beside({name: area}, first={"row": table.rows}).located()
             named = {name: values[point] for name, values in beside(["geometry"], rows).items()}
             destination.put(replace(cells, columns=named))
-    said = "" if columns.plane else f", with {latitude.value} latitudes"
+    said = "" if columns.plane else f", with {latitude} latitudes"
     say(f"{output.out}: cells of {len(table)} points{said}")

@@ -20,7 +20,7 @@ from stereodel.constants import MOST_FRAME_PIXELS, MOST_FRAMES
 from stereodel.drawing.page import Page
 from stereodel.drawing.page.colors import ColorLike, as_color
 from stereodel.drawing.page.fonts import MissingCharactersWarning, missing_characters, warn_of_missing
-from stereodel.drawing.page.lengths import LARGEST_SIZE, pixel_height
+from stereodel.drawing.page.page import LARGEST_SIZE
 from stereodel.drawing.page.sheets import Style, StyledDraw
 from stereodel.drawing.page.style import WHITE
 from stereodel.film.frames import KeptFrames, frame_names, store_frame
@@ -337,7 +337,7 @@ class _Camera(Generic[T]):
     def _pixels(self, drawn: Page | Pixels) -> Pixels:
         if not isinstance(drawn, Page):
             return as_frame(drawn, "a picture")
-        as_frame_size(self.size, pixel_height(drawn, self.size))
+        as_frame_size(self.size, drawn.pixels_up(self.size))
         return drawn.pixels(size=self.size, text=self.text)
 
 

@@ -13,7 +13,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import KW_ONLY, dataclass, replace
 from functools import cached_property
-from typing import Final, Protocol, overload
+from typing import Any, Final, Protocol
 
 import numpy as np
 
@@ -90,14 +90,8 @@ class Samples(Sequence[Shot]):
     def __len__(self) -> int:
         return round(self.motion.seconds * self.rate)
 
-    @overload
-    def __getitem__(self, number: int) -> Shot: ...
-    @overload
-    def __getitem__(self, number: slice) -> list[Shot]: ...
-    def __getitem__(self, number: int | slice) -> Shot | list[Shot]:
-        """One shot, or those of a slice."""
-        if isinstance(number, slice):
-            return [self[k] for k in range(len(self))[number]]
+    def __getitem__(self, number: Any) -> Any:
+        """One shot."""
         return self.motion(range(len(self))[number] / self.rate)
 
 

@@ -30,7 +30,6 @@ from stereodel._arrays import Pixels, as_choice
 from stereodel._extras import of_extra
 from stereodel.drawing.page import Page
 from stereodel.drawing.page.colors import Color
-from stereodel.drawing.page.lengths import pixel_height
 from stereodel.render import gl
 from stereodel.render.tessellation import triangulate
 from stereodel.render.vector.agg import drawn, matplotlib_settings, pixel_grid
@@ -66,7 +65,7 @@ def bare_rows(page: Page, width: int, renderer: Renderer) -> Iterator[Pixels]:
     bare = page.without_labels()
     if as_choice(renderer, ("gl", "agg"), "renderer") == "agg":
         return agg_rows(bare, width)
-    large = SUPERSAMPLING * width, SUPERSAMPLING * pixel_height(page, width)
+    large = SUPERSAMPLING * width, SUPERSAMPLING * page.pixels_up(width)
     part, ground = triangulate(bare, *large).within, over_white(page.background)
     return gl.bands(part, *large, background=ground, finish=averaged)
 

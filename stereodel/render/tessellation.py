@@ -22,6 +22,7 @@ from stereodel.curves.fill import triangles
 from stereodel.curves.ragged import Ragged, spans
 from stereodel.drawing.page import Ball, Beziers, Dots, Fill, Item, Label, Page, Picture, Polygons, Polylines, Stroke
 from stereodel.drawing.page.colors import Color
+from stereodel.drawing.page.items import along
 from stereodel.render.gl import Disc, Triangles, Window
 from stereodel.render.vector.outlines import has_length
 
@@ -185,9 +186,7 @@ def flatten(path: Beziers, tolerance: float = FLATNESS) -> FloatArray:
     parts = np.maximum(1, np.ceil(np.sqrt(0.75 * bend / tolerance))).astype(np.intp)
     piece = np.repeat(np.arange(len(path)), parts)
     s = (spans(np.zeros_like(parts), parts) / parts[piece])[:, None]
-    p0, p1, p2, p3 = (path[piece, i] for i in range(4))
-    points = (1 - s) ** 3 * p0 + 3 * s * (1 - s) ** 2 * p1 + 3 * s**2 * (1 - s) * p2 + s**3 * p3
-    return np.concatenate([points, path[-1:, 3]])
+    return np.concatenate([along(path[piece], s), path[-1:, 3]])
 
 
 def ribbon(

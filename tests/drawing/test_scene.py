@@ -155,7 +155,7 @@ def test_labels_vanish_with_their_points_unless_told():
 def test_style_and_layer_can_be_given():
     scene = Scene()
     style = LineStyle((1.0, 0.0, 0.0, 1.0), 3.0, (2.0, 2.0))
-    scene.add_circles([SphereCircle.around((0, 90), 30)], name="mine", style=style, layer=Layer.OVER)
+    scene.add_curves([CircleArc.circle(SphereCircle.around((0, 90), 30))], name="mine", style=style, layer=Layer.OVER)
     items = scene.layout(FRONT)
     assert names(items) == ["ball", "limb", "mine"]
     assert (items[2].width, items[2].dash, items[2].cap, items[2].closed) == (3.0, (2.0, 2.0), "butt", True)

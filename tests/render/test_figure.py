@@ -78,11 +78,9 @@ def test_a_style_has_a_folder_of_its_own(figure, tmp_path, monkeypatch):
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["--style", "dark,bright"], "style is 'bright'; give dark or a file .toml"),
-        *(
-            (["--size", size], f"{size!r} is not a whole number of pixels")
-            for size in ("0", "-5", "many", "1e3", "100000")
-        ),
+        (["--style", "dark,bright"], "invalid style_names value: 'dark,bright'"),
+        *((["--size", size], f"invalid int value: {size!r}") for size in ("many", "1e3")),
+        *((["--size", size], f"small: size is {size}") for size in ("0", "-5", "100000")),
         (["--out", "file/folder", "--size", "50"], r"small: .*file"),
     ],
 )

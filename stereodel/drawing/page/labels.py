@@ -17,7 +17,7 @@ import numpy as np
 
 from stereodel._arrays import FloatArray
 from stereodel._extras import of_extra
-from stereodel.drawing.page.colors import Color, ColorLike, as_color, contrast
+from stereodel.drawing.page.colors import Color, contrast
 from stereodel.drawing.page.fonts import families_of, font_properties, quiet_fonts, set_text
 from stereodel.drawing.page.items import Item, Label, painted
 from stereodel.drawing.page.page import Page
@@ -219,7 +219,7 @@ def legible(ground: FloatArray, ink: Color) -> FloatArray:
     return mixed
 
 
-def with_title(page: Page, title: str, *, ink: ColorLike = BLACK, size: float = TITLE_SIZE) -> Page:
+def with_title(page: Page, title: str) -> Page:
     """The page with a title above the picture and in its metadata; unchanged if the title is empty.
 
     Parameters
@@ -228,9 +228,6 @@ def with_title(page: Page, title: str, *, ink: ColorLike = BLACK, size: float = 
         Page whose width is kept and which grows upwards.
     title : str
         One line; text between two dollar signs is a formula.
-    ink : color-like
-    size : float
-        Type size in points.
 
     Examples
     --------
@@ -241,14 +238,14 @@ def with_title(page: Page, title: str, *, ink: ColorLike = BLACK, size: float = 
     if not title:
         return page
     left, right, bottom, top = page.extent
-    label = Label(title, ((left + right) / 2, top), (0.0, TITLE_GAP), "center", "bottom", size, as_color(ink, "ink"))
-    extent = (left, right, bottom, top + title_height(title, size) / page.points_per_unit)
+    label = Label(title, ((left + right) / 2, top), (0.0, TITLE_GAP), "center", "bottom", TITLE_SIZE, BLACK)
+    extent = (left, right, bottom, top + title_height(title) / page.points_per_unit)
     return replace(page, extent=extent, items=(*page.items, replace(label, name="title")), title=title)
 
 
-def title_height(title: str, size: float = TITLE_SIZE) -> float:
+def title_height(title: str) -> float:
     """Points that a page grows by for a title."""
     if not title:
         return 0.0
-    (_, low), (_, high) = label_box(Label(title, (0.0, 0.0), valign="bottom", size=size), 1.0)
+    (_, low), (_, high) = label_box(Label(title, (0.0, 0.0), valign="bottom", size=TITLE_SIZE), 1.0)
     return float(high - low) + 2 * TITLE_GAP

@@ -17,10 +17,14 @@ from typing import Any, Final, Literal
 
 import numpy as np
 
-from stereodel._arrays import FloatArray, Pixels, as_scalar
+from stereodel._arrays import FloatArray, Pixels, as_count, as_scalar
 from stereodel._extras import of_extra
 from stereodel.drawing.page.colors import Color
 from stereodel.drawing.page.items import Arrays, Item, Label, Polygons
+from stereodel.drawing.page.style import PRINT_DPI
+
+LARGEST_SIZE: Final = 2**16 - 1
+"""Largest width in pixels, which is that of a canvas of Agg, which draws the labels."""
 
 OUTPUTS: Final[dict[str, str | Callable[..., Any]]] = {
     **dict.fromkeys(("save_page", "draw_page"), "stereodel.render.save"),
@@ -90,6 +94,18 @@ class Page:
     def height(self) -> float:
         """In points."""
         return (self.extent[3] - self.extent[2]) * self.points_per_unit
+
+    def pixels_in_print(self, dpi: float = PRINT_DPI) -> int:
+        """Width in pixels of the page in print."""
+        return round(self.width / 72 * dpi)
+
+    def pixels_up(self, width_px: int) -> int:
+        """Height of a picture of the page that is `width_px` pixels wide."""
+        return max(1, round(width_px * self.height / self.width))
+
+    def pixels_across(self, size: int | None) -> int:
+        """A width in pixels, by default that of print; ValueError if it cannot be drawn."""
+        return self.pixels_in_print() if size is None else as_count(size, "size", high=LARGEST_SIZE)
 
     @property
     def labels(self) -> tuple[Label, ...]:

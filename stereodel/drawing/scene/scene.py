@@ -18,8 +18,7 @@ from stereodel.drawing.page import Item, Label, Page
 from stereodel.drawing.page import style as styles
 from stereodel.drawing.page.colors import ColorLike, as_color
 from stereodel.drawing.page.labels import with_title
-from stereodel.drawing.page.lengths import LengthLike, as_length
-from stereodel.drawing.page.style import DotStyle, LineStyle
+from stereodel.drawing.page.style import DotStyle, LengthLike, LineStyle, as_length
 from stereodel.drawing.scene.scene_items import (
     BallStyle,
     Layer,
@@ -93,56 +92,25 @@ class Scene:
             color = styles.fill("ball" if style == "solid" else "glass")
             self._items.append(SceneBall(color, styles.line("limb", limb).scaled(self.weight)))
 
-    def add_arcs(
-        self,
-        arcs: Iterable[SphereArc | CircleArc],
-        *,
-        name: str,
-        style: LineStyle | None = None,
-        layer: Layer | None = None,
-    ) -> None:
-        """Draw arcs of circles of the ball.
-
-        Parameters
-        ----------
-        arcs : iterable of SphereArc or CircleArc
-            On the unit sphere.
-        name : str
-            What they are.
-        style : LineStyle, optional
-            Style to use instead of that of the name.
-        layer : Layer, optional
-            Position in painter's order of all parts except those behind the ball.
-        """
-        self.add_curves(
-            (CircleArc.of(arc).scaled(self.radius, self.center) for arc in arcs), name=name, style=style, layer=layer
-        )
+    def add_arcs(self, arcs: Iterable[SphereArc | CircleArc], *, name: str, style: LineStyle | None = None) -> None:
+        """Draw arcs of circles of the ball, given on the unit sphere."""
+        curves = (CircleArc.of(arc).scaled(self.radius, self.center) for arc in arcs)
+        self.add_curves(curves, name=name, style=style)
 
     def add_edges(
-        self,
-        points: npt.ArrayLike,
-        pairs: npt.ArrayLike,
-        *,
-        name: str,
-        style: LineStyle | None = None,
-        layer: Layer | None = None,
+        self, points: npt.ArrayLike, pairs: npt.ArrayLike, *, name: str, style: LineStyle | None = None
     ) -> None:
         """Draw the shorter great-circle arcs between pairs (m, 2) of directions (n, 3)."""
         vertices = as_points(points, 3, "points")
         index = as_indices(np.ravel(pairs), len(vertices), "pairs").reshape(-1, 2)
         arcs = [CircleArc.great(vertices[i], vertices[j]) for i, j in index]
-        self.add_arcs(arcs, name=name, style=style, layer=layer)
+        self.add_arcs(arcs, name=name, style=style)
 
     def add_circles(
-        self,
-        circles: Iterable[SphereCircle],
-        *,
-        name: str = "circle",
-        style: LineStyle | None = None,
-        layer: Layer | None = None,
+        self, circles: Iterable[SphereCircle], *, name: str = "circle", style: LineStyle | None = None
     ) -> None:
         """Draw whole circles of the ball."""
-        self.add_arcs([CircleArc.circle(circle) for circle in circles], name=name, style=style, layer=layer)
+        self.add_arcs([CircleArc.circle(circle) for circle in circles], name=name, style=style)
 
     def add_segments(
         self,
@@ -161,7 +129,10 @@ class Scene:
     def add_curves(
         self, curves: Iterable[Curve], *, name: str, style: LineStyle | None = None, layer: Layer | None = None
     ) -> None:
-        """Draw curves in space, not necessarily on the ball."""
+        """Draw curves in space, not necessarily on the ball.
+
+        A `layer` is their position in painter's order, except that of parts behind the ball.
+        """
         drawn = styles.line(name, style).scaled(self.weight)
         self._items.append(SceneLines(tuple(curves), drawn, name, layer))
 

@@ -21,8 +21,7 @@ from stereodel.drawing.page.colors import ColorLike, as_color
 from stereodel.drawing.page.fonts import FontLike, as_font, in_font
 from stereodel.drawing.page.items import straight
 from stereodel.drawing.page.labels import with_title
-from stereodel.drawing.page.lengths import LengthLike, as_length
-from stereodel.drawing.page.style import PRINT_WIDTH, WHITE, DotStyle, LineStyle, dot, fill, line
+from stereodel.drawing.page.style import PRINT_WIDTH, WHITE, DotStyle, LengthLike, LineStyle, as_length, dot, fill, line
 from stereodel.drawing.scene.scene import Scene
 from stereodel.drawing.scene.space_curves import CircleArc, page_path
 
