@@ -303,7 +303,7 @@ class Film(Generic[T]):
         The script is the file that defines `draw`. Its options are the output folder, by default ``out`` next to the
         script's folder, the width, and whether to draw labels.
         """
-        run_script(self, argv, source_of(self.draw).stem, f"{self.size}", {})
+        run_script(self, argv, source_of(self.draw).stem, f"{self.size}")
 
     def _files(self, folder: Path, *, size: int | None, text: bool) -> list[str]:
         """See `stereodel.render.figure.Drawing`."""

@@ -1,10 +1,7 @@
-"""Motions of films of a globe: flights between foci, rotations, paths between lenses.
+"""Motions of films of a globe, functions of time whose values are shots: flights between foci, rotations, paths.
 
-A motion is a function of time, whose values are shots.
-
-A flight's lens follows the shortest way in hyperbolic space (`stereodel.conformal.flight`): it shrinks no more than the
-distance requires. The view follows a similar path of its own, on which every stop lies farther out, as if it were
-magnified `WIDE` times more, because a lens that magnifies nothing has no focus, but the view needs a centre.
+A flight's lens follows the shortest way in hyperbolic space (`stereodel.conformal.flight`). The view follows such a
+path of its own, magnified `WIDE` times more, because a lens that magnifies nothing has no focus, but a view a centre.
 """
 
 from __future__ import annotations

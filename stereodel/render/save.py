@@ -2,12 +2,9 @@
 
     page → triangles → rows of pixels → labels over them → encoder
 
-Stages are streamed: after the triangles, each consumes and produces rows from the top, so that a picture is drawn,
-labelled and written a few rows at a time and memory does not grow with the square of its width. SVG and PDF are written
-from the page itself, except regions in very many colours, which they hold as images. They have the page's size and
+Stages are streamed, each a few rows at a time from the top, so that memory does not grow with the square of the width.
+SVG and PDF are written from the page itself, except regions in very many colours, which they hold as images. They
 contain no date, version or random identifier: the same page always gives the same bytes.
-
-`stereodel.drawing.Page` loads this module when it is saved or drawn, which enters its functions in `OUTPUTS`.
 """
 
 from __future__ import annotations

@@ -1,10 +1,8 @@
-"""A page as triangles for OpenGL: every item but labels, in painter's order.
+"""A page as triangles for OpenGL: every item but labels, in painter's order and in pixels of the picture.
 
-Items are first mapped to pixels of the picture. Strokes become ribbons of constant width, dots become discs, and
-regions are cut into slabs or, if they are polygons, into fans and ears. The triangles of one item may overlap (a ribbon
-is rectangles, with a wedge at each bend and end); `stereodel.render.gl` draws an item as the union of its triangles. A
-region is cut at the height of every corner and crossing into slabs, in which the even-odd rule pairs the edges off; the
-horizontal cuts are exact, so nothing shows between the slabs.
+Strokes become ribbons of constant width, dots discs; regions are cut into slabs at the height of every corner and
+crossing, in which the even-odd rule pairs the edges off, or, if they are polygons, into fans and ears. The triangles of
+one item may overlap: `stereodel.render.gl` draws an item as their union.
 """
 
 from __future__ import annotations

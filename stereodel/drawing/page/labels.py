@@ -1,9 +1,7 @@
 """Labels: their boxes, their sides of places, which have room, their halos, and the title of a page.
 
-Type is measured here alone before it is drawn. Names beside places (`placed_apart`) are placed in order of priority.
-Each has eight candidate positions around its place, the right-hand side first. It takes the position where it overlaps
-no earlier label, lies within the disc, and covers the fewest dots; ties go to the earlier position. Without such a
-position it is left out.
+Names beside places (`placed_apart`) have eight candidate positions, the right-hand side first. In order of priority,
+each takes the one where it overlaps no earlier label, lies within the disc and covers the fewest dots, or is left out.
 """
 
 from __future__ import annotations

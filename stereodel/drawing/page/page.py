@@ -1,9 +1,6 @@
-"""The content of a picture, before rendering: paths, dots, balls and labels in painter's order.
+"""The content of a picture, before rendering: paths, dots, balls and labels in painter's order, hidden parts removed.
 
-A `Page` is flat. Hidden parts have been removed analytically (`stereodel.drawing.scene`), curves are exact up to their
-approximation by cubic Béziers, and every item carries its colour and its width in points. The vector backend writes SVG
-and PDF, the raster backend draws triangles with OpenGL; the regression tests store `Page.arrays()`. Page coordinates
-have x to the right and y up, in any unit; `width` is the width of the extent in points.
+Curves are exact up to their approximation by cubic Béziers. Page coordinates have x to the right and y up, in any unit.
 """
 
 from __future__ import annotations

@@ -1,12 +1,8 @@
 """Style sheets: a page on a dark background, or in the colours, widths and sizes of a TOML file.
 
-On a dark background colours keep their hue and the contrast that they have on white. A luminance Y becomes Y' with
-(Y' + 0.05)(Y + 0.05) = (G + 0.05)(1 + 0.05), where G is the luminance of the background. White becomes the background,
-black becomes white, and the contrast of any two colours, a quotient of such sums, is unchanged. The picture is not
-inverted: hues are kept, and the shading of a ball, which is not a colour of the page, still comes from above.
-
-A file identifies the parts of a page by their names, which are ids in SVG: "ball", "land", "coast", "graticule",
-"voronoi" ….
+On a dark background colours keep their hue and the contrast that they have on white: a luminance Y becomes Y' with
+(Y' + 0.05)(Y + 0.05) = (G + 0.05)(1 + 0.05), where G is that of the background, so the contrast of any two is
+unchanged. A file identifies the parts of a page by their names, which are ids in SVG: "ball", "land", "coast" ….
 """
 
 from __future__ import annotations

@@ -1,8 +1,4 @@
-"""Scenes: a ball and the items on and around it, laid out as page items for a view.
-
-A `Scene` is independent of pixels and paper. It is filled once and may be laid out many times, for several views,
-several globes on a page, or the frames of a film.
-"""
+"""Scenes: a ball and the items on and around it, filled once and laid out as page items for any number of views."""
 
 from __future__ import annotations
 
@@ -30,6 +26,7 @@ from stereodel.drawing.scene.scene_items import (
     SceneLines,
     SceneRegion,
     SceneSheet,
+    laid_out,
 )
 from stereodel.drawing.scene.solid import PlacedScene, Solid
 from stereodel.drawing.scene.space_curves import CircleArc, Curve, Segment
@@ -256,7 +253,8 @@ class Scene:
         scale : float
             Page units per unit of space.
         """
-        return self.placed(view, at=at, scale=scale).page_items()
+        placed = self.placed(view, at=at, scale=scale)
+        return laid_out(placed.items, placed.layout)
 
     def placed(self, view: View, *, at: tuple[float, float] = (0.0, 0.0), scale: float = 1.0) -> PlacedScene:
         """The scene at its position on a page, for a `Solid` with several scenes; parameters as in `layout`."""

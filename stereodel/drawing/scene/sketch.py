@@ -1,8 +1,6 @@
 """Drawings of the plane and cross-sections: the counterpart of `Scene` without depth.
 
-A `Sketch` collects segments, circles, arcs, regions, dots, graphs and labels in painter's order and turns them into the
-items of a `Page`. Coordinates are those of the page (x right, y up). Ticks and arrowheads are measured in points, like
-type, so they are created together with the page, when the number of points per unit is known.
+Ticks and arrowheads are measured in points, so they are created with the page, when its scale is known.
 """
 
 from __future__ import annotations
@@ -18,7 +16,6 @@ from stereodel._arrays import FloatArray, as_vectors
 from stereodel.curves.view import View
 from stereodel.drawing.page import Beziers, Dots, Fill, Item, Label, Page, Stroke
 from stereodel.drawing.page.colors import ColorLike, as_color
-from stereodel.drawing.page.fonts import FontLike, as_font, in_font
 from stereodel.drawing.page.items import straight
 from stereodel.drawing.page.labels import with_title
 from stereodel.drawing.page.style import PRINT_WIDTH, WHITE, DotStyle, LengthLike, LineStyle, as_length, dot, fill, line
@@ -47,17 +44,6 @@ class Sketch:
     style of that name in `stereodel.drawing.page.style`, unless a `style` or `color` is given. It is also the id of the
     group in vector files.
 
-    Parameters
-    ----------
-    font : str, path-like, or sequence of them, optional
-        Font families or font files, see `stereodel.drawing.page.fonts.as_font`; by default STIX. Formulas, between
-        dollar signs, are always set in STIX.
-
-    Raises
-    ------
-    FileNotFoundError, ValueError
-        If a font does not exist.
-
     Examples
     --------
     >>> sketch = Sketch().add_circle((0, 0), 1, name="circle").add_segment((-1, 0), (1, 0), name="axis")
@@ -65,8 +51,7 @@ class Sketch:
     ['circle', 'axis']
     """
 
-    def __init__(self, *, font: FontLike | None = None) -> None:
-        self._font = as_font(font)
+    def __init__(self) -> None:
         self._parts: list[Item | InPoints] = []
         self._views: list[FloatArray] = []
 
@@ -309,7 +294,7 @@ class Sketch:
         blank = Page(extent, (), as_length(width, "width"), as_color(background, "background"), tuple(self._views))
         scale = blank.points_per_unit
         items = [item for part in self._parts for item in (part(scale) if callable(part) else (part,))]
-        return in_font(with_title(replace(blank, items=tuple(items)), title), self._font)
+        return with_title(replace(blank, items=tuple(items)), title)
 
     def _add_tick(
         self, at: FloatArray, way: FloatArray, name: str, style: LineStyle | None, *, both_ways: bool = False

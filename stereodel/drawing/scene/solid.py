@@ -1,9 +1,4 @@
-"""Pictures in space: the bodies whose visible parts a page shows.
-
-A page is flat and lacks hidden parts. A `Solid` holds the page and the scenes from which it was laid out, placed as on
-the page: x right, y up, z toward the viewer, in page units. It is written as glTF, or drawn with shading and a depth
-buffer.
-"""
+"""Pictures in space: the bodies whose visible parts a page shows, placed as there: x right, y up, z to the viewer."""
 
 from __future__ import annotations
 
@@ -17,9 +12,9 @@ import numpy as np
 
 from stereodel._arrays import FloatArray, Pixels
 from stereodel._extras import of_extra
-from stereodel.drawing.page import Item, Page
+from stereodel.drawing.page import Page
 from stereodel.drawing.page.page import output
-from stereodel.drawing.scene.scene_items import Layout, SceneItem, laid_out
+from stereodel.drawing.scene.scene_items import Layout, SceneItem
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,10 +39,6 @@ class PlacedScene:
         pose[:3, :3] = self.layout.scale * self.layout.matrix
         pose[:2, 3] = self.layout.at
         return pose
-
-    def page_items(self) -> tuple[Item, ...]:
-        """Its visible parts on the page, in painter's order, as from `Scene.layout`."""
-        return laid_out(self.items, self.layout)
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,10 +1,7 @@
-"""Scenes in space as files and pictures: `stereodel.drawing.Solid` calls it.
+"""Scenes in space as files and pictures: scenes → bodies → trimesh → glTF, or pyrender → rows of pixels → labels.
 
-    scenes → bodies → trimesh → glTF, or pyrender, its lights and its depth test → rows of pixels → labels over them
-
-The PNG shows exactly the bodies that are written to glTF 2.0 in its binary form, GLB. trimesh writes it, but rounds
-colours to 1/255 of linear light, has only cameras with perspective, does not say what buffers are for, and takes four
-bytes an index, which makes files a third larger.
+The PNG shows exactly the bodies that are written to GLB. trimesh writes it, but rounds colours to 1/255 of linear
+light, has only cameras with perspective, does not say what buffers are for, and takes four bytes an index.
 """
 
 from __future__ import annotations
