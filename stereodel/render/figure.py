@@ -15,7 +15,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any, Final, Literal, Protocol, Self
 
-from stereodel._arrays import Pixels, as_choice
+from stereodel._arrays import Pixels
 from stereodel._extras import of_extra
 from stereodel.drawing.page import Page, picture_extra
 from stereodel.drawing.page.sheets import Style, StyledDraw, as_styles
@@ -79,9 +79,6 @@ class Figure:
     draw: Callable[[Any], Page]
     renderer: Literal["gl", "agg"] = "gl"
     in_space: Callable[[Any], Solid] | None = None
-
-    def __post_init__(self) -> None:
-        as_choice(self.renderer, ("gl", "agg"), "renderer")
 
     def page(self) -> Page:
         """The picture before rendering, with the script's title and description if it has none."""

@@ -153,10 +153,7 @@ def bands(
     background: Color = (1.0, 1.0, 1.0, 1.0),
     finish: Callable[[Pixels], Pixels] = lambda pixels: pixels,
 ) -> Iterator[Pixels]:
-    """A picture from the top, `BAND` rows (k, width, 3) at a time, in the memory of a band and a window's triangles.
-
-    OpenGLError if there is no usable OpenGL; ValueError if the picture has no pixels, or too many items for the depth
-    buffer.
+    """A picture from the top, `BAND` rows (k, width, 3) at a time; ValueError for too many items for the depth buffer.
 
     part: function of a window that returns all triangles of the picture that touch it, in order; others have no effect.
     background: its opacity is ignored.
@@ -198,8 +195,6 @@ def node_name(number: int) -> str:
 
 
 def _bands(drawn: Callable[[Window], Pixels], width: int, height: int) -> Iterator[Pixels]:
-    if min(width, height) < 1:
-        raise ValueError(f"a picture has at least one pixel each way, got {width} by {height}")
     for top in range(0, height, BAND):
         rows = min(BAND, height - top)
         lefts = range(0, width, COLUMNS)

@@ -145,7 +145,7 @@ def test_what_is_no_script_has_no_caption_and_docstrings_may_be_of_a_line_or_wit
     assert Figure("nothing", dict, lambda _: Page((0.0, 1.0, 0.0, 1.0))).page().title == ""
     assert Figure("nothing", dict, lambda _: page()).page().title == "A title"
     with pytest.raises(ValueError, match="renderer is 'svg', but must be one of 'gl', 'agg'"):
-        Figure("nothing", dict, draw, renderer="svg")
+        Figure("nothing", dict, lambda _: page(), renderer="svg").pixels(size=40)
     assert parted("One line.") == ("One line.", "")
     assert parted("Title\n\nText with ``code`` = 5.") == ("Title", "Text with “code” = 5.")
     assert parted("") == ("", "")

@@ -8,7 +8,7 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import as_directions, as_indices, as_points, as_scalar, as_vectors
+from stereodel._arrays import as_choice, as_directions, as_indices, as_points, as_scalar, as_vectors
 from stereodel.curves.view import View
 from stereodel.drawing.page import Item, Label, Page
 from stereodel.drawing.page import style as styles
@@ -80,9 +80,7 @@ class Scene:
     ) -> None:
         self.radius = as_scalar(radius, "radius", low=0.0, open_low=True)
         self.center = as_vectors(center, 3, "center")
-        if style not in ("solid", "glass", "none"):
-            raise ValueError(f'style must be "solid", "glass" or "none", got {style!r}')
-        self.style: BallStyle = style
+        self.style: BallStyle = as_choice(style, ("solid", "glass", "none"), "style")
         self.weight = as_scalar(weight, "weight", low=0.0, open_low=True)
         self._items: list[SceneItem] = []
         if style != "none":
@@ -165,17 +163,11 @@ class Scene:
         boundary = whole if side == "inside" else CircleArc(whole.center, whole.u, -whole.v)
         self.add_region([boundary], name=name, color=color)
 
-    def add_triangle_patch(
-        self,
-        a: npt.ArrayLike,
-        b: npt.ArrayLike,
-        c: npt.ArrayLike,
-        *,
-        name: str = "triangle",
-        color: ColorLike | None = None,
-    ) -> None:
-        """Tint the spherical triangle of three points, counterclockwise seen from outside."""
-        self.add_region([CircleArc.great(*pair) for pair in ((a, b), (b, c), (c, a))], name=name, color=color)
+    def add_patch(self, corners: npt.ArrayLike, *, name: str = "triangle", color: ColorLike | None = None) -> None:
+        """Tint a spherical polygon, such as a triangle, of corners (n, 3), counterclockwise seen from outside."""
+        starts = as_points(corners, 3, "corners")
+        sides = zip(starts, np.roll(starts, -1, axis=0), strict=True)
+        self.add_region([CircleArc.great(a, b) for a, b in sides], name=name, color=color)
 
     def add_flat_polygon(self, corners: npt.ArrayLike, *, name: str = "plane", color: ColorLike | None = None) -> None:
         """Tint a flat polygon in space, corners (n, 3) in order, such as a tangent plane or a chordal triangle.
