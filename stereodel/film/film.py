@@ -206,13 +206,7 @@ class Film(Generic[T]):
         return float(self.times.sum())
 
     def styled(self, *styles: Style) -> Film[T]:
-        """The same film in other styles, see `stereodel.drawing.styled`; `draw` must return pages.
-
-        Raises
-        ------
-        ValueError
-            If a style is unknown.
-        """
+        """The same film in other styles, see `stereodel.drawing.styled`; `draw` must return pages."""
         return replace(self, draw=StyledDraw(self.draw, styles))
 
     def page(self, number: int) -> Page:
@@ -231,7 +225,7 @@ class Film(Generic[T]):
         return _Camera(self.draw, self.size, self.text)
 
     def save(self, path: str | os.PathLike[str], *, jobs: int | None = None, progress: bool = True) -> Path:
-        """Draw the frames and write the file.
+        """Draw the frames and write the file, whose path is returned.
 
         Finished frames are kept in the folder PATH.frames next to the file until the file is complete. After an
         interruption the same call resumes and produces the same file. Frames are redrawn if the film, the library or
@@ -246,11 +240,6 @@ class Film(Generic[T]):
             Number of drawing processes; by default one for each core. Does not affect the file.
         progress : bool
             Whether to report progress on standard error: a bar on a terminal, lines elsewhere.
-
-        Returns
-        -------
-        Path
-            The file.
 
         Raises
         ------

@@ -48,7 +48,7 @@ from stereodel.drawing.page.style import (
     as_length,
 )
 from stereodel.drawing.scene.legend import LegendEntry, with_legend
-from stereodel.globe.layers import Areas, GridLines, Ground, Image, Limb, LineLayer, MapLayer, Names, Points
+from stereodel.globe.layers import Areas, GridLines, Ground, Image, Limb, LineLayer, MapLayer, Names, Points, laid
 from stereodel.globe.outlines_on_sphere import Rings, SphereLines, SphereRegions, earth_lines, earth_regions
 from stereodel.globe.pages import Panel, default_view, panels
 from stereodel.globe.raster import Raster
@@ -419,10 +419,7 @@ class Globe:
 
     def items(self, chart: Chart) -> tuple[Item, ...]:
         """The page items of a chart, in painter's order; `panels` removes labels that would overlap others."""
-        items: list[Item] = []
-        for layer in (*self.layers, self.limb):
-            items += layer.beside(chart, items) if isinstance(layer, Names) else layer.lay(chart)
-        return tuple(items)
+        return laid(self, chart)
 
     def page(
         self,

@@ -186,5 +186,13 @@ class Names:
 class Layered(Protocol):
     """Interface of what a panel shows, such as a `Globe`."""
 
-    def items(self, chart: Chart) -> tuple[Item, ...]:
-        """The page items of a chart, in painter's order."""
+    layers: list[MapLayer]
+    limb: Limb
+
+
+def laid(globe: Layered, chart: Chart) -> tuple[Item, ...]:
+    """The page items of a chart, in painter's order."""
+    items: list[Item] = []
+    for layer in (*globe.layers, globe.limb):
+        items += layer.beside(chart, items) if isinstance(layer, Names) else layer.lay(chart)
+    return tuple(items)

@@ -12,7 +12,7 @@ from stereodel.curves.view import MapView, StereographicView, View
 from stereodel.drawing.page import Item, Label, Page
 from stereodel.drawing.page.labels import haloed, with_room
 from stereodel.drawing.page.style import BLACK, PRINT_WIDTH
-from stereodel.globe.layers import Layered
+from stereodel.globe.layers import Layered, laid
 from stereodel.sphere import xyz_to_lonlat
 
 MARGIN = 0.03
@@ -110,7 +110,7 @@ def panels(
         view = default_view(lens) if panel.view is None else panel.view
         around = (at[0] - pitch / 2, at[0] + pitch / 2, at[1] - pitch / 2, at[1] + pitch / 2)
         chart = Chart(lens, view, at, 1.0, fine / unit, unit)
-        items += with_room(panel.globe.items(chart), around, unit)
+        items += with_room(laid(panel.globe, chart), around, unit)
         views.append(chart.matrix)
         if panel.title:
             items.append(Label(panel.title, (at[0], at[1] + pitch / 2), (0.0, 3.0), "center", "baseline", color=BLACK))

@@ -245,11 +245,6 @@ class Raster:
         (size, size, 4) uint8 array
             sRGB and opacity, not premultiplied, rows from the top. Opacity is that of the raster times the fraction of
             the pixel covered by the globe.
-
-        Raises
-        ------
-        ValueError
-            If `size` is out of range.
         """
         across = as_count(size, "size", high=MOST_PIXELS_ACROSS)
         step = 2.0 / across

@@ -91,23 +91,11 @@ class Figure:
         return replace(page, title=page.title or title, description=page.description or description)
 
     def styled(self, *styles: Style) -> Figure:
-        """The same figure in other styles, see `stereodel.drawing.styled`.
-
-        Raises
-        ------
-        ValueError
-            If a style is unknown.
-        """
+        """The same figure in other styles, see `stereodel.drawing.styled`."""
         return replace(self, draw=StyledDraw(self.draw, styles))
 
     def solid(self) -> Solid:
-        """The picture in space.
-
-        Raises
-        ------
-        ValueError
-            If the figure has no `in_space`.
-        """
+        """The picture in space; ValueError if the figure has no `in_space`."""
         if self.in_space is None:
             raise ValueError(f"figure {self.name!r} shows nothing in space; give it in_space=")
         return self.in_space(self.geometry())

@@ -127,7 +127,7 @@ class Page:
         renderer: Literal["gl", "agg"] = "gl",
         transparent: bool = False,
     ) -> Path:
-        """Write the page as PNG, SVG or PDF, according to the extension of `path`.
+        """Write the page as PNG, SVG or PDF, according to the extension of `path`, and return that.
 
         SVG and PDF contain exact curves, within a thousandth of a point, text as text in embedded fonts, and the
         shading of balls as gradients; the same page always gives the same bytes. All three formats contain title and
@@ -147,11 +147,6 @@ class Page:
             in more than `FEW_COLORS` colours.
         transparent : bool
             Whether to make the background transparent. A PNG is then drawn twice and held in memory.
-
-        Returns
-        -------
-        Path
-            The file.
 
         Raises
         ------
@@ -190,24 +185,12 @@ class Page:
         text: bool = True,
         renderer: Literal["gl", "agg"] = "gl",
     ) -> Pixels:
-        """Draw the page: the pixels that `save` writes as PNG.
-
-        Parameters
-        ----------
-        size, text, renderer
-            As for `save`.
+        """Draw the page: the pixels that `save` writes as PNG, with its parameters and errors.
 
         Returns
         -------
         (height, width, 3) uint8 array
             sRGB, rows from the top.
-
-        Raises
-        ------
-        ValueError
-            If the renderer is unknown, or `size` is out of range.
-        stereodel.render.gl.OpenGLError
-            If there is no usable OpenGL.
 
         Examples
         --------

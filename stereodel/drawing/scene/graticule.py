@@ -92,12 +92,7 @@ class Graticule:
         """The lines of `regular` that may be visible in a picture thinned to `least`: some thousands.
 
         However fine the grid, the cost depends only on its visible part. Parameters are those of `regular` and
-        `thinned`; for a glass ball this is the near side.
-
-        Raises
-        ------
-        ValueError
-            If there are more than `MOST_GRID_LINES` of them.
+        `thinned`; for a glass ball this is the near side. ValueError for more than `MOST_GRID_LINES` of them.
 
         Examples
         --------

@@ -220,11 +220,6 @@ class Scene:
             Colour of the background.
         title : str
             Title above the picture.
-
-        Raises
-        ------
-        ValueError
-            If the extent has no area, the width is not positive, or a colour is invalid.
         """
         if extent is None:
             (x, y), reach = view.project(self.center), (1 + MARGIN) * self.radius
@@ -237,13 +232,7 @@ class Scene:
     def layout(self, view: View, *, at: tuple[float, float] = (0.0, 0.0), scale: float = 1.0) -> tuple[Item, ...]:
         """Page items in painter's order, with hidden parts removed, for pages with more than one scene.
 
-        Parameters
-        ----------
-        view : View
-        at : tuple of float
-            Page coordinates of the origin of space.
-        scale : float
-            Page units per unit of space.
+        The origin of space is at page coordinates `at`, and a unit of space is `scale` page units.
         """
         placed = self.placed(view, at=at, scale=scale)
         return laid_out(placed.items, placed.layout)

@@ -101,12 +101,7 @@ class Sketch:
     ) -> Sketch:
         """The graph of a smooth function from values and derivatives (n,) at its knots, as cubic Hermite pieces.
 
-        Without `slope` the derivatives are those of parabolas through three neighbouring knots.
-
-        Raises
-        ------
-        ValueError
-            If there are fewer than three knots and no `slope`.
+        Without `slope` the derivatives are those of parabolas through three neighbouring knots, so there must be three.
         """
         across, up = np.asarray(x, dtype=np.float64), np.asarray(y, dtype=np.float64)
         if slope is None and len(across) < 3:
@@ -183,12 +178,7 @@ class Sketch:
         """A dimension line from a to b, with a tick across each end and a label along it, `gap` points away.
 
         The label, if given, is on the left of the direction from a to b, and never upside down; `options` are passed to
-        `Label`.
-
-        Raises
-        ------
-        ValueError
-            If a and b coincide.
+        `Label`. ValueError if a and b coincide.
         """
         first, last = (np.array(end, dtype=np.float64) for end in (a, b))
         ahead, left = _frame(first, last)
@@ -205,13 +195,7 @@ class Sketch:
         return self.add_label((first + last) / 2, text, offset, **beside | options)
 
     def add_arrow(self, a: Point, b: Point, *, name: str, style: LineStyle | None = None) -> Sketch:
-        """An arrow from a to b, whose head is filled.
-
-        Raises
-        ------
-        ValueError
-            If a and b coincide.
-        """
+        """An arrow from a to b, whose head is filled; ValueError if they coincide."""
         drawn = line(name, style)
         tail, tip = (np.array(end, dtype=np.float64) for end in (a, b))
         ahead, left = _frame(tail, tip)
@@ -241,17 +225,11 @@ class Sketch:
 
         Parameters
         ----------
-        corner : (float, float)
-            Lower left corner of the rectangle.
-        width, height : float
-            Size of the rectangle in page units.
+        corner, width, height : (float, float), float, float
+            Lower left corner of the rectangle, and its size in page units.
         across, up : mapping of float to str
             Numbers and their texts, below and to the left of the rectangle. The smallest and the largest are at its
-            corners.
-        name, style
-            Name and style of the lines.
-        options
-            Passed to `Label`.
+            corners. Further `options` of these are passed to `Label`.
         """
         origin = np.array(corner, dtype=np.float64)
         right, above = np.array([1.0, 0.0]), np.array([0.0, 1.0])
@@ -286,10 +264,7 @@ class Sketch:
     ) -> Page:
         """The page of the extent (left, right, bottom, top), `width` points or another length wide, with a title above.
 
-        Raises
-        ------
-        ValueError
-            If the extent has no area, the width is not positive, or a colour is invalid.
+        ValueError if the extent has no area, the width is not positive, or a colour is invalid.
         """
         blank = Page(extent, (), as_length(width, "width"), as_color(background, "background"), tuple(self._views))
         scale = blank.points_per_unit
