@@ -112,7 +112,6 @@ class Film(Generic[T]):
         *,
         size: tuple[int, int] = (1280, 720),
         fps: float = FPS,
-        text: bool = True,
         background: ColorLike = WHITE,
     ) -> Film[Shot]:
         """A film of a globe along a motion; ``Film.of_globe(...).save("flight.mp4")`` draws it.
@@ -127,8 +126,6 @@ class Film(Generic[T]):
             smaller globes they scale with the square root of the size.
         fps : float
             Frames per second.
-        text : bool
-            Whether to draw labels.
         background : color
             Colour behind the globe.
 
@@ -156,7 +153,7 @@ class Film(Generic[T]):
         as_frame_size(width, height)
         rate = as_scalar(fps, "fps", low=0.0, open_low=True)
         pages = GlobePages(globe, width, height, as_color(background, "background"))
-        return Film(pages, Samples(motion, rate), fps=rate, size=width, text=text)
+        return Film(pages, Samples(motion, rate), fps=rate, size=width)
 
     @classmethod
     def of_pictures(

@@ -184,7 +184,7 @@ class Flight:
         if len(self.stops) < 2:
             raise ValueError(f"stops has {len(self.stops)} entries, but a flight has two or more")
         for number, (one, other) in enumerate(zip(self.stops, self.stops[1:], strict=False)):
-            if _opposite(one.focus, other.focus):
+            if np.linalg.norm(lonlat_to_xyz([one.focus, other.focus]).sum(axis=0)) < OPPOSITE:
                 raise ValueError(
                     f"stops[{number + 1}] is opposite stops[{number}], so no way is the shortest; add a stop between"
                 )
@@ -354,8 +354,3 @@ def _north(lonlat: tuple[float, float], normal: FloatArray) -> float:
 def _half_turns(angle: float) -> float:
     """The angle in [−180, 180), degrees."""
     return (angle + 180.0) % 360.0 - 180.0
-
-
-def _opposite(one: tuple[float, float], other: tuple[float, float]) -> bool:
-    a, b = lonlat_to_xyz([one, other])
-    return float(np.linalg.norm(a + b)) < OPPOSITE

@@ -35,7 +35,6 @@ def _hex(code: str, opacity: float = 1.0) -> Color:
 WHITE: Final = _hex("#ffffff")
 BLACK: Final = _hex("#000000")
 GRAY: Final = _hex("#7a7a7a")
-LIGHT_GRAY: Final = _hex("#a6a6a6")
 DARK_GRAY: Final = _hex("#3d3d3d")
 GRID_GRAY: Final = _hex("#8f959b")
 BLUE: Final = _hex("#005a94")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 import numpy.typing as npt
@@ -13,7 +13,6 @@ from stereodel.curves.view import View
 from stereodel.drawing.page import Item, Label, Page
 from stereodel.drawing.page import style as styles
 from stereodel.drawing.page.colors import ColorLike, as_color
-from stereodel.drawing.page.labels import with_title
 from stereodel.drawing.page.style import DotStyle, LengthLike, LineStyle, as_length
 from stereodel.drawing.scene.scene_items import (
     BallStyle,
@@ -204,7 +203,6 @@ class Scene:
         extent: tuple[float, float, float, float] | None = None,
         width: LengthLike = Page.width,
         background: ColorLike = styles.WHITE,
-        title: str = "",
     ) -> Page:
         """A page with the scene in a view.
 
@@ -218,16 +216,13 @@ class Scene:
             Width of the page in points, or with a unit, such as "17cm"; the height follows.
         background : color-like
             Colour of the background.
-        title : str
-            Title above the picture.
         """
         if extent is None:
             (x, y), reach = view.project(self.center), (1 + MARGIN) * self.radius
             extent = (float(x) - reach, float(x) + reach, float(y) - reach, float(y) + reach)
-        page = Page(
+        return Page(
             extent, self.layout(view), as_length(width, "width"), as_color(background, "background"), (view.matrix,)
         )
-        return with_title(page, title)
 
     def layout(self, view: View, *, at: tuple[float, float] = (0.0, 0.0), scale: float = 1.0) -> tuple[Item, ...]:
         """Page items in painter's order, with hidden parts removed, for pages with more than one scene.
@@ -242,15 +237,8 @@ class Scene:
         size = as_scalar(scale, "scale", low=0.0, open_low=True)
         return PlacedScene(Layout(view.matrix, self.center, self.radius, self.style, at, size), tuple(self._items))
 
-    def solid(
-        self,
-        view: View,
-        *,
-        extent: tuple[float, float, float, float] | None = None,
-        width: float = Page.width,
-        background: ColorLike = styles.WHITE,
-    ) -> Solid:
-        """The scene in space in a view; parameters and errors as in `page`.
+    def solid(self, view: View, **options: Any) -> Solid:
+        """The scene in space in a view; options and errors as in `page`.
 
         Examples
         --------
@@ -262,5 +250,4 @@ class Scene:
         ...     scene.solid(View(0, 20), width=200.0).save(Path(folder, "circle.glb")).stat().st_size > 1000
         True
         """
-        page = self.page(view, extent=extent, width=width, background=background)
-        return Solid(page, (self.placed(view),))
+        return Solid(self.page(view, **options), (self.placed(view),))

@@ -17,7 +17,6 @@ from stereodel.curves.view import View
 from stereodel.drawing.page import Beziers, Dots, Fill, Item, Label, Page, Stroke
 from stereodel.drawing.page.colors import ColorLike, as_color
 from stereodel.drawing.page.items import straight
-from stereodel.drawing.page.labels import with_title
 from stereodel.drawing.page.style import PRINT_WIDTH, WHITE, DotStyle, LengthLike, LineStyle, as_length, dot, fill, line
 from stereodel.drawing.scene.scene import Scene
 from stereodel.drawing.scene.space_curves import CircleArc, page_path
@@ -172,10 +171,9 @@ class Sketch:
         *,
         name: str,
         style: LineStyle | None = None,
-        gap: float = GAP,
         **options: Any,
     ) -> Sketch:
-        """A dimension line from a to b, with a tick across each end and a label along it, `gap` points away.
+        """A dimension line from a to b, with a tick across each end and a label along it.
 
         The label, if given, is on the left of the direction from a to b, and never upside down; `options` are passed to
         `Label`. ValueError if a and b coincide.
@@ -191,7 +189,7 @@ class Sketch:
         upright = -90.0 < turn <= 90.0
         beside: dict[str, Any] = {"rotation": turn if upright else turn - np.copysign(180.0, turn)}
         beside["valign"] = "bottom" if upright else "top"
-        offset = (gap * float(left[0]), gap * float(left[1]))
+        offset = (GAP * float(left[0]), GAP * float(left[1]))
         return self.add_label((first + last) / 2, text, offset, **beside | options)
 
     def add_arrow(self, a: Point, b: Point, *, name: str, style: LineStyle | None = None) -> Sketch:
@@ -260,16 +258,15 @@ class Sketch:
         *,
         width: LengthLike = PRINT_WIDTH,
         background: ColorLike = WHITE,
-        title: str = "",
     ) -> Page:
-        """The page of the extent (left, right, bottom, top), `width` points or another length wide, with a title above.
+        """The page of the extent (left, right, bottom, top), `width` points or another length wide.
 
         ValueError if the extent has no area, the width is not positive, or a colour is invalid.
         """
         blank = Page(extent, (), as_length(width, "width"), as_color(background, "background"), tuple(self._views))
         scale = blank.points_per_unit
         items = [item for part in self._parts for item in (part(scale) if callable(part) else (part,))]
-        return with_title(replace(blank, items=tuple(items)), title)
+        return replace(blank, items=tuple(items))
 
     def _add_tick(
         self, at: FloatArray, way: FloatArray, name: str, style: LineStyle | None, *, both_ways: bool = False
