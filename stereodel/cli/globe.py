@@ -71,10 +71,7 @@ def command(
             help=f"Of {', '.join(MAPS + OF_POINTS)}; or none. By default {USUAL}, without land over a texture.",
         ),
     ] = None,
-    focus: Annotated[
-        str | None,
-        typer.Option(metavar="LON,LAT", help="Focus of the fisheye; by default the centre of the picture."),
-    ] = None,
+    focus: options.Focus = None,
     magnify: options.Magnify = 1.0,
     view: Annotated[
         str | None,

@@ -20,9 +20,7 @@ def command(
         str, typer.Argument(metavar="PICTURE", help="Panorama, twice as wide as high: .jpg, .png, .webp, .tif …")
     ],
     output: options.Output,
-    focus: Annotated[
-        str | None, typer.Option(metavar="LON,LAT", help="Focus of the fisheye; by default the centre of the picture.")
-    ] = None,
+    focus: options.Focus = None,
     magnify: options.Magnify = 1.0,
     to: Annotated[
         Literal["equirectangular", "cubemap", "planet"],

@@ -73,11 +73,11 @@ def save_page(
             if kind != ".png":
                 save_vector(clear, target, pictures=pictures)
             elif transparent:
-                rows = _see_through(shown, width, renderer)
-                _write(rows, shown, target, width, channels=4)
+                write_png(_see_through(shown, width, renderer), shown, target, width, channels=4)
             else:
                 passed = PixelDigest((page.pixels_up(width), width, 3))
-                write_png(passed.passed(bare_rows(shown, width, renderer)), shown, target, width)
+                rows = passed.passed(bare_rows(shown, width, renderer))
+                write_png(labelled(rows, shown, width), shown, target, width)
                 digest = str(passed)
     except OpenGLError as error:
         raise OpenGLError(f"{error}; .svg and .pdf of lines and plain fills need no OpenGL") from error
@@ -106,12 +106,8 @@ def _see_through(page: Page, width: int, renderer: Renderer) -> Iterable[Pixels]
         yield np.concatenate([np.where(opacity > 0, color, 0), opacity], axis=-1).astype(np.uint8)
 
 
-def write_png(rows: Iterable[Pixels], page: Page, target: Path, width: int) -> None:
-    """Write rows of a picture `width` pixels wide as PNG, with the labels of its page over them."""
-    _write(labelled(rows, page, width), page, target, width)
-
-
-def _write(rows: Iterable[Pixels], page: Page, target: Path, width: int, channels: int = 3) -> None:
+def write_png(rows: Iterable[Pixels], page: Page, target: Path, width: int, channels: int = 3) -> None:
+    """Write the rows of a picture of a page, `width` pixels wide, as PNG."""
     texts, height = {"Title": page.title, "Description": page.description}, page.pixels_up(width)
     with replacing(target) as temporary, temporary.open("wb") as file:
         file.writelines(png_chunks(rows, width, height, page_width=page.width, texts=texts, channels=channels))

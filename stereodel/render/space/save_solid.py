@@ -65,7 +65,7 @@ def save_solid(solid: Solid, path: str | os.PathLike[str], *, size: int | None, 
                 temporary.write_bytes(data)
         case ".png":
             page, width = solid.page if text else solid.page.without_labels(), solid.page.pixels_across(size)
-            write_png(lit_rows(solid, width), page, target, width)
+            write_png(labelled(lit_rows(solid, width), page, width), page, target, width)
         case _:
             raise ValueError(f"path must end in .glb or .png, got {target.name!r}")
 
