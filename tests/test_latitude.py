@@ -61,7 +61,7 @@ def test_doors_of_the_commands():
     assert takers.keys() >= {"contour", "interpolate", "nearest", "triangulate", "voronoi", "web"}
     for option in takers.values():
         assert option.default == "authalic"
-        assert tuple(type(option.default)) == KINDS
+        assert tuple(option.type.choices) == KINDS
     assert len({option.help for option in takers.values()}) == 1
 
 

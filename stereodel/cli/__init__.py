@@ -9,10 +9,10 @@ from stereodel._extras import of_extra
 with of_extra("cli"):
     from stereodel import _doctor
     from stereodel.cli import contour, globe, interpolate, nearest, panorama, partition, triangulate, voronoi, web
-    from stereodel.cli.application import app
+    from stereodel.cli.application import Command, app
 
 __all__ = ["app"]
 
 for module in (triangulate, voronoi, partition, interpolate, contour, nearest, globe, panorama, web, _doctor):
     name = module.__name__.rpartition(".")[2].removeprefix("_")
-    app.command(name, epilog=f"Example: {module.EXAMPLE}")(module.command)
+    app.command(name, cls=Command, epilog=f"Example: {module.EXAMPLE}")(module.command)

@@ -11,7 +11,7 @@ from contextlib import contextmanager
 from typing import Annotated, Any, Final
 
 import typer
-from typer.core import TyperGroup
+from typer.core import TyperCommand, TyperGroup
 
 import stereodel
 from stereodel._tasks.interrupts import INTERRUPTED, interrupt, leave, signals, stop_if_interrupted
@@ -43,7 +43,23 @@ class NothingToDoError(Exception):
     """The input is valid, but there is nothing to write."""
 
 
-class Commands(TyperGroup):
+class _Untyped:
+    """A command or group whose flags have no type in its help, as they take no value."""
+
+    def get_params(self, ctx: Any) -> list[Any]:
+        """Arguments and options, with that for help."""
+        found: list[Any] = super().get_params(ctx)  # type: ignore[misc]
+        for parameter in found:
+            if getattr(parameter, "is_flag", False):
+                parameter.metavar = ""
+        return found
+
+
+class Command(_Untyped, TyperCommand):
+    """A command."""
+
+
+class Commands(_Untyped, TyperGroup):
     """Command group that reports failures as one line and an exit code."""
 
     def invoke(self, ctx: Any) -> Any:
