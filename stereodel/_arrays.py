@@ -366,19 +366,6 @@ def as_bounds(values: npt.ArrayLike, name: str = "bounds") -> tuple[float, float
     return left, bottom, right, top
 
 
-def as_window(value: Any, size: int, name: str) -> tuple[int, int, int, int]:
-    """(left, top, width, height) of a part of a square picture, in its pixels; None stands for all of it."""
-    if value is None:
-        return 0, 0, size, size
-    array = np.asarray(value)
-    if array.shape != (4,) or array.dtype.kind not in "iu":
-        raise TypeError(f"{name} must be four integers (left, top, width, height), got {value!r}")
-    left, top, width, height = array.tolist()
-    if not (0 <= left < left + width <= size and 0 <= top < top + height <= size):
-        raise ValueError(f"{name} is {(left, top, width, height)}, which is not a part of {size} × {size} pixels")
-    return left, top, width, height
-
-
 class Keyed(ABC):
     """Values that hold arrays, which have no truth of their own: equal exactly where their keys are."""
 

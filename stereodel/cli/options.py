@@ -56,6 +56,9 @@ LatitudeKind = Annotated[
         "(authalic), or a sphere.",
     ),
 ]
+Focus = Annotated[
+    str | None, typer.Option(metavar="LON,LAT", help="Focus of the fisheye; by default the centre of the picture.")
+]
 Magnify = Annotated[float, typer.Option(metavar="S", callback=_magnification, help="Magnification at the focus.")]
 
 

@@ -124,10 +124,10 @@ globe cities.csv --layer-name=x → --layer-name is 'x', but a file of the kind 
 globe --legend -o out.gif → is for pictures, not for films
 panorama room.png -o room.png --overwrite → room.png: is an input, so it cannot be overwritten
 panorama room.png -o out.gif → out.gif: cannot write gif
-panorama room.png -o out.png --width 33 → --width is 33, but
-panorama room.png -o out.png --width 40000 → --width is 40000, which makes
+panorama room.png -o out.png --size 33 → size is 33, but
+panorama room.png -o out.png --size 40000 → size is 40000, which makes
 panorama room.png -o out.png --magnify 0 → --magnify is 0
-panorama room.png -o out.png --to planet --angular-radius 170 → --angular-radius
+panorama room.png -o out.png --to planet --angular-radius 170 → angular_radius is 170
 panorama room.png -o out.png --faces → --faces requires --to cubemap, but
 panorama room.png -o - --to cubemap --faces → six files
 panorama cities.csv -o out.png → cities.csv is not a picture

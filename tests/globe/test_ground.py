@@ -137,12 +137,12 @@ def test_a_halo_is_as_light_or_dark_as_reading_needs():
 def test_names_turn_to_where_the_disc_has_room():
     unit, anchor = 100.0, (0.9, 0.0)
     label = Label("a name", anchor, (4.0, 0.0), "left", "center", 9.0, halo=1.0)
-    turned = within_disc(label, (0.0, 0.0), 1.0, unit)
+    turned = within_disc(label, ((0.0, 0.0), 1.0, unit))
     assert (turned.align, turned.offset, turned.halo) == ("right", (-4.0, 0.0), 1.0)
     assert np.hypot(*np.abs(label_box(turned, unit)).max(axis=0)) < unit
-    assert within_disc(replace(label, anchor=(0.0, 0.0)), (0.0, 0.0), 1.0, unit).align == "left"
+    assert within_disc(replace(label, anchor=(0.0, 0.0)), ((0.0, 0.0), 1.0, unit)).align == "left"
     # Near the top of the disc there is room below the place alone.
-    top = within_disc(replace(label, anchor=(0.0, 0.94)), (0.0, 0.0), 1.0, unit)
+    top = within_disc(replace(label, anchor=(0.0, 0.94)), ((0.0, 0.0), 1.0, unit))
     assert (top.align, top.valign, top.offset, top.halo) == ("center", "top", (0.0, -4.0), 1.0)
     # Without room on any side a halo would cut the limb.
-    assert within_disc(label, (0.0, 0.0), 0.2, unit).halo == 0
+    assert within_disc(label, ((0.0, 0.0), 0.2, unit)).halo == 0
