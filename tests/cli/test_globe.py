@@ -99,13 +99,10 @@ def test_projections(folder, run, projection):
     assert (width, height) == (120, 60 if projection == "hemispheres" else 120)
 
 
-@pytest.mark.parametrize(
-    ("name", "options", "frames"),
-    [
-        ("turn.gif", [], 3),
-        ("grow.webp", ["--magnify=5", "--projection", "stereographic", "--title=Earth"], 6),
-    ],
-)
+GROWING = ["--magnify=5", "--projection", "stereographic", "--title=Earth"]
+
+
+@pytest.mark.parametrize(("name", "options", "frames"), [("turn.gif", [], 3), ("grow.webp", GROWING, 6)])
 def test_films(folder, run, monkeypatch, name, options, frames):
     """Whole files of so many frames, which differ, and nothing beside them."""
     for constant, value in (("SECONDS", 3.0), ("FPS", 2.0), ("GIF_FPS", 1.0)):
@@ -151,12 +148,12 @@ def test_a_picture_to_stdout(folder):
     assert ran.stdout_bytes.startswith(b"\x89PNG")
 
 
-@pytest.mark.parametrize(("options", "lines"), [((), 12), (("--magnify=1e9",), 12)])
-def test_the_graticule_suits_what_the_lens_shows(folder, run, options, lines):
-    """About so many meridians cross the middle of the picture, however much is magnified."""
+@pytest.mark.parametrize("options", [(), ("--magnify=1e9",)])
+def test_the_graticule_suits_what_the_lens_shows(folder, run, options):
+    """About a dozen meridians cross the middle of the picture, however much is magnified."""
     run("globe", "-o", "globe.svg", "--focus=2,48", "--show=graticule", *options)
     (path,) = re.findall('<path id="graticule"[^>]* d="([^"]*)"', (folder / "globe.svg").read_text(encoding="utf-8"))
-    assert lines <= path.count("M") <= 3 * lines
+    assert 12 <= path.count("M") <= 36
 
 
 def test_names_titles_and_legends(folder, run):

@@ -7,8 +7,6 @@ from scipy.io import netcdf_file
 
 from stereodel import lonlat_to_xyz
 
-METHODS = ["nearest", "linear", "smooth", "natural"]
-
 
 @pytest.fixture
 def values(folder):
@@ -20,7 +18,7 @@ def values(folder):
     return folder
 
 
-@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("method", ["nearest", "linear", "smooth", "natural"])
 def test_grid(values, method, run, rows):
     run("interpolate", "values.csv", "--value", "z", "--grid", 15, "--method", method, "-o", "grid.csv")
     table = rows((values / "grid.csv").read_text())

@@ -12,6 +12,7 @@ from stereodel.cli import app
 from stereodel.drawing import View
 from stereodel.globe import Raster
 from tests.globe.supersampling import zone_plate
+from tools.baselines import read_picture
 
 
 @pytest.fixture
@@ -20,12 +21,6 @@ def room(folder):
     return folder
 
 
-def pixels(file):
-    with Image.open(file) as image:
-        return np.asarray(image.convert("RGB"))
-
-
-RASTER = Raster(zone_plate(32))
 ASKED = {
     "as it is": ([], {}),
     "desk": (["--focus=90,-10", "--magnify", 3], {"lens": fisheye((90, -10), magnification=3.0)}),
@@ -42,10 +37,10 @@ ASKED = {
 def test_the_picture_that_was_asked_for(room, run, asked):
     options, wanted = ASKED[asked]
     run("panorama", "room.png", "-o", "out.png", *options)
-    expected = RASTER.panorama(**wanted)[..., :3]
+    expected = Raster(zone_plate(32)).panorama(**wanted)[..., :3]
     if wanted.get("form") == "cubemap":
         expected = np.concatenate(list(expected), axis=1)
-    assert np.array_equal(pixels(room / "out.png"), expected)
+    assert np.array_equal(read_picture(room / "out.png"), expected)
 
 
 def test_faces_are_six_files_that_are_not_replaced_unasked(room, run):

@@ -38,18 +38,12 @@ def test_arcs_lie_on_their_circle(start, stop):
     assert np.array_equal(path[1:, 0], path[:-1, 3])
 
 
-def test_graph_of_a_cubic_is_exact():
-    x = np.array([-1.0, 0.5, 2.0])
-    (stroke,) = Sketch().add_graph(x, x**3 - x, 3 * x**2 - 1, name="accent1").page((-1, 2, -2, 6)).items
-    px, py = path_points(stroke.path).T
-    assert np.allclose(py, px**3 - px, atol=1e-14)
-
-
-def test_graph_of_a_parabola_needs_no_slopes():
+def test_graphs_of_cubics_are_exact_and_of_parabolas_without_slopes():
     x = np.array([-1.0, 0.5, 1.0, 3.0])
-    (stroke,) = Sketch().add_graph(x, x**2 - x, name="accent1").page((-1, 3, -1, 6)).items
-    px, py = path_points(stroke.path).T
-    assert np.allclose(py, px**2 - px, atol=1e-14)
+    for power, slopes in ((3, [3 * x**2 - 1]), (2, [])):
+        (stroke,) = Sketch().add_graph(x, x**power - x, *slopes, name="accent1").page((-1, 3, -2, 24)).items
+        px, py = path_points(stroke.path).T
+        assert np.allclose(py, px**power - px, atol=1e-13)
 
 
 def test_closed_polyline_returns_to_its_start():

@@ -57,15 +57,8 @@ def test_a_halo_is_tinted_as_the_ground_of_the_style(tmp_path, explicit):
     for page in (globe.page(view=view, style=file), styled(plain, file)):
         assert len(page.labels) == 3
         for label in page.labels:
-            own = label.text == "own"
-            wanted = (
-                (0.0, 1.0, 0.0, 1.0)
-                if explicit
-                else (0.0, 0.0, 1.0, 0.5)
-                if own
-                else (1.0, 0xE0 / 255, 0xA0 / 255, HALO_OPACITY)
-            )
-            assert label.halo_color == pytest.approx(wanted, abs=1e-3)
+            tinted = (0.0, 0.0, 1.0, 0.5) if label.text == "own" else (1.0, 0xE0 / 255, 0xA0 / 255, HALO_OPACITY)
+            assert label.halo_color == pytest.approx((0.0, 1.0, 0.0, 1.0) if explicit else tinted, abs=1e-3)
 
 
 def test_a_halo_on_a_dark_page_is_as_dark_as_its_ground():

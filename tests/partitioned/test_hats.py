@@ -2,7 +2,7 @@
 
 import shutil
 import warnings
-from contextlib import contextmanager
+from functools import partial
 
 import duckdb
 import numpy as np
@@ -21,12 +21,8 @@ from tests.partitioned.answers import executed, serially
 ROWS = 3000
 
 
-@contextmanager
-def quiet():
-    """The hats library and those it uses warn of one another."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        yield
+quiet = partial(warnings.catch_warnings, action="ignore")
+"""The hats library and those it uses warn of one another."""
 
 
 @pytest.fixture(scope="module")

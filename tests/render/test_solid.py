@@ -20,6 +20,7 @@ from stereodel.render.space.save_solid import CAMERA, glb_bytes
 from stereodel.render.space.surfaces import CURVE_ERROR
 from stereodel.sphere import SphereCircle, lonlat_to_xyz
 from tests.figures.scripts import FIGURES, FOLDER, script
+from tests.tiers import by_day
 from tools.gltf import issues
 
 VIEW = View(20, 30, 10)
@@ -57,9 +58,7 @@ def parts(data):
     return json.loads(data[20 : 20 + size]), data[28 + size :]
 
 
-@pytest.mark.parametrize(
-    "name", ["fig03_bubbles", *(pytest.param(n, marks=pytest.mark.thorough) for n in IN_SPACE if n[3:5] != "03")]
-)
+@pytest.mark.parametrize("name", by_day(IN_SPACE, "fig03_bubbles"))
 def test_figures_are_valid_and_small(name, tmp_path):
     file = script(name)["FIGURE"].solid().save(tmp_path / f"{name}.glb")
     assert file.stat().st_size < LARGEST

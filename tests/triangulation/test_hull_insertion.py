@@ -11,7 +11,7 @@ from stereodel.predicates import in_bubble
 from stereodel.triangulation import HullInsertion, SphericalDelaunay, check_delaunay
 from stereodel.triangulation.sites import GHOST
 from tests import sets
-from tests.spaces import canonical, space_of
+from tests.spaces import asked, canonical, space_of
 
 SOME = [
     *sets.named("sphere", "unit", "cap", "octahedron", "cube", "rim and pole", "rim and poles", "closed hemisphere"),

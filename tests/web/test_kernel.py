@@ -27,10 +27,7 @@ WRONG = {
     "new api.PlanarDelaunay([]).nearest([0, 0])": ("RangeError", "nearest needs at least one point"),
     "new api.PlanarDelaunay([0, 1]).remove([1])": ("RangeError", r"indices\[0\] is 1, but there are 1 points"),
     "api.MoebiusMap.fisheye([0, 0, 0], 2)": ("RangeError", "focus is the zero vector"),
-    "new api.PlanarDelaunay([0, 1, 2, NaN])": (
-        "RangeError",
-        r"points\[1, 1\] is NaN; every value must be a finite number",
-    ),
+    "new api.PlanarDelaunay([0, 1, 2, NaN])": ("RangeError", r"points\[1, 1\] is NaN; every value must be a finite"),
     "new api.SphericalDelaunay([0, -Infinity, 1])": ("RangeError", r"points\[0, 1\] is -Infinity; every value must be"),
     "new api.SphericalDelaunay([1, 2, 3, 4])": ("RangeError", r"points must have shape \(n, 3\).* got 4 numbers"),
     "new api.PlanarDelaunay([0, 0, 1])": ("RangeError", r"points must have shape \(n, 2\).* got 3 numbers"),
@@ -40,10 +37,7 @@ WRONG = {
     "new api.PlanarDelaunay(null)": ("TypeError", "points must be an array of numbers, row after row, but is null"),
     "new api.PlanarDelaunay('0,1')": ("TypeError", "points must be an array of numbers.* but is of type string"),
     "new api.PlanarDelaunay(new BigInt64Array(2))": ("TypeError", r"points\[0, 0\] is of type bigint"),
-    "new api.SphericalDelaunay({ length: 48000003 })": (
-        "RangeError",
-        "points has 16000001 rows, more than the 16000000",
-    ),
+    "new api.SphericalDelaunay({ length: 48000003 })": ("RangeError", "points has 16000001 rows, more than the 16"),
     "new api.PlanarDelaunay([0, 1]).insert([3, NaN])": ("RangeError", r"points\[0, 1\] is NaN"),
     "new api.PlanarDelaunay([0, 1]).remove([0.5])": ("TypeError", r"indices must be integers, but indices\[0\] is 0.5"),
     "new api.PlanarDelaunay([0, 1]).nearest([0, 1, 2])": ("RangeError", r"xy must have shape \(n, 2\)"),

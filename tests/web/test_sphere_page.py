@@ -75,9 +75,8 @@ def test_the_pole_is_dragged_over_the_limb(room):
     front = lonlat_to_xyz(lonlat)
     np.testing.assert_allclose(radius * front[1:], [-40, 60], atol=1)
     planar = len(planar_part(SphericalDelaunay.from_lonlat(GAP), front))
-    assert output(page, "sum").startswith(
-        f"104 facets on the sphere = {planar} triangles in the plane + {104 - planar} "
-    )
+    words = f"104 facets on the sphere = {planar} triangles in the plane + {104 - planar} "
+    assert output(page, "sum").startswith(words)
     page.page.locator(f"{ROOM} [name=pole-lat]").fill("-20")
     page.rest()
     assert link(page)["pole-lat"] == "-20"
