@@ -2,7 +2,7 @@
 
 import { circle, pointAt, type Circle } from "../drawing/arcs.ts";
 import { circlePoints, placeOf } from "../drawing/ball.ts";
-import { traceCap } from "../drawing/fill.ts";
+import { traceCap } from "../drawing/arcs.ts";
 import { drawHandle, type Pen } from "../drawing/pen.ts";
 import type { Reason } from "../drawing/plate.ts";
 import type { LabelStyle } from "../drawing/styles.ts";

@@ -2,7 +2,7 @@
 
 import { arcThrough } from "../drawing/arcs.ts";
 import { circlePoints, placeOf } from "../drawing/ball.ts";
-import { traceCap } from "../drawing/fill.ts";
+import { traceCap } from "../drawing/arcs.ts";
 import { traceDisc, type Disc, type Pen } from "../drawing/pen.ts";
 import { Plate, type Reason } from "../drawing/plate.ts";
 import type { LabelStyle } from "../drawing/styles.ts";

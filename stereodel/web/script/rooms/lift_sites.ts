@@ -1,9 +1,10 @@
 /** Sites of the Lift room: the sets, the sheet that bends onto a ball (P10, P13), and all that the kernel says of them. */
 
+import type { Point } from "../drawing/pen.ts";
 import { PlanarDelaunay, PlanarVoronoi, SphericalDelaunay } from "../kernel/api.ts";
 import type { SiteSet } from "../sets.ts";
 import { DEGREES, type Vector } from "../space.ts";
-import { bubbleSigns } from "./sphere_sites.ts";
+import { bubbleSigns, chained } from "./sphere_sites.ts";
 
 type Place = [number, number];
 
@@ -31,10 +32,26 @@ export class LiftSites {
     return new Sheet(this.rectangle, corner);
   }
 
-  /** Distance of two sites in the plane. */
-  distance(p: number, q: number): number {
-    const { places } = this;
-    return Math.hypot(places[2 * p] - places[2 * q], places[2 * p + 1] - places[2 * q + 1]);
+  place(site: number): Place {
+    return [this.places[2 * site], this.places[2 * site + 1]];
+  }
+
+  /** Sites of the convex hull, counterclockwise. */
+  get hull(): number[] {
+    const { convexHull } = this.delaunay;
+    const next = Array.from({ length: convexHull.length / 2 }, (_, k): Place => [
+      convexHull[2 * k],
+      convexHull[2 * k + 1],
+    ]);
+    return chained(new Map(next));
+  }
+
+  /** Whether the hull holds a place. */
+  isInHull([x, y]: Point): boolean {
+    return this.hull.every((site, k, hull) => {
+      const [[ax, ay], [bx, by]] = [this.place(site), this.place(hull[(k + 1) % hull.length])];
+      return (bx - ax) * (y - ay) - (by - ay) * (x - ax) >= 0;
+    });
   }
 
   /**
@@ -53,10 +70,9 @@ export class LiftSites {
   #ridgesOfPlane(): [Place, Place][] {
     if (this.count < 2) return [];
     const { vertices, ridgeVertices, ridgePoints } = new PlanarVoronoi(this.delaunay);
-    const site = (k: number): Place => [this.places[2 * k], this.places[2 * k + 1]];
     const far = 4 * Math.hypot(this.rectangle.width, this.rectangle.height);
     return Array.from({ length: ridgeVertices.length / 2 }, (_, k): [Place, Place] => {
-      const [[ax, ay], [bx, by]] = [site(ridgePoints[2 * k]), site(ridgePoints[2 * k + 1])];
+      const [[ax, ay], [bx, by]] = [this.place(ridgePoints[2 * k]), this.place(ridgePoints[2 * k + 1])];
       // Site a is on the left of the way from start to end.
       const size = Math.hypot(bx - ax, by - ay);
       const [u, v] = [(far * (ay - by)) / size, (far * (bx - ax)) / size];
@@ -77,8 +93,7 @@ export class LiftSites {
     const unit = 2 ** -Math.round(Math.log2(Math.hypot(width, height) || 1));
     const rays = new Float64Array(3 * this.count);
     for (let k = 0; k < this.count; ++k) {
-      const u = (this.places[2 * k] - middle[0]) * unit;
-      const v = (this.places[2 * k + 1] - middle[1]) * unit;
+      const [u, v] = this.place(k).map((value, axis) => (value - middle[axis]) * unit);
       rays.set([2 * u, 2 * v, 1 - u * u - v * v], 3 * k);
     }
     const { simplices } = new SphericalDelaunay(rays);

@@ -15,10 +15,10 @@ export interface Separation extends Bounds {
 }
 
 export function separation(sites: LiftSites, sheet: Sheet, p: number, q: number): Separation {
-  const [px, py, qx, qy] = [p, q].flatMap((k) => [sites.places[2 * k], sites.places[2 * k + 1]]);
-  const distance = sites.distance(p, q);
+  const [a, b] = [sites.place(p), sites.place(q)];
+  const distance = Math.hypot(a[0] - b[0], a[1] - b[1]);
   const fraction = Math.min(1, distance / sheet.diagonal);
-  const between = sheet.isFlat ? null : angle(sheet.direction(px, py), sheet.direction(qx, qy));
+  const between = sheet.isFlat ? null : angle(sheet.direction(...a), sheet.direction(...b));
   return { distance, diagonal: sheet.diagonal, fraction, angle: between, ...separationBounds(fraction) };
 }
 

@@ -141,9 +141,10 @@ export abstract class SiteRoom extends TableRoom {
     tellNamed(this.host.messages, values, "file");
   }
 
-  /** Whether something is drawn; while the picture moves, up to so many sites. */
-  protected isOn(name: string, isMoving = false, most = VERY_MANY): boolean {
-    return this.switches.isOn(name) && !(isMoving && this.named.places.length > 2 * most);
+  /** Whether something is drawn. @param most Sites beyond which cells are left out while the picture moves. */
+  protected shown(isMoving: boolean, most: number): (name: string) => boolean {
+    const count = this.named.places.length / 2;
+    return (name) => this.switches.isOn(name) && !(isMoving && count > (name === "cells" ? most : VERY_MANY));
   }
 
   /** Shows what the sites are called, how many there are, and the table. */

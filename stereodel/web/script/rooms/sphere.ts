@@ -15,7 +15,7 @@ import { distance, follow, type Gestures, type Hold, type Place as Point } from 
 import { Motion } from "../view/motion.ts";
 import { pointUnder, View } from "../view/view.ts";
 import { counted, latitude, longitude, ofFacets, wrap } from "../words.ts";
-import { Choice, PlaceFields, SiteForm, StepControl } from "./controls.ts";
+import { Choice, PlaceFields, siteForm, stepControl } from "./controls.ts";
 import { SiteRoom, withMoved, withoutSite, withSite, type NamedSites } from "./site_room.ts";
 import { ballLayers, drawBall, drawPlane, type SphereScene, type Step } from "./sphere_drawing.ts";
 import { SphereSites, type Bubble } from "./sphere_sites.ts";
@@ -64,8 +64,8 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
   #ball!: Plate;
   #plane!: Plate;
   #click!: Choice<Click>;
-  #steps!: StepControl;
-  #form!: SiteForm;
+  #showStep!: ReturnType<typeof stepControl>;
+  #showSite!: ReturnType<typeof siteForm>;
   #poleFields!: PlaceFields;
   #viewFields!: PlaceFields;
 
@@ -95,8 +95,8 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
     this.#poleFields = new PlaceFields(section, "pole", (place) => guarded(() => this.#movePole(place)));
     this.#viewFields = new PlaceFields(section, "view", (place) => guarded(() => this.#turn(place)));
     this.#click = new Choice(section, "click", CLICKS, () => this.host.changed());
-    this.#steps = new StepControl(section, (count) => guarded(() => this.#setStep(count)));
-    this.#form = new SiteForm(section, {
+    this.#showStep = stepControl(section, (count) => guarded(() => this.#setStep(count)));
+    this.#showSite = siteForm(section, {
       add: (place) => guarded(() => this.#add(directionAt(place))),
       move: (place) => guarded(() => this.#moveHeld(place)),
       remove: () => guarded(() => this.#remove(this.#held)),
@@ -184,7 +184,7 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
   }
 
   #findBubble(): Bubble | null {
-    if (!this.isOn("bubble") || this.#state.step !== null) return null;
+    if (!this.switches.isOn("bubble") || this.#state.step !== null) return null;
     const facet = this.#sites.facetAt(this.#state.aim);
     return facet === null ? null : this.#sites.bubble(facet);
   }
@@ -205,12 +205,7 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
       view: this.view,
       twin: this.#twin,
       seeing: this.#seeing,
-      shown: {
-        triangles: this.isOn("triangles", isMoving),
-        cells: this.isOn("cells", isMoving, MANY),
-        seeing: this.isOn("seeing", isMoving),
-        closing: this.isOn("closing", isMoving),
-      },
+      isOn: this.shown(isMoving, MANY),
       bubble: this.#bubble,
       held: [this.#held, this.lit].filter((site) => site !== null && site < this.#sites.count) as number[],
       step: this.#step,
@@ -227,12 +222,12 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
     this.out("sum").hidden = step !== "done" || alone !== null;
     const side = dot(this.#twin.pole, directionAt(this.#state.view)) < 0 ? "behind" : "in front";
     say(this.out("pole-side"), `*P*, the pole of projection, lies ${side}.`);
-    this.#steps.show(this.#state.step, sites.count);
+    this.#showStep(this.#state.step, sites.count);
     this.#poleFields.value = this.#state.pole;
     this.#viewFields.value = this.#state.view;
     this.table.hold([...(this.#bubble?.sites ?? []), ...(held === null ? [] : [held])]);
     find<HTMLButtonElement>(this.section, "[data-do=undo]").disabled = this.#history.length === 0;
-    this.#form.show(held === null ? null : [sites.lonlat[2 * held], sites.lonlat[2 * held + 1]]);
+    this.#showSite(held === null ? null : [sites.lonlat[2 * held], sites.lonlat[2 * held + 1]]);
   }
 
   get #seeingCount(): number {
