@@ -99,15 +99,15 @@ export class Switches {
     return this.#inputs.get(name)!.checked;
   }
 
-  /** Names of those that differ from the way the room begins. */
-  get turned(): string {
+  /** What a link says: names of those that differ from the way the room begins. */
+  get values(): Record<string, string> {
     const turned = [...this.#inputs].filter(([, { checked, defaultChecked }]) => checked !== defaultChecked);
-    return turned.map(([name]) => name).join(",");
+    return turned.length === 0 ? {} : { turned: turned.map(([name]) => name).join(",") };
   }
 
   /** Turns those of a link, and all others back. */
-  set turned(names: string) {
-    const turned = names.split(",");
+  restore(values: LinkValues): void {
+    const turned = values.text("turned", "").split(",");
     for (const [name, input] of this.#inputs) input.checked = input.defaultChecked !== turned.includes(name);
   }
 }

@@ -5,7 +5,7 @@ import type { Sheet } from "../drawing/pen.ts";
 import type { Reason } from "../drawing/plate.ts";
 import type { Exchange } from "../exchange.ts";
 import type { Latitude } from "../kernel/api.ts";
-import { MOST_SITES, packPlaces, type LinkValues } from "../link.ts";
+import type { LinkValues } from "../link.ts";
 import type { Painted } from "../panorama.ts";
 import type { Room, RoomHost } from "../room.ts";
 import { directionOf, lonLatOf, type Vector } from "../space.ts";
@@ -13,8 +13,7 @@ import { capToCap, lensMap, MOST, scaleAt } from "../view/lens.ts";
 import { View } from "../view/view.ts";
 import { counted, latitude, longitude, scale } from "../words.ts";
 import { Choice, NumberField, PlaceFields, tellNamed } from "./controls.ts";
-import { BubbleGlobe } from "./globe_bubbles.ts";
-import { FisheyeGlobe } from "./globe_fisheye.ts";
+import { BubbleGlobe, FisheyeGlobe, FiveViews } from "./globe_plates.ts";
 import { GLOBE_SWITCHES, GlobeScene, type GlobeSwitch, type Places } from "./globe_scene.ts";
 import {
   BEGINNING,
@@ -26,8 +25,7 @@ import {
   toValues,
   type GlobeState,
 } from "./globe_state.ts";
-import { FiveViews } from "./globe_views.ts";
-import { TableRoom } from "./site_room.ts";
+import { heldValues, TableRoom } from "./site_room.ts";
 
 /** Files that are pictures, by the ends of their names. */
 const PICTURES = /\.(jpe?g|png|webp|avif)$/i;
@@ -102,20 +100,12 @@ export class GlobeRoom extends TableRoom implements Room {
   }
 
   state(): Record<string, string> {
-    const { places } = this.scene;
-    const held =
-      places === null || this.#isGiven
-        ? {}
-        : places.lonlat.length <= 2 * MOST_SITES
-          ? { sites: packPlaces(places.lonlat), name: places.name }
-          : { file: places.name };
-    const picture = this.scene.picture?.name;
-    const { turned } = this.switches;
+    const { places, picture } = this.scene;
     return {
       ...toValues(this.#state),
-      ...held,
-      ...(turned === "" ? {} : { turned }),
-      ...(picture === undefined ? {} : { picture }),
+      ...(places === null || this.#isGiven ? {} : heldValues(places.lonlat, places.name, { name: places.name })),
+      ...this.switches.values,
+      ...(picture === null ? {} : { picture: picture.name }),
     };
   }
 
@@ -123,9 +113,9 @@ export class GlobeRoom extends TableRoom implements Room {
     const state = fromValues(values);
     const lonlat = values.lonlat("sites");
     if (lonlat !== null) this.#show({ name: values.text("name", "sites"), lonlat }, false);
-    this.switches.turned = values.text("turned", "");
+    this.switches.restore(values);
     if (this.scene.places === null) this.switches.set("cells", false);
-    this.#globe.stop();
+    this.#globe.motion.stop();
     const { messages } = this.host;
     if (this.scene.places?.name !== values.text("file", "")) tellNamed(messages, values, "file");
     this.scene.picture = values.text("picture", "") === this.#picture?.name ? this.#picture : null;
@@ -172,7 +162,11 @@ export class GlobeRoom extends TableRoom implements Room {
   }
 
   python(exchange: Exchange): string {
-    return exchange.globePython(this.#state, this.scene, (name) => this.isOn(name));
+    return exchange.globePython(
+      this.#state,
+      this.scene,
+      this.scene.python((name) => this.isOn(name)),
+    );
   }
 
   /** Unpacks what the page carries; until then the globe is water. */
@@ -234,7 +228,7 @@ export class GlobeRoom extends TableRoom implements Room {
 
   #magnify(magnification: number): void {
     const { sight } = this.#state;
-    this.#globe.stop();
+    this.#globe.motion.stop();
     const kept = Math.max(1, Math.min(MOST, magnification));
     this.set({ sight: { ...sight, lens: { ...sight.lens, magnification: kept } } }, "hand");
   }

@@ -89,22 +89,40 @@ export class GlobeScene {
   draw(pen: Pen, disc: Disc, map: MoebiusMap, isOn: IsOn, isMoving: boolean): void {
     pen.ball(disc, "ocean");
     if (this.picture !== null) this.picture.draw(pen, disc, map, isMoving);
-    drawLayers(pen, disc, map, this.#layers(isOn, isMoving));
+    const layers = this.#parts(isOn, isMoving).map(([, layer]) => layer());
+    drawLayers(pen, disc, map, layers);
     pen.shade(disc);
   }
 
-  #layers(isOn: IsOn, isMoving: boolean): (Layer | null)[] {
-    const { places, lit } = this;
-    const count = (places?.lonlat.length ?? 0) / 2;
-    const lonlat = lit === null ? null : places?.lonlat.subarray(2 * lit, 2 * lit + 2);
-    return [
-      isOn("land") && this.picture === null ? (isMoving ? this.#coarse : (this.#fine ?? this.#coarse)) : null,
-      isOn("graticule") ? this.#graticule : null,
-      isOn("tissot") ? this.#tissot : null,
-      isOn("cells") && !(isMoving && count > MANY_PLACES) ? this.#ridges() : null,
-      this.#dots,
-      lonlat ? dotLayer("held", lonlatToXyz(lonlat)) : null,
+  /** The lines of Python that draw the same. */
+  python(isOn: IsOn): string[] {
+    const raster = this.picture === null ? [] : [`globe.add_raster(${JSON.stringify(this.picture.name)})`];
+    return [...raster, ...this.#parts(isOn, false).flatMap(([, , line]) => line ?? [])];
+  }
+
+  /** What is drawn over the ground and a picture: whether it is, its layer, and its line of Python. */
+  #parts(isOn: IsOn, isMoving: boolean): readonly [boolean, () => Layer | null, string?][] {
+    const { places, lit, latitude } = this;
+    const hasPlaces = places !== null;
+    const hasLand = isOn("land") && this.picture === null;
+    const isMuch = isMoving && hasPlaces && places.lonlat.length > 2 * MANY_PLACES;
+    const kind = latitude === "spherical" ? "" : `, latitude="${latitude}"`;
+    const held = (): Layer => dotLayer("held", lonlatToXyz(places!.lonlat.subarray(2 * lit!, 2 * lit! + 2)));
+    const parts: [boolean, () => Layer | null, string?][] = [
+      [hasLand, () => (isMoving ? this.#coarse : (this.#fine ?? this.#coarse)), 'globe.add_land(resolution="50m")'],
+      [isOn("graticule"), () => this.#graticule, `globe.add_graticule(${STEP}.0)`],
+      [hasLand, () => null, 'globe.add_coastlines(resolution="50m")'], // which the page draws with the land
+      [isOn("tissot"), () => this.#tissot, `globe.add_tissot(${STEP}.0, ${CIRCLE_RADIUS.toFixed(4)})`],
+      [hasPlaces, () => null, `places = read_points(${JSON.stringify(places?.name)}).lonlat`],
+      [
+        hasPlaces && isOn("cells"),
+        () => (isMuch ? null : this.#ridges()),
+        `globe.add_cells(SphericalVoronoi.from_lonlat(places${kind}))`,
+      ],
+      [hasPlaces, () => this.#dots, "globe.add_points(places)"],
+      [hasPlaces && lit !== null, held],
     ];
+    return parts.filter(([isThere]) => isThere);
   }
 
   /** The places' cells, which are computed when they are first asked for. */

@@ -32,6 +32,11 @@ function ofSet(set: SiteSet): NamedSites {
   return { places: set.make(), names: set.names ?? null, set: set.name, file: null };
 }
 
+/** What a link says of places of the reader's own: themselves, or where they are too many the name of their file. */
+export function heldValues(places: Float64Array, file: string, words = {}): Record<string, string> {
+  return places.length <= 2 * MOST_SITES ? { sites: packPlaces(places), ...words } : { file };
+}
+
 /** Sites from which on nothing but dots is drawn while something moves. */
 const VERY_MANY = 100_000;
 
@@ -117,14 +122,7 @@ export abstract class SiteRoom extends TableRoom {
   /** What a link says of the sites and of the switches. */
   protected siteValues(): Record<string, string> {
     const { places, set, file } = this.named;
-    const { turned } = this.switches;
-    const sites: Record<string, string> =
-      set !== OWN
-        ? { set }
-        : places.length <= 2 * MOST_SITES
-          ? { sites: packPlaces(places) }
-          : { file: file ?? "sites" };
-    return turned === "" ? sites : { ...sites, turned };
+    return { ...(set === OWN ? heldValues(places, file ?? "sites") : { set }), ...this.switches.values };
   }
 
   /** The sites of a link; nothing is shown yet. @throws LinkError where they cannot be read. */
@@ -137,7 +135,7 @@ export abstract class SiteRoom extends TableRoom {
 
   /** Turns the switches as a link says, and tells what it names and does not hold. */
   restore(values: LinkValues): void {
-    this.switches.turned = values.text("turned", "");
+    this.switches.restore(values);
     tellNamed(this.host.messages, values, "file");
   }
 
@@ -177,23 +175,10 @@ export abstract class SiteRoom extends TableRoom {
   }
 }
 
-/** The sites with one more at the end. */
-export function withSite({ places, names }: NamedSites, place: Place): NamedSites {
-  const more = new Float64Array(places.length + 2);
-  more.set(places);
-  more.set(place, places.length);
-  return ownSites(more, names && [...names, ""]);
-}
-
-/** The sites with one of them elsewhere. */
-export function withMoved({ places, names }: NamedSites, site: number, place: Place): NamedSites {
-  const moved = places.slice();
-  moved.set(place, 2 * site);
-  return ownSites(moved, names);
-}
-
-/** The sites without one of them; those behind it take the numbers before theirs. */
-export function withoutSite({ places, names }: NamedSites, site: number): NamedSites {
-  const left = places.filter((_, k) => k >> 1 !== site);
-  return ownSites(left, names && names.filter((_, k) => k !== site));
+/** The sites with one of them elsewhere, one more at the end, or, without a place, one less: its number is the next one's. */
+export function edited({ places, names }: NamedSites, site: number, place: Place | null): NamedSites {
+  const [numbers, words] = [[...places], names && [...names]];
+  numbers.splice(2 * site, 2, ...(place ?? []));
+  words?.splice(site, 1, ...(place === null ? [] : [words[site] ?? ""]));
+  return ownSites(Float64Array.from(numbers), words);
 }

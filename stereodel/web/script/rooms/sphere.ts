@@ -16,21 +16,11 @@ import { Motion } from "../view/motion.ts";
 import { pointUnder, View } from "../view/view.ts";
 import { counted, latitude, longitude, ofFacets, wrap } from "../words.ts";
 import { Choice, PlaceFields, siteForm, stepControl } from "./controls.ts";
-import { SiteRoom, withMoved, withoutSite, withSite, type NamedSites } from "./site_room.ts";
+import { edited, SiteRoom, type NamedSites } from "./site_room.ts";
 import { ballLayers, drawBall, drawPlane, type SphereScene, type Step } from "./sphere_drawing.ts";
 import { SphereSites, type Bubble } from "./sphere_sites.ts";
-import {
-  CLICKS,
-  directionAt,
-  fromValues,
-  handPlace,
-  setPlace,
-  toValues,
-  VIEW,
-  viewPlace,
-  type Click,
-  type Place,
-} from "./sphere_state.ts";
+import { CLICKS, directionAt, fromValues, handPlace, toValues, VIEW, viewPlace } from "./sphere_state.ts";
+import type { Click, Place } from "./sphere_state.ts";
 import { ofBubble, ofDuplicates, ofSite, ofStep, withoutTriangles } from "./sphere_words.ts";
 import { PlaneFrame, reachAround, Twin } from "./twin.ts";
 
@@ -54,6 +44,16 @@ const GAP = 32;
 /** @param stored Sets that the page carries. @param given The points that it was made for. */
 export function sphereRoom(host: RoomHost, stored: Stored, given: Given | null): Room {
   return new SphereRoom(host, sphereSets(stored, given));
+}
+
+/** What the hand finds on one of the pictures. */
+interface Picture {
+  /** The direction under a place. */
+  under(at: Point): Vector;
+  /** Where a direction is, or null while it is behind. */
+  place(direction: Vector): Point | null;
+  take(at: Point, reach: number): Hold | null;
+  isOn(at: Point, reach?: number): boolean;
 }
 
 class SphereRoom extends SiteRoom implements Room, Turnable {
@@ -102,8 +102,11 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
       remove: () => guarded(() => this.#remove(this.#held)),
     });
     find(section, "[data-do=undo]").addEventListener("click", () => this.#undo());
-    follow(this.#ball, this.#ballGestures());
-    follow(this.#plane, this.#planeGestures());
+    const under = (at: Point): Vector => this.#twin.inverse(...this.#frame.point(at));
+    const place = (point: Vector): Point => this.#frame.place(this.#twin.forward(point));
+    const take = (): Hold => ({ move: () => {} });
+    follow(this.#plane, this.#gestures({ under, place, take, isOn: () => true }));
+    follow(this.#ball, this.#gestures(this.#onBall));
   }
 
   // State
@@ -252,72 +255,52 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
     this.#turn(view.middle, reason);
   }
 
-  #ballGestures(): Gestures {
+  #gestures(picture: Picture): Gestures {
+    const { under } = picture;
     return {
-      take: (at, reach) => this.#grab(at, reach),
+      take: picture.take,
       hover: (at) => {
-        if (at !== null && this.#isOnBall(at)) this.#hover(this.#direction(at));
+        if (at !== null && picture.isOn(at)) this.#hover(under(at));
       },
-      click: (at, reach) => this.#press(this.#direction(at), this.#siteOnBall(at, reach)),
+      click: (at, reach) => this.#press(under(at), this.#siteNear(picture, at, reach)),
       key: (event) => this.#key(event),
     };
   }
 
-  #planeGestures(): Gestures {
-    const direction = (at: Point): Vector => this.#twin.inverse(...this.#frame.point(at));
-    const place = (point: Vector): Point => this.#frame.place(this.#twin.forward(point));
-    return {
-      take: () => ({ move: () => {} }),
-      hover: (at) => {
-        if (at !== null) this.#hover(direction(at));
-      },
-      click: (at, reach) => this.#press(direction(at), this.#siteNear(direction(at), at, reach, place)),
-      key: (event) => this.#key(event),
-    };
-  }
+  readonly #onBall: Picture = {
+    under: (at) => this.view.onBall(pointUnder(this.disc, at)),
+    place: (direction) => {
+      const point = this.view.seen(direction);
+      return point[2] >= 0 ? placeOf(this.disc, point) : null;
+    },
+    take: (at, reach) => this.#grab(at, reach),
+    isOn: (at, reach = 0) => distance(at, [this.disc.x, this.disc.y]) <= this.disc.r + reach,
+  };
 
-  #isOnBall(at: Point, reach = 0): boolean {
-    return distance(at, [this.disc.x, this.disc.y]) <= this.disc.r + reach;
-  }
-
-  /** What is under a place of the ball. */
-  #direction(at: Point): Vector {
-    return this.view.onBall(pointUnder(this.disc, at));
-  }
-
-  /** The visible site within reach of a place of the ball, or null. */
-  #siteOnBall(at: Point, reach: number): number | null {
-    const { view, disc } = this;
-    return this.#siteNear(this.#direction(at), at, reach, (direction) => {
-      const point = view.seen(direction);
-      return point[2] >= 0 ? placeOf(disc, point) : null;
-    });
-  }
-
-  /** The site nearest to a direction, where its place on the picture is within reach. */
-  #siteNear(direction: Vector, at: Point, reach: number, place: (direction: Vector) => Point | null): number | null {
+  /** The site nearest to what is under a place of a picture, where it is within reach. */
+  #siteNear({ under, place }: Picture, at: Point, reach: number): number | null {
     if (this.#sites.count === 0) return null;
-    const [site] = this.#sites.delaunay.nearest(direction);
+    const [site] = this.#sites.delaunay.nearest(under(at));
     const found = place(this.#sites.site(site));
     return found !== null && distance(found, at) <= reach ? site : null;
   }
 
   /** Takes hold of the pole's handle, a site, or the ball; null beside them. */
   #grab(at: Point, reach: number): Hold | null {
-    if (!this.#isOnBall(at, reach)) return null;
+    if (!this.#onBall.isOn(at, reach)) return null;
     const pole = this.view.seen(this.#twin.pole);
     if (distance(placeOf(this.disc, pole), at) <= reach) return this.#grabPole(pole[2] < 0);
     // Where sites lie close, evenly spread, the ball can still be turned between them.
     const spacing = this.disc.r * Math.sqrt((4 * Math.PI) / this.#sites.count);
     const near = Math.min(reach, REACH_OF_SITES, spacing / 3);
-    const site = this.#state.step === null ? this.#siteOnBall(at, near) : null;
+    const site = this.#state.step === null ? this.#siteNear(this.#onBall, at, near) : null;
     if (site === null) return grabBall(this, this.#motion, at);
     let isFirst = true;
     return {
       move: (to) => {
         if (isFirst) this.#note();
         isFirst = false;
-        this.host.guarded(() => this.#moveSite(site, this.#direction(to), "hand"));
+        this.host.guarded(() => this.#moveSite(site, this.#onBall.under(to), "hand"));
       },
       end: () => this.#rest(),
     };
@@ -328,7 +311,7 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
     let [behind, wasOut] = [isBehind, false];
     return {
       move: (to) => {
-        const isOut = !this.#isOnBall(to);
+        const isOut = !this.#onBall.isOn(to);
         if (!isOut && wasOut) behind = !behind;
         wasOut = isOut;
         const [x, y, z] = pointUnder(this.disc, to);
@@ -392,7 +375,7 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
   }
 
   #movePole(place: Place, rests = true): void {
-    this.#state.pole = setPlace(place);
+    this.#state.pole = handPlace(place);
     this.#project();
     if (rests) this.#rescale();
     this.#update(rests ? "state" : "hand");
@@ -426,10 +409,10 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
   }
 
   #moveSite(site: number, direction: Vector, reason: Reason = "state"): void {
-    const [lon, lat] = handPlace(direction);
+    const [lon, lat] = handPlace(lonLatOf(direction));
     this.#state.aim = direction;
     const words = (): string => `Site ${site + 1}: ${latitude(lat)}, ${longitude(lon)}`;
-    this.#edit(withMoved(this.named, site, [lon, lat]), site, words, reason);
+    this.#edit(edited(this.named, site, [lon, lat]), site, words, reason);
   }
 
   /** Keeps the sites to go back to. */
@@ -446,7 +429,7 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
   #add(direction: Vector): void {
     const { count } = this.#sites;
     this.#note();
-    this.#edit(withSite(this.named, handPlace(direction)), count, () => {
+    this.#edit(edited(this.named, count, handPlace(lonLatOf(direction))), count, () => {
       const same = this.#sites.sameAs(count);
       return same === null
         ? `Site ${count + 1} added, ${this.#sites.neighborCounts[count]} neighbours`
@@ -458,7 +441,7 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
   #remove(site: number | null): void {
     if (site === null) return;
     this.#note();
-    this.#edit(withoutSite(this.named, site), null, () => `Site ${site + 1} removed`);
+    this.#edit(edited(this.named, site, null), null, () => `Site ${site + 1} removed`);
   }
 
   #undo(): void {
