@@ -39,7 +39,7 @@ export class CanvasPen extends Pen {
     const context = this.#context;
     if (style.fill === undefined && style.hatch === undefined) {
       this.#line(style);
-      const path = new StrokedPath(context);
+      const path = strokedPath(context);
       trace(path);
       path.flush();
       return;
@@ -183,38 +183,26 @@ export class CanvasPen extends Pen {
 }
 
 /** Strokes what it was given before its arcs are too many; only where a new line begins. */
-class StrokedPath implements Path {
-  readonly #context: Context;
-  #arcs = 0;
-
-  constructor(context: Context) {
-    this.#context = context;
-    context.beginPath();
-  }
-
-  moveTo(x: number, y: number): void {
-    if (this.#arcs >= MOST_ARCS) {
-      this.flush();
-      this.#context.beginPath();
-    }
-    this.#context.moveTo(x, y);
-  }
-
-  lineTo(x: number, y: number): void {
-    this.#context.lineTo(x, y);
-  }
-
-  ellipse(...given: Parameters<Path["ellipse"]>): void {
-    ++this.#arcs;
-    this.#context.ellipse(...given);
-  }
-
-  closePath(): void {
-    this.#context.closePath();
-  }
-
-  flush(): void {
-    this.#context.stroke();
-    this.#arcs = 0;
-  }
+function strokedPath(context: Context): Path & { flush(): void } {
+  let arcs = 0;
+  context.beginPath();
+  return {
+    moveTo(x, y) {
+      if (arcs >= MOST_ARCS) {
+        this.flush();
+        context.beginPath();
+      }
+      context.moveTo(x, y);
+    },
+    lineTo: (x, y) => context.lineTo(x, y),
+    ellipse(...given) {
+      ++arcs;
+      context.ellipse(...given);
+    },
+    closePath: () => context.closePath(),
+    flush() {
+      context.stroke();
+      arcs = 0;
+    },
+  };
 }

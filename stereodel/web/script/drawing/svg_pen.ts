@@ -1,7 +1,7 @@
 /** The pen of SVG: the same trace as on the screen, with true arcs of ellipses. */
 
 import { writeNumber } from "../link.ts";
-import { LIGHT, Pen, textParts, type Disc, type Gradient, type Path, type Picture, type Trace } from "./pen.ts";
+import { LIGHT, Pen, textParts, type Disc, type Gradient, type Picture, type Trace } from "./pen.ts";
 import { BEHIND, DOTS, HALO_WIDTH, HATCH_PITCH, HATCH_WIDTH, SERIF, STYLES } from "./styles.ts";
 import type { DotName, LabelStyle, Style, StyleName } from "./styles.ts";
 
@@ -123,52 +123,28 @@ export class SvgPen extends Pen {
 
 /** What a trace lays down, as the attribute `d`. */
 function pathData(trace: Trace): string {
-  const path = new SvgPath();
-  trace(path);
-  return path.d;
-}
-
-class SvgPath implements Path {
-  d = "";
-  #isBegun = false;
-
-  moveTo(x: number, y: number): void {
-    this.d += `M${number(x)} ${number(y)}`;
-    this.#isBegun = true;
-  }
-
-  lineTo(x: number, y: number): void {
-    this.d += `L${number(x)} ${number(y)}`;
-  }
-
-  ellipse(
-    x: number,
-    y: number,
-    rx: number,
-    ry: number,
-    rotation: number,
-    from: number,
-    to: number,
-    counterclockwise = false,
-  ): void {
-    const [c, s] = [Math.cos(rotation), Math.sin(rotation)];
-    const at = (t: number): [number, number] => {
-      const [u, v] = [rx * Math.cos(t), ry * Math.sin(t)];
-      return [x + u * c - v * s, y + u * s + v * c];
-    };
-    if (this.#isBegun) this.lineTo(...at(from));
-    else this.moveTo(...at(from));
-    const pieces = Math.ceil(Math.abs(to - from) / LONGEST_PIECE);
-    const looks = `${number(rx)} ${number(ry)} ${number((rotation * 180) / Math.PI)} 0 ${counterclockwise ? 0 : 1}`;
-    for (let k = 1; k <= pieces; ++k) {
-      const [px, py] = at(from + ((to - from) * k) / pieces);
-      this.d += `A${looks} ${number(px)} ${number(py)}`;
-    }
-  }
-
-  closePath(): void {
-    this.d += "Z";
-  }
+  let d = "";
+  trace({
+    moveTo: (x, y) => (d += `M${number(x)} ${number(y)}`),
+    lineTo: (x, y) => (d += `L${number(x)} ${number(y)}`),
+    ellipse(x, y, rx, ry, rotation, from, to, counterclockwise = false) {
+      const [c, s] = [Math.cos(rotation), Math.sin(rotation)];
+      const at = (t: number): [number, number] => {
+        const [u, v] = [rx * Math.cos(t), ry * Math.sin(t)];
+        return [x + u * c - v * s, y + u * s + v * c];
+      };
+      if (d === "") this.moveTo(...at(from));
+      else this.lineTo(...at(from));
+      const pieces = Math.ceil(Math.abs(to - from) / LONGEST_PIECE);
+      const looks = `${number(rx)} ${number(ry)} ${number((rotation * 180) / Math.PI)} 0 ${counterclockwise ? 0 : 1}`;
+      for (let k = 1; k <= pieces; ++k) {
+        const [px, py] = at(from + ((to - from) * k) / pieces);
+        d += `A${looks} ${number(px)} ${number(py)}`;
+      }
+    },
+    closePath: () => (d += "Z"),
+  });
+  return d;
 }
 
 /** A coordinate with few digits and no more zeros than it takes. */

@@ -30,15 +30,11 @@ export class NumberField {
   set value(value: number | null) {
     if (document.activeElement !== this.#input) this.#input.value = value?.toFixed(this.#decimals) ?? "";
   }
-
-  set max(value: number) {
-    this.#input.max = String(value);
-  }
 }
 
 /** Two fields of a place, longitude and latitude in degrees. */
 export class PlaceFields {
-  readonly #fields: readonly [NumberField, NumberField];
+  readonly #fields: readonly NumberField[];
 
   /** @param name Of the fields, before `-lon` and `-lat`. @param typed gets each valid place. */
   constructor(
@@ -47,38 +43,43 @@ export class PlaceFields {
     typed: (place: readonly [number, number]) => void,
     when: "input" | "change" = "input",
   ) {
-    const names = [`${name}-lon`, `${name}-lat`] as const;
+    const names = [`${name}-lon`, `${name}-lat`];
     const act = (): void => {
       const [lon, lat] = names.map((part) => field(root, part).valueAsNumber);
       if (Number.isFinite(lon) && Number.isFinite(lat)) typed([lon, lat]);
     };
-    this.#fields = [new NumberField(root, names[0], 1, act, when), new NumberField(root, names[1], 1, act, when)];
+    this.#fields = names.map((part) => new NumberField(root, part, 1, act, when));
   }
 
-  set value([lon, lat]: readonly [number, number]) {
-    [this.#fields[0].value, this.#fields[1].value] = [lon, lat];
+  set value(place: readonly [number, number]) {
+    this.#fields.forEach((part, k) => (part.value = place[k]));
   }
 }
 
 /** One of some words: a group of radio buttons. */
 export class Choice<T extends string> {
   readonly #inputs: readonly HTMLInputElement[];
-  readonly #words: readonly T[];
 
-  constructor(root: ParentNode, name: string, words: readonly T[], changed: () => void) {
+  constructor(root: ParentNode, name: string, changed: () => void) {
     this.#inputs = [...root.querySelectorAll<HTMLInputElement>(`input[name=${name}]`)];
-    this.#words = words;
     for (const input of this.#inputs) input.addEventListener("change", changed);
   }
 
   get value(): T {
-    const chosen = this.#inputs.find((input) => input.checked)?.value;
-    return this.#words.find((word) => word === chosen) ?? this.#words[0];
+    return this.#inputs.find((input) => input.checked)!.value as T;
   }
 
   set value(word: T) {
     for (const input of this.#inputs) input.checked = input.value === word;
   }
+}
+
+/** Writes a mark of a ruler and, in percent, where it stands. */
+export function mark(ruler: ParentNode, name: string, words: string, percent?: number): HTMLElement {
+  const element = find(ruler, name);
+  element.textContent = words;
+  if (percent !== undefined) element.style.setProperty("--at", `${percent.toFixed(2)}%`);
+  return element;
 }
 
 /** Switches of a room by name. */

@@ -12,7 +12,7 @@ import { directionOf, lonLatOf, type Vector } from "../space.ts";
 import { capToCap, lensMap, MOST, scaleAt } from "../view/lens.ts";
 import { View } from "../view/view.ts";
 import { counted, latitude, longitude, scale } from "../words.ts";
-import { Choice, NumberField, PlaceFields, tellNamed } from "./controls.ts";
+import { Choice, mark, NumberField, PlaceFields, tellNamed } from "./controls.ts";
 import { BubbleGlobe, FisheyeGlobe, FiveViews } from "./globe_plates.ts";
 import { GLOBE_SWITCHES, GlobeScene, type GlobeSwitch, type Places } from "./globe_scene.ts";
 import {
@@ -81,7 +81,7 @@ export class GlobeRoom extends TableRoom implements Room {
       (which) => new BubbleGlobe(canvas(`globe-${which}`), which, this),
     );
     const lens = (): void => this.set({ lens: this.#lens.value }, "state", true);
-    this.#lens = new Choice(section, "lens", ["fisheye", "bubble"], () => guarded(lens));
+    this.#lens = new Choice(section, "lens", () => guarded(lens));
     const center = (place: readonly [number, number]): void => this.#center(directionOf(...place));
     this.#focus = new PlaceFields(section, "focus", (place) => guarded(() => center(place)), "change");
     const radius = (which: "from" | "to"): NumberField =>
@@ -189,7 +189,8 @@ export class GlobeRoom extends TableRoom implements Room {
     const { lonlat, names } = places;
     const count = lonlat.length / 2;
     find(this.section, "[data-show=places]").hidden = false;
-    this.out("places").textContent = placesWords(count, places.name);
+    const words = count === 0 ? "No places in" : count === 1 ? "The place of" : `The ${counted(count)} places of`;
+    this.out("places").textContent = `${words} ${places.name}`;
     this.out("latitude").textContent = AREAS[this.scene.latitude];
     this.table.show({
       count,
@@ -280,7 +281,7 @@ export class GlobeRoom extends TableRoom implements Room {
     const { pointer, sight } = this.#state;
     const { magnification, focus } = sight.lens;
     const map = lensMap(sight.lens);
-    const [here, there] = [scaleAt(map, pointer), scaleAt(map, opposite(focus))];
+    const [here, there] = [scaleAt(map, pointer), scaleAt(map, [-focus[0], -focus[1], -focus[2]])];
     say(
       this.out("pointer"),
       `At the pointer, _${placeWords(pointer)}_, everything is _${scale(here)}_ times as large as on a plain globe; ` +
@@ -289,11 +290,9 @@ export class GlobeRoom extends TableRoom implements Room {
     const ruler = this.out("scale");
     const share = magnification > 1 ? Math.log(here) / Math.log(magnification) : 0;
     const [first, last] = ends(magnification);
-    find(ruler, ".mark-at.first").textContent = first;
-    find(ruler, ".mark-at.last").textContent = last;
-    const needle = find(ruler, ".needle");
-    needle.style.setProperty("--at", `${(50 * (share + 1)).toFixed(2)}%`);
-    needle.textContent = `${scale(here)}×`;
+    mark(ruler, ".mark-at.first", first);
+    mark(ruler, ".mark-at.last", last);
+    mark(ruler, ".needle", `${scale(here)}×`, 50 * (share + 1));
   }
 
   /** In the middle of the bubble and at its rim, as words. */
@@ -348,19 +347,9 @@ function placeWords(direction: Vector): string {
   return `${latitude(lat)} ${longitude(lon)}`;
 }
 
-/** How many places there are, and of which file. */
-function placesWords(count: number, name: string): string {
-  if (count === 0) return `No places in ${name}`;
-  return count === 1 ? `The place of ${name}` : `The ${counted(count)} places of ${name}`;
-}
-
 /** Square kilometres: whole ones, or three digits of what is smaller. */
 function area(size: number): string {
   return size >= 100 ? counted(Math.round(size)) : size.toPrecision(3);
-}
-
-function opposite([x, y, z]: Vector): Vector {
-  return [-x, -y, -z];
 }
 
 /** The ends of a ruler from 1/S to S: a fraction where S is whole. */

@@ -15,6 +15,7 @@ import {
 import type { Disc, Pen } from "../drawing/pen.ts";
 import { lonlatToXyz, SphericalVoronoi, xyzToLonlat, type Latitude, type MoebiusMap } from "../kernel/api.ts";
 import { tableLonlat } from "../kernel/coordinates.ts";
+import { lazy } from "../kernel/lazy.ts";
 import type { Painted } from "../panorama.ts";
 import { directionOf } from "../space.ts";
 
@@ -59,10 +60,7 @@ export class GlobeScene {
   readonly #tissot = capLayer("tissot", equalCircles());
   #coarse: Layer | null = null;
   #fine: Layer | null = null;
-  #cells: Layer | null = null;
-  #dots: Layer | null = null;
-  #voronoi: SphericalVoronoi | null = null;
-  #areas: Float64Array | null = null;
+  #made: Made | null = null;
 
   /** Unpacks the land that the page carries. */
   async load(contents: Contents): Promise<void> {
@@ -72,17 +70,14 @@ export class GlobeScene {
     if (fine !== null) this.#fine = landLayer(fine);
   }
 
-  /** Shows the reader's places, or none. */
-  show(places: Places | null): void {
-    this.places = places;
-    this.#cells = this.#voronoi = this.#areas = this.lit = null;
-    this.#dots = places === null ? null : dotLayer("site", lonlatToXyz(places.lonlat));
+  /** Shows the reader's places. */
+  show(places: Places): void {
+    [this.places, this.lit, this.#made] = [places, null, madeOf(places, this.latitude)];
   }
 
   /** The area of a place's cell, square kilometres. */
   area(place: number): number {
-    this.#areas ??= this.#diagram()?.areas(OF_EQUAL_AREA) ?? null;
-    return this.#areas?.[place] ?? 0;
+    return this.#made?.areas[place] ?? 0;
   }
 
   /** Draws a globe; `map` takes the Earth to the axes of the view. */
@@ -116,31 +111,35 @@ export class GlobeScene {
       [hasPlaces, () => null, `places = read_points(${JSON.stringify(places?.name)}).lonlat`],
       [
         hasPlaces && isOn("cells"),
-        () => (isMuch ? null : this.#ridges()),
+        () => (isMuch ? null : this.#made!.cells),
         `globe.add_cells(SphericalVoronoi.from_lonlat(places${kind}))`,
       ],
-      [hasPlaces, () => this.#dots, "globe.add_points(places)"],
+      [hasPlaces, () => this.#made!.dots, "globe.add_points(places)"],
       [hasPlaces && lit !== null, held],
     ];
     return parts.filter(([isThere]) => isThere);
   }
+}
 
-  /** The places' cells, which are computed when they are first asked for. */
-  #diagram(): SphericalVoronoi | null {
-    if (this.places === null) return null;
-    return (this.#voronoi ??= SphericalVoronoi.fromLonlat(this.places.lonlat, this.latitude));
-  }
+/** What is made of places when it is first asked for: their dots, the sides and the areas of their cells. */
+interface Made {
+  readonly dots: Layer;
+  readonly voronoi: SphericalVoronoi;
+  readonly cells: Layer;
+  readonly areas: Float64Array;
+}
 
-  /** Points of the cells' sphere where the globe shows them: at the latitudes of a table. */
-  #drawn(xyz: Float64Array): Float64Array {
-    return this.latitude === "spherical" ? xyz : lonlatToXyz(tableLonlat(xyzToLonlat(xyz), this.latitude));
-  }
-
-  /** Sides of the places' cells. */
-  #ridges(): Layer | null {
-    const diagram = this.#diagram();
-    return diagram === null ? null : (this.#cells ??= arcLayer("voronoi", this.#drawn(ridgeArcs(diagram))));
-  }
+function madeOf({ lonlat }: Places, latitude: Latitude): Made {
+  // Points of the cells' sphere are where the globe shows them: at the latitudes of a table.
+  const drawn = (xyz: Float64Array): Float64Array =>
+    latitude === "spherical" ? xyz : lonlatToXyz(tableLonlat(xyzToLonlat(xyz), latitude));
+  const made: Made = lazy({
+    dots: () => dotLayer("site", lonlatToXyz(lonlat)),
+    voronoi: () => SphericalVoronoi.fromLonlat(lonlat, latitude),
+    cells: () => arcLayer("voronoi", drawn(ridgeArcs(made.voronoi))),
+    areas: () => made.voronoi.areas(OF_EQUAL_AREA),
+  });
+  return made;
 }
 
 /** Three points of each circle, about places some distance apart on parallels that are as far apart. */

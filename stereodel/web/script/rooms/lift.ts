@@ -11,10 +11,10 @@ import { arrowStep } from "../view/ball_hand.ts";
 import { distance, follow, type Gestures, type Hold } from "../view/hand.ts";
 import { View } from "../view/view.ts";
 import { counted, fixed, ofFacets, wrap } from "../words.ts";
-import { NumberField } from "./controls.ts";
+import { mark, NumberField } from "./controls.ts";
 import { LiftPicture, type LiftScene } from "./lift_drawing.ts";
 import { LiftSites, SHEET_SIDES, sheetSets, type Sheet as BentSheet } from "./lift_sites.ts";
-import { measured, ofBend, ofBounds, ofPair, separation, withoutTriangles } from "./lift_words.ts";
+import { measured, ofBend, ofBounds, ofPair, separation, withoutTriangles } from "./lift_sites.ts";
 import { SiteRoom, type NamedSites } from "./site_room.ts";
 
 const SWITCHES = ["triangles", "cells", "rays", "seeing"] as const;
@@ -107,8 +107,7 @@ class LiftRoom extends SiteRoom implements Room {
     const label = `Sheet with ${counted(count)} ${count === 1 ? "site" : "sites"}, and ball`;
     this.#plate.canvas.setAttribute("aria-label", label);
     for (const letter of ["p", "q"] as const) {
-      this.#fields[letter].max = Math.max(1, count);
-      field(this.section, letter).disabled = count < 2;
+      Object.assign(field(this.section, letter), { max: String(Math.max(1, count)), disabled: count < 2 });
     }
     this.#update("state", named);
   }
@@ -176,23 +175,17 @@ class LiftRoom extends SiteRoom implements Room {
     const now = separation(this.#sites, this.#bent, p, q);
     say(this.out("separation"), ofPair(now, this.#state.bend));
     say(this.out("promise"), ofBounds(now));
-    const at = (degrees: number): string => `${fixed(degrees / 1.8, 2)}%`;
-    const mark = (name: string, words: string, value: number): HTMLElement => {
-      const element = find(bounds, name);
-      element.textContent = words;
-      element.style.setProperty("--at", at(value));
-      return element;
-    };
     const [low, high] = [`${fixed(now.low, 1)}°`, `${fixed(now.high, 1)}°`];
     const angle = now.angle === null ? "" : `${fixed(now.angle, 1)}°`;
-    mark(".needle", angle, now.angle ?? 0).hidden = now.angle === null;
+    mark(bounds, ".needle", angle, (now.angle ?? 0) / 1.8).hidden = now.angle === null;
     const span = find(bounds, ".span");
-    span.style.setProperty("--from", at(now.low));
-    span.style.setProperty("--to", at(now.high));
+    for (const [name, degrees] of Object.entries({ "--from": now.low, "--to": now.high })) {
+      span.style.setProperty(name, `${fixed(degrees / 1.8, 2)}%`);
+    }
     // Bounds whose marks would stand in each other's way share one.
     const isNarrow = now.high - now.low < CLOSE;
-    mark(".low", isNarrow ? `${low} to ${high}` : low, isNarrow ? (now.low + now.high) / 2 : now.low);
-    mark(".high", isNarrow ? "" : high, now.high);
+    mark(bounds, ".low", isNarrow ? `${low} to ${high}` : low, (isNarrow ? (now.low + now.high) / 2 : now.low) / 1.8);
+    mark(bounds, ".high", isNarrow ? "" : high, now.high / 1.8);
     // The bounds come before the ends of the ruler.
     const room = isNarrow ? 2 * CLOSE : CLOSE;
     find(bounds, ".first").classList.toggle("bare", isEnd && now.low < room);

@@ -18,11 +18,10 @@ import { counted, latitude, longitude, ofFacets, wrap } from "../words.ts";
 import { Choice, PlaceFields, siteForm, stepControl } from "./controls.ts";
 import { edited, SiteRoom, type NamedSites } from "./site_room.ts";
 import { ballLayers, drawBall, drawPlane, type SphereScene, type Step } from "./sphere_drawing.ts";
-import { SphereSites, type Bubble } from "./sphere_sites.ts";
-import { CLICKS, directionAt, fromValues, handPlace, toValues, VIEW, viewPlace } from "./sphere_state.ts";
+import { ofBubble, ofDuplicates, ofSite, ofStep, SphereSites, withoutTriangles, type Bubble } from "./sphere_sites.ts";
+import { directionAt, fromValues, handPlace, toValues, VIEW, viewPlace } from "./sphere_state.ts";
 import type { Click, Place } from "./sphere_state.ts";
-import { ofBubble, ofDuplicates, ofSite, ofStep, withoutTriangles } from "./sphere_words.ts";
-import { PlaneFrame, reachAround, Twin } from "./twin.ts";
+import { planeFrame, reachAround, Twin, type PlaneFrame } from "./twin.ts";
 
 const SWITCHES = ["triangles", "cells", "bubble", "seeing", "closing"] as const;
 
@@ -94,7 +93,7 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
     this.#plane = plate("plane", (pen, scene) => drawPlane(pen, this.#frame, scene));
     this.#poleFields = new PlaceFields(section, "pole", (place) => guarded(() => this.#movePole(place)));
     this.#viewFields = new PlaceFields(section, "view", (place) => guarded(() => this.#turn(place)));
-    this.#click = new Choice(section, "click", CLICKS, () => this.host.changed());
+    this.#click = new Choice(section, "click", () => this.host.changed());
     this.#showStep = stepControl(section, (count) => guarded(() => this.#setStep(count)));
     this.#showSite = siteForm(section, {
       add: (place) => guarded(() => this.#add(directionAt(place))),
@@ -248,7 +247,7 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
   }
 
   get #frame(): PlaneFrame {
-    return new PlaneFrame(1, 1, Math.min(this.#plane.width, this.#plane.height) - 2, this.#reach);
+    return planeFrame(1, 1, Math.min(this.#plane.width, this.#plane.height) - 2, this.#reach);
   }
 
   turn(view: View, reason: Reason): void {
@@ -519,7 +518,7 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
     const size = this.#ball.width;
     const { disc } = this;
     const scene = this.#scene(false);
-    const frame = new PlaneFrame(size + GAP + 1, 1, size - 2, this.#reach);
+    const frame = planeFrame(size + GAP + 1, 1, size - 2, this.#reach);
     return {
       title: this.title,
       width: 2 * size + GAP,
