@@ -1,24 +1,11 @@
 /** What lies on a ball or a plane: layers whose directions stay in the kernel, each drawn as its images under a map are. */
 
 import type { Rings as Places } from "../contents.ts";
-import {
-  Directions,
-  lonlatToXyz,
-  type MoebiusMap,
-  type SphericalDelaunay,
-  type SphericalVoronoi,
-} from "../kernel/api.ts";
+import { Directions, lonlatToXyz } from "../kernel/api.ts";
+import type { MoebiusMap, SphericalDelaunay, SphericalVoronoi } from "../kernel/api.ts";
 import { angle, cross, DEGREE, directionOf, dot, row, unit, type Vector } from "../space.ts";
-import {
-  arcThrough,
-  bentRings,
-  holdsHidden,
-  traceArc,
-  traceCap,
-  traceOutlines,
-  traceRegions,
-  type Side,
-} from "./arcs.ts";
+import { arcThrough, bentRings, holdsHidden, traceArc, traceCap, traceOutlines, traceRegions } from "./arcs.ts";
+import type { Side } from "./arcs.ts";
 import { traceCorners, traceSegment, type Disc, type Path, type Pen, type Point, type Trace } from "./pen.ts";
 import type { DotName, StyleName } from "./styles.ts";
 

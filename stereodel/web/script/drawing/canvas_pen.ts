@@ -1,16 +1,7 @@
 /** The pen of the screen: a canvas with two dimensions. */
 
-import {
-  LIGHT,
-  Pen,
-  textParts,
-  traceDisc,
-  type Disc,
-  type Gradient,
-  type Path,
-  type Picture,
-  type Trace,
-} from "./pen.ts";
+import { LIGHT, Pen, textParts, traceDisc } from "./pen.ts";
+import type { Disc, Gradient, Path, Picture, Trace } from "./pen.ts";
 import * as styles from "./styles.ts";
 import type { Colours, DotName, LabelStyle, Style, StyleName } from "./styles.ts";
 

@@ -95,7 +95,6 @@ export class Switches {
     this.#inputs.get(name)!.checked = isOn;
   }
 
-  /** Whether something is drawn. */
   isOn(name: string): boolean {
     return this.#inputs.get(name)!.checked;
   }

@@ -14,17 +14,9 @@ import { View } from "../view/view.ts";
 import { counted, latitude, longitude, scale } from "../words.ts";
 import { Choice, mark, NumberField, PlaceFields, tellNamed } from "./controls.ts";
 import { BubbleGlobe, FisheyeGlobe, FiveViews } from "./globe_plates.ts";
-import { GLOBE_SWITCHES, GlobeScene, type GlobeSwitch, type Places } from "./globe_scene.ts";
-import {
-  BEGINNING,
-  fromValues,
-  LEAST_RADIUS,
-  MOST_RADIUS,
-  PRESETS,
-  sideView,
-  toValues,
-  type GlobeState,
-} from "./globe_state.ts";
+import { GLOBE_SWITCHES, GlobeScene, type Places } from "./globe_scene.ts";
+import { BEGINNING, fromValues, LEAST_RADIUS, MOST_RADIUS, PRESETS, sideView, toValues } from "./globe_state.ts";
+import type { GlobeState } from "./globe_state.ts";
 import { heldValues, TableRoom } from "./site_room.ts";
 
 /** Files that are pictures, by the ends of their names. */
@@ -60,14 +52,6 @@ export class GlobeRoom extends TableRoom implements Room {
 
   get shown(): GlobeState {
     return this.#state;
-  }
-
-  isOn(name: GlobeSwitch): boolean {
-    return this.switches.isOn(name);
-  }
-
-  run(body: () => void): void {
-    this.host.guarded(body);
   }
 
   override attach(section: HTMLElement): void {
@@ -165,7 +149,7 @@ export class GlobeRoom extends TableRoom implements Room {
     return exchange.globePython(
       this.#state,
       this.scene,
-      this.scene.python((name) => this.isOn(name)),
+      this.scene.python((name) => this.switches.isOn(name)),
     );
   }
 
@@ -260,7 +244,6 @@ export class GlobeRoom extends TableRoom implements Room {
     this.host.announcer.say(button.textContent?.trim().replace(/^\d\s*/, "") ?? "");
   }
 
-  /** Everything of the margin and the sentences. */
   #write(): void {
     const { sight, from, to } = this.#state;
     const { magnification } = sight.lens;

@@ -1,15 +1,8 @@
 /** Drawings of the Globe room: the Earth through a fisheye, two globes with bubbles, and the fisheye from five sides. */
 
 import { arcThrough, circle, pointAt, traceCap, type Circle } from "../drawing/arcs.ts";
-import {
-  arcLayer,
-  circlePoints,
-  drawLayers,
-  graticuleArcs,
-  placeOf,
-  regionLayer,
-  type Layer,
-} from "../drawing/ball.ts";
+import { arcLayer, circlePoints, drawLayers, graticuleArcs, placeOf, regionLayer } from "../drawing/ball.ts";
+import type { Layer } from "../drawing/ball.ts";
 import { cornersOf, drawHandle, traceDisc, type Disc, type Pen } from "../drawing/pen.ts";
 import { Plate, type Reason } from "../drawing/plate.ts";
 import type { LabelStyle } from "../drawing/styles.ts";
@@ -38,14 +31,14 @@ abstract class GlobePlate implements Turnable {
   constructor(canvas: HTMLCanvasElement, room: GlobeRoom) {
     this.room = room;
     const paint = (pen: Pen, isMoving: boolean): void => {
-      room.scene.draw(pen, this.disc, this.map, (name) => room.isOn(name), isMoving);
+      room.scene.draw(pen, this.disc, this.map, (name) => room.switches.isOn(name), isMoving);
       pen.draw("limb", (path) => traceDisc(path, this.disc));
     };
     const overlay = (pen: Pen): void => {
       this.#paintPointer(pen);
       this.paintHeld(pen);
     };
-    this.plate = new Plate(canvas, paint, (body) => room.run(body), document.documentElement, overlay);
+    this.plate = new Plate(canvas, paint, room.host.guarded, document.documentElement, overlay);
     follow(this.plate, { hover: (at) => this.point(at), ...this.gestures() });
   }
 
@@ -65,10 +58,9 @@ abstract class GlobePlate implements Turnable {
   }
 
   get isNorthUp(): boolean {
-    return this.room.isOn("north");
+    return this.room.switches.isOn("north");
   }
 
-  /** What a hand makes of the state. */
   protected change(change: Partial<GlobeState>): void {
     this.motion.stop();
     this.room.set(change, "hand");
@@ -108,7 +100,6 @@ abstract class GlobePlate implements Turnable {
   }
 }
 
-/** Factor of the keys + and −. */
 const KEY_FACTOR = 1.25;
 
 /** The large globe through the fisheye: turned, magnified and focused by hand. */
@@ -140,7 +131,6 @@ export class FisheyeGlobe extends GlobePlate {
     });
   }
 
-  /** The focus. */
   protected paintHeld(pen: Pen): void {
     const focus = this.view.seen(this.#sight.lens.focus);
     const [x, y] = placeOf(this.disc, focus);
@@ -359,7 +349,7 @@ export class FiveViews {
     this.#room = room;
     this.#plates = buttons.map((button) => {
       const paint = (pen: Pen): void => this.#paint(pen, Number(button.value));
-      return new Plate(button.querySelector("canvas")!, paint, (body) => room.run(body));
+      return new Plate(button.querySelector("canvas")!, paint, room.host.guarded);
     });
   }
 

@@ -35,10 +35,7 @@ const MANY_PLACES = 10_000;
 
 /** What the reader switches: what is drawn, and whether north stays up. */
 export const GLOBE_SWITCHES = ["land", "graticule", "tissot", "cells", "north"] as const;
-export type GlobeSwitch = (typeof GLOBE_SWITCHES)[number];
-
-/** Whether one of them is on. */
-type IsOn = (name: GlobeSwitch) => boolean;
+type IsOn = (name: (typeof GLOBE_SWITCHES)[number]) => boolean;
 
 /** The reader's own places. */
 export interface Places {
@@ -70,7 +67,6 @@ export class GlobeScene {
     if (fine !== null) this.#fine = landLayer(fine);
   }
 
-  /** Shows the reader's places. */
   show(places: Places): void {
     [this.places, this.lit, this.#made] = [places, null, madeOf(places, this.latitude)];
   }

@@ -190,7 +190,6 @@ export class LiftPicture {
     return this.#scene.view.seen(this.#scene.sheet.direction(x, y));
   }
 
-  /** The sheet's sides, each from corner to corner. */
   get #sides(): [Point, Point][] {
     return this.#corners.map((a, k) => [a, this.#corners[(k + 1) % 4]]);
   }

@@ -45,7 +45,6 @@ export class LiftSites {
     return chained(next);
   }
 
-  /** Whether the hull holds a place. */
   isInHull([x, y]: Point): boolean {
     return this.hull.every((site, k, hull) => {
       const [[ax, ay], [bx, by]] = [this.place(site), this.place(hull[(k + 1) % hull.length])];
@@ -225,7 +224,6 @@ export function withoutTriangles(sites: LiftSites): string | null {
   return "All sites lie on one line: there are no triangles.";
 }
 
-/** How far the sheet is bent. */
 export function ofBend(sheet: Sheet): string {
   if (sheet.isFlat) return "flat: an infinite radius";
   return `radius ${fixed(sheet.radius, 3)} of the diagonal, scale 1 to ${fixed(sheet.leastScale, 2)}`;

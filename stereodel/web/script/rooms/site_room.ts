@@ -40,12 +40,11 @@ export function heldValues(places: Float64Array, file: string, words = {}): Reco
 /** Sites from which on nothing but dots is drawn while something moves. */
 const VERY_MANY = 100_000;
 
-/** A room with switches and a table. */
 export abstract class TableRoom {
-  protected readonly host: RoomHost;
+  readonly host: RoomHost;
   protected section!: HTMLElement;
   protected table!: SiteTable;
-  protected switches!: Switches;
+  switches!: Switches;
   readonly #names: readonly string[];
 
   /** @param switches Names of what can be left out of the drawing, and the like. */

@@ -20,7 +20,7 @@ import { edited, SiteRoom, type NamedSites } from "./site_room.ts";
 import { ballLayers, drawBall, drawPlane, type SphereScene, type Step } from "./sphere_drawing.ts";
 import { ofBubble, ofDuplicates, ofSite, ofStep, SphereSites, withoutTriangles, type Bubble } from "./sphere_sites.ts";
 import { directionAt, fromValues, handPlace, toValues, VIEW, viewPlace } from "./sphere_state.ts";
-import type { Click, Place } from "./sphere_state.ts";
+import type { Click, Place, SphereState } from "./sphere_state.ts";
 import { planeFrame, reachAround, Twin, type PlaneFrame } from "./twin.ts";
 
 const SWITCHES = ["triangles", "cells", "bubble", "seeing", "closing"] as const;
@@ -383,21 +383,18 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
     this.host.announcer.say(`${this.#sites.facetCount - seeing} triangles in the plane, ${seeing} facets see P`);
   }
 
-  /** The bubble there stays, or follows the pointer again where it is the one that was kept. */
-  #keep(direction: Vector, site: number | null): void {
-    this.#held = site;
-    this.#state.isPinned = !this.#state.isPinned || this.#sites.facetAt(direction) !== this.#bubble?.facet;
-    this.#state.aim = direction;
+  #set(change: Partial<SphereState>, held: number | null): void {
+    Object.assign(this.#state, change);
+    this.#held = held;
     this.#update();
     this.host.changed();
-    if (this.#bubble !== null) this.host.announcer.say(ofBubble(this.#bubble, this.#sites, this.#twin));
   }
 
-  #free(): void {
-    this.#state.isPinned = false;
-    this.#held = null;
-    this.#update();
-    this.host.changed();
+  /** The bubble there stays, or follows the pointer again where it is the one that was kept. */
+  #keep(aim: Vector, site: number | null): void {
+    const isPinned = !this.#state.isPinned || this.#sites.facetAt(aim) !== this.#bubble?.facet;
+    this.#set({ isPinned, aim }, site);
+    if (this.#bubble !== null) this.host.announcer.say(ofBubble(this.#bubble, this.#sites, this.#twin));
   }
 
   /** Shows what a hand has made of the sites, and says it. */
@@ -457,11 +454,8 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
     this.changed(ofSite(this.#sites, site, this.named.names?.[site]));
   }
 
-  #setStep(count: number | null): void {
-    this.#state.step = count;
-    this.#held = null;
-    this.#update();
-    this.host.changed();
+  #setStep(step: number | null): void {
+    this.#set({ step }, null);
     if (this.#step !== "done") this.host.announcer.say(ofStep(this.#step.insertion, this.#step.site));
   }
 
@@ -492,7 +486,7 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
       Delete: () => this.#remove(this.#held),
       Backspace: () => this.#remove(this.#held),
       Enter: () => this.#press(middle, null),
-      Escape: () => this.#free(),
+      Escape: () => this.#set({ isPinned: false }, null),
     };
     return (this.#sites.count > 0 && withSites[key]) || null;
   }
