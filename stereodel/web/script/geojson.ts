@@ -16,12 +16,7 @@ const DECIMALS = 7;
 type Position = [number, number];
 type Polygon = Position[][];
 
-/** A geometry of GeoJSON. */
-type Geometry =
-  | { type: "Polygon"; coordinates: Polygon }
-  | { type: "MultiPolygon"; coordinates: Polygon[] }
-  | { type: "LineString"; coordinates: Position[] }
-  | { type: "Point"; coordinates: Position };
+type Geometry = { type: "Polygon"; coordinates: Polygon } | { type: "MultiPolygon"; coordinates: Polygon[] };
 
 /** Properties, and a geometry. */
 type Feature = [Record<string, unknown>, Geometry];

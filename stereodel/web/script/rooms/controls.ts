@@ -82,12 +82,13 @@ export function mark(ruler: ParentNode, name: string, words: string, percent?: n
   return element;
 }
 
-/** Switches of a room by name. */
+/** What can be switched in a room, by name: what is drawn, and the like. */
 export class Switches {
   readonly #inputs: ReadonlyMap<string, HTMLInputElement>;
 
-  constructor(root: ParentNode, names: readonly string[], changed: (name: string) => void) {
-    this.#inputs = new Map(names.map((name) => [name, field(root, name)]));
+  constructor(root: ParentNode, changed: (name: string) => void) {
+    const inputs = [...root.querySelectorAll<HTMLInputElement>(".switch input")];
+    this.#inputs = new Map(inputs.map((input) => [input.name, input]));
     for (const [name, input] of this.#inputs) input.addEventListener("change", () => changed(name));
   }
 

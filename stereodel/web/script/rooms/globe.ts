@@ -14,7 +14,7 @@ import { View } from "../view/view.ts";
 import { counted, latitude, longitude, scale } from "../words.ts";
 import { Choice, mark, NumberField, PlaceFields, tellNamed } from "./controls.ts";
 import { BubbleGlobe, FisheyeGlobe, FiveViews } from "./globe_plates.ts";
-import { GLOBE_SWITCHES, GlobeScene, type Places } from "./globe_scene.ts";
+import { GlobeScene, type Places } from "./globe_scene.ts";
 import { BEGINNING, fromValues, LEAST_RADIUS, MOST_RADIUS, PRESETS, sideView, toValues } from "./globe_state.ts";
 import type { GlobeState } from "./globe_state.ts";
 import { heldValues, TableRoom } from "./site_room.ts";
@@ -45,10 +45,6 @@ export class GlobeRoom extends TableRoom implements Room {
   #picture: Painted | null = null;
   /** The lens that was announced last. */
   #said = BEGINNING.sight.lens;
-
-  constructor(host: RoomHost) {
-    super(host, GLOBE_SWITCHES);
-  }
 
   get shown(): GlobeState {
     return this.#state;

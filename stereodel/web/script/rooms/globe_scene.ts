@@ -33,9 +33,8 @@ export const STEP = 10;
 /** Places beyond which their cells are left out while the globe moves. */
 const MANY_PLACES = 10_000;
 
-/** What the reader switches: what is drawn, and whether north stays up. */
-export const GLOBE_SWITCHES = ["land", "graticule", "tissot", "cells", "north"] as const;
-type IsOn = (name: (typeof GLOBE_SWITCHES)[number]) => boolean;
+/** Whether something is drawn. */
+type IsOn = (name: "land" | "graticule" | "tissot" | "cells") => boolean;
 
 /** The reader's own places. */
 export interface Places {

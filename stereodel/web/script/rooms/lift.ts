@@ -6,7 +6,6 @@ import { Plate, type Reason } from "../drawing/plate.ts";
 import type { Exchange } from "../exchange.ts";
 import { writeNumber, type LinkValues } from "../link.ts";
 import type { Room, RoomHost } from "../room.ts";
-import type { SiteSet } from "../sets.ts";
 import { arrowStep } from "../view/ball_hand.ts";
 import { distance, follow, type Gestures, type Hold } from "../view/hand.ts";
 import { View } from "../view/view.ts";
@@ -16,8 +15,6 @@ import { LiftPicture, type LiftScene } from "./lift_drawing.ts";
 import { LiftSites, SHEET_SIDES, sheetSets, type Sheet as BentSheet } from "./lift_sites.ts";
 import { measured, ofBend, ofBounds, ofPair, separation, withoutTriangles } from "./lift_sites.ts";
 import { SiteRoom, type NamedSites } from "./site_room.ts";
-
-const SWITCHES = ["triangles", "cells", "rays", "seeing"] as const;
 
 /** How the room begins: corners of the sheet, height and side of the view, degrees; P and Q by their indices. */
 const HEMISPHERE = 90;
@@ -37,7 +34,7 @@ const MANY = 10_000;
 
 /** @param sheet The places of the first set. */
 export function liftRoom(host: RoomHost, sheet: Float64Array): Room {
-  return new LiftRoom(host, sheetSets(sheet));
+  return new LiftRoom(host, sheetSets(sheet), "plane");
 }
 
 class LiftRoom extends SiteRoom implements Room {
@@ -48,10 +45,6 @@ class LiftRoom extends SiteRoom implements Room {
   #state = BEGINNING;
   #pair: Record<Letter, number | null> = { p: null, q: null };
   #next: Letter = "p";
-
-  constructor(host: RoomHost, sets: readonly SiteSet[]) {
-    super(host, sets, "plane", SWITCHES);
-  }
 
   override attach(section: HTMLElement): void {
     super.attach(section);

@@ -45,11 +45,9 @@ export abstract class TableRoom {
   protected section!: HTMLElement;
   protected table!: SiteTable;
   switches!: Switches;
-  readonly #names: readonly string[];
 
-  /** @param switches Names of what can be left out of the drawing, and the like. */
-  constructor(host: RoomHost, switches: readonly string[]) {
-    [this.host, this.#names] = [host, switches];
+  constructor(host: RoomHost) {
+    this.host = host;
   }
 
   /** The number of a site was pressed. */
@@ -65,7 +63,7 @@ export abstract class TableRoom {
       chosen: (site) => this.host.guarded(() => this.chosen(site)),
       pointed: (site) => this.pointed(site),
     });
-    this.switches = new Switches(section, this.#names, (name) => {
+    this.switches = new Switches(section, (name) => {
       this.host.guarded(() => this.switched(name));
       this.host.changed();
     });
@@ -94,8 +92,8 @@ export abstract class SiteRoom extends TableRoom {
   #select!: HTMLSelectElement;
 
   /** @param kind What the coordinates of the sites are. */
-  constructor(host: RoomHost, sets: readonly SiteSet[], kind: "lonlat" | "plane", switches: readonly string[]) {
-    super(host, switches);
+  constructor(host: RoomHost, sets: readonly SiteSet[], kind: "lonlat" | "plane") {
+    super(host);
     [this.sets, this.#kind] = [sets, kind];
   }
 

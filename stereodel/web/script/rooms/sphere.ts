@@ -8,7 +8,7 @@ import { Plate, type Reason } from "../drawing/plate.ts";
 import type { Exchange } from "../exchange.ts";
 import { LinkValues } from "../link.ts";
 import type { Room, RoomHost } from "../room.ts";
-import { sphereSets, type SiteSet, type Stored } from "../sets.ts";
+import { sphereSets, type Stored } from "../sets.ts";
 import { dot, lonLatOf, type Vector } from "../space.ts";
 import { arrowed, arrowStep, grabBall, type Turnable } from "../view/ball_hand.ts";
 import { distance, follow, type Gestures, type Hold, type Place as Point } from "../view/hand.ts";
@@ -22,8 +22,6 @@ import { ofBubble, ofDuplicates, ofSite, ofStep, SphereSites, withoutTriangles, 
 import { directionAt, fromValues, handPlace, toValues, VIEW, viewPlace } from "./sphere_state.ts";
 import type { Click, Place, SphereState } from "./sphere_state.ts";
 import { planeFrame, reachAround, Twin, type PlaneFrame } from "./twin.ts";
-
-const SWITCHES = ["triangles", "cells", "bubble", "seeing", "closing"] as const;
 
 /** Sites from which on cells are left out while something moves. */
 const MANY = 3_000;
@@ -42,7 +40,7 @@ const GAP = 32;
 
 /** @param stored Sets that the page carries. @param given The points that it was made for. */
 export function sphereRoom(host: RoomHost, stored: Stored, given: Given | null): Room {
-  return new SphereRoom(host, sphereSets(stored, given));
+  return new SphereRoom(host, sphereSets(stored, given), "lonlat");
 }
 
 /** What the hand finds on one of the pictures. */
@@ -79,10 +77,6 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
   #seeing: Uint8Array = new Uint8Array(0);
   #step: Step | "done" = "done";
   #bubble: Bubble | null = null;
-
-  constructor(host: RoomHost, sets: readonly SiteSet[]) {
-    super(host, sets, "lonlat", SWITCHES);
-  }
 
   override attach(section: HTMLElement): void {
     super.attach(section);
