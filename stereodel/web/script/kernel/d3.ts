@@ -10,6 +10,7 @@
 import { lonlatToXyz, xyzToLonlat } from "./coordinates.ts";
 import { SphericalDelaunay } from "./delaunay.ts";
 import { lazy } from "./lazy.ts";
+import { adjacencyOf } from "./topology.ts";
 import { SphericalVoronoi } from "./voronoi.ts";
 
 /** Longitude and latitude in degrees. */
@@ -59,16 +60,13 @@ export interface GeoDelaunay {
 /** The triangulation of places [longitude, latitude]; what is not asked for is not made. */
 export function geoDelaunay(places: readonly (readonly [number, number])[]): GeoDelaunay {
   const lonlat = new Float64Array(2 * places.length);
-  for (let k = 0; k < places.length; ++k) {
-    lonlat[2 * k] = places[k][0];
-    lonlat[2 * k + 1] = places[k][1];
-  }
+  places.forEach(([lon, lat], k) => lonlat.set([lon, lat], 2 * k));
   const delaunay = SphericalDelaunay.fromLonlat(lonlat);
   const cells = lazy({ all: () => cellsOf(delaunay) });
   const geo: GeoDelaunay = lazy<GeoDelaunay>({
     delaunay: () => delaunay,
     edges: () => edgesOf(delaunay),
-    triangles: () => triples(delaunay.simplices).map(([a, b, c]): [number, number, number] => [a, c, b]),
+    triangles: () => clockwise(delaunay.simplices),
     centers: () => cells.all.centers,
     neighbors: () => neighborsOf(delaunay),
     polygons: () => cells.all.polygons,
@@ -82,9 +80,9 @@ export function geoDelaunay(places: readonly (readonly [number, number])[]): Geo
 
 // Loops rather than Array.from, which takes several times as long.
 
-function triples(numbers: Int32Array): [number, number, number][] {
+function clockwise(numbers: Int32Array): [number, number, number][] {
   const rows: [number, number, number][] = [];
-  for (let k = 0; k < numbers.length; k += 3) rows.push([numbers[k], numbers[k + 1], numbers[k + 2]]);
+  for (let k = 0; k < numbers.length; k += 3) rows.push([numbers[k], numbers[k + 2], numbers[k + 1]]);
   return rows;
 }
 
@@ -102,34 +100,27 @@ function edgesOf(delaunay: SphericalDelaunay): [number, number][] {
     const around = pairs(new SphericalVoronoi(delaunay).ridgePoints);
     return around.filter(([i, j], k) => k === 0 || around[k - 1][0] !== i || around[k - 1][1] !== j);
   }
-  const { closing, simplices, neighbors } = delaunay;
   const edges = pairs(delaunay.edges);
-  if (closing.every((flag) => flag === 0)) return edges;
+  if (delaunay.closing.every((flag) => flag === 0)) return edges;
   const open = new Set<number>();
-  for (let t = 0; t < closing.length; ++t) {
-    if (closing[t] !== 0) continue;
-    for (let k = 0; k < 3; ++k) {
-      const [u, v] = [simplices[3 * t + ((k + 1) % 3)], simplices[3 * t + ((k + 2) % 3)]];
-      // Both sides have it; of two open ones one is enough.
-      if (u < v || closing[neighbors[3 * t + k]] !== 0) open.add(key(u, v));
-    }
-  }
+  for (const sides of openTriangles(delaunay)) for (const side of sides) open.add(side);
   return edges.filter(([i, j]) => open.has(key(i, j)));
 }
 
 /** An edge as one number: points have numbers below 2^26. */
 const key = (i: number, j: number): number => Math.min(i, j) * 2 ** 26 + Math.max(i, j);
 
-function neighborsOf(delaunay: SphericalDelaunay): number[][] {
-  if (delaunay.dimension < 2) {
-    const neighbors = Array.from({ length: delaunay.size }, (): number[] => []);
-    for (const [i, j] of edgesOf(delaunay)) {
-      neighbors[i].push(j);
-      neighbors[j].push(i);
-    }
-    return neighbors;
+/** Sides, as numbers, of the triangles that are smaller than a hemisphere. */
+function* openTriangles({ simplices, closing }: SphericalDelaunay): Generator<number[]> {
+  for (let t = 0; t < closing.length; ++t) {
+    const [a, b, c] = [simplices[3 * t], simplices[3 * t + 1], simplices[3 * t + 2]];
+    if (closing[t] === 0) yield [key(a, b), key(b, c), key(c, a)];
   }
-  const { indptr, indices } = delaunay.vertexNeighborVertices;
+}
+
+function neighborsOf(delaunay: SphericalDelaunay): number[][] {
+  const edges = delaunay.dimension < 2 ? Int32Array.from(edgesOf(delaunay).flat()) : delaunay.edges;
+  const { indptr, indices } = adjacencyOf(edges, delaunay.size);
   const neighbors: number[][] = [];
   for (let k = 0; k < delaunay.size; ++k) {
     const row: number[] = [];
@@ -215,11 +206,9 @@ function hullOf(delaunay: SphericalDelaunay): number[] {
 function urquhart(delaunay: SphericalDelaunay, edges: [number, number][], distances: ArrayLike<number>): boolean[] {
   const lengths = new Map(edges.map(([i, j], k) => [key(i, j), distances[k]]));
   const longest = new Set<number>();
-  triples(delaunay.simplices).forEach(([a, b, c], t) => {
-    if (delaunay.closing[t] !== 0) return;
-    const sides = [key(a, b), key(b, c), key(c, a)];
+  for (const sides of openTriangles(delaunay)) {
     longest.add(sides.reduce((most, side) => (lengths.get(side)! > lengths.get(most)! ? side : most)));
-  });
+  }
   return edges.map(([i, j]) => !longest.has(key(i, j)));
 }
 

@@ -1,8 +1,8 @@
 /** Delaunay triangulations of the plane and of the sphere. */
 
-import { asCount, asDirections, asIndices, asPoints, type Numbers } from "./checks.ts";
+import { asCount, asDirections, asIndices, asRows, type Numbers } from "./checks.ts";
 import { lonlatToXyz, type Latitude } from "./coordinates.ts";
-import { computed, filled, Kept, kernel, type Answer, type Argument } from "./instance.ts";
+import { answered, computed, filled, Kept, type Argument } from "./instance.ts";
 import { adjacencyOf, boundaryOf, edgesOf } from "./topology.ts";
 
 /** Tests that each stage left open; `curvature` is a stage of the sphere alone. */
@@ -74,7 +74,9 @@ export abstract class Delaunay {
 
   /** Directed edges around the triangles, which lie on the left, two points each, in lexicographic order. */
   get convexHull(): Int32Array {
-    return (this.derived.hull ??= this.boundary());
+    const closed = this.closed?.values;
+    const inside = (triangle: number): boolean => closed?.[triangle] !== 1;
+    return (this.derived.hull ??= boundaryOf(this.simplices, this.neighbors, inside));
   }
 
   /** The centre of each triangle's circle, rounded from the exact one: a point of the plane, or a unit vector. */
@@ -157,12 +159,8 @@ export abstract class Delaunay {
 
   /** The different points in the order along their line or great circle, without triangles. */
   get flatOrder(): Int32Array {
-    return (this.derived.order ??= kernel().run((session) =>
-      session.ask(`${this.space}_flat_diagram`, [this.kept.points, this.size], (answer) => {
-        for (let skipped = 0; skipped < 3; ++skipped) answer.next(Int32Array);
-        return answer.next(Int32Array);
-      }),
-    ));
+    const types = [Int32Array, Int32Array, Int32Array, Int32Array] as const;
+    return (this.derived.order ??= answered(types, `${this.space}_flat_diagram`, this.kept.points, this.size)[3]);
   }
 
   /** @internal Points, simplices, neighbours and size for the kernel; the arrays may stay there. */
@@ -189,12 +187,7 @@ export abstract class Delaunay {
   }
 
   private check(points: Numbers, name: string): Float64Array {
-    return this.width === 2 ? asPoints(points, 2, name) : asDirections(points, name);
-  }
-
-  private boundary(): Int32Array {
-    const closed = this.closed?.values;
-    return boundaryOf(this.simplices, this.neighbors, (triangle) => closed?.[triangle] !== 1);
+    return this.width === 2 ? asRows(points, 2, name) : asDirections(points, name);
   }
 
   private answers(length: number, name: string, given: Argument[]): Int32Array {
@@ -203,13 +196,8 @@ export abstract class Delaunay {
 
   private fresh(points: Float64Array): void {
     const kept = new Kept(points);
-    const size = points.length / this.width;
-    this.hold(
-      kernel().run((session) =>
-        session.ask(`${this.space}_triangulate`, [kept, size], (answer) => read(answer, points, nothing)),
-      ),
-      kept,
-    );
+    const open: Inconclusive = { filter: 0, curvature: 0, doubleDouble: 0, exact: 0 };
+    this.hold(triangulated(points, open, `${this.space}_triangulate`, kept, points.length / this.width), kept);
   }
 
   /** The version after a change of this one; from the points alone if no triangles are left. */
@@ -217,11 +205,7 @@ export abstract class Delaunay {
     const { simplices, neighbors } = this.kept;
     const now = [this.kept.points, this.size, simplices, neighbors, this.simplices.length / 3];
     const same = [this.duplicates, this.duplicates.length / 2];
-    const changed = kernel().run((session) =>
-      session.ask(`${this.space}_${what}`, [...now, ...same, ...given], (answer) =>
-        read(answer, points, this.inconclusive),
-      ),
-    );
+    const changed = triangulated(points, this.inconclusive, `${this.space}_${what}`, ...now, ...same, ...given);
     if (changed.dimension === 2) this.hold(changed, new Kept(points));
     else this.fresh(points);
   }
@@ -278,16 +262,15 @@ export class SphericalDelaunay extends Delaunay {
   }
 }
 
-const nothing: Inconclusive = { filter: 0, curvature: 0, doubleDouble: 0, exact: 0 };
-
-function read(answer: Answer, points: Float64Array, before: Inconclusive): Arrays {
-  const [simplices, neighbors, duplicates, [dimension]] = [0, 1, 2, 3].map(() => answer.next(Int32Array));
-  const [filter, curvature, doubleDouble, exact] = answer.next(Float64Array);
+/** What the kernel makes of points; tests are counted on from those before. */
+function triangulated(points: Float64Array, before: Inconclusive, name: string, ...given: Argument[]): Arrays {
+  const types = [Int32Array, Int32Array, Int32Array, Int32Array, Float64Array] as const;
+  const [simplices, neighbors, duplicates, [dimension], open] = answered(types, name, ...given);
   const inconclusive = {
-    filter: before.filter + filter,
-    curvature: before.curvature + curvature,
-    doubleDouble: before.doubleDouble + doubleDouble,
-    exact: before.exact + exact,
+    filter: before.filter + open[0],
+    curvature: before.curvature + open[1],
+    doubleDouble: before.doubleDouble + open[2],
+    exact: before.exact + open[3],
   };
   return { points, simplices, neighbors, duplicates, dimension, inconclusive };
 }

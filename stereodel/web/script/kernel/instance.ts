@@ -47,11 +47,6 @@ export interface Place<A extends NumberArray> {
   copy(): A;
 }
 
-/** Arrays whose lengths the module found out, read one after the other. */
-export interface Answer {
-  next<A extends NumberArray>(Type: ArrayMaker<A>): A;
-}
-
 /** A compiled module and its present instance. */
 export class Kernel {
   private readonly module: WebAssembly.Module;
@@ -110,18 +105,15 @@ class Instance {
     return unsigned(this.invoke(name, ...given.map((argument) => this.addressOf(argument))));
   }
 
-  /** Calls one that answers with arrays, and reads them. */
-  ask<T>(name: string, given: Argument[], read: (answer: Answer) => T): T {
+  /** Calls one that answers with arrays of these types, whose lengths it finds out. */
+  ask(types: readonly ArrayMaker<NumberArray>[], name: string, given: Argument[]): NumberArray[] {
     const answer = this.call(name, ...given);
-    let slot = 0;
-    const result = read({
-      next: <A extends NumberArray>(Type: ArrayMaker<A>): A => {
-        const [address, length] = this.view(Uint32Array, answer + 8 * slot++, 2);
-        return this.view(Type, address, length).slice() as A;
-      },
+    const arrays = types.map((Type, slot) => {
+      const [address, length] = this.view(Uint32Array, answer + 8 * slot, 2);
+      return this.view(Type, address, length).slice();
     });
     this.invoke("discard", answer);
-    return result;
+    return arrays;
   }
 
   /** Gives back what was handed in, and of what may stay the longest unused. */
@@ -243,6 +235,15 @@ export function filled<A extends NumberArray>(
     session.call(name, ...given, out);
     return out.copy();
   });
+}
+
+/** The arrays of these types that a function of the kernel answers with. */
+export function answered<T extends NumberArray[]>(
+  types: readonly [...{ [K in keyof T]: ArrayMaker<T[K]> }],
+  name: string,
+  ...given: Argument[]
+): T {
+  return kernel().run((session) => session.ask(types, name, given)) as T;
 }
 
 /** So many doubles. */
