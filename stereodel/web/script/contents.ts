@@ -4,7 +4,6 @@
  * Each is a text by name that `stereodel/web/contents.py` wrote: base64 of deflated bytes.
  */
 
-import { fromBase64, signed, wholeNumbers } from "./bytes.ts";
 import type { Latitude } from "./kernel/api.ts";
 
 /** The text of a name, or null where the page does not have it. */
@@ -122,4 +121,31 @@ function doubles(bytes: Uint8Array): Float64Array {
   for (let k = 0; k < count; ++k)
     for (let place = 0; place < 8; ++place) sorted[8 * k + place] = bytes[place * count + k];
   return new Float64Array(sorted.buffer);
+}
+
+/** The bytes of base64. */
+function fromBase64(text: string): Uint8Array<ArrayBuffer> {
+  const letters = atob(text);
+  const bytes = new Uint8Array(letters.length);
+  for (let k = 0; k < letters.length; ++k) bytes[k] = letters.charCodeAt(k);
+  return bytes;
+}
+
+/** Numbers of seven bits a byte, the lowest first; the last is NaN where the bytes end amid one. */
+function wholeNumbers(bytes: Uint8Array): number[] {
+  const numbers: number[] = [];
+  let [number, weight] = [0, 1];
+  for (const byte of bytes) {
+    number += (byte % 128) * weight; // products and not shifts, which end at 32 bits
+    weight *= 128;
+    if (byte >= 128) continue;
+    numbers.push(number);
+    [number, weight] = [0, 1];
+  }
+  return weight === 1 ? numbers : [...numbers, NaN];
+}
+
+/** A number whose sign is its last bit. */
+function signed(zigzag: number): number {
+  return zigzag % 2 === 1 ? -(zigzag + 1) / 2 : zigzag / 2;
 }
