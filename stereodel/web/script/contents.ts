@@ -63,17 +63,22 @@ export class Contents {
 
   /** The points that the page was made for, or null. */
   async given(): Promise<Given | null> {
-    const name = await this.#bytes("given-name");
-    const bytes = await this.#bytes("given");
+    const [name, bytes, names] = [
+      await this.#text("given-name"),
+      await this.#bytes("given"),
+      await this.#text("given-names"),
+    ];
     if (name === null || bytes === null) return null;
-    const names = await this.#bytes("given-names");
-    return { name: String(json(name)), lonlat: doubles(bytes), names: names && (json(names) as string[]) };
+    return {
+      name: String(JSON.parse(name)),
+      lonlat: doubles(bytes),
+      names: JSON.parse(names ?? "null") as string[] | null,
+    };
   }
 
   /** What latitudes of places are on this page: those of the ellipsoid with equal areas, if it does not say. */
   async latitude(): Promise<Latitude> {
-    const bytes = await this.#bytes("latitude");
-    return bytes === null ? "authalic" : (new TextDecoder().decode(bytes) as Latitude);
+    return ((await this.#text("latitude")) as Latitude | null) ?? "authalic";
   }
 
   async #needed(name: string): Promise<Uint8Array<ArrayBuffer>> {
@@ -82,14 +87,15 @@ export class Contents {
     return bytes;
   }
 
+  async #text(name: string): Promise<string | null> {
+    const bytes = await this.#bytes(name);
+    return bytes && new TextDecoder().decode(bytes);
+  }
+
   async #bytes(name: string): Promise<Uint8Array<ArrayBuffer> | null> {
     const text = this.#blocks(name);
     return text === null ? null : inflated(text);
   }
-}
-
-function json(bytes: Uint8Array): unknown {
-  return JSON.parse(new TextDecoder().decode(bytes));
 }
 
 async function inflated(text: string): Promise<Uint8Array<ArrayBuffer>> {

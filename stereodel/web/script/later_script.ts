@@ -9,18 +9,10 @@ interface Handover<T> extends HTMLScriptElement {
   offers?: T;
 }
 
-/** What such a script offers, when it is first asked for; after a failure the next call tries again. */
+/** What such a script offers, when it is first asked for. */
 export function laterScript<T>(contents: Contents, name: string): () => Promise<T> {
   let loaded: Promise<T> | null = null;
-  return async () => {
-    loaded ??= contents.script(name).then((code) => run<T>(code, name));
-    try {
-      return await loaded;
-    } catch (error) {
-      loaded = null;
-      throw error;
-    }
-  };
+  return () => (loaded ??= contents.script(name).then((code) => run<T>(code, name)));
 }
 
 /** Runs code that the policy of the page allows by its hash. */

@@ -75,13 +75,10 @@ class Hand {
   }
 
   start(): () => void {
-    const canvas = this.#plate.canvas;
+    const { canvas } = this.#plate;
     const abort = new AbortController();
-    const on = <K extends keyof HTMLElementEventMap>(
-      name: K,
-      act: (event: HTMLElementEventMap[K]) => void,
-      passive = true,
-    ): void => canvas.addEventListener(name, act, { signal: abort.signal, passive });
+    const on = <K extends keyof HTMLElementEventMap>(name: K, act: (event: HTMLElementEventMap[K]) => void): void =>
+      canvas.addEventListener(name, act, { signal: abort.signal });
     on("pointerdown", (event) => this.#down(event));
     on("pointermove", (event) => this.#move(event));
     on("pointerup", (event) => this.#up(event, false));
@@ -89,11 +86,10 @@ class Hand {
     on("pointerleave", () => {
       if (this.#fingers.size === 0) this.#gestures.hover?.(null);
     });
-    on("wheel", (event) => this.#wheel(event), false);
-    const key = (event: KeyboardEvent): void => {
+    on("wheel", (event) => this.#wheel(event));
+    on("keydown", (event) => {
       if (!event.altKey && !event.metaKey && this.#gestures.key?.(event)) event.preventDefault();
-    };
-    on("keydown", key, false);
+    });
     return () => abort.abort();
   }
 
@@ -149,15 +145,11 @@ class Hand {
   }
 
   #click(finger: Finger, time: number): void {
-    const last = this.#lastClick;
-    const { doubleClick } = this.#gestures;
-    if (doubleClick && last && time - last.time < DOUBLE.time && distance(last.at, finger.at) < DOUBLE.distance) {
-      this.#lastClick = null;
-      doubleClick(finger.at, reachOf(finger.touch));
-      return;
-    }
-    this.#lastClick = { at: finger.at, time };
-    this.#gestures.click?.(finger.at, reachOf(finger.touch));
+    const [last, { at, touch }] = [this.#lastClick, finger];
+    const { doubleClick, click } = this.#gestures;
+    const isDouble = doubleClick && last && time - last.time < DOUBLE.time && distance(last.at, at) < DOUBLE.distance;
+    this.#lastClick = isDouble ? null : { at, time };
+    (isDouble ? doubleClick : click)?.(at, reachOf(touch));
   }
 
   #wheel(event: WheelEvent): void {
