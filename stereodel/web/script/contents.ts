@@ -6,9 +6,6 @@
 
 import type { Latitude } from "./kernel/api.ts";
 
-/** The text of a name, or null where the page does not have it. */
-export type Blocks = (name: string) => string | null;
-
 /** Regions by rings that have them on their left; joined where maps are cut, at ±180° and along the poles. */
 export interface Rings {
   /** Longitude and latitude in turn, degrees. */
@@ -28,9 +25,10 @@ export interface Given {
 
 /** What a page, or a widget, carries with it. */
 export class Contents {
-  readonly #blocks: Blocks;
+  readonly #blocks: (name: string) => string | null;
 
-  constructor(blocks: Blocks) {
+  /** @param blocks gets the text of a name, or null where the page does not have it. */
+  constructor(blocks: (name: string) => string | null) {
     this.#blocks = blocks;
   }
 
@@ -113,7 +111,8 @@ function places(bytes: Uint8Array): Rings {
   for (let axis = 0; axis < 2; ++axis) {
     let place = 0;
     for (let k = 0; k < count; ++k) {
-      place += signed(numbers[rows + axis * count + k]);
+      const step = numbers[rows + axis * count + k]; // its sign is the last bit
+      place += step % 2 === 1 ? -(step + 1) / 2 : step / 2;
       lonlat[2 * k + axis] = place / unit;
     }
   }
@@ -137,7 +136,7 @@ function fromBase64(text: string): Uint8Array<ArrayBuffer> {
   return bytes;
 }
 
-/** Numbers of seven bits a byte, the lowest first; the last is NaN where the bytes end amid one. */
+/** Numbers of seven bits a byte, the lowest first. */
 function wholeNumbers(bytes: Uint8Array): number[] {
   const numbers: number[] = [];
   let [number, weight] = [0, 1];
@@ -148,10 +147,5 @@ function wholeNumbers(bytes: Uint8Array): number[] {
     numbers.push(number);
     [number, weight] = [0, 1];
   }
-  return weight === 1 ? numbers : [...numbers, NaN];
-}
-
-/** A number whose sign is its last bit. */
-function signed(zigzag: number): number {
-  return zigzag % 2 === 1 ? -(zigzag + 1) / 2 : zigzag / 2;
+  return numbers;
 }

@@ -3,12 +3,6 @@
 import type { Contents } from "./contents.ts";
 import { shared } from "page:shared";
 
-/** The element of such a script: what the page hands over, and what the script offers. */
-interface Handover<T> extends HTMLScriptElement {
-  shared?: typeof shared;
-  offers?: T;
-}
-
 /** What such a script offers, when it is first asked for. */
 export function laterScript<T>(contents: Contents, name: string): () => Promise<T> {
   let loaded: Promise<T> | null = null;
@@ -17,9 +11,8 @@ export function laterScript<T>(contents: Contents, name: string): () => Promise<
 
 /** Runs code that the policy of the page allows by its hash. */
 function run<T>(code: string, name: string): T {
-  const element: Handover<T> = document.createElement("script");
-  element.shared = shared;
-  element.textContent = code;
+  const element: HTMLScriptElement & { offers?: T } = document.createElement("script");
+  Object.assign(element, { shared, textContent: code });
   document.head.append(element); // runs it, to its end
   element.remove();
   if (element.offers === undefined) throw new Error(`the page's script ${name} did not run`);

@@ -57,6 +57,8 @@ export interface GeoDelaunay {
   find(lon: number, lat: number, node?: number): number;
 }
 
+type Cells = Pick<GeoDelaunay, "centers" | "polygons">;
+
 /** The triangulation of places [longitude, latitude]; what is not asked for is not made. */
 export function geoDelaunay(places: readonly (readonly [number, number])[]): GeoDelaunay {
   const lonlat = new Float64Array(2 * places.length);
@@ -131,8 +133,8 @@ function neighborsOf(delaunay: SphericalDelaunay): number[][] {
 }
 
 /** Clockwise, one center a triangle; where a cell has only two, the middles of its sides between them. */
-function cellsOf(delaunay: SphericalDelaunay): { centers: Place[]; polygons: (number[] | undefined)[] } {
-  const polygons = new Array<number[] | undefined>(delaunay.size).fill(undefined);
+function cellsOf(delaunay: SphericalDelaunay): Cells {
+  const polygons: Cells["polygons"] = new Array(delaunay.size).fill(undefined);
   if (delaunay.dimension < 1) return { centers: [], polygons };
   if (delaunay.simplices.length <= 6) return lunes(delaunay, polygons);
   const { simplices, neighbors } = delaunay;
@@ -151,10 +153,7 @@ function cellsOf(delaunay: SphericalDelaunay): { centers: Place[]; polygons: (nu
 }
 
 /** All sites on one circle: cells between its two poles. */
-function lunes(
-  delaunay: SphericalDelaunay,
-  polygons: (number[] | undefined)[],
-): { centers: Place[]; polygons: (number[] | undefined)[] } {
+function lunes(delaunay: SphericalDelaunay, polygons: Cells["polygons"]): Cells {
   const diagram = new SphericalVoronoi(delaunay);
   const [ridges, ends, normals] = [pairs(diagram.ridgePoints), pairs(diagram.ridgeVertices), diagram.ridgeNormals()];
   // Triangles count their centers first: those of three sites are both poles.

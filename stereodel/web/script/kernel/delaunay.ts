@@ -43,13 +43,7 @@ export abstract class Delaunay {
   readonly inconclusive!: Inconclusive;
 
   private kept!: { points: Kept; simplices: Kept; neighbors: Kept };
-  private derived: {
-    edges?: Int32Array;
-    hull?: Int32Array;
-    centers?: Float64Array;
-    order?: Int32Array;
-    closing?: Kept;
-  } = {};
+  private derived: { [K in "edges" | "hull" | "order"]?: Int32Array } & { centers?: Float64Array; closing?: Kept } = {};
 
   /** @param points Rows of finite numbers x, y, y up, or of directions x, y, z of any length but zero. Copied. */
   constructor(points: Numbers) {
@@ -81,7 +75,7 @@ export abstract class Delaunay {
 
   /** The centre of each triangle's circle, rounded from the exact one: a point of the plane, or a unit vector. */
   get circumcenters(): Float64Array {
-    const { points, size, simplices, count } = this.forKernel;
+    const [points, size, simplices, , count] = this.forKernel;
     const name = `${this.space}_circumcenters`;
     return (this.derived.centers ??= computed(this.width * count, name, points, size, simplices, count));
   }
@@ -163,26 +157,28 @@ export abstract class Delaunay {
     return (this.derived.order ??= answered(types, `${this.space}_flat_diagram`, this.kept.points, this.size)[3]);
   }
 
-  /** @internal Points, simplices, neighbours and size for the kernel; the arrays may stay there. */
-  get forKernel(): { points: Kept; size: number; simplices: Kept; neighbors: Kept; count: number } {
-    return { ...this.kept, size: this.size, count: this.simplices.length / 3 };
+  /** @internal All that the kernel takes; the arrays may stay there. */
+  get forKernel(): [points: Kept, size: number, simplices: Kept, neighbors: Kept, count: number] {
+    const { points, simplices, neighbors } = this.kept;
+    return [points, this.size, simplices, neighbors, this.simplices.length / 3];
   }
 
   private triangles(): Argument[] {
-    const { points, simplices, neighbors } = this.kept;
-    return [points, simplices, neighbors, this.closed, this.simplices.length / 3];
+    const [points, , simplices, neighbors, count] = this.forKernel;
+    return [points, simplices, neighbors, this.closed, count];
   }
 
   /** One byte a triangle of the sphere: 1 where no query can lie. */
   protected get closed(): Kept | null {
     if (this.width === 2) return null;
-    const { points, size, simplices, count } = this.forKernel;
+    const [points, size, simplices, , count] = this.forKernel;
     return (this.derived.closing ??= new Kept(
       filled(Uint8Array, count, "sphere_closing", points, size, simplices, count),
     ));
   }
 
-  private get space(): string {
+  /** @internal Of the kernel's functions: the beginning of their names. */
+  get space(): string {
     return this.width === 2 ? "plane" : "sphere";
   }
 
@@ -202,10 +198,8 @@ export abstract class Delaunay {
 
   /** The version after a change of this one; from the points alone if no triangles are left. */
   private change(what: "insert" | "remove", given: Argument[], points: Float64Array): void {
-    const { simplices, neighbors } = this.kept;
-    const now = [this.kept.points, this.size, simplices, neighbors, this.simplices.length / 3];
-    const same = [this.duplicates, this.duplicates.length / 2];
-    const changed = triangulated(points, this.inconclusive, `${this.space}_${what}`, ...now, ...same, ...given);
+    const now = [...this.forKernel, this.duplicates, this.duplicates.length / 2, ...given];
+    const changed = triangulated(points, this.inconclusive, `${this.space}_${what}`, ...now);
     if (changed.dimension === 2) this.hold(changed, new Kept(points));
     else this.fresh(points);
   }

@@ -14,8 +14,8 @@ type ArrayMaker<A extends NumberArray> = {
   readonly BYTES_PER_ELEMENT: number;
 };
 
-/** What a function of the module takes: a number, an array that is copied in, a place to fill, or nothing. */
-export type Argument = number | NumberArray | Place<NumberArray> | Kept | null;
+/** What a function of the module takes: a number or an address, an array that is copied in or may stay, or nothing. */
+export type Argument = number | NumberArray | Kept | null;
 
 /** What the module itself says went wrong: mostly that there is no more memory. */
 export class KernelError extends Error {
@@ -38,13 +38,6 @@ export class Kept {
   constructor(values: NumberArray) {
     this.values = values;
   }
-}
-
-/** An array of the module that a call fills. */
-export interface Place<A extends NumberArray> {
-  readonly address: number;
-  /** What was filled in, as an array of its own. */
-  copy(): A;
 }
 
 /** A compiled module and its present instance. */
@@ -93,11 +86,16 @@ class Instance {
     this.invoke("_initialize");
   }
 
-  /** Room for `length` numbers that a function will fill. */
-  place<A extends NumberArray>(Type: ArrayMaker<A>, length: number): Place<A> {
-    const address = this.allocate(length * Type.BYTES_PER_ELEMENT);
+  /** The address of as many bytes, which a function will fill. */
+  place(bytes: number): number {
+    const address = this.allocate(bytes);
     this.taken.push(address);
-    return { address, copy: () => this.view(Type, address, length).slice() as A };
+    return address;
+  }
+
+  /** What stands at an address, as an array of its own. */
+  copy<A extends NumberArray>(Type: ArrayMaker<A>, at: number, length: number): A {
+    return new Type(this.memory.buffer, at, length).slice() as A;
   }
 
   /** Calls a function of the module. */
@@ -109,8 +107,8 @@ class Instance {
   ask(types: readonly ArrayMaker<NumberArray>[], name: string, given: Argument[]): NumberArray[] {
     const answer = this.call(name, ...given);
     const arrays = types.map((Type, slot) => {
-      const [address, length] = this.view(Uint32Array, answer + 8 * slot, 2);
-      return this.view(Type, address, length).slice();
+      const [address, length] = Array.from(this.copy(Int32Array, answer + 8 * slot, 2), unsigned);
+      return this.copy(Type, address, length);
     });
     this.invoke("discard", answer);
     return arrays;
@@ -131,7 +129,6 @@ class Instance {
     if (argument === null) return 0;
     if (typeof argument === "number") return argument;
     if (argument instanceof Kept) return this.keep(argument.values);
-    if ("address" in argument) return argument.address;
     const address = this.copyIn(argument);
     this.taken.push(address);
     return address;
@@ -149,22 +146,13 @@ class Instance {
   private copyIn(array: NumberArray): number {
     const address = this.allocate(array.byteLength);
     const bytes = new Uint8Array(array.buffer, array.byteOffset, array.byteLength);
-    this.view(Uint8Array, address, array.byteLength).set(bytes);
+    new Uint8Array(this.memory.buffer, address).set(bytes);
     return address;
   }
 
   private allocate(bytes: number): number {
     if (bytes >= 2 ** 32) throw new KernelError(this.describe("St9bad_alloc", ""));
     return unsigned(this.invoke("allocate", Math.max(bytes, 1)));
-  }
-
-  /** A new view each time: memory that grows moves. */
-  private view<A>(
-    Type: new (buffer: ArrayBufferLike, offset: number, length: number) => A,
-    at: number,
-    length: number,
-  ): A {
-    return new Type(this.memory.buffer, at, length);
   }
 
   private invoke(name: string, ...numbers: number[]): number {
@@ -231,9 +219,9 @@ export function filled<A extends NumberArray>(
   ...given: Argument[]
 ): A {
   return kernel().run((session) => {
-    const out = session.place(Type, length);
+    const out = session.place(length * Type.BYTES_PER_ELEMENT);
     session.call(name, ...given, out);
-    return out.copy();
+    return session.copy(Type, out, length);
   });
 }
 

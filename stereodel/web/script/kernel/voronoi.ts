@@ -26,6 +26,7 @@ export abstract class Diagram {
   readonly simplexVertex: Int32Array;
   private readonly width: 2 | 3;
   private readonly size: number;
+  private readonly space: string;
   private readonly triangulated: boolean;
   private readonly dropped: Int32Array;
   private readonly sites: Kept;
@@ -34,14 +35,15 @@ export abstract class Diagram {
   private ridges: readonly [points: Int32Array, vertices: Int32Array] | null = null;
 
   protected constructor(triangulation: Delaunay) {
-    const { points, size, simplices, neighbors, count } = triangulation.forKernel;
-    [this.points, this.width, this.size] = [triangulation.points, triangulation.width, size];
-    [this.triangulated, this.dropped, this.sites] = [triangulation.dimension === 2, triangulation.duplicates, points];
+    const given = triangulation.forKernel;
+    [this.points, this.width, this.space] = [triangulation.points, triangulation.width, triangulation.space];
+    [this.sites, this.size] = given;
+    [this.triangulated, this.dropped] = [triangulation.dimension === 2, triangulation.duplicates];
     const last = this.triangulated ? [Int32Array, Float64Array] : [this.isStrips ? Int32Array : Float64Array];
     const types = [Int32Array, Int32Array, Int32Array, Int32Array, ...last];
     const all = this.triangulated
-      ? answered(types, `${this.space}_voronoi`, points, size, simplices, neighbors, count)
-      : answered(types, `${this.space}_flat_diagram`, points, size);
+      ? answered(types, `${this.space}_voronoi`, ...given)
+      : answered(types, `${this.space}_flat_diagram`, this.sites, this.size);
     const integers = all.filter((array) => array instanceof Int32Array);
     [this.regionOffsets, this.regionIndices, this.regionNeighbors, this.order] = integers;
     const line = integers[4] ?? new Int32Array(0);
@@ -95,10 +97,6 @@ export abstract class Diagram {
   /** Whether all sites of a plane lie on one line: there are ridges, and no vertices. */
   private get isStrips(): boolean {
     return this.width === 2 && !this.triangulated;
-  }
-
-  private get space(): string {
-    return this.width === 2 ? "plane" : "sphere";
   }
 
   /** Numbers for each site from the cells. */
