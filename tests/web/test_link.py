@@ -21,10 +21,10 @@ def ask(node, expression, given):
 
 
 READ = (
-    "given.map((hash) => attempt(() => { const { room, values } = readLink(hash); return [room, values.entries()]; }))"
+    "given.map((hash) => attempt(() => { const { room, values } = readLink(hash); return [room, [...values]]; }))"
 )
 PACKED = "given.map((places) => packPlaces(Float64Array.from(places)))"
-UNPACKED = "given.map((sites) => attempt(() => [...new LinkValues({ sites }).places('sites')]))"
+UNPACKED = "given.map((sites) => attempt(() => [...new LinkValues([['sites', sites]]).places('sites')]))"
 
 
 def test_a_state_comes_back(node):
@@ -61,16 +61,16 @@ def test_numbers_out_of_range_and_what_is_none_are_refused(node):
         "<b>",
         "null",
     ]
-    number = "given.map((lat) => attempt(() => new LinkValues({ lat }).number('lat', -90, 90, 0)))"
+    number = "given.map((lat) => attempt(() => new LinkValues([['lat', lat]]).number('lat', -90, 90, 0)))"
     assert ask(node, number, wrong) == ["refused"] * len(wrong)
 
 
 def test_numbers_and_words_are_read_and_numbers_written_short(node):
     read = "[new LinkValues(given).number('lat', -90, 90, 7), new LinkValues(given).number('no', 0, 1, 0.5)]"
-    assert ask(node, read, {"lat": "-53.125"}) == [-53.125, 0.5]
-    assert ask(node, "attempt(() => new LinkValues(given).whole('k', 0, 9, 1))", {"k": "2.5"}) == "refused"
+    assert ask(node, read, [["lat", "-53.125"]]) == [-53.125, 0.5]
+    assert ask(node, "attempt(() => new LinkValues(given).whole('k', 0, 9, 1))", [["k", "2.5"]]) == "refused"
     words = "given.map((each) => attempt(() => new LinkValues(each).word('click', ['keep', 'add'], 'keep')))"
-    assert ask(node, words, [{"click": "add"}, {}, {"click": "toString"}]) == ["add", "keep", "refused"]
+    assert ask(node, words, [[["click", "add"]], [], [["click", "toString"]]]) == ["add", "keep", "refused"]
     written = ask(
         node, "given.map((each) => writeNumber(...each))", [[5, 4], [-0.00001, 3], [1.25, 1], [100, 0], [-2.5, 4]]
     )

@@ -79,8 +79,6 @@ function decoded(bytes: Uint8Array): string {
   }
 }
 
-const UNCHANGED = "Nothing has changed.";
-
 /** Calls `opened` with the points of a file, or says why there are none; the reader may be asked for the columns. */
 export async function openPoints(
   file: File,
@@ -89,14 +87,16 @@ export async function openPoints(
   opened: (points: Points) => void,
   chosen?: [string, string],
 ): Promise<void> {
-  const bytes = new Uint8Array(await file.arrayBuffer());
-  const points = await readPoints(file.name, bytes, kind, chosen).catch((error: unknown) => {
-    if (!(error instanceof ColumnsError && error.names.length > 1)) messages.show(...complaint(file.name, error));
-    else
-      askColumns(file.name, error.names, kind, messages, (...both) => openPoints(file, kind, messages, opened, both));
-    return null;
-  });
-  if (points === null) return;
+  let points: Points;
+  try {
+    points = await readPoints(file.name, new Uint8Array(await file.arrayBuffer()), kind, chosen);
+  } catch (error) {
+    const again = (...both: [string, string]): Promise<void> => openPoints(file, kind, messages, opened, both);
+    if (error instanceof ColumnsError && error.names.length > 1)
+      return askColumns(file.name, error.names, kind, messages, again);
+    const said = error instanceof TableError ? error.message : "the file cannot be read";
+    return messages.show(`${file.name}:`, `${said}${/[.?!]$/.test(said) ? "" : "."} Nothing has changed.`);
+  }
   messages.close();
   opened(points);
 }
@@ -118,13 +118,4 @@ function askColumns(
   const open = { words: "Open", act: () => chosen(selects[0].value, selects[1].value) };
   const inputs = kinds.map((kind, k) => make("label", "field column", `${kind} `, selects[k]));
   messages.show(`Which columns of ${file}?`, "", open, inputs);
-}
-
-/** A message's beginning and its words: the file, the row where there is one, then what is wrong. */
-function complaint(file: string, error: unknown): [string, string] {
-  if (!(error instanceof TableError)) return [`${file}:`, `the file cannot be read. ${UNCHANGED}`];
-  const [, place, rest] = /^((?:row|line) \d+): (.*)$/s.exec(error.message) ?? [];
-  const words = rest ?? error.message;
-  const stop = /[.?!]$/.test(words) ? "" : ".";
-  return [place === undefined ? `${file}:` : `${file}, ${place}:`, `${words}${stop} ${UNCHANGED}`];
 }

@@ -23,24 +23,10 @@ export interface Link {
 }
 
 /** Values of a room by name, as text, with readers that check. */
-export class LinkValues {
-  readonly #values: ReadonlyMap<string, string>;
-
-  constructor(values: Iterable<readonly [string, string]> | Record<string, string> = []) {
-    this.#values = new Map(Symbol.iterator in values ? values : Object.entries(values));
-  }
-
-  has(name: string): boolean {
-    return this.#values.has(name);
-  }
-
-  entries(): [string, string][] {
-    return [...this.#values];
-  }
-
+export class LinkValues extends Map<string, string> {
   /** Text, or `otherwise` where the link does not say. */
   text(name: string, otherwise: string): string {
-    return this.#values.get(name) ?? otherwise;
+    return this.get(name) ?? otherwise;
   }
 
   /** One of some words, of which `otherwise` is one. */
@@ -52,7 +38,7 @@ export class LinkValues {
 
   /** A number in [low, high]. */
   number(name: string, low: number, high: number, otherwise: number): number {
-    const text = this.#values.get(name);
+    const text = this.get(name);
     if (text === undefined) return otherwise;
     const value = numberOf(text);
     if (!(value >= low && value <= high)) throw new LinkError(`${name} is not a number from ${low} to ${high}`);
@@ -73,7 +59,7 @@ export class LinkValues {
 
   /** Pairs of coordinates, (n, 2); null where the link holds none. */
   places(name: string): Float64Array | null {
-    const text = this.#values.get(name);
+    const text = this.get(name);
     if (text === undefined) return null;
     const places = Float64Array.from(text === "" ? [] : text.split(","), numberOf);
     if (places.length % 2 !== 0 || places.length > 2 * MOST_SITES || !places.every(Number.isFinite))
@@ -106,14 +92,13 @@ export function readLink(hash: string): Link {
   if (room === undefined) throw new LinkError("the link names no room");
   values.delete("v");
   values.delete("room");
-  return { room, values: new LinkValues(values) };
+  return { room, values };
 }
 
-function valuesOf(parts: readonly string[]): Map<string, string> {
+function valuesOf(parts: readonly string[]): LinkValues {
   try {
-    const values = new Map(
-      parts.map((part) => /^([^=]+)=(.*)$/s.exec(part)!.slice(1).map(decodeURIComponent) as [string, string]),
-    );
+    const pairs = parts.map((part) => /^([^=]+)=(.*)$/s.exec(part)!.slice(1).map(decodeURIComponent));
+    const values = new LinkValues(pairs as [string, string][]);
     if (values.size === parts.length) return values;
   } catch {
     // a part of another form, or a percent sign without its digits: told below

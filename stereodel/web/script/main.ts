@@ -79,7 +79,7 @@ class Page {
       () => ({ room: this.#name, values: new LinkValues() }),
     );
     this.#enter(link.room);
-    const isNew = link.values.entries().length > 0 || !this.#rooms.has(link.room);
+    const isNew = link.values.size > 0 || !this.#rooms.has(link.room);
     try {
       const room = this.#room ?? (await this.#made(link.room));
       if (this.#name !== link.room) return; // the reader is in another room by now
