@@ -233,26 +233,23 @@ function placeMarks(): void {
   }
 }
 
-/** The sets are unpacked before the rooms are made, so that links can name them. */
-async function makersOf(contents: Contents): Promise<Makers> {
-  const stored: Record<string, Float64Array> = {};
+async function main(): Promise<void> {
+  placeMarks();
+  const contents = Contents.ofDocument();
+  const loaded = contents.kernel().then(load);
+  const stored: Record<string, Float64Array> = {}; // before the rooms are made, so that links can name them
   for (const name of ["gap", "everywhere", "hemisphere", "cities", "airports", "stars", "sheet"])
     stored[name] = await contents.set(name);
   const given = await contents.given();
   const lift = laterScript<LiftRoomMaker>(contents, "lift");
-  return {
+  await loaded;
+  document.body.classList.remove("loading");
+  const page = new Page(contents, {
     sphere: (host) => sphereRoom(host, stored, given),
     lift: async (host) => (await lift())(host, stored["sheet"]),
     globe: globeRoom,
-  };
-}
-
-async function main(): Promise<void> {
-  placeMarks();
-  const contents = Contents.ofDocument();
-  const [makers] = await Promise.all([makersOf(contents), contents.kernel().then(load)]);
-  document.body.classList.remove("loading");
-  await new Page(contents, makers).start();
+  });
+  await page.start();
   document.documentElement.dataset["ready"] = "true";
 }
 

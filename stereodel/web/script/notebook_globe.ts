@@ -23,25 +23,14 @@ import { Motion } from "./view/motion.ts";
 import { pointUnder, View } from "./view/view.ts";
 import { latitude, longitude } from "./words.ts";
 
-/** The lens: a fisheye, by the arguments of `stereodel.fisheye`. */
-export interface Lens {
-  readonly focus: readonly [number, number];
-  readonly magnification: number;
-}
-
-/** The view, by the arguments of `stereodel.drawing.View`. */
-export interface ViewAngles {
-  readonly lon: number;
-  readonly lat: number;
-  readonly roll: number;
-}
-
 /** What is shown. */
 export interface Shown {
   /** Longitude and latitude in turn, degrees: doubles at any place of a buffer. */
   sites: DataView;
-  lens: Lens;
-  view: ViewAngles;
+  /** A fisheye, by the arguments of `stereodel.fisheye`. */
+  lens: { readonly focus: readonly [number, number]; readonly magnification: number };
+  /** By the arguments of `stereodel.drawing.View`. */
+  view: { readonly lon: number; readonly lat: number; readonly roll: number };
   /** Numbers of sites. */
   selection: readonly number[];
 }
@@ -58,8 +47,6 @@ const STRONGEST = 1e6;
 /** Sites beyond which cells are left out while the globe moves. */
 const MANY_SITES = 10_000;
 
-const KEYS = "arrows turn, + and − magnify, F sets the focus, comma and full stop walk the sites, Enter selects";
-
 export class NotebookGlobe implements Turnable {
   readonly isNorthUp = false; // but by keys
   readonly #root = make("div", "stereodel-globe");
@@ -67,7 +54,8 @@ export class NotebookGlobe implements Turnable {
     tabIndex: 0,
     role: "application",
     ariaRoleDescription: "globe to turn",
-    ariaDescription: KEYS,
+    ariaDescription:
+      "arrows turn, + and − magnify, F sets the focus, comma and full stop walk the sites, Enter selects",
   });
   readonly #status = make("p", { role: "status" });
   readonly #plate: Plate;
@@ -149,8 +137,7 @@ export class NotebookGlobe implements Turnable {
       (magnification === 1 ? "" : `; ${lens}`) +
       (count === 0 ? "" : `; ${count} ${count === 1 ? "site" : "sites"}`) +
       (this.#selection.length === 0 ? "" : `, selected: ${this.#selection.slice(0, 5).join(", ")}`);
-    this.#canvas.ariaLabel = text;
-    this.#status.textContent = text;
+    this.#canvas.ariaLabel = this.#status.textContent = text;
     this.#plate.redraw("state");
   }
 
@@ -260,7 +247,7 @@ export class NotebookGlobe implements Turnable {
   #walk(step: number): void {
     const count = this.#sites.length / 3;
     if (count === 0) return;
-    this.#walked = (this.#walked + step + count + (this.#walked < 0 && step < 0 ? 1 : 0)) % count;
+    this.#walked = (Math.max(this.#walked, step < 0 ? 0 : -1) + step + count) % count;
     const [lon, lat] = lonLatOf(row(this.#lens.apply(row(this.#sites, this.#walked)), 0));
     this.turn(View.above(lon, lat));
   }

@@ -42,7 +42,8 @@ export abstract class Delaunay {
   /** Tests that each stage left open, in construction and changes. */
   readonly inconclusive!: Inconclusive;
 
-  private kept!: { points: Kept; simplices: Kept; neighbors: Kept };
+  /** @internal All that the kernel takes; the arrays may stay there. */
+  readonly forKernel!: [points: Kept, size: number, simplices: Kept, neighbors: Kept, count: number];
   private derived: { [K in "edges" | "hull" | "order"]?: Int32Array } & { centers?: Float64Array; closing?: Kept } = {};
 
   /** @param points Rows of finite numbers x, y, y up, or of directions x, y, z of any length but zero. Copied. */
@@ -144,7 +145,7 @@ export abstract class Delaunay {
     const size = asked.length / this.width;
     const same = [this.duplicates, this.duplicates.length / 2];
     if (this.dimension < 2) {
-      const order = [this.kept.points, this.flatOrder, this.flatOrder.length];
+      const order = [this.forKernel[0], this.flatOrder, this.flatOrder.length];
       return this.answers(size * each, "nearest_flat", [...order, ...same, asked, size, each]);
     }
     if (k === undefined) return this.answers(size, "nearest", [...this.triangles(), asked, size]);
@@ -154,13 +155,7 @@ export abstract class Delaunay {
   /** The different points in the order along their line or great circle, without triangles. */
   get flatOrder(): Int32Array {
     const types = [Int32Array, Int32Array, Int32Array, Int32Array] as const;
-    return (this.derived.order ??= answered(types, `${this.space}_flat_diagram`, this.kept.points, this.size)[3]);
-  }
-
-  /** @internal All that the kernel takes; the arrays may stay there. */
-  get forKernel(): [points: Kept, size: number, simplices: Kept, neighbors: Kept, count: number] {
-    const { points, simplices, neighbors } = this.kept;
-    return [points, this.size, simplices, neighbors, this.simplices.length / 3];
+    return (this.derived.order ??= answered(types, `${this.space}_flat_diagram`, this.forKernel[0], this.size)[3]);
   }
 
   private triangles(): Argument[] {
@@ -205,9 +200,10 @@ export abstract class Delaunay {
   }
 
   private hold(arrays: Arrays, points: Kept): void {
-    Object.assign(this, arrays);
-    this.derived = {};
-    this.kept = { points, simplices: new Kept(arrays.simplices), neighbors: new Kept(arrays.neighbors) };
+    const { simplices, neighbors } = arrays;
+    const size = arrays.points.length / this.width;
+    const forKernel = [points, size, new Kept(simplices), new Kept(neighbors), simplices.length / 3];
+    Object.assign(this, arrays, { forKernel, derived: {} });
   }
 }
 

@@ -184,15 +184,12 @@ export type KernelSource = WebAssembly.Module | BufferSource | Response | Promis
  * Further calls wait for the first one; after one that failed the next tries again.
  */
 export function load(source: KernelSource): Promise<void> {
-  loading ??= compiled(source).then(
-    (module) => {
-      current = new Kernel(module);
-    },
-    (error: unknown) => {
+  loading ??= compiled(source)
+    .then((module) => void (current = new Kernel(module)))
+    .catch((error: unknown) => {
       loading = null;
       throw error;
-    },
-  );
+    });
   return loading;
 }
 

@@ -46,8 +46,7 @@ export class Raster {
    * @returns sRGB and opacity, not premultiplied, rows from the top; opacity is also the part of a pixel in the globe.
    */
   warp(map: MoebiusMap, size: number): Uint8ClampedArray<ArrayBuffer> {
-    const step = 2 / asCount(size, "size", 1, MOST_ACROSS);
-    return this.painted(map, [-1, 1, step, step], size, size);
+    return this.painted(map, [-1, 1, 2 / size, 2 / size], size, size);
   }
 
   /**
