@@ -143,21 +143,16 @@ class Page {
 
   /** Files may be dropped anywhere. */
   #takeFiles(): void {
-    const body = document.body;
-    const holdsFiles = (event: DragEvent): boolean => event.dataTransfer?.types.includes("Files") ?? false;
-    addEventListener("dragover", (event) => {
-      if (!holdsFiles(event)) return;
-      event.preventDefault();
-      body.classList.add("dropping");
-    });
+    for (const type of ["dragover", "drop"] as const) {
+      addEventListener(type, (event) => {
+        if (!event.dataTransfer?.types.includes("Files")) return;
+        event.preventDefault();
+        document.body.classList.toggle("dropping", type === "dragover");
+        if (type === "drop") this.#open(event.dataTransfer.files[0]);
+      });
+    }
     addEventListener("dragleave", (event) => {
-      if (event.relatedTarget === null) body.classList.remove("dropping");
-    });
-    addEventListener("drop", (event) => {
-      if (!holdsFiles(event)) return;
-      event.preventDefault();
-      body.classList.remove("dropping");
-      this.#open(event.dataTransfer?.files[0]);
+      if (event.relatedTarget === null) document.body.classList.remove("dropping");
     });
     for (const input of document.querySelectorAll<HTMLInputElement>("input[type=file]")) {
       input.addEventListener("change", () => {

@@ -22,6 +22,8 @@ export class KernelError extends Error {
   override readonly name = "KernelError";
 }
 
+const OUT_OF_MEMORY = "out of memory: the kernel has 4 GiB at most; give fewer points";
+
 /** An address or a count from the module: what is above 2 GiB comes back negative. */
 export const unsigned = (value: number): number => value >>> 0;
 
@@ -79,7 +81,8 @@ class Instance {
 
   constructor(module: WebAssembly.Module) {
     const fail = (kind: number, message: number): never => {
-      throw new KernelError(this.describe(this.text(unsigned(kind)), this.text(unsigned(message))));
+      const [what, words] = [kind, message].map((address) => this.text(unsigned(address)));
+      throw new KernelError(what === "St9bad_alloc" ? OUT_OF_MEMORY : words || what);
     };
     this.exports = new WebAssembly.Instance(module, { page: { fail } }).exports;
     this.memory = this.exports["memory"] as WebAssembly.Memory;
@@ -151,7 +154,7 @@ class Instance {
   }
 
   private allocate(bytes: number): number {
-    if (bytes >= 2 ** 32) throw new KernelError(this.describe("St9bad_alloc", ""));
+    if (bytes >= 2 ** 32) throw new KernelError(OUT_OF_MEMORY);
     return unsigned(this.invoke("allocate", Math.max(bytes, 1)));
   }
 
@@ -164,11 +167,6 @@ class Instance {
   private text(address: number): string {
     const bytes = new Uint8Array(this.memory.buffer, address);
     return new TextDecoder().decode(bytes.slice(0, bytes.indexOf(0)));
-  }
-
-  private describe(kind: string, message: string): string {
-    if (kind === "St9bad_alloc") return "out of memory: the kernel has 4 GiB at most; give fewer points";
-    return message === "" ? kind : message;
   }
 }
 
