@@ -94,7 +94,7 @@ function pairs(numbers: ArrayLike<number>): [number, number][] {
   return rows;
 }
 
-const placesOf = (xyz: Float64Array): Place[] => pairs(xyzToLonlat(xyz));
+const placesOf = (xyz: ArrayLike<number>): Place[] => pairs(xyzToLonlat(xyz));
 
 /** Those of triangles smaller than a hemisphere; without triangles neighbours on the great circle. */
 function edgesOf(delaunay: SphericalDelaunay): [number, number][] {
@@ -158,13 +158,11 @@ function lunes(delaunay: SphericalDelaunay, polygons: Cells["polygons"]): Cells 
   const [ridges, ends, normals] = [pairs(diagram.ridgePoints), pairs(diagram.ridgeVertices), diagram.ridgeNormals()];
   // Triangles count their centers first: those of three sites are both poles.
   const poles = delaunay.dimension === 2 ? Array.from(diagram.simplexVertex) : [0, 1];
-  const points = Float64Array.from({ length: 6 + normals.length }, (_, k) =>
-    k < 6 ? diagram.vertices[3 * poles[Math.floor(k / 3)] + (k % 3)] : 0,
-  );
+  const points = poles.flatMap((pole) => [...diagram.vertices.subarray(3 * pole, 3 * pole + 3)]);
   ends.forEach(([start], k) => {
     const [x, y, z] = diagram.vertices.subarray(3 * start, 3 * start + 3);
     const [a, b, c] = normals.subarray(3 * k, 3 * k + 3);
-    points.set([b * z - c * y, c * x - a * z, a * y - b * x], 6 + 3 * k); // a quarter turn along the ridge
+    points.push(b * z - c * y, c * x - a * z, a * y - b * x); // a quarter turn along the ridge
   });
   ridges.forEach(([i, j], k) => {
     // The ridge runs counterclockwise around i and clockwise around j, backwards in a polygon that is clockwise.
