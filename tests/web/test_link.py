@@ -20,9 +20,7 @@ def ask(node, expression, given):
     return node(f"{LINK}export default {expression};", given)
 
 
-READ = (
-    "given.map((hash) => attempt(() => { const { room, values } = readLink(hash); return [room, [...values]]; }))"
-)
+READ = "given.map((hash) => attempt(() => { const { room, values } = readLink(hash); return [room, [...values]]; }))"
 PACKED = "given.map((places) => packPlaces(Float64Array.from(places)))"
 UNPACKED = "given.map((sites) => attempt(() => [...new LinkValues([['sites', sites]]).places('sites')]))"
 

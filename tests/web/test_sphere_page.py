@@ -95,7 +95,7 @@ def test_sites_are_added_moved_removed_and_undone(room):
     page.rest()
     assert output(page, "sum").startswith("106 facets")
     state = link(page)
-    assert state["sites"].startswith("d")
+    assert len(state["sites"].split(",")) == 2 * 55
     page.page.locator(f"{ROOM} [name=click][value=remove]").check()
     page.page.mouse.click(x + 60, y + 40)
     assert page.page.locator(rows).inner_text() == "The 54 sites"

@@ -3,10 +3,18 @@
 import type { Contents } from "./contents.ts";
 import { shared } from "page:shared";
 
-/** What such a script offers, when it is first asked for. */
+/** What such a script offers, when it is first asked for; after a failure the next call tries again. */
 export function laterScript<T>(contents: Contents, name: string): () => Promise<T> {
   let loaded: Promise<T> | null = null;
-  return () => (loaded ??= contents.script(name).then((code) => run<T>(code, name)));
+  const failed = (error: unknown): never => {
+    loaded = null;
+    throw error;
+  };
+  return () =>
+    (loaded ??= contents
+      .script(name)
+      .then((code) => run<T>(code, name))
+      .catch(failed));
 }
 
 /** Runs code that the policy of the page allows by its hash. */
