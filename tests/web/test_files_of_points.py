@@ -63,7 +63,7 @@ WRONG = {
     "long_row.csv": ("lon,lat\n1,2\n3,4,5\n", "row 2: has 3 fields, but there are 2 columns"),
     "open_quote.csv": ('name,lon,lat\n"a,1,2\nb,3,4\n', "line 2: a field begins with a quotation mark"),
     "after_quote.csv": ('name,lon,lat\n"a"x,1,2\n', "line 2: a field begins with a quotation mark"),
-    "latin1.csv": ("lon,lat,name\n1,2,Quíto\n".encode("latin1"), "the file is not text in UTF-8"),
+    "latin1.csv": ("lon,lat,name\n1,2,Quíto\n".encode("latin1"), "the file is neither text in UTF-8 nor"),
     "torn.csv.gz": (gzip.compress(b"lon,lat\n1,2\n")[:-9], "the compressed file is damaged"),
     "torn.geojson": ('{"features":[1,', "the file is not JSON: "),
     "list.json": ("[1,2]", "the file is not a GeoJSON FeatureCollection of points"),
@@ -75,7 +75,7 @@ WRONG = {
     "null.geojson": (geojson(point(1, None)), "row 1: a Point has two or three numbers, not [1,null]"),
     "latitude.geojson": (geojson(point(1, 97.2)), "row 1: latitude 97.2 is outside [-90, 90]"),
     "other_system.geojson": (geojson(point(1, 2), crs=crs("EPSG:3857")), "the file is in EPSG:3857"),
-    "cities.xyz": (b"\x89PNG\r\n\x1a\n\x00", "this is not a table, GeoJSON or a 2 : 1 picture"),
+    "cities.xyz": (b"\x89PNG\r\n\x1a\n\x00", "the file is neither text in UTF-8 nor a 2 : 1"),
 }
 
 PLANE = {

@@ -98,7 +98,7 @@ def test_an_error_of_the_kernel_comes_with_its_message(node):
     """Checks come first, so it takes a call around them; the message is that of the C++ exception."""
     name, message = node(
         f"{KERNEL} export default refused(() => kernel().run((session) => {{"
-        "  const out = session.place(Int8Array, 1);"
+        "  const out = session.place(1);"
         "  session.call('plane_turn', Float64Array.of(NaN, 0), 1, Float64Array.of(0, 0), 1,"
         "Float64Array.of(1, 0), 1, out);"
         "}));"
@@ -117,7 +117,7 @@ def test_addresses_above_two_gigabytes(fresh_node):
         "const before = all(); kernel().instance = null;"
         "for (let k = 0; k < 5; ++k) kernel().run((session) => session.call('allocate', 2 ** 29 - 2 ** 16));"
         "const equal = all() === before;"
-        "const place = kernel().run((session) => session.place(Float64Array, 1e6).address);"
+        "const place = kernel().run((session) => session.place(8e6));"
         "export default [[-1, -(2 ** 31), 5].map(unsigned), equal, place];"
     )
     assert numbers == [2**32 - 1, 2**31, 5]
