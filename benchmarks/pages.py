@@ -21,7 +21,7 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter
 
 from benchmarks.engines import CONTENDERS, Contender
 from benchmarks.rounds import paired
-from stereodel._files import replacing
+from stereodel._tasks.whole_files import replacing
 from stereodel.drawing.page.style import DARK_GRAY, LIGHT_GRAY, PRINT_WIDTH, TYPE
 
 HERE = Path(__file__).resolve().parent

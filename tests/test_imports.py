@@ -24,7 +24,6 @@ MAY_IMPORT = {
     "constants": set(),
     "earth": set(),
     "_docs": set(),
-    "_files": set(),
     "_extras": set(),
     "_kernel": set(),
     "_spaces": {"_arrays", "_kernel", "sphere"},
@@ -32,7 +31,7 @@ MAY_IMPORT = {
     "_numbers": BASE,
     "_double_double": BASE,
     "_threads": BASE,
-    "_tasks": {"_extras", "_files", "_threads"},
+    "_tasks": {"_extras", "_threads"},
     "data": BASE,
     "sphere": KERNEL,
     "projections": BASE | {"sphere"},
@@ -40,26 +39,24 @@ MAY_IMPORT = {
     "curves": BASE | {"sphere", "conformal"},
     "predicates": KERNEL,
     "triangulation": KERNEL | {"sphere", "projections", "predicates"},
-    "interpolation": KERNEL | {"_files", "curves", "sphere", "triangulation"},
+    "interpolation": KERNEL | {"_tasks", "curves", "sphere", "triangulation"},
     "xarray": BASE | {"interpolation", "sphere", "triangulation"},
     "spatial": BASE | {"triangulation"},
     "graphs": KERNEL | {"sphere", "triangulation"},
     "relaxation": KERNEL | {"curves", "sphere", "triangulation"},
-    "io": BASE
-    | {"_files", "_spaces", "_tasks", "conformal", "curves", "data", "interpolation", "sphere", "triangulation"},
-    "partitioned": KERNEL
-    | {"__init__", "_files", "curves", "interpolation", "io", "sphere", "_tasks", "triangulation"},
+    "io": BASE | {"_spaces", "_tasks", "conformal", "curves", "data", "interpolation", "sphere", "triangulation"},
+    "partitioned": KERNEL | {"__init__", "curves", "interpolation", "io", "sphere", "_tasks", "triangulation"},
     "__init__": MATHEMATICS,
     "_doctor": {"__init__", "_extras", "_tasks", "render"},
     "__main__": {"__init__", "_doctor", "_extras", "_tasks", "cli"},
     "drawing": MATHEMATICS | {"_spaces", "curves"},
-    "render": MATHEMATICS | {"_files", "curves", "drawing"},
+    "render": MATHEMATICS | {"_tasks", "curves", "drawing"},
     "mpl": MATHEMATICS | {"curves", "data", "drawing", "io"},
-    "globe": MATHEMATICS | {"_files", "_kernel", "curves", "data", "drawing", "io"},
-    "web": BASE | {"_files", "curves", "data", "sphere", "triangulation"},
-    "film": MATHEMATICS | {"_files", "_kernel", "_tasks", "curves", "drawing", "globe", "render"},
+    "globe": MATHEMATICS | {"_tasks", "_kernel", "curves", "data", "drawing", "io"},
+    "web": BASE | {"_tasks", "curves", "data", "sphere", "triangulation"},
+    "film": MATHEMATICS | {"_kernel", "_tasks", "curves", "drawing", "globe", "render"},
     "cli": MATHEMATICS
-    | {"__init__", "_files", "curves", "data", "drawing", "earth", "film", "globe", "interpolation", "io"}
+    | {"__init__", "curves", "data", "drawing", "earth", "film", "globe", "interpolation", "io"}
     | {"_doctor", "_tasks", "partitioned", "web"},
 }
 # Whatever the table above says some day: data know nothing of pictures, and drawing is without OpenGL.

@@ -38,7 +38,7 @@ from matplotlib import ft2font
 
 from stereodel._arrays import FloatArray, Pixels
 from stereodel._extras import installed_version
-from stereodel._files import replacing
+from stereodel._tasks.whole_files import replacing
 from stereodel.drawing.page import Label, Page
 from stereodel.film import Film
 from stereodel.render.figure import Figure

@@ -17,7 +17,7 @@ from types import ModuleType
 from typing import Any, Final
 
 import stereodel
-from stereodel._files import replacing
+from stereodel._tasks.whole_files import replacing
 
 PAGE: Final = Path(__file__).resolve().parent.parent / "docs" / "names.md"
 

@@ -17,8 +17,8 @@ from typing import TYPE_CHECKING, Annotated, Any, get_type_hints
 import typer
 
 from stereodel._arrays import as_scalar
-from stereodel._files import said_of
 from stereodel._tasks.interrupts import stop_if_interrupted
+from stereodel._tasks.whole_files import said_of
 from stereodel.cli.application import ARGUMENTS, NothingToDoError, reporting
 from stereodel.constants import LARGEST_MAGNIFICATION
 from stereodel.io.formats.names import spelling

@@ -13,9 +13,9 @@ import numpy as np
 
 from stereodel._arrays import FloatArray, Pixels, as_count, as_frame, as_scalar
 from stereodel._extras import of_extra
-from stereodel._files import replacing
 from stereodel._tasks.crew import Crew, main_script_here
 from stereodel._tasks.progress import Progress, reporting
+from stereodel._tasks.whole_files import replacing
 from stereodel.constants import MOST_FRAME_PIXELS, MOST_FRAMES
 from stereodel.drawing.page import Page
 from stereodel.drawing.page.colors import ColorLike, as_color

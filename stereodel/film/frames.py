@@ -21,7 +21,7 @@ import numpy as np
 from stereodel import _kernel
 from stereodel._arrays import Pixels
 from stereodel._extras import installed_version, libraries, optional
-from stereodel._files import replacing
+from stereodel._tasks.whole_files import replacing
 from stereodel.render.gl import VARIABLE
 
 OURS: Final = re.compile(r"\.?[0-9a-f]{32}\.png(\.\d+\.tmp)?")

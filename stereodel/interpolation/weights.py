@@ -14,7 +14,7 @@ import numpy.typing as npt
 from stereodel._arrays import AnyIndices, FloatArray, Indices, as_values, locked
 from stereodel._docs import shared
 from stereodel._extras import optional
-from stereodel._files import replacing
+from stereodel._tasks.whole_files import replacing
 from stereodel.curves.ragged import offsets_of, spans
 from stereodel.interpolation.interpolator import Interpolator
 from stereodel.sphere.coordinates import LONLAT

@@ -15,8 +15,8 @@ import numpy.typing as npt
 
 from stereodel._arrays import as_choice
 from stereodel._extras import optional
-from stereodel._files import replacing, said_of
 from stereodel._tasks.progress import Progress
+from stereodel._tasks.whole_files import replacing, said_of
 from stereodel.interpolation import Contour
 from stereodel.io.formats import wkb
 from stereodel.io.formats.columns import objects

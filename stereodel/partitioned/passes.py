@@ -21,10 +21,10 @@ import numpy.typing as npt
 
 from stereodel._arrays import as_count
 from stereodel._extras import optional
-from stereodel._files import ENDING, replacing
 from stereodel._tasks.crew import Crew
 from stereodel._tasks.kept import Note, locked, save_json
 from stereodel._tasks.progress import Progress
+from stereodel._tasks.whole_files import ENDING, replacing
 from stereodel.io.formats.names import anew
 from stereodel.partitioned import spread
 from stereodel.partitioned.files import Source, opened, slices, unchanged

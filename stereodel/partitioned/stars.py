@@ -11,7 +11,7 @@ import numpy as np
 
 from stereodel import _kernel
 from stereodel._arrays import BoolArray, FloatArray, Indices, LongArray
-from stereodel._files import replacing
+from stereodel._tasks.whole_files import replacing
 from stereodel.curves.borders import frame_of
 from stereodel.io.formats.map_rows import MapRows
 from stereodel.io.formats.parquet import write_parquet

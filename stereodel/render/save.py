@@ -18,7 +18,7 @@ from typing import Final
 import numpy as np
 
 from stereodel._arrays import Pixels
-from stereodel._files import replacing
+from stereodel._tasks.whole_files import replacing
 from stereodel.drawing.page import Page
 from stereodel.drawing.page.fonts import missing_characters, warn_of_missing
 from stereodel.drawing.page.page import OUTPUTS

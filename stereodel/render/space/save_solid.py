@@ -15,7 +15,7 @@ from typing import Any, Final
 import numpy as np
 
 from stereodel._arrays import FloatArray, Pixels
-from stereodel._files import replacing
+from stereodel._tasks.whole_files import replacing
 from stereodel.drawing.page.colors import Color
 from stereodel.drawing.page.page import OUTPUTS
 from stereodel.drawing.scene.scene_items import Layer
