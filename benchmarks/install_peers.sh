@@ -26,13 +26,8 @@ compiled() { # program, source, options...
 }
 
 cgal() {
-    if [[ ! -f /usr/include/CGAL/version.h ]]; then
-        command -v apt-get >/dev/null || { echo "no apt-get: install CGAL and its headers"; return 1; }
-        local run=(env)
-        ((EUID == 0)) || run=(sudo -n env) # asks for nothing: fails where a password is needed
-        local install=("${run[@]}" DEBIAN_FRONTEND=noninteractive apt-get -qq -y install --no-install-recommends libcgal-dev)
-        "${install[@]}" || { "${run[@]}" apt-get -qq update && "${install[@]}"; } || return 1
-    fi
+    ../tools/system_packages.sh cgal
+    [[ -f /usr/include/CGAL/version.h ]] || return 1
     compiled cgal_plane cgal_plane.cpp &&
         compiled cgal_sphere cgal_sphere.cpp &&
         compiled cgal_sphere_projecting cgal_sphere.cpp -DPROJECTING
@@ -42,12 +37,10 @@ python_with() { # environment, least minor version of Python 3, greatest, requir
     local environment=$peers/$1 least=$2 greatest=$3 minor python
     shift 3
     for ((minor = greatest; minor >= least; minor--)); do
-        for python in "python3.$minor" "$HOME"/.pyenv/versions/3."$minor".*/bin/python; do
-            "$python" -c "import sys, venv; sys.exit(sys.version_info[:2] != (3, $minor))" 2>/dev/null || continue
-            [[ -x $environment/bin/python ]] || "$python" -m venv "$environment" || return 1
-            "$environment/bin/python" -m pip --disable-pip-version-check -qq install "$@"
-            return
-        done
+        python=$(../tools/find_python.sh "3.$minor") || continue
+        [[ -x $environment/bin/python ]] || "$python" -m venv "$environment" || return 1
+        "$environment/bin/python" -m pip --disable-pip-version-check -qq install "$@"
+        return
     done
     echo "no Python from 3.$least to 3.$greatest on this machine"
     return 1

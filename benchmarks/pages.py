@@ -21,7 +21,7 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter
 
 from benchmarks.engines import CONTENDERS, Contender
 from benchmarks.rounds import paired
-from stereodel._files import replacing
+from stereodel._tasks.whole_files import replacing
 from stereodel.drawing.page.style import DARK_GRAY, LIGHT_GRAY, PRINT_WIDTH, TYPE
 
 HERE = Path(__file__).resolve().parent
@@ -94,17 +94,13 @@ def plot(name: str, height: float, **options: Any) -> Iterator[Sequence[Axes]]:
         "axes.linewidth": 0.6,
         "axes.labelsize": 8,
         "axes.titlesize": 9,
-        "xtick.labelsize": 7.5,
-        "ytick.labelsize": 7.5,
         "legend.fontsize": 8,
         "legend.frameon": False,
         "grid.color": LIGHT_GRAY,
         "grid.linewidth": 0.3,
-        "xtick.major.width": 0.5,
-        "ytick.major.width": 0.5,
-        "xtick.minor.width": 0.3,
-        "ytick.minor.width": 0.3,
     }
+    ticks = {"labelsize": 7.5, "major.width": 0.5, "minor.width": 0.3}
+    look |= {f"{axis}tick.{what}": value for axis in "xy" for what, value in ticks.items()}
     with mpl.rc_context({**TYPE, **look}):
         figure = Figure(figsize=(PRINT_WIDTH / 72, height / 72), layout="constrained")
         axes = figure.subplots(1, 2, **options)
@@ -138,18 +134,17 @@ COLUMNS = [f"{space}, {threads}" for space in CONTENDERS for threads in ("one th
 
 
 def kernel(results: Results) -> Blocks:
-    """The page's blocks and its plots, from whatever was measured."""
-    blocks = {"machine": machine(results)}
-    if "sizes" in results:
-        plot_sizes(results["sizes"])
-        blocks |= {"opening": opening(results), "engines": taking_part(results), "missing": missing(results)}
-        blocks |= {f"sizes {space}": sizes(results, space) for space in CONTENDERS}
-    if "distributions" in results:
-        plot_distributions(results["distributions"])
-        for space in CONTENDERS:
-            blocks |= {f"{space} {n}": distributions(results, space, n) for n in ("100000", "1000000")}
-    others = {"changes": changes, "derived": derived, "voronoi": diagrams, "conformal maps": conformal_maps}
-    return blocks | {name: block(results[name]) for name, block in others.items() if name in results}
+    """The page's blocks and its plots."""
+    plot_sizes(results["sizes"])
+    plot_distributions(results["distributions"])
+    whole = {"machine": machine, "opening": opening, "engines": taking_part, "missing": missing}
+    parts = {"changes": changes, "derived": derived, "voronoi": diagrams, "conformal maps": conformal_maps}
+    blocks = {name: block(results) for name, block in whole.items()}
+    blocks |= {name: block(results[name]) for name, block in parts.items()}
+    for space in CONTENDERS:
+        blocks[f"sizes {space}"] = sizes(results, space)
+        blocks |= {f"{space} {n}": distributions(results, space, n) for n in ("100000", "1000000")}
+    return blocks
 
 
 def faster(record: Results, peer: str, ours: str) -> str:
@@ -175,8 +170,7 @@ def opening(results: Results) -> str:
     """The main numbers at 1e6 points: times of ours, and ratios to CGAL and SciPy on one thread."""
     n = 1_000_000
     records = {f"Delaunay triangulation, {space}": (results["sizes"][space][str(n)], "ours") for space in CONTENDERS}
-    if "voronoi" in results:
-        records["Voronoi regions and areas, sphere"] = (results["voronoi"][str(n)], "voronoi")
+    records["Voronoi regions and areas, sphere"] = (results["voronoi"][str(n)], "voronoi")
     rows = []
     for what, (own, ours) in records.items():
         times = [time_per_point(own.get(f"{ours} {workers}"), n) for workers in (1, 2)]
@@ -229,28 +223,25 @@ def with_losses(record: Results, contender: Contender) -> str:
 def changes(measured: Results) -> str:
     """Insertion, removal and queries in microseconds each."""
     n = measured["n"]
-    words = {
-        "insert": ("insert, per point in batches of 1000", 1000),
-        "changed": ("the same and read `simplices` and `neighbors` after each batch", 1000),
-        "remove": ("remove, per point in batches of 1000", 1000),
-        "find": ("`find_simplex`, per query", n),
-        "nearest": ("`nearest`, per query", n),
-        "run": ("triangulate, per point", n),
-        "bare": ("triangulate without `neighbors`, per point", n),
+    told = {
+        "insert, per point in batches of 1000": ("insert", "seconds", 1e3),
+        "the same and read `simplices` and `neighbors` after each batch": ("changed", "seconds", 1e3),
+        "remove, per point in batches of 1000": ("remove", "seconds", 1e3),
+        "`find_simplex`, per query": ("find", "seconds", 1e6 / n),
+        "`nearest`, per query": ("nearest", "seconds", 1e6 / n),
+        "triangulate, per point": ("run", "seconds", 1e6 / n),
+        "triangulate without `neighbors`, per point": ("bare", "seconds", 1e6 / n),
+        "the first batch inserted, in all": ("insert", "first", 1e6),
+        "the first batch removed, in all": ("remove", "first", 1e6),
+        "peak bytes per point without `neighbors`": ("bare", "peak", 1 / n),
     }
     columns = [measured[f"{space} {workers}"] for space in CONTENDERS for workers in (1, 2)]
 
-    def row(what: str, word: str, key: str, factor: float) -> list[str]:
-        records = [column.get(word, {}) for column in columns]
-        return [what, *(digits(factor * r[key]) if key in r else short_reason(r.get("stopped", "–")) for r in records)]
+    def cell(record: Results, key: str, factor: float) -> str:
+        return short_reason(record.get("stopped") or digits(factor * record[key]))
 
-    rows = [row(what, word, "seconds", 1e6 / each) for word, (what, each) in words.items()]
-    rows += [row(f"the first batch {word}{end}, in all", word, "first", 1e6) for word, end in FIRST.items()]
-    rows.append(row("peak bytes per point without `neighbors`", "bare", "peak", 1 / n))
+    rows = [[what, *(cell(column[word], key, by) for column in columns)] for what, (word, key, by) in told.items()]
     return table([f"µs, {power(n)} points", *COLUMNS], rows, "lrrrr")
-
-
-FIRST = {"insert": "ed", "remove": "d"}
 
 
 def derived(measured: Results) -> str:
@@ -302,24 +293,28 @@ def diagrams(measured: Results) -> str:
 
 def conformal_maps(measured: Results) -> str:
     """Seconds of each call, and how they stand to copying or to PROJ."""
-    labels = {
-        "directions": ("`np.copy` of the vectors", "copy", "images", "lens(xyz)", "scales", "lens.scale_factor(xyz)"),
-        "places": ("pyproj, `lens.to_proj()`", "pyproj", "lonlat", "lens.lonlat(lonlat)"),
+    calls = {
+        "directions": {
+            "copy": "`np.copy` of the vectors",
+            "images 1": "`lens(xyz)`, one thread",
+            "images 2": "`lens(xyz)`, two threads",
+            "scales 1": "`lens.scale_factor(xyz)`, one thread",
+            "scales 2": "`lens.scale_factor(xyz)`, two threads",
+        },
+        "places": {
+            "pyproj": "pyproj, `lens.to_proj()`",
+            "lonlat 1": "`lens.lonlat(lonlat)`, one thread",
+            "lonlat 2": "`lens.lonlat(lonlat)`, two threads",
+            "by vectors": "`lonlat_to_xyz`, `lens`, `xyz_to_lonlat`",
+        },
     }
     rows = []
-    for part, (reference, key, *others) in labels.items():
-        points = f"{measured[part]['n']:,}"
-        rows.append([points, reference, digits(measured[part][key]["seconds"]), ""])
-        for word, call in zip(others[::2], others[1::2], strict=True):
-            for workers in (1, 2):
-                own = measured[part][f"{word} {workers}"]
-                middle = statistics.median(own["ratios"])
-                ratio = f"{digits(middle)} × as long" if part == "directions" else f"{digits(1 / middle)} × as fast"
-                thread = "two threads" if workers == 2 else "one thread"
-                rows.append([points, f"`{call}`, {thread}", digits(own["seconds"]), ratio])
-    vectors = measured["places"]["by vectors"]
-    middle = f"{digits(1 / statistics.median(vectors['ratios']))} × as fast"
-    rows.append(["", "`lonlat_to_xyz`, `lens`, `xyz_to_lonlat`", digits(vectors["seconds"]), middle])
+    for part, named in calls.items():
+        for key, call in named.items():
+            own = measured[part][key]
+            middle = statistics.median(own["ratios"])
+            ratio = f"{digits(middle)} × as long" if part == "directions" else f"{digits(1 / middle)} × as fast"
+            rows.append([f"{measured[part]['n']:,}", call, digits(own["seconds"]), "" if middle == 1 else ratio])
     return table(["points", "call", "s", "median of the rounds"], rows, "rlrr")
 
 

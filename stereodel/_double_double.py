@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import BoolArray, FloatArray
+from stereodel._arrays import BoolArray, FloatArray, IntArray
 
 _SPLITTER = 2.0**27 + 1.0  # Veltkamp: cuts a 53-bit significand into two halves of at most 26 bits
 
@@ -155,15 +155,19 @@ def cross(a: DoubleDouble, b: DoubleDouble) -> DoubleDouble:
     return stack([ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx])
 
 
+def scaled(vectors: FloatArray) -> tuple[FloatArray, IntArray]:
+    """Vectors (..., k) over a power of two, so that their largest component is in [½, 1), and its exponent (...)."""
+    _, exponent = np.frexp(np.abs(vectors).max(axis=-1, keepdims=True))
+    half = exponent // 2  # in two steps, since 2**1074 overflows
+    return np.ldexp(np.ldexp(vectors, -half), half - exponent), exponent[..., 0]
+
+
 def unit(vectors: FloatArray) -> DoubleDouble:
     """Directions of non-zero double vectors (..., 3), each component with an absolute error below 2⁻¹⁰².
 
     The vectors are first scaled by a power of two (exact): any length and any component down to the subnormals counts.
     """
-    _, exponent = np.frexp(np.abs(vectors).max(axis=-1, keepdims=True))
-    # Two half steps: 2**1074 alone is not a double.
-    scaled = np.ldexp(np.ldexp(vectors, -(exponent // 2)), -(exponent - exponent // 2))
-    v = DoubleDouble(scaled)
+    v = DoubleDouble(scaled(vectors)[0])
     return v / dot(v, v).sqrt()[..., None]
 
 

@@ -34,10 +34,7 @@ INSIDE_TOLERANCE: Final = 100 * 2.0**-52
 """How far below zero barycentric coordinates may be inside by default, in `stereodel.spatial`: as in SciPy."""
 
 TRANSFORM_CONDITION: Final = 1000 * 2.0**-52
-"""Smallest reciprocal condition number of a triangle with barycentric coordinates in `stereodel.spatial`: as in SciPy.
-
-At least three digits of the coordinates are then correct.
-"""
+"""Least reciprocal condition number of a triangle with a `transform` in `stereodel.spatial`, as in SciPy: 3 digits."""
 
 UNDECIDED: Final = 2.0**-100
 """Distance of unit vectors in double-double that is indistinguishable from zero: components are off by up to 2⁻¹⁰²."""
@@ -160,10 +157,7 @@ In fits of gradients, neighbours within 1e-6 rad of a line leave the slope acros
 """
 
 QUADRATURE_CHORD: Final = 0.2
-"""Longest side of a spherical triangle over which a rule of degree five is used, as a chord: 11.5°.
-
-The area of the whole sphere, cut into such triangles, then has a relative error of 1e-8.
-"""
+"""Longest side (chord, 11.5°) of a spherical triangle for a rule of degree five: a sphere's area is good to 1e-8."""
 
 SEEN_FACE_ON: Final = 2.0**-240
 """Sine of the angle between a circle's axis and the view's below which its orthographic image is a circle."""
@@ -190,10 +184,7 @@ THIN_CELL: Final = 1e-13
 """Width of a cell, radians, below which its chords are not halved to keep its sides apart on a map: 0.6 micrometres."""
 
 BORDER_STEPS: Final = 2**14
-"""Most chords of one cell's border that are halved at once where straight lines on a map cross each other.
-
-A cell 90° long and 0.1 m wide takes 2¹² of them.
-"""
+"""Most chords of a cell's border halved at once where lines cross on a map: 90° by 0.1 m takes 2¹² of them."""
 
 FINER_WARPS: Final = (2.0**-4, 2.0**-8, 2.0**-12)
 """Fractions of the tolerance, one of which is used if the chords of a warped polygon cross: 1/16 of its width or less.
@@ -208,22 +199,13 @@ WHOLE_TURNS: Final = 2.0**-43
 """Step of longitudes, degrees, to which whole turns are added without rounding: the last place of 512 to 1024."""
 
 CHORD_CLEARANCE: Final = 0.125
-"""Largest deviation of a chord of a cell's border, relative to its distance from the two sites on its sides.
-
-Well below 1, so that every point lies in its own cell on a map.
-"""
+"""Largest deviation of a chord of a border, in distances from the sites: well below 1, so sites stay in their cells."""
 
 LARGEST_CAP: Final = 170.0
-"""Angular radius of the largest cap that a stereographic view shows, degrees.
-
-The scale at its edge is 132 times that at the centre; a view of the whole sphere would be a point in an empty disc.
-"""
+"""Angular radius of the largest cap of a stereographic view, degrees: its edge has 132 times the centre's scale."""
 
 PAGE_TOLERANCE: Final = 5e-5
-"""Largest deviation of a chord from its curve on a globe drawn by matplotlib, relative to the visible radius.
-
-A twentieth of a pixel at a radius of 1000 pixels, like `FLATNESS`.
-"""
+"""Largest deviation of a chord from its curve on a globe of matplotlib, in radii: 1/20 pixel at 1000 pixels."""
 
 FINEST_POINTS: Final = 0.02
 """Corners of filled regions in vector files that are closer along an outline, in points, become one: a printed dot."""
@@ -232,10 +214,7 @@ FINEST_PLACE: Final = 1e-3
 """Step of the coordinates in vector files, points: 0.35 micrometres. A shorter line is not drawn."""
 
 FINEST_OUTLINE: Final = 5e-4
-"""Largest deviation of a letter's quadratic outline from the cubic one of the font, relative to the type size.
-
-Half a unit of such fonts, which round their points by as much.
-"""
+"""Largest deviation of a letter's quadratic outline from the cubic one, in type sizes: half a unit of such fonts."""
 
 MOST_FRAMES: Final = 100_000
 """Largest number of frames of a film: more than an hour at 25 per second. Each takes a hundred bytes meanwhile."""
@@ -268,10 +247,7 @@ Above it rounding rotates the circle between them by less than 1e-6 rad.
 """
 
 CHART_TOLERANCE: Final = 1e-4
-"""Default tolerance of charts, the largest deviation from the exact image, in page units: radii of the disc.
-
-A tenth of a pixel at a radius of 1000 pixels; pages of globes give it in points instead.
-"""
+"""Default largest deviation of charts from the exact image, in radii of the disc: 1/10 pixel at 1000 pixels."""
 
 REACH_MARGIN: Final = 1e-6
 """Fraction of its radius by which a view is enlarged to find what cannot become visible, whatever rounding does."""

@@ -16,14 +16,13 @@ from stereodel import _kernel
 from stereodel._arrays import AnyIndices, BoolArray, FloatArray, IntArray, locked
 from stereodel._docs import shared
 from stereodel._spaces import PLANE
+from stereodel.sphere.coordinates import LONLAT
 from stereodel.sphere.latitudes import Latitude
-from stereodel.sphere.lonlat import LONLAT
 from stereodel.sphere.vectors import units
 from stereodel.triangulation.delaunay import (
     Triangulation,
     as_triangulation,
-    closing_triangles,
-    flat_order,
+    state_of,
     threads_of,
 )
 from stereodel.triangulation.topology import as_edges
@@ -335,7 +334,7 @@ def _proximity_edges(
     if triangulation.dimension == 2:
         mesh = points, triangulation.simplices, triangulation.neighbors
         return space.proximity(*mesh, kind, threads, True)
-    order = flat_order(triangulation)
+    order = state_of(triangulation).flat_order
     if triangulation.surface is PLANE or len(order) < 3:
         return as_edges(order[:-1], order[1:])
     steps = _short_steps(points, order)
@@ -374,7 +373,7 @@ def _has_empty_lune(points: FloatArray, circle: AnyIndices, step: AnyIndices) ->
 
 def _corners(triangulation: Triangulation) -> AnyIndices:
     """The hull of points with triangles."""
-    if (closing := closing_triangles(triangulation)) is not None:
+    if (closing := state_of(triangulation).closing) is not None:
         # The points lie in an open hemisphere exactly if the hull of the vectors' tips has a facet with the centre
         # strictly on its outer side.
         a, b, c = triangulation.points[triangulation.simplices[closing].T]
@@ -392,7 +391,7 @@ def _corners(triangulation: Triangulation) -> AnyIndices:
 
 def _ends(triangulation: Triangulation) -> AnyIndices:
     """The hull of points of one line or great circle."""
-    order, points = flat_order(triangulation), triangulation.points
+    order, points = state_of(triangulation).flat_order, triangulation.points
     if len(order) < 2:
         return order
     if triangulation.surface is PLANE:

@@ -32,16 +32,11 @@ def norm(a):
     return mpmath.sqrt(dot(a, a))
 
 
-def normalized(v):
-    length = norm(v)
-    return [x / length for x in v]
-
-
 def unit(a):
-    """Of length one; doubles, fractions and integers are taken as they stand."""
-    return normalized(
-        [mpmath.mpf(x.numerator) / x.denominator if hasattr(x, "numerator") else mpmath.mpf(x) for x in a]
-    )
+    """Of length one; doubles, fractions, integers and many digits are taken as they stand."""
+    a = [mpmath.mpf(x.numerator) / x.denominator if hasattr(x, "numerator") else mpmath.mpf(x) for x in a]
+    length = norm(a)
+    return [x / length for x in a]
 
 
 def normal_of(a, b, c):
@@ -63,6 +58,18 @@ def angle(a, b):
     """Between vectors in many digits, in radians."""
     across = cross(a, b)
     return mpmath.atan2(mpmath.sqrt(dot(across, across)), dot(a, b))
+
+
+def turn(a, b, about):
+    """From one direction to another, counterclockwise about an axis, in [0, 2π)."""
+    a, b = unit(a), unit(b)
+    found = mpmath.atan2(dot(about, cross(a, b)), dot(a, b))
+    return found if found >= 0 else found + 2 * mpmath.pi
+
+
+def volume(a, b, c, d):
+    """The determinant of the differences from the first, in whatever numbers they are."""
+    return dot(minus(b, a), cross(minus(c, a), minus(d, a)))
 
 
 def direction(lon, lat):

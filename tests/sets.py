@@ -20,8 +20,8 @@ Traits, each checked by tests/test_sets.py:
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
-from functools import cache
+from dataclasses import dataclass, replace
+from functools import cache, partial
 from itertools import product
 
 import numpy as np
@@ -175,6 +175,15 @@ def integer_directions(rng, n):
     return rng.permutation(cube[cube.any(axis=1)])
 
 
+def spread(rng, n, width, decades, per):
+    """Rows, or components, of sizes between ten to the power of some decades and one over it."""
+    return rng.normal(size=(n, width)) * 10.0 ** rng.uniform(-decades, decades, (n, per))
+
+
+def falling(rng, n, width, decades):
+    return rng.normal(size=(n, width)) * 10.0 ** -(np.arange(n) % decades)[:, None]
+
+
 def lengths(rng, n):
     big = np.ldexp(directions(rng, 4 * n // 5), rng.integers(-1000, 1000, (4 * n // 5, 1)))
     return np.concatenate([big, np.ldexp(big[: n // 5], 1)])
@@ -208,22 +217,15 @@ TILT = np.array([[1, 2, 2], [2, 1, -2], [2, -2, 1]])
 
 
 def _add(columns, name, traits, make, **more):
-    space = "plane" if columns == XY else "sphere"
-    if not callable(make):
-        rows, kind = make, len(make) <= 30 and "few"
-        traits, make = f"{traits} {kind or ''}", lambda *_: rows
+    if callable(make):
+        one = PointSet(name, frozenset(traits.split()) | {"grows"}, make, columns, **more)
     else:
-        traits += " grows"
-    ALL[space, name] = PointSet(name, frozenset([space, *traits.split()]), make, columns, **more)
+        few = {"few"} if len(make) <= 30 else set()
+        one = PointSet(name, frozenset(traits.split()) | few, lambda *_: make, columns, **more)
+    ALL[one.space, name] = replace(one, traits=one.traits | {one.space})
 
 
-def _plane(name, traits, make, **more):
-    _add(XY, name, traits, make, **more)
-
-
-def _sphere(name, traits, make, columns=XYZ, **more):
-    _add(columns, name, traits, make, **more)
-
+_plane, _sphere = partial(_add, XY), partial(_add, XYZ)
 
 _plane("none", "flat", [], triangles=0)
 _plane("one", "flat", [[1, 2]], triangles=0)
@@ -247,19 +249,13 @@ _plane("line and one", "cluster needle", lambda rng, n: np.concatenate([line(rng
 _plane("rounded circle", "", on_circle)
 _plane("copied", "duplicates", lambda rng, n: copied(rng.random((n, 2)), rng))
 _plane("clusters", "cluster needle random", plane_clusters)
-_plane(
-    "all sizes", "cluster needle sizes", lambda rng, n: rng.normal(size=(n, 2)) * 10.0 ** rng.uniform(-60, 60, (n, 1))
-)
+_plane("all sizes", "cluster needle sizes", lambda rng, n: spread(rng, n, 2, 60, 1))
 _plane("tiny", "random sizes", lambda rng, n: 1e-120 * rng.normal(size=(n, 2)))
 _plane("huge", "random sizes", lambda rng, n: 1e150 * rng.normal(size=(n, 2)))
 _plane("thin strip", "needle random", lambda rng, n: rng.random((n, 2)) * [1, 1e-4])
 _plane("needles", "needle random", lambda rng, n: np.column_stack([np.arange(float(n)), 1e-13 * rng.normal(size=n)]))
 _plane("parabola", "ties", lambda _, n: np.column_stack([np.arange(n) - n // 2, (np.arange(n) - n // 2) ** 2]))
-_plane(
-    "mixed scales",
-    "cluster needle sizes",
-    lambda rng, n: rng.normal(size=(n, 2)) * 10.0 ** -(np.arange(n) % 300)[:, None],
-)
+_plane("mixed scales", "cluster needle sizes", lambda rng, n: falling(rng, n, 2, 300))
 _plane("subnormal", "ties duplicates sizes", lambda rng, n: rng.integers(-5, 6, (n, 2)) * 5e-324, size=60)
 _plane("largest", "ties duplicates sizes", lambda rng, n: rng.integers(-5, 6, (n, 2)) * 3e307, size=60)
 # Of which the hull's edges alone tell what lies outside.
@@ -289,11 +285,7 @@ _sphere("rim and poles", "", [*RIM, AXES[2], AXES[5]], triangles=10)
 _sphere("tilted rim and pole", "ties hemisphere", np.array([*RIM, AXES[2]]) @ TILT, triangles=8)
 _sphere("small bowl", "ties hemisphere", [[i, j, 2] for i in range(-2, 3) for j in range(-1, 2)], triangles=26)
 _sphere("closed hemisphere", "ties hemisphere", [*AXES[[0, 1, 3, 4]], [1, 1, 3], [1, 2, 0]], triangles=8)
-_sphere(
-    "cluster",
-    "ties cluster needle hemisphere",
-    [*([1e-12 * i, 1e-12 * j, 1] for i, j in grid(3, 3)), [1, 0, 0], [0, 0, -1]],
-)
+_sphere("cluster", "ties cluster needle hemisphere", [*np.insert(1e-12 * grid(3, 3), 2, 1, axis=1), *AXES[[0, 5]]])
 _sphere(
     "beside an axis",
     "ties cluster needle sizes hemisphere",
@@ -307,11 +299,7 @@ _sphere("bowl", "ties hemisphere", lambda rng, n: np.insert(lattice(rng, n) - n*
 _sphere("clusters", "cluster needle random", sphere_clusters)
 _sphere("opposites", "random", lambda rng, n: opposite(rng, n // 2))
 _sphere("mirrored", "ties", lambda rng, n: np.concatenate([CUBE * v for v in directions(rng, n // 8)]))
-_sphere(
-    "mixed scales",
-    "cluster",
-    lambda rng, n: AXES[0] + rng.normal(size=(n, 3)) * 10.0 ** -(np.arange(n) % 18)[:, None],
-)
+_sphere("mixed scales", "cluster", lambda rng, n: AXES[0] + falling(rng, n, 3, 18))
 _sphere(
     "ends of an axis",
     "cluster needle",
@@ -323,15 +311,10 @@ _sphere("copied", "duplicates", lambda rng, n: copied(directions(rng, n), rng))
 _sphere("whole numbers", "duplicates", integer_directions)
 _sphere("faces of a cube", "", lambda _, n: cube_grid(max(1, round((n / 24) ** 0.5))))
 _sphere("lengths", "duplicates sizes", lengths)
-_sphere(
-    "components",
-    "cluster needle sizes",
-    lambda rng, n: rng.normal(size=(n, 3)) * 10.0 ** rng.uniform(-300, 300, (n, 3)),
-    size=40,
-)
-_sphere("graticule", "duplicates", graticule, LONLAT)
-_sphere("pairs on meridians", "ties", pairs_on_meridians, LONLAT)
-_sphere("airports", "", airports, LONLAT)
+_sphere("components", "cluster needle sizes", lambda rng, n: spread(rng, n, 3, 300, 3), size=40)
+_add(LONLAT, "graticule", "duplicates", graticule)
+_add(LONLAT, "pairs on meridians", "ties", pairs_on_meridians)
+_add(LONLAT, "airports", "", airports)
 _sphere("great circle", "flat hemisphere", great_circle, triangles=0)
 _sphere("circle and a pole", "ties hemisphere", lambda rng, n: [*great_circle(rng, n), AXES[2]])
 _sphere("circle and poles", "", lambda rng, n: [*great_circle(rng, n), AXES[2], AXES[5]])

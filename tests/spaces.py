@@ -20,6 +20,7 @@ from stereodel import HullInsertion, PlanarDelaunay, PlanarVoronoi, SphericalDel
 from stereodel import _kernel_probe as probe
 from stereodel.predicates import orient2d
 from stereodel.triangulation import check_delaunay
+from stereodel.triangulation.sites import PlaneSites, RaySites
 from tests.reference import ray, sign_of_roots
 
 
@@ -62,9 +63,8 @@ class Space:
 
     def on_grid(self, xy):
         """Points of the plane, or directions that have them as gnomonic images."""
-        return (
-            np.asarray(xy, dtype=float) if self.width == 2 else np.insert(np.asarray(xy, dtype=float), 2, 4.0, axis=1)
-        )
+        points = np.asarray(xy, dtype=float)
+        return points if self.width == 2 else np.insert(points, 2, 4.0, axis=1)
 
     def triangulated(self, points, **options):
         """By the public class, and proved."""
@@ -140,8 +140,15 @@ def rows(simplices, names=None):
     return canonical(simplices.reshape(-1, 3)).tolist()
 
 
+def asked(points):
+    """Sites of the readable engine."""
+    sites = PlaneSites() if points.shape[1] == 2 else RaySites()
+    sites.extend(points)
+    return sites
+
+
 def readable(points):
     """The paper's insertion, run to its end: the reference of the kernel."""
-    engine = HullInsertion(np.ascontiguousarray(points, dtype=float), spatial=True)
+    engine = HullInsertion(np.ascontiguousarray(points, dtype=float))
     engine.run()
     return engine

@@ -127,13 +127,9 @@ def test_an_index_shows_pictures_and_links_of_the_readme(tmp_path):
 
 
 @pytest.mark.thorough
-def test_without_an_address_the_readme_is_that_of_the_repository(tmp_path):
-    assert long_description(tmp_path).strip() == (ROOT / "README.md").read_text(encoding="utf-8").strip()
-
-
-@pytest.mark.thorough
-def test_a_build_for_publication_without_an_address_fails(tmp_path):
-    assert "pyproject.toml has no Source in project.urls" in long_description(tmp_path, publication="1")
+def test_without_an_address_the_readme_is_that_of_the_repository_and_nothing_is_published(tmp_path):
+    assert long_description(tmp_path / "a").strip() == (ROOT / "README.md").read_text(encoding="utf-8").strip()
+    assert "pyproject.toml has no Source in project.urls" in long_description(tmp_path / "b", publication="1")
 
 
 @pytest.mark.parametrize("text", ["`[a](b.md)`", "```\n[a](b.md)\n```", "[a](https://b.invalid)", "[a](#b)"])

@@ -11,6 +11,7 @@ import subprocess
 import sys
 import tomllib
 import venv
+from contextlib import suppress
 from importlib.metadata import PackageNotFoundError, distribution
 from pathlib import Path
 
@@ -21,6 +22,7 @@ from packaging.utils import canonicalize_name
 import stereodel
 from stereodel import _extras
 from stereodel._extras import EXTRAS, MissingExtraError, installing, libraries, of_extra
+from tests.tiers import by_day
 
 ROOT = Path(__file__).resolve().parent.parent
 PACKAGE = Path(stereodel.__file__).parent
@@ -102,25 +104,21 @@ ROOMS = {
 }
 """Packages that cannot be imported without an extra; all others can."""
 
-LAZY = dict.fromkeys(("stereodel.render.", "stereodel.render.vector.", "stereodel.render.space."), "draw")
-"""Packages some of whose modules cannot."""
+LAZY = "stereodel.render."
+"""A package some of whose modules cannot."""
 
 
 def needed(names):
     """The distributions of these names and all that they need here."""
-    found = {}
-    queue = list(names)
+    found = {name: distribution(name) for name in map(canonicalize_name, names)}
+    queue = list(found.values())
     while queue:
-        name = canonicalize_name(queue.pop())
-        if name in found:
-            continue
-        try:
-            found[name] = distribution(name)
-        except PackageNotFoundError:
-            assert name not in map(canonicalize_name, names)
-            continue
-        requirements = map(Requirement, found[name].requires or [])
-        queue += [r.name for r in requirements if r.marker is None or r.marker.evaluate({"extra": ""})]
+        for needs in map(Requirement, queue.pop().requires or []):
+            name = canonicalize_name(needs.name)
+            if name not in found and (needs.marker is None or needs.marker.evaluate({"extra": ""})):
+                with suppress(PackageNotFoundError):
+                    found[name] = distribution(name)
+                    queue.append(found[name])
     return found.values()
 
 
@@ -189,8 +187,8 @@ def test_every_module_is_there_or_names_its_extra(environment, tmp_path):
     answers = said(environment(), [f"import {module}" for module in modules], tmp_path)
     closed = {module: asked_for(answers[f"import {module}"]) for module in modules if answers[f"import {module}"]}
     # Modules within a room, which those that are open import on use.
-    within = {module: closed.pop(module) for module in sorted(closed) if module.startswith(tuple(LAZY))}
-    assert all(extra == LAZY[f"{module.rpartition('.')[0]}."] for module, extra in within.items())
+    within = {module: closed.pop(module) for module in sorted(closed) if module.startswith(LAZY)}
+    assert set(within.values()) == {"draw"}
     assert not within.keys() & {"stereodel.render.gl", "stereodel.io.reading"}
     rooms = {
         module: extra for module in modules for room, extra in ROOMS.items() if f"{module}.".startswith(f"{room}.")
@@ -207,12 +205,7 @@ def test_every_extra_opens_a_door():
     assert {extra for asked in DOORS.values() for extra in asked} == set(EXTRAS)
 
 
-FIRST = sorted({asked[0] for asked in DOORS.values()})
-
-
-@pytest.mark.parametrize(
-    "extra", ["scipy", *(pytest.param(extra, marks=pytest.mark.thorough) for extra in FIRST if extra != "scipy")]
-)
+@pytest.mark.parametrize("extra", by_day(sorted({asked[0] for asked in DOORS.values()}), "draw", "scipy"))
 def test_an_extra_brings_enough(environment, tmp_path, extra):
     """Who does what a message says gets on, with what that extra brings and nothing else."""
     (tmp_path / "file.jpg").symlink_to(PACKAGE / "data" / "blue_marble.jpg")
@@ -273,11 +266,8 @@ def test_the_command_on_the_least(environment, tmp_path):
     (tmp_path / "cities.csv").write_text(
         "name,lon,lat,v\nQuito,-78.5,-0.2,1\nUlm,10,48.4,2\nKyoto,135.8,35,3\nPerth,115.9,-32,4\n"
     )
-    for line, output in (
-        ("--help", "doctor"),
-        ("--version", stereodel.__version__),
-        ("voronoi cities.csv -o -", "Ulm"),
-    ):
+    lines = {"--help": "doctor", "--version": stereodel.__version__, "voronoi cities.csv -o -": "Ulm"}
+    for line, output in lines.items():
         code, found, error = command(python, line, tmp_path)
         assert code == 0, error
         assert output in found

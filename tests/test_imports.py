@@ -24,7 +24,6 @@ MAY_IMPORT = {
     "constants": set(),
     "earth": set(),
     "_docs": set(),
-    "_files": set(),
     "_extras": set(),
     "_kernel": set(),
     "_spaces": {"_arrays", "_kernel", "sphere"},
@@ -32,7 +31,7 @@ MAY_IMPORT = {
     "_numbers": BASE,
     "_double_double": BASE,
     "_threads": BASE,
-    "_tasks": {"_extras", "_files", "_threads"},
+    "_tasks": {"_extras", "_threads"},
     "data": BASE,
     "sphere": KERNEL,
     "projections": BASE | {"sphere"},
@@ -40,26 +39,24 @@ MAY_IMPORT = {
     "curves": BASE | {"sphere", "conformal"},
     "predicates": KERNEL,
     "triangulation": KERNEL | {"sphere", "projections", "predicates"},
-    "interpolation": KERNEL | {"_files", "curves", "sphere", "triangulation"},
+    "interpolation": KERNEL | {"_tasks", "curves", "sphere", "triangulation"},
     "xarray": BASE | {"interpolation", "sphere", "triangulation"},
     "spatial": BASE | {"triangulation"},
     "graphs": KERNEL | {"sphere", "triangulation"},
     "relaxation": KERNEL | {"curves", "sphere", "triangulation"},
-    "io": BASE
-    | {"_files", "_spaces", "_tasks", "conformal", "curves", "data", "interpolation", "sphere", "triangulation"},
-    "partitioned": KERNEL
-    | {"__init__", "_files", "curves", "interpolation", "io", "sphere", "_tasks", "triangulation"},
+    "io": BASE | {"_spaces", "_tasks", "conformal", "curves", "data", "interpolation", "sphere", "triangulation"},
+    "partitioned": KERNEL | {"__init__", "curves", "interpolation", "io", "sphere", "_tasks", "triangulation"},
     "__init__": MATHEMATICS,
     "_doctor": {"__init__", "_extras", "_tasks", "render"},
     "__main__": {"__init__", "_doctor", "_extras", "_tasks", "cli"},
     "drawing": MATHEMATICS | {"_spaces", "curves"},
-    "render": MATHEMATICS | {"_files", "curves", "drawing"},
+    "render": MATHEMATICS | {"_tasks", "curves", "drawing"},
     "mpl": MATHEMATICS | {"curves", "data", "drawing", "io"},
-    "globe": MATHEMATICS | {"_files", "_kernel", "curves", "data", "drawing", "io"},
-    "web": BASE | {"_files", "curves", "data", "sphere", "triangulation"},
-    "film": MATHEMATICS | {"_files", "_kernel", "_tasks", "curves", "drawing", "globe", "render"},
+    "globe": MATHEMATICS | {"_tasks", "_kernel", "curves", "data", "drawing", "io"},
+    "web": BASE | {"_tasks", "curves", "data", "sphere", "triangulation"},
+    "film": MATHEMATICS | {"_kernel", "_tasks", "curves", "drawing", "globe", "render"},
     "cli": MATHEMATICS
-    | {"__init__", "_files", "curves", "data", "drawing", "earth", "film", "globe", "interpolation", "io"}
+    | {"__init__", "curves", "data", "drawing", "earth", "film", "globe", "interpolation", "io"}
     | {"_doctor", "_tasks", "partitioned", "web"},
 }
 # Whatever the table above says some day: data know nothing of pictures, and drawing is without OpenGL.
@@ -94,16 +91,16 @@ def parsed(path):
     return ast.parse(path.read_text(encoding="utf-8"))
 
 
-def imported(path, tree=None):
+def imported(path, known=None):
     """Dotted names in every import statement, wherever it stands; `from a import b` is a.b where that is a module."""
-    for node in ast.walk(tree or parsed(path)):
+    for node in ast.walk(parsed(path)):
         if isinstance(node, ast.Import):
             yield from (alias.name for alias in node.names)
         elif isinstance(node, ast.ImportFrom):
             assert node.level == 0, f"{path}:{node.lineno} imports relatively; write the whole name"
             for alias in node.names:
                 inner = f"{node.module}.{alias.name}"
-                yield inner if inner in MODULES else node.module
+                yield inner if inner in (known or MODULES) else node.module
 
 
 @cache
@@ -120,28 +117,14 @@ def part(name):
 EDGES = [(source, target) for source in MODULES for target in own_imports(source)]
 
 
-def wrong_arrows(edges):
-    """Imports against the order of the packages."""
-    rooms = [(source, target) for source, target in edges if part(target) != part(source)]
-    return [(source, target) for source, target in rooms if part(target) not in MAY_IMPORT[part(source)]]
-
-
-def needless(allowed, edges):
-    """Arrows that the table allows and no module needs; but for the ground floors, which rooms may use as one."""
-    used = {(part(source), part(target)) for source, target in edges}
-    return {(room, target) for room, targets in allowed.items() for target in targets - MATHEMATICS - KERNEL} - used
-
-
-def forbidden(edges):
-    """Imports that no table may allow."""
-    return [(source, target) for source, target in edges if (part(source), part(target)) in NEVER]
-
-
 def test_arrows_go_down_and_each_is_needed():
+    """The ground floors may be used as one, needed or not."""
+    used = {(part(source), part(target)): (source, target) for source, target in EDGES if part(source) != part(target)}
+    allowed = {(room, target) for room, targets in MAY_IMPORT.items() for target in targets}
     assert {part(name) for name in MODULES} <= set(MAY_IMPORT)
-    assert wrong_arrows(EDGES) == []
-    assert needless(MAY_IMPORT, EDGES) == set()
-    assert forbidden(EDGES) == []
+    assert [used[pair] for pair in used.keys() - allowed] == []
+    assert {(room, target) for room, target in allowed - used.keys() if target not in MATHEMATICS | KERNEL} == set()
+    assert [used[pair] for pair in used.keys() & NEVER] == []
 
 
 def test_drawing_asks_matplotlib_for_type_and_names_of_colours_alone():
@@ -154,13 +137,6 @@ def test_drawing_asks_matplotlib_for_type_and_names_of_colours_alone():
     }
     assert {name for name, library in foreign if library == "matplotlib"} <= MATPLOTLIB_IN_DRAWING
     assert not {library for _, library in foreign} & {"OpenGL", "pyrender", "trimesh", "imageio"}
-
-
-def imported_at_head(path):
-    tree = parsed(path)
-    return set(
-        imported(path, ast.Module([node for node in tree.body if isinstance(node, ast.Import | ast.ImportFrom)], []))
-    )
 
 
 def test_pages_and_scenes_are_drawn_by_what_enters_itself_in_their_table_on_use():
@@ -202,17 +178,12 @@ def test_no_cycles():
 @pytest.mark.parametrize("folder", ["benchmarks", "tools"])
 def test_no_cycles_beside_the_package(folder):
     """Imports count wherever they stand, in functions too; tools import one another with and without the folder."""
-    paths = {path.stem: path for path in (ROOT / folder).glob("*.py")}
-    edges = {name: set() for name in paths}
-    for name, path in paths.items():
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-            if isinstance(node, ast.ImportFrom) and node.module == folder:
-                edges[name] |= {alias.name for alias in node.names}
-            elif isinstance(node, ast.ImportFrom):
-                edges[name].add(str(node.module).removeprefix(f"{folder}."))
-            elif isinstance(node, ast.Import):
-                edges[name] |= {alias.name.removeprefix(f"{folder}.") for alias in node.names}
-    assert circle({name: targets & set(paths) for name, targets in edges.items()}) == ""
+    paths = {f"{folder}.{path.stem}": path for path in (ROOT / folder).glob("*.py")}
+    names = {
+        name: {f"{folder}.{target.removeprefix(f'{folder}.')}" for target in imported(path, paths)}
+        for name, path in paths.items()
+    }
+    assert circle({name: targets & set(paths) for name, targets in names.items()}) == ""
 
 
 def test_opengl_has_one_door():
@@ -220,25 +191,6 @@ def test_opengl_has_one_door():
         name for name, path in MODULES.items() if {t.split(".")[0] for t in imported(path)} & {"OpenGL", "pyrender"}
     }
     assert doors == {"stereodel.render.gl"}
-
-
-def test_what_only_pixels_need_is_imported_on_use():
-    """So that SVG and PDF can be written where nothing but matplotlib is installed."""
-    lazy = {"imageio", "OpenGL", "pyrender", "trimesh"}
-    roots = {name: {target.split(".")[0] for target in imported_at_head(path)} for name, path in MODULES.items()}
-    assert [name for name, found in roots.items() if found & lazy] == []
-    code = f"""
-import sys, tempfile
-sys.modules.update(dict.fromkeys({sorted(lazy)}))
-from pathlib import Path
-from stereodel.drawing import Label, Page
-from stereodel.render import Figure
-figure = Figure("ground", dict, lambda geometry: Page((0, 2, 0, 1), (Label("$x$", (1, 0.5)),)), renderer="agg")
-with tempfile.TemporaryDirectory() as folder:
-    print(*figure.save(folder, size=50)["files"])
-"""
-    ran = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
-    assert ran.stdout == "ground.png ground.svg ground.pdf\n", ran.stderr
 
 
 def test_figures_draw_through_the_library():
@@ -291,14 +243,11 @@ def kernel_includes():
             yield path.relative_to(kernel).as_posix(), header
 
 
-def floor(file):
-    return KERNEL_FLOORS.index(file.rpartition("/")[0])
-
-
 def test_the_kernel_includes_go_down():
     pairs = list(kernel_includes())
     assert len(pairs) > 200
-    assert [f"{file} includes {header}" for file, header in pairs if floor(header) > floor(file)] == []
+    floors = [(KERNEL_FLOORS.index(file.rpartition("/")[0]) for file in pair) for pair in pairs]
+    assert [pair for pair, (file, header) in zip(pairs, floors, strict=True) if header > file] == []
 
 
 def test_the_doors_of_the_kernel_are_apart():

@@ -4,6 +4,7 @@ import pytest
 
 
 def by_day(cases, *some):
-    """Cases as parameters: those of some run by day, all others are thorough."""
-    assert set(some) <= set(cases)
-    return [case if case in some else pytest.param(case, marks=pytest.mark.thorough) for case in cases]
+    """Cases as parameters, tuples as several: those of some run by day, all others are thorough."""
+    assert all(case in cases for case in some)
+    rows = ((case, case if isinstance(case, tuple) else (case,)) for case in cases)
+    return [pytest.param(*row, marks=() if case in some else pytest.mark.thorough) for case, row in rows]

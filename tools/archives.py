@@ -28,11 +28,6 @@ def archive_problems(names: set[str], tracked: set[str]) -> list[str]:
     return missing + [f"not tracked: {name}" for name in sorted(names - wanted - {"PKG-INFO"})]
 
 
-def licence_files() -> list[str]:
-    """Licences and notices, which every copy must carry."""
-    return list(tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["license-files"])
-
-
 def wheel_problems(names: set[str], tracked: set[str]) -> list[str]:
     """What the wheel lacks, and what does not belong there."""
     wanted = {name for name in tracked if name.startswith("stereodel/") and not name.startswith(NOT_IN_WHEEL)}
@@ -41,7 +36,8 @@ def wheel_problems(names: set[str], tracked: set[str]) -> list[str]:
     found = [f"not in the wheel: {name}" for name in sorted(wanted - names)]
     found += [f"not in the package: {name}" for name in sorted(package - wanted - kernels)]
     carried = {name.partition(".dist-info/licenses/")[2] for name in names}
-    found += [f"no licence in the wheel: {name}" for name in licence_files() if name not in carried]
+    licences = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["license-files"]
+    found += [f"no licence in the wheel: {name}" for name in licences if name not in carried]
     return found if len(kernels) == 1 else [*found, f"one compiled kernel wanted, not {sorted(kernels)}"]
 
 

@@ -10,7 +10,7 @@ T1. The SHA-256 of the pixels of the picture without text, in `pixels.json`.
 T2. The pixels themselves, in NAME.png at 640 pixels: a few may differ, in the whole picture and in each part of it,
     because another processor may round another way.
 T3. The text, label by label, in `labels.json`: its pixels where the libraries that set it are those of the stored one
-    (`ink_hashes`), elsewhere its place (`ink_boxes`), which may differ by a pixel.
+    (`Case.ink_hashes`), elsewhere its place (`Case.ink`), which may differ by a pixel.
 
 What each of them lets pass stands here and not among the tolerances of the library, which know nothing of its tests.
 """
@@ -36,9 +36,9 @@ import numpy as np
 import numpy.typing as npt
 from matplotlib import ft2font
 
-from stereodel._arrays import BoolArray, FloatArray, Pixels
+from stereodel._arrays import FloatArray, Pixels
 from stereodel._extras import installed_version
-from stereodel._files import replacing
+from stereodel._tasks.whole_files import replacing
 from stereodel.drawing.page import Label, Page
 from stereodel.film import Film
 from stereodel.render.figure import Figure
@@ -90,9 +90,6 @@ SAMPLES: Final = 1000
 PACKING: Final = [{"id": lzma.FILTER_LZMA2, "preset": 9, "lc": 0, "lp": 3, "pb": 3}]
 """Of stored arrays, for numbers of eight bytes: 3 % smaller than what is usual."""
 
-MISSING: Final = "missing"
-"""The difference of a name that only one side has."""
-
 SIZE: Final = 640
 """Width of the stored pictures in pixels."""
 
@@ -108,40 +105,29 @@ FRAMES: Final = ("first", "middle", "last")
 
 @dataclass(frozen=True)
 class Comparison:
-    """The shares of pixels that differ visibly, by more than `PIXEL_LEVELS`, and at all; the part that differs most."""
+    """How pixels differ: visibly, by more than `PIXEL_LEVELS`, and at all; shares, and counts in the worst tile.
+
+    column, row: the left upper pixel of that tile.
+    """
 
     visible: float
     any: float
-    worst: Tile
+    column: int
+    row: int
+    tile_visible: int
+    tile_any: int
 
     @property
     def passes(self) -> bool:
         """Whether the difference is no more than rounding, in the whole picture and in each part of it."""
-        return self.visible <= PIXEL_SHARE_VISIBLE and self.any <= PIXEL_SHARE_ANY and self.worst.excess <= 1
+        whole = self.visible <= PIXEL_SHARE_VISIBLE and self.any <= PIXEL_SHARE_ANY
+        return whole and self.tile_visible <= TILE_VISIBLE and self.tile_any <= TILE_ANY
 
     def __str__(self) -> str:
         shares = f"{self.visible:.4%} of the pixels differ by more than {PIXEL_LEVELS} levels, {self.any:.4%} at all"
-        return f"{shares}; {self.worst}"
-
-
-@dataclass(frozen=True)
-class Tile:
-    """How many pixels differ in a part of a picture whose left upper pixel is in `column` and `row`."""
-
-    column: int
-    row: int
-    visible: int
-    any: int
-
-    @property
-    def excess(self) -> float:
-        """The larger of the counts, each in terms of what may be."""
-        return max(self.visible / TILE_VISIBLE, self.any / TILE_ANY)
-
-    def __str__(self) -> str:
-        across = f"columns {self.column} to {self.column + PIXEL_TILE - 1}"
-        down = f"rows {self.row} to {self.row + PIXEL_TILE - 1}"
-        return f"most of them in {across}, {down}: {self.visible} and {self.any}"
+        end = PIXEL_TILE - 1
+        tile = f"columns {self.column} to {self.column + end}, rows {self.row} to {self.row + end}"
+        return f"{shares}; most of them in {tile}: {self.tile_visible} and {self.tile_any}"
 
 
 def compare(expected: Pixels, actual: Pixels) -> Comparison:
@@ -153,36 +139,20 @@ def compare(expected: Pixels, actual: Pixels) -> Comparison:
     >>> dotted = white.copy()
     >>> dotted[0, 0] = 0
     >>> compare(white, dotted)
-    Comparison(visible=0.01, any=0.01, worst=Tile(column=0, row=0, visible=1, any=1))
+    Comparison(visible=0.01, any=0.01, column=0, row=0, tile_visible=1, tile_any=1)
     """
     if expected.shape != actual.shape:
-        return Comparison(1.0, 1.0, Tile(0, 0, PIXEL_TILE**2, PIXEL_TILE**2))
+        return Comparison(1.0, 1.0, 0, 0, PIXEL_TILE**2, PIXEL_TILE**2)
     levels = levels_apart(expected, actual)
-    visible, different = levels > PIXEL_LEVELS, levels > 0
-    return Comparison(float(np.mean(visible)), float(np.mean(different)), _worst_tile(visible, different))
-
-
-def ink_boxes(page: Page) -> FloatArray:
-    """Where the ink of each label lies, halos too: left, bottom, right and top in points from the lower left, (n, 4).
-
-    As far as it is at least half as strong as where it is strongest; NaN where a label leaves no ink.
-    """
-    width_px = max(1, round(INK_PER_POINT * page.width))
-    boxes = np.full((len(page.labels), 4), np.nan)
-    for box, label in zip(boxes, page.labels, strict=True):
-        layer = LabelLayer(replace(page, items=(label,)), width_px)
-        top, bottom = layer.span
-        opacity = layer.rows(top, bottom)[..., 3] if top < bottom else np.zeros((0, 0), dtype=np.uint8)
-        if opacity.any():
-            rows, columns = np.nonzero(opacity >= opacity.max() / 2)
-            low, high = layer.height - top - rows.max() - 1, layer.height - top - rows.min()
-            box[:] = np.array([columns.min(), low, columns.max() + 1, high]) * (page.width / width_px)
-    return boxes
-
-
-def ink_hashes(page: Page, width_px: int) -> list[str]:
-    """SHA-256 of the picture of each label alone, on a page `width_px` pixels wide."""
-    return [pixel_hash(LabelLayer(replace(page, items=(label,)), width_px).rows()) for label in page.labels]
+    different = np.stack([levels > PIXEL_LEVELS, levels > 0])
+    padded = np.pad(different, ((0, 0), (0, PIXEL_TILE - 1), (0, PIXEL_TILE - 1)))
+    tiles = np.lib.stride_tricks.sliding_window_view(padded, (PIXEL_TILE, PIXEL_TILE), axis=(1, 2))
+    half = PIXEL_TILE // 2
+    counts = tiles[:, ::half, ::half].sum(axis=(3, 4))
+    excess = np.maximum(counts[0] / TILE_VISIBLE, counts[1] / TILE_ANY)
+    row, column = (int(at) for at in np.unravel_index(np.argmax(excess), excess.shape))
+    shares, worst = different.mean(axis=(1, 2)).tolist(), counts[:, row, column].tolist()
+    return Comparison(*shares, half * column, half * row, *worst)
 
 
 def set_with() -> str:
@@ -204,7 +174,7 @@ def array_differences(expected: Arrays, actual: Arrays, *, tolerance: float = GO
     found = {}
     for name in sorted({*expected, *actual}):
         if name not in actual:
-            found[name] = MISSING
+            found[name] = "missing"
         elif name not in expected:
             found[name] = "not expected"
         elif wrong := _array_difference(expected[name], actual[name], tolerance):
@@ -247,9 +217,6 @@ def save_arrays(arrays: Arrays, path: str | os.PathLike[str]) -> Path:
     `numpy.savez_compressed` takes, which packs each by itself.
     """
     target = Path(path)
-    for name, array in arrays.items():
-        if np.asarray(array).dtype.kind not in "fiubU":
-            raise TypeError(f"arrays hold numbers or text, got {np.asarray(array).dtype} as {name!r}")
     members = io.BytesIO()
     np.savez(members, **arrays)  # type: ignore[arg-type]
     with replacing(target) as temporary:
@@ -268,25 +235,6 @@ def read_picture(path: str | os.PathLike[str]) -> Pixels:
     """The pixels of a picture file, (h, w, 3)."""
     picture: Pixels = np.asarray(iio.imread(Path(path)))[..., :3]
     return picture
-
-
-def _worst_tile(visible: BoolArray, different: BoolArray) -> Tile:
-    """The tile with the largest excess, the first of several."""
-    counts = [_in_tiles(where) for where in (visible, different)]
-    excess = np.maximum(counts[0] / TILE_VISIBLE, counts[1] / TILE_ANY)
-    row, column = (int(at) for at in np.unravel_index(np.argmax(excess), excess.shape))
-    half = PIXEL_TILE // 2
-    return Tile(half * column, half * row, *(int(count[row, column]) for count in counts))
-
-
-def _in_tiles(where: BoolArray) -> npt.NDArray[np.intp]:
-    """How often it is true in each tile; tiles begin at each multiple of half their side, the last may be cut off."""
-    half = PIXEL_TILE // 2
-    height, width = where.shape
-    whole = np.pad(where, ((0, -height % half + half), (0, -width % half + half)))
-    blocks = whole.reshape(len(whole) // half, half, -1, half).sum(axis=(1, 3))
-    counts: npt.NDArray[np.intp] = blocks[:-1, :-1] + blocks[1:, :-1] + blocks[:-1, 1:] + blocks[1:, 1:]
-    return counts
 
 
 def levels_apart(expected: Pixels, actual: Pixels) -> npt.NDArray[np.int16]:
@@ -336,13 +284,28 @@ class Case:
 
     @cached_property
     def ink(self) -> FloatArray:
-        """What T3 compares: where the ink of each label lies, (n, 4)."""
-        return ink_boxes(self.page)
+        """What T3 compares: where the ink of each label lies, left, bottom, right and top in points, (n, 4).
+
+        Halos too, as far as it is at least half as strong as where it is strongest; NaN where a label leaves no ink.
+        """
+        width_px = max(1, round(INK_PER_POINT * self.page.width))
+        boxes = np.full((len(self.page.labels), 4), np.nan)
+        for box, layer in zip(boxes, self._label_layers(width_px), strict=True):
+            top, bottom = layer.span
+            opacity = layer.rows(top, bottom)[..., 3] if top < bottom else np.zeros((0, 0), dtype=np.uint8)
+            if opacity.any():
+                rows, columns = np.nonzero(opacity >= opacity.max() / 2)
+                low, high = layer.height - top - rows.max() - 1, layer.height - top - rows.min()
+                box[:] = np.array([columns.min(), low, columns.max() + 1, high]) * (self.page.width / width_px)
+        return boxes
 
     @cached_property
     def ink_hashes(self) -> list[str]:
         """What T3 compares where type is set with the same libraries: the hash of the picture of each label."""
-        return ink_hashes(self.page, SIZE)
+        return [pixel_hash(layer.rows()) for layer in self._label_layers(SIZE)]
+
+    def _label_layers(self, width_px: int) -> Iterator[LabelLayer]:
+        return (LabelLayer(replace(self.page, items=(label,)), width_px) for label in self.page.labels)
 
 
 @dataclass(frozen=True)
@@ -379,32 +342,25 @@ class Store:
             return [f"T1: {path.name} or its hash is missing; look at the picture, then run `make baselines`"]
         if pixel_hash(case.picture) == self.hashes[case.name]:
             return []
-        stored = read_picture(path)
-        if stored.shape != case.picture.shape:
-            (height, width), (rows, columns) = stored.shape[:2], case.picture.shape[:2]
-            return [f"T2: {columns} × {rows} pixels, expected {width} × {height}"]
-        found = compare(stored, case.picture)
+        found = compare(read_picture(path), case.picture)
         return [] if found.passes else [f"T2: {found}"]
 
     def set_otherwise(self, case: Case) -> list[str]:
         """T3: which labels are not what they were, a line each; empty when all are."""
         if case.name not in self.labels:
             return [f"T3: {LABELS} has no {case.name}; look at the picture, then run `make baselines`"]
-        if (count := len(self.labels[case.name]["boxes"])) != len(case.page.labels):
+        stored, exact = self.labels[case.name], self.exact_type(case)
+        if (count := len(stored["boxes"])) != len(case.page.labels):
             return [f"T3: {count} labels expected, {len(case.page.labels)} found"]
-        if self.exact_type(case) and case.ink_hashes == self.labels[case.name]["hashes"]:
-            return []
-        exact = self.exact_type(case)
-        limit = TYPE_PIXELS * case.page.width / SIZE
         numbered = [(number, item) for number, item in enumerate(case.page.items) if isinstance(item, Label)]
-        stored = zip(self.labels[case.name]["boxes"], self.labels[case.name]["hashes"], strict=True)
         found = []
-        for (number, label), (box, known), ink, hashed in zip(numbered, stored, case.ink, case.ink_hashes, strict=True):
-            wrong = _moved(np.array(box or [np.nan] * 4), ink, limit)
-            if not wrong and exact and hashed != known:
-                wrong = "looks otherwise where it was"
-            if wrong:
-                found.append(f'T3: label {number} ("{label.text}") {wrong}')
+        for k, (number, label) in enumerate(numbered):
+            if exact and case.ink_hashes[k] == stored["hashes"][k]:
+                continue
+            box = np.array(stored["boxes"][k] or [np.nan] * 4)
+            wrong = _moved(box, case.ink[k], TYPE_PIXELS * case.page.width / SIZE)
+            if wrong or exact:
+                found.append(f'T3: label {number} ("{label.text}") {wrong or "looks otherwise where it was"}')
         return found
 
     def exact_type(self, case: Case) -> bool:
@@ -432,10 +388,8 @@ class Store:
 
     def forget_others(self, names: Iterable[str]) -> list[str]:
         """Remove what belongs to none of `names`, and say what."""
-        kept = set(names)
         files = {path.name.partition(".")[0] for kind in (ARRAYS, "png") for path in self.folder.glob(f"*.{kind}")}
-        stale = sorted(files | set(self.hashes))
-        stale = [name for name in stale if name not in kept]
+        stale = sorted((files | set(self.hashes)) - set(names))
         for name in stale:
             self.hashes.pop(name, None)
             self.labels.pop(name, None)

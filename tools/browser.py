@@ -14,18 +14,15 @@ import tempfile
 import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from functools import partial
-from http import HTTPStatus
-from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
-from threading import Thread
 from typing import Any, Final
 
 import matplotlib as mpl
 import numpy as np
-import numpy.typing as npt
 from PIL import Image
 from playwright.sync_api import Browser, CDPSession, ConsoleMessage, Page, sync_playwright
+
+from stereodel._arrays import Pixels
 
 NAMES: Final = ("chromium", "chromium-browser", "google-chrome-stable", "google-chrome")
 """What the browser is called on different systems."""
@@ -60,25 +57,18 @@ FONTS: Final = """<?xml version="1.0"?><!DOCTYPE fontconfig SYSTEM "urn:fontconf
 <fontconfig><dir>{fonts}</dir><cachedir>{cache}</cachedir></fontconfig>
 """
 
-Pixels = npt.NDArray[np.uint8]
-
-
-def executable() -> Path:
-    """The browser; a FileNotFoundError where there is none."""
-    for name in NAMES:
-        if found := shutil.which(name):
-            return Path(found)
-    raise FileNotFoundError(f"there is no browser here, none of {', '.join(NAMES)}; get one with: make system")
-
 
 @contextmanager
 def chromium() -> Iterator[Browser]:
-    """A browser, which ends with the block."""
+    """A browser, which ends with the block; a FileNotFoundError where there is none."""
+    found = next(filter(None, map(shutil.which, NAMES)), None)
+    if found is None:
+        raise FileNotFoundError(f"there is no browser here, none of {', '.join(NAMES)}; get one with: make system")
     with tempfile.TemporaryDirectory() as folder, sync_playwright() as playwright:
         fonts = Path(folder, "fonts.conf")
         fonts.write_text(FONTS.format(fonts=Path(mpl.get_data_path(), "fonts", "ttf"), cache=folder))
         browser = playwright.chromium.launch(
-            executable_path=executable(),
+            executable_path=found,
             args=list(OPTIONS),
             chromium_sandbox=os.geteuid() != 0,  # the sandbox of Chromium refuses to run as root
             env={**os.environ, "FONTCONFIG_FILE": str(fonts)},
@@ -87,34 +77,6 @@ def chromium() -> Iterator[Browser]:
             yield browser
         finally:
             browser.close()
-
-
-@contextmanager
-def serving(folder: Path) -> Iterator[str]:
-    """The address, without a slash at its end, of a server on this machine that gives away the files of a folder."""
-    with ThreadingHTTPServer(("127.0.0.1", 0), partial(_Quiet, directory=folder)) as server:
-        Thread(target=server.serve_forever, kwargs={"poll_interval": 0.05}, daemon=True).start()
-        try:
-            yield f"http://127.0.0.1:{server.server_port}"
-        finally:
-            server.shutdown()
-
-
-class _Quiet(SimpleHTTPRequestHandler):
-    """Files of a folder, without a line on stderr for each; browsers ask for an icon unasked, and get none."""
-
-    extensions_map = {**SimpleHTTPRequestHandler.extensions_map, ".wasm": "application/wasm"}  # noqa: RUF012
-
-    def do_GET(self) -> None:
-        """Answer."""
-        if self.path == "/favicon.ico":
-            self.send_response(HTTPStatus.NO_CONTENT)
-            self.end_headers()
-        else:
-            super().do_GET()
-
-    def log_message(self, format: str, *arguments: Any) -> None:
-        """Say nothing."""
 
 
 class Visit:
@@ -212,11 +174,6 @@ class Visit:
         shot = self.page.locator(selector).first if selector else self.page
         with Image.open(io.BytesIO(shot.screenshot(caret="hide"))) as image:
             return np.asarray(image.convert("RGB"))
-
-    def save(self, path: Path, selector: str | None = None) -> Path:
-        """Write `picture` as a PNG file."""
-        Image.fromarray(self.picture(selector)).save(path, optimize=True)
-        return path
 
     def ink(self, selector: str) -> float:
         """The share of the pixels of an element that are not the ground, 0 to 1."""

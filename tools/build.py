@@ -14,10 +14,9 @@ import argparse
 import hashlib
 import importlib.util
 import sys
-import tempfile
 import time
 import traceback
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -63,33 +62,34 @@ def build(
     names: Iterable[str] = (),
     *,
     styles: tuple[str, ...] = (),
-    jobs: int | None = None,
-    force: bool = False,
 ) -> list[Outcome]:
-    """Run the scripts of a folder that are out of date, or all by `force`; say so and note what was drawn.
+    """Run the scripts of a folder that are out of date, one a core at once; say so and note what was drawn.
 
-    `names` are beginnings of script names, none for all; `styles` those of `stereodel.drawing.styled`; `jobs` scripts
-    run at once, one a core by default. A BuildError where a name begins no script's, or the folder cannot be written.
+    `names` are beginnings of script names, none for all; `styles` those of `stereodel.drawing.styled`. A BuildError
+    where a name begins no script's, an OSError where the folder cannot be written.
     """
     chosen = find_scripts(scripts, names)
-    _require_writable(out)
+    out.mkdir(parents=True, exist_ok=True)
     kept, shared = Kept(out), shared_digest(scripts, styles)
     inputs = {script.stem: _digest(shared.encode() + script.read_bytes()) for script in chosen}
     notes = {script.stem: kept.note(f"{NOTES}/{script.stem}") or {} for script in chosen}
-    late = [script for script in chosen if force or not _is_current(notes[script.stem], inputs[script.stem], out)]
+    late = [script for script in chosen if not _is_current(notes[script.stem], inputs[script.stem], out)]
     # The longest first, so that none of them is waited for at the end.
     late.sort(key=lambda script: -notes[script.stem].get("seconds", 0.0))
     outcomes: list[Outcome] = []
-    for outcome in _run_all(late, out, styles, jobs or thread_count(-1, len(late))):
-        outcomes.append(outcome)
-        name, record = outcome.script.stem, outcome.record
-        took = "failed" if outcome.error else f"{record['seconds']:.1f} s"
-        print(f"{len(outcomes):>3}/{len(late)} {name}  {took}", flush=True)
-        if not outcome.error:
-            # After each, so that what was finished is kept whatever comes.
-            files = sorted(path.name for path in out.glob(f"{name}.*"))
-            digests = {file: _digest((out / file).read_bytes()) for file in files}
-            kept.keep(f"{NOTES}/{name}", {**record, "inputs": inputs[name], "digests": digests}, files)
+    with Crew(thread_count(-1, len(late))) as crew:
+        for number, done in crew.each(partial(run_script, out=out, styles=styles), late):
+            # Without a result the process died: most likely inside a graphics library.
+            outcome = done.result or Outcome(late[number], {}, f"{done.message}, without a Python error")
+            outcomes.append(outcome)
+            name, record = outcome.script.stem, outcome.record
+            took = "failed" if outcome.error else f"{record['seconds']:.1f} s"
+            print(f"{len(outcomes):>3}/{len(late)} {name}  {took}", flush=True)
+            if not outcome.error:
+                # After each, so that what was finished is kept whatever comes.
+                files = sorted(path.name for path in out.glob(f"{name}.*"))
+                digests = {file: _digest((out / file).read_bytes()) for file in files}
+                kept.keep(f"{NOTES}/{name}", {**record, "inputs": inputs[name], "digests": digests}, files)
     return outcomes
 
 
@@ -105,16 +105,6 @@ def find_scripts(folder: Path, names: Iterable[str] = ()) -> list[Path]:
             raise BuildError(f"no script's name begins with {name!r}; there are {', '.join(s.stem for s in found)}")
         chosen |= matching
     return sorted(chosen) or found
-
-
-def _require_writable(out: Path) -> None:
-    """Fail before the work, not after it."""
-    try:
-        out.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryFile(dir=out):
-            pass
-    except OSError as error:
-        raise BuildError(f"cannot write to {out}: {error.strerror}; choose another folder with --out") from error
 
 
 # What a picture depends on
@@ -139,14 +129,6 @@ def _digest(data: bytes) -> str:
 
 
 # Running
-
-
-def _run_all(scripts: list[Path], out: Path, styles: tuple[str, ...], jobs: int) -> Iterator[Outcome]:
-    """Outcomes as they come."""
-    with Crew(jobs) as crew:
-        for number, done in crew.each(partial(run_script, out=out, styles=styles), scripts):
-            # Without a result the process died: most likely inside a graphics library.
-            yield done.result or Outcome(scripts[number], {}, f"{done.message}, without a Python error")
 
 
 def run_script(script: Path, out: Path, styles: tuple[str, ...] = ()) -> Outcome:
@@ -201,21 +183,14 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--scripts", type=Path, default=Path("figures"), help="folder of the scripts")
     parser.add_argument("--out", type=Path, default=Path("out"), help="folder to write to")
     parser.add_argument("--style", type=style_names, default=(), help=f"{STYLE_HELP}; goes into a folder")
-    parser.add_argument("--jobs", type=int, default=None, help="scripts that run at once; the cores by default")
-    parser.add_argument("--force", action="store_true", help="draw also what is up to date")
     options = parser.parse_args(arguments)
     out = styled_folder(options.out, options.style)
     begin = time.perf_counter()
     try:
-        outcomes = build(
-            options.scripts, out, options.names, styles=options.style, jobs=options.jobs, force=options.force
-        )
-    except BuildError as error:
+        outcomes = build(options.scripts, out, options.names, styles=options.style)
+    except (BuildError, OSError) as error:
         print(f"error: {error}", file=sys.stderr)
         return 2
-    except KeyboardInterrupt:
-        print("interrupted; what was finished is kept", file=sys.stderr)
-        return 130
     failed = [outcome for outcome in outcomes if outcome.error]
     done = f"{len(outcomes) - len(failed)} drawn, {len(failed)} failed" if outcomes else "everything is up to date"
     print(f"{out}: {done} ({time.perf_counter() - begin:.1f} s)")

@@ -27,7 +27,7 @@ from typing import Any
 import numpy as np
 from PIL import Image
 
-from stereodel._files import replacing
+from stereodel._tasks.whole_files import replacing
 from stereodel.data import stored
 from stereodel.data.sets import DEGREE_DIGITS, MAGNITUDE_DIGITS
 from tools.natural_earth import borders, coastlines, countries, lakes, land, rivers

@@ -31,7 +31,5 @@ def lowest(project: Mapping[str, Any], extra: str) -> dict[str, str]:
 
 if __name__ == "__main__":
     project = tomllib.loads(PYPROJECT.read_text(encoding="utf-8"))["project"]
-    print(
-        *(f"{name}=={version}" for name, version in sorted((lowest(project, "all") | lowest(project, "vtk")).items())),
-        sep="\n",
-    )
+    least = lowest(project, "all") | lowest(project, "vtk")
+    print(*(f"{name}=={least[name]}" for name in sorted(least)), sep="\n")

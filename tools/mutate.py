@@ -124,9 +124,8 @@ def main() -> None:
     chosen = [m for m in mutations() if re.search(given.only, f"{m.where}: {m.name}")]
     changed = set(given.changed)
     chosen = [m for m in chosen if not changed or changed & {m.file, *(t.partition("::")[0] for t in m.caught_by)}]
-    chosen.sort(
-        key=lambda mutation: mutation.file.startswith(KERNEL)
-    )  # after them the copy's kernel is not what it was
+    # The kernel's last: after them that of the copy is not what it was.
+    chosen.sort(key=lambda mutation: mutation.file.startswith(KERNEL))
     copy_tree()
     if any(mutation.file.startswith(KERNEL) for mutation in chosen):
         build_kernel()

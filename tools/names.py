@@ -8,44 +8,21 @@ itself; around them stands by hand what is promised beyond it. A test compares.
 
 from __future__ import annotations
 
-import ast
 import importlib
 import inspect
 import re
 from collections.abc import Iterator
-from itertools import pairwise
 from pathlib import Path
 from types import ModuleType
 from typing import Any, Final
 
 import stereodel
-from stereodel._files import replacing
+from stereodel._tasks.whole_files import replacing
 
 PAGE: Final = Path(__file__).resolve().parent.parent / "docs" / "names.md"
 
-PACKAGES: Final = (
-    "stereodel.triangulation",
-    "stereodel.interpolation",
-    "stereodel.graphs",
-    "stereodel.partitioned",
-    "stereodel.relaxation",
-    "stereodel.predicates",
-    "stereodel.projections",
-    "stereodel.sphere",
-    "stereodel.earth",
-    "stereodel.conformal",
-    "stereodel.spatial",
-    "stereodel.data",
-    "stereodel.io",
-    "stereodel.xarray",
-    "stereodel.drawing",
-    "stereodel.render",
-    "stereodel.film",
-    "stereodel.globe",
-    "stereodel.mpl",
-    "stereodel.web",
-)
-"""All that users import from; each has its place on the page."""
+PACKAGES: Final = tuple(re.findall(r"<!-- names: (\S+) -->", PAGE.read_text(encoding="utf-8")))
+"""All that users import from: what has its place on the page."""
 
 LONGEST_DEFAULT: Final = 24
 """Characters of a default that a signature shows; of a longer one it says only that it is there."""
@@ -66,14 +43,12 @@ def signature(value: Any) -> str:
     """The parameters of a class or function, without types, with short defaults; empty for what is not called."""
     if not callable(value) or (inspect.isclass(value) and issubclass(value, Exception)):
         return ""
-    given = inspect.signature(value)
+    given, empty = inspect.signature(value), inspect.Parameter.empty
     parameters = [
-        parameter.replace(annotation=inspect.Parameter.empty, default=_Shown(parameter.default))
-        if parameter.default is not inspect.Parameter.empty
-        else parameter.replace(annotation=inspect.Parameter.empty)
-        for parameter in given.parameters.values()
+        each.replace(annotation=empty, default=empty if each.default is empty else _Shown(each.default))
+        for each in given.parameters.values()
     ]
-    return str(given.replace(parameters=parameters, return_annotation=inspect.Signature.empty))
+    return str(given.replace(parameters=parameters, return_annotation=empty))
 
 
 class _Shown:
@@ -91,21 +66,9 @@ def first_line(module: ModuleType, name: str) -> str:
     """The first line of an object's docstring, or of the text below a constant."""
     value = getattr(module, name)
     if isinstance(value, int | float | str):
-        return _texts_of_constants(module)[name]
+        below = re.search(rf'^{name}: .*\n"""(.*?)(?:"""|$)', inspect.getsource(module), re.MULTILINE)
+        return below[1] if below else ""
     return (inspect.getdoc(value) or "").partition("\n")[0]
-
-
-def _texts_of_constants(module: ModuleType) -> dict[str, str]:
-    """The first line of the text that stands below each constant."""
-    body = ast.parse(inspect.getsource(module)).body
-    return {
-        node.target.id: inspect.cleandoc(str(text.value.value)).partition("\n")[0]
-        for node, text in pairwise(body)
-        if isinstance(node, ast.AnnAssign)
-        and isinstance(node.target, ast.Name)
-        and isinstance(text, ast.Expr)
-        and isinstance(text.value, ast.Constant)
-    }
 
 
 def members(value: Any) -> list[str]:

@@ -14,7 +14,7 @@ from pathlib import Path
 
 from PIL import Image
 
-from stereodel._files import replacing
+from stereodel._tasks.whole_files import replacing
 from tools.build import load_drawing
 
 ROOT = Path(__file__).resolve().parent.parent

@@ -1,1 +1,1 @@
-"""Tasks in processes: begun, watched and begun again. Films, partitions and the builder of figures use them."""
+"""Tasks in processes, begun, watched and begun again, and files that are written whole or not at all."""

@@ -1,15 +1,10 @@
 """Crew: tasks in processes of this machine, or in an executor that the caller gives.
 
-`concurrent.futures` does the work. What is added:
-
-* Each place has an executor with one process, so that when a process dies its task is known and tried again, and the
-  others continue. An executor of several processes shares its queues among them: one that is killed while it holds
-  their lock stops all, even the end of the executor.
-* Processes import the program's main script only if their work is defined there, so calls need no guard around them.
-* Ctrl-C goes to the process that started them, which ends them at once; an executor would wait.
-* They end when the process that started them ends, even if killed; an executor's would wait for tasks forever.
-
-Processes are spawned, because neither OpenGL contexts nor threads survive a fork.
+`concurrent.futures` does the work, by an executor of one process for each place: when a process dies its task is
+known and tried again, and it holds no lock of queues that others share. Processes are spawned, because neither OpenGL
+contexts nor threads survive a fork. They import the program's main script only if their work is defined there, so that
+calls need no guard around them; and they end at once after Ctrl-C, and when the process that started them ends, even if
+that is killed.
 """
 
 from __future__ import annotations

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
-from stereodel._files import replacing
+from stereodel._tasks.whole_files import replacing
 
 Note = dict[str, Any]
 """What there was to say when something was done, and the sizes of the files that were written, by ``files``."""

@@ -39,6 +39,8 @@ ARGUMENTS: Final = {
     "wrap": "--wrap",
     "plane": "--plane",
     "spacing": "--grid",
+    "bounds": "--box",
+    "max_segment": "--max-segment",
     "columns": "--lon",
     "keep": "--keep",
     "resume": "--overwrite",

@@ -31,7 +31,7 @@ def command(
     ] = None,
     max_segment: options.MaxSegment = 1.0,
     columns: options.AnyTable,
-    latitude: options.LatitudeKind = options.Latitude.authalic,
+    latitude: options.LatitudeKind = "authalic",
 ) -> None:
     """Write isolines of the function that is linear on each Delaunay triangle of the points.
 
@@ -49,10 +49,10 @@ def command(
     if interval is not None:
         wanted = _multiples(values[:, 0], interval)
     with reporting(f"lines between {len(table)} points"):
-        found = contours(table.points(latitude.value), values[:, 0], wanted)
+        found = contours(table.points(latitude), values[:, 0], wanted)
     if not found:
         raise NothingToDoError(f"{table.name}: no lines: no level lies between the values")
-    drawn: dict[str, Any] = {"max_segment": max_segment, "latitude": latitude.value, "crs": table.crs}
+    drawn: dict[str, Any] = {"max_segment": max_segment, "latitude": latitude, "crs": table.crs}
     with reporting(f"writing {output.out}") as told, destination.file() as path:
         write(path, found, progress=told, **drawn)
     say(f"{output.out}: {len(found)} lines of {len(wanted)} levels")

@@ -6,11 +6,10 @@ What people rarely type is in style files (`--style`), in the table itself, or i
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Final, TypeVar
+from typing import TYPE_CHECKING, Annotated, Any, Final, Literal
 
 import typer
 
@@ -23,8 +22,6 @@ if TYPE_CHECKING:
     from stereodel.film.shots import Motion
     from stereodel.globe import Globe
     from stereodel.io import PointTable
-
-T = TypeVar("T")
 
 EXAMPLE = "stereodel globe --focus=2.35,48.86 --magnify 20 -o paris.png"
 
@@ -56,12 +53,7 @@ LAYER_KEYS = ("color", "width", "outline", "size", "column")
 """Of `--layer FILE,key=…`."""
 
 
-class Projection(StrEnum):
-    """Projections of the sphere to the page."""
-
-    globe = "globe"
-    stereographic = "stereographic"
-    hemispheres = "hemispheres"
+Projection = Literal["globe", "stereographic", "hemispheres"]
 
 
 @options.grouped
@@ -79,10 +71,7 @@ def command(
             help=f"Of {', '.join(MAPS + OF_POINTS)}; or none. By default {USUAL}, without land over a texture.",
         ),
     ] = None,
-    focus: Annotated[
-        str | None,
-        typer.Option(metavar="LON,LAT", help="Focus of the fisheye; by default the centre of the picture."),
-    ] = None,
+    focus: options.Focus = None,
     magnify: options.Magnify = 1.0,
     view: Annotated[
         str | None,
@@ -92,7 +81,7 @@ def command(
     ] = None,
     projection: Annotated[
         Projection, typer.Option("--projection", help="A globe, or flat stereographic maps of half or all of it.")
-    ] = Projection.globe,
+    ] = "globe",
     texture: Annotated[
         str | None,
         typer.Option(
@@ -213,9 +202,9 @@ class Aim:
         from stereodel.globe import hemispheres
 
         lon, lat = self.middle or self.place
-        if self.projection == Projection.hemispheres:
+        if self.projection == "hemispheres":
             return hemispheres(lon, lat, flat=True)
-        return (View(lon, lat) if self.projection == Projection.globe else StereographicView(lon, lat),)
+        return (View(lon, lat) if self.projection == "globe" else StereographicView(lon, lat),)
 
 
 def middle_of(points: FloatArray) -> options.Place:
@@ -264,8 +253,7 @@ def layer_of(text: str) -> tuple[Path, dict[str, Any]]:
     An existing file whose name contains commas and equals signs is taken literally.
     """
     from stereodel.drawing.page.colors import as_color
-    from stereodel.drawing.page.lengths import as_length
-    from stereodel.drawing.page.style import MAP_DOT, MAP_FILLS, MAP_LINES, LineStyle
+    from stereodel.drawing.page.style import MAP_DOT, MAP_LINES, as_length
 
     path, *given = [text] if Path(text).exists() else re.split(r",(?=\w+=)", text)
     looks = dict(part.split("=", 1) for part in given)
@@ -273,27 +261,26 @@ def layer_of(text: str) -> tuple[Path, dict[str, Any]]:
         if key not in LAYER_KEYS:
             raise ValueError(f"--layer {text}: {key} is unknown; the keys are {', '.join(LAYER_KEYS)}")
 
-    def look(key: str, read: Callable[[Any, str], T], usual: T) -> T:
-        return read(looks[key], f"--layer: {key}") if key in looks else usual
-
-    line, rim = MAP_LINES["line"], MAP_LINES["outline"]
-    bare = looks.get("outline") == "none"
-    edge = rim.color if bare else look("outline", as_color, rim.color)
-    radius = look("size", as_length, 2 * MAP_DOT.radius) / 2
-    found: dict[str, Any] = {
-        "color": look("color", as_color, as_color(MAP_FILLS["area"])),
-        "outline": None if bare else LineStyle(edge, look("width", as_length, rim.width)),
-        "style": LineStyle(look("color", as_color, line.color), look("width", as_length, line.width)),
-        "dot_style": replace(
-            MAP_DOT,
-            color=look("color", as_color, MAP_DOT.color),
-            radius=radius,
-            rim_width=min(MAP_DOT.rim_width, radius / 3),
-        ),
-        "column": looks.get("column"),
+    column, bare = looks.pop("column", None), looks.get("outline") == "none"
+    readers: dict[str, Any] = {"color": as_color, "outline": as_color, "width": as_length, "size": as_length}
+    read = {
+        key: readers[key](value, f"--layer: {key}")
+        for key, value in looks.items()
+        if (key, value) != ("outline", "none")
+    }
+    color, width, edge = (
+        {key: read[of]} if of in read else {}
+        for key, of in (("color", "color"), ("width", "width"), ("color", "outline"))
+    )
+    radius = read.get("size", 2 * MAP_DOT.radius) / 2
+    return Path(path), {
+        **color,
+        "outline": None if bare else replace(MAP_LINES["outline"], **width, **edge),
+        "style": replace(MAP_LINES["line"], **color, **width),
+        "dot_style": replace(MAP_DOT, **color, radius=radius, rim_width=min(MAP_DOT.rim_width, radius / 3)),
+        "column": column,
         "legend": Path(path).stem,
     }
-    return Path(path), found
 
 
 def add_points(globe: Globe, table: PointTable, shown: frozenset[str], labels: str | None) -> None:
@@ -326,17 +313,17 @@ def add_points(globe: Globe, table: PointTable, shown: frozenset[str], labels: s
 def motion_of(aim: Aim, stops: Sequence[options.Place]) -> Motion:
     """A flight if there are stops, a turn if nothing is magnified, otherwise a growing lens."""
     from stereodel import MoebiusMap
-    from stereodel.conformal import path_between
+    from stereodel.conformal import GroupPath
     from stereodel.film import Flight, Morph, Spin, Stop
 
-    if aim.projection == Projection.hemispheres or (aim.projection != Projection.globe and stops):
-        raise ValueError(f"--projection {aim.projection.value} cannot move; films are of the globe")
+    if aim.projection == "hemispheres" or (aim.projection != "globe" and stops):
+        raise ValueError(f"--projection {aim.projection} cannot move; films are of the globe")
     if stops:
         return Flight([Stop(place, aim.magnification) for place in (aim.place, *stops)])
     if aim.magnification == 1:
         lon, lat = aim.middle or aim.place
         return Spin(aim.lens, seconds=SECONDS, lon=lon, lat=lat)
-    return Morph(path_between(MoebiusMap.identity(), aim.lens), aim.views[0], seconds=SECONDS, back=True)
+    return Morph(GroupPath(MoebiusMap.identity(), aim.lens), aim.views[0], seconds=SECONDS, back=True)
 
 
 def save_film(globe: Globe, motion: Motion, path: Path, *, size: int, fps: float) -> None:

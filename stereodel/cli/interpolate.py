@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
-from enum import StrEnum
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
@@ -15,17 +13,9 @@ if TYPE_CHECKING:
     from stereodel._arrays import FloatArray
 
 GRIDS = ("csv", "nc", "tif")
+Method = Literal["nearest", "linear", "smooth", "natural"]
 PIECE = 100_000  # rows between two signs of progress
 EXAMPLE = "stereodel interpolate stations.csv --value temperature --grid 5 -o temperature.csv"
-
-
-class Method(StrEnum):
-    """Methods of interpolation."""
-
-    nearest = "nearest"
-    linear = "linear"
-    smooth = "smooth"
-    natural = "natural"
 
 
 @options.grouped
@@ -51,10 +41,10 @@ def command(
     unit: Annotated[
         list[str] | None, typer.Option(metavar="NAME", help="Unit of the values, for grids; one for each --value.")
     ] = None,
-    method: Annotated[Method, typer.Option(help="Method of interpolation.")] = Method.linear,
+    method: Annotated[Method, typer.Option(help="Method of interpolation.")] = "linear",
     columns: options.AnyTable,
     at_columns: Annotated[options.SecondTable, "--at"],
-    latitude: options.LatitudeKind = options.Latitude.authalic,
+    latitude: options.LatitudeKind = "authalic",
 ) -> None:
     """Interpolate values at other points, or on a grid of longitude and latitude.
 
@@ -78,37 +68,36 @@ def command(
         raise ValueError("POINTS and --at cannot both be stdin")
     destination = output.of(options.TABLES if grid is None else GRIDS, points, at)
     if grid is not None:
-        empty = Grid.regular(grid, None if box is None else options.box_of(box, "--box"), centers=centers)
+        sides = box and options.numbers(box, "--box", "W,S,E,N in degrees", "-25,34,45,72", 4)
+        empty = Grid.regular(grid, sides or None, centers=centers)
     values, table = columns.read(points).values(value, skip_missing=columns.skip_missing)
-    interpolated = _interpolator(table.points(latitude.value), values, method)
+    sites = table.points(latitude)
     if at is None:
-        found = interpolated(lonlat_to_xyz(empty.lonlat.reshape(-1, 2), latitude=latitude.value))
+        nodes = lonlat_to_xyz(empty.lonlat.reshape(-1, 2), latitude=latitude)
+        found = _interpolated(sites, values, method, nodes)
         shaped = {name: column.reshape(empty.lonlat.shape[:2]) for name, column in zip(value, found.T, strict=True)}
         result: Grid | PointTable = replace(empty, values=shaped, units=dict(zip(value, unit or (), strict=False)))
     else:
         asking = at_columns.read(at, columns)
-        result = asking.beside(dict(zip(value, interpolated(asking.points(latitude.value)).T, strict=True)))
+        found = _interpolated(sites, values, method, asking.points(latitude))
+        result = asking.beside(dict(zip(value, found.T, strict=True)))
     with reporting(f"writing {output.out}") as told, destination.file() as path:
         write(path, result, progress=told)
 
 
-def _interpolator(points: FloatArray, values: FloatArray, method: Method) -> Callable[[FloatArray], FloatArray]:
-    """A function from queries to values, (n, number of columns), that reports its progress."""
+def _interpolated(points: FloatArray, values: FloatArray, method: Method, queries: FloatArray) -> FloatArray:
+    """Values at queries, (n, number of columns)."""
     import numpy as np
 
     from stereodel.cli.application import reporting
     from stereodel.interpolation.methods import METHODS
 
     with reporting("triangulating"):
-        interpolator = METHODS[method.value](points, values)
-
-    def interpolated(queries: FloatArray) -> FloatArray:
-        found = np.empty((len(queries), values.shape[1]))
-        with reporting("interpolating") as shown:
-            for start in range(0, len(queries), PIECE):
-                piece = slice(start, min(start + PIECE, len(queries)))
-                found[piece] = interpolator(queries[piece])
-                shown("interpolating", piece.stop, len(queries))
-        return found
-
-    return interpolated
+        interpolator = METHODS[method](points, values)
+    found = np.empty((len(queries), values.shape[1]))
+    with reporting("interpolating") as shown:
+        for start in range(0, len(queries), PIECE):
+            piece = slice(start, min(start + PIECE, len(queries)))
+            found[piece] = interpolator(queries[piece])
+            shown("interpolating", piece.stop, len(queries))
+    return found

@@ -10,7 +10,6 @@ from stereodel.cli import options
 
 if TYPE_CHECKING:
     from stereodel._arrays import Column, FloatArray, Indices
-    from stereodel.curves.ragged import Ragged
     from stereodel.io import PointTable
 
 EXAMPLE = "stereodel nearest airports.csv --of cities.csv -o nearest.csv"
@@ -37,7 +36,7 @@ def command(
     ] = False,
     columns: options.AnyTable,
     of_columns: Annotated[options.SecondTable, "--of"],
-    latitude: options.LatitudeKind = options.Latitude.authalic,
+    latitude: options.LatitudeKind = "authalic",
 ) -> None:
     """Find the sites nearest to each query point, and their distances in kilometres.
 
@@ -52,7 +51,7 @@ def command(
         raise ValueError("SITES and --of cannot both be stdin")
     chosen = columns.read(sites)
     asking = of_columns.read(queries, columns)
-    pairs = _pairs(chosen.points(latitude.value), asking.points(latitude.value), count, max_distance, exclude_self)
+    pairs = _pairs(chosen.points(latitude), asking.points(latitude), count, max_distance, exclude_self)
     table = _with_sites(asking.taken(pairs.query), chosen, pairs, keep, ranked=count > 1)
     with reporting(f"writing {output.out}") as told, destination.file() as path:
         write(path, table, progress=told)
@@ -78,7 +77,11 @@ def _pairs(sites: FloatArray, queries: FloatArray, count: int, max_distance: flo
     from stereodel.triangulation.delaunay import as_triangulation
 
     # Sites that share a place are all at a query point or none is: search distinct places, and one more than wanted.
-    groups = _by_place(sites) if exclude_self else Ragged(np.arange(len(sites)), np.arange(len(sites) + 1))
+    number = np.arange(len(sites))
+    if exclude_self:  # of places, in the order of their first sites
+        _, first, place = np.unique(sites + 0.0, axis=0, return_index=True, return_inverse=True)
+        number = np.unique(first[place.ravel()], return_inverse=True)[1]
+    groups = Ragged.grouped(np.argsort(number, kind="stable"), number, int(number.max(initial=-1)) + 1)
     places = sites[groups.values[groups.offsets[:-1]]]
     asked = min(count + exclude_self, len(places))
     found = np.reshape(as_triangulation(places).nearest(queries, k=asked), (len(queries), asked))
@@ -102,17 +105,6 @@ def _pairs(sites: FloatArray, queries: FloatArray, count: int, max_distance: flo
         spans(before[some] + 1, times),
         np.repeat(distance[some], times),
     )
-
-
-def _by_place(sites: FloatArray) -> Ragged:
-    """The sites at each place, in order; places in the order of their first sites."""
-    import numpy as np
-
-    from stereodel.curves.ragged import Ragged
-
-    _, first, place = np.unique(sites + 0.0, axis=0, return_index=True, return_inverse=True)
-    number = np.argsort(np.argsort(first))[place.ravel()]
-    return Ragged.grouped(np.argsort(number, kind="stable"), number, len(first))
 
 
 def _with_sites(

@@ -9,7 +9,6 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from copy import copy
 from dataclasses import MISSING, dataclass, fields, is_dataclass, replace
-from enum import StrEnum
 from inspect import Parameter, signature
 from math import isfinite
 from pathlib import Path
@@ -18,22 +17,15 @@ from typing import TYPE_CHECKING, Annotated, Any, get_type_hints
 import typer
 
 from stereodel._arrays import as_scalar
-from stereodel._files import said_of
 from stereodel._tasks.interrupts import stop_if_interrupted
+from stereodel._tasks.whole_files import said_of
 from stereodel.cli.application import ARGUMENTS, NothingToDoError, reporting
 from stereodel.constants import LARGEST_MAGNIFICATION
 from stereodel.io.formats.names import spelling
+from stereodel.sphere.latitudes import Latitude
 
 if TYPE_CHECKING:
     from stereodel.io import PointTable
-
-
-class Latitude(StrEnum):
-    """The kind of latitude in a table."""
-
-    spherical = "spherical"
-    geodetic = "geodetic"
-    authalic = "authalic"
 
 
 TABLES = ("csv", "geojson", "geojsonl", "parquet", "gpkg", "fgb", "shp", "kml")
@@ -48,21 +40,13 @@ def _magnification(value: float) -> float:
     return as_scalar(value, "--magnify", low=1 / LARGEST_MAGNIFICATION, high=LARGEST_MAGNIFICATION)
 
 
-def _segment(value: float) -> float:
-    from stereodel.io.rows_of import LARGEST_SEGMENT
-
-    return as_scalar(value, "--max-segment", low=0.0, high=LARGEST_SEGMENT, open_low=True)
-
-
 Points = Annotated[
     str, typer.Argument(metavar="POINTS", help="Table of points: .csv, .geojson, .gpkg, .shp, .xlsx …; - is stdin.")
 ]
 Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace the file if it exists.")]
 MaxSegment = Annotated[
     float,
-    typer.Option(
-        "--max-segment", metavar="DEGREES", callback=_segment, help="Longest straight piece of an arc, in map formats."
-    ),
+    typer.Option("--max-segment", metavar="DEGREES", help="Longest straight piece of an arc, in map formats."),
 ]
 LatitudeKind = Annotated[
     Latitude,
@@ -71,6 +55,9 @@ LatitudeKind = Annotated[
         help="Model of the Earth: an ellipsoid, by directions from its centre (geodetic) or with true areas "
         "(authalic), or a sphere.",
     ),
+]
+Focus = Annotated[
+    str | None, typer.Option(metavar="LON,LAT", help="Focus of the fisheye; by default the centre of the picture.")
 ]
 Magnify = Annotated[float, typer.Option(metavar="S", callback=_magnification, help="Magnification at the focus.")]
 
@@ -207,7 +194,7 @@ class Table(Where):
         named = {field.name: getattr(self, field.name) for field in fields(Table) if field.name != "of"}
         return named | {"layer": named.pop("layer_name"), "missing": named["missing"] or ()}
 
-    def read(self, name: str, plane: tuple[str, str] | None = None) -> PointTable:
+    def read(self, name: str) -> PointTable:
         """The table in a file, or on stdin if `name` is "-"; NothingToDoError for one without points."""
         from stereodel.io import read_points
         from stereodel.io.formats.names import naming
@@ -215,7 +202,7 @@ class Table(Where):
         shown = "stdin" if name == "-" else name
         source = sys.stdin.buffer if name == "-" else name
         with reporting(f"reading {shown}") as told, naming(shown if name == "-" else None):
-            table = read_points(source, plane=plane, progress=told, **self.arguments)
+            table = read_points(source, plane=getattr(self, "plane", None), progress=told, **self.arguments)
         if len(table) == 0:
             raise NothingToDoError(f"{shown}: there are no points")
         return table if table.name else replace(table, name=shown)
@@ -229,10 +216,6 @@ class AnyTable(Table):
         tuple[str, str] | None,
         typer.Option(metavar="X Y", help="Columns of coordinates in a plane, instead of longitude and latitude."),
     ] = None
-
-    def read(self, name: str, plane: tuple[str, str] | None = None) -> PointTable:
-        """As for `Table`."""
-        return super().read(name, plane or self.plane)
 
 
 @dataclass(frozen=True)
@@ -310,11 +293,3 @@ def place(text: str, option: str) -> Place:
     if not -90 <= lat <= 90:
         raise ValueError(f"{option} is {text!r}, but its latitude is outside [-90, 90]; the longitude comes first")
     return lon, lat
-
-
-def box_of(text: str, option: str) -> tuple[float, float, float, float]:
-    """Bounds of a box "W,S,E,N" in degrees; the eastern one exceeds 180 if the box crosses ±180°."""
-    west, south, east, north = numbers(text, option, "W,S,E,N in degrees", "-25,34,45,72", 4)
-    if not -90 <= south < north <= 90:
-        raise ValueError(f"{option} is {text!r}, but its south border must be below its north border in [-90, 90]")
-    return west, south, east if east > west else east + 360.0, north

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from enum import StrEnum
-from typing import Annotated
+from typing import Annotated, Literal
 
 import typer
 
@@ -14,14 +13,6 @@ EXAMPLE = "stereodel panorama room.jpg --focus=90,-10 --magnify 3 -o desk.jpg"
 PICTURES = ("jpg", "jpeg", "png", "webp")
 
 
-class Form(StrEnum):
-    """Format of the panorama to write."""
-
-    equirectangular = "equirectangular"
-    cubemap = "cubemap"
-    planet = "planet"
-
-
 @options.grouped
 def command(
     *,
@@ -29,18 +20,17 @@ def command(
         str, typer.Argument(metavar="PICTURE", help="Panorama, twice as wide as high: .jpg, .png, .webp, .tif …")
     ],
     output: options.Output,
-    focus: Annotated[
-        str | None, typer.Option(metavar="LON,LAT", help="Focus of the fisheye; by default the centre of the picture.")
-    ] = None,
+    focus: options.Focus = None,
     magnify: options.Magnify = 1.0,
     to: Annotated[
-        Form, typer.Option("--to", help="Another panorama, the six faces of a cube, or a little planet.")
-    ] = Form.equirectangular,
+        Literal["equirectangular", "cubemap", "planet"],
+        typer.Option("--to", help="Another panorama, the six faces of a cube, or a little planet."),
+    ] = "equirectangular",
     view: Annotated[
         str | None,
         typer.Option(metavar="LON,LAT", help="Centre of the result; by default 0,0; for planets 0,-90."),
     ] = None,
-    width: Annotated[
+    size: Annotated[
         int | None,
         typer.Option(min=1, metavar="PIXELS", help="Width of the result or of a face; by default as fine as PICTURE."),
     ] = None,
@@ -60,31 +50,27 @@ def command(
     from stereodel.cli.application import reporting
     from stereodel.drawing import View
     from stereodel.globe.panoramas import face_paths, save_panorama
-    from stereodel.globe.raster import panorama_size, planet_radius
 
-    if faces and to != Form.cubemap:
-        raise ValueError(f"--faces requires --to cubemap, but --to is {to.value}")
+    if faces and to != "cubemap":
+        raise ValueError(f"--faces requires --to cubemap, but --to is {to}")
     if faces and output.out == "-":
         raise ValueError("--faces are six files, and stdout is one; name a file with --out")
     destination = replace(output, overwrite=output.overwrite and not faces).of(PICTURES, picture)
     for name in face_paths(Path(output.out)) if faces else ():
         replace(output, out=str(name)).of(PICTURES, picture)
-    if width is not None:
-        panorama_size(width, to.value, "--width")
-    planet_radius(angular_radius, "--angular-radius")
     seen = None if view is None else options.place(view, "--view")
     at = None if focus is None else options.place(focus, "--focus")
     if at is None and magnify != 1:
-        at = seen or (0.0, -90.0 if to == Form.planet else 0.0)
+        at = seen or (0.0, -90.0 if to == "planet" else 0.0)
     lens = fisheye(at, magnification=magnify) if at else None
     with reporting("drawing"), destination.file() as path:
         save_panorama(
             picture,
             path,
             lens,
-            to.value,
+            to,
             view=View(*seen) if seen else None,
-            size=width,
+            size=size,
             angular_radius=angular_radius,
             faces=faces,
         )

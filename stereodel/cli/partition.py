@@ -28,7 +28,7 @@ def command(
         tuple[str, str] | None,
         typer.Option(metavar="X Y", help="Columns of coordinates in a plane, instead of longitude and latitude."),
     ] = None,
-    latitude: options.LatitudeKind = options.Latitude.authalic,
+    latitude: options.LatitudeKind = "authalic",
     partition: Annotated[
         int | None, typer.Option(metavar="COUNT", min=1, help="Points of a partition; 650000 by default.")
     ] = None,
@@ -57,7 +57,7 @@ def command(
                 out,
                 columns=plane or (None if lon is None or lat is None else (lon, lat)),
                 surface="plane" if plane else "sphere",
-                latitude=latitude.value,
+                latitude=latitude,
                 keep=keep or [],
                 triangles=False,
                 cells=shapes,
@@ -71,5 +71,5 @@ def command(
     found = run.statistics
     if not found["points"]:
         raise NothingToDoError(f"{', '.join(points)}: there are no points")
-    kind = "" if plane else f", with {latitude.value} latitudes"
+    kind = "" if plane else f", with {latitude} latitudes"
     say(f"{out}: cells of {found['points']} points, in {found['partitions']} partitions{kind}")

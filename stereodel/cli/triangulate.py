@@ -25,7 +25,7 @@ def command(
     edges: Annotated[bool, typer.Option("--edges", help="Write the edges instead of the triangles.")] = False,
     max_segment: options.MaxSegment = 1.0,
     columns: options.AnyTable,
-    latitude: options.LatitudeKind = options.Latitude.authalic,
+    latitude: options.LatitudeKind = "authalic",
 ) -> None:
     """Write the Delaunay triangles of points, or their edges.
 
@@ -44,7 +44,7 @@ def command(
         raise ValueError(f"{output.out}: holds faces, not edges; leave out --edges or choose {tables}")
     table = columns.read(points)
     with reporting(f"triangulating {len(table)} points"):
-        triangulation = as_triangulation(table.points(latitude.value))
+        triangulation = as_triangulation(table.points(latitude))
     count = len(_corner_rows(triangulation, "triangles", table)["a"])
     if count == 0:
         raise NothingToDoError(f"{table.name}: no triangles: too few points, or all on one line or great circle")
@@ -57,7 +57,7 @@ def command(
             layer = rows_of(
                 triangulation,
                 what=what,
-                latitude=latitude.value,
+                latitude=latitude,
                 max_segment=max_segment,
                 crs=table.crs,
                 progress=shown,
@@ -70,15 +70,15 @@ def command(
 
             diagram_page(triangulation).save(path)
         else:
-            write(path, found, progress=told, **({"latitude": latitude.value} if kind == "nc" else {}))
+            write(path, found, progress=told, **({"latitude": latitude} if kind == "nc" else {}))
     say(f"{output.out}: {count} triangles of {len(table)} points")
 
 
 def _corner_rows(triangulation: Triangulation, what: str, table: PointTable) -> dict[str, Column]:
     """Row numbers of the corners of all triangles except those that close the far side, or of their edges."""
-    from stereodel.triangulation.delaunay import open_triangles
+    from stereodel.triangulation.delaunay import state_of
     from stereodel.triangulation.topology import edges_of
 
-    simplices = triangulation.simplices[open_triangles(triangulation)]
+    simplices = triangulation.simplices[state_of(triangulation).open]
     corners = simplices if what == "triangles" else edges_of(simplices)
     return dict(zip("abc", table.rows[corners].T, strict=False))

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from enum import StrEnum
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 import typer
 
@@ -13,19 +12,12 @@ from stereodel.cli import options
 EXAMPLE = "stereodel voronoi cities.csv -o cells.gpkg"
 
 
-class AreaUnit(StrEnum):
-    """Units of areas on the sphere."""
-
-    km2 = "km2"
-    sr = "sr"
-
-
 @options.grouped
 def command(
     *,
     points: options.Points,
     output: options.Output,
-    area_unit: Annotated[AreaUnit, typer.Option(help="Unit of the areas, not in a plane.")] = AreaUnit.km2,
+    area_unit: Annotated[Literal["km2", "sr"], typer.Option(help="Unit of the areas, not in a plane.")] = "km2",
     max_segment: options.MaxSegment = 1.0,
     clip: Annotated[
         str | None,
@@ -34,7 +26,7 @@ def command(
         ),
     ] = None,
     columns: options.AnyTable,
-    latitude: options.LatitudeKind = options.Latitude.authalic,
+    latitude: options.LatitudeKind = "authalic",
 ) -> None:
     """Write the Voronoi cell of each point, the region nearer to it than to any other, with its area.
 
@@ -59,14 +51,14 @@ def command(
         options.refuse({"--clip": clip}, "cells of the sphere, not of a plane")
     table = columns.read(points)
     with reporting(f"cells of {len(table)} points"):
-        diagram = (PlanarVoronoi if columns.plane else SphericalVoronoi)(table.points(latitude.value))
-    name = "area" if columns.plane else f"area_{area_unit.value}"
-    radius = 1.0 if columns.plane or area_unit is AreaUnit.sr else AUTHALIC_RADIUS_KM
+        diagram = (PlanarVoronoi if columns.plane else SphericalVoronoi)(table.points(latitude))
+    name = "area" if columns.plane else f"area_{area_unit}"
+    radius = 1.0 if columns.plane or area_unit == "sr" else AUTHALIC_RADIUS_KM
     found: Any = diagram
     if kind == "csv" and clip is None:
         found = table.beside({name: diagram.areas(radius=radius)})
     elif kind not in options.MESHES:
-        drawn: dict[str, Any] = {"latitude": latitude.value, "radius": radius, "max_segment": max_segment, "clip": clip}
+        drawn: dict[str, Any] = {"latitude": latitude, "radius": radius, "max_segment": max_segment, "clip": clip}
         with reporting(f"drawing {len(table)} cells") as told, naming(clip):
             cells = rows_of(diagram, crs=table.crs, progress=told, **drawn)
         point, area = cells.columns["point"], np.zeros(len(table))
@@ -82,6 +74,6 @@ def command(
 
             diagram_page(diagram).save(path)
         else:
-            write(path, found, progress=told, **({"latitude": latitude.value} if kind == "nc" else {}))
-    said = "" if columns.plane else f", with {latitude.value} latitudes"
+            write(path, found, progress=told, **({"latitude": latitude} if kind == "nc" else {}))
+    said = "" if columns.plane else f", with {latitude} latitudes"
     say(f"{output.out}: cells of {len(table)} points{said}")

@@ -2,21 +2,13 @@
 
 from __future__ import annotations
 
-from enum import StrEnum
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 import typer
 
 from stereodel.cli import options
 
 EXAMPLE = "stereodel web cities.csv -o cities.html --open"
-
-
-class Resolution(StrEnum):
-    """Land of a page, by the scale of the source map, 1 : 50 or 1 : 110 million."""
-
-    of_50m = "50m"
-    of_110m = "110m"
 
 
 @options.grouped
@@ -36,10 +28,10 @@ def command(
     ] = None,
     open_it: Annotated[bool, typer.Option("--open", help="Open the page in the browser.")] = False,
     resolution: Annotated[
-        Resolution, typer.Option(help="Land at 1 : 50 or 1 : 110 million; the latter makes a smaller page.")
-    ] = Resolution.of_50m,
+        Literal["50m", "110m"], typer.Option(help="Land at 1 : 50 or 1 : 110 million; the latter makes a smaller page.")
+    ] = "50m",
     columns: options.Table,
-    latitude: options.LatitudeKind = options.Latitude.authalic,
+    latitude: options.LatitudeKind = "authalic",
     overwrite: options.Overwrite = False,
 ) -> None:
     """Write an interactive page with the sphere, the lift and the globe, for any browser.
@@ -64,7 +56,7 @@ def command(
         names = next((column.tolist() for key, column in table.columns.items() if key.strip().lower() == "name"), None)
     given: dict[str, Any] = {"lonlat": lonlat, "names": names, "name": name}
     with reporting(f"writing {target}"), destination.file() as path:
-        web(path, **given, resolution=resolution.value, latitude=latitude.value)
-    say(f"{target}: the page" + ("" if lonlat is None else f" with {len(lonlat)} points, {latitude.value} latitudes"))
+        web(path, **given, resolution=resolution, latitude=latitude)
+    say(f"{target}: the page" + ("" if lonlat is None else f" with {len(lonlat)} points, {latitude} latitudes"))
     if open_it and not webbrowser.open(Path(target).resolve().as_uri()):
         raise OSError(f"{target}: is written, but there is no browser to open it")

@@ -2,7 +2,7 @@
 
 from stereodel.conformal.maps import bubble_to_bubble, fisheye, three_points
 from stereodel.conformal.moebius import MoebiusMap
-from stereodel.conformal.paths import GroupPath, flight, path_between
+from stereodel.conformal.paths import GroupPath, flight
 
 __all__ = [
     "GroupPath",
@@ -10,6 +10,5 @@ __all__ = [
     "bubble_to_bubble",
     "fisheye",
     "flight",
-    "path_between",
     "three_points",
 ]

@@ -26,7 +26,6 @@ from stereodel.constants import LARGEST_EXPONENT, LARGEST_MAGNIFICATION, STORED_
 from stereodel.sphere import Rotation, SphereArc, SphereCircle
 from stereodel.sphere.arcs import swept_angle
 from stereodel.sphere.circles import light_cone, on_circle, one_plus_minus
-from stereodel.sphere.coordinates import as_sphere_points
 
 _FLIP = Rotation(np.array([0.0, 1.0, 0.0, 0.0]))
 """Half a turn about x: it turns the fisheye of magnification 1/S along z into that of S, exactly."""
@@ -48,14 +47,6 @@ def boost_points(points: DoubleDouble, magnification: DoubleDouble) -> DoubleDou
     lower, upper = u / magnification, w * magnification
     total = lower + upper
     return stack([points[..., 0] * 2.0 / total, points[..., 1] * 2.0 / total, (lower - upper) / total])
-
-
-def boost_circle(circle: Circle, magnification: DoubleDouble) -> Circle:
-    """Image of the circle n·x = cos α, n a unit vector, with its interior; sin α is invariant before normalisation."""
-    normal, cosine, sine = circle
-    plus, minus = light_cone(normal, cosine, sine)
-    plus, minus = plus / magnification, minus * magnification
-    return stack([normal[0], normal[1], (plus + minus) * 0.5]), (plus - minus) * 0.5, sine
 
 
 @dataclass(frozen=True)
@@ -244,8 +235,11 @@ class MoebiusMap:
 
     def _circle_image(self, circle: SphereCircle) -> Circle:
         normal, cosine, sine = circle.exact_parts()
-        normal, cosine, sine = boost_circle((self.right.apply(normal), cosine, sine), self._size)
-        return self.left.apply(normal), cosine, sine
+        normal = self.right.apply(normal)
+        plus, minus = light_cone(normal, cosine, sine)
+        plus, minus = plus / self._size, minus * self._size
+        normal = stack([normal[0], normal[1], (plus + minus) * 0.5])
+        return self.left.apply(normal), (plus - minus) * 0.5, sine  # sin α is invariant before normalisation
 
     def __matmul__(self, other: MoebiusMap) -> MoebiusMap:
         """The map `other`, then this one: the exact composition with its parameters rounded once.
@@ -327,18 +321,6 @@ class MoebiusMap:
         At the second it does the inverse. k is 1 for the identity and for parabolic maps.
         """
         return multiplier_of(self.biquaternion)
-
-    def tissot(self, points: npt.ArrayLike, radius: float) -> list[SphereCircle]:
-        """Exact images of circles of equal size, which are circles.
-
-        Parameters
-        ----------
-        points : array_like, shape (n, 2) or (n, 3)
-            Centres of the circles: rows (lon, lat) in degrees, or directions.
-        radius : float
-            Angular radius in degrees, in (0, 180).
-        """
-        return [self.image_of(SphereCircle.around(point, radius)) for point in as_sphere_points(points)]
 
     def is_close(self, other: MoebiusMap, *, tolerance: float = 4 * STORED_ERROR) -> bool:
         """Whether two maps agree up to `tolerance`: in rad for points and images, relative for S."""

@@ -28,14 +28,24 @@ from stereodel.sphere import Rotation
 
 @dataclass(frozen=True)
 class GroupPath:
-    """A path of conformal maps: fisheyes along a geodesic of hyperbolic space, then rotations at constant speed.
+    """The path from one conformal map to another, for animations: called with t in [0, 1] it gives the map there.
 
     Parameters
     ----------
     start, end : MoebiusMap
 
+    Notes
+    -----
+    Each map is decomposed into a fisheye and a rotation after it. The fisheyes follow the geodesic of hyperbolic space
+    (`flight`), the rotations the shortest rotation. Between fisheyes all maps are fisheyes, between rotations all are
+    rotations. The coset of a one-parameter group, ``start @ (start.inverse() @ end).power(t)``, also joins the two, but
+    rotates the picture between one fisheye and another.
+
     Examples
     --------
+    >>> path = GroupPath(MoebiusMap.identity(), fisheye((10.0, 50.0), magnification=16.0))
+    >>> round(path(0.5).magnification, 12)
+    4.0
     >>> path = flight((0.0, 0.0), (90.0, 0.0), magnification=8.0)
     >>> print([round(path(t).magnification, 3) for t in (0.0, 0.25, 0.5, 0.75, 1.0)])
     [8.0, 3.585, 2.314, 3.585, 8.0]
@@ -90,35 +100,6 @@ class GroupPath:
 def _rotation(conformal: MoebiusMap) -> Rotation:
     """The rotation that follows the fisheye."""
     return conformal.left @ conformal.right
-
-
-def path_between(start: MoebiusMap, end: MoebiusMap) -> GroupPath:
-    """The path from one conformal map to another, for animations.
-
-    Parameters
-    ----------
-    start, end : MoebiusMap
-
-    Returns
-    -------
-    GroupPath
-        Returns the map at time t in [0, 1] when called.
-
-    Notes
-    -----
-    Each map is decomposed into a fisheye and a rotation after it. The fisheyes follow the geodesic of hyperbolic space
-    (`flight`), the rotations the shortest rotation. Between fisheyes all maps are fisheyes, between rotations all are
-    rotations. The coset of a one-parameter group, ``start @ (start.inverse() @ end).power(t)``, also joins the two, but
-    rotates the picture between one fisheye and another.
-
-    Examples
-    --------
-    >>> from stereodel.conformal import MoebiusMap, fisheye
-    >>> path = path_between(MoebiusMap.identity(), fisheye((10.0, 50.0), magnification=16.0))
-    >>> round(path(0.5).magnification, 12)
-    4.0
-    """
-    return GroupPath(start, end)
 
 
 def flight(

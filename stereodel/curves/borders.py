@@ -17,7 +17,7 @@ from functools import cached_property
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import BoolArray, FloatArray, Indices, as_floats
+from stereodel._arrays import BoolArray, FloatArray, Indices, as_bounds
 from stereodel.constants import AT_POLE, CHART_ROUNDING, LIMB_DEPTH, RIM_FINENESS
 from stereodel.curves.ragged import Ragged, offsets_of, spans
 from stereodel.curves.trace import Arcs
@@ -41,12 +41,6 @@ class Pieces:
     shuts: BoolArray
     seen: BoolArray
     along: BoolArray
-
-    @classmethod
-    def uncut(cls, arcs: Arcs, *, seen: bool) -> Pieces:
-        """Arcs without cuts, all of them visible or none."""
-        none = np.zeros(len(arcs), dtype=bool)
-        return cls(arcs, none, none, np.full(len(arcs), seen), none)
 
     @cached_property
     def of_edge(self) -> Indices:
@@ -179,10 +173,7 @@ class Box:
 def frame_of(points: FloatArray, bounds: npt.ArrayLike | None = None) -> Box:
     """The rectangle bounds = (xmin, ymin, xmax, ymax), by default the bounding box of points (n, 2) with a margin."""
     if bounds is not None:
-        given = as_floats(bounds, "bounds")
-        if given.shape != (4,) or not (given[:2] < given[2:]).all():
-            raise ValueError(f"bounds must be (xmin, ymin, xmax, ymax) with xmin < xmax and ymin < ymax, got {bounds}")
-        left, bottom, right, top = given.tolist()
+        left, bottom, right, top = as_bounds(bounds)
         return Box(left, right, bottom, top)
     low, high = (points.min(axis=0), points.max(axis=0)) if len(points) else (np.zeros(2), np.zeros(2))
     margin = MARGIN * float((high - low).max()) or 1.0

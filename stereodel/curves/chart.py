@@ -161,8 +161,9 @@ class Chart:
         rings, owner, left = rings.take(some), owner[some], left[some]
         used = np.zeros(len(edges), dtype=bool)
         used[np.where(rings.values < 0, ~rings.values, rings.values)] = True
-        hidden = Pieces.uncut(self._images(edges.take(used)), seen=False)
-        rows, samples = clip.among(rings, used), hidden.arcs.sampled(self.slack * self.share)
+        arcs = self._images(edges.take(used))
+        hidden = Pieces(arcs, *np.zeros((4, len(arcs)), dtype=bool))
+        rows, samples = clip.among(rings, used), arcs.sampled(self.slack * self.share)
         return clip.surround(rows, owner, asked, hidden, samples, self.border, left)
 
     def _near(self, edges: Edges) -> BoolArray:

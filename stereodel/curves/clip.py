@@ -108,23 +108,20 @@ def regions(
     pieces: Pieces,
     samples: Ragged,
     border: Outline,
-    middle: BoolArray | None = None,
     left: FloatArray | None = None,
 ) -> tuple[Ragged, Indices]:
     """The visible parts of regions, interior left of their rings: closed loops on the chart, and the region of each.
 
     rings, owner, count: edges of each ring; the region of each, (r,); number of regions.
     pieces, samples: the arcs of the edges, cut at the border, and their points.
-    middle: which regions contain the centre of the view, if known; hidden edges may then be left out of the rings.
     left: what `Edges.left` says of the rings, (r, 3); without it, chords alone decide.
     """
     left = np.full((len(rings), 3), np.nan) if left is None else left
     loops, region, shown = in_sight(rings, owner, count, pieces, samples, border, left)
-    if middle is None:
-        hidden = np.zeros(count, dtype=bool)
-        hidden[owner[rings.sizes > 0]] = True
-        middle = surround(rings, owner, hidden & ~shown, pieces, samples, border, left)
-    return bordered(loops, region, middle & ~shown, border)
+    hidden = np.zeros(count, dtype=bool)
+    hidden[owner[rings.sizes > 0]] = True
+    around = surround(rings, owner, hidden & ~shown, pieces, samples, border, left)
+    return bordered(loops, region, around, border)
 
 
 def in_sight(

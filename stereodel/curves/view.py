@@ -32,7 +32,11 @@ class _Above:
     @property
     def matrix(self) -> FloatArray:
         """Rows right, up, toward the viewer: unit vectors, a rotation matrix (3, 3)."""
-        return _frame(self.lon, self.lat, self.roll)
+        lon, lat = self.lon, self.lat
+        above = (lon + 180.0, 90.0 - lat) if lat >= 0 else (lon, 90.0 + lat)
+        toward, right, up, (cos, sin, _) = lonlat_to_xyz([(lon, lat), (lon + 90.0, 0.0), above, (self.roll, 0.0)])
+        # + 0.0 turns −0 into 0, so that symmetric views give identical files.
+        return np.array([cos * right - sin * up, sin * right + cos * up, toward]) + 0.0
 
 
 @dataclass(frozen=True)
@@ -192,11 +196,3 @@ class StereographicView(_Above):
 
 MapView = View | StereographicView
 """A map of a cap of the sphere onto the unit disc of the page."""
-
-
-def _frame(lon: float, lat: float, roll: float) -> FloatArray:
-    """Right, up and toward the viewer above a point, as rows."""
-    above = (lon + 180.0, 90.0 - lat) if lat >= 0 else (lon, 90.0 + lat)
-    toward, right, up, (cos, sin, _) = lonlat_to_xyz([(lon, lat), (lon + 90.0, 0.0), above, (roll, 0.0)])
-    # + 0.0 turns −0 into 0, so that symmetric views give identical files.
-    return np.array([cos * right - sin * up, sin * right + cos * up, toward]) + 0.0

@@ -194,18 +194,13 @@ def land(resolution: str = "50m") -> EarthPolygons:
 
 
 @cache
+@shared(**_SHARED)
 def countries(resolution: str = "50m") -> Countries:
     """Countries as polygons, after Natural Earth (public domain); codes and continents after GeoNames (CC BY 4.0).
 
-    Parameters
-    ----------
-    resolution : {"50m", "110m"}, optional
-        Made for maps of 1 : 50 or 1 : 110 million. The smallest countries are in the former alone.
+    The smallest countries are in "50m" alone; there is no "10m".
 
-    Raises
-    ------
-    ValueError
-        For another resolution.
+    {parameters}
 
     Examples
     --------

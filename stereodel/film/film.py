@@ -13,14 +13,14 @@ import numpy as np
 
 from stereodel._arrays import FloatArray, Pixels, as_count, as_frame, as_scalar
 from stereodel._extras import of_extra
-from stereodel._files import replacing
 from stereodel._tasks.crew import Crew, main_script_here
 from stereodel._tasks.progress import Progress, reporting
+from stereodel._tasks.whole_files import replacing
 from stereodel.constants import MOST_FRAME_PIXELS, MOST_FRAMES
 from stereodel.drawing.page import Page
 from stereodel.drawing.page.colors import ColorLike, as_color
 from stereodel.drawing.page.fonts import MissingCharactersWarning, missing_characters, warn_of_missing
-from stereodel.drawing.page.lengths import LARGEST_SIZE, pixel_height
+from stereodel.drawing.page.page import LARGEST_SIZE
 from stereodel.drawing.page.sheets import Style, StyledDraw
 from stereodel.drawing.page.style import WHITE
 from stereodel.film.frames import KeptFrames, frame_names, store_frame
@@ -112,7 +112,6 @@ class Film(Generic[T]):
         *,
         size: tuple[int, int] = (1280, 720),
         fps: float = FPS,
-        text: bool = True,
         background: ColorLike = WHITE,
     ) -> Film[Shot]:
         """A film of a globe along a motion; ``Film.of_globe(...).save("flight.mp4")`` draws it.
@@ -127,8 +126,6 @@ class Film(Generic[T]):
             smaller globes they scale with the square root of the size.
         fps : float
             Frames per second.
-        text : bool
-            Whether to draw labels.
         background : color
             Colour behind the globe.
 
@@ -156,7 +153,7 @@ class Film(Generic[T]):
         as_frame_size(width, height)
         rate = as_scalar(fps, "fps", low=0.0, open_low=True)
         pages = GlobePages(globe, width, height, as_color(background, "background"))
-        return Film(pages, Samples(motion, rate), fps=rate, size=width, text=text)
+        return Film(pages, Samples(motion, rate), fps=rate, size=width)
 
     @classmethod
     def of_pictures(
@@ -206,13 +203,7 @@ class Film(Generic[T]):
         return float(self.times.sum())
 
     def styled(self, *styles: Style) -> Film[T]:
-        """The same film in other styles, see `stereodel.drawing.styled`; `draw` must return pages.
-
-        Raises
-        ------
-        ValueError
-            If a style is unknown.
-        """
+        """The same film in other styles, see `stereodel.drawing.styled`; `draw` must return pages."""
         return replace(self, draw=StyledDraw(self.draw, styles))
 
     def page(self, number: int) -> Page:
@@ -231,7 +222,7 @@ class Film(Generic[T]):
         return _Camera(self.draw, self.size, self.text)
 
     def save(self, path: str | os.PathLike[str], *, jobs: int | None = None, progress: bool = True) -> Path:
-        """Draw the frames and write the file.
+        """Draw the frames and write the file, whose path is returned.
 
         Finished frames are kept in the folder PATH.frames next to the file until the file is complete. After an
         interruption the same call resumes and produces the same file. Frames are redrawn if the film, the library or
@@ -246,11 +237,6 @@ class Film(Generic[T]):
             Number of drawing processes; by default one for each core. Does not affect the file.
         progress : bool
             Whether to report progress on standard error: a bar on a terminal, lines elsewhere.
-
-        Returns
-        -------
-        Path
-            The file.
 
         Raises
         ------
@@ -303,7 +289,7 @@ class Film(Generic[T]):
         The script is the file that defines `draw`. Its options are the output folder, by default ``out`` next to the
         script's folder, the width, and whether to draw labels.
         """
-        run_script(self, argv, source_of(self.draw).stem, f"{self.size}", {})
+        run_script(self, argv, source_of(self.draw).stem, f"{self.size}")
 
     def _files(self, folder: Path, *, size: int | None, text: bool) -> list[str]:
         """See `stereodel.render.figure.Drawing`."""
@@ -337,7 +323,7 @@ class _Camera(Generic[T]):
     def _pixels(self, drawn: Page | Pixels) -> Pixels:
         if not isinstance(drawn, Page):
             return as_frame(drawn, "a picture")
-        as_frame_size(self.size, pixel_height(drawn, self.size))
+        as_frame_size(self.size, drawn.pixels_up(self.size))
         return drawn.pixels(size=self.size, text=self.text)
 
 

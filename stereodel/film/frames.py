@@ -1,8 +1,4 @@
-"""Finished frames as lossless files in a folder, from which an interrupted film resumes.
-
-The name of a file is a digest of everything that its frame depends on, so it is reused only where it is valid: besides
-what is drawn, the library itself, and the libraries that draw.
-"""
+"""Finished frames as lossless files in a folder, from which an interrupted film resumes, where they are still valid."""
 
 from __future__ import annotations
 
@@ -25,7 +21,7 @@ import numpy as np
 from stereodel import _kernel
 from stereodel._arrays import Pixels
 from stereodel._extras import installed_version, libraries, optional
-from stereodel._files import replacing
+from stereodel._tasks.whole_files import replacing
 from stereodel.render.gl import VARIABLE
 
 OURS: Final = re.compile(r"\.?[0-9a-f]{32}\.png(\.\d+\.tmp)?")
@@ -33,9 +29,6 @@ OURS: Final = re.compile(r"\.?[0-9a-f]{32}\.png(\.\d+\.tmp)?")
 
 DRAWN_WITH: Final = ("numpy", "scipy", *(library.name for library in libraries("film") if library.name != "rich"))
 """Distributions whose version can change a picture."""
-
-NOT_DRAWN_WITH: Final = {"numpy", "scipy", "matplotlib", "mapbox_earcut", "pillow"}
-"""Modules and packages of the library that no picture depends on."""
 
 
 @dataclass(frozen=True)
@@ -132,9 +125,8 @@ def library_versions() -> dict[str, str]:
 def library_digest() -> bytes:
     """SHA-256 of the library's modules, its kernel and data, the versions of others, and the renderer asked for."""
     library = Path(__file__).resolve().parent.parent
-    skipped = {library / name for name in NOT_DRAWN_WITH}
-    files = [path for path in sorted(library.rglob("*.py")) if skipped.isdisjoint((path, *path.parents))]
-    files += [Path(_kernel.__file__), library / "data" / "sources.json"]  # with the checksums of the real data
+    sources = library / "data" / "sources.json"  # with the checksums of the real data
+    files = [*sorted(library.rglob("*.py")), Path(_kernel.__file__), sources]
     digest = hashlib.sha256(json.dumps(library_versions()).encode())
     digest.update(f"{os.environ.get(VARIABLE, '')} {os.environ.get('PYOPENGL_PLATFORM', '')}".encode())
     for path in files:

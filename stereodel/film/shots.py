@@ -1,10 +1,7 @@
-"""Motions of films of a globe: flights between foci, rotations, paths between lenses.
+"""Motions of films of a globe, functions of time whose values are shots: flights between foci, rotations, paths.
 
-A motion is a function of time, whose values are shots.
-
-A flight's lens follows the shortest way in hyperbolic space (`stereodel.conformal.flight`): it shrinks no more than the
-distance requires. The view follows a similar path of its own, on which every stop lies farther out, as if it were
-magnified `WIDE` times more, because a lens that magnifies nothing has no focus, but the view needs a centre.
+A flight's lens follows the shortest way in hyperbolic space (`stereodel.conformal.flight`). The view follows such a
+path of its own, magnified `WIDE` times more, because a lens that magnifies nothing has no focus, but a view a centre.
 """
 
 from __future__ import annotations
@@ -13,7 +10,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import KW_ONLY, dataclass, replace
 from functools import cached_property
-from typing import Final, Protocol, overload
+from typing import Any, Final, Protocol
 
 import numpy as np
 
@@ -90,14 +87,8 @@ class Samples(Sequence[Shot]):
     def __len__(self) -> int:
         return round(self.motion.seconds * self.rate)
 
-    @overload
-    def __getitem__(self, number: int) -> Shot: ...
-    @overload
-    def __getitem__(self, number: slice) -> list[Shot]: ...
-    def __getitem__(self, number: int | slice) -> Shot | list[Shot]:
-        """One shot, or those of a slice."""
-        if isinstance(number, slice):
-            return [self[k] for k in range(len(self))[number]]
+    def __getitem__(self, number: Any) -> Any:
+        """One shot."""
         return self.motion(range(len(self))[number] / self.rate)
 
 
@@ -193,7 +184,7 @@ class Flight:
         if len(self.stops) < 2:
             raise ValueError(f"stops has {len(self.stops)} entries, but a flight has two or more")
         for number, (one, other) in enumerate(zip(self.stops, self.stops[1:], strict=False)):
-            if _opposite(one.focus, other.focus):
+            if np.linalg.norm(lonlat_to_xyz([one.focus, other.focus]).sum(axis=0)) < OPPOSITE:
                 raise ValueError(
                     f"stops[{number + 1}] is opposite stops[{number}], so no way is the shortest; add a stop between"
                 )
@@ -317,8 +308,7 @@ class Morph:
 
     Parameters
     ----------
-    path : GroupPath
-        See `stereodel.conformal.path_between`.
+    path : stereodel.conformal.GroupPath
     view : View or StereographicView
     seconds : float
         Duration, including the way back if there is one.
@@ -327,8 +317,8 @@ class Morph:
 
     Examples
     --------
-    >>> from stereodel.conformal import path_between
-    >>> grow = Morph(path_between(MoebiusMap.identity(), fisheye((10.0, 50.0), magnification=16.0)), View(10.0, 50.0))
+    >>> from stereodel.conformal import GroupPath
+    >>> grow = Morph(GroupPath(MoebiusMap.identity(), fisheye((10.0, 50.0), magnification=16.0)), View(10.0, 50.0))
     >>> [round(grow(time)[0].magnification, 9) for time in (0.0, 2.0, 4.0)]
     [1.0, 4.0, 16.0]
     """
@@ -363,8 +353,3 @@ def _north(lonlat: tuple[float, float], normal: FloatArray) -> float:
 def _half_turns(angle: float) -> float:
     """The angle in [−180, 180), degrees."""
     return (angle + 180.0) % 360.0 - 180.0
-
-
-def _opposite(one: tuple[float, float], other: tuple[float, float]) -> bool:
-    a, b = lonlat_to_xyz([one, other])
-    return float(np.linalg.norm(a + b)) < OPPOSITE

@@ -1,15 +1,9 @@
 """Film files, by file extension: GIF, APNG, WebP or MP4, with one frame in memory at a time.
 
-GIF, APNG and MP4 are encoded by FFmpeg's libraries through PyAV, on which imageio's plugin ``pyav`` is built. Neither
-plugin of imageio is sufficient: ``pyav`` passes no options to the encoder (rate factors of 5 and 40 give the same MP4)
-and gives all frames the same duration; ``ffmpeg``, which starts the program, ignores its exit code, so that a full disk
-yields half a film and no error. The program also takes 165 MB, PyAV 104 MB.
-
-WebP is written by Pillow, which holds the encoded data and one frame: FFmpeg's encoder gives files of the same size but
-loses the duration of the last frame. Pillow's writers of GIF and APNG would hold all frames.
-
-The palette of a GIF is FFmpeg's. Pillow's best, median cut refined by k-means, loses 3 to 5 dB of signal-to-noise ratio
-on a softly lit globe (50.5 dB against 54.0, 62.4 against 65.9), in files 1 to 4 % larger.
+GIF, APNG and MP4 are encoded by FFmpeg's libraries through PyAV: of imageio's plugins, ``pyav`` passes no options to
+the encoder, and ``ffmpeg`` ignores the exit code of the program, so that a full disk yields half a film and no error.
+WebP is written by Pillow, as FFmpeg's encoder loses the duration of the last frame; its writers of GIF and APNG would
+hold all frames, and its palettes lose 3 to 5 dB of signal-to-noise ratio on a softly lit globe.
 """
 
 from __future__ import annotations

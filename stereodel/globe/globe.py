@@ -30,7 +30,7 @@ from stereodel.drawing.page import Item, Label, Page, picture_extra
 from stereodel.drawing.page.colors import ColorLike, as_color, as_colors
 from stereodel.drawing.page.fonts import FontLike, as_font
 from stereodel.drawing.page.labels import placed_label, with_title
-from stereodel.drawing.page.lengths import LARGEST_SIZE, LengthLike, as_length
+from stereodel.drawing.page.page import LARGEST_SIZE
 from stereodel.drawing.page.scales import ColorScale, category_colors, usual_scale
 from stereodel.drawing.page.sheets import Style, styled
 from stereodel.drawing.page.style import (
@@ -43,16 +43,17 @@ from stereodel.drawing.page.style import (
     PRINT_WIDTH,
     WHITE,
     DotStyle,
+    LengthLike,
     LineStyle,
+    as_length,
 )
 from stereodel.drawing.scene.legend import LegendEntry, with_legend
 from stereodel.globe.layers import Areas, GridLines, Ground, Image, Limb, LineLayer, MapLayer, Names, Points, laid
 from stereodel.globe.outlines_on_sphere import Rings, SphereLines, SphereRegions, earth_lines, earth_regions
 from stereodel.globe.pages import Panel, default_view, panels
 from stereodel.globe.raster import Raster
-from stereodel.io.map_shapes import Shapes
 from stereodel.io.maps.meshes_as_rows import ridge_arcs
-from stereodel.io.reading import shapes_of
+from stereodel.io.reading import Shapes, shapes_of
 from stereodel.sphere import SphereCircle, lonlat_to_xyz
 from stereodel.sphere.latitudes import KINDS, Latitude
 from stereodel.sphere.vectors import units
@@ -466,9 +467,8 @@ class Globe:
         lens: MoebiusMap | None = None,
         view: MapView | Sequence[MapView] | None = None,
         *,
-        size: int | None = None,
+        size: int = SIZE,
         width: LengthLike = PRINT_WIDTH,
-        dpi: float | None = None,
         style: Style | Sequence[Style] = (),
         legend: bool = False,
         transparent: bool = False,
@@ -481,10 +481,8 @@ class Globe:
             File to write, first under a temporary name; an existing file is replaced.
         lens, view, width, style, legend
             As for `page`.
-        size : int, optional
-            Width of a PNG in pixels, at most 65 535, with curves accurate to a fifth of a pixel. By default `SIZE`.
-        dpi : float, optional
-            Pixels per inch of the page, instead of `size`.
+        size : int
+            Width of a PNG in pixels, at most 65 535, with curves accurate to a fifth of a pixel.
         transparent : bool
             Whether to make the background of the page transparent.
 
@@ -493,15 +491,9 @@ class Globe:
         OSError
             If the file cannot be written, or there is no OpenGL for a PNG.
         ValueError
-            If the extension is unknown, or `size` and `dpi` are both given; also as for `page`.
+            If the extension is unknown; also as for `page`.
         """
-        if size is not None and dpi is not None:
-            raise ValueError("size and dpi both say how many pixels a picture has; give one of them")
-        wide = as_length(width, "width")
-        if dpi is None:
-            pixels = as_count(SIZE if size is None else size, "size", high=LARGEST_SIZE)
-        else:
-            pixels = max(1, round(wide / 72 * as_scalar(dpi, "dpi", low=0.0, open_low=True)))
+        wide, pixels = as_length(width, "width"), as_count(size, "size", high=LARGEST_SIZE)
         tolerance = min(0.02, 0.2 * wide / pixels)
         with of_extra(picture_extra(Path(path).suffix)):
             page = self.page(lens, view, width=wide, tolerance=tolerance, style=style, legend=legend)

@@ -169,19 +169,13 @@ class Names:
 
     def beside(self, chart: Chart, items: Sequence[Item]) -> Iterator[Label]:
         """As for `lay`, avoiding items that are already on the chart."""
+        disc = chart.at, chart.scale, chart.unit
         if self.distance is None:
-            for label in self._seen(chart):
-                yield within_disc(label, chart.at, chart.scale, chart.unit)
+            yield from (within_disc(label, disc) for label in self._seen(chart))
             return
-        yield from placed_apart(
-            self._seen(chart),
-            self.distance,
-            center=chart.at,
-            radius=chart.scale,
-            points_per_unit=chart.unit,
-            before=[item for item in items if isinstance(item, Label)],
-            dots=np.concatenate([np.zeros((0, 2)), *(item.centers for item in items if isinstance(item, Dots))]),
-        )
+        before = [item for item in items if isinstance(item, Label)]
+        dots = np.concatenate([np.zeros((0, 2)), *(item.centers for item in items if isinstance(item, Dots))])
+        yield from placed_apart(self._seen(chart), self.distance, disc, before, dots)
 
     def _seen(self, chart: Chart) -> Iterator[Label]:
         places, seen = chart.points(self.xyz)

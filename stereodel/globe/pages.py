@@ -10,7 +10,6 @@ from stereodel.conformal import MoebiusMap
 from stereodel.curves.chart import Chart
 from stereodel.curves.view import MapView, StereographicView, View
 from stereodel.drawing.page import Item, Label, Page
-from stereodel.drawing.page.fonts import FontLike, as_font, in_font
 from stereodel.drawing.page.labels import haloed, with_room
 from stereodel.drawing.page.style import BLACK, PRINT_WIDTH
 from stereodel.globe.layers import Layered, laid
@@ -75,7 +74,6 @@ def panels(
     columns: int | None = None,
     width: float = PRINT_WIDTH,
     tolerance: float = 0.02,
-    font: FontLike | None = None,
 ) -> Page:
     """Globes side by side, row by row.
 
@@ -88,15 +86,11 @@ def panels(
         Width of the page in points.
     tolerance : float
         Largest deviation of the drawing from the exact image, in points.
-    font : str, path-like, or sequence of them, optional
-        Font of titles, and of labels of globes without a font of their own; see `stereodel.drawing.page.fonts.as_font`.
 
     Raises
     ------
-    FileNotFoundError
-        If a font file does not exist.
     ValueError
-        If there are no panels, `width` or `tolerance` is not positive, or a font family is not installed.
+        If there are no panels, or `width` or `tolerance` is not positive.
     """
     if not contents:
         raise ValueError("contents must have at least one panel")
@@ -121,4 +115,4 @@ def panels(
         if panel.title:
             items.append(Label(panel.title, (at[0], at[1] + pitch / 2), (0.0, 3.0), "center", "baseline", color=BLACK))
     extent = (0.0, across * pitch, 0.0, rows * (pitch + head))
-    return haloed(in_font(Page(extent, tuple(items), width=size, views=tuple(views)), as_font(font)))
+    return haloed(Page(extent, tuple(items), width=size, views=tuple(views)))

@@ -11,7 +11,7 @@ import numpy as np
 
 from stereodel._arrays import Pixels, as_choice
 from stereodel._extras import of_extra
-from stereodel._files import replacing
+from stereodel._tasks.whole_files import replacing
 from stereodel.conformal import MoebiusMap
 from stereodel.curves.view import View
 from stereodel.globe.raster import (

@@ -23,7 +23,6 @@ from stereodel._arrays import (
     as_edges,
     as_pixels,
     as_scalar,
-    as_window,
     locked,
 )
 from stereodel._extras import of_extra
@@ -71,24 +70,15 @@ DAMAGED: Final = (OSError, SyntaxError, ValueError, EOFError, struct.error, Inde
 """Exceptions that Pillow's decoders raise on truncated or corrupt files."""
 
 
-def panorama_size(size: int, form: PanoramaForm, name: str = "size") -> int:
+def panorama_size(size: int, form: PanoramaForm) -> int:
     """Check a size for `Raster.panorama`; ValueError if it is invalid."""
-    width = as_count(size, name)
+    width = as_count(size, "size")
     if form == "equirectangular" and width % 2:
-        raise ValueError(
-            f"{name} is {width}, but an equirectangular panorama is twice as wide as high; give an even one"
-        )
+        raise ValueError(f"size is {width}, but an equirectangular panorama is twice as wide as high; give an even one")
     count = {"equirectangular": width * width // 2, "cubemap": 6 * width * width, "planet": width * width}[form]
     if count > MOST_TEXELS:
-        raise ValueError(
-            f"{name} is {width}, which makes {count} pixels of its {form}; at most {MOST_TEXELS} are drawn"
-        )
+        raise ValueError(f"size is {width}, which makes {count} pixels of its {form}; at most {MOST_TEXELS} are drawn")
     return width
-
-
-def planet_radius(angular_radius: float, name: str = "angular_radius") -> float:
-    """Check an angular radius for `Raster.panorama`; ValueError if it is invalid."""
-    return as_scalar(angular_radius, name, low=0.0, high=MOST_PLANET_RADIUS, open_low=True)
 
 
 def read_photo(path: str | os.PathLike[str]) -> tuple[Pixels, bytes]:
@@ -235,10 +225,9 @@ class Raster:
         view: MapView,
         size: int,
         *,
-        window: tuple[int, int, int, int] | None = None,
         workers: int | None = None,
     ) -> Pixels:
-        """Image of the globe through a lens.
+        """Image of the globe through a lens; `painted` gives a part of it.
 
         Parameters
         ----------
@@ -247,28 +236,19 @@ class Raster:
         view : View or StereographicView
         size : int
             Diameter of the globe in pixels, which touches all four sides of the image.
-        window : tuple of int, optional
-            Part of the image to compute, (left, top, width, height) in its pixels; by default all of it.
         workers : int, optional
             Number of threads; −1 for all processors. By default all, except for very small images. Does not affect the
             result.
 
         Returns
         -------
-        (height, width, 4) uint8 array
+        (size, size, 4) uint8 array
             sRGB and opacity, not premultiplied, rows from the top. Opacity is that of the raster times the fraction of
             the pixel covered by the globe.
-
-        Raises
-        ------
-        ValueError
-            If `size` or `window` is out of range.
         """
         across = as_count(size, "size", high=MOST_PIXELS_ACROSS)
-        left, top, width, height = as_window(window, across, "window")
         step = 2.0 / across
-        place = (left * step - 1.0, 1.0 - top * step, step, step)
-        return self.painted(lens, view, place, (width, height), workers=workers)
+        return self.painted(lens, view, (-1.0, 1.0, step, step), (across, across), workers=workers)
 
     def painted(
         self,
@@ -368,7 +348,7 @@ class Raster:
             ]
             return np.stack(sides)
         if form == "planet":
-            radius = planet_radius(angular_radius)
+            radius = as_scalar(angular_radius, "angular_radius", low=0.0, high=MOST_PLANET_RADIUS, open_low=True)
             # The square is centred in a disc twice as wide, which contains its corners.
             reach, place = 2.0 * float(np.tan(np.radians(radius) / 2)), (-0.5, 0.5, 1.0 / width, 1.0 / width)
             return self._warped(

@@ -10,9 +10,9 @@ import numpy.typing as npt
 from stereodel._arrays import AnyIndices, BoolArray, FloatArray, Keyed, as_levels, as_values, read_only
 from stereodel._docs import shared
 from stereodel.interpolation.interpolator import FAMILY, PrecisePoints, one_value_a_place
+from stereodel.sphere.coordinates import as_told
 from stereodel.sphere.latitudes import Latitude
-from stereodel.sphere.lonlat import as_told
-from stereodel.triangulation.delaunay import Triangulation, as_triangulation, open_triangles
+from stereodel.triangulation.delaunay import Triangulation, as_triangulation, state_of
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,11 +30,6 @@ class Contour(Keyed):
         Whether it is a ring; then the last point repeats the first. Otherwise it ends at the hull or next to a NaN.
     latitude : str, optional
         The kind of latitude by which the points of the triangulation were given.
-
-    Attributes
-    ----------
-    lonlat : (k, 2) array
-        `points` in degrees, with that kind of latitude.
 
     Examples
     --------
@@ -64,7 +59,7 @@ class Contour(Keyed):
 def contours(points: npt.ArrayLike | Triangulation, values: npt.ArrayLike, levels: npt.ArrayLike) -> list[Contour]:
     """Contours of the function that is linear in each triangle, `LinearInterpolator`.
 
-    {sites}
+    {points}
     values : (n,) array_like
         One number for each point; triangles with a NaN are skipped.
     levels : float or (l,) array_like
@@ -114,7 +109,7 @@ class _Network:
         self._latitude = triangulation.latitude
         self._values = values
         self._simplices, self._neighbors = triangulation.simplices, triangulation.neighbors
-        self._inside: BoolArray = open_triangles(triangulation) & ~np.isnan(values[self._simplices]).any(axis=1)
+        self._inside: BoolArray = state_of(triangulation).open & ~np.isnan(values[self._simplices]).any(axis=1)
 
     def contours(self, level: float) -> list[Contour]:
         """All pieces of one level."""

@@ -14,7 +14,7 @@ from stereodel.curves.ragged import spans
 from stereodel.interpolation.interpolator import FAMILY, PrecisePoints, as_site_values
 from stereodel.interpolation.located import dot, lengths
 from stereodel.sphere.vectors import crossed
-from stereodel.triangulation.delaunay import Triangulation, as_triangulation, open_triangles
+from stereodel.triangulation.delaunay import Triangulation, as_triangulation, state_of
 from stereodel.triangulation.topology import adjacency_of, edges_of
 
 _UNKNOWNS = 5
@@ -24,7 +24,7 @@ _UNKNOWNS = 5
 def estimate_gradients(points: npt.ArrayLike | Triangulation, values: npt.ArrayLike) -> FloatArray:
     """Gradients at the points of a function known only at these points.
 
-    {sites}
+    {points}
     {values}
 
     Returns
@@ -185,7 +185,7 @@ def rings_in_blocks(triangulation: Triangulation) -> Iterator[tuple[AnyIndices, 
 
     Each pair comes once. Edges of triangles that close a set within a hemisphere do not count.
     """
-    simplices = triangulation.simplices[open_triangles(triangulation)]
+    simplices = triangulation.simplices[state_of(triangulation).open]
     size = len(triangulation.points)
     used = np.unique(simplices)
     indptr, ends = adjacency_of(edges_of(simplices), size)

@@ -13,8 +13,8 @@ from stereodel._arrays import AnyIndices, FloatArray, as_choice, as_values, lock
 from stereodel._docs import by_name, shared
 from stereodel._double_double import ROWS, DoubleDouble, unit
 from stereodel._spaces import SPHERE, surface_of
+from stereodel.sphere.coordinates import BY_NAME, IN_ROWS, LONLAT, as_asked
 from stereodel.sphere.latitudes import Latitude
-from stereodel.sphere.lonlat import BY_NAME, IN_ROWS, LONLAT, as_asked
 from stereodel.triangulation.delaunay import Triangulation, as_triangulation
 
 FAMILY: Final = {
@@ -22,14 +22,8 @@ FAMILY: Final = {
         Parameters
         ----------
         points : (n, 2) or (n, 3) array_like, PlanarDelaunay or SphericalDelaunay
-            Points of the plane, directions, or a triangulation of them. For longitude and latitude use `from_lonlat`.
-        """,
-    "sites": """
-        Parameters
-        ----------
-        points : (n, 2) or (n, 3) array_like, PlanarDelaunay or SphericalDelaunay
             Points of the plane, directions, or a triangulation of them; for longitude and latitude, one made by
-            `SphericalDelaunay.from_lonlat`.
+            `SphericalDelaunay.from_lonlat`, or the method of this name.
         """,
     "values": """
         values : (n, ...) array_like
@@ -180,30 +174,21 @@ class Interpolator(ABC):
     ) -> FloatArray:
         """Interpolated values.
 
-        Parameters
-        ----------
-        queries : array_like of shape (..., 2) or (..., 3)
-            Points of the plane, or directions.
         {asked}
-        workers : int, optional
-            Number of threads of the search for triangles and points; see `PlanarDelaunay.find_simplex`.
 
         Returns
         -------
         array of the leading shape, then the shape of one value
             NaN outside, unless `extrapolate` is given, and where a NaN of `values` takes part.
 
-        Raises
-        ------
-        ValueError, TypeError
-            If a coordinate is not a finite real number, a vector is zero, or the last axis has the wrong length; if
-            `lonlat` is given although the points were not given by longitude and latitude.
+        {asked_raises}
         """
         array, flat = self._as_queries(queries, lonlat)
         with np.errstate(all="ignore"):
             result = self._evaluate(flat, workers)
         return result.reshape(array.shape[:-1] + self._value_shape)
 
+    @shared(**LONLAT)
     def gradient(
         self,
         queries: npt.ArrayLike | None = None,
@@ -213,10 +198,7 @@ class Interpolator(ABC):
     ) -> FloatArray:
         """Gradients of the interpolated function, per unit of length of the plane or per radian.
 
-        Parameters
-        ----------
-        queries, lonlat, workers
-            As for a call.
+        {asked}
 
         Returns
         -------
@@ -224,10 +206,7 @@ class Interpolator(ABC):
             Last axis: a vector of the plane, or a tangent vector of the unit sphere at the query, (x, y, z), for
             `lonlat` too. NaN as for a call.
 
-        Raises
-        ------
-        ValueError, TypeError
-            As a call does.
+        {asked_raises}
         """
         array, flat = self._as_queries(queries, lonlat)
         with np.errstate(all="ignore"):

@@ -10,7 +10,7 @@ import numpy as np
 
 from stereodel import _double_double as double_double
 from stereodel._arrays import AnyIndices, FloatArray
-from stereodel._double_double import DoubleDouble
+from stereodel._double_double import DoubleDouble, scaled
 from stereodel.constants import NEEDLE, PLAIN_SQUARES, THIN_TRIANGLE
 from stereodel.interpolation.interpolator import PrecisePoints
 from stereodel.sphere.vectors import crossed
@@ -33,11 +33,9 @@ def lengths(vectors: FloatArray) -> FloatArray:
     least, largest = PLAIN_SQUARES
     rows = np.nonzero(~((plain > least) & (plain < largest))[..., 0])
     if len(rows[0]):
-        odd = vectors[rows]
-        exponent = np.frexp(np.abs(odd).max(axis=-1, keepdims=True))[1]
-        odd = np.ldexp(np.ldexp(odd, -(exponent // 2)), exponent // 2 - exponent)  # 2¹⁰⁷⁴ itself overflows
-        root = np.sqrt(np.sum(np.square(odd), axis=-1, keepdims=True))
-        plain[rows] = np.ldexp(np.ldexp(root, exponent // 2), exponent - exponent // 2)
+        odd, exponent = scaled(vectors[rows])
+        root, half = np.sqrt(np.sum(np.square(odd), axis=-1)), exponent // 2
+        plain[rows] = np.ldexp(np.ldexp(root, half), exponent - half)[:, None]
     return plain
 
 

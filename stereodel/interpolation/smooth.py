@@ -37,19 +37,15 @@ class SmoothInterpolator(TriangleInterpolator):
     {points}
     {values}
     gradients : (n, ..., 2) or (n, ..., 3) array_like, optional
-        Gradients at the points, per unit of length or per radian; on the sphere their radial components are ignored. By
-        default those of `estimate_gradients`.
+        Gradients at the points, per unit of length or per radian; on the sphere their radial components are ignored.
+        Finite or NaN, like values. By default those of `estimate_gradients`.
     {extrapolate}
 
     {attributes}
     gradients : (n, ..., 2) or (n, ..., 3) array
         As used, read-only.
 
-    Raises
-    ------
-    ValueError, TypeError
-        As for the triangulation; if a value or gradient is infinite or not real, or their number differs from that of
-        the points.
+    {raises}
 
     Notes
     -----

@@ -16,7 +16,7 @@ from stereodel.curves.ragged import offsets_of
 from stereodel.interpolation.interpolator import FAMILY, PrecisePoints, TriangleInterpolator
 from stereodel.interpolation.located import LocatedQueries
 from stereodel.interpolation.weights import Shares, WeightedInterpolator
-from stereodel.triangulation.delaunay import Triangulation, closing_triangles, threads_of
+from stereodel.triangulation.delaunay import Triangulation, state_of, threads_of
 
 
 @shared(**FAMILY)
@@ -182,7 +182,7 @@ class NaturalNeighborInterpolator(WeightedInterpolator):
         """The kernel's space, mesh, queries (on the sphere with what double-doubles add), and number of threads."""
         mesh, space = self.triangulation, self.triangulation.surface.kernel
         threads = threads_of(mesh, workers, len(queries))
-        if (closing := closing_triangles(mesh)) is None:
+        if (closing := state_of(mesh).closing) is None:
             return space, (mesh.points, mesh.simplices, mesh.neighbors), (queries,), threads
         sites, asked = self._sites.exact, PrecisePoints(queries).exact
         triangles = mesh.points, sites.hi, sites.lo, mesh.simplices, mesh.neighbors

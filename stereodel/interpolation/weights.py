@@ -14,10 +14,10 @@ import numpy.typing as npt
 from stereodel._arrays import AnyIndices, FloatArray, Indices, as_values, locked
 from stereodel._docs import shared
 from stereodel._extras import optional
-from stereodel._files import replacing
+from stereodel._tasks.whole_files import replacing
 from stereodel.curves.ragged import offsets_of, spans
 from stereodel.interpolation.interpolator import Interpolator
-from stereodel.sphere.lonlat import LONLAT
+from stereodel.sphere.coordinates import LONLAT
 
 
 class Shares(NamedTuple):
@@ -46,11 +46,6 @@ class Weights:
         Shape of the m queries.
     size : int
         Number of points n.
-
-    Attributes
-    ----------
-    rows : (s,) array of int
-        The row of each entry.
 
     Notes
     -----
@@ -143,31 +138,16 @@ class Weights:
             found[held] = (base + above)[held]
 
     def to_scipy(self) -> Any:
-        """As a sparse array of SciPy, (m, n), in CSR format.
+        """As a sparse array of SciPy, (m, n), in CSR format, with the same entries, including zeros.
 
-        Returns
-        -------
-        scipy.sparse.csr_array
-            Array with the same entries, including zeros. Its product with values is the same up to rounding, except
-            that rows without entries give zero instead of NaN.
-
-        Raises
-        ------
-        ImportError
-            If SciPy is missing (the extra ``scipy``).
+        Its product with values is the same up to rounding, except that rows without entries give zero instead of NaN.
         """
         sparse = optional("scipy.sparse", "scipy")
         parts = (self.data.copy(), self.columns.copy(), self.indptr.copy())
         return sparse.csr_array(parts, shape=(len(self.indptr) - 1, self.size))
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write to a file, an npz archive of the parameters.
-
-        Parameters
-        ----------
-        path : path
-            File to write; an existing file is replaced.
-        """
+        """Write to a file, an npz archive of the parameters; an existing file is replaced."""
         with replacing(path) as temporary, temporary.open("wb") as file:
             np.savez_compressed(
                 file, indptr=self.indptr, columns=self.columns, data=self.data, shape=self.shape, size=self.size
@@ -175,21 +155,7 @@ class Weights:
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> Weights:
-        """Read from a file written by `save`.
-
-        Parameters
-        ----------
-        path : path
-
-        Returns
-        -------
-        Weights
-
-        Raises
-        ------
-        ValueError
-            If the file does not contain weights.
-        """
+        """Read from a file written by `save`; ValueError if it does not contain weights."""
         with np.load(path, allow_pickle=False) as archive:
             missing = {"indptr", "columns", "data", "shape", "size"} - set(getattr(archive, "files", ()))
             if missing:
@@ -224,23 +190,14 @@ class WeightedInterpolator(Interpolator):
     ) -> Weights:
         """Weights of the points at queries, for use with other values such as time series.
 
-        Parameters
-        ----------
-        queries : array_like of shape (..., 2) or (..., 3)
-            As for a call.
         {asked}
-        workers : int, optional
-            As for a call.
 
         Returns
         -------
         Weights
             ``weights @ values`` is the result of an interpolator of these values at the queries.
 
-        Raises
-        ------
-        ValueError, TypeError
-            As a call does.
+        {asked_raises}
 
         Examples
         --------

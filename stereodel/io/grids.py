@@ -112,10 +112,11 @@ class Grid:
             _check_places(spacing, 2 * steps, rows)
             lon, lat = (np.arange(low, high, dtype=np.float64) + half for low, high in ((-steps, steps), (0, rows)))
             return cls(lon * step, lat * step - 90.0, centers=centers)
-        west, south, east, north = as_vectors(bounds, 4, "bounds").tolist()
-        as_lonlat([[west, south], [east, north]], "bounds")
+        name = spelled("bounds")
+        west, south, east, north = as_vectors(bounds, 4, name).tolist()
+        as_lonlat([[west, south], [east, north]], name)
         if not south < north:
-            raise ValueError(f"bounds are {(west, south, east, north)}, but south must be below north")
+            raise ValueError(f"{name} is {(west, south, east, north)}, but south must be below north")
         east = east if east > west else east + 360.0
         sides = ((west, east), (south, north))
         step = as_scalar(

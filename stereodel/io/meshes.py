@@ -29,7 +29,6 @@ from stereodel.io.rows_of import LARGEST_SEGMENT
 from stereodel.sphere import lonlat_to_xyz
 from stereodel.sphere.latitudes import Latitude
 from stereodel.sphere.vectors import units
-from stereodel.triangulation import SphericalVoronoi
 
 GOLDEN: Final = (np.sqrt(5.0) - 1) / 2
 LOOKS: Final = ((0.20, 0.97), (0.38, 0.93), (0.52, 0.84))
@@ -113,7 +112,7 @@ def to_polydata(mesh: Mesh, *, what: str | None = None) -> Any:
         Flat polygons between unit vectors, or in the plane z = 0, with ``cell_data["point"]`` or
         ``cell_data["triangle"]``, the index of each polygon's point or triangle, and for cells ``cell_data["area"]``,
         in steradians on the sphere. Points of a triangulation are in input order, so values can be assigned to
-        ``point_data`` directly. Closing triangles, unbounded cells and the cells of duplicates are left out.
+        ``point_data`` directly. What `to_ugrid` leaves out is left out.
 
     Raises
     ------
@@ -165,8 +164,8 @@ def to_ugrid(mesh: Mesh, *, what: str | None = None, latitude: Latitude | None =
 
     Notes
     -----
-    `closing` triangles, unbounded cells and the cells of duplicates are left out. Cells between two antipodal vertices
-    have the midpoints of their ridges as additional nodes. ``uxarray.open_grid`` accepts the dataset. Source: UGRID
+    `closing` triangles, unbounded cells, the cells of duplicates and, where all points lie on one great circle, cells
+    between two antipodal vertices are left out. ``uxarray.open_grid`` accepts the dataset. Source: UGRID
     Conventions 1.0, https://ugrid-conventions.github.io/ugrid-conventions.
 
     Examples
@@ -356,7 +355,7 @@ def _pale(count: int) -> Bytes:
 
 @dataclass(frozen=True, eq=False)
 class Faces:
-    """Polygons of nodes, counterclockwise, without unbounded cells and closing triangles."""
+    """Polygons of nodes, counterclockwise, without unbounded cells, those of two nodes, and closing triangles."""
 
     nodes: FloatArray  # (n, 2) of the plane, or (n, 3), unit vectors
     polygons: Ragged  # the nodes of each
@@ -371,11 +370,9 @@ class Faces:
             corners = triangulation.simplices[number].astype(np.intp).ravel()
             return cls(_nodes(mesh), Ragged(corners, 3 * np.arange(len(number) + 1)), number, "triangle")
         diagram = diagram_of(mesh)
-        if mesh.surface is SPHERE and len(diagram.vertices) == 2:
-            return _lunes(diagram)
         regions = Ragged(diagram.region_indices.astype(np.intp), diagram.region_offsets)
         unbounded = np.bincount(regions.row, regions.values < 0, minlength=len(regions)) > 0
-        number = np.flatnonzero((regions.sizes > 0) & ~unbounded)
+        number = np.flatnonzero((regions.sizes > 2) & ~unbounded)
         return cls(diagram.vertices, regions.take(number), number, "point")
 
     @property
@@ -402,14 +399,3 @@ class Faces:
         if self.what == "triangle":
             return mesh.surface.areas(*self.nodes[self.table].transpose(1, 0, 2))
         return np.asarray(diagram_of(mesh).areas()[self.number])
-
-
-def _lunes(diagram: SphericalVoronoi) -> Faces:
-    """Cells between two antipodal vertices, with the midpoint of each ridge as an additional node."""
-    sides, arcs = voronoi_sides(diagram), ridge_arcs(diagram)
-    ridge = np.maximum(sides.values, ~sides.values)
-    start = diagram.ridge_vertices[ridge, (sides.values < 0).astype(np.intp)].astype(np.intp)
-    corners = Ragged(np.column_stack([start, 2 + ridge]).ravel(), 2 * sides.offsets)
-    number = np.flatnonzero(sides.sizes)
-    middles = arcs.points(np.arange(len(arcs)), arcs.stop / 2)
-    return Faces(np.concatenate([diagram.vertices, middles]), corners.take(number), number, "point")

@@ -22,7 +22,7 @@ from stereodel.curves.trace import Arcs, great
 from stereodel.interpolation import Contour
 from stereodel.io.formats import wkb
 from stereodel.io.formats.map_rows import MapRows, packed, shapely
-from stereodel.io.formats.names import beside
+from stereodel.io.formats.names import beside, spelled
 from stereodel.io.maps.clipping import clipped
 from stereodel.io.maps.meshes_as_rows import (
     Columns,
@@ -138,7 +138,7 @@ def rows_of(
     4      4    N  2.094       Polygon
     5      5    S  2.094       Polygon
     """
-    as_scalar(max_segment, "max_segment", low=0.0, high=LARGEST_SEGMENT, open_low=True)
+    as_scalar(max_segment, spelled("max_segment"), low=0.0, high=LARGEST_SEGMENT, open_low=True)
     if isinstance(mesh, list):
         if what is not None or columns or bounds is not None or clip is not None:
             raise ValueError(

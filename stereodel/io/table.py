@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 from typing import Any, Final, Literal
@@ -137,28 +137,19 @@ class PointTable:
                 raise ValueError(f"there is no column {name!r}; the columns are {known}")
         return self.columns[name]
 
-    def numbers(self, name: str) -> FloatArray:
-        """A column of finite numbers, NaN where a cell is empty; ValueError names the first row that holds another."""
+    def numbers(self, name: str, *, gaps: bool = True) -> FloatArray:
+        """A column of finite numbers, NaN where a cell is empty if `gaps`; ValueError names the first other row."""
         with naming(self.name):
-            return numbers(self.column(name), name, self.rows, gaps=True)
+            return numbers(self.column(name), name, self.rows, gaps=gaps)
 
     def values(self, names: Sequence[str], *, skip_missing: bool = False) -> tuple[FloatArray, PointTable]:
-        """Columns of numbers (n, number of names) and their points, without incomplete rows if `skip_missing`.
-
-        ValueError names the first row where a number is missing.
-        """
-        values = np.column_stack([self.numbers(name) for name in names])
+        """Columns of numbers (n, number of names) and their points, without incomplete rows if `skip_missing`."""
+        values = np.column_stack([self.numbers(name, gaps=skip_missing) for name in names])
         for name, column in zip(names, values.T, strict=True):
             for value, count in far(column).items():
                 said = f"{count} of the values of {name!r} are {value:g}, far outside all others"
                 warnings.warn(f"{said}; {spelled('missing', '=')} leaves them out", DataWarning, stacklevel=2)
-        missing = np.argwhere(~np.isfinite(values))
-        if len(missing) and not skip_missing:
-            row, column = missing[0]
-            with naming(self.name):
-                raise ValueError(f"row {self.rows[row]}: {names[column]} is missing; {left_out()}")
-        kept = np.ones(len(values), dtype=np.bool_)
-        kept[missing[:, 0]] = False
+        kept = np.flatnonzero(~np.isnan(values).any(axis=1))
         return values[kept], self.taken(kept)
 
     def beside(self, results: Mapping[str, Column], *, first: Mapping[str, Column] | None = None) -> PointTable:
@@ -254,26 +245,16 @@ def degrees(
     With `wrong`, those are NaN, and it takes their rows. Without `wrap`, longitudes beyond ±360° are wrong.
     """
     lonlat = places if crs is None else transformed(places, crs, rows, wrong=wrong)
-    lonlat = lonlat if wrong is None else lonlat.copy()
-
-    def check(bad: Any, what: str, axis: int, advice: str) -> None:
-        found = np.flatnonzero(bad)
-        if wrong is not None:
-            wrong.update({int(rows[row]): what.format(lonlat[row, axis]) for row in found.tolist()})
-            lonlat[found] = np.nan
-        elif len(found):
-            said = what.format(lonlat[found[0], axis])
-            raise ValueError(f"row {rows[found[0]]}: {said}{_more(found)}; {advice}")
-
     skip = left_out("skip_invalid")
     if wrong is None:
-        check(~np.isfinite(lonlat).all(axis=1), "a coordinate is not finite", 0, skip)
+        _refuse(~np.isfinite(lonlat).all(axis=1), rows, lambda k: "a coordinate is not finite")
     advice = f"is it the longitude, or not in degrees? {skip}"
-    check(np.greater(np.abs(lonlat[:, 1]), 90.0), "latitude {} is outside [-90, 90]", 1, advice)
-    if not wrap and crs is None:
-        advice = f"{skip}, or take it as it is with {spelled('wrap', '=True')}"
-        check(np.abs(lonlat[:, 0]) > 360.0, "longitude {} is outside [-360, 360]", 0, advice)
-    return lonlat
+    outside = np.abs(lonlat[:, 1]) > 90.0
+    _refuse(outside, rows, lambda k: f"latitude {lonlat[k, 1]} is outside [-90, 90]", advice, wrong)
+    far_round = np.abs(lonlat[:, 0]) > (np.inf if wrap or crs is not None else 360.0)
+    advice = f"{skip}, or take it as it is with {spelled('wrap', '=True')}"
+    _refuse(far_round, rows, lambda k: f"longitude {lonlat[k, 0]} is outside [-360, 360]", advice, wrong)
+    return lonlat if wrong is None else np.where((outside | far_round)[:, None], np.nan, lonlat)
 
 
 def known_crs(crs: str) -> Any:
@@ -293,13 +274,10 @@ def transformed(
     """Coordinates in another system, easting first, as longitude and latitude; NaN where there are none, if `wrong`."""
     transformer = optional("pyproj", "geo").Transformer.from_crs(known_crs(crs), "EPSG:4326", always_xy=True)
     lonlat = np.column_stack(transformer.transform(*places.T)) if len(places) else places
-    lost = np.flatnonzero(~np.isfinite(lonlat).all(axis=1))
-    if len(lost) and wrong is not None:
-        lonlat[lost] = np.nan
-        wrong.update({int(rows[row]): f"has no longitude and latitude in {crs}" for row in lost.tolist()})
-    elif len(lost):
-        x, y = places[lost[0]]
-        raise ValueError(f"row {rows[lost[0]]}: ({x}, {y}) has no longitude and latitude in {crs}{_more(lost)}")
+    lost = ~np.isfinite(lonlat).all(axis=1)
+    said = f"has no longitude and latitude in {crs}"
+    _refuse(lost, rows, lambda k: f"({places[k, 0]}, {places[k, 1]}) {said}", wrong=wrong)
+    lonlat[lost] = np.nan
     return lonlat
 
 
@@ -319,39 +297,45 @@ def numbers(
     and it takes their rows.
     """
     array = np.asarray(values)
-    told: dict[int, str] = {}
     if array.dtype.kind in "iuf":
         result = array.astype(np.float64)
-        large = np.flatnonzero(np.abs(result) >= EXACT_INTEGERS).tolist() if array.dtype.kind in "iu" else []
-        rounded = [place for place in large if int(array[place]) != int(result[place])]
-        if rounded:
-            said = f"row {rows[rounded[0]]}: the {name} {array[rounded[0]]} is not a double{_more(rounded)}"
-            raise ValueError(f"{said}; subtract an origin that all share, or round it yourself")
+        rounded = np.zeros(len(array), dtype=np.bool_)
+        for k in np.flatnonzero(np.abs(result) >= EXACT_INTEGERS).tolist() if array.dtype.kind in "iu" else []:
+            rounded[k] = int(array[k]) != int(result[k])
+        remedy = "subtract an origin that all share, or round it yourself"
+        _refuse(rounded, rows, lambda k: f"the {name} {array[k]} is not a double", remedy)
     else:
         result, bad = doubles(array, decimal=decimal)
-        for place in np.flatnonzero(bad).tolist():
-            said = str(array[place]).strip()
-            found = notation.angle(said) if decimal else None
+        for k in np.flatnonzero(bad).tolist() if decimal else ():
+            found = notation.angle(str(array[k]))
             if found is not None and found.axis in ("", name):
-                result[place] = found.degrees
-            else:
-                told[place] = f"the {name} {said!r} {why_not(said) if found is None else f'is a {found.axis}'}"
-    if told and wrong is None:
-        first = min(told)
-        raise ValueError(f"row {rows[first]}: {told[first]}{_more([*told])}")
-    endless = np.isinf(result) if gaps and wrong is None else ~np.isfinite(result)
-    for place in np.flatnonzero(endless).tolist():
-        missing = bool(np.isnan(result[place]))
-        told.setdefault(place, f"the {name} {'is missing' if missing else f'is {result[place]}, but must be finite'}")
+                result[k], bad[k] = found.degrees, False
+
+        def why(k: int) -> str:
+            said = str(array[k]).strip()
+            found = notation.angle(said) if decimal else None
+            return f"the {name} {said!r} {f'is a {found.axis}' if found and found.axis else why_not(said)}"
+
+        _refuse(bad, rows, why, wrong=wrong)
+    remedy = "correct or drop such rows first"
+    _refuse(np.isinf(result), rows, lambda k: f"the {name} is {result[k]}, but must be finite", remedy, wrong)
+    if not gaps or wrong is not None:
+        unsaid = np.isnan(result) & ~np.isin(rows, [*(wrong or ())])
+        _refuse(unsaid, rows, lambda k: f"the {name} is missing", advice or left_out(), wrong)
+    return result if wrong is None else np.where(np.isinf(result), np.nan, result)
+
+
+def _refuse(
+    bad: Any,
+    rows: Sequence[int] | Indices,
+    said: Callable[[int], str],
+    advice: str = "",
+    wrong: dict[int, str] | None = None,
+) -> None:
+    """A ValueError for the first bad row, how many more there are, and what to do; `wrong` takes them instead."""
+    places = np.flatnonzero(bad)
     if wrong is not None:
-        wrong.update({int(rows[place]): said for place, said in told.items()})
-        result[[*told]] = np.nan
-    elif told:
-        first = min(told)
-        drop = (advice or left_out()) if np.isnan(result[first]) else "correct or drop such rows first"
-        raise ValueError(f"row {rows[first]}: {told[first]}{_more([*told])}; {drop}")
-    return result
-
-
-def _more(places: Sequence[int] | Indices) -> str:
-    return f" (and {len(places) - 1} more rows like it)" if len(places) > 1 else ""
+        wrong.update({int(rows[k]): said(k) for k in places.tolist()})
+    elif len(places):
+        more = f" (and {len(places) - 1} more rows like it)" if len(places) > 1 else ""
+        raise ValueError(f"row {rows[places[0]]}: {said(places[0])}{more}{advice and '; '}{advice}")

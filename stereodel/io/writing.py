@@ -15,8 +15,8 @@ import numpy.typing as npt
 
 from stereodel._arrays import as_choice
 from stereodel._extras import optional
-from stereodel._files import replacing, said_of
 from stereodel._tasks.progress import Progress
+from stereodel._tasks.whole_files import replacing, said_of
 from stereodel.interpolation import Contour
 from stereodel.io.formats import wkb
 from stereodel.io.formats.columns import objects
@@ -45,8 +45,6 @@ from stereodel.sphere.latitudes import Latitude
 
 SAME: Final = {"json": "geojson", "geoparquet": "parquet", "tiff": "tif"}
 """Alternative extensions of formats."""
-
-PICTURES: Final = ("svg", "pdf", "png")
 
 
 def write(
@@ -105,8 +103,6 @@ def write(
     if isinstance(path, str | os.PathLike):
         ending = Path(path).suffix.lower().removeprefix(".")
         kind, stem = format or SAME.get(ending, ending), Path(path).stem
-    if kind in PICTURES:
-        raise ValueError(f"format is {kind!r}, a picture, but data are written here; save a page, as of `diagram_page`")
     writer = WRITERS[as_choice(kind, tuple(WRITERS), "format")]
     if not isinstance(thing, (*MESHES, list)) and (unknown := [name for name in options if name != "decimals"]):
         raise TypeError(f"{', '.join(unknown)} is not an option where tables are written")

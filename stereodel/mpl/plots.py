@@ -94,13 +94,9 @@ class GlobePlots(Axes):
         return (lon, lat, scale * vector[..., 0], scale * vector[..., 1], *args[4:])
 
     def imshow(self, *args: Any, **kwargs: Any) -> AxesImage:
-        """Images in page coordinates, with ``transform=axes.transPage``; an image in degrees would have to be warped.
+        """Images in page coordinates, with ``transform=axes.transPage``; ValueError without it.
 
-        Raises
-        ------
-        ValueError
-            Without that transform. Use `pcolormesh`, or `stereodel.globe.Raster`, whose `warp` returns an image in page
-            coordinates.
+        For an image in degrees use `pcolormesh`, or `stereodel.globe.Raster`, whose `warp` returns such an image.
         """
         if kwargs.get("transform") is not self.transPage:
             raise ValueError(

@@ -16,7 +16,7 @@ import numpy as np
 from stereodel._arrays import FloatArray
 from stereodel._extras import optional
 from stereodel.io.formats import wkb
-from stereodel.io.formats.names import anew, find_lonlat, has_lonlat, listed, spelled
+from stereodel.io.formats.names import anew, find_lonlat, has_lonlat, listed, naming, spelled
 from stereodel.io.table import degrees, numbers
 from stereodel.sphere import lonlat_to_xyz
 from stereodel.sphere.latitudes import Latitude
@@ -118,12 +118,7 @@ def _of_geometries(column: Mapping[str, Any], name: str, surface: Surface, latit
 
 
 def coordinates_of(form: Form, name: str, column: Any, rows: Sequence[int]) -> dict[str, Any]:
-    """Two columns, by names for messages, of a column of points: well-known binary, or structures of x and y.
-
-    >>> import pyarrow, struct
-    >>> coordinates_of("wkb", "g", pyarrow.array([struct.pack("<BIdd", 1, 1, 8.5, 47.4)]), [1])["g.y"].to_pylist()
-    [47.4]
-    """
+    """Two columns, by names for messages, of a column of points: well-known binary, or structures of x and y."""
     pyarrow = optional("pyarrow", "partitioned")
     types, kind = pyarrow.types, column.type
     if not (types.is_struct(kind) if form == "point" else types.is_binary(kind) or types.is_large_binary(kind)):
@@ -237,16 +232,11 @@ def slices(content: Any, names: Sequence[str], first: int, last: int) -> Iterato
 @contextmanager
 def unchanged(file: PointFile) -> Iterator[Any]:
     """A file, open, that is as it was before and after it is read; messages say which it is."""
-    try:
+    with naming(file.path):
         file.check()
         with opened(file.path) as content:
             yield content
         file.check()
-    except (ValueError, TypeError) as error:
-        if str(error).startswith(file.path):
-            raise
-        kind = ValueError if isinstance(error, ValueError) else TypeError
-        raise kind(f"{file.path}: {error}") from error
 
 
 def _groups(content: Any, first: int, last: int) -> Iterator[tuple[int, int, int]]:

@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import csv
 import os
-import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -37,13 +36,9 @@ FOLDER_SIZE: Final = 10_000
 """Pixels that share a folder ``Dir``."""
 
 
-@dataclass(frozen=True, order=True)
+@dataclass(frozen=True)
 class Pixel:
-    """A pixel of HEALPix in the NESTED scheme.
-
-    >>> Pixel(5, 10_417).path(".parquet").as_posix()
-    'dataset/Norder=5/Dir=10000/Npix=10417.parquet'
-    """
+    """A pixel of HEALPix in the NESTED scheme."""
 
     order: int
     number: int
@@ -52,11 +47,6 @@ class Pixel:
         """Where its rows are, from the folder of the catalogue: a file, or a folder of files if the suffix is "/"."""
         folder = self.number // FOLDER_SIZE * FOLDER_SIZE
         return Path("dataset", f"Norder={self.order}", f"Dir={folder}", f"Npix={self.number}{suffix.rstrip('/')}")
-
-    @classmethod
-    def of_path(cls, path: Path) -> Self:
-        """The pixel whose rows are at a path, or in a folder."""
-        return cls(*(int(re.findall(rf"{name}=(\d+)", path.as_posix())[-1]) for name in ("Norder", "Npix")))
 
 
 @dataclass(frozen=True, eq=False)
@@ -132,12 +122,8 @@ def _described(folder: Path) -> Path | None:
 
 
 def _pixels(folder: Path) -> list[Pixel]:
-    """The pixels that ``partition_info.csv`` lists; without it those that there are, in the order of the sky."""
+    """The pixels that ``partition_info.csv`` lists."""
     path = folder / PIXELS
-    if not path.is_file():
-        paths = folder.glob("dataset/Norder=[0-9]*/Dir=*/Npix=[0-9]*")
-        found = {Pixel.of_path(each.relative_to(folder)) for each in paths}
-        return sorted(found, key=lambda pixel: (pixel.number << 2 * (29 - pixel.order), pixel.order))
     with path.open(encoding="utf-8", newline="") as file:
         rows = csv.DictReader(file)
         try:
@@ -147,8 +133,6 @@ def _pixels(folder: Path) -> list[Pixel]:
 
 
 def _properties(path: Path) -> dict[str, str]:
-    r"""A file of properties as Java has them: ``name=value`` in lines, comments behind # or !, escapes by \."""
-    lines = re.sub(r"\\\r?\n[ \t]*", "", path.read_text(encoding="utf-8")).splitlines()
-    lines = [line for line in lines if line.lstrip()[:1] not in "#!"]
-    pairs = (re.match(r"\s*((?:\\.|[^\\:=\s])+)\s*[:=\s]\s*(.*?)\s*$", line) for line in lines)
-    return {re.sub(r"\\(.)", r"\1", pair[1]): re.sub(r"\\(.)", r"\1", pair[2]) for pair in pairs if pair is not None}
+    """A file of properties: ``name=value`` in lines, comments behind # or !."""
+    pairs = (line.partition("=") for line in path.read_text(encoding="utf-8").splitlines())
+    return {name.strip(): value.strip() for name, _, value in pairs if name.lstrip()[:1] not in "#!"}

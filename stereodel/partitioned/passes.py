@@ -1,31 +1,46 @@
-"""Passes: the tasks of a run one kind after another, over an executor, and what they leave in a folder."""
+"""Passes: the tasks of a run one kind after another, over an executor, and what they leave in a folder.
+
+The last pass aligns: it writes results for points into files with the rows of the input's files, in their order.
+"""
 
 from __future__ import annotations
 
 import os
 import shutil
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
+from itertools import groupby
 from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
+import numpy.typing as npt
 
 from stereodel._arrays import as_count
 from stereodel._extras import optional
-from stereodel._files import ENDING
 from stereodel._tasks.crew import Crew
 from stereodel._tasks.kept import Note, locked, save_json
 from stereodel._tasks.progress import Progress
+from stereodel._tasks.whole_files import ENDING, replacing
 from stereodel.io.formats.names import anew
 from stereodel.partitioned import spread
-from stereodel.partitioned.align import align, write_file
-from stereodel.partitioned.files import Source, opened
-from stereodel.partitioned.plan import NAME, Plan
-from stereodel.partitioned.store import DIGITS, KEPT, RESULTS, SCRATCH, Store, damaged, load, load_json, load_plan
+from stereodel.partitioned.files import Source, opened, slices, unchanged
+from stereodel.partitioned.plan import NAME, Plan, RowRange
+from stereodel.partitioned.store import (
+    DIGITS,
+    KEPT,
+    RESULTS,
+    SCRATCH,
+    Columns,
+    Store,
+    damaged,
+    load,
+    load_json,
+    load_plan,
+)
 
 REPORT: Final = "run.json"
 """Name of the file that describes a run; it is written last."""
@@ -175,7 +190,7 @@ def execute(
         _begin(store, execution.resume)
         if not (folder / REPORT).exists():
             with Crew(execution.jobs, executor=execution.executor) as crew:
-                Passes(results, store, crew, execution.limit, execution.progress).run()
+                Passes(results, store, crew, execution.limit, execution.progress or (lambda *_: None)).run()
             _publish(store)
         else:
             check_results(folder, plan, load_json(folder / REPORT)["partitions"])
@@ -241,6 +256,77 @@ def _clear(store: Store) -> None:
         own.rmdir()
 
 
+def align(store: Store, output: int) -> None:
+    """The files of some shares of the input."""
+    pieces = groupby(_pieces(store, output), lambda piece: piece[0].file)
+    paths = [write_file(store, file, found) for file, found in pieces]
+    store.notes.keep("align", {}, paths, task=output)
+
+
+def _pieces(store: Store, output: int) -> Iterator[tuple[RowRange, Columns]]:
+    """Rows of the input's files in order, and the results for them: of one share after another, which may be large."""
+    for share in store.plan.outputs[output]:
+        columns, used = _columns(store, share), 0
+        for rows in store.plan.shares[share]:
+            own = slice(used, used := used + rows.last - rows.first)
+            yield rows, {name: column[own] for name, column in columns.items()}
+
+
+def _columns(store: Store, share: int) -> Columns:
+    """Results for the points of a share, in their order."""
+    plan = store.plan
+    first, last = plan.share_firsts[share : share + 2].tolist()
+    columns = {name: np.empty(last - first, dtype=kind) for name, kind in plan.row_kinds.items()}
+    if "kept" in columns:
+        columns["kept"][:] = np.arange(first, last)
+    filled = 0
+    for part, (results,) in store.slices("stars", share, "rows"):
+        at, filled = results["number"].astype(np.intp) - first, filled + len(results)
+        for name in plan.row_names:
+            columns[name][at] = results[name]
+        if "kept" in columns:
+            pairs = store.load("stars", part, "pairs")
+            low, high = np.searchsorted(pairs[:, 0], [first, last])
+            columns["kept"][pairs[low:high, 0] - first] = pairs[low:high, 1]
+    if filled != last - first:
+        raise RuntimeError(f"there are results for {filled} of the {last - first} rows from {first}")
+    return columns
+
+
+def write_file(store: Store, file: int, pieces: Iterable[tuple[RowRange, Columns]]) -> Path:
+    """The results for a file of the input, behind the columns that are carried along, as they are there."""
+    plan, source = store.plan, store.plan.files[file]
+    pyarrow, parquet = (optional(name, "partitioned") for name in ("pyarrow", "pyarrow.parquet"))
+    path = store.folder("rows") / source.name
+    path.parent.mkdir(parents=True, exist_ok=True)
+    fields: list[Any] = []
+    if plan.carried:
+        with opened(source.path) as content:
+            fields += [content.schema_arrow.field(name) for name in plan.carried]
+    for name, kind in plan.row_kinds.items():
+        one = pyarrow.from_numpy_dtype(kind.base)
+        fields.append(pyarrow.field(name, pyarrow.list_(one, *kind.shape) if kind.shape else one))
+    schema = pyarrow.schema(fields, metadata=plan.metadata)
+    options = {"compression": "none", "use_dictionary": list(plan.carried)}
+    with replacing(path) as temporary, parquet.ParquetWriter(temporary, schema, **options) as out:
+        for rows, columns in pieces:
+            arrays = {name: _array(column) for name, column in columns.items()}
+            if plan.carried:
+                with unchanged(source) as content:
+                    found = [table for _, table in slices(content, plan.carried, rows.first, rows.last)]
+                table = pyarrow.concat_tables(found).combine_chunks()
+                arrays |= {name: table[name] for name in plan.carried}
+            out.write_table(pyarrow.table([arrays[name] for name in schema.names], schema=schema))
+    return path
+
+
+def _array(column: npt.NDArray[Any]) -> Any:
+    """A column of Arrow; rows with several numbers are lists of a fixed size."""
+    pyarrow = optional("pyarrow", "partitioned")
+    flat = pyarrow.array(column.ravel())
+    return flat if column.ndim == 1 else pyarrow.FixedSizeListArray.from_arrays(flat, column.shape[1])
+
+
 Answer = tuple[dict[str, Any], list[Note]]
 """Statistics of all partitions, and the note of each."""
 
@@ -253,7 +339,7 @@ class Passes:
     store: Store
     crew: Crew
     limit: int
-    progress: Progress | None
+    progress: Progress
 
     def run(self) -> None:
         """All of them, and the report, when all files are as they should be."""
@@ -290,17 +376,13 @@ class Passes:
             found = {task: note for task in tasks if (note := notes.note(name, task)) is not None}
             left = [task for task in tasks if task not in found]
             if left or not attempt:
-                self._say(name, len(found), len(tasks))
+                self.progress(name, len(found), len(tasks))
             if not left:
                 return list(found.values())
             for done, (_, outcome) in enumerate(self.crew.each(work, left), len(found) + 1):
                 outcome.value()
-                self._say(name, done, len(tasks))
+                self.progress(name, done, len(tasks))
         raise ValueError(f"{notes.path(name, left[0])} or files in it are deleted while the run works there")
-
-    def _say(self, name: str, done: int, of: int) -> None:
-        if self.progress is not None:
-            self.progress(name, done, of)
 
     def _collected(self) -> tuple[bool, list[int]]:
         """Points in partitions: whether those are files, and which of them have points."""

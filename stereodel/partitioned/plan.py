@@ -213,16 +213,7 @@ def _with_tuples(given: dict[str, Any]) -> dict[str, Any]:
 
 
 def _cut(files: Sequence[PointFile], size: int) -> tuple[tuple[RowRange, ...], ...]:
-    """Rows of files in order, in tasks of about `size`: small files grouped, those half as large again cut evenly.
-
-    >>> files = [PointFile("", str(k), rows, 0, 0) for k, rows in enumerate([9, 2, 2, 0, 5])]
-    >>> for task in _cut(files, 4):
-    ...     print(*map(tuple, task))
-    (0, 0, 4)
-    (0, 4, 9)
-    (1, 0, 2) (2, 0, 2)
-    (4, 0, 5)
-    """
+    """Rows of files in order, in tasks of about `size`: small files grouped, those half as large again cut evenly."""
     tasks: list[list[RowRange]] = []
     room = 0
     for number, file in enumerate(files):

@@ -23,10 +23,9 @@ from stereodel._arrays import BoolArray, FloatArray, Indices, LongArray
 from stereodel._tasks.kept import Note
 from stereodel.interpolation import LinearInterpolator, NaturalNeighborInterpolator
 from stereodel.partitioned.files import FilesGiven, doubles_of, slices, unchanged
-from stereodel.partitioned.index import Index, Sample
 from stereodel.partitioned.passes import Execution, Passes, Results, execute, totals
 from stereodel.partitioned.plan import Plan, Question, source_of
-from stereodel.partitioned.rounds import Mesh, Rounds, Verdict, clock, measured, triangulation
+from stereodel.partitioned.rounds import Index, Mesh, Rounds, Sample, Verdict, clock, measured, triangulation
 from stereodel.partitioned.stars import distances, write_rows
 from stereodel.partitioned.store import KEPT, Columns, Store, load_plan
 from stereodel.triangulation import SphericalDelaunay
@@ -64,7 +63,7 @@ FAMILY: Final = {
         TypeError
             For targets or values of another type than numbers.
         MemoryError
-            Where a target needs more than `Execution.limit` points, naming it.
+            Where a target needs more than `Execution.limit` points, with its number.
         RuntimeError, OSError, ImportError
             As in `triangulate`.
         """,
@@ -121,12 +120,9 @@ class TargetRounds(Rounds[tuple[Indices, Columns]]):
             room = self.limit if len(rows) == 1 else min(ROOM, self.limit)
             left, count = yield from self.answers(rows, np.zeros(len(self.index), dtype=np.bool_), room)
             if len(left) == 1 and count > self.limit:
-                plan, number = self.store.plan, int(self.numbers[left[0]])
-                file = int(np.searchsorted(plan.firsts, number, side="right")) - 1
-                row = number - int(plan.firsts[file]) + 1
                 raise MemoryError(
-                    f"{plan.files[file].path}: row {row}: this target may need {count} points at once, more than "
-                    f"limit={self.limit}; give a higher limit"
+                    f"target {self.numbers[left[0]]} may need {count} points at once, more than limit={self.limit}; "
+                    "give a higher limit"
                 )
             if len(left):
                 waiting += [left[len(left) // 2 :], left[: len(left) // 2]]
@@ -216,9 +212,6 @@ def take_values(store: Store, share: int) -> None:
             for low, table in slices(content, names, first, last):
                 rows = range(low + 1, low + 1 + table.num_rows)
                 values.append(np.column_stack([doubles_of(table[name], name, rows, gaps=True) for name in names]))
-                first += len(rows)
-        if first < last:
-            raise ValueError(f"{plan.files[file].path} has fewer rows than it had")
     store.notes.keep("values", {}, store.save("values", share, {"values": np.concatenate(values)}), task=share)
 
 

@@ -17,10 +17,10 @@ from stereodel.constants import AREA_SUM_ERROR
 from stereodel.io.formats.names import listed
 from stereodel.partitioned import questions
 from stereodel.partitioned.files import SURFACES, FilesGiven, Surface, names_of, opened
-from stereodel.partitioned.index import Index
 from stereodel.partitioned.passes import NONE, Execution, Passes, Results, execute, totals
 from stereodel.partitioned.plan import ROWS, Plan, Question, source_of
 from stereodel.partitioned.questions import Answers
+from stereodel.partitioned.rounds import Index
 from stereodel.partitioned.stars import solve
 from stereodel.sphere.latitudes import KINDS as LATITUDES
 from stereodel.sphere.latitudes import Latitude

@@ -12,12 +12,11 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import FloatArray, IntArray, LongArray
-from stereodel._spaces import space_of
+from stereodel._spaces import space_of, surface_of
 from stereodel.partitioned.files import read, sampled
 from stereodel.partitioned.plan import Plan, RowRange
 from stereodel.partitioned.store import Store, load, save, starts_of, sums
 from stereodel.sphere.vectors import units
-from stereodel.triangulation import PlanarDelaunay, SphericalDelaunay
 
 GROUPS: Final = 512
 """Row groups that a sample reads in all, but one of each piece of a file at least: it need not read the whole input."""
@@ -42,10 +41,6 @@ def tree_of(sample: FloatArray, leaves: int) -> npt.NDArray[np.void]:
     """The k-d tree whose leaves have about equally many points of a sample, cut across the longest axis: inner nodes.
 
     They stand in the order of a heap: the children of inner node k are 2k + 1 and 2k + 2, then come the leaves.
-
-    >>> tree = tree_of(np.array([[0.0, 0], [1, 0], [2, 0], [3, 0], [4, 0], [5, 0]]), 3)
-    >>> tree["axis"].tolist(), tree["value"].tolist()
-    ([0, 0], [3.0, 1.0])
     """
     inner = leaves - 1
     below = np.ones(2 * leaves - 1, dtype=np.int64)
@@ -77,17 +72,11 @@ def is_compact(sample: FloatArray, parts: IntArray) -> bool:
     it in a Delaunay triangulation of a sample of all points: at most `COMPACT` times as many as for a k-d tree with the
     same number of leaves. Pixels of HEALPix and files sorted along a space-filling curve have 1 to 1.5 times as many;
     files in the order of time, of names, or bands of latitude far more.
-
-    >>> points = np.random.default_rng(1).uniform(size=(4000, 2))
-    >>> squares = (points[:, 0] * 4).astype(np.int32) * 4 + (points[:, 1] * 4).astype(np.int32)
-    >>> is_compact(points, squares), is_compact(points, np.arange(4000, dtype=np.int32) % 16)
-    (True, False)
     """
     count = len(np.unique(parts))
     if count < 2:
         return True
-    mesh = PlanarDelaunay(sample) if sample.shape[1] == 2 else SphericalDelaunay(sample)
-    ends = mesh.edges
+    ends = surface_of(sample).delaunay(sample).edges
     leaves = leaves_of(sample, tree_of(sample, count))
     across, usual = (np.count_nonzero(labels[ends[:, 0]] != labels[ends[:, 1]]) for labels in (parts, leaves))
     return bool(across <= COMPACT * usual)
@@ -129,8 +118,6 @@ def points_of(plan: Plan, ranges: Sequence[RowRange]) -> FloatArray:
         for rows in read(plan.files[file], plan.columns, first, last):
             points[filled : filled + len(rows)] = rows
             filled += len(rows)
-    if filled < len(points):
-        raise ValueError(f"{plan.files[ranges[0].file].path} and those after it have {filled} of {len(points)} rows")
     return points
 
 

@@ -11,13 +11,12 @@ import numpy as np
 
 from stereodel import _kernel
 from stereodel._arrays import BoolArray, FloatArray, Indices, LongArray
-from stereodel._files import replacing
+from stereodel._tasks.whole_files import replacing
 from stereodel.curves.borders import frame_of
 from stereodel.io.formats.map_rows import MapRows
 from stereodel.io.formats.parquet import write_parquet
 from stereodel.io.rows_of import rows_of
-from stereodel.partitioned.index import Index, Sample
-from stereodel.partitioned.rounds import Mesh, Rounds, Verdict, clock, measured, triangulation
+from stereodel.partitioned.rounds import Index, Mesh, Rounds, Sample, Verdict, clock, measured, triangulation
 from stereodel.partitioned.store import Columns, Store, starts_of
 from stereodel.sphere import angular_distance
 from stereodel.triangulation import PlanarDelaunay, PlanarVoronoi, SphericalVoronoi

@@ -32,8 +32,8 @@ import numpy.typing as npt
 
 from stereodel._arrays import LongArray
 from stereodel._extras import optional
-from stereodel._files import replacing
 from stereodel._tasks.kept import Kept
+from stereodel._tasks.whole_files import replacing
 from stereodel.io.formats.names import anew
 from stereodel.partitioned.plan import NAME, Plan
 

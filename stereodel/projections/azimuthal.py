@@ -23,12 +23,12 @@ from stereodel._arrays import (
     as_scalar,
     as_vectors,
 )
-from stereodel._double_double import DoubleDouble, by_blocks, dot, stack, unit, where
+from stereodel._double_double import DoubleDouble, by_blocks, dot, scaled, stack, unit, where
 from stereodel.constants import SEEN_FACE_ON, STORED_ERROR
 from stereodel.projections.plane_curves import Conic, ConicKind, PlaneCircle, PlaneLine
 from stereodel.sphere import SphereCircle
 from stereodel.sphere.circles import light_cone, shift_exponent
-from stereodel.sphere.coordinates import scaled, tangent_frame
+from stereodel.sphere.coordinates import tangent_frame
 from stereodel.sphere.rotations import transform
 
 
@@ -136,20 +136,12 @@ class Gnomonic(TangentPlane):
         A line for a great circle; otherwise an ellipse, parabola or hyperbola as the circle stays away from, touches
         (within `STORED_ERROR`) or crosses the great circle at 90°; empty when no part of it lies within.
         """
-        normal, cosine, _ = circle.exact_parts()
-        local = transform(self.frame, normal)
-        across = dot(local[:2], local[:2]).sqrt()
-        spread = float((across * across - cosine * cosine).round())
-        a, c = float(across.round()), float(local[2].round())
-        along = (local[:2] / across).round() if a > 0 else np.array([1.0, 0.0])
-        basis = np.array([along, [-along[1], along[0]]])
+        across, cosine, c, basis = _seen(self, circle)
+        a, spread = float(across.round()), float((across * across - cosine * cosine).round())
         kind, shift, sizes = _shape(a, c, circle, spread)
         form = np.diag([spread, -(circle.offset**2), c * c - circle.offset**2])
         form[0, 2] = form[2, 0] = a * c
-        to_basis = np.eye(3)
-        to_basis[:2, :2] = basis / self.radius
-        axes = np.array(sizes)[:, None] * basis * self.radius
-        return Conic(kind, shift * along * self.radius + 0.0, axes + 0.0, to_basis.T @ form @ to_basis)
+        return _conic(kind, shift, sizes, basis, self.radius, form)
 
 
 def _guarded(height: DoubleDouble) -> tuple[np.ndarray[tuple[int, ...], np.dtype[np.bool_]], DoubleDouble]:
@@ -226,21 +218,30 @@ class Orthographic(TangentPlane):
         `sample(t)` runs as the circle does, counterclockwise about its normal: clockwise on the plane where that points
         away.
         """
-        normal, cosine, _ = circle.exact_parts()
-        local = transform(self.frame, normal)
-        across = dot(local[:2], local[:2]).sqrt()
-        a, c, r = float(across.round()), float(local[2].round()), circle.radius
-        along = (local[:2] / across).round() if a > SEEN_FACE_ON else np.array([1.0, 0.0])
-        basis = np.array([along, [-along[1], along[0]]])
-        center = (across * cosine * self.radius).round()
+        across, cosine, c, basis = _seen(self, circle)
+        center, r = float((across * cosine).round()), circle.radius
         # (s − s₀)² + c² p² = c² r², s along the normal's image and p across it.
-        form = np.array([[1.0, 0.0, -center], [0.0, c * c, 0.0], [-center, 0.0, 0.0]])
-        form[2, 2] = center**2 - (c * r * self.radius) ** 2
-        to_basis = np.eye(3)
-        to_basis[:2, :2] = basis
-        axes = np.array([[c * r], [r]]) * basis * self.radius
-        kind: ConicKind = "segment" if c == 0 else "ellipse"
-        return Conic(kind, center * along + 0.0, axes + 0.0, to_basis.T @ form @ to_basis)
+        form = np.array([[1.0, 0.0, -center], [0.0, c * c, 0.0], [-center, 0.0, center**2 - (c * r) ** 2]])
+        return _conic("segment" if c == 0 else "ellipse", center, (c * r, r), basis, self.radius, form)
+
+
+def _seen(view: TangentPlane, circle: SphereCircle) -> tuple[DoubleDouble, DoubleDouble, float, FloatArray]:
+    """Of a circle the length of its normal's image, cos α and the normal's height, and rows along and across that."""
+    normal, cosine, _ = circle.exact_parts()
+    local = transform(view.frame, normal)
+    across = dot(local[:2], local[:2]).sqrt()
+    x, y = (local[:2] / across).round() if float(across.hi) > SEEN_FACE_ON else (1.0, 0.0)
+    return across, cosine, float(local[2].round()), np.array([[x, y], [-y, x]])
+
+
+def _conic(
+    kind: ConicKind, shift: float, sizes: tuple[float, float], basis: FloatArray, radius: float, form: FloatArray
+) -> Conic:
+    """A conic by its centre and signed half axes along the rows of a basis, and its matrix there, all over a radius."""
+    to_basis = np.eye(3)
+    to_basis[:2, :2] = basis / radius
+    axes = np.array(sizes)[:, None] * basis * radius
+    return Conic(kind, shift * basis[0] * radius + 0.0, axes + 0.0, to_basis.T @ form @ to_basis)
 
 
 @dataclass(frozen=True)

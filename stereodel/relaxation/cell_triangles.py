@@ -107,23 +107,15 @@ class RoundCells:
     """The cells of unit vectors `sites` (n, 3), by `ridges` (r, 2): the sites on the left and right of each."""
 
     def __init__(self, sites: FloatArray, workers: int | None) -> None:
-        self._diagram = SphericalVoronoi(sites, workers=workers)
+        self.diagram = SphericalVoronoi(sites, workers=workers)
         self.sites = sites
-        self.ridges = self._diagram.ridge_points
-        self._start, end = np.moveaxis(self._diagram.vertices[self._diagram.ridge_vertices], 1, 0)
+        self.ridges = self.diagram.ridge_points
+        self._start, end = np.moveaxis(self.diagram.vertices[self.diagram.ridge_vertices], 1, 0)
         self._normals = _normals(sites[self.ridges[:, 0]], sites[self.ridges[:, 1]])
         # The angle from start to end about the normal: at most half a turn, as the whole ridge of two sites is in two
         # parts. A tiny one, or one of half a turn, may be rounded to the other side.
         side = np.einsum("ri,ri->r", self._normals, np.cross(self._start, end))
         self._angles = np.arctan2(np.abs(side), np.einsum("ri,ri->r", self._start, end))
-
-    def areas(self) -> FloatArray:
-        """Solid angles (n,)."""
-        return self._diagram.areas()
-
-    def centroids(self) -> FloatArray:
-        """Directions (n, 3) of the moments, unit vectors, accurate in tiny cells too; NaN without a cell."""
-        return self._diagram.centroids()
 
     def moments(self) -> FloatArray:
         """Integrals (n, 3) of the unit vectors over the cells.

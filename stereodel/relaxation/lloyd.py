@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -25,8 +24,9 @@ from stereodel.relaxation.cell_triangles import (
     outside,
     spherical_nodes,
 )
+from stereodel.sphere.coordinates import LONLAT, as_sites, as_told, refuse_lonlat
 from stereodel.sphere.latitudes import Latitude
-from stereodel.sphere.lonlat import LONLAT, as_sites, as_told, refuse_lonlat
+from stereodel.triangulation import SphericalVoronoi
 from stereodel.triangulation.delaunay import Triangulation, as_triangulation
 
 Density = Callable[[FloatArray], npt.ArrayLike]
@@ -75,11 +75,8 @@ class Quality:
     converged: bool
 
 
-class Step(NamedTuple):
-    """The energy of a set of points and the centroids of their cells."""
-
-    energy: float
-    centroids: FloatArray
+Step = tuple[float, FloatArray]
+"""The energy of a set of points and the centroids of their cells."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,8 +97,6 @@ class Relaxation:
         The kind of latitude by which the points were given.
     bounds : (k, 2) array or None
         Corners of the polygon divided by the cells; None on the sphere.
-    lonlat : (n, 2) array
-        `points` in degrees, with that kind of latitude.
 
     Examples
     --------
@@ -142,7 +137,7 @@ class Relaxation:
         triangulation = as_triangulation(self.points)
         degrees = np.diff(triangulation.vertex_neighbor_vertices[0])
         if self.bounds is None:
-            areas = RoundCells(self.points, None).areas()
+            areas = SphericalVoronoi(self.points).areas()
         else:
             degrees[triangulation.convex_hull] = 0
             triangles, site = flat_cells(self.points, self.bounds, None)
@@ -256,71 +251,47 @@ def lloyd(
         given, kind = as_sites(points, lonlat, latitude)
     share = as_scalar(factor, "factor", low=0.0, high=2.0, open_low=True, open_high=True)
     limit, last = as_scalar(tolerance, "tolerance", low=0.0), as_count(steps, "steps", low=0)
-    ground: _Ground
+    ground: _Polygon | _WholeSphere
     if surface_of(given) is SPHERE:
         if bounds is not None:
             raise ValueError("bounds are for points of the plane; on the sphere leave them out")
         ground, here = _WholeSphere(density, as_workers(workers)), unit(given).hi
     else:
-        ground, here = _Polygon(as_polygon(bounds), density, as_workers(workers)), given
-        ground.check_inside(given)
-    now = ground.step(here)
-    energies, moves, converged = [now.energy], [], False
+        ground, here = _Polygon(density, as_workers(workers), read_only(as_polygon(bounds))), given
+        if (wrong := outside(given, ground.bounds)).any():
+            k = int(np.argmax(wrong))
+            raise ValueError(f"points[{k}] is {given[k].tolist()}, outside bounds")
+    energy, centroids = ground.step(here)
+    energies, moves, converged = [energy], [], False
     for number in range(1, last + 1):
-        before, here = here, now.centroids if share == 1.0 else ground.advanced(here, now.centroids, share)
+        before, here = here, centroids if share == 1.0 else ground.advanced(here, centroids, share)
         moves.append(float(ground.ways(before, here).max(initial=0.0)))
-        now = ground.step(here)
-        energies.append(now.energy)
+        energy, centroids = ground.step(here)
+        energies.append(energy)
         if callback is not None:
-            callback(Progress(number, energies[-1], moves[-1]))
+            callback(Progress(number, energy, moves[-1]))
         if converged := moves[-1] <= limit:
             break
     found = locked(here.copy()), locked(np.array(energies)), locked(np.array(moves))
     return Relaxation(*found, converged, kind, ground.bounds)
 
 
-class _Ground(ABC):
-    """What Lloyd's method asks of the plane or the sphere."""
+@dataclass(frozen=True, eq=False)
+class _Polygon:
+    """What Lloyd's method asks of a convex polygon of the plane."""
 
-    bounds: FloatArray | None = None
-
-    def __init__(self, density: Density | None, workers: int | None) -> None:
-        self._density, self._workers = density, workers
-
-    @abstractmethod
-    def step(self, points: FloatArray) -> Step:
-        """The energy of points and the centroids of their cells."""
-
-    @abstractmethod
-    def advanced(self, points: FloatArray, centroids: FloatArray, factor: float) -> FloatArray:
-        """Points moved part of the way to their centroids, or beyond."""
-
-    @abstractmethod
-    def ways(self, one: FloatArray, other: FloatArray) -> FloatArray:
-        """How far points are from others, row by row."""
-
-
-class _Polygon(_Ground):
-    """A convex polygon of the plane."""
-
-    def __init__(self, polygon: FloatArray, density: Density | None, workers: int | None) -> None:
-        super().__init__(density, workers)
-        self.bounds: FloatArray = read_only(polygon)
-
-    def check_inside(self, points: FloatArray) -> None:
-        wrong = outside(points, self.bounds)
-        if wrong.any():
-            k = int(np.argmax(wrong))
-            raise ValueError(f"points[{k}] is {points[k].tolist()}, outside bounds")
+    density: Density | None
+    workers: int | None
+    bounds: FloatArray
 
     def step(self, points: FloatArray) -> Step:
-        triangles, site = flat_cells(points, self.bounds, self._workers)
-        nodes, weights = flat_nodes(triangles, MIDPOINTS if self._density is None else RADON)
-        values, scale = _values(self._density, nodes + points[site][:, None], site, len(points))
+        triangles, site = flat_cells(points, self.bounds, self.workers)
+        nodes, weights = flat_nodes(triangles, MIDPOINTS if self.density is None else RADON)
+        values, scale = _values(self.density, nodes + points[site][:, None], site, len(points))
         weights = weights * values
         mass, moments = _sums(nodes, weights, site, len(points))
         energy = _total(weights * (nodes**2).sum(axis=-1), scale)
-        return Step(energy, points + moments / np.where(mass > 0, mass, 1.0)[:, None])
+        return energy, points + moments / np.where(mass > 0, mass, 1.0)[:, None]
 
     def advanced(self, points: FloatArray, centroids: FloatArray, factor: float) -> FloatArray:
         reached = points + factor * (centroids - points)
@@ -330,17 +301,24 @@ class _Polygon(_Ground):
         return PLANE.distances(one, other)
 
 
-class _WholeSphere(_Ground):
+@dataclass(frozen=True, eq=False)
+class _WholeSphere:
+    """The same of the sphere."""
+
+    density: Density | None
+    workers: int | None
+    bounds: None = None
+
     def step(self, points: FloatArray) -> Step:
-        cells = RoundCells(points, self._workers)
-        if self._density is None:
-            mass, moments, centroids = cells.areas(), cells.moments(), cells.centroids()
+        cells = RoundCells(points, self.workers)
+        if self.density is None:
+            mass, moments, centroids = cells.diagram.areas(), cells.moments(), cells.diagram.centroids()
             # |x − p|² = 2 (1 − x·p) for unit vectors
             energy = 2 * float((mass - np.einsum("ni,ni->n", moments, points)).sum())
         else:
             triangles, site = cells.triangles()
             nodes, weights = spherical_nodes(triangles, RADON)
-            values, scale = _values(self._density, nodes, site, len(points))
+            values, scale = _values(self.density, nodes, site, len(points))
             weights = weights * values
             mass, moments = _sums(nodes, weights, site, len(points))
             energy = _total(weights * ((nodes - points[site][:, None]) ** 2).sum(axis=-1), scale)
@@ -348,7 +326,7 @@ class _WholeSphere(_Ground):
             centroids = moments / np.where(lengths > 0, lengths, 1.0)
         # A cell without mass, or whose mean has no direction, leaves its point where it is.
         pulled = (np.linalg.norm(moments, axis=1) > BALANCED * mass) & (mass > 0)
-        return Step(energy, np.where(pulled[:, None], centroids, points))
+        return energy, np.where(pulled[:, None], centroids, points)
 
     def advanced(self, points: FloatArray, centroids: FloatArray, factor: float) -> FloatArray:
         """Along great circles."""

@@ -15,10 +15,9 @@ from functools import partial
 from pathlib import Path
 from typing import Any, Final, Literal, Protocol, Self
 
-from stereodel._arrays import Pixels, as_choice
+from stereodel._arrays import Pixels
 from stereodel._extras import of_extra
 from stereodel.drawing.page import Page, picture_extra
-from stereodel.drawing.page.lengths import LARGEST_SIZE
 from stereodel.drawing.page.sheets import Style, StyledDraw, as_styles
 from stereodel.drawing.scene.solid import Solid
 
@@ -81,9 +80,6 @@ class Figure:
     renderer: Literal["gl", "agg"] = "gl"
     in_space: Callable[[Any], Solid] | None = None
 
-    def __post_init__(self) -> None:
-        as_choice(self.renderer, ("gl", "agg"), "renderer")
-
     def page(self) -> Page:
         """The picture before rendering, with the script's title and description if it has none."""
         return self._page(self.geometry())
@@ -95,29 +91,14 @@ class Figure:
         return replace(page, title=page.title or title, description=page.description or description)
 
     def styled(self, *styles: Style) -> Figure:
-        """The same figure in other styles, see `stereodel.drawing.styled`.
-
-        Raises
-        ------
-        ValueError
-            If a style is unknown.
-        """
+        """The same figure in other styles, see `stereodel.drawing.styled`."""
         return replace(self, draw=StyledDraw(self.draw, styles))
 
     def solid(self) -> Solid:
-        """The picture in space.
-
-        Raises
-        ------
-        ValueError
-            If the figure has no `in_space`.
-        """
-        return self._solid(self.geometry())
-
-    def _solid(self, geometry: Geometry) -> Solid:
+        """The picture in space; ValueError if the figure has no `in_space`."""
         if self.in_space is None:
             raise ValueError(f"figure {self.name!r} shows nothing in space; give it in_space=")
-        return self.in_space(geometry)
+        return self.in_space(self.geometry())
 
     def pixels(self, *, size: int | None = None, text: bool = True) -> Pixels:
         """The picture, (height, width, 3), rows from the top; `size` and `text` as for `Page.pixels`."""
@@ -130,7 +111,6 @@ class Figure:
         *,
         size: int | None = None,
         text: bool = True,
-        solid: bool = False,
     ) -> dict[str, Any]:
         """Write NAME.png, NAME.svg and NAME.pdf into a folder, and NAME.glb of the picture in space.
 
@@ -140,8 +120,6 @@ class Figure:
             The folder; created if it does not exist.
         size, text
             As for `Page.save`.
-        solid : bool
-            Whether to also write NAME_solid.png, the picture in space with shading.
 
         Returns
         -------
@@ -152,24 +130,19 @@ class Figure:
         ------
         OSError
             If the folder cannot be created or written to.
-        ValueError
-            If `solid` is given without `in_space`.
         """
         begun = time.perf_counter()
         folder = Path(out)
         folder.mkdir(parents=True, exist_ok=True)
         files = [folder / f"{self.name}.{kind}" for kind in ("png", "svg", "pdf")]
-        geometry, in_space = self.geometry(), solid or self.in_space is not None
-        with of_extra("render" if in_space else picture_extra(".png", self.renderer)):
+        geometry = self.geometry()
+        with of_extra("render" if self.in_space else picture_extra(".png", self.renderer)):
             from stereodel.render.save import save_page
 
             page = self._page(geometry)
             width, digest = save_page(page, *files, size=size, text=text, renderer=self.renderer)
-            if in_space:
-                bodies = self._solid(geometry)
-                files.append(bodies.save(folder / f"{self.name}.glb"))
-                if solid:
-                    files.append(bodies.save(folder / f"{self.name}_solid.png", size=size, text=text))
+            if self.in_space:
+                files.append(self.in_space(geometry).save(folder / f"{self.name}.glb"))
         return {
             "figure": self.name,
             "files": [file.name for file in files],
@@ -181,13 +154,11 @@ class Figure:
 
     def main(self, argv: Sequence[str] | None = None) -> None:
         """Run as a script: write the files and report where; errors become a message and exit code 1."""
-        solid = f"draw {self.name}_solid.png too, with light and shade"
-        flags = {} if self.in_space is None else {"solid": solid}
-        run_script(self, argv, self.name, "17 cm at 300 dpi", flags)
+        run_script(self, argv, self.name, "17 cm at 300 dpi")
 
-    def _files(self, folder: Path, **options: Any) -> list[str]:
+    def _files(self, folder: Path, *, size: int | None, text: bool) -> list[str]:
         """See `Drawing`."""
-        files: list[str] = self.save(folder, **options)["files"]
+        files: list[str] = self.save(folder, size=size, text=text)["files"]
         return files
 
 
@@ -205,43 +176,28 @@ class Drawing(Protocol):
         """Write the files into a folder, with the options of the script; their names."""
 
 
-def run_script(
-    drawing: Drawing, argv: Sequence[str] | None, name: str, usual_size: str, flags: Mapping[str, str]
-) -> None:
-    """Write the files, by default into `out` next to the script's folder; `flags`: more options, and help."""
+def run_script(drawing: Drawing, argv: Sequence[str] | None, name: str, usual_size: str) -> None:
+    """Write the files, by default into `out` next to the script's folder."""
     parser = argparse.ArgumentParser(description=f"Draw {name}.")
     out = default_folder(drawing.draw)
     parser.add_argument("--out", type=Path, help=f"folder to write to ({out}, and in it one for each style)")
-    parser.add_argument("--size", type=pixel_count, help=f"width in pixels ({usual_size})")
+    parser.add_argument("--size", type=int, help=f"width in pixels ({usual_size})")
     parser.add_argument("--text", action=argparse.BooleanOptionalAction, default=True, help="draw the labels")
-    for flag, told in flags.items():
-        parser.add_argument(f"--{flag}", action="store_true", help=told)
     parser.add_argument("--style", type=style_names, default=(), help=STYLE_HELP)
     options = parser.parse_args(sys.argv[1:] if argv is None else argv)
     folder = styled_folder(out, options.style) if options.out is None else options.out
     begun = time.perf_counter()
     try:
         shown = drawing.styled(*options.style) if options.style else drawing
-        chosen = {flag: getattr(options, flag) for flag in flags}
-        files = shown._files(folder, size=options.size, text=options.text, **chosen)
+        files = shown._files(folder, size=options.size, text=options.text)
     except (OSError, RuntimeError, ValueError) as error:
         raise SystemExit(f"{name}: {error}") from None
     print(f"{name}: {', '.join(files)} in {folder} ({time.perf_counter() - begun:.1f} s)")
 
 
-def pixel_count(text: str) -> int:
-    """A width in pixels from the command line."""
-    if not text.isdecimal() or not 1 <= int(text) <= LARGEST_SIZE:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number of pixels, 1 to {LARGEST_SIZE}")
-    return int(text)
-
-
 def style_names(text: str) -> tuple[str, ...]:
     """Names of styles from the command line."""
-    try:
-        return as_styles(tuple(text.split(",")))
-    except ValueError as error:
-        raise argparse.ArgumentTypeError(str(error)) from None
+    return as_styles(tuple(text.split(",")))
 
 
 def styled_folder(out: Path, styles: tuple[str, ...]) -> Path:

@@ -1,19 +1,10 @@
-"""The only interface to OpenGL: triangles in, pixels out.
+"""The only interface to OpenGL: triangles in, pixels out, through pyrender (the distribution pyrender2), windowless.
 
-Everything goes through pyrender (the distribution pyrender2) on a software renderer, without a window: OSMesa first,
-EGL on a software device as its equal; both are Mesa's llvmpipe and give the same pixels. PyOpenGL fixes its platform
-when it is first imported, so a process has one `Door`, `DOOR`, which chooses before that and opens when it is needed.
-Each pixel has four samples, which other renderers, such as Mesa's softpipe, may lack.
-
-A picture is drawn in windows, so that memory does not grow with it. The windows lie on a fixed grid, counted from the
-upper left corner of the picture, whatever part is requested: where OpenGL clips a triangle at the edge of a window it
-rounds the new corners, so only with fixed windows is a picture drawn at once bitwise equal to one written row by row.
-
-All triangles of a window go into one mesh, in painter's order, with a colour at each vertex and one depth per item.
-OpenGL draws the triangles of a mesh in their order, so transparent items blend back to front; and since a fragment at
-an already drawn depth is rejected, an item whose triangles overlap blends once, as their union. An item with a texture
-is a separate part of the mesh, with one texel per pixel of the window. An item on a ball is shaded in the fragment
-shader, where the position of the pixel determines the normal.
+PyOpenGL fixes its platform when it is first imported, so a process has one `Door`, which chooses before that: OSMesa,
+or EGL on a software device as its equal; both are Mesa's llvmpipe and give the same pixels. Windows lie on a fixed grid
+from the upper left corner: OpenGL rounds where it clips triangles, so only then is a picture written row by row bitwise
+that drawn at once. All triangles of a window are one mesh in painter's order with one depth per item: transparent items
+blend back to front, and an item whose triangles overlap blends once. Balls are shaded in the fragment shader.
 """
 
 from __future__ import annotations
@@ -162,10 +153,7 @@ def bands(
     background: Color = (1.0, 1.0, 1.0, 1.0),
     finish: Callable[[Pixels], Pixels] = lambda pixels: pixels,
 ) -> Iterator[Pixels]:
-    """A picture from the top, `BAND` rows (k, width, 3) at a time, in the memory of a band and a window's triangles.
-
-    OpenGLError if there is no usable OpenGL; ValueError if the picture has no pixels, or too many items for the depth
-    buffer.
+    """A picture from the top, `BAND` rows (k, width, 3) at a time; ValueError for too many items for the depth buffer.
 
     part: function of a window that returns all triangles of the picture that touch it, in order; others have no effect.
     background: its opacity is ignored.
@@ -207,8 +195,6 @@ def node_name(number: int) -> str:
 
 
 def _bands(drawn: Callable[[Window], Pixels], width: int, height: int) -> Iterator[Pixels]:
-    if min(width, height) < 1:
-        raise ValueError(f"a picture has at least one pixel each way, got {width} by {height}")
     for top in range(0, height, BAND):
         rows = min(BAND, height - top)
         lefts = range(0, width, COLUMNS)

@@ -1,22 +1,13 @@
 """A page as rows of pixels, from the top: drawn through OpenGL or matplotlib's Agg, then labelled, encoded as PNG.
 
-OpenGL draws the picture twice as large with four samples per pixel, which are then averaged: sixteen samples. Averages
-are taken of sRGB values directly, as in OpenGL's own multisampling and matplotlib, so that thin dark lines keep their
-weight.
-
-Text is drawn by matplotlib's Agg, whose canvas is normally as large as its picture. Here the canvas has only the
-requested rows, and text is shifted by a whole number of pixels, so that the pixels equal those of a canvas for the
-whole page.
-
-PNG files are those of the third edition of the specification (W3C, 2025): 8 bits, red, green, blue and optionally
-opacity, no interlacing. Pillow and the libraries built on it, such as imageio, hold the whole picture; pypng does not,
-but applies no filters and was last released in 2022.
+OpenGL draws twice as large with four samples per pixel, which are averaged as sRGB values, as in OpenGL's own
+multisampling and matplotlib, so that thin dark lines keep their weight. Agg sets the labels on a canvas of the rows
+asked for, with the pixels of one for the whole page. PNG is written here, as Pillow and imageio hold the whole picture.
 """
 
 from __future__ import annotations
 
 import hashlib
-import math
 import struct
 import zlib
 from collections.abc import Iterable, Iterator, Mapping
@@ -30,7 +21,6 @@ from stereodel._arrays import Pixels, as_choice
 from stereodel._extras import of_extra
 from stereodel.drawing.page import Page
 from stereodel.drawing.page.colors import Color
-from stereodel.drawing.page.lengths import pixel_height
 from stereodel.render import gl
 from stereodel.render.tessellation import triangulate
 from stereodel.render.vector.agg import drawn, matplotlib_settings, pixel_grid
@@ -66,7 +56,7 @@ def bare_rows(page: Page, width: int, renderer: Renderer) -> Iterator[Pixels]:
     bare = page.without_labels()
     if as_choice(renderer, ("gl", "agg"), "renderer") == "agg":
         return agg_rows(bare, width)
-    large = SUPERSAMPLING * width, SUPERSAMPLING * pixel_height(page, width)
+    large = SUPERSAMPLING * width, SUPERSAMPLING * page.pixels_up(width)
     part, ground = triangulate(bare, *large).within, over_white(page.background)
     return gl.bands(part, *large, background=ground, finish=averaged)
 
@@ -146,7 +136,7 @@ class LabelLayer:
         if page.labels:
             with matplotlib_settings():
                 canvas = drawn(replace(page, items=page.labels), self._dpi, (self.width, self.height))
-                ruler = _RowCanvas(1, 1, self._dpi)
+                ruler = _RowCanvas(1, 1, self._dpi)  # type: ignore[no-untyped-call]
                 for text in canvas.axes[0].texts:
                     # Ink may extend beyond the box of a line of type, but never by its height.
                     box, reach = text.get_window_extent(ruler), text.get_fontsize() * ruler.dpi / 72
@@ -170,18 +160,11 @@ class LabelLayer:
         """The labels in the rows from `top` to before `bottom`, (bottom − top, width, 4), colours not premultiplied."""
         return self._drawn(top, self.height if bottom is None else bottom).copy()
 
-    @property
-    def span(self) -> tuple[int, int]:
-        """Range of rows that contains all labels on the page; empty if there are none."""
-        first = min((first for _, first, _ in self._placed), default=0.0)
-        last = max((last for _, _, last in self._placed), default=0.0)
-        return max(0, math.floor(first)), min(self.height, math.ceil(last))
-
     def _drawn(self, top: int, bottom: int) -> Pixels:
         """As for `rows`, valid until the next call."""
         # One canvas for all rows, since a text keeps a reference to its canvas.
         if self._canvas is None or self._canvas.height != bottom - top:
-            self._canvas = _RowCanvas(self.width, bottom - top, self._dpi)
+            self._canvas = _RowCanvas(self.width, bottom - top, self._dpi)  # type: ignore[no-untyped-call]
         self._canvas.clear()
         self._canvas.below = self.height - bottom
         with matplotlib_settings():
@@ -202,9 +185,6 @@ class _RowCanvas(RendererAgg):
     """
 
     below = 0
-
-    def __init__(self, width: int, height: int, dpi: float) -> None:
-        super().__init__(width, height, dpi)  # type: ignore[no-untyped-call]
 
     def get_canvas_width_height(self) -> tuple[float, float]:
         return self.width, self.height + self.below

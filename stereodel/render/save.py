@@ -2,12 +2,9 @@
 
     page → triangles → rows of pixels → labels over them → encoder
 
-Stages are streamed: after the triangles, each consumes and produces rows from the top, so that a picture is drawn,
-labelled and written a few rows at a time and memory does not grow with the square of its width. SVG and PDF are written
-from the page itself, except regions in very many colours, which they hold as images. They have the page's size and
+Stages are streamed, each a few rows at a time from the top, so that memory does not grow with the square of the width.
+SVG and PDF are written from the page itself, except regions in very many colours, which they hold as images. They
 contain no date, version or random identifier: the same page always gives the same bytes.
-
-`stereodel.drawing.Page` loads this module when it is saved or drawn, which enters its functions in `OUTPUTS`.
 """
 
 from __future__ import annotations
@@ -21,10 +18,9 @@ from typing import Final
 import numpy as np
 
 from stereodel._arrays import Pixels
-from stereodel._files import replacing
+from stereodel._tasks.whole_files import replacing
 from stereodel.drawing.page import Page
 from stereodel.drawing.page.fonts import missing_characters, warn_of_missing
-from stereodel.drawing.page.lengths import as_width, pixel_height, print_pixels
 from stereodel.drawing.page.page import OUTPUTS
 from stereodel.render.gl import OpenGLError
 from stereodel.render.pixel_rows import PixelDigest, Renderer, bare_rows, labelled, png_chunks
@@ -42,9 +38,9 @@ FINEST_DPI: Final = 600
 
 def draw_page(page: Page, *, size: int | None, text: bool, renderer: Renderer) -> Pixels:
     """Implementation of `Page.pixels`."""
-    shown, width = page if text else page.without_labels(), as_width(page, size)
+    shown, width = page if text else page.without_labels(), page.pixels_across(size)
     warn_of_missing(missing_characters(shown.labels))
-    picture = np.empty((pixel_height(page, width), width, 3), dtype=np.uint8)
+    picture = np.empty((page.pixels_up(width), width, 3), dtype=np.uint8)
     top = 0
     for rows in labelled(bare_rows(shown, width, renderer), shown, width):
         picture[top : top + len(rows)] = rows
@@ -68,7 +64,7 @@ def save_page(
     for target, kind in files:
         if kind not in ENDINGS:
             raise ValueError(f"path must end in {', '.join(ENDINGS[:-1])} or {ENDINGS[-1]}, got {target.name!r}")
-    shown, width, digest = page if text else page.without_labels(), as_width(page, size), ""
+    shown, width, digest = page if text else page.without_labels(), page.pixels_across(size), ""
     clear = replace(shown, background=(*page.background[:3], 0.0)) if transparent else shown
     warn_of_missing(missing_characters(shown.labels))
     try:
@@ -77,11 +73,11 @@ def save_page(
             if kind != ".png":
                 save_vector(clear, target, pictures=pictures)
             elif transparent:
-                rows = _see_through(shown, width, renderer)
-                _write(rows, shown, target, width, channels=4)
+                write_png(_see_through(shown, width, renderer), shown, target, width, channels=4)
             else:
-                passed = PixelDigest((pixel_height(page, width), width, 3))
-                write_png(passed.passed(bare_rows(shown, width, renderer)), shown, target, width)
+                passed = PixelDigest((page.pixels_up(width), width, 3))
+                rows = passed.passed(bare_rows(shown, width, renderer))
+                write_png(labelled(rows, shown, width), shown, target, width)
                 digest = str(passed)
     except OpenGLError as error:
         raise OpenGLError(f"{error}; .svg and .pdf of lines and plain fills need no OpenGL") from error
@@ -90,7 +86,7 @@ def save_page(
 
 def region_pictures(page: Page, width: int) -> list[Pixels]:
     """An image of each item with too many colours for a vector file."""
-    size = min(width, print_pixels(page, FINEST_DPI))
+    size = min(width, page.pixels_in_print(FINEST_DPI))
     alone = [replace(page, items=(item,)) for item in page.pictured]
     return [draw_page(part, size=size, text=False, renderer="gl") for part in alone]
 
@@ -110,13 +106,9 @@ def _see_through(page: Page, width: int, renderer: Renderer) -> Iterable[Pixels]
         yield np.concatenate([np.where(opacity > 0, color, 0), opacity], axis=-1).astype(np.uint8)
 
 
-def write_png(rows: Iterable[Pixels], page: Page, target: Path, width: int) -> None:
-    """Write rows of a picture `width` pixels wide as PNG, with the labels of its page over them."""
-    _write(labelled(rows, page, width), page, target, width)
-
-
-def _write(rows: Iterable[Pixels], page: Page, target: Path, width: int, channels: int = 3) -> None:
-    texts, height = {"Title": page.title, "Description": page.description}, pixel_height(page, width)
+def write_png(rows: Iterable[Pixels], page: Page, target: Path, width: int, channels: int = 3) -> None:
+    """Write the rows of a picture of a page, `width` pixels wide, as PNG."""
+    texts, height = {"Title": page.title, "Description": page.description}, page.pixels_up(width)
     with replacing(target) as temporary, temporary.open("wb") as file:
         file.writelines(png_chunks(rows, width, height, page_width=page.width, texts=texts, channels=channels))
 
@@ -124,13 +116,7 @@ def _write(rows: Iterable[Pixels], page: Page, target: Path, width: int, channel
 def save_vector(page: Page, path: str | os.PathLike[str], *, pictures: Sequence[Pixels] = ()) -> Path:
     """Write a page as SVG or PDF, by the extension, with an image of the whole page for each of `page.pictured`."""
     target = Path(path)
-    match target.suffix.lower():
-        case ".svg":
-            data = svg(page, pictures).encode()
-        case ".pdf":
-            data = pdf(page, pictures)
-        case _:
-            raise ValueError(f"path must end in .svg or .pdf, got {target.name!r}")
+    data = pdf(page, pictures) if target.suffix.lower() == ".pdf" else svg(page, pictures).encode()
     with replacing(target) as temporary:
         temporary.write_bytes(data)
     return target

@@ -1,10 +1,8 @@
-"""A page as triangles for OpenGL: every item but labels, in painter's order.
+"""A page as triangles for OpenGL: every item but labels, in painter's order and in pixels of the picture.
 
-Items are first mapped to pixels of the picture. Strokes become ribbons of constant width, dots become discs, and
-regions are cut into slabs or, if they are polygons, into fans and ears. The triangles of one item may overlap (a ribbon
-is rectangles, with a wedge at each bend and end); `stereodel.render.gl` draws an item as the union of its triangles. A
-region is cut at the height of every corner and crossing into slabs, in which the even-odd rule pairs the edges off; the
-horizontal cuts are exact, so nothing shows between the slabs.
+Strokes become ribbons of constant width, dots discs; regions are cut into slabs at the height of every corner and
+crossing, in which the even-odd rule pairs the edges off, or, if they are polygons, into fans and ears. The triangles of
+one item may overlap: `stereodel.render.gl` draws an item as their union.
 """
 
 from __future__ import annotations
@@ -22,6 +20,7 @@ from stereodel.curves.fill import triangles
 from stereodel.curves.ragged import Ragged, spans
 from stereodel.drawing.page import Ball, Beziers, Dots, Fill, Item, Label, Page, Picture, Polygons, Polylines, Stroke
 from stereodel.drawing.page.colors import Color
+from stereodel.drawing.page.items import along
 from stereodel.render.gl import Disc, Triangles, Window
 from stereodel.render.vector.outlines import has_length
 
@@ -185,9 +184,7 @@ def flatten(path: Beziers, tolerance: float = FLATNESS) -> FloatArray:
     parts = np.maximum(1, np.ceil(np.sqrt(0.75 * bend / tolerance))).astype(np.intp)
     piece = np.repeat(np.arange(len(path)), parts)
     s = (spans(np.zeros_like(parts), parts) / parts[piece])[:, None]
-    p0, p1, p2, p3 = (path[piece, i] for i in range(4))
-    points = (1 - s) ** 3 * p0 + 3 * s * (1 - s) ** 2 * p1 + 3 * s**2 * (1 - s) * p2 + s**3 * p3
-    return np.concatenate([points, path[-1:, 3]])
+    return np.concatenate([along(path[piece], s), path[-1:, 3]])
 
 
 def ribbon(

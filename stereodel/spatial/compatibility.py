@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import Any
+from operator import attrgetter
+from typing import Any, Final
 
 import numpy as np
 import numpy.typing as npt
@@ -11,10 +12,32 @@ import numpy.typing as npt
 from stereodel._arrays import FloatArray, as_points
 from stereodel.triangulation import PlanarDelaunay
 
-WITHOUT_EFFECT = frozenset({"QJ", "Qs", "Qt", "Qx", "Q11", "Q12", "Q14", "Pp"})
-"""They prevent, report or repair what rounding does to Qhull, or concern other dimensions."""
+KNOWN = frozenset({"Qbb", "Qc", "Qz", "QJ", "Qs", "Qt", "Qx", "Q11", "Q12", "Q14", "Pp"})
+"""All but the first three prevent, report or repair what rounding does to Qhull, or concern other dimensions."""
 
-KNOWN = WITHOUT_EFFECT | {"Qbb", "Qc", "Qz"}
+FAMILY: Final = {
+    "parameters": """
+        Parameters
+        ----------
+        points : (npoints, 2) array_like
+            Finite numbers. Copied.
+        furthest_site : bool, optional
+            Only False.
+        incremental : bool, optional
+            Whether `add_points` may be called.
+        qhull_options : str, optional
+            "Qbb" (scaled paraboloid), "Qc" (points that are not vertices are listed and have a region, else -1) and
+            "Qz" (a point at infinity, with an empty region) have the same meaning as in Qhull; "QJ", "Qs", "Qt", "Qx",
+            "Q11", "Q12", "Q14" and "Pp" are accepted and ignored. Default: "Qbb Qc Qz", in incremental mode "Qc".
+
+        Raises
+        ------
+        ValueError, TypeError
+            For points that are not finite real numbers of shape (npoints, 2), furthest sites and unknown options. Never
+            `QhullError`: without triangles there are none, and collinear points have ridges [-1, -1] and no vertices.
+        """,
+}
+"""What the docstrings of both classes have in common."""
 
 
 def as_options(qhull_options: Any, furthest_site: Any, incremental: bool) -> frozenset[str]:
@@ -45,6 +68,13 @@ def other_dimensions(kind: type) -> str:
     return f"for other dimensions: from scipy.spatial import {kind.__name__}"
 
 
+def copied(path: str, doc: str) -> Any:
+    """A property: the array at a path of attributes, copied once, so that it can be written to."""
+    made = cached_property(lambda owner: np.array(attrgetter(path)(owner)))
+    made.__doc__ = doc
+    return made
+
+
 class GrowingPoints:
     """The constructor, the bounds and the life of both classes; arrays are made when asked for, and writable."""
 
@@ -62,10 +92,7 @@ class GrowingPoints:
         self._incremental = bool(incremental)
         self._triangulation = PlanarDelaunay(as_points(points, 2, hint=other_dimensions(type(self))))
 
-    @cached_property
-    def points(self) -> FloatArray:
-        """Coordinates of the points, (npoints, 2)."""
-        return np.array(self._triangulation.points)
+    points: FloatArray = copied("_triangulation.points", "Coordinates of the points, (npoints, 2).")
 
     @property
     def npoints(self) -> int:

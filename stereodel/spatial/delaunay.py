@@ -13,9 +13,10 @@ import numpy.typing as npt
 import scipy.spatial
 
 from stereodel._arrays import FloatArray, IntArray, as_scalar, as_vectors
+from stereodel._docs import shared
 from stereodel.constants import INSIDE_TOLERANCE
 from stereodel.spatial.barycentric import NearMisses, transforms
-from stereodel.spatial.compatibility import GrowingPoints
+from stereodel.spatial.compatibility import FAMILY, GrowingPoints, copied
 from stereodel.triangulation.topology import adjacency_of
 
 _INFINITY_ABOVE = 1.1
@@ -62,54 +63,11 @@ class Paraboloid(NamedTuple):
         return np.column_stack([normals, -(normals * self.lift(a)).sum(axis=1)])
 
 
+@shared(**FAMILY)
 class Delaunay(GrowingPoints, scipy.spatial.Delaunay):
     """Delaunay triangulation of the plane with the interface of `scipy.spatial.Delaunay`, exact.
 
-    Parameters
-    ----------
-    points : (npoints, 2) array_like
-        Finite numbers. Copied.
-    furthest_site : bool, optional
-        Only False.
-    incremental : bool, optional
-        Whether `add_points` may be called.
-    qhull_options : str, optional
-        "Qbb" (scaled paraboloid), "Qc" (`coplanar` is listed) and "Qz" (point at infinity, above the paraboloid) mean
-        have the same meaning as in Qhull; "QJ", "Qs", "Qt", "Qx", "Q11", "Q12", "Q14" and "Pp" are accepted and
-        ignored. Default: "Qbb Qc Qz Q12", in incremental mode "Qc".
-
-    Attributes
-    ----------
-    points : (npoints, 2) array
-    simplices : (nsimplex, 3) array of int32
-        Triangles, counterclockwise.
-    neighbors : (nsimplex, 3) array of int32
-        The neighbor opposite each corner, -1 for none.
-    equations : (nsimplex, 4) array
-        Unit normal and offset of each triangle's plane on the paraboloid; normals point down.
-    paraboloid_scale, paraboloid_shift : float
-        Heights are ``paraboloid_scale * (x**2 + y**2) + paraboloid_shift``.
-    transform : (nsimplex, 3, 2) array
-        ``transform[i, :2] @ (x - transform[i, 2])`` are the barycentric coordinates of x for the first two corners;
-        NaN for triangles so thin that fewer than three digits would be right.
-    vertex_to_simplex : (npoints,) array of int32
-        A triangle of each point, for a duplicate one of the point that was kept; -1 for none.
-    convex_hull : (nfaces, 2) array of int32
-        Edges of the hull, counterclockwise.
-    coplanar : (ncoplanar, 3) array of int32
-        [point, triangle, vertex] for points that are not vertices: those exactly equal to the vertex, and no others.
-    vertex_neighbor_vertices : tuple of two int32 arrays
-        The neighbors of vertex k are ``indices[indptr[k]:indptr[k + 1]]``, in ascending order.
-    good : (nsimplex,) array of int32
-        Ones.
-    ndim, npoints, nsimplex, min_bound, max_bound, furthest_site
-        As in SciPy.
-
-    Raises
-    ------
-    ValueError, TypeError
-        For points that are not finite real numbers of shape (npoints, 2), furthest sites and unknown options. Never
-        `QhullError`: collinear points, fewer than three and none have no triangles.
+    {parameters}
 
     Notes
     -----
@@ -126,15 +84,11 @@ class Delaunay(GrowingPoints, scipy.spatial.Delaunay):
     [1, 2, 3, 0, 3, 0, 3, 0, 1, 2]
     """
 
-    @cached_property
-    def simplices(self) -> IntArray:
-        """Triangles (nsimplex, 3), counterclockwise."""
-        return np.array(self._triangulation.simplices)
-
-    @cached_property
-    def neighbors(self) -> IntArray:
-        """Neighbor opposite each corner, (nsimplex, 3), -1 for none."""
-        return np.array(self._triangulation.neighbors)
+    simplices: IntArray = copied("_triangulation.simplices", "Triangles (nsimplex, 3), counterclockwise.")
+    neighbors: IntArray = copied(
+        "_triangulation.neighbors", "Neighbor opposite each corner, (nsimplex, 3), -1 for none."
+    )
+    convex_hull: IntArray = copied("_triangulation.convex_hull", "Edges of the hull, (nfaces, 2), counterclockwise.")
 
     @property
     def nsimplex(self) -> int:
@@ -147,13 +101,8 @@ class Delaunay(GrowingPoints, scipy.spatial.Delaunay):
         return np.ones(self.nsimplex, dtype=np.int32)
 
     @cached_property
-    def convex_hull(self) -> IntArray:
-        """Edges of the hull, (nfaces, 2), counterclockwise."""
-        return np.array(self._triangulation.convex_hull)
-
-    @cached_property
     def coplanar(self) -> IntArray:
-        """Rows [point, triangle, vertex] of points equal to a vertex, (ncoplanar, 3); none without the option "Qc"."""
+        """Rows [point, triangle, vertex] of points exactly equal to a vertex, (ncoplanar, 3); none without "Qc"."""
         dropped, kept = self._triangulation.duplicates.T if "Qc" in self._options else np.zeros((2, 0), dtype=np.int32)
         return np.column_stack([dropped, self._triangle_of_vertex[kept], kept])
 
@@ -173,7 +122,7 @@ class Delaunay(GrowingPoints, scipy.spatial.Delaunay):
 
     @cached_property
     def vertex_neighbor_vertices(self) -> tuple[IntArray, IntArray]:
-        """Neighbors of each vertex k: ``indices[indptr[k]:indptr[k + 1]]`` of the tuple (indptr, indices)."""
+        """Neighbors of vertex k, ascending: ``indices[indptr[k]:indptr[k + 1]]`` of the tuple (indptr, indices)."""
         return adjacency_of(self._triangulation.edges, self.npoints)
 
     @cached_property
@@ -182,7 +131,7 @@ class Delaunay(GrowingPoints, scipy.spatial.Delaunay):
 
     @property
     def paraboloid_scale(self) -> float:
-        """Height of the paraboloid at distance 1, over that at the origin."""
+        """Heights are ``paraboloid_scale * (x**2 + y**2) + paraboloid_shift``."""
         return self._paraboloid.scale
 
     @property
@@ -192,12 +141,16 @@ class Delaunay(GrowingPoints, scipy.spatial.Delaunay):
 
     @cached_property
     def equations(self) -> FloatArray:
-        """Unit normal and offset of each triangle's plane on the paraboloid, (nsimplex, 4)."""
+        """Unit normal, which points down, and offset of each triangle's plane on the paraboloid, (nsimplex, 4)."""
         return self._paraboloid.equations(self._corners)
 
     @cached_property
     def transform(self) -> FloatArray:
-        """Maps to barycentric coordinates, (nsimplex, 3, 2): [T⁻¹, r]; NaN for degenerate triangles."""
+        """Maps to barycentric coordinates, (nsimplex, 3, 2).
+
+        ``transform[i, :2] @ (x - transform[i, 2])`` are those of x for the first two corners; NaN for triangles so thin
+        that fewer than three digits would be right.
+        """
         return transforms(self._corners)
 
     @property

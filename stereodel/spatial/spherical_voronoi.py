@@ -77,7 +77,11 @@ class ExactOnSphere(scipy.spatial.SphericalVoronoi):
         triangles = exact.SphericalDelaunay(directions)
         self._diagram = exact.SphericalVoronoi(triangles)
         self._simplices = np.array(triangles.simplices)
-        self._set_cells(triangles)
+        # Two poles, one vertex for each triangle, or nothing.
+        units = self._diagram.vertices
+        several = len(units) > 2
+        self.regions: list[list[int]] = _fans(triangles) if several else self._diagram.regions
+        self.vertices = self.radius * (units[self._diagram.simplex_vertex] if several else units) + self.center
 
     def _refuse_off_sphere(self, directions: FloatArray, threshold: float) -> None:
         distances = np.linalg.norm(directions, axis=1)
@@ -88,13 +92,6 @@ class ExactOnSphere(scipy.spatial.SphericalVoronoi):
                 f"Radius inconsistent with generators: points[{worst}] is {float(distances[worst])} from the center, "
                 f"but radius is {self.radius}; scale the points, or allow more by threshold"
             )
-
-    def _set_cells(self, triangles: exact.SphericalDelaunay) -> None:
-        """Two poles, one vertex for each triangle, or nothing."""
-        units = self._diagram.vertices
-        several = len(units) > 2
-        self.regions: list[list[int]] = _fans(triangles) if several else self._diagram.regions
-        self.vertices = self.radius * (units[self._diagram.simplex_vertex] if several else units) + self.center
 
     def sort_vertices_of_regions(self) -> None:
         """Nothing to do: regions are counterclockwise from the start."""

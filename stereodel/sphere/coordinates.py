@@ -1,11 +1,16 @@
 """Longitude and latitude to unit vectors and back, and the axes (east, north, up) at a point.
 
 Axes: x towards (lon 0, lat 0), y towards (90, 0), z towards the north pole. Angles in degrees, in the order (lon, lat).
+
+An array (n, 2) means the plane. Points of the sphere are directions, (n, 3), or come under the name `lonlat` with the
+kind of their latitude. An object made of such points keeps it as its attribute `latitude`, takes queries by ``lonlat=``
+and gives results in degrees. All of them use these functions.
 """
 
 from __future__ import annotations
 
 from functools import partial
+from typing import Final
 
 import numpy as np
 import numpy.typing as npt
@@ -13,15 +18,15 @@ import numpy.typing as npt
 from stereodel import _kernel
 from stereodel._arrays import (
     FloatArray,
-    IntArray,
     as_choice,
     as_direction_or_lonlat,
     as_directions,
     as_lonlat,
     as_plane_or_sphere,
+    as_points,
 )
 from stereodel._docs import by_name
-from stereodel._double_double import DoubleDouble, by_blocks, stack, unit
+from stereodel._double_double import DoubleDouble, by_blocks, scaled, stack, unit
 from stereodel._threads import thread_count
 from stereodel.sphere.degrees import angle_degrees, sin_cos_degrees
 from stereodel.sphere.latitudes import KINDS, Latitude, latitude_of, sin_cos_on_sphere
@@ -126,13 +131,6 @@ def _on_ellipsoid(rows: FloatArray, kind: Latitude) -> FloatArray:
     return np.stack([np.where(lon == 180.0, -180.0, lon), lat], axis=-1) + 0.0
 
 
-def scaled(vectors: FloatArray) -> tuple[FloatArray, IntArray]:
-    """Vectors (..., k) over a power of two, so that their largest component is in [½, 1), and its exponent (...)."""
-    _, exponent = np.frexp(np.abs(vectors).max(axis=-1, keepdims=True))
-    half = exponent // 2  # in two steps, since 2**1074 overflows
-    return np.ldexp(np.ldexp(vectors, -half), half - exponent), exponent[..., 0]
-
-
 def as_direction(point: npt.ArrayLike, name: str = "point") -> FloatArray:
     """One point of the sphere: (lon, lat) in degrees when of length 2, a direction when of length 3.
 
@@ -196,3 +194,106 @@ def _frame(sin_lon: DoubleDouble, cos_lon: DoubleDouble, sin_lat: DoubleDouble, 
     return DoubleDouble(
         np.array([[float(c.hi) for c in row] for row in rows]), np.array([[float(c.lo) for c in row] for row in rows])
     )
+
+
+LONLAT: Final = {
+    "lonlat": """
+        lonlat : (n, 2) array_like
+            (longitude, latitude) in degrees; any finite longitude, latitude in [-90, 90].
+        """,
+    "latitude": """
+        latitude : {"spherical", "geodetic", "authalic"}, optional
+            As in `lonlat_to_xyz`: "spherical" takes latitudes unchanged; the others take them as geodetic
+            latitudes on WGS84 and use the direction from the Earth's centre, or the point on the sphere of equal area.
+            It is remembered.
+        """,
+    "lonlat_raises": """
+        Raises
+        ------
+        ValueError, TypeError
+            For values that are not finite real numbers, latitudes out of range, other shapes, or another `latitude`.
+        """,
+    "instead": """
+        lonlat : (n, 2) array_like, optional
+            In place of `points`: (longitude, latitude) in degrees on the sphere.
+        latitude : {"spherical", "geodetic", "authalic"}, optional
+            The kind of latitude of `lonlat`, as in `lonlat_to_xyz`; "spherical" by default.
+        """,
+    "asked": """
+        Parameters
+        ----------
+        queries : array_like of shape (..., 2) or (..., 3)
+            Points of the plane, or directions.
+        lonlat : (..., 2) array_like, optional
+            In place of `queries`: (longitude, latitude) in degrees, with the points' kind of latitude.
+        workers : int, optional
+            Threads; -1 for all processors. By default those of the triangulation, for many queries.
+        """,
+    "asked_raises": """
+        Raises
+        ------
+        ValueError, TypeError
+            For values that are not finite real numbers, zero vectors, or another last axis; for `lonlat` where the
+            points were not given by longitude and latitude.
+        """,
+}
+"""What docstrings say of it."""
+
+
+IN_ROWS: Final = "give rows (longitude, latitude), as np.column_stack([lon, lat]) makes them"
+"""The end of messages about other shapes and calls."""
+
+BY_NAME: Final = "give longitude and latitude by name, lonlat=np.column_stack([lon, lat])"
+"""The same of queries."""
+
+
+def as_sites(
+    points: npt.ArrayLike | None, lonlat: npt.ArrayLike | None, latitude: Latitude | None
+) -> tuple[FloatArray, Latitude | None]:
+    """Points of the plane, (n, 2), or directions, (n, 3), and their kind of latitude if given by `lonlat`."""
+    if points is not None:
+        refuse_lonlat(lonlat, latitude)
+        return as_plane_or_sphere(points), None
+    if lonlat is None:
+        raise TypeError("points are missing; give points, or longitude and latitude by lonlat=")
+    kind: Latitude = "spherical" if latitude is None else latitude
+    return lonlat_to_xyz(as_points(lonlat, 2, "lonlat", hint=IN_ROWS), latitude=kind), kind
+
+
+def refuse_lonlat(lonlat: npt.ArrayLike | None, latitude: Latitude | None) -> None:
+    """Beside points there is no `lonlat`, and without it no `latitude`."""
+    if lonlat is not None:
+        raise TypeError("points and lonlat= were both given; give one of them")
+    if latitude is not None:
+        raise TypeError(
+            f"latitude={latitude!r} is the kind of latitude of lonlat=, but points were given; "
+            f"for longitude and latitude write lonlat=…, latitude={latitude!r}"
+        )
+
+
+def as_asked(
+    queries: npt.ArrayLike | None, lonlat: npt.ArrayLike | None, latitude: Latitude | None, name: str = "queries"
+) -> npt.ArrayLike:
+    """The queries, or in their place the directions of `lonlat`, of the latitude that was remembered."""
+    if lonlat is None:
+        if queries is None:
+            raise TypeError(f"{name} are missing; give {name}, or longitude and latitude by lonlat=")
+        return queries
+    if queries is not None:
+        raise TypeError(f"{name} and lonlat= were both given; give one of them")
+    if latitude is None:
+        raise ValueError(
+            "lonlat= is for points that were given by longitude and latitude, but these were not; make the object by "
+            f"from_lonlat, or give {name} as its points were given"
+        )
+    return lonlat_to_xyz(lonlat, latitude=latitude)
+
+
+def as_told(xyz: FloatArray, latitude: Latitude | None) -> FloatArray:
+    """Longitude and latitude of directions (n, 3), (n, 2) in degrees, of the latitude that was remembered."""
+    if latitude is None:
+        raise AttributeError(
+            "longitude and latitude are available if points were given by them (from_lonlat, lonlat=); "
+            "for directions, compute them by xyz_to_lonlat(…, latitude=…)"
+        )
+    return xyz_to_lonlat(xyz, latitude=latitude)

@@ -15,9 +15,9 @@ import numpy.typing as npt
 
 from stereodel import _kernel
 from stereodel._arrays import FloatArray, Keyed, as_matrix, as_quaternion, as_scalar, as_vectors
-from stereodel._double_double import DoubleDouble, dot, stack, unit
+from stereodel._double_double import DoubleDouble, dot, scaled, stack, unit
 from stereodel.constants import MATRIX_ERROR
-from stereodel.sphere.coordinates import as_direction, scaled
+from stereodel.sphere.coordinates import as_direction
 from stereodel.sphere.degrees import sin_cos_degrees
 from stereodel.sphere.vectors import determinant
 
@@ -101,11 +101,6 @@ class Rotation(Keyed):
         return cls(np.array([1.0, 0.0, 0.0, 0.0]))
 
     @classmethod
-    def rounded(cls, quaternion: DoubleDouble) -> Rotation:
-        """The rotation of a double-double quaternion (4,), rounded once: no point moves by more than 2⁻⁵²."""
-        return cls(quaternion.round())
-
-    @classmethod
     def about(cls, axis: npt.ArrayLike, angle: float) -> Rotation:
         """Counterclockwise about an axis, seen from its tip.
 
@@ -118,7 +113,7 @@ class Rotation(Keyed):
         """
         sine, cosine = sin_cos_degrees(np.asarray(as_scalar(angle, "angle") / 2))
         direction = unit(as_direction(axis, "axis")) * sine
-        return cls.rounded(stack([cosine, direction[0], direction[1], direction[2]]))
+        return cls(stack([cosine, direction[0], direction[1], direction[2]]).round())
 
     @classmethod
     def between(cls, start: npt.ArrayLike, end: npt.ArrayLike) -> Rotation:
@@ -127,7 +122,7 @@ class Rotation(Keyed):
         For antipodal points: half a turn about the normal to `start` and the coordinate axis farthest from it.
         """
         a, b = unit(as_direction(start, "start")), unit(as_direction(end, "end"))
-        return cls.rounded(between(a, b))
+        return cls(between(a, b).round())
 
     @classmethod
     def from_matrix(cls, matrix: npt.ArrayLike) -> Rotation:
@@ -175,7 +170,7 @@ class Rotation(Keyed):
         """The rotation by `other`, then by this one; the exact product rounded once."""
         if not isinstance(other, Rotation):
             return NotImplemented
-        return Rotation.rounded(multiply(DoubleDouble(self.quaternion), DoubleDouble(other.quaternion)))
+        return Rotation(multiply(DoubleDouble(self.quaternion), DoubleDouble(other.quaternion)).round())
 
     def inverse(self) -> Rotation:
         """The exact inverse."""

@@ -5,16 +5,15 @@ from __future__ import annotations
 import numpy as np
 
 from stereodel._arrays import FloatArray
+from stereodel._double_double import scaled
 
 
 def units(vectors: FloatArray) -> FloatArray:
     """Directions (..., 3) of any length as unit vectors, to rounding."""
     if vectors.size == 0:
         return vectors
-    # By powers of two, so that squares neither overflow nor vanish and nothing is rounded.
-    _, exponents = np.frexp(np.abs(vectors).max(axis=-1, keepdims=True))
-    scaled = np.ldexp(vectors, -exponents)
-    return scaled / np.sqrt(np.sum(scaled**2, axis=-1, keepdims=True))
+    near = scaled(vectors)[0]  # so that squares neither overflow nor vanish
+    return near / np.sqrt(np.sum(near**2, axis=-1, keepdims=True))
 
 
 def determinant(matrix: FloatArray) -> float:

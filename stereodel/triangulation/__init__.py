@@ -3,9 +3,8 @@
 from stereodel.triangulation.hull_insertion import HullInsertion, InsertionStep
 from stereodel.triangulation.planar_delaunay import PlanarDelaunay
 from stereodel.triangulation.planar_voronoi import PlanarVoronoi
-from stereodel.triangulation.spherical_delaunay import SphericalDelaunay
+from stereodel.triangulation.spherical_delaunay import SphericalDelaunay, planar_part
 from stereodel.triangulation.spherical_voronoi import SphericalVoronoi
-from stereodel.triangulation.theorem import planar_part
 from stereodel.triangulation.validate import DelaunayCertificate, InvalidTriangulation, check_delaunay
 
 __all__ = [

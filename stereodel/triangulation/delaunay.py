@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, ClassVar, Final, Generic, Self, TypeVar, cast
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, ClassVar, Final, Self, cast
 
 import numpy as np
 import numpy.typing as npt
@@ -24,14 +24,12 @@ from stereodel._docs import by_name, shared
 from stereodel._spaces import SPHERE, PlaneOrSphere, surface_of
 from stereodel._threads import thread_count
 from stereodel.constants import REBUILD_INSERTING, REBUILD_REMOVING
+from stereodel.sphere.coordinates import BY_NAME, LONLAT, as_asked, as_sites, refuse_lonlat
 from stereodel.sphere.latitudes import Latitude
-from stereodel.sphere.lonlat import BY_NAME, LONLAT, as_asked, as_sites, refuse_lonlat
 from stereodel.triangulation.topology import adjacency_of, boundary_of, edges_of, neighbors_of
 
 if TYPE_CHECKING:
     from stereodel._kernel.space import Mesh
-
-_T = TypeVar("_T")
 
 Made = tuple[IntArray, IntArray | None, IntArray, int, dict[str, int]]
 """Simplices, neighbors or None, duplicates, dimension and inconclusive tests, as the kernel gives them."""
@@ -61,21 +59,6 @@ FAMILY: Final = {
 """What the docstrings of both triangulations have in common."""
 
 
-class _kept(Generic[_T]):  # noqa: N801  # a decorator, like `property`
-    """What follows from a state. Of threads that compute it at the same time, the first decides what all have.
-
-    `functools.cached_property` promises the last, and up to Python 3.11 lets other states wait meanwhile.
-    """
-
-    def __init__(self, compute: Callable[[_State], _T]) -> None:
-        self._compute = compute
-        self._name = compute.__name__
-
-    def __get__(self, state: _State, _: type) -> _T:
-        # Found in the instance from then on: this has no __set__.
-        return cast("_T", state.__dict__.setdefault(self._name, self._compute(state)))
-
-
 class _State:
     """A triangulation between two changes: arrays that never change, and what follows from these alone."""
 
@@ -85,39 +68,39 @@ class _State:
         self.known_neighbors = None if neighbors is None else locked(neighbors)
         self._surface, self._workers = surface, workers
 
-    @_kept
+    @cached_property
     def neighbors(self) -> IntArray:
         return locked(neighbors_of(self.simplices)) if self.known_neighbors is None else self.known_neighbors
 
-    @_kept
+    @cached_property
     def edges(self) -> IntArray:
         return locked(edges_of(self.simplices))
 
-    @_kept
+    @cached_property
     def vertex_neighbor_vertices(self) -> tuple[IntArray, IntArray]:
         indptr, indices = adjacency_of(self.edges, len(self.points))
         return locked(indptr), locked(indices)
 
-    @_kept
+    @cached_property
     def convex_hull(self) -> IntArray:
         return locked(boundary_of(self.simplices, self.neighbors, self.open))
 
-    @_kept
+    @cached_property
     def circumcenters(self) -> FloatArray:
         threads = thread_count(self._workers, len(self.points))
         return locked(self._surface.kernel.circumcenters(self.points, self.simplices, None, threads, True))
 
-    @_kept
+    @cached_property
     def closing(self) -> BoolArray | None:
-        """Triangles that no query can lie in; None in the plane, where there are none."""
+        """Whether no query can lie in a triangle, (m,), as the kernel takes it; None in the plane, where any can."""
         return locked(SPHERE.kernel.closing(self.points, self.simplices)) if self._surface is SPHERE else None
 
-    @_kept
+    @cached_property
     def open(self) -> BoolArray:
-        """Triangles that a query can lie in."""
+        """Whether a query can lie in a triangle, (m,)."""
         return locked(np.ones(len(self.simplices), dtype=np.bool_) if self.closing is None else ~self.closing)
 
-    @_kept
+    @cached_property
     def flat_order(self) -> IntArray:
         """The distinct points in the order along their line or great circle, without triangles."""
         return locked(self._surface.kernel.flat_order(self.points, checked=True))
@@ -294,24 +277,14 @@ class Triangulation:
     ) -> IntArray | int:
         """Triangle that contains each query, exactly.
 
-        Parameters
-        ----------
-        queries : array_like of shape (..., 2) or (..., 3)
-            Points of the plane, or directions.
         {asked}
-        workers : int, optional
-            Threads; -1 for all processors. By default those of the constructor, for many queries.
 
         Returns
         -------
         int32 array of the leading shape, or int for a single query
             Index into `simplices`; the lowest one on a shared edge or vertex; -1 outside `convex_hull`.
 
-        Raises
-        ------
-        ValueError, TypeError
-            For values that are not finite real numbers, zero vectors, or another last axis; for `lonlat` where the
-            points were not given by longitude and latitude.
+        {asked_raises}
         """
         now = self._now()
         array, flat, threads = self._as_queries(as_asked(queries, lonlat, self._latitude), workers)
@@ -329,16 +302,10 @@ class Triangulation:
     ) -> IntArray | int:
         """Nearest point of each query, or the k nearest, exactly.
 
-        Parameters
-        ----------
-        queries : array_like of shape (..., 2) or (..., 3)
-            Points of the plane, or directions.
         {asked}
         k : int, optional
             Number of points, 1 to the number of all points; by default only the nearest, without an axis of its
             own.
-        workers : int, optional
-            Threads; -1 for all processors. By default those of the constructor, for many queries.
 
         Returns
         -------
@@ -347,12 +314,8 @@ class Triangulation:
             order of their distances (angles on the sphere), equally near ones in the order of their indices; duplicates
             count like all other points.
 
-        Raises
-        ------
-        ValueError, TypeError
-            For values that are not finite real numbers, zero vectors, another last axis, a triangulation without
-            points, or `k` below 1 or above the number of points; for `lonlat` where the points were not given by
-            longitude and latitude.
+        {asked_raises}
+            For a triangulation without points, and `k` below 1 or above the number of points.
 
         Notes
         -----
@@ -452,16 +415,6 @@ def threads_of(triangulation: Triangulation, workers: int | None, size: int | No
     return thread_count(chosen, len(triangulation.points) if size is None else size)
 
 
-def flat_order(triangulation: Triangulation) -> IntArray:
-    """Without triangles: the distinct points in the order along their line or great circle."""
-    return triangulation._now().flat_order
-
-
-def open_triangles(triangulation: Triangulation) -> BoolArray:
-    """Whether a query can lie in a triangle, (m,): all but the closing ones of the sphere."""
-    return triangulation._now().open
-
-
-def closing_triangles(triangulation: Triangulation) -> BoolArray | None:
-    """The others, as the kernel takes them; None in the plane."""
-    return triangulation._now().closing
+def state_of(triangulation: Triangulation) -> _State:
+    """The triangulation as it is now, with what the other modules of the library want of it."""
+    return triangulation._now()

@@ -14,7 +14,7 @@ from stereodel import _kernel
 from stereodel._arrays import BoolArray, FloatArray, Indices, IntArray, locked
 from stereodel._spaces import PlaneOrSphere
 from stereodel.sphere.latitudes import Latitude
-from stereodel.triangulation.delaunay import Triangulation, flat_order, threads_of
+from stereodel.triangulation.delaunay import Triangulation, state_of, threads_of
 
 _Mesh = TypeVar("_Mesh", bound=Triangulation)
 
@@ -84,7 +84,7 @@ class Diagram(Generic[_Mesh]):
         if self._dimension == 2:
             self._set_vertices(self._set_diagram(triangulation))
         else:
-            self._set_flat(flat_order(triangulation))
+            self._set_flat(state_of(triangulation).flat_order)
 
     def _set_vertices(self, vertices: FloatArray) -> None:
         self.vertices = locked(vertices)

@@ -17,16 +17,15 @@ import numpy.typing as npt
 
 from stereodel._arrays import (
     FloatArray,
-    Indices,
     IntArray,
     as_plane_or_sphere,
     as_points,
     read_only,
 )
 from stereodel._docs import shared
-from stereodel._spaces import space_of, surface_of
+from stereodel._spaces import surface_of
+from stereodel.sphere.coordinates import LONLAT, as_asked, as_sites, as_told
 from stereodel.sphere.latitudes import Latitude
-from stereodel.sphere.lonlat import LONLAT, as_asked, as_sites, as_told
 from stereodel.triangulation.sites import GHOST, SITES, InsertionSites
 from stereodel.triangulation.topology import Edge, Facet, Facets, as_rows
 
@@ -67,27 +66,14 @@ class HullInsertion:
     ----------
     points : (n, 2) or (n, 3) array_like
         Points of the plane, where the projection pole is a ghost vertex, index -1; or directions of any length.
-    spatial : bool, optional
-        Insert along a space-filling order instead of the order given. The final facets are the same.
 
     Attributes
     ----------
     points : (n, 2) or (n, 3) array
-    facets : (m, 3) array of int32
-        The current surface: counterclockwise seen from outside, smallest index first, rows in lexicographic order. In
-        the plane facets with -1 lie beyond the edges of the convex hull.
     latitude : str or None
         The kind of latitude by which the points were given (`from_lonlat`).
-    lonlat : (n, 2) array
-        `points` in degrees, of that latitude.
     start : tuple of int
         The points of the first surface; fewer than three if all lie on one line (one great circle).
-    dimension : int
-        -1 without points, 0 for one, 1 on one line (one great circle), 2 otherwise.
-    duplicates : (k, 2) array of int32
-        Pairs [dropped, kept] of equal points (directions); the lowest index is kept.
-    inconclusive : dict
-        "exact": exact ties, which displacement decides.
 
     Raises
     ------
@@ -116,12 +102,11 @@ class HullInsertion:
     [[0, 1, 2], [0, 2, 3], [0, 3, 1], [1, 3, 2]]
     """
 
-    def __init__(self, points: npt.ArrayLike, *, spatial: bool = False) -> None:
+    def __init__(self, points: npt.ArrayLike) -> None:
         array = as_plane_or_sphere(points)
         self.latitude: Latitude | None = None
         self.surface = surface_of(array)
         self._sites = SITES[self.surface]()
-        self._spatial = spatial
         self._hull = Facets()
         self._first: dict[object, int] = {}
         self._duplicates: list[Edge] = []
@@ -133,15 +118,13 @@ class HullInsertion:
 
     @classmethod
     @shared(**LONLAT)
-    def from_lonlat(cls, lonlat: npt.ArrayLike, *, latitude: Latitude = "spherical", spatial: bool = False) -> Self:
+    def from_lonlat(cls, lonlat: npt.ArrayLike, *, latitude: Latitude = "spherical") -> Self:
         """The hull of points given by longitude and latitude.
 
         Parameters
         ----------
         {lonlat}
         {latitude}
-        spatial
-            As for the constructor.
 
         {lonlat_raises}
 
@@ -153,7 +136,7 @@ class HullInsertion:
         ([3], 'spherical')
         """
         xyz, kind = as_sites(None, lonlat, latitude)
-        self = cls(xyz, spatial=spatial)
+        self = cls(xyz)
         self.latitude = kind
         return self
 
@@ -181,7 +164,10 @@ class HullInsertion:
 
     @property
     def facets(self) -> IntArray:
-        """The current surface, (m, 3)."""
+        """The current surface, (m, 3) int32: counterclockwise seen from outside, smallest index first, rows in order.
+
+        In the plane facets with -1 lie beyond the edges of the convex hull.
+        """
         return self._hull.rows()
 
     @property
@@ -192,17 +178,17 @@ class HullInsertion:
 
     @property
     def duplicates(self) -> IntArray:
-        """Pairs [dropped, kept], (k, 2)."""
+        """Pairs [dropped, kept] of equal points (directions), (k, 2) int32; the lowest index is kept."""
         return as_rows(self._duplicates, 2)
 
     @property
     def dimension(self) -> int:
-        """Dimension of the point set."""
+        """-1 without points, 0 for one, 1 on one line (one great circle), 2 otherwise."""
         return len(self.start) - 1
 
     @property
     def inconclusive(self) -> dict[str, int]:
-        """How many tests were exact ties."""
+        """Number of exact ties, by the name "exact"; displacement decides them."""
         return {"exact": self._sites.ties}
 
     def _append(self, array: FloatArray) -> None:
@@ -211,10 +197,7 @@ class HullInsertion:
         self._sites.extend(self.points[size:])
         kept = {p: self._first.setdefault(self._sites.keys[p], p) for p in range(size, len(self.points))}
         self._duplicates += [(p, first) for p, first in kept.items() if p != first]
-        fresh = [p for p, first in kept.items() if p == first]
-        if self._spatial:
-            fresh = [fresh[k] for k in insertion_order(self.points[fresh]).tolist()]
-        self._waiting += fresh
+        self._waiting += [p for p, first in kept.items() if p == first]
         if len(self.start) < 3:
             self._begin()
 
@@ -300,14 +283,3 @@ def spanning_points(sites: InsertionSites, distinct: Sequence[int]) -> list[int]
     second = next(p for p in distinct[1:] if sites.independent(first, p))
     third = (p for p in distinct[1:] if sites.turn(first, second, p))
     return [first, second, *([p] if (p := next(third, None)) is not None else [])]
-
-
-def insertion_order(points: FloatArray) -> Indices:
-    """An order in which neighbours in the list are mostly neighbours in place, so that walks are short.
-
-    Rounds of doubling size, drawn at random with a fixed seed, each in the order of a k-d tree's leaves: N. Amenta, S.
-    Choi, G. Rote, "Incremental constructions con BRIO" (2003). Speed alone depends on it.
-    """
-    drawn = np.random.default_rng(0).permutation(len(points))
-    rounds = np.frexp(drawn + 1.0)[1]
-    return np.lexsort([np.argsort(space_of(points).blocks(points, 1)[0]), rounds])

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import copy
 from typing import cast
 
+import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import BoolArray, FloatArray
+from stereodel._arrays import BoolArray, FloatArray, IntArray, as_directions
 from stereodel._docs import by_name, shared
 from stereodel._spaces import SPHERE
+from stereodel.predicates import in_bubble
+from stereodel.sphere.coordinates import IN_ROWS, LONLAT, as_sites, as_told
 from stereodel.sphere.latitudes import Latitude
-from stereodel.sphere.lonlat import IN_ROWS, LONLAT, as_sites, as_told
 from stereodel.triangulation.delaunay import FAMILY, Triangulation
 
 
@@ -32,9 +35,6 @@ class SphericalDelaunay(Triangulation, surface=SPHERE):
         Facets of the hull, m = 2n − 4 for n distinct points; counterclockwise seen from outside the hull, smallest
         index first; rows along a space-filling curve, so that consecutive facets are mostly close to one
         another.
-    closing : (m,) array of bool
-        Facets with det[a, b, c] ≤ 0: their empty bubble is a hemisphere or more, and they are not spherical triangles.
-        They exist if and only if all points lie in a closed hemisphere.
     neighbors : (m, 3) array of int32
         `neighbors[i, k]` is the facet opposite corner k of facet i.
     convex_hull : (h, 2) array of int32
@@ -45,10 +45,6 @@ class SphericalDelaunay(Triangulation, surface=SPHERE):
     duplicates : (k, 2) array of int32
         Pairs [dropped, kept] of points with exactly the same direction; the lowest index is kept, and is the one in
         `simplices`.
-    latitude : str or None
-        The kind of latitude by which the points were given (`from_lonlat`); None for directions.
-    lonlat, circumcenters_lonlat : (n, 2) and (m, 2) arrays
-        `points` and `circumcenters` in degrees, of that latitude.
     dimension : int
         -1 without points, 0 for one, 1 if all lie on one great circle, 2 otherwise. Below 2 there are no simplices.
     inconclusive : dict
@@ -142,5 +138,37 @@ class SphericalDelaunay(Triangulation, surface=SPHERE):
 
     @property
     def closing(self) -> BoolArray:
-        """Facets whose empty bubble is a hemisphere or more, (m,)."""
+        """Facets with det[a, b, c] ≤ 0, (m,): their empty bubble is a hemisphere or more; no spherical triangles.
+
+        They exist if and only if all points lie in a closed hemisphere.
+        """
         return cast("BoolArray", self._now().closing)
+
+
+def planar_part(triangulation: SphericalDelaunay, pole: npt.ArrayLike) -> IntArray:
+    """The facets of the hull that are triangles of the plane after stereographic projection from `pole`.
+
+    They are what it has in common with the triangulation of the plane: Theorem 1 of the paper, row P7.
+
+    Parameters
+    ----------
+    triangulation : SphericalDelaunay
+    pole : (3,) array_like
+        Direction of the projection pole. It may be one of the points: then its star is left out.
+
+    Returns
+    -------
+    (k, 3) array of int32
+        The simplices whose closed bubble does not contain the pole: in_bubble(a, b, c, pole) < 0.
+
+    Examples
+    --------
+    >>> octahedron = SphericalDelaunay([[1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]])
+    >>> len(planar_part(octahedron, [1, 1, -1])), len(planar_part(octahedron, [0, 0, -1]))
+    (7, 4)
+    """
+    triangulation = copy.copy(triangulation)  # as it is now, whatever other threads do
+    corners = triangulation.points[triangulation.simplices]
+    direction = as_directions(pole, "pole")
+    outside = np.asarray(in_bubble(corners[:, 0], corners[:, 1], corners[:, 2], direction)) < 0
+    return triangulation.simplices[outside]

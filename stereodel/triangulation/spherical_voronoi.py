@@ -10,8 +10,8 @@ from stereodel._arrays import FloatArray, IntArray, as_scalar, locked
 from stereodel._docs import by_name, shared
 from stereodel._spaces import SPHERE
 from stereodel.sphere import SphereArc, SphereCircle
+from stereodel.sphere.coordinates import IN_ROWS, LONLAT, as_told
 from stereodel.sphere.latitudes import Latitude
-from stereodel.sphere.lonlat import IN_ROWS, LONLAT, as_told
 from stereodel.triangulation.diagram import FAMILY, Diagram
 from stereodel.triangulation.spherical_delaunay import SphericalDelaunay
 
@@ -45,8 +45,6 @@ class SphericalVoronoi(Diagram[SphericalDelaunay], surface=SPHERE):
     {numbers}
     latitude : str or None
         The kind of latitude by which the points were given (`from_lonlat`); None for directions.
-    lonlat, vertices_lonlat : (n, 2) and (v, 2) arrays
-        `points` and `vertices` in degrees, of that latitude.
 
     Raises
     ------

@@ -172,12 +172,11 @@ def _check_duplicates(kept_by: LongArray, duplicates: npt.ArrayLike | None) -> N
     if rows.shape != (0,) and rows.shape[1:] != (2,):
         raise InvalidTriangulation(f"duplicates must have shape (k, 2), got {rows.shape}")
     given = {(int(i), int(k)) for i, k in rows.reshape(-1, 2)}
-    if given - expected:
-        i, k = min(given - expected)
-        raise InvalidTriangulation(f"duplicates lists [{i}, {k}], but {k} is not the first point equal to {i}")
-    if expected - given:
-        i, k = min(expected - given)
-        raise InvalidTriangulation(f"duplicates leaves out [{i}, {k}]: point {i} repeats point {k}")
+    if wrong := given ^ expected:
+        i, k = min(wrong)
+        raise InvalidTriangulation(
+            f"duplicates is wrong about [{i}, {k}]: the pairs are [point, first one equal to it]"
+        )
 
 
 def _check_flat(signs: PlaneSigns | SphereSigns, kept: LongArray) -> None:

@@ -22,7 +22,7 @@ from typing import Final
 import numpy.typing as npt
 
 from stereodel._arrays import as_choice, as_lonlat
-from stereodel._files import replacing
+from stereodel._tasks.whole_files import replacing
 from stereodel.sphere.latitudes import KINDS, Latitude
 from stereodel.web.contents import RESOLUTIONS, Given, built, contents, packed
 

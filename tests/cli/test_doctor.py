@@ -24,16 +24,12 @@ def test_version():
     assert ran.stdout.strip() == f"stereodel {stereodel.__version__}"
 
 
-def doctor_here(**environment):
-    """In a process of its own: a process draws on one platform only."""
-    kept = {name: value for name, value in os.environ.items() if name not in {"STEREODEL_GL", "PYOPENGL_PLATFORM"}}
-    line = [sys.executable, "-c", "from stereodel.cli import app; app(['doctor'])"]
-    return subprocess.run(line, env={**kept, **environment}, capture_output=True, text=True, check=False)
-
-
 @pytest.mark.parametrize("platform", ["osmesa", pytest.param("egl", marks=pytest.mark.thorough)])
 def test_doctor_tells_what_draws(platform):
-    ran = doctor_here(STEREODEL_GL=platform)
+    """In a process of its own: a process draws on one platform only."""
+    kept = {name: value for name, value in os.environ.items() if name != "PYOPENGL_PLATFORM"}
+    line = [sys.executable, "-c", "from stereodel.cli import app; app(['doctor'])"]
+    ran = subprocess.run(line, env={**kept, "STEREODEL_GL": platform}, capture_output=True, text=True, check=False)
     assert ran.returncode == 0, ran.stdout + ran.stderr
     assert f"{platform} (STEREODEL_GL)" in ran.stdout
     assert "Mesa" in ran.stdout
@@ -67,10 +63,7 @@ def test_doctor_says_how_to_get_what_is_missing(monkeypatch, platform, opens, sa
     ("trial", "problem"),
     [
         ("import os; os.kill(os.getpid(), 11)", "the process that drew on osmesa ended with code -11"),
-        (
-            "raise OSError('no memory left')",
-            "the process that drew on osmesa ended with code 1: OSError: no memory left",
-        ),
+        ("raise OSError('no memory')", "the process that drew on osmesa ended with code 1: OSError: no memory"),
         ("import time; time.sleep(60)", "osmesa has drawn nothing in 0.5 seconds"),
     ],
 )

@@ -15,7 +15,7 @@ from typer.testing import CliRunner
 from stereodel import fisheye, lonlat_to_xyz
 from stereodel.cli import app
 from stereodel.cli import globe as command
-from stereodel.cli.globe import Aim, Projection, layer_of, middle_of, motion_of
+from stereodel.cli.globe import Aim, layer_of, middle_of, motion_of
 from stereodel.drawing import StereographicView, View
 from stereodel.drawing.page import Dots
 from stereodel.film import Film, FrameError
@@ -56,7 +56,7 @@ def test_the_focus_is_magnified():
     globe.add_points([(10.0, 40.0), (10.0, 50.0)])
     heights = []
     for magnification in (1.0, 4.0):
-        aim = Aim((10.0, 40.0), magnification, None, Projection.globe)
+        aim = Aim((10.0, 40.0), magnification, None, "globe")
         (dots,) = (item for item in globe.page(aim.lens, aim.views).items if isinstance(item, Dots))
         heights.append(dots.centers[1] - dots.centers[0])
     wanted = np.sin(np.radians(10)), np.sin(2 * np.arctan(4 * np.tan(np.radians(5))))
@@ -65,7 +65,7 @@ def test_the_focus_is_magnified():
 
 def test_the_middle_of_the_picture():
     points = lonlat_to_xyz([(170, 10), (-170, 10)])
-    free = Aim(None, 1.0, None, Projection.globe)
+    free = Aim(None, 1.0, None, "globe")
     assert free.views == (View(0, 0),)
     sizes = {1.0: "50m", 4.0: "50m", 20.0: "10m", 0.1: "50m"}  # maps suit the magnification
     assert [replace(free, magnification=size).resolution for size in sizes] == list(sizes.values())
@@ -73,9 +73,9 @@ def test_the_middle_of_the_picture():
     focused = replace(free, focus=(1.0, 2.0))
     assert focused.with_middle_of(points).views == (View(1, 2),)
     assert replace(focused, middle=(3.0, 4.0)).views == (View(3, 4),)
-    flat = replace(focused, projection=Projection.stereographic)
+    flat = replace(focused, projection="stereographic")
     assert flat.views == (StereographicView(1, 2),)
-    both = replace(focused, projection=Projection.hemispheres).views
+    both = replace(focused, projection="hemispheres").views
     assert both == (StereographicView(1, 2), StereographicView(-179, -2))
     assert middle_of(lonlat_to_xyz([(0, 0), (180, 0)])) == (0.0, 0.0)
 
@@ -92,20 +92,17 @@ def test_textures(folder, run):
     assert east.max() < 50
 
 
-@pytest.mark.parametrize("projection", list(Projection))
+@pytest.mark.parametrize("projection", ["globe", "stereographic", "hemispheres"])
 def test_projections(folder, run, projection):
-    run("globe", "cities.csv", "-o", "globe.png", "--size", 120, "--projection", projection.value)
+    run("globe", "cities.csv", "-o", "globe.png", "--size", 120, "--projection", projection)
     height, width, _ = read_picture(folder / "globe.png").shape
-    assert (width, height) == (120, 60 if projection == Projection.hemispheres else 120)
+    assert (width, height) == (120, 60 if projection == "hemispheres" else 120)
 
 
-@pytest.mark.parametrize(
-    ("name", "options", "frames"),
-    [
-        ("turn.gif", [], 3),
-        ("grow.webp", ["--magnify=5", "--projection", "stereographic", "--title=Earth"], 6),
-    ],
-)
+GROWING = ["--magnify=5", "--projection", "stereographic", "--title=Earth"]
+
+
+@pytest.mark.parametrize(("name", "options", "frames"), [("turn.gif", [], 3), ("grow.webp", GROWING, 6)])
 def test_films(folder, run, monkeypatch, name, options, frames):
     """Whole files of so many frames, which differ, and nothing beside them."""
     for constant, value in (("SECONDS", 3.0), ("FPS", 2.0), ("GIF_FPS", 1.0)):
@@ -119,7 +116,7 @@ def test_films(folder, run, monkeypatch, name, options, frames):
 
 
 def test_what_moves():
-    aim = Aim((10.0, 50.0), 8.0, None, Projection.globe)
+    aim = Aim((10.0, 50.0), 8.0, None, "globe")
     lens, view = motion_of(aim, [(20.0, 40.0)])(0.0)
     assert lens.is_close(fisheye((10, 50), magnification=8))
     assert view == View(10, 50)
@@ -151,12 +148,12 @@ def test_a_picture_to_stdout(folder):
     assert ran.stdout_bytes.startswith(b"\x89PNG")
 
 
-@pytest.mark.parametrize(("options", "lines"), [((), 12), (("--magnify=1e9",), 12)])
-def test_the_graticule_suits_what_the_lens_shows(folder, run, options, lines):
-    """About so many meridians cross the middle of the picture, however much is magnified."""
+@pytest.mark.parametrize("options", [(), ("--magnify=1e9",)])
+def test_the_graticule_suits_what_the_lens_shows(folder, run, options):
+    """About a dozen meridians cross the middle of the picture, however much is magnified."""
     run("globe", "-o", "globe.svg", "--focus=2,48", "--show=graticule", *options)
     (path,) = re.findall('<path id="graticule"[^>]* d="([^"]*)"', (folder / "globe.svg").read_text(encoding="utf-8"))
-    assert lines <= path.count("M") <= 3 * lines
+    assert 12 <= path.count("M") <= 36
 
 
 def test_names_titles_and_legends(folder, run):

@@ -7,8 +7,6 @@ from scipy.io import netcdf_file
 
 from stereodel import lonlat_to_xyz
 
-METHODS = ["nearest", "linear", "smooth", "natural"]
-
 
 @pytest.fixture
 def values(folder):
@@ -20,7 +18,7 @@ def values(folder):
     return folder
 
 
-@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("method", ["nearest", "linear", "smooth", "natural"])
 def test_grid(values, method, run, rows):
     run("interpolate", "values.csv", "--value", "z", "--grid", 15, "--method", method, "-o", "grid.csv")
     table = rows((values / "grid.csv").read_text())
@@ -46,7 +44,7 @@ def test_missing_values(folder, run, rows):
     (folder / "holes.csv").write_text("lon,lat,t\n0,0,1\n90,0,\n0,90,3\n", encoding="utf-8")
     options = ("interpolate", "holes.csv", "--value", "t", "--at", "holes.csv", "--method", "nearest", "-o", "-")
     message = run(*options, code=2)
-    assert "holes.csv: row 2: t is missing" in message
+    assert "holes.csv: row 2: the t is missing" in message
     assert "--skip-missing" in message
     assert [row["t"] for row in rows(run(*options, "--skip-missing"))] == ["1", "1", "3"]
 

@@ -8,6 +8,8 @@ import time
 
 import pytest
 
+from tests.tiers import by_day
+
 # Whoever runs the tests in the background has SIGINT ignored, and programs inherit that.
 PROGRAM = """
 import signal
@@ -36,8 +38,8 @@ def many(folder):
     return folder
 
 
-def interrupted(folder, arguments, seconds):
-    """Start a command, interrupt it so long after its own first step; None if it was done before."""
+def not_ended_before(folder, arguments, seconds):
+    """Start a command and interrupt it so long after its own first step, if it was not done before."""
     before = sorted(folder.iterdir())
     program = [sys.executable, "-c", PROGRAM, *arguments]
     with subprocess.Popen(program, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
@@ -45,25 +47,18 @@ def interrupted(folder, arguments, seconds):
         time.sleep(seconds)
         process.send_signal(signal.SIGINT)
         _, said = process.communicate(timeout=120)
-    if process.returncode == 0:
-        return None
-    assert said == b"interrupted; nothing was written\n"
-    assert process.returncode == 130
-    assert sorted(folder.iterdir()) == before
-    return seconds
+    if process.returncode != 0:
+        assert (process.returncode, said) == (130, b"interrupted; nothing was written\n")
+        assert sorted(folder.iterdir()) == before
+    return process.returncode != 0
 
 
 TIMES = [(command, seconds) for command in EVERY for seconds in (0.02, 0.9)]
-BY_DAY = [("voronoi", 0.9), ("doctor", 0.02)]
 
 
-@pytest.mark.parametrize(
-    ("command", "seconds"),
-    [pytest.param(*when, marks=() if when in BY_DAY else pytest.mark.thorough) for when in TIMES],
-)
+@pytest.mark.parametrize(("command", "seconds"), by_day(TIMES, ("voronoi", 0.9), ("doctor", 0.02)))
 def test_every_command(many, command, seconds):
-    ended = interrupted(many, EVERY[command], seconds)
-    assert ended is not None
+    assert not_ended_before(many, EVERY[command], seconds)
 
 
 PARSING = """
@@ -89,5 +84,5 @@ def test_temporary_folders_go_too(many, monkeypatch, tmp_path):
     elsewhere = tmp_path / "elsewhere"
     elsewhere.mkdir()
     monkeypatch.setenv("TMPDIR", str(elsewhere))
-    assert interrupted(many, EVERY["voronoi"], 2.0) is not None
+    assert not_ended_before(many, EVERY["voronoi"], 2.0)
     assert os.listdir(elsewhere) == []

@@ -80,7 +80,7 @@ interpolate PEOPLE --at wrong.csv → wrong.csv: no column looks like the longit
 interpolate PEOPLE --at cities.csv --at-lat x → cities.csv: --at-lat is 'x', which is not one of the columns
 interpolate PEOPLE --at cities.csv --at-crs x → cities.csv: --at-crs is 'x', which PROJ does not know;
 interpolate cities.csv --value x --grid 5 → cities.csv: there is no column 'x'; the columns
-interpolate gappy.csv --value size --grid 5 → gappy.csv: row 1: size is missing; leave such rows out with --skip-missin
+interpolate gappy.csv --value size --grid 5 → gappy.csv: row 1: the size is missing; leave such rows out
 interpolate PEOPLE --at cities.csv --box=0,0,9,9 --centers → --box and --centers are for a --grid, and there is none
 interpolate PEOPLE --grid 5 --at-lon x → --at-lon is for the table --at, and there is none
 interpolate PEOPLE --grid 0 → --grid is 0.0, outside (0, 180]
@@ -88,7 +88,7 @@ interpolate PEOPLE --grid 7 → --grid is 7, but 180 must be a whole multiple of
 interpolate PEOPLE --grid 1e-05 → --grid is 1e-05, which makes a grid of 36000000 × 18000001 places; 1073741824 are the
 interpolate PEOPLE --grid nan → --grid is nan; every value must be a finite number
 interpolate PEOPLE --grid 5 --box=0,0,7 → --box is '0,0,7', but must be W,S,E,N in degrees, e.g. --box=-25,34,45,72
-interpolate PEOPLE --grid 5 --box=0,9,7,5 → --box is '0,9,7,5', but its south border must be below its north border
+interpolate PEOPLE --grid 5 --box=0,9,7,5 → --box is (0.0, 9.0, 7.0, 5.0), but south must be below north
 interpolate PEOPLE --grid 5 --box=nan,5,7,9 → --box is 'nan,5,7,9', but must be W,S,E,N in degrees
 interpolate PEOPLE → either --at
 interpolate PEOPLE --grid 1 --plane lon lat → --at
@@ -124,10 +124,10 @@ globe cities.csv --layer-name=x → --layer-name is 'x', but a file of the kind 
 globe --legend -o out.gif → is for pictures, not for films
 panorama room.png -o room.png --overwrite → room.png: is an input, so it cannot be overwritten
 panorama room.png -o out.gif → out.gif: cannot write gif
-panorama room.png -o out.png --width 33 → --width is 33, but
-panorama room.png -o out.png --width 40000 → --width is 40000, which makes
+panorama room.png -o out.png --size 33 → size is 33, but
+panorama room.png -o out.png --size 40000 → size is 40000, which makes
 panorama room.png -o out.png --magnify 0 → --magnify is 0
-panorama room.png -o out.png --to planet --angular-radius 170 → --angular-radius
+panorama room.png -o out.png --to planet --angular-radius 170 → angular_radius is 170
 panorama room.png -o out.png --faces → --faces requires --to cubemap, but
 panorama room.png -o - --to cubemap --faces → six files
 panorama cities.csv -o out.png → cities.csv is not a picture

@@ -58,21 +58,16 @@ def test_geodetic_latitudes_can_change_the_answer(folder, run, rows):
     assert rows(run(*options, "--latitude", "geodetic"))[0]["site_row"] == "1"
 
 
-def clusters(planar):
-    """Sites of which several are at one place, and queries at some of these places and beside them."""
-    rng = np.random.default_rng(5)
-    places = rng.uniform(-80, 80, (12, 2))
-    sites = places[rng.integers(0, 12, 60)]
-    queries = np.concatenate([places[:8], rng.uniform(-80, 80, (6, 2))])
-    return (sites, queries) if planar else (lonlat_to_xyz(sites), lonlat_to_xyz(queries))
-
-
 @pytest.mark.parametrize("planar", [True, False])
 @pytest.mark.parametrize("exclude_self", [True, False])
 @pytest.mark.parametrize("max_distance", [None, 30.0])
 @pytest.mark.parametrize("count", [1, 3, 40, 100])
 def test_pairs_are_those_of_brute_force(planar, exclude_self, max_distance, count):
-    sites, queries = clusters(planar)
+    """Sites of which several are at one place, and queries at some of these places and beside them."""
+    rng = np.random.default_rng(5)
+    places = rng.uniform(-80, 80, (12, 2))
+    sites, queries = places[rng.integers(0, 12, 60)], np.concatenate([places[:8], rng.uniform(-80, 80, (6, 2))])
+    sites, queries = (sites, queries) if planar else (lonlat_to_xyz(sites), lonlat_to_xyz(queries))
     limit = max_distance and max_distance * (1 if planar else np.radians(1) * MEAN_RADIUS_KM)
     pairs = _pairs(sites, queries, count, limit, exclude_self)
     if planar:
@@ -101,12 +96,7 @@ def test_many_sites_at_one_place_cost_no_more(folder):
 
 
 def test_exclude_self_and_max_distance_in_the_command(folder, run, rows):
-    table = rows(
-        run("nearest", "cities.csv", "--of", "cities.csv", "--exclude-self", "--max-distance", 9000, "-o", "-")
-    )
-    assert [(row["name"], row["site_name"]) for row in table] == [
-        ("Lagos", "Ulm"),
-        ("Ulm", "Lagos"),
-        ("Kyoto", "Perth"),
-        ("Perth", "Kyoto"),
-    ]
+    options = ("--exclude-self", "--max-distance", 9000, "-o", "-")
+    table = rows(run("nearest", "cities.csv", "--of", "cities.csv", *options))
+    pairs = [("Lagos", "Ulm"), ("Ulm", "Lagos"), ("Kyoto", "Perth"), ("Perth", "Kyoto")]
+    assert [(row["name"], row["site_name"]) for row in table] == pairs

@@ -12,6 +12,7 @@ from stereodel.cli import app
 from stereodel.drawing import View
 from stereodel.globe import Raster
 from tests.globe.supersampling import zone_plate
+from tools.baselines import read_picture
 
 
 @pytest.fixture
@@ -20,19 +21,13 @@ def room(folder):
     return folder
 
 
-def pixels(file):
-    with Image.open(file) as image:
-        return np.asarray(image.convert("RGB"))
-
-
-RASTER = Raster(zone_plate(32))
 ASKED = {
     "as it is": ([], {}),
     "desk": (["--focus=90,-10", "--magnify", 3], {"lens": fisheye((90, -10), magnification=3.0)}),
-    "wide": (["--width", 100], {"size": 100}),
+    "wide": (["--size", 100], {"size": 100}),
     "middle": (["--magnify", 3], {"lens": fisheye((0, 0), magnification=3.0)}),
     "view": (["--magnify", 3, "--view=30,20"], {"lens": fisheye((30, 20), magnification=3.0), "view": View(30, 20)}),
-    "cube": (["--to", "cubemap", "--width", 12], {"form": "cubemap", "size": 12}),
+    "cube": (["--to", "cubemap", "--size", 12], {"form": "cubemap", "size": 12}),
     "planet": (["--to", "planet", "--angular-radius", 100], {"form": "planet", "angular_radius": 100.0}),
     "nadir": (["--to", "planet", "--magnify", 2], {"form": "planet", "lens": fisheye((0, -90), magnification=2.0)}),
 }  # fmt: skip
@@ -42,14 +37,14 @@ ASKED = {
 def test_the_picture_that_was_asked_for(room, run, asked):
     options, wanted = ASKED[asked]
     run("panorama", "room.png", "-o", "out.png", *options)
-    expected = RASTER.panorama(**wanted)[..., :3]
+    expected = Raster(zone_plate(32)).panorama(**wanted)[..., :3]
     if wanted.get("form") == "cubemap":
         expected = np.concatenate(list(expected), axis=1)
-    assert np.array_equal(pixels(room / "out.png"), expected)
+    assert np.array_equal(read_picture(room / "out.png"), expected)
 
 
 def test_faces_are_six_files_that_are_not_replaced_unasked(room, run):
-    options = ("panorama", "room.png", "--to", "cubemap", "--faces", "--width", 8, "-o", "c.png")
+    options = ("panorama", "room.png", "--to", "cubemap", "--faces", "--size", 8, "-o", "c.png")
     run(*options)
     assert len(list(room.glob("c_*.png"))) == 6
     assert not (room / "c.png").exists()

@@ -114,7 +114,7 @@ def test_values_come_in_pieces(monkeypatch, piece):
     stream = terminal(monkeypatch)
     points, given = np.array([[0.0, 0], [1, 0], [0, 1]]), np.array([[0.0], [1], [2]])
     queries = np.linspace(0.0, 0.4, 10).reshape(5, 2)
-    values = interpolate._interpolator(points, given, interpolate.Method.linear)(queries)
+    values = interpolate._interpolated(points, given, "linear", queries)
     assert values[:, 0] == pytest.approx(queries @ [1, 2])
     assert "100%" in stream.getvalue()
 

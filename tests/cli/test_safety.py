@@ -137,20 +137,6 @@ def test_coordinate_systems_and_layers(own, run, rows):
     assert len(rows(run("voronoi", "two.gpkg", "--layer-name", "second", "-o", "-"))) == 1
 
 
-def shell(folder, command):
-    """A command line run by a shell, since redirections are its own."""
-    program = f'{sys.executable} -c "from stereodel.cli import app; app()"'
-    return subprocess.run(
-        ["bash", "-c", command.replace("stereodel ", f"{program} ")],
-        cwd=folder,
-        env={**os.environ, "COLUMNS": "200"},
-        capture_output=True,
-        text=True,
-        check=False,
-        timeout=60,
-    )
-
-
 @pytest.mark.parametrize(
     ("options", "message"),
     [
@@ -160,8 +146,10 @@ def shell(folder, command):
     ],
 )
 def test_what_takes_nothing(folder, options, message):
+    """Run by a shell, since redirections are its own."""
     (folder / "full.csv").symlink_to("/dev/full")
-    ran = shell(folder, f"stereodel voronoi cities.csv {options}")
+    command = f'{sys.executable} -c "from stereodel.cli import app; app()" voronoi cities.csv {options}'
+    ran = subprocess.run(["bash", "-c", command], cwd=folder, capture_output=True, text=True, check=False, timeout=60)
     assert (ran.returncode, ran.stderr) == (2, message)
 
 

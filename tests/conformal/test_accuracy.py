@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from stereodel.conformal import MoebiusMap, bubble_to_bubble, fisheye, flight
 from stereodel.sphere import Rotation, SphereCircle, lonlat_to_xyz
-from tests.exact import ACCURACY, angle, direction, distance, dot, mp, normalized, rotate
+from tests.exact import ACCURACY, angle, direction, distance, dot, mp, rotate, unit
 from tests.examples import examples
 from tests.strategies import DIRECTIONS, LONLAT, ROTATIONS, decades, maps
 
@@ -48,13 +48,13 @@ def near_point(point, side, nearness, offset):
 @given(MAPS, st.sampled_from([1, -1]), NEARNESS, DIRECTIONS, LENGTHS)
 def test_the_stored_map_is_off_by_a_few_roundings(conformal, side, nearness, offset, length):
     vector = length * near_point(conformal.focus, side, nearness, offset)
-    truth = exact_map(conformal, normalized(mp(vector)))
+    truth = exact_map(conformal, unit(vector))
     scale = exact_scale(conformal, vector)
     assert distance(conformal(vector), truth) <= min(13 * UNIT + scale * NEXT, 6 * UNIT * (1 + scale))
 
 
 def exact_scale(conformal, vector):
-    c, s = rotate(conformal.right.quaternion, normalized(mp(vector)))[2], mpmath.mpf(conformal.magnification)
+    c, s = rotate(conformal.right.quaternion, unit(vector))[2], mpmath.mpf(conformal.magnification)
     return 2 * s / ((1 + c) + s * s * (1 - c))
 
 
@@ -74,7 +74,7 @@ def test_fisheye_at_the_focus_that_was_given(focus, magnification, side, nearnes
     direction = lonlat_to_xyz(focus)
     lens = fisheye(focus, magnification=magnification)
     vector = near_point(direction, side, nearness, offset)
-    truth = exact_fisheye(normalized(mp(direction)), magnification, normalized(mp(vector)))
+    truth = exact_fisheye(unit(direction), magnification, unit(vector))
     assert distance(lens(vector), truth) <= ACCURACY * (1 + mpmath.mpf(float(lens.scale_factor(vector))))
 
 
@@ -82,7 +82,7 @@ def test_fisheye_at_the_focus_that_was_given(focus, magnification, side, nearnes
 def test_inverse_is_exact(conformal, side, nearness, offset):
     inverse = conformal.inverse()
     vector = near_point(inverse.focus, side, nearness, offset)
-    v = normalized(mp(vector))
+    v = unit(vector)
     with mpmath.workdps(120):
         assert distance(exact_map(conformal, exact_map(inverse, v)), v) < mpmath.mpf(10) ** -55
 
@@ -149,7 +149,7 @@ def test_composition_of_any_magnification(first, second, side, nearness, offset)
     both = second @ first
     with mpmath.workdps(450):
         for focus in (first.focus, both.focus):
-            v = normalized(mp(near_point(focus, side, nearness, offset)))
+            v = unit(near_point(focus, side, nearness, offset))
             # As stored: the kernel's own roundings next to the focus are tested above.
             gap = distance(exact_map(both, v), exact_map(second, exact_map(first, v)))
             assert gap <= ACCURACY * (1 + largest_scale(both, v))
@@ -163,7 +163,7 @@ def test_what_nearly_undoes_a_strong_map(left, right, decades, part):
     other = MoebiusMap(left, min(size * (1 + part), 1e100), right)
     rest = strong.inverse() @ other
     assert rest.magnification == pytest.approx(other.magnification / size, rel=4 * 2.0**-52)
-    assert distance(rest.focus, normalized(mp(other.focus))) < 1e-15 / max(rest.magnification - 1, 1e-16)
+    assert distance(rest.focus, unit(other.focus)) < 1e-15 / max(rest.magnification - 1, 1e-16)
 
 
 @given(ROTATIONS, ROTATIONS, st.floats(-80, 80))
@@ -185,7 +185,7 @@ def test_flights_of_any_magnification(start, end, first, last, t):
     """The geodesic of hyperbolic space, in 200 digits; a point of it is (sinh η f, cosh η)."""
     path = flight(start, end, magnification=10.0**first, arrival=10.0**last)
     with mpmath.workdps(200):
-        f, g = (normalized(mp(lens.focus)) for lens in (path.start, path.end))
+        f, g = (unit(lens.focus) for lens in (path.start, path.end))
         a, b = (mpmath.log(mpmath.mpf(lens.magnification)) for lens in (path.start, path.end))
         inner = mpmath.cosh(a) * mpmath.cosh(b) - mpmath.sinh(a) * mpmath.sinh(b) * sum(map(mpmath.fmul, f, g))
         d = mpmath.acosh(max(inner, 1))
@@ -206,7 +206,7 @@ def test_flights_of_any_magnification(start, end, first, last, t):
 
 def circle_of(bubble):
     """Unit normal and angular radius, as the stored numbers define them."""
-    return normalized(mp(bubble.normal)), mpmath.atan2(mpmath.mpf(bubble.radius), mpmath.mpf(bubble.offset))
+    return unit(bubble.normal), mpmath.atan2(mpmath.mpf(bubble.radius), mpmath.mpf(bubble.offset))
 
 
 def largest_scale(conformal, v):
@@ -220,10 +220,10 @@ def largest_scale(conformal, v):
 def check_bubbles(conformal, source, point, target):
     """A point of the source goes to the centre of the target, and the rim to the rim, as far as a stored map can."""
     center, radius = circle_of(target)
-    v = normalized(mp(point))
+    v = unit(point)
     assert angle(exact_map(conformal, v), center) <= 2 * ACCURACY * (1 + largest_scale(conformal, v))
     for rim in source.sample(3):
-        v = normalized(mp(rim))
+        v = unit(rim)
         gap = angle(exact_map(conformal, v), center) - radius
         assert abs(gap) <= 2 * ACCURACY * (1 + largest_scale(conformal, v))
 
@@ -252,7 +252,7 @@ def test_points_next_to_the_rim(center, decades, other, radius, bearing, depth):
     alpha = np.arctan2(source.radius, source.offset)
     point = Rotation.about(np.cross(edge, source.normal), np.degrees(10.0**depth * alpha))(edge)
     n, rim = circle_of(source)
-    inside = rim - angle(normalized(mp(point)), n)
+    inside = rim - angle(unit(point), n)
     if inside <= 1.9 * ACCURACY:
         with pytest.raises(ValueError, match=r"source_point must lie strictly inside .* by more than"):
             bubble_to_bubble(source, target, source_point=point)

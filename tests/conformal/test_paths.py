@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from stereodel.conformal import MoebiusMap, fisheye, flight, path_between
+from stereodel.conformal import GroupPath, MoebiusMap, fisheye, flight
 from tests.examples import examples
 from tests.strategies import BETWEEN_POLES, ROTATIONS, decades, maps
 
@@ -27,7 +27,7 @@ def distance(a, b):
 @given(MAPS, MAPS)
 @examples(0.2)
 def test_ends_are_the_maps_and_nothing_jumps(start, end):
-    path = path_between(start, end)
+    path = GroupPath(start, end)
     assert (path(0.0), path(1.0)) == (start, end)
     for t, given_map in ((1e-9, start), (1 - 1e-9, end)):
         slack = 1e-7 * (1 + path.length) * (1 + given_map.scale_factor(POINTS))[:, None]
@@ -36,7 +36,7 @@ def test_ends_are_the_maps_and_nothing_jumps(start, end):
 
 @given(maps(st.floats(0.05, 20)), maps(st.floats(0.05, 20)), TIMES)
 def test_the_fisheyes_follow_the_geodesic_at_constant_speed(start, end, t):
-    path = path_between(start, end)
+    path = GroupPath(start, end)
     a, b, c = place(start), place(end), place(path(t))
     assert path.length == pytest.approx(distance(a, b), abs=1e-6)
     assert distance(a, c) == pytest.approx(t * path.length, abs=1e-5)
@@ -46,7 +46,7 @@ def test_the_fisheyes_follow_the_geodesic_at_constant_speed(start, end, t):
 @given(ROTATIONS, ROTATIONS, TIMES)
 def test_between_rotations_all_are_rotations(first, second, t):
     start, end = MoebiusMap.rotation(first), MoebiusMap.rotation(second)
-    between = path_between(start, end)(t)
+    between = GroupPath(start, end)(t)
     assert between.magnification == 1
     if abs(np.trace((end @ start.inverse()).matrix[:3, :3]) + 1) > 1e-6:
         assert between.is_close((end @ start.inverse()).power(t) @ start, tolerance=1e-12)
@@ -63,7 +63,7 @@ def test_a_flight_is_made_of_fisheyes(start, end, first, last, t):
 @examples(0.2)
 def test_paths_turn_with_what_they_join(start, end, before, after, t):
     left, right = MoebiusMap.rotation(after), MoebiusMap.rotation(before)
-    here, there = path_between(start, end), path_between(left @ start @ right, left @ end @ right)
+    here, there = GroupPath(start, end), GroupPath(left @ start @ right, left @ end @ right)
     assert there.length == pytest.approx(here.length, rel=1e-9, abs=1e-9)
     if here(t).magnification < 1e3 and abs(here._turn[1] - 180) > 1e-3:
         assert there(t).is_close(left @ here(t) @ right, tolerance=1e-9)

@@ -18,23 +18,14 @@ from tests.examples import examples
 from tools.data_sets import dump
 
 FOLDER = Path(stored.__file__).parent
-SETS = {
-    "airports": data.airports,
-    "cities": data.cities,
-    "stars": data.stars,
-    "coastlines_50m": data.coastlines,
-    "coastlines_110m": lambda: data.coastlines("110m"),
-    "land_10m": lambda: data.land("10m"),
-    "borders_10m": lambda: data.borders("10m"),
-    "rivers_10m": lambda: data.rivers("10m"),
-    "rivers_50m": data.rivers,
-    "rivers_110m": lambda: data.rivers("110m"),
-    "lakes_10m": lambda: data.lakes("10m"),
-    "lakes_50m": data.lakes,
-    "lakes_110m": lambda: data.lakes("110m"),
-}
 OTHERS = {"countries_50m", "countries_110m", "blue_marble"}
 """Stored as lines that several sets share (tests/data/test_natural_earth.py), or as a picture (below)."""
+SETS = sorted(data.sources().keys() - OTHERS)
+
+
+def loaded(name):
+    kind, _, resolution = name.partition("_")
+    return getattr(data, kind)(*filter(None, [resolution]))
 
 
 @pytest.mark.parametrize("name", data.sources())
@@ -47,7 +38,6 @@ def test_files_are_those_of_the_table(name):
 
 
 def test_every_file_is_in_the_table_and_all_are_small():
-    assert set(data.sources()) == SETS.keys() | OTHERS
     files = {path.name for path in FOLDER.iterdir() if path.suffix not in (".py", ".md", ".json", "")}
     assert files == {entry["file"] for entry in data.sources().values()}
     assert sum((FOLDER / name).stat().st_size for name in files) < 6e6
@@ -62,30 +52,16 @@ def test_another_file_is_refused(monkeypatch):
 
 @pytest.mark.parametrize("name", SETS)
 def test_columns_are_of_one_length_and_nobody_can_change_them(name):
-    table = SETS[name]()
+    table = loaded(name)
     assert len(table.lonlat) == data.sources()[name]["rows"]
     for field in dataclasses.fields(table):
         column = getattr(table, field.name)
         assert not column.flags.writeable
         assert len(column) == len(table.lonlat) or hasattr(table, "__geo_interface__")
-    assert SETS[name]().lonlat is table.lonlat
+    assert loaded(name).lonlat is table.lonlat
     assert np.abs(table.lonlat[:, 1]).max() <= 90
     with pytest.raises(dataclasses.FrozenInstanceError):
         table.lonlat = None
-
-
-@pytest.mark.parametrize(
-    ("icao", "iata", "name", "country", "place"),
-    [
-        ("EGLL", "LHR", "London Heathrow Airport", "GB", (-0.4619, 51.4706)),
-        ("NZSP", "", "South Pole Station Airport", "AQ", (0.0, -90.0)),
-    ],
-)
-def test_an_airport(icao, iata, name, country, place):
-    table = data.airports()
-    (row,) = np.flatnonzero(table.icao == icao)
-    assert (table.iata[row], table.name[row], table.country[row]) == (iata, name, country)
-    np.testing.assert_allclose(table.lonlat[row], place, atol=1e-3)
 
 
 def test_population():
@@ -96,16 +72,27 @@ def test_population():
     assert 5e6 < table.population[tokyo] < 2e7
 
 
-@pytest.mark.parametrize(
-    ("hip", "place", "magnitude", "color_index"),
-    [(11767, (37.946, 89.264), 2.1, 0.6), (27989, (88.793, 7.407), 0.4, 1.5), (24436, (78.634, -8.202), 0.2, 0.0)],
-)
-def test_polaris_betelgeuse_rigel(hip, place, magnitude, color_index):
-    table = data.stars()
-    (row,) = np.flatnonzero(table.hip == hip)
+KNOWN = [
+    (
+        "airports",
+        {"icao": "EGLL", "iata": "LHR", "name": "London Heathrow Airport", "country": "GB"},
+        (-0.4619, 51.4706),
+    ),
+    ("airports", {"icao": "NZSP", "iata": "", "name": "South Pole Station Airport", "country": "AQ"}, (0.0, -90.0)),
+    ("stars", {"hip": 11767, "magnitude": 2.1, "color_index": 0.6}, (37.946, 89.264)),  # Polaris
+    ("stars", {"hip": 27989, "magnitude": 0.4, "color_index": 1.5}, (88.793, 7.407)),  # Betelgeuse
+    ("stars", {"hip": 24436, "magnitude": 0.2, "color_index": 0.0}, (78.634, -8.202)),  # Rigel
+]
+
+
+@pytest.mark.parametrize(("name", "columns", "place"), KNOWN)
+def test_a_known_row(name, columns, place):
+    table, key = loaded(name), next(iter(columns))
+    (row,) = np.flatnonzero(getattr(table, key) == columns[key])
     np.testing.assert_allclose(table.lonlat[row], place, atol=1e-3)
-    assert table.magnitude[row] == pytest.approx(magnitude, abs=0.3)
-    assert table.color_index[row] == pytest.approx(color_index, abs=0.1)
+    for column, value in columns.items():
+        tolerance = {"magnitude": 0.3, "color_index": 0.1}.get(column)
+        assert getattr(table, column)[row] == (value if tolerance is None else pytest.approx(value, abs=tolerance))
 
 
 def test_airports_can_be_triangulated():

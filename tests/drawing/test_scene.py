@@ -119,7 +119,7 @@ def test_caps_and_triangles_are_lit_in_front_and_faint_behind():
     circle = SphereCircle.around((0, 40), 30)
     scene.add_cap(circle, name="small_bubble")
     scene.add_cap(circle, name="large_bubble", side="outside")
-    scene.add_triangle_patch(*lonlat_to_xyz([(0, 0), (60, 0), (30, 50)]), color="tab:red")
+    scene.add_patch(lonlat_to_xyz([(0, 0), (60, 0), (30, 50)]), color="tab:red")
     view = View(0, 40)
     fills = of(scene.layout(view, at=(5.0, 6.0), scale=0.5), Fill)
     lit, flat = [item for item in fills if item.ball], [item for item in fills if not item.ball]
@@ -155,7 +155,7 @@ def test_labels_vanish_with_their_points_unless_told():
 def test_style_and_layer_can_be_given():
     scene = Scene()
     style = LineStyle((1.0, 0.0, 0.0, 1.0), 3.0, (2.0, 2.0))
-    scene.add_circles([SphereCircle.around((0, 90), 30)], name="mine", style=style, layer=Layer.OVER)
+    scene.add_curves([CircleArc.circle(SphereCircle.around((0, 90), 30))], name="mine", style=style, layer=Layer.OVER)
     items = scene.layout(FRONT)
     assert names(items) == ["ball", "limb", "mine"]
     assert (items[2].width, items[2].dash, items[2].cap, items[2].closed) == (3.0, (2.0, 2.0), "butt", True)
@@ -164,7 +164,7 @@ def test_style_and_layer_can_be_given():
 @pytest.mark.parametrize(
     ("call", "message"),
     [
-        (lambda s: Scene(style="foggy"), "style must be"),
+        (lambda s: Scene(style="foggy"), "style is 'foggy'"),
         (lambda s: Scene(radius=0), "radius"),
         (lambda s: s.add_arcs(graticule(30), name="nothing"), "name 'nothing' has no line style"),
         (lambda s: s.add_points([[0, 0, 1]], name="nothing"), "name 'nothing' has no dot style"),
@@ -176,7 +176,7 @@ def test_style_and_layer_can_be_given():
         (lambda s: s.page(FRONT, extent=(1, -1, -1, 1)), r"extent\[1\] - extent\[0\]"),
         (lambda s: s.page(FRONT, width=0), "width"),
         (lambda s: s.page(FRONT, background="sky"), "background is 'sky'"),
-        (lambda s: s.add_triangle_patch([1, 0, 0], [0, 1, 0], [0, 0, 1], color=(1, 2, 3)), "color is"),
+        (lambda s: s.add_patch(np.eye(3), color=(1, 2, 3)), "color is"),
         (lambda s: s.add_region([CircleArc.great([1, 0, 0], [0, 1, 0])], name="cell"), "boundary"),
     ],
 )

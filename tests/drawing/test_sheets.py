@@ -11,16 +11,42 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from stereodel.drawing import styled
-from stereodel.drawing.page import style
+from stereodel.drawing.page import Ball, Dots, Fill, Label, Page, Picture, Polygons, Polylines, Stroke, style
 from stereodel.drawing.page.colors import contrast, luminance, to_oklab, with_luminance
-from stereodel.drawing.page.lengths import as_length
 from stereodel.drawing.page.sheets import GROUND, StyledDraw, StyleSheet, dark_color, dark_page
-from tests.drawing.pages import RED, page
+from stereodel.drawing.page.style import as_length
 
+RED, BALL = (1.0, 0.0, 0.0, 1.0), Ball((0.0, 0.0), 1.0)
+LOOP = np.array([[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 0.0]]])
+SQUARE = np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 0.0)])
+ROWS = np.array([0, 4, 8])
 PAGE = (Path(__file__).parents[2] / "docs" / "drawing.md").read_text(encoding="utf-8")
 
 shares = st.floats(0, 1)
 colors = st.tuples(shares, shares, shares)
+
+
+class Painted:
+    """A painter without pixels."""
+
+    def arrays(self):
+        return {}
+
+
+def page():
+    """With an item of each kind, named after what maps have, in red."""
+    several = np.array([RED, (0, 0, 1, 1)])
+    items = (
+        Fill((LOOP,), RED, "ball", BALL),
+        Polygons(SQUARE, ROWS[:2], np.array([0]), np.array([RED]), BALL, "land"),
+        Polygons(np.concatenate([SQUARE, SQUARE + 2]), ROWS, np.array([0, 1]), several, name="cells"),
+        Stroke(LOOP, RED, 1.0, name="limb"),
+        Polylines(SQUARE, ROWS[:2], RED, 1.0, "coast"),
+        Dots(SQUARE, 2.0, RED, style.WHITE, 0.5, "sites"),
+        Label("name", (0.0, 0.0), color=RED, halo=1.0),
+        Picture((LOOP,), Painted()),
+    )
+    return Page((0.0, 4.0, 0.0, 4.0), items)
 
 
 def over(color, ground):
@@ -146,9 +172,9 @@ def test_a_file_changes_what_it_names(tmp_path):
     assert page().background == (1.0, 1.0, 1.0, 1.0)
 
 
-def test_an_empty_file_changes_nothing_and_a_base_comes_first(tmp_path):
+def test_an_empty_file_changes_nothing_and_dark_comes_first(tmp_path):
     assert StyleSheet.of_file(write(tmp_path, ""))(page()).arrays().keys() == page().arrays().keys()
-    dark = styled(page(), write(tmp_path, 'base = "dark"\n[fills]\nball = "lime"'))
+    dark = styled(page(), write(tmp_path, '[fills]\nball = "lime"'), "dark")
     assert dark.background == styled(page(), "dark").background
     assert dark.items[0].color == (0.0, 1.0, 0.0, 1.0)
     assert dark.items[3].color == styled(page(), "dark").items[3].color
@@ -161,7 +187,7 @@ def test_an_empty_file_changes_nothing_and_a_base_comes_first(tmp_path):
     ("text", "message"),
     [
         ("a = ", "mine.toml: is not TOML"),
-        ("colour = 1", "mine.toml: colour is not a key of styles; give base, background, fills, lines, dots, labels"),
+        ("colour = 1", "mine.toml: colour is not a key of styles; give background, fills, lines, dots, labels"),
         ("lines.coast.widht = 1", "mine.toml: lines.coast.widht is not a key of styles; give color, width"),
         ("lines.coast.width = -1", "mine.toml: lines.coast.width is -1"),
         ("lines.coast.width = '1 ell'", "mine.toml: lines.coast.width is '1 ell'; give a length with a unit"),
@@ -171,7 +197,6 @@ def test_an_empty_file_changes_nothing_and_a_base_comes_first(tmp_path):
         ("labels.font = 'Nowhere'", "mine.toml: labels.font is 'Nowhere', which this machine does not have"),
         ("labels.font = 5", "mine.toml: labels.font is 5; give a family"),
         ("dots = []", "mine.toml: dots is [], but must be a table"),
-        ("base = 'bright'", "style is 'bright'"),
         ("background = [1, 2]", "mine.toml: background is [1, 2], which is not a colour"),
     ],
 )

@@ -21,7 +21,7 @@ from stereodel.drawing import (
     styled,
     with_legend,
 )
-from stereodel.drawing.page.style import line
+from stereodel.drawing.page.style import LABEL_SIZE, line
 from stereodel.drawing.scene.legend import GAP as SPACE
 from stereodel.drawing.scene.legend import ROW, SAMPLE
 from stereodel.drawing.scene.sketch import GAP, HEAD, TICK, arc_path
@@ -38,18 +38,12 @@ def test_arcs_lie_on_their_circle(start, stop):
     assert np.array_equal(path[1:, 0], path[:-1, 3])
 
 
-def test_graph_of_a_cubic_is_exact():
-    x = np.array([-1.0, 0.5, 2.0])
-    (stroke,) = Sketch().add_graph(x, x**3 - x, 3 * x**2 - 1, name="accent1").page((-1, 2, -2, 6)).items
-    px, py = path_points(stroke.path).T
-    assert np.allclose(py, px**3 - px, atol=1e-14)
-
-
-def test_graph_of_a_parabola_needs_no_slopes():
+def test_graphs_of_cubics_are_exact_and_of_parabolas_without_slopes():
     x = np.array([-1.0, 0.5, 1.0, 3.0])
-    (stroke,) = Sketch().add_graph(x, x**2 - x, name="accent1").page((-1, 3, -1, 6)).items
-    px, py = path_points(stroke.path).T
-    assert np.allclose(py, px**2 - px, atol=1e-14)
+    for power, slopes in ((3, [3 * x**2 - 1]), (2, [])):
+        (stroke,) = Sketch().add_graph(x, x**power - x, *slopes, name="accent1").page((-1, 3, -2, 24)).items
+        px, py = path_points(stroke.path).T
+        assert np.allclose(py, px**power - px, atol=1e-13)
 
 
 def test_closed_polyline_returns_to_its_start():
@@ -150,28 +144,27 @@ def in_points(page, xy):
 
 
 def test_the_picture_stays_and_the_page_grows_downwards_by_its_rows(page):
-    grown = with_legend(page, ENTRIES, columns=2, size=10.0)
+    grown = with_legend(page, ENTRIES, columns=2)
     assert grown.items[0] is page.items[0]
     assert (grown.width, grown.background, grown.views) == (page.width, page.background, page.views)
     assert grown.points_per_unit == pytest.approx(page.points_per_unit)
     assert np.array_equal(np.delete(grown.extent, 2), np.delete(page.extent, 2))
-    assert grown.height == pytest.approx(50 + 10 * ROW * 3.5)
+    assert grown.height == pytest.approx(50 + LABEL_SIZE * ROW * 3.5)
 
 
 def test_entries_are_read_row_by_row(page):
-    grown = with_legend(page, ENTRIES, columns=2, indent=8.0, size=10.0, ink="navy")
+    grown = with_legend(page, ENTRIES, columns=2, indent=8.0)
     words = grown.labels[1:]
     assert [label.text for label in words] == list(ENTRIES)
-    row = 10 * ROW
+    row = LABEL_SIZE * ROW
     expected = [(8 + 42 * column, 50 + row * (down + 1)) for down in range(3) for column in range(2)][:5]
     assert np.allclose([in_points(grown, label.anchor) for label in words], expected)
     assert {label.offset for label in words} == {(SAMPLE[0] + SPACE, 0.0)}
-    assert {(label.align, label.valign, label.size) for label in words} == {("left", "center", 10.0)}
-    assert {label.color for label in words} == {(0.0, 0.0, 128 / 255, 1.0)}
+    assert {(label.align, label.valign, label.size) for label in words} == {("left", "center", LABEL_SIZE)}
 
 
 def test_samples_look_as_what_they_stand_for(page):
-    grown = with_legend(page, ENTRIES, size=10.0)
+    grown = with_legend(page, ENTRIES)
     line, dashes, dots, tint, _ = [item for item in grown.items if not isinstance(item, Label)]
     assert (line.color, line.width, line.dash) == (LINE.color, LINE.width, None)
     assert (dashes.color, dashes.dash) == (DASHES.color, DASHES.dash)

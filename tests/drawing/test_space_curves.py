@@ -18,21 +18,14 @@ angles = st.floats(-10, 10)
 sweeps = st.floats(0.01, 2 * np.pi)
 
 
-def frame(seed_vector, other):
-    """Two orthonormal vectors, or reject."""
-    assume(np.linalg.norm(seed_vector) > 0.1)
-    u = seed_vector / np.linalg.norm(seed_vector)
-    v = other - (other @ u) * u
-    assume(np.linalg.norm(v) > 0.1)
-    return u, v / np.linalg.norm(v)
-
-
 @st.composite
 def arcs(draw):
-    u, v = frame(draw(vectors), draw(vectors))
-    radius = draw(st.floats(0.1, 3))
-    start = draw(angles)
-    return CircleArc(2 * draw(vectors), radius * u, radius * v, start, start + draw(sweeps))
+    u, other, radius, start = draw(vectors), draw(vectors), draw(st.floats(0.1, 3)), draw(angles)
+    assume(np.linalg.norm(u) > 0.1)
+    u = u / np.linalg.norm(u)
+    v = other - (other @ u) * u
+    assume(np.linalg.norm(v) > 0.1)
+    return CircleArc(2 * draw(vectors), radius * u, radius * v / np.linalg.norm(v), start, start + draw(sweeps))
 
 
 @given(arcs())

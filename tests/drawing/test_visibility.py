@@ -34,19 +34,6 @@ def circles_on_the_ball(draw):
     return CircleArc.circle(SphereCircle.around(lonlat, draw(st.floats(0.01, 179.99))))
 
 
-def covered(points, radius):
-    """Definition: the line toward the viewer meets the open ball."""
-    beside = np.hypot(points[:, 0], points[:, 1])
-    near = np.sqrt(np.maximum(radius**2 - beside**2, 0))
-    return (beside < radius) & (points[:, 2] < near)
-
-
-def margin(points, radius):
-    """How far a point is from where its place may change."""
-    beside = np.hypot(points[:, 0], points[:, 1])
-    return np.minimum(np.abs(beside - radius), np.abs(np.linalg.norm(points, axis=1) - radius))
-
-
 def places(curve):
     """The places of the pieces of one curve, about a ball of radius 1."""
     [pieces] = split_by_ball([curve], 1.0)
@@ -61,19 +48,18 @@ def assert_pieces_cover(curve, pieces):
     assert np.isclose(span, curve.stop - curve.start, rtol=1e-12)
 
 
-def assert_matches_definition(curve, radius):
+@given(st.one_of(arcs(), st.builds(lambda a, b: Segment.between(3 * a, 3 * b), vectors, vectors)), st.floats(0.2, 3))
+def test_circles_and_segments_of_space(curve, radius):
+    """By the definition: the line toward the viewer meets the open ball; but for points where that may change."""
     [pieces] = split_by_ball([curve], radius)
     assert_pieces_cover(curve, pieces)
     for piece, place in pieces:
         points = piece.sample(np.linspace(piece.start, piece.stop, 203)[1:-1])
-        clear = points[margin(points, radius) > 1e-6]
-        assert np.all(covered(clear, radius) == (place in (Place.BEHIND, Place.INSIDE)))
-        assert (place is Place.INSIDE) or np.all(np.linalg.norm(clear, axis=1) > radius)
-
-
-@given(st.one_of(arcs(), st.builds(lambda a, b: Segment.between(3 * a, 3 * b), vectors, vectors)), st.floats(0.2, 3))
-def test_circles_and_segments_of_space(curve, radius):
-    assert_matches_definition(curve, radius)
+        beside, away = np.hypot(points[:, 0], points[:, 1]), np.linalg.norm(points, axis=1)
+        clear = np.minimum(np.abs(beside - radius), np.abs(away - radius)) > 1e-6
+        covered = (beside < radius) & (points[:, 2] < np.sqrt(np.maximum(radius**2 - beside**2, 0)))
+        assert np.all(covered[clear] == (place in (Place.BEHIND, Place.INSIDE)))
+        assert (place is Place.INSIDE) or np.all(away[clear] > radius)
 
 
 @given(circles_on_the_ball(), views)
@@ -170,13 +156,6 @@ def cap(lonlat, radius):
     return SphereRegion((CircleArc.circle(SphereCircle.around(lonlat, radius)),), 1.0)
 
 
-def ring(corners):
-    """The region on the left of great-circle arcs."""
-    return SphereRegion(
-        tuple(CircleArc.great(*pair) for pair in zip(corners, np.roll(corners, -1, 0), strict=True)), 1.0
-    )
-
-
 def left_of_all(region):
     """Membership in a convex region, or a cap: on the left of each arc's plane."""
 
@@ -228,7 +207,9 @@ def test_stars_and_all_but_stars(corners, lonlat, inside_out, view, sign):
     axes = View(*lonlat).matrix
     flat = np.tan(np.radians(radii))[:, None] * np.column_stack([np.cos(angle), np.sin(angle)])
     vertices = np.column_stack([flat, np.ones(len(flat))]) @ axes
-    region = ring(vertices[::-1] if inside_out else vertices).turned(view.matrix)
+    corners = vertices[::-1] if inside_out else vertices
+    sides = tuple(CircleArc.great(*pair) for pair in zip(corners, np.roll(corners, -1, 0), strict=True))
+    region = SphereRegion(sides, 1.0).turned(view.matrix)
     star = Polygon(np.concatenate([flat, flat[:1]]), closed=True)
 
     def holds(points):

@@ -9,7 +9,6 @@ import numpy as np
 
 FOLDER = Path(__file__).parents[2] / "figures"
 FIGURES = tuple(path.stem for path in sorted(FOLDER.glob("fig*.py")))
-CLAIMS = tuple(path.stem for path in sorted(FOLDER.glob("claim_*.py")))
 ROWS = ("fig10_earth", "fig11_fisheye4", "fig12_fisheye20")
 
 

@@ -99,12 +99,6 @@ def share_of_hemisphere(magnification, half_width):
     return area.sum() / (2 * np.pi)
 
 
-def cap_that_fills_a_hemisphere(magnification):
-    """The angular radius of what the lens makes a hemisphere about its focus."""
-    hemisphere = SphereCircle((0, 40), 0.0)
-    return fisheye((0, 40), magnification=magnification).inverse().image_of(hemisphere).angular_radius
-
-
 def truth(name):
     """The numbers of a caption, in their order, as what is drawn has them."""
     module, g = script(name), {} if name.startswith("anim_") else geometry(name)
@@ -135,7 +129,8 @@ def truth(name):
             views, (size, coarse, fine, focus, half) = len(page(name).views), five_views(name).values()
             if name == "fig10_earth":
                 return [views, coarse, focus, fine, focus, half]
-            filled = [2 * half, 100 * share_of_hemisphere(size, half), cap_that_fills_a_hemisphere(size)]
+            hemisphere, back = SphereCircle((0, 40), 0.0), fisheye((0, 40), magnification=size).inverse()
+            filled = [2 * half, 100 * share_of_hemisphere(size, half), back.image_of(hemisphere).angular_radius]
             filled = filled if name == "fig12_fisheye20" else []
             return [views, size, coarse, fine, focus, size, *filled, half, hidden_up_to(size)]
         case "fig10_12_plate":
@@ -166,7 +161,7 @@ def truth(name):
             kinds = [module["SEGMENTS"], module["SEGMENTS"], module["WANDERINGS"], module["STOPS"]]
             return [*bounds, *bounds[::-1], *kinds, 1 / bounds[1], 0]
         case "claim_separation":
-            return [module["DOTS"], PAPER_CONSTANT, *lift_scales()[::-1], module["WIDTH"], module["HEIGHT"]]
+            return [module["DOTS"], 1 / 2, *lift_scales()[::-1], module["WIDTH"], module["HEIGHT"]]
         case "claim_terrain":
             return [len(g["points"]), module["COLUMNS"], module["ROWS"]]
         case "earth_airports":
@@ -189,10 +184,6 @@ def truth(name):
         case "sky_stars":
             return [len(data.stars().magnitude), module["BRIGHT"]]
     raise AssertionError(f"{name} has a caption that nobody checks")
-
-
-PAPER_CONSTANT = 1 / 2
-"""Of row P13, as the paper has it."""
 
 
 def lift_scales():

@@ -98,7 +98,12 @@ def test_curves_of_equal_ratio():
 
 def test_triangles_said_to_be_broken_have_sites_in_both_bubbles():
     module, g = script("claim_projections"), geometry("claim_projections")
-    sites = sphere_sites(module, g)
+    # The sites, from where the stereographic panel has them: back by its formula, up to the panel's size.
+    projection, rim = module["Stereographic"](module["PLACE"]), module["CIRCLE"].sample(720)
+    drawn, true = g["stereographic_circle"], projection.forward(rim)
+    size = np.linalg.norm(drawn[0] - drawn[360]) / np.linalg.norm(true[0] - true[360])
+    sites = projection.inverse((g["stereographic_sites"] - drawn[0]) / size + true[0])
+    assert angular_distance(sites, lonlat_to_xyz(module["PLACE"])).max() <= module["REACH"]
     texts = [label.text for label in page("claim_projections").labels if "triangles" in label.text]
     for name, text in zip(module["DRAWN"], texts, strict=True):
         triangles, broken = g[f"{name}_triangles"], g[f"{name}_broken"]
@@ -110,17 +115,6 @@ def test_triangles_said_to_be_broken_have_sites_in_both_bubbles():
         assert broken.any() == (name != "stereographic"), name
         assert len(triangles) == len(PlanarDelaunay(g[f"{name}_sites"]).simplices)
         assert [int(number) for number in re.findall(r"\d+", text)] == [n for n in (both.sum(), len(triangles)) if n]
-
-
-def sphere_sites(module, g):
-    """The sites, from where the stereographic panel has them: back by its formula, up to the panel's size."""
-    projection = module["Stereographic"](module["PLACE"])
-    rim = module["CIRCLE"].sample(720)
-    drawn, true = g["stereographic_circle"], projection.forward(rim)
-    size = np.linalg.norm(drawn[0] - drawn[360]) / np.linalg.norm(true[0] - true[360])
-    found = projection.inverse((g["stereographic_sites"] - drawn[0]) / size + true[0])
-    assert angular_distance(found, lonlat_to_xyz(module["PLACE"])).max() <= module["REACH"]
-    return found
 
 
 # P22: claim_terrain and claim_planet.
@@ -172,14 +166,10 @@ def test_contours_have_their_heights_and_the_points_those_of_the_relief(name):
     step = np.linalg.norm(g["contours"][inside + 1] - g["contours"][inside], axis=1)
     same = step < 0.05  # else from one line to the next of its level
     assert same.mean() > 0.5
-    assert np.nanmax(np.abs(found - levels[inside])[same & within_a_line(g, inside)]) < 1e-9
+    same &= ~np.isin(inside + 1, np.cumsum(g["sizes"]))
+    assert np.nanmax(np.abs(found - levels[inside])[same]) < 1e-9
     space = g["points"] if g["points"].shape[1] == 3 else np.column_stack([g["points"], np.zeros(len(g["points"]))])
     assert g["heights"].tolist() == module["relief"](space, module["WAVELENGTH"], module["SEED"]).tolist()
-
-
-def within_a_line(g, first):
-    """Whether a point of the contours and the next one belong to one line."""
-    return ~np.isin(first + 1, np.cumsum(g["sizes"]))
 
 
 # The partitions: what their two rounds find is what all airports have together.

@@ -47,7 +47,10 @@ def test_the_fisheye_stops_at_the_numbers_of_figures_10_to_12():
         looks = module["styles"](stage.magnification)
         drawn = {name for name in lines if looks[name].color[3] > 0}
         black = [arc for name in drawn if looks[name].color[:3] == (0.0, 0.0, 0.0) for arc in lines[name]]
-        assert same_arcs(black, graticule_patch(module["FOCUS"], stage.half_width, stage.fine))
+        patch = graticule_patch(module["FOCUS"], stage.half_width, stage.fine)
+        # The same in any order, by three points of each.
+        rows = [np.array([arc.sample(3).ravel() for arc in arcs]).round(9) + 0.0 for arcs in (black, patch)]
+        assert np.array_equal(*(array[np.lexsort(array.T)] for array in rows))
         gray = max((lines[name].arcs for name in drawn if "graticule" in name), key=len)
         expected = Graticule.regular(stage.coarse).arcs
         assert np.array_equal(gray.start, expected.start)
@@ -55,12 +58,6 @@ def test_the_fisheye_stops_at_the_numbers_of_figures_10_to_12():
         assert all(looks[name].color[3] == 1 for name in drawn)
         assert f"Figure { {1: 10, 4: 11, 20: 12}[stage.magnification] }: graticule {stage.coarse}°" in text
         assert text.endswith(f"fine grid {'½' if stage.fine == 0.5 else stage.fine}°")
-
-
-def same_arcs(some, others):
-    """Whether arcs are the same, in any order, by three points of each."""
-    rows, expected = (np.array([arc.sample(3).ravel() for arc in arcs]).round(9) + 0.0 for arcs in (some, others))
-    return np.array_equal(*(array[np.lexsort(array.T)] for array in (rows, expected)))
 
 
 # The hull
@@ -107,9 +104,6 @@ def test_the_triangulation_of_the_lift_never_changes():
     for curvature in (0.0, 0.1, 0.7):
         drawn = [item for item in module["frame"](curvature).items if item.name == "delaunay"]
         assert len(drawn) >= len(edges)  # some in two pieces, where they pass under the plane's edge
-
-
-# The flight
 
 
 # Sites that come and go

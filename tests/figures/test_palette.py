@@ -166,11 +166,6 @@ def usual_contrast(color, *below):
     return float(np.median(np.max([contrast(over(color, place), place) for place in below], axis=0)))
 
 
-def dot_colors(item):
-    """Of the dot itself and of its rim, if it has one: it is seen by either."""
-    return (item.color, item.rim) if item.rim_width > 0 else (item.color,)
-
-
 def drawn_points(shown):
     """Name and colours of lines and dots, and points on them: at most some for each."""
     places = defaultdict(list)
@@ -181,7 +176,8 @@ def drawn_points(shown):
             case Polylines():
                 places[item.name, (item.color,)].append(item.points)
             case Dots() if len(item.centers):
-                places[item.name, dot_colors(item)].append(item.centers)
+                colors = (item.color, item.rim) if item.rim_width > 0 else (item.color,)  # it is seen by either
+                places[item.name, colors].append(item.centers)
     for look, runs in places.items():
         points = np.concatenate(runs)
         yield *look, points[:: -(-len(points) // SAMPLES)]
@@ -191,13 +187,6 @@ FAINT = {fainter(look.color) for look in (*LINES.values(), *MAP_LINES.values(), 
 """Colours of what is seen through glass."""
 
 
-def least_contrast(sign, color):
-    """That of a line or a dot by its name and colour."""
-    if sign in AUXILIARY:
-        return HIDDEN_AUXILIARY_CONTRAST if color in FAINT else AUXILIARY_CONTRAST
-    return HIDDEN_CONTRAST if color in FAINT else GRAPHICS
-
-
 @by_name
 def test_lines_and_dots_stand_out_from_what_is_below(name):
     shown, wrong = page(name), []
@@ -205,7 +194,11 @@ def test_lines_and_dots_stand_out_from_what_is_below(name):
         return  # cells coloured by numbers are of every lightness
     for sign, colors, points in drawn_points(shown):
         below = [ground(name)(points, aside) for aside in ((ASIDE, 0), (-ASIDE, 0), (0, ASIDE), (0, -ASIDE))]
-        if (found := max(usual_contrast(color, *below) for color in colors)) < least_contrast(sign, colors[0]):
+        near, far = (
+            (AUXILIARY_CONTRAST, HIDDEN_AUXILIARY_CONTRAST) if sign in AUXILIARY else (GRAPHICS, HIDDEN_CONTRAST)
+        )
+        least = far if colors[0] in FAINT else near
+        if (found := max(usual_contrast(color, *below) for color in colors)) < least:
             wrong.append(f"{sign}: {found:.2f}")
     assert wrong == []
 

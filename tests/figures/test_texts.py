@@ -28,13 +28,6 @@ def authalic_xyz(lonlat):
     return lonlat_to_xyz(lonlat, latitude="authalic")
 
 
-def spiral(count):
-    """Directions (count, 3) that stand for equal parts of the sphere."""
-    k = np.arange(count) + 0.5
-    z, turn = 1 - 2 * k / count, k * np.pi * (1 + np.sqrt(5))
-    return np.column_stack([np.sqrt(1 - z**2) * np.cos(turn), np.sqrt(1 - z**2) * np.sin(turn), z])
-
-
 def words_of(name):
     """All that a picture says, by what it begins with."""
     return [label.text.replace("\N{NO-BREAK SPACE}", " ") for label in page(name).labels]
@@ -62,7 +55,10 @@ def test_the_largest_cell_of_an_airport_in_sight():
     )
     table = data.airports()
     assert as_number(count) == len(table.icao)
-    sites, places, toward = authalic_xyz(table.lonlat), spiral(400_000), script("earth_airports")["VIEW"].matrix[2]
+    sites, toward = authalic_xyz(table.lonlat), script("earth_airports")["VIEW"].matrix[2]
+    k = np.arange(400_000) + 0.5  # a spiral of directions that stand for equal parts of the sphere
+    z, turn = 1 - 2 * k / len(k), k * np.pi * (1 + np.sqrt(5))
+    places = np.column_stack([np.sqrt(1 - z**2) * np.cos(turn), np.sqrt(1 - z**2) * np.sin(turn), z])
     nearest = cKDTree(sites).query(places)[1]
     cells = np.bincount(nearest, minlength=len(sites))
     seen = np.unique(nearest[places @ toward > 0])

@@ -78,8 +78,7 @@ def test_shots_are_made_when_they_are_asked_for(globe):
     assert len(film) == 100_000
     assert motion.asked == 0
     assert film.shots[25][1] == film.shots[-99_975][1] == Spin(seconds=4000.0)(1.0)[1]
-    assert len(film.shots[:3]) == 3
-    assert motion.asked == 5
+    assert motion.asked == 2
     with pytest.raises(IndexError):
         film.shots[100_000]
 

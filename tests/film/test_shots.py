@@ -8,7 +8,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from stereodel import MoebiusMap, fisheye, lonlat_to_xyz
-from stereodel.conformal import path_between
+from stereodel.conformal import GroupPath
 from stereodel.drawing import StereographicView, View
 from stereodel.film import Flight, Morph, Spin, Stop
 from stereodel.film.shots import eased
@@ -17,7 +17,7 @@ from tests.examples import examples
 
 PARIS, NEW_YORK, TOKYO = (2.35, 48.86), (-74.0, 40.7), (139.7, 35.7)
 PLACES = st.tuples(st.floats(-180, 180), st.floats(-89, 89))
-STILL = path_between(MoebiusMap.identity(), MoebiusMap.identity())
+STILL = GroupPath(MoebiusMap.identity(), MoebiusMap.identity())
 STOPS = st.builds(Stop, PLACES, st.floats(1, 50), st.floats(0, 3))
 
 
@@ -105,7 +105,7 @@ def test_spinning_is_eastward_and_closes():
 
 
 def test_a_morph_follows_its_path_there_and_back():
-    path = path_between(MoebiusMap.identity(), fisheye(TOKYO, magnification=9.0))
+    path = GroupPath(MoebiusMap.identity(), fisheye(TOKYO, magnification=9.0))
     there, back = (Morph(path, StereographicView(*TOKYO), seconds=2.0, back=back) for back in (False, True))
     assert all(there(time)[0] == path(t) for time, t in ((-1.0, 0.0), (1.0, 0.5), (2.0, 1.0), (9.0, 1.0)))
     assert all(back(time)[0] == path(t) for time, t in ((0.0, 0.0), (0.5, 0.5), (1.0, 1.0), (1.5, 0.5), (2.0, 0.0)))

@@ -59,8 +59,8 @@ def means(samples):
     return samples.reshape(height, SAMPLES, width, SAMPLES).mean(axis=(1, 3))
 
 
-def seen_points(lens, view, size, window):
-    """Of 16 × 16 samples of each pixel of a window: which are in the disc, and where on the globe those are."""
+def reference(raster, lens, view, size, window):
+    """The picture on black, (h, w) floats, and the share of each pixel that the disc covers."""
     left, top, width, height = window
     within = (np.arange(SAMPLES) + 0.5) / SAMPLES
     x = ((left + np.arange(width))[:, None] + within).ravel() * 2 / size - 1
@@ -68,16 +68,9 @@ def seen_points(lens, view, size, window):
     xy = np.stack(np.meshgrid(x, y), axis=-1)
     inside = np.sum(xy**2, axis=-1) < 1
     points = lens.inverse()(view.raised(xy[inside]) @ view.matrix)
-    lonlat = np.degrees([np.arctan2(points[:, 1], points[:, 0]), np.arcsin(np.clip(points[:, 2], -1, 1))])
-    return inside, lonlat
-
-
-def reference(raster, lens, view, size, window):
-    """The picture on black, (h, w) floats, and the share of each pixel that the disc covers."""
-    inside, (lon, lat) = seen_points(lens, view, size, window)
+    lon, lat = np.degrees([np.arctan2(points[:, 1], points[:, 0]), np.arcsin(np.clip(points[:, 2], -1, 1))])
     values = np.zeros(inside.shape)
     values[inside] = interpolated(raster, lon, lat)
-
     return means(values), means(inside.astype(np.float64))
 
 

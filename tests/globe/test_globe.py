@@ -27,10 +27,6 @@ def items_of(page, kind):
     return [item for item in page.items if isinstance(item, kind)]
 
 
-def area_of(polygons):
-    return signed_areas(polygons.loops)[0].sum()
-
-
 @examples(0.5)
 @given(focus=places, size=sizes(-1, 3), view=views)
 @example(focus=(0.0, 2.5), size=1.0, view=View(112.0, 0.0))  # a pole on the rim
@@ -43,7 +39,7 @@ def test_paper_and_pixels_fill_the_same_land(focus, size, view):
         corners, _ = triangles(land.loops, land.owner)
         a, b = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
         covered = np.abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]).sum() / 2
-        assert covered == pytest.approx(area_of(land), abs=2e-5)
+        assert covered == pytest.approx(signed_areas(land.loops)[0].sum(), abs=2e-5)
         assert (np.hypot(*(land.points - 1.03).T) <= 1 + 1e-9).all()
 
 
@@ -69,18 +65,14 @@ def test_circles_are_the_images_of_their_points():
     np.testing.assert_allclose(axes @ lens.image_of(circle).normal, lens.image_of(circle).offset, atol=1e-9)
 
 
-def test_labels_make_room_for_those_that_matter_more():
-    globe = Globe()
+def test_labels_make_room_for_those_that_matter_more_and_stay_on_the_page():
+    globe, edge = Globe(), Globe()
     globe.add_labels([(0, 0), (0.5, 0.2), (40, 40)], ["first", "second", "far"])
     assert [label.text for label in globe.page().labels] == ["first", "far"]
     names = [label.text for label in globe.page(fisheye((0, 0), magnification=50.0)).labels]
     assert names == ["first", "second"]
-
-
-def test_labels_stay_on_the_page():
-    globe = Globe()
-    globe.add_labels([(89.0, 0.0)], ["a long name at the very edge"], size=60.0)
-    assert globe.page().labels == ()
+    edge.add_labels([(89.0, 0.0)], ["a long name at the very edge"], size=60.0)
+    assert edge.page().labels == ()
 
 
 def test_the_view_follows_the_focus():

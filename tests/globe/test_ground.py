@@ -57,15 +57,8 @@ def test_a_halo_is_tinted_as_the_ground_of_the_style(tmp_path, explicit):
     for page in (globe.page(view=view, style=file), styled(plain, file)):
         assert len(page.labels) == 3
         for label in page.labels:
-            own = label.text == "own"
-            wanted = (
-                (0.0, 1.0, 0.0, 1.0)
-                if explicit
-                else (0.0, 0.0, 1.0, 0.5)
-                if own
-                else (1.0, 0xE0 / 255, 0xA0 / 255, HALO_OPACITY)
-            )
-            assert label.halo_color == pytest.approx(wanted, abs=1e-3)
+            tinted = (0.0, 0.0, 1.0, 0.5) if label.text == "own" else (1.0, 0xE0 / 255, 0xA0 / 255, HALO_OPACITY)
+            assert label.halo_color == pytest.approx((0.0, 1.0, 0.0, 1.0) if explicit else tinted, abs=1e-3)
 
 
 def test_a_halo_on_a_dark_page_is_as_dark_as_its_ground():
@@ -137,12 +130,12 @@ def test_a_halo_is_as_light_or_dark_as_reading_needs():
 def test_names_turn_to_where_the_disc_has_room():
     unit, anchor = 100.0, (0.9, 0.0)
     label = Label("a name", anchor, (4.0, 0.0), "left", "center", 9.0, halo=1.0)
-    turned = within_disc(label, (0.0, 0.0), 1.0, unit)
+    turned = within_disc(label, ((0.0, 0.0), 1.0, unit))
     assert (turned.align, turned.offset, turned.halo) == ("right", (-4.0, 0.0), 1.0)
     assert np.hypot(*np.abs(label_box(turned, unit)).max(axis=0)) < unit
-    assert within_disc(replace(label, anchor=(0.0, 0.0)), (0.0, 0.0), 1.0, unit).align == "left"
+    assert within_disc(replace(label, anchor=(0.0, 0.0)), ((0.0, 0.0), 1.0, unit)).align == "left"
     # Near the top of the disc there is room below the place alone.
-    top = within_disc(replace(label, anchor=(0.0, 0.94)), (0.0, 0.0), 1.0, unit)
+    top = within_disc(replace(label, anchor=(0.0, 0.94)), ((0.0, 0.0), 1.0, unit))
     assert (top.align, top.valign, top.offset, top.halo) == ("center", "top", (0.0, -4.0), 1.0)
     # Without room on any side a halo would cut the limb.
-    assert within_disc(label, (0.0, 0.0), 0.2, unit).halo == 0
+    assert within_disc(label, ((0.0, 0.0), 0.2, unit)).halo == 0

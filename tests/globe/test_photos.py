@@ -118,12 +118,7 @@ def test_transparent_parts_stay_and_are_refused_where_they_cannot(tmp_path):
 @pytest.mark.parametrize(
     ("shape", "name", "options", "message"),
     [
-        (
-            (8, 15),
-            "out.jpg",
-            {},
-            "room.png has 15 × 8 pixels, but a panorama of all directions is twice as wide as high",
-        ),
+        ((8, 15), "out.jpg", {}, "room.png has 15 × 8 pixels, but a panorama of all directions is twice as wide"),
         ((8, 16), "out.gif", {}, "path must end in .jpg"),
         ((8, 16), "out.webp", {"form": "cubemap", "size": 3000}, "out.webp would have 18000 × 3000 pixels"),
         ((8, 16), "out.jpg", {"faces": True}, "faces are those of a cubemap"),
@@ -206,11 +201,7 @@ POSTSCRIPT = b"%!PS-Adobe-3.0 EPSF-3.0\n%%BoundingBox: 0 0 20 10\n%%EndComments\
     [
         ("map.jpg", cut_off, "is damaged or cut off"),
         ("map.tif", of_millions_of_rows, "is damaged or cut off: it has pixels of a part"),
-        (
-            "map.tif",
-            lambda path: Image.fromarray(np.zeros((4, 8), np.float32)).save(path),
-            "holds floating-point numbers",
-        ),
+        ("map.tif", Image.fromarray(np.zeros((4, 8), np.float32)).save, "holds floating-point numbers"),
         ("map.png", lambda path: path.write_bytes(POSTSCRIPT), "is not a picture of a kind that is read"),
     ],
 )

@@ -56,13 +56,11 @@ def globe_of(layer, resolution="110m"):
 
 
 @pytest.mark.parametrize(
-    "what",
+    ("layer", "view"),
     by_day(list(product(LAYERS, VIEWS)), ("ocean", VIEWS[3]), ("land", VIEWS[0]), ("polygons", VIEWS[5])),
-    ids=str,
 )
-def test_renderers_show_the_same(tmp_path, what):
+def test_renderers_show_the_same(tmp_path, layer, view):
     """With holes of the first corner's shell, Africa was sea in OpenGL; by chords, the Indian Ocean was land."""
-    layer, view = what
     resolution = "50m" if layer in ("land", "ocean") else "110m"
     page = globe_of(layer, resolution).page(None, view, width=200)
     # Agg does not shade balls.
@@ -145,9 +143,11 @@ SIGHTS = [
 ]
 
 
-def assert_slivers_are_thin(rings, lens, view):
-    """In globes and in axes of matplotlib; and all the rest of the sphere, which is the disc."""
-    count, owner = len(rings), np.arange(len(rings))
+@pytest.mark.parametrize("count", by_day([200, 10_000], 200))
+@pytest.mark.parametrize("sight", SIGHTS)
+def test_slivers(sight, count):
+    """In globes and in axes of matplotlib they are thin; and all the rest of the sphere is the disc."""
+    rings, (lens, view), owner = truth.slivers(np.random.default_rng(1), count), sight, np.arange(count)
     regions = SphereRegions.of_lonlat([[ring] for ring in rings])
     sides = Ragged(~regions.rings.values[::-1], regions.rings.offsets[-1] - regions.rings.offsets[::-1])
     rest = SphereRegions(regions.edges, sides, regions.owner[::-1], regions.everywhere)
@@ -157,12 +157,6 @@ def assert_slivers_are_thin(rings, lens, view):
     for (loops, region), wanted in [*((found, 0.0) for found in drawn), (rest.on(chart), np.pi)]:
         area = np.bincount(region, signed_areas(loops)[0], minlength=count)
         assert np.flatnonzero(np.abs(area - wanted) > 0.5).tolist() == [], (lens.magnification, view)
-
-
-@pytest.mark.parametrize("count", by_day([200, 10_000], 200))
-@pytest.mark.parametrize("sight", SIGHTS)
-def test_slivers(sight, count):
-    assert_slivers_are_thin(truth.slivers(np.random.default_rng(1), count), *sight)
 
 
 def chord(a, b):

@@ -1,14 +1,15 @@
-"""Corners of hulls against what they must do: hold all points, turn left at each corner, or not exist."""
+"""Corners of hulls against what they must do: hold all points, turn left at each, or not exist; area and perimeter."""
 
 from itertools import combinations
 
 import numpy as np
 import pytest
+import scipy.spatial
 from hypothesis import given
 from hypothesis import strategies as st
 
-from stereodel import orient2d
-from stereodel.graphs import hull
+from stereodel import SphericalDelaunay, orient2d, solid_angle
+from stereodel.graphs import hull, hull_area, hull_perimeter
 from tests import sets
 from tests.exact import cross
 from tests.examples import examples
@@ -115,3 +116,48 @@ def test_same_as_the_plane_seen_from_the_centre():
     lifted = np.column_stack([flat, np.ones(200)])
     assert np.array_equal(hull(flat), hull(lifted))
     assert len(hull(np.vstack([lifted, -lifted[:1]]))) == 0
+
+
+# Area and perimeter --------------------------------------------------------------------------------------------------
+
+
+def test_measures_of_the_plane_are_those_of_scipy():
+    rng = np.random.default_rng(1)
+    for size in (3, 10, 500):
+        points = rng.normal(size=(size, 2)) + [3, -1]
+        theirs = scipy.spatial.ConvexHull(points)
+        assert hull_area(points) == pytest.approx(theirs.volume, rel=1e-12)
+        assert hull_perimeter(points) == pytest.approx(theirs.area, rel=1e-12)
+
+
+@pytest.mark.parametrize("angular_radius", [0.01, 30, 60, 89])
+def test_a_polygon_of_many_corners_is_nearly_its_cap(angular_radius):
+    """On the sphere: the area 2π(1 − cos r), the perimeter 360° sin r."""
+    lon = np.arange(0, 360, 0.5)
+    points = np.column_stack([lon, np.full_like(lon, 90 - angular_radius)])
+    cap = np.radians(angular_radius)
+    assert hull_area(lonlat=points) == pytest.approx(4 * np.pi * np.sin(cap / 2) ** 2, rel=1e-4)
+    assert hull_perimeter(lonlat=points) == pytest.approx(360 * np.sin(cap), rel=1e-4)
+
+
+def test_area_is_that_of_the_triangles():
+    """Those that are not closing; and that of the corners alone."""
+    points = np.random.default_rng(1).normal(size=(60, 3)) + [0, 0, 4]
+    triangulation = SphericalDelaunay(points)
+    inner = points[triangulation.simplices[~triangulation.closing]]
+    expected = solid_angle(*np.moveaxis(inner, 1, 0)).sum()
+    assert hull_area(triangulation) == pytest.approx(expected, rel=1e-13)
+    assert hull_area(points[hull(triangulation)]) == pytest.approx(expected, rel=1e-13)
+
+
+@pytest.mark.parametrize("points", [[], [[1, 2]], [[0, 0], [3, 4], [0, 0]], [[0, 0], [3, 4], [6, 8]]])
+def test_lines_of_the_plane_have_no_area(points):
+    longest = max((np.hypot(*p) for p in points), default=0) if len(points) > 1 else 0
+    assert hull_area(points) == 0
+    assert hull_perimeter(points) == pytest.approx(2 * longest)
+
+
+def test_arcs_have_no_area():
+    arc = [[10, 0], [50, 0], [100, 0]]
+    assert hull_area(lonlat=arc) == 0
+    assert hull_perimeter(lonlat=arc) == pytest.approx(180)

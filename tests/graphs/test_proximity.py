@@ -8,12 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from stereodel import lonlat_to_xyz
-from stereodel.graphs import (
-    gabriel_graph,
-    minimum_spanning_tree,
-    relative_neighborhood_graph,
-    urquhart_graph,
-)
+from stereodel.graphs import gabriel_graph, minimum_spanning_tree, relative_neighborhood_graph, urquhart_graph
 from tests import sets
 from tests.examples import examples
 from tests.graphs import definitions

@@ -36,7 +36,11 @@ def report_failure(store, case, messages, folder):
         pictures[red] = difference_picture(pictures["stored"], case.picture)
     if case.page.labels:
         pictures["today, with its labels"] = LabelLayer(case.page, SIZE).over(case.picture)
-    figures = "".join(f"<figure><figcaption>{what}</figcaption>{_image(p)}</figure>" for what, p in pictures.items())
+    figures = ""
+    for what, pixels in pictures.items():
+        data = base64.b64encode(iio.imwrite("<bytes>", pixels, extension=".png", plugin="pillow")).decode()
+        image = f'<img alt="" src="data:image/png;base64,{data}">'
+        figures += f"<figure><figcaption>{what}</figcaption>{image}</figure>"
     lines = "".join(f"<li>{html.escape(message)}</li>" for message in messages)
     folder.mkdir(parents=True, exist_ok=True)
     sheet = folder / f"{case.name}.html"
@@ -68,8 +72,3 @@ def difference_picture(expected, actual):
     picture[levels > 0] = (240, 160, 0)
     picture[levels > PIXEL_LEVELS] = (220, 0, 0)
     return picture
-
-
-def _image(pixels):
-    data = base64.b64encode(iio.imwrite("<bytes>", pixels, extension=".png", plugin="pillow")).decode()
-    return f'<img alt="" src="data:image/png;base64,{data}">'

@@ -1,7 +1,7 @@
 """Whether land is land and sea is sea: asked of the pixels of every globe that paints them, at places that all know.
 
 A stored picture keeps what was stored, right or wrong; these places are known without any picture. Where they lie on
-a page follows from the formulas of the fisheye and of the orthographic view, written down here once more.
+a page follows from the formulas of the fisheye and of the orthographic view, as `tests/globe/truth.py` has them.
 """
 
 import re
@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from stereodel.drawing import Fill, Polygons
+from tests.globe import truth
 from tests.images.scripts import SCRIPTS, cases
 from tests.render.test_pages import brightness
 from tools.baselines import SIZE
@@ -118,30 +119,15 @@ LEAST = {
 """How many answers the pictures of a script give at least, one from each globe that shows a place."""
 
 
-def direction(lon, lat):
-    lon, lat = np.radians([lon, lat])
-    return np.array([np.cos(lat) * np.cos(lon), np.cos(lat) * np.sin(lon), np.sin(lat)])
-
-
 def orthographic(lon, lat):
     """Directions (..., 3) to the right, up and toward the viewer of a globe seen from above a place, north up."""
-    right, toward = direction(lon + 90, 0.0), direction(lon, lat)
+    right, toward = truth.unit(lon + 90, 0.0), truth.unit(lon, lat)
     return lambda points: points @ np.stack([right, np.cross(toward, right), toward]).T
 
 
 def fisheye(lon, lat, size):
-    """Directions (..., 3) moved away from the focus to Ξ = 2 arctan(S tan(χ/2)), row P18."""
-    focus = direction(lon, lat)
-
-    def bent(points):
-        height = points @ focus
-        across = points - height[..., None] * focus
-        reach = np.linalg.norm(across, axis=-1)
-        xi = 2 * np.arctan2(size * reach, 1 + height)
-        along = across / np.maximum(reach, 1e-300)[..., None]
-        return np.cos(xi)[..., None] * focus + np.sin(xi)[..., None] * along
-
-    return bent
+    """Directions (n, 3) moved away from the focus to Ξ = 2 arctan(S tan(χ/2)), row P18: from where 1/S takes them."""
+    return lambda points: truth.before((lon, lat), 1 / size, points)
 
 
 def looks(script, frame):
@@ -168,8 +154,7 @@ def looks(script, frame):
 
 def around(lon, lat, km):
     """A place, and eight more as far from it as there is nothing but more of the same."""
-    place = direction(lon, lat)
-    north = direction(lon, lat + 90)
+    place, north = truth.unit(lon, lat), truth.unit(lon, lat + 90)
     turn = np.arange(8)[:, None] * np.pi / 4
     ring = np.cos(turn) * north + np.sin(turn) * np.cross(north, place)
     return np.vstack([place, np.cos(km / EARTH_KM) * place + np.sin(km / EARTH_KM) * ring])
@@ -218,11 +203,10 @@ def globes(case):
             yield (points.min(axis=0) + points.max(axis=0)) / 2, np.ptp(points[:, 0]) / 2
 
 
-def paints_land_or_sea(script):
-    return re.search(r"add_(land|ocean)\(", script.read_text(encoding="utf-8")) is not None
+PAINTING = [path for path in SCRIPTS if re.search(r"add_(land|ocean)\(", path.read_text(encoding="utf-8"))]
 
 
-@pytest.mark.parametrize("script", [path for path in SCRIPTS if paints_land_or_sea(path)], ids=lambda path: path.stem)
+@pytest.mark.parametrize("script", PAINTING, ids=lambda path: path.stem)
 def test_known_places_are_land_or_sea(script):
     wrong, answers = [], 0
     for frame, case in enumerate(cases(script)):

@@ -2,18 +2,13 @@
 
 import numpy as np
 
-from stereodel.interpolation import (
-    LinearInterpolator,
-    NaturalNeighborInterpolator,
-    NearestInterpolator,
-    SmoothInterpolator,
-)
+from stereodel import interpolation
 
 KINDS = {
-    "nearest": NearestInterpolator,
-    "linear": LinearInterpolator,
-    "natural": NaturalNeighborInterpolator,
-    "smooth": SmoothInterpolator,
+    "nearest": interpolation.NearestInterpolator,
+    "linear": interpolation.LinearInterpolator,
+    "natural": interpolation.NaturalNeighborInterpolator,
+    "smooth": interpolation.SmoothInterpolator,
 }
 
 

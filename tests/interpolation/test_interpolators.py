@@ -10,20 +10,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from stereodel import PlanarDelaunay, Rotation
-from stereodel.interpolation import (
-    LinearInterpolator,
-    NaturalNeighborInterpolator,
-    NearestInterpolator,
-    SmoothInterpolator,
-    estimate_gradients,
-)
-from tests import sets
-from tests.exact import cross, dot, mp, normalized
-from tests.interpolation.known import known, slopes
+from stereodel.interpolation import LinearInterpolator, NearestInterpolator, SmoothInterpolator, estimate_gradients
+from tests import exact, sets
+from tests.exact import cross, dot, mp
+from tests.interpolation.known import KINDS, known, slopes
 from tests.sets import unit
 from tests.strategies import GRID_DIRECTIONS
 
-INNER_METHODS = [LinearInterpolator, SmoothInterpolator, NaturalNeighborInterpolator]  # defined within the hull
+INNER_METHODS = [KINDS[name] for name in ("linear", "smooth", "natural")]  # defined within the hull
 METHODS = [NearestInterpolator, *INNER_METHODS]
 
 
@@ -143,7 +137,7 @@ def test_smooth_has_the_given_gradients_at_the_points(distance, make_points, rng
 
 @pytest.mark.parametrize(
     ("method", "order", "of_gradient"),
-    [(LinearInterpolator, 2, 1), (SmoothInterpolator, 3, 2), (NaturalNeighborInterpolator, 2, 1)],
+    [(LinearInterpolator, 2, 1), (SmoothInterpolator, 3, 2), (KINDS["natural"], 2, 1)],
 )
 def test_order_of_convergence(method, order, of_gradient, make_points):
     """Errors over points of four times the density: half the distance, so a factor of 2 to the order."""
@@ -265,7 +259,7 @@ def test_clusters_are_as_accurate_as_the_whole(method, spread, rng):
 
 def exact_weights(corners, query):
     """Barycentric coordinates of the ray or point in the plane triangle of unit vectors or points."""
-    *corners, query = (normalized(mp(p)) if len(p) == 3 else [*mp(p), mpmath.mpf(1)] for p in (*corners, query))
+    *corners, query = (exact.unit(p) if len(p) == 3 else [*mp(p), mpmath.mpf(1)] for p in (*corners, query))
     areas = [dot(query, cross(corners[k - 2], corners[k - 1])) for k in range(3)]
     return [float(area / sum(areas)) for area in areas]
 

@@ -131,7 +131,7 @@ def test_tables_of_a_plane(tmp_path):
         assert list(table.columns) == ["site", "depth"]
         values, some = table.values(["depth"], skip_missing=True)
         assert (values.tolist(), some.rows.tolist(), some.columns["site"].tolist()) == ([[1]], [1], ["A"])
-        with pytest.raises(ValueError, match=f"{path.name}: row 2: depth is missing"):
+        with pytest.raises(ValueError, match=f"{path.name}: row 2: the depth is missing"):
             table.values(["depth"])
         with pytest.raises(ValueError, match="those of a plane"):
             _ = table.lonlat

@@ -7,7 +7,7 @@ import threading
 
 import pytest
 
-from stereodel._files import replacing
+from stereodel._tasks.whole_files import replacing
 
 
 @pytest.fixture
@@ -31,7 +31,7 @@ def test_an_error_leaves_the_old_file_and_nothing_else(target):
 def test_what_was_laid_under_the_temporary_name_is_not_written_to(target, monkeypatch):
     victim = target.with_name("victim.txt")
     victim.write_text("mine", encoding="utf-8")
-    monkeypatch.setattr("stereodel._files.secrets.token_hex", lambda size: "known")
+    monkeypatch.setattr("stereodel._tasks.whole_files.secrets.token_hex", lambda size: "known")
     trap = target.with_name(".note.txt.known.tmp")
     trap.symlink_to(victim)
     with pytest.raises(FileExistsError):

@@ -40,22 +40,6 @@ EVERYTHING = {
 }
 
 
-def assert_everything(shapes):
-    assert len(shapes.properties) == len(EVERYTHING["features"])
-    assert shapes.points.tolist() == [[1, 2], [1, 2], [3, 4], [5, 5]]
-    assert shapes.point_feature.tolist() == [0, 1, 1, 7]
-    assert [line.tolist() for line in shapes.lines] == [
-        [[1, 2], [3, 4]],
-        [[1, 2], [3, 4]],
-        [[5, 6], [7, 8], [9, 10]],
-    ]
-    assert shapes.line_feature.tolist() == [2, 3, 3]
-    assert [ring.tolist() for ring in shapes.rings] == [RING, [[1, 1], [2, 1], [2, 2], [1, 1]], RING, RING, RING]
-    assert shapes.ring_polygon.tolist() == [0, 0, 1, 2, 3]
-    assert shapes.polygon_feature.tolist() == [4, 5, 5, 7]
-    assert [len(rings) for rings in shapes.polygons] == [2, 1, 1, 1]
-
-
 def test_every_kind_is_sorted_with_its_feature(tmp_path):
     """Files, frames and geometries are the same."""
     path = tmp_path / "all.geojson"
@@ -63,7 +47,17 @@ def test_every_kind_is_sorted_with_its_feature(tmp_path):
     frame = geopandas.GeoDataFrame.from_features(EVERYTHING, crs="EPSG:4326")
     geometries = (frame.geometry, list(frame.geometry), iter(frame.geometry))
     for source in (EVERYTHING, EVERYTHING["features"], path, str(path), frame, *geometries):
-        assert_everything(shapes_of(source))
+        shapes = shapes_of(source)
+        assert len(shapes.properties) == len(EVERYTHING["features"])
+        assert shapes.points.tolist() == [[1, 2], [1, 2], [3, 4], [5, 5]]
+        assert shapes.point_feature.tolist() == [0, 1, 1, 7]
+        line = [[1, 2], [3, 4]]
+        assert [row.tolist() for row in shapes.lines] == [line, line, [[5, 6], [7, 8], [9, 10]]]
+        assert shapes.line_feature.tolist() == [2, 3, 3]
+        assert [ring.tolist() for ring in shapes.rings] == [RING, [[1, 1], [2, 1], [2, 2], [1, 1]], RING, RING, RING]
+        assert shapes.ring_polygon.tolist() == [0, 0, 1, 2, 3]
+        assert shapes.polygon_feature.tolist() == [4, 5, 5, 7]
+        assert [len(rings) for rings in shapes.polygons] == [2, 1, 1, 1]
     for source in (EVERYTHING, frame):
         sizes = shapes_of(source).column("size")
         np.testing.assert_array_equal(sizes, [3, np.nan, np.nan, 4.5] + [np.nan] * 6)

@@ -15,6 +15,7 @@ import pytest
 
 from stereodel.io import DataWarning, read_points
 from stereodel.io.reading import shapes_of
+from tests.tiers import by_day
 
 ROWS = 60
 CUTS = (0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 0.99, 0.999)
@@ -58,16 +59,11 @@ def rows_of(path, areas):
     return len(shapes_of(path).polygon_feature) if areas else len(read_points(path))
 
 
-QUICK = [(".gml", False), (".shp", True), (".fgb", False)]
-CUT = [
-    pytest.param(ending, areas, marks=() if (ending, areas) in QUICK else pytest.mark.thorough)
-    for ending in DRIVERS
-    for areas in (False, True)
-    if not (areas and ending in (*TABLES_ALONE, ".gpx"))
-]
+CUT = [(ending, False) for ending in DRIVERS]
+CUT += [(ending, True) for ending in DRIVERS if ending not in (*TABLES_ALONE, ".gpx")]
 
 
-@pytest.mark.parametrize(("ending", "areas"), CUT)
+@pytest.mark.parametrize(("ending", "areas"), by_day(CUT, (".gml", False), (".shp", True), (".fgb", False)))
 def test_a_cut_file_is_an_error_or_has_all_rows(tmp_path, ending, areas):
     path = tmp_path / f"whole{ending}"
     files = [part for part in written(path, ending, areas) if part.suffix not in (".cpg", ".prj", ".xsd")]

@@ -228,8 +228,16 @@ def on_sphere(polygon):
     return shapely.area(equal)
 
 
-def assert_slivers_stay_thin(slivers, lens, tolerance=0.01):
-    """Images lie along those of their sides, none is lost, and under the identity areas are what they were."""
+@pytest.mark.parametrize(("seed", "count"), [(1, 12), pytest.param(2, 600, marks=pytest.mark.thorough)])
+@pytest.mark.parametrize("lens", THINNING)
+def test_slivers(lens, seed, count):
+    """Images lie along those of their sides, none is lost, and under the identity areas are what they were.
+
+    By chords, they covered the map; by the turn at the highest of crossing chords, they were holes, and lost.
+    """
+    some = [shapely.Polygon(ring) for ring in truth.slivers(np.random.default_rng(seed), count)]
+    named, tolerance = [shapely.Polygon(ring) for ring in SLIVERS.values()], 0.01
+    slivers = np.array([*named, *(one for one in some if one.is_valid)])
     images, reach = warp(slivers, lens, tolerance=tolerance), np.radians(tolerance)
     assert shapely.is_valid(images).all()
     # Narrower ones may have both sides on the same chords.
@@ -248,15 +256,6 @@ def assert_slivers_stay_thin(slivers, lens, tolerance=0.01):
         assert on_sphere(image) <= moved.sum() * (reach + width), sliver.wkt
         if lens.magnification == 1:
             assert abs(on_sphere(image) - on_sphere(sliver)) <= moved.sum() * reach, sliver.wkt
-
-
-@pytest.mark.parametrize(("seed", "count"), [(1, 12), pytest.param(2, 600, marks=pytest.mark.thorough)])
-@pytest.mark.parametrize("lens", THINNING)
-def test_slivers(lens, seed, count):
-    """By chords, they covered the map; by the turn at the highest of crossing chords, they were holes, and lost."""
-    some = [shapely.Polygon(ring) for ring in truth.slivers(np.random.default_rng(seed), count)]
-    named = [shapely.Polygon(ring) for ring in SLIVERS.values()]
-    assert_slivers_stay_thin(np.array([*named, *(one for one in some if one.is_valid)]), lens)
 
 
 @pytest.mark.parametrize(("side", "west"), [(0, 0), (1, 140), (2, 0), (3, 140)])

@@ -56,8 +56,3 @@ def test_signs_of_zeros_are_those_of_the_standard():
     ours, theirs = _kernel.vector_angles(y, x), np.arctan2(y, x)
     assert np.array_equal(ours, theirs)
     assert np.array_equal(np.signbit(ours), np.signbit(theirs))
-
-
-def test_lengths_must_agree():
-    with pytest.raises(ValueError, match="one length"):
-        _kernel.vector_angles(np.zeros(2), np.zeros(3))

@@ -32,35 +32,26 @@ def ball(values, formula):
     return (Fraction(hi) + Fraction(lo)) * scale, Fraction(radius) * scale
 
 
-FORMULAS = [
-    ("vv+", 2),
-    ("vv-", 2),
-    ("vv*", 2),
-    ("vv*vv*-", 4),
-    ("vv*vv*-vv*vv*-*", 8),
-    ("vv-vv-*vv-vv-*-", 8),
-    ("vv+v-", 3),
-    ("vv+v-v+v*", 5),
-    ("vv*vv*+vv*-vv-*vv*vv*+vv*-+", 14),
-    ("vv*v*v*v*v*v*v*v*v*v*v*", 12),
-]
+FORMULAS = ["vv+", "vv-", "vv*", "vv*vv*-", "vv*vv*-vv*vv*-*", "vv-vv-*vv-vv-*-", "vv+v-", "vv+v-v+v*"]
+FORMULAS += ["vv*vv*+vv*-vv-*vv*vv*+vv*-+", "vv*v*v*v*v*v*v*v*v*v*v*"]
 
 
-@pytest.mark.parametrize(("formula", "count"), FORMULAS)
+@pytest.mark.parametrize("formula", FORMULAS)
 @given(data=st.data())
-def test_polynomials_lie_in_their_balls(formula, count, data):
-    values = data.draw(st.lists(data.draw(st.sampled_from([NUMBER, NEAR])), min_size=count, max_size=count))
+def test_polynomials_lie_in_their_balls(formula, data):
+    kind, count = data.draw(st.sampled_from([NUMBER, NEAR])), formula.count("v")
+    values = data.draw(st.lists(kind, min_size=count, max_size=count))
     truth = evaluate(values, formula)
     middle, radius = ball(values, formula)
     assert abs(truth - middle) <= radius
     assert truth == 0 or middle or radius
 
 
-@pytest.mark.parametrize(("formula", "count"), FORMULAS)
-def test_balls_are_small(formula, count):
+@pytest.mark.parametrize("formula", FORMULAS)
+def test_balls_are_small(formula):
     """Of numbers of one size, up to what cancels: thirty operations lose no more than a few units of the last place."""
     rng = np.random.default_rng(1)
-    for values in rng.uniform(1, 2, size=(40, count)) * 2.0 ** rng.integers(-1000, 1000, size=(40, 1)):
+    for values in rng.uniform(1, 2, size=(40, formula.count("v"))) * 2.0 ** rng.integers(-1000, 1000, size=(40, 1)):
         permanent = evaluate(abs(values), formula.replace("-", "+"))
         assert ball(values, formula)[1] <= permanent * Fraction(2) ** -97
 

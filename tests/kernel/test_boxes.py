@@ -116,21 +116,3 @@ def test_tree_of_boxes(n, width):
     close = gap <= 0.8 * np.minimum(diagonal[:, None], diagonal)
     assert np.array_equal(near, unread & (close & chosen[:, None]).any(axis=0))
     assert n < 100 or 0.02 < near.mean() < 0.9
-
-
-def test_arguments_are_checked():
-    points, (low, high) = sets.plane("random").points, boxes(np.random.default_rng(0), 20, 2)
-    tree = _kernel.plane.box_tree(low, high)
-    counts = _kernel.unread_counts(np.ones(20, bool), tree[2])
-    for wrong in ([[0, 1, 3000]], [[-1, 0, 1]], [[0, 1, -2]]):
-        with pytest.raises(ValueError, match="faces"):
-            _kernel.plane.open_bubbles(points, np.array(wrong, np.int32), *tree, counts)
-    space = _kernel.sphere.box_tree(*boxes(np.random.default_rng(0), 20, 3))
-    with pytest.raises(ValueError, match="faces"):
-        _kernel.sphere.open_bubbles(sets.AXES, np.array([[0, 1, -1]], np.int32), *space, counts)
-    with pytest.raises(ValueError, match="size"):
-        _kernel.plane.blocks(points, 0)
-    with pytest.raises(ValueError, match="axis"):
-        _kernel.plane.part_of(points, np.array([2], np.int32), np.zeros(1))
-    with pytest.raises(ValueError, match="axis"):
-        _kernel.plane.part_of(points, np.zeros(2, np.int32), np.zeros(1))

@@ -116,13 +116,9 @@ def with_entry(array, place, value):
 
 
 @pytest.mark.parametrize("name", CALLS)
-def test_right_arguments_are_accepted(name):
-    call(name, CALLS[name])
-
-
-@pytest.mark.parametrize("name", CALLS)
-def test_numbers_that_are_not_finite_are_refused(name):
+def test_right_arguments_are_accepted_and_numbers_that_are_not_finite_refused(name):
     right = CALLS[name]
+    call(name, right)
     for key, array in right.items():
         answered = key == "xyz" and name in ANSWERED
         if key in UNCHECKED or answered or not isinstance(array, np.ndarray) or array.dtype != float:
@@ -172,20 +168,6 @@ def test_orders_that_hold_a_site_twice_are_refused(name):
         call(name, right | {"order": with_entry(order, 0, 99)})
     with pytest.raises(ValueError, match=r"order\[\d+\] is \d+ a second time"):
         call(name, right | {"order": np.concatenate([order, order])})
-
-
-def test_places_are_a_permutation():
-    t = PLANE
-    place = np.arange(len(t.simplices), dtype=np.int32)
-    centers = _kernel.plane.circumcenters(t.points, t.simplices)
-    assert np.array_equal(_kernel.plane.circumcenters(t.points, t.simplices, place[::-1].copy()), centers[::-1])
-    for wrong, said in (
-        (with_entry(place, 3, 1), r"place\[3\] is 1 a second time"),
-        (with_entry(place, 3, len(place)), r"place\[3\] is \d+, out of range"),
-        (place[:-1], "place and triangles must have the same length"),
-    ):
-        with pytest.raises(ValueError, match=said):
-            _kernel.plane.circumcenters(t.points, t.simplices, wrong)
 
 
 @pytest.mark.parametrize("name", [name for name, right in CALLS.items() if {"simplices", "neighbors"} <= set(right)])
@@ -240,15 +222,44 @@ def test_points_without_an_image_are_told_by_a_flag(name):
         assert not call(name, CALLS[name] | {"xyz": with_entry(SPHERE.points, 3, row)})[1]
 
 
-def test_other_parameters():
-    for pole in ((3, 1), (-1, 1), (0, 0), (0, 2)):
-        with pytest.raises(ValueError, match="axis"):
-            _kernel.sphere.triangulate(SPHERE.points, axis=pole[0], sign=pole[1])
-    for magnification in (0.0, -1.0, np.nan, np.inf, 1e101, 1e-101):
-        with pytest.raises(ValueError, match="magnification must be"):
-            _kernel.moebius_images(SPHERE.points, EYE, magnification, EYE)
-    with pytest.raises(ValueError, match="offsets"):
-        _kernel.voronoi_ridges(np.zeros(0, dtype=np.int64), NONE[:, 0], NONE[:, 0], 0)
+def numbers(*rows):
+    return np.array(rows, dtype=np.int32)
+
+
+PLACE, NO_TRIANGLES = numbers(*range(len(PLANE.simplices))), np.zeros((0, 3), dtype=np.int32)
+NO_RIDGES = {"offsets": np.zeros(0, np.int64), "vertices": numbers(), "neighbors": numbers(), "vertex_count": 0}
+OTHERS = [
+    *(("sphere.triangulate", {"axis": k, "sign": sign}, "axis") for k, sign in ((3, 1), (-1, 1), (0, 0), (0, 2))),
+    *(
+        ("moebius_images", {"magnification": size}, "magnification must be")
+        for size in (0.0, -1.0, np.nan, np.inf, 1e101, 1e-101)
+    ),
+    ("plane.circumcenters", {"place": with_entry(PLACE, 3, 1)}, r"place\[3\] is 1 a second time"),
+    ("plane.circumcenters", {"place": with_entry(PLACE, 3, len(PLACE))}, r"place\[3\] is \d+, out of range"),
+    ("plane.circumcenters", {"place": PLACE[:-1]}, "place and triangles must have the same length"),
+    *(("plane.open_bubbles", {"faces": numbers(face)}, "faces") for face in ((0, 1, 3000), (-1, 0, 1), (0, 1, -2))),
+    ("sphere.open_bubbles", {"faces": numbers((0, 1, -1))}, "faces"),
+    ("plane.blocks", {"size": 0}, "size"),
+    ("plane.part_of", {"axis": numbers(2)}, "axis"),
+    ("plane.part_of", {"axis": numbers(0, 0)}, "axis"),
+    ("plane.Mesh", {"duplicates": numbers((3, 20))}, "dropped, kept"),
+    ("plane.nearest", dict.fromkeys(("simplices", "neighbors"), NO_TRIANGLES), "no triangles"),
+    ("plane.nearest_flat", {"order": numbers()}, "must hold a point"),
+    ("plane.nearest_flat", {"order": numbers(-1, 1), "k": 1}, "out of range"),
+    ("plane.nearest_flat", {"order": numbers(1)}, "every point"),
+    ("plane.nearest_flat", {"k": 0}, "k must be"),
+    ("plane.nearest_flat", {"k": 6}, "k must be"),
+    ("sphere.flat_order", {"points": np.eye(3)}, "must lie on one great circle"),
+    ("sphere.flat_order", {"points": np.array([[1, 0, 0], [0, 1, 0], [1, 1, 1e-300]])}, "must lie on one great circle"),
+    ("vector_angles", {"y": np.zeros(2), "x": np.zeros(3)}, "one length"),
+    ("voronoi_ridges", NO_RIDGES, "offsets"),
+]
+
+
+@pytest.mark.parametrize(("name", "wrong", "message"), OTHERS)
+def test_other_arguments(name, wrong, message):
+    with pytest.raises(ValueError, match=message):
+        call(name, {**CALLS, **ORDERED}.get(name, {}) | wrong)
 
 
 @pytest.mark.parametrize("place", [0, 4, 8])

@@ -8,6 +8,14 @@ import sys
 
 import pytest
 
+
+def printed(program, *command):
+    command = command or (sys.executable, "-c")
+    ran = subprocess.run([*command, program], capture_output=True, text=True, check=False, timeout=120)
+    assert ran.returncode == 0, ran.stderr
+    return ran.stdout
+
+
 PROGRAM = """
 import signal, time
 import numpy as np
@@ -48,9 +56,7 @@ CALLS = {
 )
 def test_an_interrupted_call_ends_soon_and_harms_nothing(call, patience):
     program = PROGRAM.format(call=CALLS[call])
-    ran = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False, timeout=120)
-    assert ran.returncode == 0, ran.stderr
-    assert float(ran.stdout) < 2.0 * patience  # half a second on a quiet machine
+    assert float(printed(program)) < 2.0 * patience  # half a second on a quiet machine
 
 
 INTERRUPTED = """
@@ -92,9 +98,9 @@ def test_a_change_that_was_interrupted_leaves_what_was_before(change):
     """Unless it came to its end all the same."""
     size, changes = CHANGES[change]
     program = INTERRUPTED.format(size=size, changes=f"{changes},")
-    ran = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True, timeout=60)
-    assert ran.stdout.split().count("interrupted") == changes.count("lambda")
-    assert "undone" in ran.stdout
+    words = printed(program).split()
+    assert words.count("interrupted") == changes.count("lambda")
+    assert "undone" in words
 
 
 ALONE = """
@@ -121,8 +127,7 @@ for cls, points in ((PlanarDelaunay, rng.random((50_000, 2))), (SphericalDelauna
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="limits of stacks are Linux's")
 def test_where_no_thread_is_to_be_had_long_calls_work_without():
     """A limit of 2^47 bytes is also the size of each thread's stack: it leaves room for none."""
-    run = {"capture_output": True, "text": True, "check": True, "timeout": 120}
     limited = 'ulimit -s 137438953472 && OPENBLAS_NUM_THREADS=1 exec "$0" -c "$1"'
-    alone = subprocess.run(["bash", "-c", limited, sys.executable, ALONE], **run).stdout.splitlines()
+    alone = printed(ALONE, "bash", "-c", limited, sys.executable).splitlines()
     assert alone[0] == "no thread"
-    assert alone[1:] == subprocess.run([sys.executable, "-c", ALONE], **run).stdout.split("\n")[-11:-1]
+    assert alone[1:] == printed(ALONE).splitlines()[-10:]

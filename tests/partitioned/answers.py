@@ -29,11 +29,6 @@ def executed(call, *given, **options):
     return call(*given, **own, execution=Execution(**{name: options[name] for name in options.keys() & HOW}))
 
 
-def in_parallel(*given, **options):
-    """A run by processes of this machine."""
-    return executed(triangulate, *given, **options)
-
-
 def serially(*given, **options):
     """A run in this process, which is fastest for few points."""
     return executed(triangulate, *given, **{"jobs": 1} | options)
@@ -99,6 +94,27 @@ def of_run(run):
     faces = np.column_stack([table[name].to_numpy() for name in ("a", "b", "c", "closing")])
     rows = run.rows().to_table()
     return ordered(faces), {name: rows[name].to_numpy() for name in rows.column_names}
+
+
+class Points:
+    """Points in files that are not compact, with one more column; the folder of results, and the answer in memory."""
+
+    def __init__(self, place):
+        columns, rows = rows_of("airports", 600)
+        table = np.column_stack([rows, np.arange(len(rows))])
+        self.folder = write_points(place / "points", (*columns, "id"), table, row_group_size=40)
+        self.out, self.truth = place / "out", in_memory(columns, rows)
+
+    def run(self, out="out", **options):
+        return serially(self.folder, self.out.with_name(out), **{"partition": 60, "keep": ["id"]} | options)
+
+    def check(self, out="out", **options):
+        """A run ends with the answer in memory, each row in its place, and leaves nothing else in the folder."""
+        run = self.run(out, **options)
+        rows = run.rows().to_table()
+        assert rows["id"].to_pylist() == list(range(len(rows)))
+        assert differences(run, self.truth) == []
+        assert clean(run.folder)
 
 
 def differences(run, truth):

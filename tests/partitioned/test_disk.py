@@ -6,7 +6,6 @@ import shutil
 from collections import Counter
 from functools import partial
 
-import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
@@ -14,36 +13,9 @@ import pytest
 from stereodel.partitioned import Run
 from stereodel.partitioned import passes as passes_of
 from stereodel.partitioned.files import PointFile
-from tests.partitioned.answers import (
-    PASSES,
-    clean,
-    differences,
-    executed,
-    in_memory,
-    meanwhile,
-    rows_of,
-    serially,
-    stop,
-    write_points,
-)
-from tests.sets import LONLAT
+from tests.partitioned import answers
+from tests.partitioned.answers import PASSES, executed, meanwhile, stop
 from tests.tiers import by_day
-
-
-@pytest.fixture(autouse=True)
-def many_tasks(monkeypatch):
-    """So that each pass has several."""
-    monkeypatch.setattr("stereodel.partitioned.plan.LEAST_SHARE", 1)
-
-
-@pytest.fixture
-def points(tmp_path):
-    """Points in files that are not compact, with one more column; and the answer in memory."""
-    columns, rows = rows_of("airports", 600)
-    write_points(
-        tmp_path / "points", (*columns, "id"), np.column_stack([rows, np.arange(len(rows))]), row_group_size=40
-    )
-    return tmp_path / "points", in_memory(columns, rows)
 
 
 def harmed(folder, pattern, harm=os.unlink):
@@ -66,17 +38,6 @@ def flip(path, place=-1):
     path.write_bytes(content)
 
 
-def run_of(folder, out, **options):
-    return serially(folder, out, **{"partition": 60, "keep": ["id"]} | options)
-
-
-def check(run, truth):
-    rows = run.rows().to_table()
-    assert rows["id"].to_pylist() == list(range(len(rows)))
-    assert differences(run, truth) == []
-    assert clean(run.folder)
-
-
 # What a run made
 
 AGAIN = [
@@ -90,13 +51,11 @@ AGAIN = [
 
 
 @pytest.mark.parametrize(("name", "pattern"), AGAIN)
-def test_what_is_deleted_while_its_pass_runs_is_made_again(tmp_path, points, name, pattern):
-    folder, truth = points
+def test_what_is_deleted_while_its_pass_runs_is_made_again(points, name, pattern):
     done = []
-    actions = harmed(tmp_path / "out", f"scratch/*/{pattern}"), lambda: done.append(name)
-    run = run_of(folder, tmp_path / "out", progress=meanwhile(name, 4, lambda: [action() for action in actions]))
+    actions = harmed(points.out, f"scratch/*/{pattern}"), lambda: done.append(name)
+    points.check(progress=meanwhile(name, 4, lambda: [action() for action in actions]))
     assert done
-    check(run, truth)
 
 
 DELETED = [
@@ -121,30 +80,26 @@ CHANGED = [
     ("solve", 10, "stars/*.starts"),
     *(("align", 2, f"stars/{name}") for name in ("*.rows", "starts", "tasks")),
 ]
-LATER = [pytest.param(*when, os.unlink, "deleted") for when in DELETED]
-LATER += [
-    pytest.param(*when, flip, "changed", marks=() if when in CHANGED[::4] else pytest.mark.thorough) for when in CHANGED
-]
+DELETED = [(*when, os.unlink, "deleted") for when in DELETED]
+CHANGED = [(*when, flip, "changed") for when in CHANGED]
 
 
-@pytest.mark.parametrize(("name", "done", "pattern", "harm", "how"), LATER)
-def test_what_is_harmed_after_its_pass(tmp_path, points, name, done, pattern, harm, how):
+@pytest.mark.parametrize(("name", "done", "pattern", "harm", "how"), by_day(DELETED + CHANGED, *DELETED, *CHANGED[::4]))
+def test_what_is_harmed_after_its_pass(points, name, done, pattern, harm, how):
     """The error names the file and the way out, which is one; CRC-32 tells, whether a shard is read whole or not."""
-    folder, truth = points
-    action = harmed(tmp_path / "out", f"scratch/*/{pattern}", harm)
+    action = harmed(points.out, f"scratch/*/{pattern}", harm)
     for progress in (meanwhile(name, done, action), None)[: 2 if how == "deleted" else 1]:
         with pytest.raises(ValueError, match=rf".* was {how} after it was written; begin anew with resume=False"):
-            run_of(folder, tmp_path / "out", progress=progress)
-    assert not (tmp_path / "out" / "run.json").exists()
-    check(run_of(folder, tmp_path / "out", resume=False), truth)
+            points.run(progress=progress)
+    assert not (points.out / "run.json").exists()
+    points.check(resume=False)
 
 
-def test_scratch_that_can_be_made_again(tmp_path, points):
-    folder, truth = points
-    action = harmed(tmp_path / "out", "scratch/*/spread/starts")
+def test_scratch_that_can_be_made_again(points):
+    action = harmed(points.out, "scratch/*/spread/starts")
     with pytest.raises(ValueError, match=r"spread/starts was deleted after it was written"):
-        run_of(folder, tmp_path / "out", progress=meanwhile("collect", 2, action))
-    check(run_of(folder, tmp_path / "out"), truth)
+        points.run(progress=meanwhile("collect", 2, action))
+    points.check()
 
 
 @pytest.mark.parametrize(
@@ -157,10 +112,9 @@ def test_scratch_that_can_be_made_again(tmp_path, points):
         ("plan.json", lambda path: path.write_text("{"), "cut short or changed"),
     ],
 )
-def test_what_is_harmed_between_two_calls(tmp_path, points, file, harm, how):
-    folder, truth = points
+def test_what_is_harmed_between_two_calls(points, file, harm, how):
     options = {"cells": True} if file.startswith("cells") else {}
-    run = run_of(folder, tmp_path / "out", **options)
+    run = points.run(**options)
     if options:
         assert run.cells().count_rows() == sum(each["cells"] for each in run.partitions) > 500
     harmed(run.folder, file, harm)()
@@ -168,36 +122,33 @@ def test_what_is_harmed_between_two_calls(tmp_path, points, file, harm, how):
         with pytest.raises(FileNotFoundError, match=file):
             getattr(run, file.split("/")[0])().to_table()
     with pytest.raises(ValueError, match=f"{file} was {how} after it was written; begin anew"):
-        run_of(folder, tmp_path / "out", **options)
-    check(run_of(folder, tmp_path / "out", resume=False), truth)
+        points.run(**options)
+    points.check(resume=False)
 
 
-def test_results_of_another_run(tmp_path, points):
+def test_results_of_another_run(points):
     """A file of the same name and number of rows, which another run wrote; one that no run of this plan has."""
-    folder, truth = points
-    run = run_of(folder, tmp_path / "out")
-    other = run_of(folder, tmp_path / "other", rows=("area", "degree", "nearest", "kept"))
+    run = points.run()
+    other = points.run("other", rows=("area", "degree", "nearest", "kept"))
     shutil.copy(other.folder / "triangles" / "0.parquet", run.folder / "triangles" / "99.parquet")
-    assert run.triangles().count_rows() == len(truth[0])  # parts of the report, not what lies there
+    assert run.triangles().count_rows() == len(points.truth[0])  # parts of the report, not what lies there
     with pytest.raises(ValueError, match=r"99\.parquet is not of the run that wrote the files beside it"):
-        run_of(folder, tmp_path / "out")
+        points.run()
     (run.folder / "triangles" / "99.parquet").unlink()
     shutil.copy(other.folder / "triangles" / "0.parquet", run.folder / "triangles")
     with pytest.raises(ValueError, match=r"triangles/0\.parquet was changed after it was written"):
-        run_of(folder, tmp_path / "out")
+        points.run()
 
 
-def test_the_plan_that_is_deleted_while_it_runs_is_written_again(tmp_path, points):
-    folder, truth = points
-    action = harmed(tmp_path / "out", "plan.json")
-    check(run_of(folder, tmp_path / "out", progress=meanwhile("solve", 3, action)), truth)
-    check(run_of(folder, tmp_path / "out"), truth)
+def test_the_plan_that_is_deleted_while_it_runs_is_written_again(points):
+    action = harmed(points.out, "plan.json")
+    points.check(progress=meanwhile("solve", 3, action))
+    points.check()
 
 
-def test_a_deletion_that_was_interrupted(tmp_path, points, monkeypatch):
+def test_a_deletion_that_was_interrupted(points, monkeypatch):
     """A run that begins anew deletes the report first and the plan last; what is left then is deleted by the next."""
-    folder, truth = points
-    run_of(folder, tmp_path / "out")
+    points.run()
     removed = []
 
     def interrupted(path, **options):
@@ -210,20 +161,19 @@ def test_a_deletion_that_was_interrupted(tmp_path, points, monkeypatch):
     with monkeypatch.context() as patch:
         patch.setattr("shutil.rmtree", interrupted)
         with pytest.raises(KeyboardInterrupt):
-            run_of(folder, tmp_path / "out", resume=False)
-    assert (tmp_path / "out" / "triangles").exists()
-    assert not (tmp_path / "out" / "run.json").exists()
-    check(run_of(folder, tmp_path / "out"), truth)
+            points.run(resume=False)
+    assert (points.out / "triangles").exists()
+    assert not (points.out / "run.json").exists()
+    points.check()
 
 
-@pytest.mark.parametrize("after", [0, 2, *(pytest.param(k, marks=pytest.mark.thorough) for k in (1, 3))])
-def test_results_whose_moving_was_interrupted(tmp_path, points, monkeypatch, after):
+@pytest.mark.parametrize("after", by_day(range(4), 0, 2))
+def test_results_whose_moving_was_interrupted(points, monkeypatch, after):
     """They are moved when all are there; the report is the last, so that a folder that has it is whole."""
-    folder, truth = points
     replace, moved = os.replace, []
 
     def interrupted(source, target):
-        if "results" in str(source) and str(target).count("/") == str(tmp_path / "out").count("/") + 1:
+        if "results" in str(source) and str(target).count("/") == str(points.out).count("/") + 1:
             if len(moved) == after:
                 raise KeyboardInterrupt
             moved.append(target)
@@ -232,17 +182,16 @@ def test_results_whose_moving_was_interrupted(tmp_path, points, monkeypatch, aft
     with monkeypatch.context() as patch:
         patch.setattr("os.replace", interrupted)
         with pytest.raises(KeyboardInterrupt):
-            run_of(folder, tmp_path / "out")
-    assert not (tmp_path / "out" / "run.json").exists()
-    check(run_of(folder, tmp_path / "out"), truth)
+            points.run()
+    assert not (points.out / "run.json").exists()
+    points.check()
 
 
 def test_a_byte_of_the_index_that_is_changed(tmp_path, points):
-    folder, _ = points
-    run = run_of(folder, tmp_path / "out", index=True)
+    run = points.run(index=True)
     harmed(run.folder, "index/points/*.points", partial(flip, place=-100))()
     with pytest.raises(ValueError, match=r"index/points/\d+\.points was changed after it was written"):
-        run.nearest(folder, tmp_path / "found", keep="id")
+        run.nearest(points.folder, tmp_path / "found", keep="id")
 
 
 # Sources
@@ -270,63 +219,45 @@ def overwrite(path):
 
 HARMS = [cut, lengthen, move, overwrite, os.unlink]
 TIMES = [(name, done) for name in PASSES for done in (0, 2)]
-BY_DAY = list(zip(TIMES[::2], HARMS, strict=True))
+BY_DAY = [(*when, harm) for when, harm in zip(TIMES[::2], HARMS, strict=True)]
 """Each harm, and each pass."""
 
 
-@pytest.mark.parametrize(
-    ("name", "done", "harm"),
-    [
-        pytest.param(*when, harm, marks=() if (when, harm) in BY_DAY else pytest.mark.thorough)
-        for when in TIMES
-        for harm in HARMS
-    ],
-)
+@pytest.mark.parametrize(("name", "done", "harm"), by_day([(*when, harm) for when in TIMES for harm in HARMS], *BY_DAY))
 def test_a_source_that_changes_while_it_is_read(tmp_path, points, name, done, harm):
     """Whenever that is, it is an error: files are looked at before and after each reading, and at the end."""
-    folder, truth = points
-    file = folder / "003.parquet"
+    file = points.folder / "003.parquet"
     kept = tmp_path / "kept.parquet"
     shutil.copy2(file, kept)
     with pytest.raises((ValueError, FileNotFoundError), match=r"003\.parquet"):
-        run_of(folder, tmp_path / "out", progress=meanwhile(name, done, partial(harm, file)))
+        points.run(progress=meanwhile(name, done, partial(harm, file)))
     with pytest.raises(FileNotFoundError, match="no run ended there"):
-        Run(tmp_path / "out")
+        Run(points.out)
     shutil.copy2(kept, file)  # with its time: as it was
-    check(run_of(folder, tmp_path / "out"), truth)
+    points.check()
 
 
 def test_a_source_with_fewer_rows_than_planned(points, monkeypatch):
     """Should its time stamp say nothing: no row is what happened to be in memory."""
-    folder, _ = points
     monkeypatch.setattr(PointFile, "check", lambda self: None)
-    out = folder.parent / "out"
     with pytest.raises(ValueError, match=r"003\.parquet .*have \d+ of \d+ rows"):
-        run_of(folder, out, progress=meanwhile("sample", 10, partial(cut, folder / "003.parquet")))
+        points.run(progress=meanwhile("sample", 10, partial(cut, points.folder / "003.parquet")))
 
 
 def test_the_source_of_values_that_changes(tmp_path, points):
-    folder, _ = points
-    run = run_of(folder, tmp_path / "out", index=True)
-    harm = partial(move, folder / "003.parquet")
+    run = points.run(index=True)
+    progress = meanwhile("collect", 1, partial(move, points.folder / "003.parquet"))
     with pytest.raises(ValueError, match=r"003\.parquet has changed since the run began"):
-        executed(
-            run.interpolate,
-            folder,
-            tmp_path / "found",
-            "id",
-            partition=60,
-            progress=meanwhile("collect", 1, harm),
-        )
+        executed(run.interpolate, points.folder, tmp_path / "found", "id", partition=60, progress=progress)
 
 
-@pytest.mark.parametrize("number", [12, pytest.param(300, marks=pytest.mark.thorough)])
+@pytest.mark.parametrize("number", by_day([12, 300], 12))
+@pytest.mark.usefixtures("points")
 def test_files_that_are_damaged(tmp_path, number):
     """Cut anywhere, or with bits of the footer changed: the points as they were, or an error that names the file."""
-    chance, columns = random.Random(5), LONLAT
-    _, rows = rows_of("airports", 60)
-    folder = write_points(tmp_path / "points", columns, rows, 2, row_group_size=10)
-    file, truth, counts = folder / "001.parquet", in_memory(columns, rows), Counter()
+    chance, (columns, rows) = random.Random(5), answers.rows_of("airports", 60)
+    folder = answers.write_points(tmp_path / "damaged", columns, rows, 2, row_group_size=10)
+    file, truth, counts = folder / "001.parquet", answers.in_memory(columns, rows), Counter()
     content = file.read_bytes()
     footer = len(content) - 8 - int.from_bytes(content[-8:-4], "little")
     for _ in range(number):
@@ -337,20 +268,19 @@ def test_files_that_are_damaged(tmp_path, number):
             damaged[chance.randrange(footer, len(content))] ^= 1 << chance.randrange(8)
         file.write_bytes(damaged)
         try:
-            found = serially(folder, tmp_path / "out", partition=20, resume=False)
+            found = answers.serially(folder, tmp_path / "out", partition=20, resume=False)
         except (ValueError, TypeError) as error:
             counts["named" if str(file) in str(error) else str(error)] += 1
         else:
-            assert differences(found, truth) == []
+            assert answers.differences(found, truth) == []
             counts["equal"] += 1
     assert counts.keys() == {"named", "equal"}
 
 
 @pytest.mark.parametrize("checksum", [True, False])
-def test_a_page_that_is_damaged(tmp_path, points, checksum):
+def test_a_page_that_is_damaged(points, checksum):
     """The message has the file and the row group; files that have checksums are read with them."""
-    folder, _ = points
-    path = folder / "003.parquet"
+    path = points.folder / "003.parquet"
     if checksum:
         options = {"compression": "none", "use_dictionary": False}
         pq.write_table(pq.read_table(path), path, write_page_checksum=True, **options)
@@ -362,7 +292,7 @@ def test_a_page_that_is_damaged(tmp_path, points, checksum):
     path.write_bytes(content)
     message = rf"003\.parquet: row group {number} cannot be read: {'.*checksum' if checksum else ''}"
     with pytest.raises(ValueError, match=message):
-        run_of(folder, tmp_path / "out")
+        points.run()
 
 
 WITH_PROCESSES = [
@@ -372,38 +302,28 @@ WITH_PROCESSES = [
 ]
 
 
-@pytest.mark.parametrize("case", by_day(WITH_PROCESSES, WITH_PROCESSES[2]))
-def test_what_changes_under_processes(tmp_path, points, case):
+@pytest.mark.parametrize(("name", "done", "pattern", "harm"), by_day(WITH_PROCESSES, WITH_PROCESSES[2]))
+def test_what_changes_under_processes(tmp_path, points, name, done, pattern, harm):
     """The same with processes, one of which the system may end as what it has mapped is cut short."""
-    (name, done, pattern, harm), (folder, truth) = case, points
     with pytest.raises((ValueError, FileNotFoundError), match=r"changed|deleted|cut short|No such file"):
-        run_of(folder, tmp_path / "out", executor=None, progress=meanwhile(name, done, harmed(tmp_path, pattern, harm)))
-    check(run_of(folder, tmp_path / "out", executor=None, resume=False), truth)
+        points.run(jobs=2, progress=meanwhile(name, done, harmed(tmp_path, pattern, harm)))
+    points.check(jobs=2, resume=False)
 
 
 def test_nothing_is_left_of_an_earlier_run_with_other_arguments(tmp_path, points):
     """Neither in the folder of results nor in scratch elsewhere, which runs of other folders may share."""
-    folder, truth = points
+    scratch = tmp_path / "scratch"
     for partition in (60, 90):
         with pytest.raises(KeyboardInterrupt):
-            run_of(
-                folder,
-                tmp_path / "out",
-                scratch=tmp_path / "scratch",
-                partition=partition,
-                resume=False,
-                progress=meanwhile("solve", 2, stop),
-            )
-        assert len(list((tmp_path / "scratch").iterdir())) == 1
-    other = run_of(folder, tmp_path / "other", scratch=tmp_path / "scratch", partition=90)
-    check(other, truth)
-    check(run_of(folder, tmp_path / "out", scratch=tmp_path / "scratch", partition=90), truth)
-    assert list((tmp_path / "scratch").iterdir()) == []
+            points.run(scratch=scratch, partition=partition, resume=False, progress=meanwhile("solve", 2, stop))
+        assert len(list(scratch.iterdir())) == 1
+    for out in ("other", "out"):
+        points.check(out, scratch=scratch, partition=90)
+    assert list(scratch.iterdir()) == []
 
 
 def test_late_tasks_of_a_run_that_is_dead(tmp_path, points, monkeypatch):
     """Workers of a cluster outlive their client: what they write still, after another run began, is not in its way."""
-    folder, truth = points
     late = []
     once = passes_of.Passes.do
 
@@ -416,27 +336,25 @@ def test_late_tasks_of_a_run_that_is_dead(tmp_path, points, monkeypatch):
     with monkeypatch.context() as patch:
         patch.setattr(passes_of.Passes, "do", dying)
         with pytest.raises(KeyboardInterrupt):
-            run_of(folder, tmp_path / "out", partition=60)
+            points.run(partition=60)
     kept = tmp_path / "kept"
-    shutil.copytree(tmp_path / "out" / "scratch", kept)
+    shutil.copytree(points.out / "scratch", kept)
 
     def write_late():
-        shutil.copytree(kept, tmp_path / "out" / "scratch", dirs_exist_ok=True)
+        shutil.copytree(kept, points.out / "scratch", dirs_exist_ok=True)
         for task in late:
             task()
 
     for when in (("collect", 1), ("solve", 1), ("align", 1)):
-        run = run_of(folder, tmp_path / "out", partition=150, resume=False, progress=meanwhile(*when, write_late))
-        check(run, truth)
+        points.check(partition=150, resume=False, progress=meanwhile(*when, write_late))
 
 
-def test_what_is_not_there_is_said(tmp_path, points):
-    folder, _ = points
-    run = run_of(folder, tmp_path / "out", rows=(), triangles=False, keep=())
+def test_what_is_not_there_is_said(points):
+    run = points.run(rows=(), triangles=False, keep=())
     with pytest.raises(ValueError, match="has no rows: the run was not asked for rows="):
         run.rows()
     for read in (run.triangles, run.cells):
         with pytest.raises(ValueError, match="the run was not asked for "):
             read()
-    run = run_of(folder, tmp_path / "other", keep="id", rows="area")  # names by themselves
+    run = points.run("other", keep="id", rows="area")  # names by themselves
     assert run.rows().schema.names == ["id", "area"]

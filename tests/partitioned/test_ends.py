@@ -16,6 +16,7 @@ import pytest
 import stereodel
 from stereodel.partitioned import Run
 from tests.partitioned.answers import clean, differences, in_memory, rows_of, write_points
+from tests.tiers import by_day
 
 SECONDS = 10
 """In which the processes of a run that was killed end, on a machine that does much else."""
@@ -43,11 +44,11 @@ def points(tmp_path):
     return write_points(tmp_path / "points", columns, rows), in_memory(columns, rows)
 
 
-def started(folder, *arguments):
+def driver(folder, points, out, **options):
     """A process in a session of its own, by which those that it starts are known."""
     environment = os.environ | {"PYTHONPATH": str(Path(stereodel.__file__).parents[1])}
     return subprocess.Popen(
-        [sys.executable, *map(str, arguments)],
+        [sys.executable, "driver.py", *map(json.dumps, (str(points), str(out), options))],
         cwd=folder,
         env=environment,
         stdout=subprocess.PIPE,
@@ -55,10 +56,6 @@ def started(folder, *arguments):
         text=True,
         start_new_session=True,
     )
-
-
-def driver(folder, points, out, **options):
-    return started(folder, "driver.py", *map(json.dumps, (str(points), str(out), options)))
 
 
 def processes(session):
@@ -100,12 +97,9 @@ def reached(process, name, done):
 
 
 WHEN = [(name, number) for name in ("spread", "solve", "align") for number in SIGNALS]
-QUICK = [("solve", signal.SIGKILL)]
 
 
-@pytest.mark.parametrize(
-    ("name", "number"), [pytest.param(*when, marks=() if when in QUICK else pytest.mark.thorough) for when in WHEN]
-)
+@pytest.mark.parametrize(("name", "number"), by_day(WHEN, ("solve", signal.SIGKILL)))
 def test_a_driver_that_is_killed(tmp_path, points, name, number):
     """Its workers end with it, and so does a pipe behind it; what is begun at once with other arguments is right."""
     folder, truth = points
@@ -128,20 +122,13 @@ def test_a_driver_that_is_killed(tmp_path, points, name, number):
 @pytest.mark.parametrize("seed", range(SOAKS))
 def test_soak(tmp_path, points, seed):
     """Random processes of runs are killed at random times, with new runs begun at once."""
-    counts = soak(tmp_path, *points, KILLS, seed)
-    print(dict(counts))
-    assert counts["killed"] == KILLS
-
-
-def soak(tmp_path, folder, truth, kills, seed):
-    """Kill processes of runs until so many were; how often what happened."""
-    chance, counts, out, runs = random.Random(seed), Counter(), tmp_path / "out", []
+    (folder, truth), chance, counts, out, runs = points, random.Random(seed), Counter(), tmp_path / "out", []
     before = {path: (path.read_bytes(), path.stat().st_mtime_ns) for path in folder.iterdir()}
     began = time.monotonic()
     with driver(tmp_path, folder, out, partition=100) as process:
         process.communicate()
     usual = time.monotonic() - began
-    while counts["killed"] < kills:
+    while counts["killed"] < KILLS:
         begun = json.loads((out / "plan.json").read_text())["partition"] if (out / "plan.json").exists() else None
         resume = begun is not None and not (out / "run.json").exists() and chance.random() < 0.7
         partition = begun if resume else chance.choice([each for each in (100, 140, 230) if each != begun])
@@ -176,4 +163,4 @@ def soak(tmp_path, folder, truth, kills, seed):
     for process in runs:
         process.communicate(timeout=SECONDS)
     assert {path: (path.read_bytes(), path.stat().st_mtime_ns) for path in folder.iterdir()} == before
-    return counts
+    print(dict(counts))

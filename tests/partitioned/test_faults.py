@@ -5,7 +5,6 @@ import os
 import shutil
 import signal
 from functools import partial
-from pathlib import Path
 
 import numpy as np
 import pyarrow as pa
@@ -17,26 +16,9 @@ from stereodel._tasks.kept import locked
 from stereodel.partitioned import Execution
 from stereodel.partitioned import run as running
 from tests.disks import small_disk
-from tests.partitioned.answers import (
-    PASSES,
-    differences,
-    in_memory,
-    in_parallel,
-    meanwhile,
-    rows_of,
-    serially,
-    stop,
-    write_points,
-)
+from tests.partitioned.answers import PASSES, differences, in_memory, meanwhile, rows_of, serially, stop, write_points
 from tests.sets import LONLAT, XYZ
-
-
-@pytest.fixture
-def points(tmp_path, monkeypatch):
-    """Points in files, in so many tasks that each pass has several; and the answer in memory."""
-    monkeypatch.setattr("stereodel.partitioned.plan.LEAST_SHARE", 1)
-    columns, rows = rows_of("random", 600)
-    return write_points(tmp_path / "points", columns, rows), in_memory(columns, rows)
+from tests.tiers import by_day
 
 
 def killed_once(marker, name, function, task):
@@ -47,20 +29,16 @@ def killed_once(marker, name, function, task):
     return function(task)
 
 
-@pytest.mark.parametrize(
-    "name", ["solve", *(pytest.param(name, marks=pytest.mark.thorough) for name in PASSES if name != "solve")]
-)
+@pytest.mark.parametrize("name", by_day(PASSES, "solve"))
 def test_a_worker_that_is_killed(tmp_path, points, name, monkeypatch):
     """The processes of our own are replaced, and what the dead one did is done again."""
-    folder, truth = points
     marker = tmp_path / "killed"
     each = Crew.each
     monkeypatch.setattr(
         Crew, "each", lambda self, work, tasks: each(self, partial(killed_once, marker, name, work), tasks)
     )
-    run = in_parallel(folder, tmp_path / "out", partition=100)
+    points.check(jobs=None, partition=100)
     assert marker.exists()
-    assert differences(run, truth) == []
 
 
 @pytest.mark.parametrize("name", ["partition", "limit", "jobs"])
@@ -71,56 +49,56 @@ def test_what_cannot_be_executed(name):
         Execution(**{name: 1.5})
 
 
-def test_two_runs_on_one_folder(tmp_path, points):
-    folder, _ = points
-    (tmp_path / "out").mkdir()
-    with locked(tmp_path / "out"), pytest.raises(RuntimeError, match="another run writes to"):
-        serially(folder, tmp_path / "out")
-    assert serially(folder, tmp_path / "out").statistics["points"] == 600
+def test_two_runs_on_one_folder(points):
+    points.out.mkdir()
+    with locked(points.out), pytest.raises(RuntimeError, match="another run writes to"):
+        points.run()
+    points.check()
 
 
-@pytest.mark.parametrize("size", [2000, *(pytest.param(size, marks=pytest.mark.thorough) for size in (300, 5000))])
-def test_a_full_disk(tmp_path, points, size):
+@pytest.mark.parametrize("size", by_day([300, 2000, 5000], 2000))
+def test_a_full_disk(points, size):
     """An OSError; nothing is half written; with room again the run goes on."""
-    folder, truth = points
     with small_disk(size), pytest.raises(OSError) as full:
-        serially(folder, tmp_path / "out", partition=60)
+        points.run()
     assert full.value.errno == errno.EFBIG  # where a full disk has ENOSPC
-    assert not [path for path in (tmp_path / "out").rglob("*") if path.name.endswith(".tmp")]
-    assert differences(serially(folder, tmp_path / "out", partition=60), truth) == []
+    assert not list(points.out.rglob("*.tmp"))
+    points.check()
 
 
-def interrupted(folder, out, name, done):
+def interrupted(points, name, done):
     """A run that ends when so many tasks of a pass are done."""
     with pytest.raises(KeyboardInterrupt):
-        serially(folder, out, partition=60, progress=meanwhile(name, done, stop))
+        points.run(progress=meanwhile(name, done, stop))
 
 
 @pytest.mark.parametrize(
     ("name", "room"),
     [*((name, None) for name in PASSES), ("spread", "spread"), ("collect", "points"), ("solve", "stars")],
 )
-def test_a_run_that_was_interrupted_goes_on(tmp_path, points, name, room):
+def test_a_run_that_was_interrupted_goes_on(points, name, room):
     """A shard that was cut short meanwhile is made again, as what it was made of is there."""
-    folder, truth = points
-    interrupted(folder, tmp_path / "out", name, 4)
+    interrupted(points, name, 4)
     if room:
-        os.truncate(min((tmp_path / "out" / "scratch").glob(f"*/{room}/*.*")), 100)
+        os.truncate(min((points.out / "scratch").glob(f"*/{room}/*.*")), 100)
     begun = {}
-    run = serially(folder, tmp_path / "out", partition=60, progress=lambda name, done, of: begun.setdefault(name, done))
+    points.check(progress=lambda name, done, of: begun.setdefault(name, done))
     assert begun[name] >= (0 if room else 4)
     assert list(begun) == list(PASSES)[PASSES.index(name) :]
-    assert differences(run, truth) == []
 
 
-def test_a_run_that_ended_is_not_run_again(tmp_path, points):
-    folder, _ = points
-    first = serially(folder, tmp_path / "out")
-    times = {path: path.stat().st_mtime_ns for path in (tmp_path / "out").rglob("*.parquet")}
-    calls = []
-    again = serially(folder, tmp_path / "out", progress=lambda *told: calls.append(told))
+def contents(folder):
+    """Files with their bytes and times."""
+    return {path: (path.read_bytes(), path.stat().st_mtime_ns) for path in folder.rglob("*.parquet")}
+
+
+def test_a_run_that_ended_is_not_run_again(points):
+    """Nor does a run change its inputs."""
+    inputs, first = contents(points.folder), points.run()
+    made, calls = contents(points.out), []
+    again = points.run(progress=lambda *told: calls.append(told))
     assert (again.statistics, calls) == (first.statistics, [])
-    assert {path: path.stat().st_mtime_ns for path in (tmp_path / "out").rglob("*.parquet")} == times
+    assert (contents(points.out), contents(points.folder)) == (made, inputs)
 
 
 NOTICED = [
@@ -146,15 +124,14 @@ NOTICED = [
 
 
 @pytest.mark.parametrize(("options", "change", "message"), NOTICED)
-def test_other_arguments_and_files_are_noticed(tmp_path, points, options, change, message):
-    folder, truth = points
-    interrupted(folder, tmp_path / "out", "solve", 1)
+def test_other_arguments_and_files_are_noticed(points, options, change, message):
+    interrupted(points, "solve", 1)
     if change:
-        change(folder)
+        change(points.folder)
     with pytest.raises(ValueError, match=f"has a run of other files or arguments: {message}; take another folder"):
-        serially(folder, tmp_path / "out", **{"partition": 60} | options)
+        points.run(**options)
     if not change:
-        assert differences(serially(folder, tmp_path / "out", partition=60), truth) == []
+        points.check()
 
 
 @pytest.mark.parametrize(
@@ -202,29 +179,21 @@ def test_more_points_at_once_than_the_limit(tmp_path, space, name):
 
 def test_results_are_not_among_the_points(tmp_path, points):
     """Nor by way of a link."""
-    folder, _ = points
+    folder, link = points.folder, tmp_path / "link"
     (folder / "002.parquet").rename(folder / "a.parquet")
-    os.symlink(folder, tmp_path / "link")
-    for source, out in [(folder, folder), (folder, tmp_path / "link"), (tmp_path / "link", folder)]:
+    os.symlink(folder, link)
+    for source, out in [(folder, folder), (folder, link), (link, folder)]:
         with pytest.raises(ValueError, match="lies in out, the folder of results"):
             serially(source, out)
 
 
-def test_a_folder_of_something_else_is_left_alone(tmp_path, points):
-    folder, _ = points
-    (tmp_path / "out" / "rows").mkdir(parents=True)
-    (tmp_path / "out" / "rows" / "mine.txt").write_text("mine")
+def test_a_folder_of_something_else_is_left_alone(points):
+    (points.out / "rows").mkdir(parents=True)
+    (points.out / "rows" / "mine.txt").write_text("mine")
     for resume in (True, False):
         with pytest.raises(ValueError, match="has 'rows', which is not of a run; take another folder"):
-            serially(folder, tmp_path / "out", resume=resume)
-    assert Path(tmp_path / "out" / "rows" / "mine.txt").read_text() == "mine"
-
-
-def test_inputs_stay_as_they_are(tmp_path, points):
-    folder, _ = points
-    before = {path: (path.read_bytes(), path.stat().st_mtime_ns) for path in folder.iterdir()}
-    serially(folder, tmp_path / "out", partition=60)
-    assert {path: (path.read_bytes(), path.stat().st_mtime_ns) for path in folder.iterdir()} == before
+            points.run(resume=resume)
+    assert (points.out / "rows" / "mine.txt").read_text() == "mine"
 
 
 @pytest.mark.parametrize(
@@ -234,11 +203,10 @@ def test_inputs_stay_as_they_are(tmp_path, points):
         ({"area": 12.5}, r"the areas of all cells add up to 12\.5, but the sphere's is 12\.566"),
     ],
 )
-def test_results_that_no_input_may_have(tmp_path, points, monkeypatch, wrong, message):
+def test_results_that_no_input_may_have(points, monkeypatch, wrong, message):
     """Triangles that are too few and areas that do not cover the sphere end the run, with nothing published."""
-    folder, _ = points
     right = running._statistics
     monkeypatch.setattr(running, "_statistics", lambda *given: right(*given) | {"euler": 12, "triangles": 12} | wrong)
     with pytest.raises(RuntimeError, match=message):
-        serially(folder, tmp_path / "out")
-    assert not (tmp_path / "out" / "run.json").exists()
+        points.run()
+    assert not (points.out / "run.json").exists()

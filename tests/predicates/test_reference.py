@@ -11,17 +11,8 @@ from mpmath import mp, mpf, workdps
 
 from stereodel import in_bubble
 from tests import sets
-from tests.exact import cross, dot, minus, unit
-from tests.reference import (
-    bubble_ray,
-    bubble_tie,
-    compare_directions,
-    incircle_tie,
-    ray,
-    sign,
-    sign_of_roots,
-    turn_ray,
-)
+from tests.exact import cross, dot, unit, volume
+from tests.reference import bubble_ray, bubble_tie, compare_directions, incircle_tie, ray, sign, sign_of_roots, turn_ray
 from tests.spaces import SPHERE
 
 COEFFICIENT = st.integers(-(10**20), 10**20)
@@ -57,9 +48,7 @@ def sign_of(value, zero="1e-250"):
 
 
 def bubble(a, b, c, p):
-    a, *others = map(unit, (a, b, c, p))
-    u, v, w = (minus(other, a) for other in others)
-    return dot(u, cross(v, w))
+    return volume(*map(unit, (a, b, c, p)))
 
 
 @given(SMALL, SMALL, SMALL, SMALL)
@@ -115,8 +104,7 @@ def displaced_bubble(*vectors):
         ]
         for k, u in enumerate(units)
     ]
-    u, v, w = (minus(other, moved[0]) for other in moved[1:])
-    value = dot(u, cross(v, w))
+    value = volume(*moved)
     assert abs(value) > mpf(10) ** -560
     return int(mp.sign(value))
 

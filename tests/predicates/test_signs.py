@@ -1,7 +1,5 @@
 """The predicates on arrays: any doubles, shapes, threads, what is refused, flat regions, each stage of orient3d."""
 
-from fractions import Fraction
-
 import numpy as np
 import pytest
 from hypothesis import given
@@ -10,9 +8,9 @@ from hypothesis import strategies as st
 from stereodel import _kernel, in_bubble, incircle, orient2d, orient3d
 from stereodel import _kernel_probe as probe
 from tests import sets
-from tests.exact import fractions
+from tests.exact import fractions, volume
 from tests.kernel.stages import OPEN, shares_of
-from tests.reference import bubble_ray, incircle_integer, orient2d_integer, ray
+from tests.reference import bubble_ray, incircle_integer, orient2d_integer, ray, sign
 
 PREDICATES = {
     "orient2d": (orient2d, _kernel.plane.turn, 2, "abc"),
@@ -128,11 +126,8 @@ def test_bad_points_are_named(name, bad):
 # The stages of orient3d ----------------------------------------------------------------------------------------------
 
 
-def exact_volume(a, b, c, d):
-    """Sign of det(b−a, c−a, d−a)."""
-    u, v, w = ([Fraction(x) - Fraction(y) for x, y in zip(p, a, strict=True)] for p in (b, c, d))
-    value = sum(u[i] * (v[i - 2] * w[i - 1] - v[i - 1] * w[i - 2]) for i in range(3))
-    return (value > 0) - (value < 0)
+def exact_volume(*points):
+    return sign(volume(*fractions(points)))
 
 
 def stages(points):

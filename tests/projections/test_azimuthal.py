@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from stereodel.projections import Gnomonic, Orthographic, PlaneCircle, PlaneLine, Stereographic
 from stereodel.sphere import SphereArc, SphereCircle, angular_distance, lonlat_to_xyz
-from tests.exact import ACCURACY, distance, dot, mp, normalized
+from tests.exact import ACCURACY, distance, dot, mp, unit
 from tests.strategies import DIRECTIONS, LONLAT
 
 CENTERS = st.one_of(
@@ -30,7 +30,7 @@ def exact_frame(center):
 
 
 def exact_forward(projection, v):
-    e, n, c = (dot(row, normalized(v)) for row in exact_frame(projection.center))
+    e, n, c = (dot(row, unit(v)) for row in exact_frame(projection.center))
     factor = projection.radius * (2 if projection.plane == "tangent" else 1) / (1 + c)
     return [e * factor, n * factor]
 
@@ -114,7 +114,7 @@ def test_p8_scale_is_the_derivative_and_the_same_in_all_directions(center, vecto
         return
     step = mpmath.mpf(10) ** -20
     frame = np.linalg.svd(v[None])[2][1:]
-    point, moved = normalized(mp(v)), []
+    point, moved = unit(v), []
     for along in map(mp, frame):
         ahead = [x + step * d for x, d in zip(point, along, strict=True)]
         ends = zip(exact_forward(projection, ahead), exact_forward(projection, point), strict=True)
@@ -212,22 +212,6 @@ def test_axes_are_east_and_north(view):
         limit = view((70.0, np.nextafter(lat, 0))).forward([0.3, 0.4, np.sign(lat)])
         assert view((70.0, lat)).forward([0.3, 0.4, np.sign(lat)]) == pytest.approx(limit, abs=1e-14)
     assert view((0.0, 0.0, -2.0)).forward([0, 1, -1]).tolist() == view((0, -90)).forward([0, 1, -1]).tolist()
-
-
-@pytest.mark.parametrize(
-    ("call", "message"),
-    [
-        (lambda: Stereographic((0, 95)), "latitude 95"),
-        (lambda: Stereographic((0, 0), radius=0), "radius is 0.0"),
-        (lambda: Stereographic((0, 0), plane="oblique"), "plane is 'oblique', but must be one of 'tangent'"),
-        (lambda: Stereographic((0, 0)).forward([0, 0, 0]), "xyz is the zero vector"),
-        (lambda: Stereographic((0, 0)).inverse([np.inf, 0]), r"xy\[0\] is inf"),
-        (lambda: Stereographic((0, 0)).angular_radius(-1), "cannot be negative"),
-    ],
-)
-def test_bad_input(call, message):
-    with pytest.raises(ValueError, match=message):
-        call()
 
 
 VIEWS = st.sampled_from([Gnomonic, Orthographic])

@@ -137,21 +137,3 @@ def test_degenerate_rectangles():
     line = RectangleLift(2.0, 0.0)
     assert line.forward([1.0, 0.0]).tolist() == [0, 1, 0]
     assert RectangleLift.fit([[1, 1], [1, 5]]).diagonal == 4
-
-
-@pytest.mark.parametrize(
-    ("call", "message"),
-    [
-        (lambda: RectangleLift(0, 0), "width and height are both 0"),
-        (lambda: RectangleLift(-1, 2), "width is -1.0"),
-        (lambda: RectangleLift(1, np.nan), "height"),
-        (lambda: RectangleLift(1, 2, center=(0, 0, 0)), "center"),
-        (lambda: RectangleLift.fit([]), "points is empty"),
-        (lambda: RectangleLift.fit([[1, 2]]), "both 0"),
-        (lambda: RectangleLift(3, 4).separation_bounds(6), "no two points are farther apart than 5"),
-        (lambda: RectangleLift(3, 4).separation_bounds([1, -1]), r"d\[1\] is -1.0"),
-    ],
-)
-def test_bad_input(call, message):
-    with pytest.raises(ValueError, match=message):
-        call()

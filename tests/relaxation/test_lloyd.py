@@ -16,7 +16,6 @@ from tests.examples import examples
 from tests.strategies import GRID_DIRECTIONS
 
 SQUARE = (0, 0, 8, 8)
-STAR = [(np.cos(t), np.sin(t)) for t in np.arange(5) * 4 * np.pi / 5]  # not convex, though it always turns left
 ROUNDING = 1e-12
 GRID_POINT = st.tuples(st.integers(0, 8), st.integers(0, 8))
 
@@ -182,29 +181,6 @@ def test_takes_triangulations_and_changes_nothing():
     assert np.array_equal(relaxed.points, lloyd(points, bounds=(0, 0, 1, 1)).points)
     assert np.array_equal(points, before)
     assert not any(array.flags.writeable for array in (relaxed.points, relaxed.energies, relaxed.moves))
-
-
-@pytest.mark.parametrize(
-    ("points", "options", "message"),
-    [
-        ([[0, 0]], {}, "bounds are needed"),
-        ([[0, 0, 1]], {"bounds": SQUARE}, "leave them out"),
-        ([[0, 0], [9, 1]], {"bounds": SQUARE}, r"points\[1\] is \[9.0, 1.0\], outside bounds"),
-        ([[0, 0]], {"bounds": (8, 0, 0, 8)}, "xmin < xmax"),
-        ([[0, 0]], {"bounds": [(0, 0), (0, 1), (1, 0)]}, "counterclockwise"),
-        ([[0, 0]], {"bounds": [(0, 0), (1, 1)]}, "shape"),
-        ([[0, 0]], {"bounds": STAR}, "convex"),
-        *(([[1, 0, 0]], {"factor": factor}, "factor") for factor in (0.0, 2.0, -1.0, np.nan)),
-        ([[0, 0]], {"bounds": SQUARE, "steps": -1}, "steps is -1"),
-        ([[0, 0]], {"bounds": SQUARE, "tolerance": -1}, "tolerance"),
-        ([[0, 0]], {"bounds": SQUARE, "density": lambda x: -x[:, 0]}, "weight cannot be negative"),
-        ([[0, 0]], {"bounds": SQUARE, "density": lambda x: x}, "a number for each point"),
-        ([[0, 0, 1]], {"density": lambda x: x[:, 0] * np.nan}, "must be a finite number"),
-    ],
-)
-def test_wrong_input(points, options, message):
-    with pytest.raises(ValueError, match=message):
-        lloyd(points, **options)
 
 
 @pytest.mark.parametrize("factor", [0.5, 1.5, 1.9])

@@ -78,11 +78,9 @@ def test_a_style_has_a_folder_of_its_own(figure, tmp_path, monkeypatch):
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["--style", "dark,bright"], "style is 'bright'; give dark or a file .toml"),
-        *(
-            (["--size", size], f"{size!r} is not a whole number of pixels")
-            for size in ("0", "-5", "many", "1e3", "100000")
-        ),
+        (["--style", "dark,bright"], "invalid style_names value: 'dark,bright'"),
+        *((["--size", size], f"invalid int value: {size!r}") for size in ("many", "1e3")),
+        *((["--size", size], f"small: size is {size}") for size in ("0", "-5", "100000")),
         (["--out", "file/folder", "--size", "50"], r"small: .*file"),
     ],
 )
@@ -147,7 +145,7 @@ def test_what_is_no_script_has_no_caption_and_docstrings_may_be_of_a_line_or_wit
     assert Figure("nothing", dict, lambda _: Page((0.0, 1.0, 0.0, 1.0))).page().title == ""
     assert Figure("nothing", dict, lambda _: page()).page().title == "A title"
     with pytest.raises(ValueError, match="renderer is 'svg', but must be one of 'gl', 'agg'"):
-        Figure("nothing", dict, draw, renderer="svg")
+        Figure("nothing", dict, lambda _: page(), renderer="svg").pixels(size=40)
     assert parted("One line.") == ("One line.", "")
     assert parted("Title\n\nText with ``code`` = 5.") == ("Title", "Text with “code” = 5.")
     assert parted("") == ("", "")

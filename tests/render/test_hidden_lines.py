@@ -23,6 +23,7 @@ from stereodel.render.space.bodies import to_trimesh
 from stereodel.render.space.save_solid import page_box
 from stereodel.sphere import SphereArc, SphereCircle
 from tests.figures.scripts import path_points
+from tests.tiers import by_day
 
 SIZE = 700
 """Pixels across a ball and a tenth of its radius around it."""
@@ -110,12 +111,6 @@ def around(numbers, points, number, reach):
     return ((found == number) & inside).any(axis=1), ((found > 1) & inside).any(axis=1)
 
 
-def sinks_or_stands_clear(points, radius, unit):
-    """Whether the tube about points of a line is half within the ball, all within it or all without."""
-    height = np.abs(np.sqrt((points**2).sum(axis=1)) - radius)
-    return (height > (HALF_WIDTH + 1) * unit) | (height.max() < ON_BALL * radius)
-
-
 def disagreements(placed, reach):
     """Samples where page and depth buffer say different things, how many were seen, hidden, and covered by others."""
     page, layout, ball, lines = alone(placed, reach)
@@ -133,7 +128,9 @@ def disagreements(placed, reach):
         drawn = away <= ON_STROKE
         asked = distance(at, (ends - corner) / unit) > NEAR
         asked &= (at > 2).all(axis=1) & (at < SIZE - 2).all(axis=1)
-        asked &= sinks_or_stands_clear(points, layout.radius, unit)
+        # The tube is half within the ball, all within it or all without.
+        height = np.abs(np.sqrt((points**2).sum(axis=1)) - layout.radius)
+        asked &= (height > (HALF_WIDTH + 1) * unit) | (height.max() < ON_BALL * layout.radius)
         in_limb = np.sqrt(((at - middle) ** 2).sum(axis=1)) < layout.radius / unit - NEAR
         asked &= drawn | (in_limb & (away > NEAR))
         own, any_line = around(numbers, at, number, HALF_WIDTH)
@@ -165,7 +162,7 @@ def random_scene(seed):
     return scene, view
 
 
-@pytest.mark.parametrize("seed", [0, *(pytest.param(seed, marks=pytest.mark.thorough) for seed in (1, 2, 3))])
+@pytest.mark.parametrize("seed", by_day(range(4), 0))
 def test_random_scenes_hide_what_a_depth_buffer_hides(seed):
     scene, view = random_scene(seed)
     wrong, seen, hidden, covered = disagreements(scene.placed(view), 2.2 * scene.radius)

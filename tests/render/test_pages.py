@@ -50,19 +50,6 @@ def box(left, right, bottom, top):
     return lines((left, bottom), (right, bottom), (right, top), (left, top), (left, bottom))
 
 
-def mixed_page():
-    """Something of everything, as a figure has it."""
-    items = (
-        Fill((circle((1.0, 1.0), 0.9), circle((1.0, 1.0), 0.4)), (0.2, 0.5, 0.8, 1.0)),
-        Fill((box(2.2, 3.8, 0.3, 1.7),), (0.9, 0.6, 0.1, 0.4)),
-        Stroke(lines((0.2, 0.2), (1.8, 0.3), (0.3, 0.5), (1.9, 1.6)), (0.0, 0.0, 0.0, 0.5), 5.0),
-        Stroke(circle((3.0, 1.0), 0.9), (0.0, 0.5, 0.0, 1.0), 1.0, dash=(6.0, 3.0), cap="butt"),
-        Stroke(circle((3.0, 1.0), 0.5), BLACK, 0.6, closed=True),
-        Dots(np.array([[0.5, 1.5], [2.0, 1.0], [2.05, 1.02]]), 4.0, (0.8, 0.0, 0.0, 1.0), rim_width=1.0),
-    )
-    return Page(EXTENT, items)
-
-
 def test_many_lines_in_one_item_are_drawn_as_strokes_and_dots():
     corners = np.array([(0.2, 0.2), (1.8, 0.3), (0.3, 0.5), (2.5, 0.5), (3.8, 0.5), (3.1, 1.8), (2.5, 0.5), (1.0, 1.5)])
     ink = (0.0, 0.0, 0.0, 0.5)
@@ -104,8 +91,16 @@ def test_ink_is_width_times_length_whatever_the_direction(width, end):
 
 
 def test_opengl_and_agg_draw_the_same():
-    page = mixed_page()
-    ours, agg = (draw(page, size=800, text=False).astype(float) for draw in (render, rasterize))
+    """Something of everything, as a figure has it."""
+    items = (
+        Fill((circle((1.0, 1.0), 0.9), circle((1.0, 1.0), 0.4)), (0.2, 0.5, 0.8, 1.0)),
+        Fill((box(2.2, 3.8, 0.3, 1.7),), (0.9, 0.6, 0.1, 0.4)),
+        Stroke(lines((0.2, 0.2), (1.8, 0.3), (0.3, 0.5), (1.9, 1.6)), (0.0, 0.0, 0.0, 0.5), 5.0),
+        Stroke(circle((3.0, 1.0), 0.9), (0.0, 0.5, 0.0, 1.0), 1.0, dash=(6.0, 3.0), cap="butt"),
+        Stroke(circle((3.0, 1.0), 0.5), BLACK, 0.6, closed=True),
+        Dots(np.array([[0.5, 1.5], [2.0, 1.0], [2.05, 1.02]]), 4.0, (0.8, 0.0, 0.0, 1.0), rim_width=1.0),
+    )
+    ours, agg = (draw(Page(EXTENT, items), size=800, text=False).astype(float) for draw in (render, rasterize))
     # They agree inside shapes exactly, and along edges up to antialiasing.
     different = np.abs(ours - agg).max(axis=-1)
     assert (different > 96).mean() < 2e-4

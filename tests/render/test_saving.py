@@ -4,10 +4,10 @@ import hashlib
 import itertools
 from dataclasses import replace
 
+import imageio.v3 as iio
 import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
-from PIL import Image
 
 from stereodel.drawing import Label, Page, Scene, View
 from stereodel.drawing.page import Dots, Fill, Polygons, Polylines, Stroke
@@ -22,11 +22,7 @@ from stereodel.render.tessellation import Batch, Batches, triangulate
 from stereodel.render.vector import agg
 from stereodel.sphere import SphereCircle
 from tests.render.test_pages import box
-
-
-def decoded(path):
-    with Image.open(path) as image:
-        return np.asarray(image)
+from tests.tiers import by_day
 
 
 def globe_page():
@@ -46,22 +42,20 @@ def globe_page():
     return Page((-1.2, 1.2, -1.2, 1.2), (*scene.layout(View(0, 10)), lines, dots, *texts), width=300.0)
 
 
-@pytest.fixture(
-    params=[(256, 128), *(pytest.param(each, marks=pytest.mark.thorough) for each in ((64, 32), (4096, 64)))]
-)
+@pytest.fixture(params=by_day([64, 256, 4096], 256))
 def small_windows(request, monkeypatch):
-    monkeypatch.setattr(gl, "COLUMNS", request.param[0])
-    monkeypatch.setattr(gl, "BAND", request.param[1])
+    monkeypatch.setattr(gl, "COLUMNS", request.param)
+    monkeypatch.setattr(gl, "BAND", {64: 32, 256: 128, 4096: 64}[request.param])
 
 
-@pytest.mark.parametrize("size", [1, 200, *(pytest.param(size, marks=pytest.mark.thorough) for size in (33, 301))])
+@pytest.mark.parametrize("size", by_day([1, 33, 200, 301], 1, 200))
 def test_a_file_has_the_bits_of_the_picture_drawn_at_once(small_windows, tmp_path, size):
     page = globe_page()
     path = page.save(tmp_path / "globe.png", size=size)
     assert path == tmp_path / "globe.png"
-    assert np.array_equal(decoded(path), page.pixels(size=size))
+    assert np.array_equal(iio.imread(path), page.pixels(size=size))
     bare = page.save(str(tmp_path / "bare.png"), size=size, text=False)
-    assert np.array_equal(decoded(bare), page.pixels(size=size, text=False))
+    assert np.array_equal(iio.imread(bare), page.pixels(size=size, text=False))
     assert np.array_equal(page.pixels(size=size, text=False), page.without_labels().pixels(size=size))
 
 
@@ -105,16 +99,6 @@ def test_pixels_far_from_the_corner_are_those_near_it(far):
     assert np.array_equal(door.draw(moved.within(away), away, (1.0, 1.0, 1.0, 1.0)), expected)
 
 
-def by_matplotlib(page, size):
-    """The labels on a canvas for the whole page."""
-    with agg.matplotlib_settings():
-        canvas = agg.drawn(replace(page, items=page.labels), *agg.pixel_grid(page, size))
-        canvas.set_facecolor((1.0, 1.0, 1.0, 0.0))
-        whole = FigureCanvasAgg(canvas)
-        whole.draw()
-    return np.array(whole.buffer_rgba())
-
-
 @pytest.mark.parametrize("cuts", [(1,), (100, 101, 150), (64, 128, 192, 256)])
 @pytest.mark.parametrize(("halo", "off"), [(0.0, 0), (1.5, 1)])
 def test_labels_are_those_of_matplotlib(cuts, halo, off):
@@ -127,7 +111,12 @@ def test_labels_are_those_of_matplotlib(cuts, halo, off):
     parts = np.concatenate([layer.rows(*pair) for pair in itertools.pairwise(ends)])
     assert np.abs(parts - whole).max() <= off
     assert (whole[..., 3] > 0).mean() > 0.01
-    assert np.array_equal(whole, by_matplotlib(page, 297))
+    with agg.matplotlib_settings():
+        figure = agg.drawn(page, *agg.pixel_grid(page, 297))
+        figure.set_facecolor((1.0, 1.0, 1.0, 0.0))
+        canvas = FigureCanvasAgg(figure)
+        canvas.draw()
+    assert np.array_equal(whole, canvas.buffer_rgba())
 
 
 def test_a_stage_hands_rows_on_as_they_come():
@@ -165,7 +154,7 @@ def test_a_figure_is_written_in_rows_and_knows_its_hash(small_windows, monkeypat
     monkeypatch.setattr(pixel_rows, "AT_ONCE", 150 * 40)
     figure = Figure("globe", dict, lambda g: globe_page(), renderer=renderer)
     record = figure.save(tmp_path, size=150)
-    assert np.array_equal(decoded(tmp_path / "globe.png"), figure.pixels(size=150))
+    assert np.array_equal(iio.imread(tmp_path / "globe.png"), figure.pixels(size=150))
     assert record["pixel_hash"] == pixel_hash(figure.pixels(size=150, text=False))
     assert record["size"] == 150
 

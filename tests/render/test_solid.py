@@ -20,6 +20,7 @@ from stereodel.render.space.save_solid import CAMERA, glb_bytes
 from stereodel.render.space.surfaces import CURVE_ERROR
 from stereodel.sphere import SphereCircle, lonlat_to_xyz
 from tests.figures.scripts import FIGURES, FOLDER, script
+from tests.tiers import by_day
 from tools.gltf import issues
 
 VIEW = View(20, 30, 10)
@@ -57,9 +58,7 @@ def parts(data):
     return json.loads(data[20 : 20 + size]), data[28 + size :]
 
 
-@pytest.mark.parametrize(
-    "name", ["fig03_bubbles", *(pytest.param(n, marks=pytest.mark.thorough) for n in IN_SPACE if n[3:5] != "03")]
-)
+@pytest.mark.parametrize("name", by_day(IN_SPACE, "fig03_bubbles"))
 def test_figures_are_valid_and_small(name, tmp_path):
     file = script(name)["FIGURE"].solid().save(tmp_path / f"{name}.glb")
     assert file.stat().st_size < LARGEST
@@ -295,15 +294,11 @@ FLAT = Figure("small", lambda: {"style": "solid"}, lambda g: scene(**g).page(VIE
 SPATIAL = replace(FLAT, in_space=lambda g: scene(**g).solid(VIEW, width=100.0))
 
 
-def test_a_figure_in_space_writes_a_glb_and_a_flat_one_says_that_it_has_none(tmp_path, capsys):
+def test_a_figure_in_space_writes_a_glb_and_a_flat_one_says_that_it_has_none(tmp_path):
     SPATIAL.main(["--out", str(tmp_path), "--size", "50"])
     assert sorted(path.suffix for path in tmp_path.iterdir()) == [".glb", ".pdf", ".png", ".svg"]
     assert (tmp_path / "small.glb").read_bytes() == glb_bytes(scene().solid(VIEW, width=100.0))
-    SPATIAL.main(["--out", str(tmp_path), "--size", "50", "--solid", "--no-text"])
-    assert "small_solid.png" in capsys.readouterr().out
-    assert np.array_equal(iio.imread(tmp_path / "small_solid.png"), SPATIAL.solid().pixels(size=50, text=False))
-    with pytest.raises(SystemExit):
-        FLAT.main(["--out", str(tmp_path), "--solid"])
-    assert "--solid" in capsys.readouterr().err
+    picture = SPATIAL.solid().save(tmp_path / "small_solid.png", size=50, text=False)
+    assert np.array_equal(iio.imread(picture), SPATIAL.solid().pixels(size=50, text=False))
     with pytest.raises(ValueError, match="figure 'small' shows nothing in space; give it in_space="):
-        FLAT.save(tmp_path, size=50, solid=True)
+        FLAT.solid()

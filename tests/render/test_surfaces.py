@@ -84,14 +84,10 @@ def region(*corners, radius=2.0):
     return SphereRegion(tuple(sides), radius), xyz
 
 
-def cap(radius_deg, radius=0.5):
-    circle = CircleArc.circle(SphereCircle.around((30, 32), radius_deg)).scaled(radius, np.zeros(3))
-    return SphereRegion((circle,), radius)
-
-
 @pytest.mark.parametrize("angle", [0.5, 20, 90, 140, 179])
 def test_a_patch_of_a_circle_is_its_cap(angle):
-    made = patch(cap(angle), 4)
+    circle = CircleArc.circle(SphereCircle.around((30, 32), angle)).scaled(0.5, np.zeros(3))
+    made = patch(SphereRegion((circle,), 0.5), 4)
     around = 2 * np.pi * np.sin(np.radians(angle)) * CURVE_ERROR
     assert mesh(made).area == pytest.approx(2 * np.pi * (1 - np.cos(np.radians(angle))), rel=0.003, abs=around)
     middle = lonlat_to_xyz((30.0, 32.0))

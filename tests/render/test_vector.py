@@ -13,7 +13,6 @@ import pytest
 
 from stereodel.curves.view import View
 from stereodel.drawing.page import Dots, Fill, Label, Page, Polygons, Polylines, Stroke
-from stereodel.drawing.page.lengths import pixel_height
 from stereodel.drawing.page.style import BLACK
 from stereodel.drawing.scene.scene import Scene
 from stereodel.render.pixel_rows import LabelLayer, agg_rows
@@ -133,7 +132,7 @@ def square(low, high):
 @pytest.mark.parametrize("size", [1, 7, 199, 2008])
 def test_pixel_sizes_are_whole_and_agree(size):
     page = Page((0, 3, 0, 2), (Label("x", (1, 1)),), width=481.89)
-    height = pixel_height(page, size)
+    height = page.pixels_up(size)
     assert rasterize(page, size=size).shape == (height, size, 3)
     assert LabelLayer(page, size).rows().shape == (height, size, 4)
 

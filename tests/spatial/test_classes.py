@@ -1,8 +1,6 @@
 """What the three classes of `stereodel.spatial` share with SciPy's: names, types, copies, errors."""
 
-import copy
 import inspect
-import pickle
 
 import numpy as np
 import pytest
@@ -68,63 +66,12 @@ def test_same_signatures(pair):
         assert parameters(getattr(ours, name)) == parameters(getattr(theirs, name)), name
 
 
-@pytest.mark.parametrize("again", [copy.copy, copy.deepcopy, lambda one: pickle.loads(pickle.dumps(one))])
-@pytest.mark.parametrize("name", POINTS)
-def test_copies(name, again):
-    one = getattr(stereodel.spatial, name)(POINTS[name])
-    other = again(one)
-    for attribute in ("points", "simplices", "neighbors", "vertices"):
-        if hasattr(one, attribute):
-            np.testing.assert_array_equal(getattr(other, attribute), getattr(one, attribute))
-    if name == "Delaunay":
-        np.testing.assert_array_equal(other.find_simplex(FLAT), one.find_simplex(FLAT))
-    else:
-        assert other.regions == one.regions
-
-
 @pytest.mark.parametrize("name", POINTS)
 def test_input_is_copied(name):
     points = POINTS[name].copy()
     one = getattr(stereodel.spatial, name)(points)
     points[:] = 0
     np.testing.assert_array_equal(one.points, POINTS[name])
-
-
-@pytest.mark.parametrize(
-    ("name", "arguments", "message"),
-    [
-        ("Delaunay", (np.zeros((4, 3)),), "for other dimensions: from scipy.spatial import "),
-        ("Voronoi", (np.zeros((4, 3)),), "for other dimensions: from scipy.spatial import "),
-        ("SphericalVoronoi", (FLAT,), "for other dimensions: from scipy.spatial import "),
-        ("Delaunay", (FLAT, True), "furthest_site=True"),
-        ("Voronoi", (FLAT, True), "furthest_site=True"),
-        ("Delaunay", (FLAT, False, True, "Qbb Qz Qc"), "'Qbb', 'Qz' cannot be used with incremental=True"),
-        ("Delaunay", (FLAT, False, False, "Qc QG0"), "'QG0'; known here are"),
-        ("Voronoi", (FLAT, False, False, "Qu"), "'Qu'; known here are"),
-        ("Delaunay", ([[0, np.nan]],), r"points\[0, 1\] is nan"),
-        ("Voronoi", ([[0, np.inf]],), r"points\[0, 1\] is inf"),
-        ("SphericalVoronoi", ([[0, 0, np.nan]],), r"points\[0, 2\] is nan"),
-        ("Delaunay", (np.ma.masked_all((3, 2)),), "masked"),
-        ("SphericalVoronoi", (ROUND, None), "`radius` is `None`"),
-        (
-            "SphericalVoronoi",
-            (ROUND, 0.98),
-            r"Radius inconsistent .*: points\[\d+\] is 1.* but radius is 0.98; scale",
-        ),
-        ("SphericalVoronoi", (ROUND, 1, [0.1, 0, 0]), "Radius inconsistent"),
-        ("SphericalVoronoi", (ROUND, -1), "radius is -1"),
-        ("SphericalVoronoi", (ROUND, 1, [0, 0]), r"center must have shape \(3,\)"),
-        ("SphericalVoronoi", (ROUND, 1, None, -1e-6), "threshold is -1e-06"),
-    ],
-)
-def test_what_is_not_supported_is_a_clear_error(name, arguments, message):
-    with pytest.raises(ValueError, match=message):
-        getattr(stereodel.spatial, name)(*arguments)
-
-
-def test_options_are_a_string():
-    with pytest.raises(TypeError, match="qhull_options must be a string or None"):
-        stereodel.spatial.Delaunay(FLAT, qhull_options=b"Qc")
 
 
 def test_every_other_name_of_scipy_spatial():

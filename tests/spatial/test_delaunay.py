@@ -179,14 +179,8 @@ def test_where_scipy_refuses_there_are_no_triangles(one):
         scipy.spatial.Delaunay(points)
     tri = Delaunay(points)
     assert tri.nsimplex == 0
-    for name, shape in {
-        "simplices": (0, 3),
-        "neighbors": (0, 3),
-        "convex_hull": (0, 2),
-        "equations": (0, 4),
-        "transform": (0, 3, 2),
-        "good": (0,),
-    }.items():
+    shapes = {"simplices": (0, 3), "neighbors": (0, 3), "convex_hull": (0, 2), "equations": (0, 4)}
+    for name, shape in (shapes | {"transform": (0, 3, 2), "good": (0,)}).items():
         assert getattr(tri, name).shape == shape
     assert (tri.vertex_to_simplex == -1).all()
     assert tri.vertex_neighbor_vertices[0].tolist() == [0] * (tri.npoints + 1)

@@ -128,18 +128,6 @@ def test_what_is_not_finite_is_outside():
     assert (tri.find_simplex(queries) >= 0).tolist() == expected.tolist() == [True, False, False, False]
 
 
-def test_errors():
-    tri = Delaunay(random_points())
-    with pytest.raises(ValueError, match=r"xi must have shape \(\.\.\., 2\), got \(3,\)"):
-        tri.find_simplex([1, 2, 3])
-    with pytest.raises(TypeError, match="xi must hold real numbers"):
-        tri.find_simplex([["a", "b"]])
-    with pytest.raises(ValueError, match="tol is -1"):
-        tri.find_simplex([0, 0], tol=-1)
-    with pytest.raises(ValueError, match=r"xi\[0, 0\] is masked"):
-        tri.find_simplex(np.ma.masked_all((1, 2)))
-
-
 def test_adding_points_forgets_what_was_known_of_the_hull():
     tri = Delaunay([[0, 0], [1, 0], [0, 1]], incremental=True)
     outside = [[1 + 1e-15, 0]]

@@ -6,20 +6,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from stereodel.sphere import (
-    SphereArc,
-    SphereCircle,
-    angular_distance,
-    graticule,
-    graticule_patch,
-    great_circle_points,
-    lonlat_to_xyz,
-    meridian,
-    parallel,
-    solid_angle,
-    xyz_to_lonlat,
-)
-from tests.exact import cross, distance, dot, mp, normalized
+from stereodel import SphereArc, SphereCircle, angular_distance, great_circle_points, lonlat_to_xyz, xyz_to_lonlat
+from stereodel.sphere import graticule, graticule_patch, meridian, parallel, solid_angle
+from tests.exact import distance, dot, normal_of, unit
 from tests.strategies import BETWEEN_POLES, LONLAT, decades
 
 RADII = st.one_of(st.floats(0.01, 179.99), decades(-13, -2))
@@ -51,9 +40,8 @@ def test_through_three_points(center, radius, turns):
     size = np.radians(radius)
     points = [np.cos(size) * normal + np.sin(size) * (np.cos(t) * across[0] + np.sin(t) * across[1]) for t in turns]
     circle = SphereCircle.through(*points)
-    a, b, c = (normalized(mp(p)) for p in points)
-    truth = normalized(cross(*([x - y for x, y in zip(p, a, strict=True)] for p in (b, c))))
-    cosine = dot(truth, a)
+    truth = normal_of(*points)
+    cosine = dot(truth, unit(points[0]))
     assert max(abs(mpmath.mpf(float(g)) - v) for g, v in zip(circle.normal, truth, strict=True)) < 2.0**-52
     assert abs(circle.radius / mpmath.sqrt(1 - cosine**2) - 1) < 2.0**-51
     assert abs(circle.offset - cosine) < 2.0**-52
@@ -180,7 +168,7 @@ def test_great_circle_points_of_many_pairs():
 
 def l_huilier(a, b, c):
     """Unsigned area of a triangle, sides from chords."""
-    corners = [normalized(mp(v)) for v in (a, b, c)]
+    corners = [unit(v) for v in (a, b, c)]
     x, y, z = (2 * mpmath.asin(distance(corners[k - 2], corners[k - 1]) / 2) for k in range(3))
     s = (x + y + z) / 2
     product = mpmath.tan(s / 2) * mpmath.tan((s - x) / 2) * mpmath.tan((s - y) / 2) * mpmath.tan((s - z) / 2)

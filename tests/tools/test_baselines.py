@@ -43,14 +43,14 @@ def test_what_is_lost_in_the_shares_is_seen_in_a_tile(top, left):
     """Whatever it lies on: seams of tiles are the middles of others."""
     large = np.full((1000, 1000, 3), 255, dtype=np.uint8)
     dot = blot(large, top, left, (2, 3), 100)
-    assert (dot.visible, dot.worst.visible, dot.worst.any) == (6e-6, 6, 6)
+    assert (dot.visible, dot.tile_visible, dot.tile_any) == (6e-6, 6, 6)
     assert not dot.passes
-    assert dot.worst.row <= top < dot.worst.row + 32
-    assert dot.worst.column <= left < dot.worst.column + 32
+    assert dot.row <= top < dot.row + 32
+    assert dot.column <= left < dot.column + 32
     assert blot(large, top, left, (2, 2), 100).passes
     assert not blot(large, top, left, (3, 3), 1).passes
     assert blot(large, top, left, (2, 4), 1).passes
-    assert f"rows {dot.worst.row} to {dot.worst.row + 31}: 6 and 6" in str(dot)
+    assert f"rows {dot.row} to {dot.row + 31}: 6 and 6" in str(dot)
 
 
 def test_levels_do_not_wrap_around():

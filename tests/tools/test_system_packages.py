@@ -80,14 +80,8 @@ def test_packages_are_installed_one_by_one(system):
 
 def test_figures_ask_for_nothing_of_the_page():
     """`make figures` gets no browser, and no library of the page."""
-    ran = subprocess.run(
-        ["make", "--dry-run", "--always-make", "figures"],
-        cwd=SCRIPT.parents[1],
-        env={**os.environ, "MAKEFLAGS": ""},
-        capture_output=True,
-        text=True,
-        check=True,
-    )
-    assert "tools/system_packages.sh opengl" in ran.stdout
-    assert "browser" not in ran.stdout
-    assert "installed-test" not in ran.stdout
+    line = ["make", "--dry-run", "--always-make", "figures"]
+    said = subprocess.check_output(line, cwd=SCRIPT.parents[1], env={**os.environ, "MAKEFLAGS": ""}, text=True)
+    assert "tools/system_packages.sh opengl" in said
+    assert "browser" not in said
+    assert "installed-test" not in said

@@ -11,7 +11,7 @@ from mpmath import mp, mpf, workdps
 
 from stereodel import PlanarVoronoi, SphericalVoronoi, _kernel
 from tests import sets
-from tests.exact import cross, dot, minus, norm, times, unit
+from tests.exact import cross, dot, minus, norm, times, turn, unit
 from tests.examples import examples
 from tests.kernel.stages import third_by_day
 from tests.spaces import SPHERE
@@ -25,12 +25,6 @@ RIGHT_ANGLE = np.array(
 # The sphere ----------------------------------------------------------------------------------------------------------
 
 
-def angle_between(a, b, about):
-    """From a to b, counterclockwise, in [0, 2π)."""
-    angle = mp.atan2(dot(about, cross(a, b)), dot(a, b))
-    return angle if angle >= 0 else angle + 2 * mp.pi
-
-
 def cell_in_many_digits(points, diagram, site):
     """Area by the turns of the boundary, the integral of x by its sides, both of the exact ridges; and the size."""
     start, end = diagram.region_offsets[site : site + 2]
@@ -42,7 +36,7 @@ def cell_in_many_digits(points, diagram, site):
     for k in range(len(edges)):
         m, n = inside[k - 1], inside[k]
         turned += mp.atan2(norm(cross(m, n)), dot(m, n))
-        side = angle_between(corners[k], corners[(k + 1) % len(edges)], n)
+        side = turn(corners[k], corners[(k + 1) % len(edges)], n)
         total = [x + side * y / 2 for x, y in zip(total, n, strict=True)]
     return 2 * mp.pi - turned, total, max(norm(minus(corner, p)) for corner in corners)
 
@@ -52,10 +46,10 @@ def lune(points, diagram, site):
     north, p = unit(diagram.vertices[0]), unit(points[site])
     start = diagram.region_offsets[site]
     before, after = (unit(points[j]) for j in diagram.region_neighbors[start : start + 2])
-    west, east = angle_between(before, p, north), angle_between(p, after, north)
-    turn = (east - west) / 4
-    along = times(mp.sin(turn), cross(north, p))
-    return west + east, [x + y for x, y in zip(times(mp.cos(turn), p), along, strict=True)], mpf(2)
+    west, east = turn(before, p, north), turn(p, after, north)
+    quarter = (east - west) / 4
+    along = times(mp.sin(quarter), cross(north, p))
+    return west + east, [x + y for x, y in zip(times(mp.cos(quarter), p), along, strict=True)], mpf(2)
 
 
 def assert_cells_of_the_sphere(points, digits):

@@ -9,10 +9,9 @@ from scipy.spatial import ConvexHull
 from stereodel import RectangleLift
 from stereodel.predicates import in_bubble
 from stereodel.triangulation import HullInsertion, SphericalDelaunay, check_delaunay
-from stereodel.triangulation.hull_insertion import insertion_order, spanning_points
-from stereodel.triangulation.sites import GHOST, PlaneSites, RaySites
+from stereodel.triangulation.sites import GHOST
 from tests import sets
-from tests.spaces import canonical, space_of
+from tests.spaces import asked, canonical, space_of
 
 SOME = [
     *sets.named("sphere", "unit", "cap", "octahedron", "cube", "rim and pole", "rim and poles", "closed hemisphere"),
@@ -24,12 +23,6 @@ FEW = sets.named("sphere", "octahedron", "cube", "rim and pole", "rim and poles"
 def distinct(one):
     points = one.drawn(60)
     return points[np.unique(space_of(points).names(points), return_index=True)[1]]
-
-
-def asked(points):
-    sites = PlaneSites() if points.shape[1] == 2 else RaySites()
-    sites.extend(points)
-    return sites
 
 
 def rows(facets):
@@ -129,32 +122,3 @@ def test_extending_until_three_points_span():
     engine.extend([[0.0, 1.0]])
     engine.run()
     assert engine.simplices.tolist() == [[0, 1, 4], [1, 2, 4]]
-
-
-# What comes before the first facet -----------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize(
-    ("points", "expected"),
-    [
-        (np.zeros((0, 2)), []),
-        ([[1, 1]], [0]),
-        ([[1, 1], [2, 2], [3, 3]], [0, 1]),
-        ([[1, 1], [2, 2], [3, 3], [1e-300, 0]], [0, 1, 3]),
-        ([[0.1, 0.1], [0.2, 0.2], [0.3, 0.3]], [0, 1]),
-        ([[0, 0], [0.1, 0.3], [0.2, 0.6], [0.3, 0.9]], [0, 1, 3]),  # 0.9 is not three times the double 0.3
-        ([[1, 0, 0], [-1, 0, 0]], [0, 1]),
-        ([[1, 0, 0], [-2, 0, 0], [0, 1, 0], [0, -1, 0]], [0, 2]),
-        ([[1, 0, 0], [-2, 0, 0], [0, 1, 0], [0, -1, 1e-300]], [0, 2, 3]),
-        ([[1, 2, 3], [2, 4, 7], [3, 6, 1], [0, 0, 1]], [0, 1]),
-    ],
-)
-def test_the_first_points_that_span(points, expected):
-    points = np.array(points, dtype=float)
-    assert spanning_points(asked(points), range(len(points))) == expected
-
-
-def test_the_order_of_insertion_goes_short_ways():
-    points = np.random.default_rng(0).random((4096, 2))
-    steps = np.linalg.norm(np.diff(points[insertion_order(points)], axis=0), axis=1)
-    assert np.median(steps) < 0.05 < np.median(np.linalg.norm(np.diff(points, axis=0), axis=1))

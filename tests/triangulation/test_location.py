@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial import cKDTree
 
-from stereodel import PlanarDelaunay, SphericalDelaunay, _kernel
+from stereodel import PlanarDelaunay, SphericalDelaunay
 from stereodel import _kernel_probe as probe
 from stereodel.triangulation.topology import neighbors_of
 from tests import sets
@@ -303,53 +303,15 @@ def test_after_changes():
 
 
 @BOTH
-def test_shapes(space):
+def test_numbers_of_one_query_are_integers_of_python(space):
     triangulation = space.delaunay(space.random(np.random.default_rng(0), 9))
     for method in (triangulation.find_simplex, triangulation.nearest):
-        assert method(np.ones((4, 5, space.width))).shape == (4, 5)
         assert method(np.ones((4, space.width))).dtype == np.int32
         assert type(method(np.ones(space.width))) is int
-        assert method(np.ones((0, space.width))).shape == (0,)
-    for shape in ((), (0,), (4, 5)):
-        assert triangulation.nearest(np.ones((*shape, space.width)), k=np.int64(2)).shape == (*shape, 2)
-
-
-@pytest.mark.parametrize(
-    ("k", "error", "message"),
-    [
-        (0, ValueError, "k is 0, but must be at least 1"),
-        (4, ValueError, "k is 4, but must be at most 3"),
-        (1.5, TypeError, "k must be one integer"),
-        (True, TypeError, "k must be one integer"),
-    ],
-)
-def test_wrong_k(k, error, message):
-    with pytest.raises(error, match=message):
-        PlanarDelaunay([[0, 0], [1, 0], [0, 1]]).nearest([0, 0], k=k)
+    assert triangulation.nearest(np.ones(space.width), k=np.int64(2)).shape == (2,)
 
 
 @BOTH
 def test_without_points(space):
     none, query = space.delaunay([]), np.ones((1, space.width))
     assert none.find_simplex(query).tolist() == [-1]
-    with pytest.raises(ValueError, match="at least one point"):
-        none.nearest(query)
-
-
-def test_the_kernel_wants_triangles_or_an_order():
-    (points, simplices, neighbors), _ = kernel_arrays(np.random.default_rng(11).random((9, 2)))
-    with pytest.raises(ValueError, match="same length"):
-        _kernel.plane.find_simplex(points, simplices, neighbors[1:], points)
-    with pytest.raises(ValueError, match="no triangles"):
-        _kernel.plane.nearest(points, simplices[:0], neighbors[:0], points)
-    points, none = np.array([[0.0, 0.0], [1.0, 0.0]]), np.zeros((0, 2), dtype=np.int32)
-    for order, k, message in (
-        ([], 1, "must hold a point"),
-        ([0, 2], 1, "out of range"),
-        ([-1, 1], 1, "out of range"),
-        ([1], 2, "every point"),
-        ([0, 1], 0, "k must be"),
-        ([0, 1], 3, "k must be"),
-    ):
-        with pytest.raises(ValueError, match=message):
-            _kernel.plane.nearest_flat(points, np.array(order, dtype=np.int32), none, points, k)

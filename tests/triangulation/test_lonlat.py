@@ -5,39 +5,15 @@ import pickle
 import numpy as np
 import pytest
 
-from stereodel import (
-    Gnomonic,
-    HullInsertion,
-    PlanarDelaunay,
-    PlanarVoronoi,
-    SphericalDelaunay,
-    SphericalVoronoi,
-    angular_distance,
-    fisheye,
-    great_circle_points,
-    lonlat_to_xyz,
-    solid_angle,
-    xyz_to_lonlat,
-)
-from stereodel.graphs import (
-    gabriel_graph,
-    hull,
-    minimum_spanning_tree,
-    relative_neighborhood_graph,
-    urquhart_graph,
-)
-from stereodel.interpolation import (
-    LinearInterpolator,
-    NaturalNeighborInterpolator,
-    NearestInterpolator,
-    SmoothInterpolator,
-    contours,
-)
+from stereodel import SphericalDelaunay, SphericalVoronoi, angular_distance, graphs, lonlat_to_xyz
+from stereodel.interpolation import contours
 from stereodel.relaxation import lloyd
 from stereodel.sphere.latitudes import KINDS
+from stereodel.triangulation import HullInsertion, PlanarDelaunay, PlanarVoronoi
+from tests import sets
+from tests.graphs.test_proximity import FROM_THE_INSIDE
+from tests.interpolation.known import KINDS as INTERPOLATORS
 
-INTERPOLATORS = [LinearInterpolator, NaturalNeighborInterpolator, NearestInterpolator, SmoothInterpolator]
-GRAPHS = [gabriel_graph, hull, minimum_spanning_tree, relative_neighborhood_graph, urquhart_graph]
 MADE = [SphericalDelaunay.from_lonlat, SphericalVoronoi.from_lonlat, HullInsertion.from_lonlat]
 
 
@@ -90,7 +66,7 @@ def test_changes_speak_it_too():
 
 def test_hull_insertion_goes_on_with_it():
     lonlat = places(40)
-    begun = HullInsertion.from_lonlat(lonlat[:10], latitude="authalic", spatial=True)
+    begun = HullInsertion.from_lonlat(lonlat[:10], latitude="authalic")
     begun.extend(lonlat=lonlat[10:])
     begun.run()
     assert same(begun.lonlat, lonlat)
@@ -111,7 +87,7 @@ def test_results_are_told():
     assert same(SphericalVoronoi.from_lonlat(lonlat[:2]).delaunay().lonlat, lonlat[:2])
 
 
-@pytest.mark.parametrize("kind", INTERPOLATORS)
+@pytest.mark.parametrize("kind", INTERPOLATORS.values())
 @pytest.mark.parametrize("latitude", KINDS)
 def test_interpolators(kind, latitude):
     lonlat, queries = places(200), places(60, seed=3).reshape(3, 20, 2)
@@ -128,7 +104,7 @@ def test_interpolators(kind, latitude):
 
 
 @pytest.mark.parametrize("latitude", KINDS)
-@pytest.mark.parametrize("graph", GRAPHS)
+@pytest.mark.parametrize("graph", [graphs.hull, *FROM_THE_INSIDE])
 def test_graphs(graph, latitude):
     lonlat = places(80) / [9, 3]  # in a hemisphere, so that there is a hull
     expected = graph(lonlat_to_xyz(lonlat, latitude=latitude))
@@ -161,98 +137,16 @@ def test_contours():
     assert [piece.points.tolist() for piece in plain] == [piece.points.tolist() for piece in pieces]
 
 
-PLANE = np.array([[0.0, 0], [4, 0], [0, 4], [4, 5]])
-ROUND = np.vstack([np.eye(3), -np.eye(3)])
-NAMED = SphericalDelaunay.from_lonlat([(0, 0), (90, 0), (0, 90)])
-FUNCTION = LinearInterpolator(NAMED, [0, 1, 2])
+FLAT, ROUND = sets.grid(3, 3), sets.AXES
+WITHOUT = [cls(FLAT) for cls in (PlanarDelaunay, PlanarVoronoi)]
+WITHOUT += [cls(ROUND) for cls in (SphericalDelaunay, SphericalVoronoi, HullInsertion)]
+WITHOUT += [lloyd(ROUND, steps=1), contours(ROUND, ROUND[:, 2], 0.5)[0]]
 
 
-LON, LAT = np.array([0.0, 90.0, 40.0, -50.0]), np.array([0.0, 10.0, 60.0, 20.0])
-ROWS = r"give rows \(longitude, latitude\), as np\.column_stack\(\[lon, lat\]\) makes them"
-BY_NAME = r"give longitude and latitude by name, lonlat=np\.column_stack\(\[lon, lat\]\)"
-XYZ = r"shape \(\.\.\., 3\), got \(2,\), which means the plane; make directions of longitude .* by lonlat_to_xyz"
-FIRST_CALLS = [  # that a newcomer writes
-    (lambda: NAMED.nearest(10, 50), rf"nearest\(\) takes 1 argument by position, got 2; {BY_NAME}"),
-    (lambda: NAMED.find_simplex(10, 50), BY_NAME),
-    (lambda: FUNCTION(LON, LAT), BY_NAME),
-    (lambda: lonlat_to_xyz(10, 50), r"give longitude and latitude as one pair \(lon, lat\), or rows"),
-    (lambda: fisheye((10, 50), 4), r"fisheye\(\) takes 1 argument by position, got 2; magnification= is a keyword"),
-    (lambda: SphericalDelaunay.from_lonlat(LON, LAT), ROWS),
-    (lambda: SphericalVoronoi.from_lonlat(LON, LAT), ROWS),
-    (lambda: LinearInterpolator.from_lonlat(LON, LAT, LAT), rf"takes 2 arguments by position, got 3; {ROWS}"),
-    (lambda: SphericalDelaunay.from_lonlat(LON), ROWS),
-    (lambda: SphericalDelaunay.from_lonlat(np.stack([LON, LAT])), ROWS),
-    (lambda: angular_distance((10, 50), (20, 60)), f"a must have {XYZ}"),
-    (lambda: great_circle_points((10, 50), (20, 60), 3), f"a must have {XYZ}"),
-    (lambda: solid_angle((0, 0), (90, 0), (0, 90)), f"a must have {XYZ}"),
-    (lambda: xyz_to_lonlat((10, 50)), f"xyz must have {XYZ}"),
-    (lambda: Gnomonic((0, 0)).forward((10, 50)), f"xyz must have {XYZ}"),
-    (lambda: fisheye((10, 50), magnification=4)((10, 50)), "for longitude and latitude call its method lonlat"),
-]
-
-
-@pytest.mark.parametrize(
-    ("call", "message"),
-    [
-        *FIRST_CALLS,
-        (lambda: SphericalDelaunay(PLANE), r"\(4, 2\), which means the plane; .* use SphericalDelaunay\.from_lonlat"),
-        (lambda: PlanarDelaunay(ROUND), r"\(6, 3\), which means directions; .* SphericalDelaunay"),
-        (lambda: NAMED.insert(PLANE), r"means the plane; .* use insert\(lonlat=…\)"),
-        (lambda: HullInsertion(ROUND).extend(PLANE), r"means the plane; .* use extend\(lonlat=…\)"),
-        (lambda: HullInsertion(PLANE).extend(ROUND), "means directions; triangulate directions by SphericalDelaunay"),
-        (lambda: NAMED.nearest((9.0, 48.0)), "means the plane; for longitude and latitude write lonlat="),
-        (lambda: NAMED.find_simplex(PLANE), "means the plane; for longitude and latitude write lonlat="),
-        (lambda: PlanarDelaunay(PLANE).nearest(ROUND), "means directions; .* are of the plane"),
-        (lambda: FUNCTION(PLANE), "means the plane; for longitude and latitude write lonlat="),
-        (lambda: LinearInterpolator(PLANE, [0, 1, 2, 3])(ROUND), "means directions; .* are of the plane"),
-        (lambda: SphericalDelaunay(ROUND).nearest(lonlat=(0, 0)), "make the object by from_lonlat"),
-        (lambda: PlanarDelaunay(PLANE).find_simplex(lonlat=(0, 0)), "make the object by from_lonlat"),
-        (lambda: PlanarDelaunay(PLANE).insert(lonlat=[(0, 0)]), "make the object by from_lonlat"),
-        (lambda: HullInsertion(PLANE).extend(lonlat=[(0, 0)]), "make the object by from_lonlat"),
-        (lambda: LinearInterpolator(PLANE, [0, 1, 2, 3])(lonlat=(0, 0)), "make the object by from_lonlat"),
-        (lambda: NAMED.nearest(lonlat=(0, 95)), "latitude 95"),
-        (lambda: NAMED.insert(lonlat=[0, 0, 0]), r"lonlat must have shape \(n, 2\)"),
-        (lambda: gabriel_graph(lonlat=ROUND), r"lonlat must have shape \(n, 2\)"),
-        (lambda: SphericalDelaunay.from_lonlat(PLANE, latitude="geocentric"), "latitude is 'geocentric'"),
-        (lambda: NAMED.nearest(), "queries are missing; give queries, or longitude and latitude by lonlat="),
-        (lambda: NAMED.nearest([1, 0, 0], lonlat=(0, 0)), "queries and lonlat= were both given"),
-        (lambda: NAMED.insert(), "points are missing"),
-        (lambda: gabriel_graph(), "points are missing; give points, or longitude and latitude by lonlat="),
-        (lambda: gabriel_graph(NAMED, lonlat=PLANE), "points and lonlat= were both given"),
-        (lambda: gabriel_graph(PLANE, latitude="geodetic"), "write lonlat=…, latitude='geodetic'"),
-        (lambda: hull(NAMED, latitude="geodetic"), "write lonlat=…, latitude='geodetic'"),
-        (lambda: lloyd(PLANE, latitude="geodetic", bounds=(0, 0, 9, 9)), "write lonlat=…, latitude='geodetic'"),
-        (lambda: lloyd(NAMED, latitude="geodetic"), "write lonlat=…, latitude='geodetic'"),
-    ],
-)
-def test_the_message_names_the_right_call(call, message):
-    with pytest.raises((TypeError, ValueError), match=message):
-        call()
-
-
-@pytest.mark.parametrize(
-    "made",
-    [
-        PlanarDelaunay(PLANE),
-        PlanarVoronoi(PLANE),
-        SphericalDelaunay(ROUND),
-        SphericalVoronoi(ROUND),
-        HullInsertion(ROUND),
-        lloyd(ROUND, steps=1),
-        contours(ROUND, ROUND[:, 2], 0.5)[0],
-    ],
-    ids=lambda made: type(made).__name__,
-)
+@pytest.mark.parametrize("made", WITHOUT, ids=lambda made: type(made).__name__)
 def test_directions_have_no_latitude(made):
     assert made.latitude is None
     assert not hasattr(made, "lonlat")
     if not type(made).__name__.startswith("Planar"):
         with pytest.raises(AttributeError, match="from_lonlat"):
             _ = made.lonlat
-
-
-@pytest.mark.parametrize("radius", [0, -1, np.inf])
-def test_areas_need_a_radius(radius):
-    for diagram in (PlanarVoronoi(PLANE), SphericalVoronoi(ROUND)):
-        with pytest.raises(ValueError, match="radius"):
-            diagram.areas(radius=radius)

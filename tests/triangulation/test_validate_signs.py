@@ -10,7 +10,7 @@ from mpmath import mpf, workdps
 
 from stereodel.triangulation.validate_signs import PlaneSigns, SphereSigns, _nearly_unit, ray_integers
 from tests import sets
-from tests.exact import cross, dot, fractions, minus, unit
+from tests.exact import fractions, unit, volume
 from tests.reference import incircle_integer, orient2d_integer, sign
 from tests.spaces import SPHERE
 
@@ -20,9 +20,7 @@ ULP = 2.0**-52
 def bubble_oracle(quadruple):
     """Four roots of integers of 2000 bits that differ at all differ within 800 digits."""
     with workdps(800):
-        a, *others = (unit(p) for p in np.asarray(quadruple, dtype=float).tolist())
-        b, c, d = (minus(p, a) for p in others)
-        value = dot(b, cross(c, d))
+        value = volume(*map(unit, np.asarray(quadruple, dtype=float).tolist()))
         return 0 if abs(value) < mpf(10) ** -600 else sign(value)
 
 

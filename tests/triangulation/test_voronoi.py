@@ -225,12 +225,6 @@ def test_every_visible_ridge_is_there():
     assert len(segments) >= len(changes)
 
 
-@pytest.mark.parametrize("bounds", [(0, 1, 2), (1, 0, 0, 1), (0, 1, 1, 1)])
-def test_segments_refuse_an_empty_rectangle(bounds):
-    with pytest.raises(ValueError, match=r"bounds .*\(xmin, ymin, xmax, ymax\)"):
-        PlanarVoronoi(GRID).segments(bounds)
-
-
 def test_a_very_far_vertex_does_not_disturb_the_picture():
     diagram = PlanarVoronoi(np.array([[0, 0], [1, 2.0**-50], [2, 0], [1, 3]]))
     segments, ridge = diagram.segments((-1, -1, 3, 2))

@@ -113,6 +113,11 @@ def answering(folder):
         process.stdin.close()
 
 
+def asking(preface):
+    """A function that asks a Node for an expression, after the lines of a preface: `ask(node, expression, given)`."""
+    return lambda node, expression, given=None: node(f"{preface}export default await {expression};", given)
+
+
 @pytest.fixture(scope="session")
 def node(tmp_path_factory):
     """One Node for all tests of a process."""

@@ -1,9 +1,8 @@
 /** Measurements of the drawing core in Node: what is laid into paths against what the kernel says of the same points. */
 
 import { Contents, type Rings } from "../../stereodel/web/script/contents.ts";
-import { arcThrough, traceArc } from "../../stereodel/web/script/drawing/arcs.ts";
+import { arcThrough, traceArc, traceCap } from "../../stereodel/web/script/drawing/arcs.ts";
 import { circlePoints, perpendicular, regionLayer } from "../../stereodel/web/script/drawing/ball.ts";
-import { traceCap } from "../../stereodel/web/script/drawing/fill.ts";
 import type { Disc, Path, Pen } from "../../stereodel/web/script/drawing/pen.ts";
 import { SvgPen } from "../../stereodel/web/script/drawing/svg_pen.ts";
 import { lonlatToXyz, MoebiusMap, Rotation } from "../../stereodel/web/script/kernel/api.ts";
@@ -209,7 +208,7 @@ async function land(block: string): Promise<Rings> {
 function share(layer: ReturnType<typeof regionLayer>, map: MoebiusMap): number {
   const path = new Recorder();
   const pen = { draw: (_: string, trace: (path: Path) => void) => trace(path) } as unknown as Pen;
-  layer.draw(pen, DISC, map.apply(layer.directions), map, "front");
+  layer.draw(pen, DISC, map.apply(layer.directions), map);
   return path.area() / (Math.PI * DISC.r ** 2);
 }
 

@@ -13,9 +13,8 @@ CANNOT_BE_READ = "This link cannot be read, so here is the room as it begins."
 
 def said(page, room, name):
     """Text of an output of a room."""
-    return (
-        page.page.locator(f"#room-{room} [data-out={name}]").inner_text().replace("\u2009", "").replace("\u2002", " ")
-    )
+    text = page.page.locator(f"#room-{room} [data-out={name}]").inner_text()
+    return text.replace("\u2009", "").replace("\u2002", " ")
 
 
 def link(page):

@@ -104,20 +104,9 @@ def test_the_same_page_every_time(built):
     assert assemble.html("110m") == assemble.html("110m")
     given = contents.Given(np.array([(1.0, 2.0)]), "one")
     blocks = set(re.findall('id="block-([^"]+)"', assemble.html("50m", given)))
-    land = {"land-110m", "land-50m"}
-    sets = {
-        "airports",
-        "cities",
-        "stars",
-        "everywhere",
-        "gap",
-        "hemisphere",
-        "sheet",
-        "given",
-        "given-name",
-        "latitude",
-    }
-    assert blocks == land | sets | {"kernel", "exchange", "lift"}
+    sets = {"airports", "cities", "stars", *contents.scattered()}
+    own = {"given", "given-name", "latitude"}
+    assert blocks == {"land-110m", "land-50m", "kernel", "exchange", "lift"} | sets | own
     assert "land-50m" not in assemble.html("110m")
     of_the_widget = assemble.module("110m")
     assert of_the_widget.endswith("export default {};")

@@ -10,20 +10,17 @@ from pathlib import Path
 
 import pytest
 
-from tools.browser import serving
-
 
 def test_there_is_no_network_and_complaints_are_kept(visit, tmp_path):
     (tmp_path / "away.html").write_text("<!doctype html><title>Away</title><script>console.warn('careful')</script>")
-    with serving(tmp_path) as address:
-        page = visit(f"{address}/away.html", complaints=["careful"])
-        said = page.page.evaluate("fetch('http://stereodel.invalid/').then(() => 'there', () => 'nowhere')")
-        assert said == "nowhere"
-        assert page.requests.pop() == "http://stereodel.invalid/"
-        assert page.complaints.pop().startswith("error: Failed to load resource")
-        page.page.add_script_tag(content="nothing()")
-        assert [said.split()[-1] for said in page.complaints] == ["careful", "defined"]
-        page.complaints.pop()
+    page = visit(tmp_path / "away.html", complaints=["careful"], offline=False)
+    said = page.page.evaluate("fetch('http://stereodel.invalid/').then(() => 'there', () => 'nowhere')")
+    assert said == "nowhere"
+    assert page.requests.pop() == "http://stereodel.invalid/"
+    assert page.complaints.pop().startswith("error: Failed to load resource")
+    page.page.add_script_tag(content="nothing()")
+    assert [said.split()[-1] for said in page.complaints] == ["careful", "defined"]
+    page.complaints.pop()
 
 
 @pytest.mark.thorough

@@ -19,22 +19,18 @@ from stereodel.web.contents import (
     sites,
 )
 
-from .conftest import SCRIPT
+from .conftest import SCRIPT, asking
 
-READ = f"""
+read = asking(f"""
 import {{ Contents }} from "{SCRIPT}/contents.ts";
 const blocks = given;
 const contents = new Contents((name) => blocks[name] ?? null);
 const rings = (found) => found && {{ lonlat: [...found.lonlat], offsets: [...found.offsets] }};
-"""
-
-
-def read(node, blocks, expression):
-    return node(READ + f"export default await {expression};", blocks)
+""")
 
 
 def read_rings(node, text):
-    found = read(node, {"land-50m": text}, "rings(await contents.land('50m'))")
+    found = read(node, "rings(await contents.land('50m'))", {"land-50m": text})
     return np.reshape(found["lonlat"], (-1, 2)), found["offsets"]
 
 
@@ -49,17 +45,16 @@ def test_places_come_back_to_the_bit(node, rng):
 def test_doubles_come_back_to_the_bit(node, rng):
     degrees = np.concatenate([rng.uniform(-90, 90, size=(50, 2)), [[-0.0, 5e-324], [1 / 3, -90]]])
     blocks = {"given": packed_doubles(degrees), "given-name": packed(json.dumps('Orte, "neu" ∂').encode())}
-    found = read(
-        node, blocks, "contents.given().then(({ name, lonlat }) => [name, [...new Uint8Array(lonlat.buffer)]])"
-    )
+    expression = "contents.given().then(({ name, lonlat }) => [name, [...new Uint8Array(lonlat.buffer)]])"
+    found = read(node, expression, blocks)
     assert found[0] == 'Orte, "neu" ∂'
     assert bytes(found[1]) == degrees.astype("<f8").tobytes()
 
 
 def test_what_a_page_has_not(node):
     nothing = "Promise.all([contents.land('50m'), contents.set('stars').then((s) => s.length), contents.given()])"
-    assert read(node, {}, nothing) == [None, 0, None]
-    assert read(node, {}, "contents.kernel().catch((error) => error.message)") == "the page has no kernel"
+    assert read(node, nothing, {}) == [None, 0, None]
+    assert read(node, "contents.kernel().catch((error) => error.message)", {}) == "the page has no kernel"
 
 
 def area(rings):
@@ -95,7 +90,7 @@ def test_land_is_that_of_the_package_without_seams(node, resolution):
 @pytest.mark.parametrize("name", ["cities", "airports", "stars"])
 def test_the_sets_are_places_of_the_package(node, name):
     whole = getattr(data, name)().lonlat
-    found = np.reshape(read(node, {name: sites(name)}, f"contents.set('{name}').then((s) => [...s])"), (-1, 2))
+    found = np.reshape(read(node, f"contents.set('{name}').then((s) => [...s])", {name: sites(name)}), (-1, 2))
     assert 100 < len(found) < 300
     assert {tuple(place) for place in found.tolist()} <= {tuple(place) for place in whole.tolist()}
     assert len(np.unique(found, axis=0)) == len(found)
@@ -103,7 +98,7 @@ def test_the_sets_are_places_of_the_package(node, name):
 
 @pytest.mark.parametrize(("name", "places"), scattered().items())
 def test_the_sets_that_rooms_begin_with(node, name, places):
-    assert read(node, {name: sites(name)}, f"contents.set('{name}').then((s) => [...s])") == places.ravel().tolist()
+    assert read(node, f"contents.set('{name}').then((s) => [...s])", {name: sites(name)}) == places.ravel().tolist()
 
 
 def test_too_many_points():

@@ -6,6 +6,7 @@ Both are asked the same; orders that neither documents are taken out before they
 import numpy as np
 import pytest
 
+from tests.tiers import by_day
 from tests.web.conftest import LOADED, SCRIPT
 
 BOTH = f"""{LOADED}
@@ -67,11 +68,7 @@ SAME = {
     "no hull": ("[d3.geoVoronoi(given).hull()]", places(100, 1), list),
     "mesh": ("d3.geoVoronoi().mesh(given).coordinates", FIVE, unordered),
     "cell mesh": ("d3.geoVoronoi().cellMesh(given).coordinates", FIVE, unordered),
-    "lengths": (
-        f"{LINKS}.map((f) => f.properties.length)",
-        THREE,
-        lambda lengths: sorted(round(x, 12) for x in lengths),
-    ),
+    "lengths": (f"{LINKS}.map((f) => f.properties.length)", THREE, lambda found: sorted(round(x, 12) for x in found)),
     "corners": (f"{TRIANGLES}.map((f) => f.geometry.coordinates[0])", THREE, lambda rings: [*map(turned, rings)]),
     "centres": (f"{TRIANGLES}.map((f) => f.properties.circumcenter)", THREE, rounded),
     "accessors": ("d3.geoVoronoi().x((d) => +d.lon).y((d) => +d.lat)(given).points", OBJECTS, list),
@@ -116,7 +113,7 @@ def test_features_are_at_their_points(both):
     assert both("d3.geoVoronoi(given).points", [line, shapes[0], {"type": "Feature", "geometry": None}])[0] == [[1, 2]]
 
 
-@pytest.mark.parametrize("seed", [0, *(pytest.param(seed, marks=pytest.mark.thorough) for seed in (1, 2, 3))])
+@pytest.mark.parametrize("seed", by_day(range(4), 0))
 @pytest.mark.parametrize("count", [4, 5, 20, 300])
 def test_random_sites(both, count, seed):
     """Indices of everything, sets of everything, on sites that lie nowhere near a tie."""

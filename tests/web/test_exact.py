@@ -150,27 +150,21 @@ def test_every_array_of_every_set(web, which):
     assert wrong == []
 
 
+PREDICATES = {"orient2d": (orient2d, 2, 3), "incircle": (incircle, 2, 4), "orient3d": (orient3d, 3, 4)}
+PREDICATES |= {"in_bubble": (in_bubble, 3, 4), "turn": (_kernel.sphere.turn, 3, 3)}
+"""With the width and the number of the points that each is asked about."""
+
+
 def tied_rows():
     """Rows of four (three) points that lie exactly on a circle, a plane or a line, or a hair beside."""
     rng = np.random.default_rng(60_000)
-    widths_and_counts = {
-        "orient2d": (2, 3),
-        "incircle": (2, 4),
-        "orient3d": (3, 4),
-        "in_bubble": (3, 4),
-        "turn": (3, 3),
-    }
-    for name, (width, count) in widths_and_counts.items():
+    for name, (_, width, count) in PREDICATES.items():
         rows = [rng.integers(-3, 4, size=(14_000, width)).astype(float) for _ in range(count)]
         # A third of the rows are moved by one unit in the last place of one coordinate, a third are scaled.
         rows[-1][:4000, 0] = np.nextafter(rows[-1][:4000, 0], rng.choice([-9.0, 9.0], size=4000))
         rows[0][4000:8000] *= 2.0 ** rng.integers(-30, 30, size=(4000, 1))
         stays = np.all([row.any(axis=1) for row in rows], axis=0)
         yield name, [row[stays] for row in rows]
-
-
-PREDICATES = {"orient2d": orient2d, "incircle": incircle, "orient3d": orient3d, "in_bubble": in_bubble}
-PREDICATES["turn"] = _kernel.sphere.turn
 
 
 def test_signs_at_ties(web):
@@ -180,7 +174,7 @@ def test_signs_at_ties(web):
     line = "Promise.all(given.map(([name, rows]) => web.signs(name, rows.map(web.doubles))))"
     made = dict(zip([name for name, _ in asked], web(line, given), strict=True))
     for name, rows in asked:
-        signs = PREDICATES[name](*rows)
+        signs = PREDICATES[name][0](*rows)
         assert min(np.count_nonzero(signs == s) for s in (-1, 0, 1)) > 100
         assert made[name] == digest(signs, np.int8), name
 

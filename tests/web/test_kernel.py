@@ -27,10 +27,7 @@ WRONG = {
     "new api.PlanarDelaunay([]).nearest([0, 0])": ("RangeError", "nearest needs at least one point"),
     "new api.PlanarDelaunay([0, 1]).remove([1])": ("RangeError", r"indices\[0\] is 1, but there are 1 points"),
     "api.MoebiusMap.fisheye([0, 0, 0], 2)": ("RangeError", "focus is the zero vector"),
-    "new api.PlanarDelaunay([0, 1, 2, NaN])": (
-        "RangeError",
-        r"points\[1, 1\] is NaN; every value must be a finite number",
-    ),
+    "new api.PlanarDelaunay([0, 1, 2, NaN])": ("RangeError", r"points\[1, 1\] is NaN; every value must be a finite"),
     "new api.SphericalDelaunay([0, -Infinity, 1])": ("RangeError", r"points\[0, 1\] is -Infinity; every value must be"),
     "new api.SphericalDelaunay([1, 2, 3, 4])": ("RangeError", r"points must have shape \(n, 3\).* got 4 numbers"),
     "new api.PlanarDelaunay([0, 0, 1])": ("RangeError", r"points must have shape \(n, 2\).* got 3 numbers"),
@@ -40,10 +37,7 @@ WRONG = {
     "new api.PlanarDelaunay(null)": ("TypeError", "points must be an array of numbers, row after row, but is null"),
     "new api.PlanarDelaunay('0,1')": ("TypeError", "points must be an array of numbers.* but is of type string"),
     "new api.PlanarDelaunay(new BigInt64Array(2))": ("TypeError", r"points\[0, 0\] is of type bigint"),
-    "new api.SphericalDelaunay({ length: 48000003 })": (
-        "RangeError",
-        "points has 16000001 rows, more than the 16000000",
-    ),
+    "new api.SphericalDelaunay({ length: 48000003 })": ("RangeError", "points has 16000001 rows, more than the 16"),
     "new api.PlanarDelaunay([0, 1]).insert([3, NaN])": ("RangeError", r"points\[0, 1\] is NaN"),
     "new api.PlanarDelaunay([0, 1]).remove([0.5])": ("TypeError", r"indices must be integers, but indices\[0\] is 0.5"),
     "new api.PlanarDelaunay([0, 1]).nearest([0, 1, 2])": ("RangeError", r"xy must have shape \(n, 2\)"),
@@ -104,7 +98,7 @@ def test_an_error_of_the_kernel_comes_with_its_message(node):
     """Checks come first, so it takes a call around them; the message is that of the C++ exception."""
     name, message = node(
         f"{KERNEL} export default refused(() => kernel().run((session) => {{"
-        "  const out = session.place(Int8Array, 1);"
+        "  const out = session.place(1);"
         "  session.call('plane_turn', Float64Array.of(NaN, 0), 1, Float64Array.of(0, 0), 1,"
         "Float64Array.of(1, 0), 1, out);"
         "}));"
@@ -123,7 +117,7 @@ def test_addresses_above_two_gigabytes(fresh_node):
         "const before = all(); kernel().instance = null;"
         "for (let k = 0; k < 5; ++k) kernel().run((session) => session.call('allocate', 2 ** 29 - 2 ** 16));"
         "const equal = all() === before;"
-        "const place = kernel().run((session) => session.place(Float64Array, 1e6).address);"
+        "const place = kernel().run((session) => session.place(8e6));"
         "export default [[-1, -(2 ** 31), 5].map(unsigned), equal, place];"
     )
     assert numbers == [2**32 - 1, 2**31, 5]

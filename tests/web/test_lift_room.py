@@ -6,25 +6,16 @@ import pytest
 from stereodel import PlanarDelaunay, RectangleLift, SphericalDelaunay, Stereographic, angular_distance
 from stereodel.web.contents import scattered
 
-from .conftest import LOADED, SCRIPT
+from .conftest import LOADED, SCRIPT, asking
 
-SHEET = scattered()["sheet"]
-
-ROOM = f"""{LOADED}
+ask = asking(f"""{LOADED}
 import {{ LiftSites, separationBounds, sheetSets }} from "{SCRIPT}/rooms/lift_sites.ts";
 const sitesOf = (places, sides) => new LiftSites(Float64Array.from(places.flat()), sides);
 const imagesOf = (sites, corner) => Array.from({{ length: sites.count }}, (_, k) => {{
   const sheet = sites.sheet(corner), [x, y] = sites.places.subarray(2 * k, 2 * k + 2);
   return [sheet.direction(x, y), sheet.scale(x, y), sheet.image(x, y)];
 }});
-"""
-
-
-SETS = "sheetSets(Float64Array.from(given.flat()))"
-
-
-def ask(node, expression, given=None):
-    return node(f"{ROOM}export default {expression};", given)
+""")
 
 
 @pytest.fixture
@@ -113,7 +104,8 @@ def test_facets_are_triangles_of_the_sheet_and_those_that_see_the_pole(node, pla
 def test_sets_of_the_sheet(node):
     """With the facets that see the pole the triangles close the hull, also where four sites lie on a circle."""
     made = "map(({ name, make }) => [name, [...make()], sitesOf([...make()]).closing.length / 3])"
-    sets = ask(node, f"{SETS}.{made}", SHEET.tolist())
+    expression = f"sheetSets(Float64Array.from(given.flat())).{made}"
+    sets = ask(node, expression, scattered()["sheet"].tolist())
     assert [name for name, _, _ in sets] == ["sheet", "grid", "flat"]
     for _, flat, closing in sets:
         places = np.reshape(flat, (-1, 2))

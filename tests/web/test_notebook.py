@@ -9,6 +9,7 @@ import sys
 import time
 import urllib.error
 import urllib.request
+from contextlib import suppress
 
 import pytest
 
@@ -108,23 +109,16 @@ def lab(folder):
             stderr=subprocess.STDOUT,
         )
     try:
-        wait_for(f"http://127.0.0.1:{port}/api?token={token}", server, folder / "log")
+        for _ in range(600):
+            assert server.poll() is None, (folder / "log").read_text()
+            with suppress(urllib.error.URLError, ConnectionError):
+                urllib.request.urlopen(f"http://127.0.0.1:{port}/api?token={token}", timeout=5).close()
+                break
+            time.sleep(0.1)
         yield f"http://127.0.0.1:{port}/lab/tree/globe.ipynb?token={token}"
     finally:
         server.terminate()
         server.wait(30)
-
-
-def wait_for(address, server, log):
-    for _ in range(600):
-        assert server.poll() is None, log.read_text()
-        try:
-            urllib.request.urlopen(address, timeout=5).close()
-        except (urllib.error.URLError, ConnectionError):
-            time.sleep(0.1)
-        else:
-            return
-    raise TimeoutError(log.read_text())
 
 
 @pytest.fixture(scope="module")

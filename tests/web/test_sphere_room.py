@@ -9,11 +9,9 @@ from stereodel.sphere import SphereCircle
 from stereodel.triangulation import planar_part
 from stereodel.web.contents import scattered
 
-from .conftest import LOADED, SCRIPT
+from .conftest import LOADED, SCRIPT, asking
 
-GAP = scattered()["gap"]
-
-ROOM = f"""{LOADED}
+ask = asking(f"""{LOADED}
 import {{ lonlatToXyz }} from "{SCRIPT}/kernel/api.ts";
 import {{ directionOf }} from "{SCRIPT}/space.ts";
 import {{ SphereSites }} from "{SCRIPT}/rooms/sphere_sites.ts";
@@ -22,11 +20,7 @@ import {{ sphereSets }} from "{SCRIPT}/sets.ts";
 const facetsAfter = ({{ before, seeing, fan }}) =>
   [...before.filter((_, k) => !seeing.includes(Math.floor(k / 3))), ...fan];
 const sitesOf = (lonlat) => new SphereSites(Float64Array.from(lonlat.flat()));
-"""
-
-
-def ask(node, expression, given=None):
-    return node(f"{ROOM}export default {expression};", given)
+""")
 
 
 def triangles(rows):

@@ -1,8 +1,7 @@
 """Colours: accepted forms, their form on pages, sRGB and opacity, and colorimetry.
 
-Contrast is that of the Web Content Accessibility Guidelines 2.1; OKLab, in which lightness and hue are perceptual, is
-Björn Ottosson's ("A perceptual color space for image processing", 2020). Arrays of colours (..., 3) of colorimetry hold
-red, green and blue of sRGB in [0, 1], encoded.
+Contrast is that of the Web Content Accessibility Guidelines 2.1; OKLab is Björn Ottosson's ("A perceptual color space
+for image processing", 2020). Arrays of colours (..., 3) hold red, green and blue of sRGB in [0, 1], encoded.
 """
 
 from __future__ import annotations

@@ -1,8 +1,6 @@
-"""Fonts of labels: those requested, then STIX, then any other font for characters that these lack.
+"""Fonts of labels: every character in the first that has it, of those requested, STIX, DejaVu Sans and the system's.
 
-Every character is set in the first font that has it: the families of the label, STIX, DejaVu Sans (both shipped with
-matplotlib), and the other fonts of the system. Matplotlib 3.11 or newer shapes scripts that join letters or run from
-right to left; older versions do not.
+Matplotlib 3.11 or newer shapes scripts that join letters or run from right to left; older versions do not.
 """
 
 from __future__ import annotations

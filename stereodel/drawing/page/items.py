@@ -410,7 +410,11 @@ def _crossings(start: FloatArray, end: FloatArray, place: FloatArray) -> FloatAr
 
 def corners_along(path: FloatArray) -> FloatArray:
     """Points along a path of Bézier curves, close enough to determine its interior."""
-    s = BEZIER_STEPS[None, :, None]
-    p0, p1, p2, p3 = (path[:, i, None] for i in range(4))
-    points = (1 - s) ** 3 * p0 + 3 * s * (1 - s) ** 2 * p1 + 3 * s**2 * (1 - s) * p2 + s**3 * p3
-    return points.reshape(-1, 2)
+    return along(path[:, None], BEZIER_STEPS[None, :, None]).reshape(-1, 2)
+
+
+def along(cubics: FloatArray, s: FloatArray) -> FloatArray:
+    """Points of cubics (..., 4, 2) at parameters (..., 1)."""
+    p0, p1, p2, p3 = (cubics[..., i, :] for i in range(4))
+    points: FloatArray = (1 - s) ** 3 * p0 + 3 * s * (1 - s) ** 2 * p1 + 3 * s**2 * (1 - s) * p2 + s**3 * p3
+    return points

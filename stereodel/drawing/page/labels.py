@@ -1,9 +1,7 @@
 """Labels: their boxes, their sides of places, which have room, their halos, and the title of a page.
 
-Type is measured here alone before it is drawn. Names beside places (`placed_apart`) are placed in order of priority.
-Each has eight candidate positions around its place, the right-hand side first. It takes the position where it overlaps
-no earlier label, lies within the disc, and covers the fewest dots; ties go to the earlier position. Without such a
-position it is left out.
+Names beside places (`placed_apart`) have eight candidate positions, the right-hand side first. In order of priority,
+each takes the one where it overlaps no earlier label, lies within the disc and covers the fewest dots, or is left out.
 """
 
 from __future__ import annotations
@@ -17,7 +15,7 @@ import numpy as np
 
 from stereodel._arrays import FloatArray
 from stereodel._extras import of_extra
-from stereodel.drawing.page.colors import Color, ColorLike, as_color, contrast
+from stereodel.drawing.page.colors import Color, contrast
 from stereodel.drawing.page.fonts import families_of, font_properties, quiet_fonts, set_text
 from stereodel.drawing.page.items import Item, Label, painted
 from stereodel.drawing.page.page import Page
@@ -55,6 +53,10 @@ TITLE_GAP: Final = 5.0
 """Space above and below the title in points."""
 
 
+Disc = tuple[tuple[float, float], float, float]
+"""Centre and radius of a disc of a page, in page units, and the points in one of them."""
+
+
 def label_box(label: Label, points_per_unit: float) -> FloatArray:
     """Lower left and upper right corner of an unrotated label, in points, (2, 2)."""
     width, height = _measured(*set_text(label), tuple(families_of(label)), label.size)
@@ -84,10 +86,11 @@ def meets(box: FloatArray, boxes: FloatArray) -> bool:
     return bool(((box[0] < boxes[:, 1] + GAP).all(axis=1) & (boxes[:, 0] < box[1] + GAP).all(axis=1)).any())
 
 
-def in_disc(label: Label, center: tuple[float, float], radius: float, points_per_unit: float) -> bool:
+def in_disc(label: Label, disc: Disc) -> bool:
     """Whether a label lies within a disc of the page, with its halo, which is round about the corners of its box."""
-    reach = np.abs(label_box(label, points_per_unit) - points_per_unit * np.array(center)).max(axis=0)
-    return float(np.hypot(*reach)) + label.halo <= points_per_unit * radius
+    center, radius, scale = disc
+    reach = np.abs(label_box(label, scale) - scale * np.array(center)).max(axis=0)
+    return float(np.hypot(*reach)) + label.halo <= scale * radius
 
 
 def placed_label(label: Label, offset: tuple[float, float]) -> Label:
@@ -99,12 +102,12 @@ def placed_label(label: Label, offset: tuple[float, float]) -> Label:
     return replace(label, offset=offset, align=align, valign=valign)
 
 
-def within_disc(label: Label, center: tuple[float, float], radius: float, points_per_unit: float) -> Label:
+def within_disc(label: Label, disc: Disc) -> Label:
     """A label moved to another side of its place if it would leave a disc of the page; without halo if all sides do."""
     # The opposite side first, then those at right angles. A halo outside the disc would interrupt the line around it.
     right, up = label.offset
     turned = (placed_label(label, offset) for offset in ((-right, -up), (-up, right), (up, -right)))
-    inside = (each for each in (label, *turned) if in_disc(each, center, radius, points_per_unit))
+    inside = (each for each in (label, *turned) if in_disc(each, disc))
     return next(inside, replace(label, halo=0.0))
 
 
@@ -124,28 +127,20 @@ def with_room(items: Iterable[Item], extent: tuple[float, float, float, float], 
 
 
 def placed_apart(
-    labels: Iterable[Label],
-    distance: float,
-    *,
-    center: tuple[float, float],
-    radius: float,
-    points_per_unit: float,
-    before: Sequence[Label] = (),
-    dots: FloatArray | None = None,
+    labels: Iterable[Label], distance: float, disc: Disc, before: Sequence[Label] = (), dots: FloatArray | None = None
 ) -> list[Label]:
-    """Labels in order of priority, at positions where they have room, without those that have none.
+    """Labels in order of priority, at positions in a disc where they have room, without those that have none.
 
     distance: points from a place to its label.
-    center, radius: the disc that must contain the labels, in page units.
     before: labels that are already on the page.
     dots: places on the page (n, 2) that should not be covered.
 
     >>> names = [Label(name, (0.0, 0.0)) for name in ("Ulm", "Neu-Ulm", "Wiblingen")]
-    >>> placed = placed_apart(names, 8.0, center=(0.0, 0.0), radius=1.0, points_per_unit=100.0)
+    >>> placed = placed_apart(names, 8.0, ((0.0, 0.0), 1.0, 100.0))
     >>> [(label.text, label.align) for label in placed]
     [('Ulm', 'left'), ('Neu-Ulm', 'right'), ('Wiblingen', 'center')]
     """
-    scale = points_per_unit
+    scale = disc[2]
     boxes = np.array([label_box(label, scale) for label in before]).reshape(-1, 2, 2)
     marks = np.zeros((0, 2)) if dots is None else scale * dots
 
@@ -158,7 +153,7 @@ def placed_apart(
         free = [
             side
             for side in on_its_sides(label, distance)
-            if in_disc(side, center, radius, scale) and not meets(claimed(side, scale), boxes)
+            if in_disc(side, disc) and not meets(claimed(side, scale), boxes)
         ]
         if free:
             placed.append(min(free, key=covered))
@@ -219,7 +214,7 @@ def legible(ground: FloatArray, ink: Color) -> FloatArray:
     return mixed
 
 
-def with_title(page: Page, title: str, *, ink: ColorLike = BLACK, size: float = TITLE_SIZE) -> Page:
+def with_title(page: Page, title: str) -> Page:
     """The page with a title above the picture and in its metadata; unchanged if the title is empty.
 
     Parameters
@@ -228,9 +223,6 @@ def with_title(page: Page, title: str, *, ink: ColorLike = BLACK, size: float = 
         Page whose width is kept and which grows upwards.
     title : str
         One line; text between two dollar signs is a formula.
-    ink : color-like
-    size : float
-        Type size in points.
 
     Examples
     --------
@@ -241,14 +233,14 @@ def with_title(page: Page, title: str, *, ink: ColorLike = BLACK, size: float = 
     if not title:
         return page
     left, right, bottom, top = page.extent
-    label = Label(title, ((left + right) / 2, top), (0.0, TITLE_GAP), "center", "bottom", size, as_color(ink, "ink"))
-    extent = (left, right, bottom, top + title_height(title, size) / page.points_per_unit)
+    label = Label(title, ((left + right) / 2, top), (0.0, TITLE_GAP), "center", "bottom", TITLE_SIZE, BLACK)
+    extent = (left, right, bottom, top + title_height(title) / page.points_per_unit)
     return replace(page, extent=extent, items=(*page.items, replace(label, name="title")), title=title)
 
 
-def title_height(title: str, size: float = TITLE_SIZE) -> float:
+def title_height(title: str) -> float:
     """Points that a page grows by for a title."""
     if not title:
         return 0.0
-    (_, low), (_, high) = label_box(Label(title, (0.0, 0.0), valign="bottom", size=size), 1.0)
+    (_, low), (_, high) = label_box(Label(title, (0.0, 0.0), valign="bottom", size=TITLE_SIZE), 1.0)
     return float(high - low) + 2 * TITLE_GAP

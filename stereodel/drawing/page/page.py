@@ -1,9 +1,6 @@
-"""The content of a picture, before rendering: paths, dots, balls and labels in painter's order.
+"""The content of a picture, before rendering: paths, dots, balls and labels in painter's order, hidden parts removed.
 
-A `Page` is flat. Hidden parts have been removed analytically (`stereodel.drawing.scene`), curves are exact up to their
-approximation by cubic Béziers, and every item carries its colour and its width in points. The vector backend writes SVG
-and PDF, the raster backend draws triangles with OpenGL; the regression tests store `Page.arrays()`. Page coordinates
-have x to the right and y up, in any unit; `width` is the width of the extent in points.
+Curves are exact up to their approximation by cubic Béziers. Page coordinates have x to the right and y up, in any unit.
 """
 
 from __future__ import annotations
@@ -17,10 +14,14 @@ from typing import Any, Final, Literal
 
 import numpy as np
 
-from stereodel._arrays import FloatArray, Pixels, as_scalar
+from stereodel._arrays import FloatArray, Pixels, as_count, as_scalar
 from stereodel._extras import of_extra
 from stereodel.drawing.page.colors import Color
 from stereodel.drawing.page.items import Arrays, Item, Label, Polygons
+from stereodel.drawing.page.style import PRINT_DPI
+
+LARGEST_SIZE: Final = 2**16 - 1
+"""Largest width in pixels, which is that of a canvas of Agg, which draws the labels."""
 
 OUTPUTS: Final[dict[str, str | Callable[..., Any]]] = {
     **dict.fromkeys(("save_page", "draw_page"), "stereodel.render.save"),
@@ -91,6 +92,18 @@ class Page:
         """In points."""
         return (self.extent[3] - self.extent[2]) * self.points_per_unit
 
+    def pixels_in_print(self, dpi: float = PRINT_DPI) -> int:
+        """Width in pixels of the page in print."""
+        return round(self.width / 72 * dpi)
+
+    def pixels_up(self, width_px: int) -> int:
+        """Height of a picture of the page that is `width_px` pixels wide."""
+        return max(1, round(width_px * self.height / self.width))
+
+    def pixels_across(self, size: int | None) -> int:
+        """A width in pixels, by default that of print; ValueError if it cannot be drawn."""
+        return self.pixels_in_print() if size is None else as_count(size, "size", high=LARGEST_SIZE)
+
     @property
     def labels(self) -> tuple[Label, ...]:
         """The text alone."""
@@ -114,7 +127,7 @@ class Page:
         renderer: Literal["gl", "agg"] = "gl",
         transparent: bool = False,
     ) -> Path:
-        """Write the page as PNG, SVG or PDF, according to the extension of `path`.
+        """Write the page as PNG, SVG or PDF, according to the extension of `path`, and return that.
 
         SVG and PDF contain exact curves, within a thousandth of a point, text as text in embedded fonts, and the
         shading of balls as gradients; the same page always gives the same bytes. All three formats contain title and
@@ -134,11 +147,6 @@ class Page:
             in more than `FEW_COLORS` colours.
         transparent : bool
             Whether to make the background transparent. A PNG is then drawn twice and held in memory.
-
-        Returns
-        -------
-        Path
-            The file.
 
         Raises
         ------
@@ -177,24 +185,12 @@ class Page:
         text: bool = True,
         renderer: Literal["gl", "agg"] = "gl",
     ) -> Pixels:
-        """Draw the page: the pixels that `save` writes as PNG.
-
-        Parameters
-        ----------
-        size, text, renderer
-            As for `save`.
+        """Draw the page: the pixels that `save` writes as PNG, with its parameters and errors.
 
         Returns
         -------
         (height, width, 3) uint8 array
             sRGB, rows from the top.
-
-        Raises
-        ------
-        ValueError
-            If the renderer is unknown, or `size` is out of range.
-        stereodel.render.gl.OpenGLError
-            If there is no usable OpenGL.
 
         Examples
         --------

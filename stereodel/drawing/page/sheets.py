@@ -1,12 +1,8 @@
 """Style sheets: a page on a dark background, or in the colours, widths and sizes of a TOML file.
 
-On a dark background colours keep their hue and the contrast that they have on white. A luminance Y becomes Y' with
-(Y' + 0.05)(Y + 0.05) = (G + 0.05)(1 + 0.05), where G is the luminance of the background. White becomes the background,
-black becomes white, and the contrast of any two colours, a quotient of such sums, is unchanged. The picture is not
-inverted: hues are kept, and the shading of a ball, which is not a colour of the page, still comes from above.
-
-A file identifies the parts of a page by their names, which are ids in SVG: "ball", "land", "coast", "graticule",
-"voronoi" ….
+On a dark background colours keep their hue and the contrast that they have on white: a luminance Y becomes Y' with
+(Y' + 0.05)(Y + 0.05) = (G + 0.05)(1 + 0.05), where G is that of the background, so the contrast of any two is
+unchanged. A file identifies the parts of a page by their names, which are ids in SVG: "ball", "land", "coast" ….
 """
 
 from __future__ import annotations
@@ -25,9 +21,8 @@ from stereodel.drawing.page.colors import FLARE, Color, as_color, contrast, lumi
 from stereodel.drawing.page.fonts import FontLike, as_font, in_font
 from stereodel.drawing.page.items import LEGEND, Item
 from stereodel.drawing.page.labels import haloed
-from stereodel.drawing.page.lengths import as_length
 from stereodel.drawing.page.page import Page
-from stereodel.drawing.page.style import BLACK, WHITE
+from stereodel.drawing.page.style import BLACK, WHITE, as_length
 
 DARK: Final = "dark"
 """The style that has a name; all others are files."""
@@ -73,7 +68,9 @@ def styled(page: Page, *styles: Style, font: FontLike | None = None) -> Page:
     [0.07, 0.07, 0.07, 1.0]
     """
     page = in_font(page, as_font(font))
-    return haloed(_in_styles(page, styles)) if styles else page
+    for style in as_styles(styles):
+        page = dark_page(page) if style == DARK else StyleSheet.of_file(style)(page)
+    return haloed(page) if styles else page
 
 
 def as_styles(styles: Sequence[Style]) -> tuple[str, ...]:
@@ -83,12 +80,6 @@ def as_styles(styles: Sequence[Style]) -> tuple[str, ...]:
         if name != DARK and not name.lower().endswith(".toml"):
             raise ValueError(f"style is {name!r}; give {DARK} or a file .toml")
     return tuple(sorted(given, key=lambda name: name != DARK))
-
-
-def _in_styles(page: Page, styles: Sequence[Style]) -> Page:
-    for style in as_styles(styles):
-        page = dark_page(page) if style == DARK else StyleSheet.of_file(style)(page)
-    return page
 
 
 @dataclass(frozen=True)
@@ -163,12 +154,10 @@ READERS: Final[Mapping[str, Mapping[str, Callable[[Any, str], Any]]]] = {
 class StyleSheet:
     """Colours, widths and sizes of the parts of a page, by name; other parts are unchanged.
 
-    base: styles applied first.
     background: its colour; None leaves it.
     looks: what changes, by table and name; of labels all alike, under "". Regions with several colours keep them.
     """
 
-    base: tuple[str, ...]
     background: Color | None
     looks: Mapping[str, Mapping[str, Changes]]
 
@@ -181,17 +170,15 @@ class StyleSheet:
         except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
             raise ValueError(f"{source}: is not TOML: {error}") from error
         try:
-            _known(table, ("base", "background", *READERS), "")
-            base = table.get("base", ())
+            _known(table, ("background", *READERS), "")
             ground = as_color(table["background"], "background") if "background" in table else None
             looks = {kind: _parts(table, kind) for kind in READERS}
         except (ValueError, TypeError) as error:
             raise ValueError(f"{source}: {error}") from error
-        return cls((base,) if isinstance(base, str) else tuple(base), ground, looks)
+        return cls(ground, looks)
 
     def __call__(self, page: Page) -> Page:
         """A page in this style."""
-        page = _in_styles(page, self.base)
         background = page.background if self.background is None else self.background
         return replace(
             page, background=background, items=tuple(item.restyled(self._changes(item)) for item in page.items)

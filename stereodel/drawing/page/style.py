@@ -7,6 +7,7 @@ in gray. The type is STIX, which matplotlib ships and which includes mathematics
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any, Final, TypeVar
@@ -34,7 +35,6 @@ def _hex(code: str, opacity: float = 1.0) -> Color:
 WHITE: Final = _hex("#ffffff")
 BLACK: Final = _hex("#000000")
 GRAY: Final = _hex("#7a7a7a")
-LIGHT_GRAY: Final = _hex("#a6a6a6")
 DARK_GRAY: Final = _hex("#3d3d3d")
 GRID_GRAY: Final = _hex("#8f959b")
 BLUE: Final = _hex("#005a94")
@@ -259,3 +259,27 @@ def _look_up(table: Mapping[str, T], name: str, kind: str, remedy: str) -> T:
     if name not in table:
         raise ValueError(f"name {name!r} has no {kind} style; give {remedy}=, or one of the names {', '.join(table)}")
     return table[name]
+
+
+LengthLike = float | str
+"""A number of points, 1/72 inch, or a text such as "17cm", "8.4 cm", "120mm", "6.5in", "480pt"."""
+
+POINTS: Final[Mapping[str, float]] = {"pt": 1.0, "mm": 72 / 25.4, "cm": 72 / 2.54, "in": 72.0}
+"""Units in points."""
+
+_LENGTH: Final = re.compile(r"\s*((?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*(pt|mm|cm|in|)\s*", re.IGNORECASE)
+
+
+def as_length(value: LengthLike, name: str) -> float:
+    """A positive length in points, from points or a number with one of the units pt, mm, cm and in.
+
+    >>> as_length("1in", "width"), as_length("2.54 cm", "width"), as_length(72, "width")
+    (72.0, 72.0, 72.0)
+    """
+    if not isinstance(value, str):
+        return as_scalar(value, name, low=0.0, open_low=True)
+    found = _LENGTH.fullmatch(value)
+    number = float(found[1]) if found else 0.0
+    if found is None or not number > 0:
+        raise ValueError(f"{name} is {value!r}; give a length with a unit, {', '.join(POINTS)}, such as 17cm")
+    return number * POINTS[found[2].lower() or "pt"]

@@ -1,8 +1,7 @@
 """Graticules: meridians and parallels, thinned where they would merge.
 
-Lines crowd where a view foreshortens them, where a lens shrinks the map, and, for meridians, near the poles. The
-distance between neighbours on the page is known in closed form: their distance on the sphere, times the scale of the
-lens, times the view's scale across the line. Where that is less than required, only every second line continues, or
+The distance between neighbours on the page is known in closed form: their distance on the sphere, times the scale of
+the lens, times the view's scale across the line. Where it is less than required, only every second line continues, or
 every sixth and so on, with strides that divide the grid, so that the remaining lines are evenly spaced.
 """
 
@@ -93,12 +92,7 @@ class Graticule:
         """The lines of `regular` that may be visible in a picture thinned to `least`: some thousands.
 
         However fine the grid, the cost depends only on its visible part. Parameters are those of `regular` and
-        `thinned`; for a glass ball this is the near side.
-
-        Raises
-        ------
-        ValueError
-            If there are more than `MOST_GRID_LINES` of them.
+        `thinned`; for a glass ball this is the near side. ValueError for more than `MOST_GRID_LINES` of them.
 
         Examples
         --------

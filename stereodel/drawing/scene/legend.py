@@ -13,7 +13,7 @@ from stereodel.drawing.page import Page
 from stereodel.drawing.page.colors import ColorLike, as_color
 from stereodel.drawing.page.items import LEGEND, Look
 from stereodel.drawing.page.scales import ColorScale
-from stereodel.drawing.page.style import BLACK, LABEL_SIZE, DotStyle, LineStyle
+from stereodel.drawing.page.style import LABEL_SIZE, DotStyle, LineStyle
 from stereodel.drawing.scene.sketch import Sketch
 
 SAMPLE: Final = (18.0, 7.0)
@@ -41,8 +41,6 @@ def with_legend(
     *,
     columns: int = 1,
     indent: float = 0.0,
-    ink: ColorLike = BLACK,
-    size: float = LABEL_SIZE,
 ) -> Page:
     """The page with a legend below the picture.
 
@@ -60,10 +58,6 @@ def with_legend(
         Number of columns of equal width, at least 1.
     indent : float
         Space to the left of the first column and to the right of the last, in points.
-    ink : color-like
-        Colour of the type.
-    size : float
-        Type size in points.
 
     Raises
     ------
@@ -77,7 +71,7 @@ def with_legend(
     >>> [item.name for item in page.items], page.height > 100.0
     (['legend', 'legend'], True)
     """
-    count, color = as_count(columns, "columns"), as_color(ink, "ink")
+    count, size = as_count(columns, "columns"), LABEL_SIZE
     left, right, bottom, top = page.extent
     point = 1 / page.points_per_unit
     row, step = ROW * size * point, (page.width - 2 * indent) * point / count
@@ -92,12 +86,12 @@ def with_legend(
         alike = [part for other, part in parts if part and other == look]
         part = text if text in alike else next(iter(alike), "")
         _add_sample(sketch, look, place, point, f"{LEGEND}{part}" if part else "legend")
-        sketch.add_label(place, text, (SAMPLE[0] + GAP, 0.0), align="left", size=size, color=color, name="legend")
+        sketch.add_label(place, text, (SAMPLE[0] + GAP, 0.0), align="left", size=size, name="legend")
     foot = bottom - row * -(-len(samples) // count)
     for text, scale in scales.items():
         wide, high = BAR[0] * (right - left), BAR[1] * size * point
         corner = ((left + right - wide) / 2, foot - 1.9 * row - high / 2)
-        sketch.add_items(scale.legend(corner, (wide, high), scale.ticks, title=text, ink=color, type_size=size))
+        sketch.add_items(scale.legend(corner, (wide, high), scale.ticks, title=text))
         foot -= BAR_ROWS * row
     extent = (left, right, foot - 0.5 * row, top)
     return replace(page, extent=extent, items=(*page.items, *sketch.page(extent, width=page.width).items))

@@ -1,25 +1,19 @@
-"""Scenes: a ball and the items on and around it, laid out as page items for a view.
-
-A `Scene` is independent of pixels and paper. It is filled once and may be laid out many times, for several views,
-several globes on a page, or the frames of a film.
-"""
+"""Scenes: a ball and the items on and around it, filled once and laid out as page items for any number of views."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import as_directions, as_indices, as_points, as_scalar, as_vectors
+from stereodel._arrays import as_choice, as_directions, as_indices, as_points, as_scalar, as_vectors
 from stereodel.curves.view import View
 from stereodel.drawing.page import Item, Label, Page
 from stereodel.drawing.page import style as styles
 from stereodel.drawing.page.colors import ColorLike, as_color
-from stereodel.drawing.page.labels import with_title
-from stereodel.drawing.page.lengths import LengthLike, as_length
-from stereodel.drawing.page.style import DotStyle, LineStyle
+from stereodel.drawing.page.style import DotStyle, LengthLike, LineStyle, as_length
 from stereodel.drawing.scene.scene_items import (
     BallStyle,
     Layer,
@@ -31,6 +25,7 @@ from stereodel.drawing.scene.scene_items import (
     SceneLines,
     SceneRegion,
     SceneSheet,
+    laid_out,
 )
 from stereodel.drawing.scene.solid import PlacedScene, Solid
 from stereodel.drawing.scene.space_curves import CircleArc, Curve, Segment
@@ -84,65 +79,32 @@ class Scene:
     ) -> None:
         self.radius = as_scalar(radius, "radius", low=0.0, open_low=True)
         self.center = as_vectors(center, 3, "center")
-        if style not in ("solid", "glass", "none"):
-            raise ValueError(f'style must be "solid", "glass" or "none", got {style!r}')
-        self.style: BallStyle = style
+        self.style: BallStyle = as_choice(style, ("solid", "glass", "none"), "style")
         self.weight = as_scalar(weight, "weight", low=0.0, open_low=True)
         self._items: list[SceneItem] = []
         if style != "none":
             color = styles.fill("ball" if style == "solid" else "glass")
             self._items.append(SceneBall(color, styles.line("limb", limb).scaled(self.weight)))
 
-    def add_arcs(
-        self,
-        arcs: Iterable[SphereArc | CircleArc],
-        *,
-        name: str,
-        style: LineStyle | None = None,
-        layer: Layer | None = None,
-    ) -> None:
-        """Draw arcs of circles of the ball.
-
-        Parameters
-        ----------
-        arcs : iterable of SphereArc or CircleArc
-            On the unit sphere.
-        name : str
-            What they are.
-        style : LineStyle, optional
-            Style to use instead of that of the name.
-        layer : Layer, optional
-            Position in painter's order of all parts except those behind the ball.
-        """
-        self.add_curves(
-            (CircleArc.of(arc).scaled(self.radius, self.center) for arc in arcs), name=name, style=style, layer=layer
-        )
+    def add_arcs(self, arcs: Iterable[SphereArc | CircleArc], *, name: str, style: LineStyle | None = None) -> None:
+        """Draw arcs of circles of the ball, given on the unit sphere."""
+        curves = (CircleArc.of(arc).scaled(self.radius, self.center) for arc in arcs)
+        self.add_curves(curves, name=name, style=style)
 
     def add_edges(
-        self,
-        points: npt.ArrayLike,
-        pairs: npt.ArrayLike,
-        *,
-        name: str,
-        style: LineStyle | None = None,
-        layer: Layer | None = None,
+        self, points: npt.ArrayLike, pairs: npt.ArrayLike, *, name: str, style: LineStyle | None = None
     ) -> None:
         """Draw the shorter great-circle arcs between pairs (m, 2) of directions (n, 3)."""
         vertices = as_points(points, 3, "points")
         index = as_indices(np.ravel(pairs), len(vertices), "pairs").reshape(-1, 2)
         arcs = [CircleArc.great(vertices[i], vertices[j]) for i, j in index]
-        self.add_arcs(arcs, name=name, style=style, layer=layer)
+        self.add_arcs(arcs, name=name, style=style)
 
     def add_circles(
-        self,
-        circles: Iterable[SphereCircle],
-        *,
-        name: str = "circle",
-        style: LineStyle | None = None,
-        layer: Layer | None = None,
+        self, circles: Iterable[SphereCircle], *, name: str = "circle", style: LineStyle | None = None
     ) -> None:
         """Draw whole circles of the ball."""
-        self.add_arcs([CircleArc.circle(circle) for circle in circles], name=name, style=style, layer=layer)
+        self.add_arcs([CircleArc.circle(circle) for circle in circles], name=name, style=style)
 
     def add_segments(
         self,
@@ -161,7 +123,10 @@ class Scene:
     def add_curves(
         self, curves: Iterable[Curve], *, name: str, style: LineStyle | None = None, layer: Layer | None = None
     ) -> None:
-        """Draw curves in space, not necessarily on the ball."""
+        """Draw curves in space, not necessarily on the ball.
+
+        A `layer` is their position in painter's order, except that of parts behind the ball.
+        """
         drawn = styles.line(name, style).scaled(self.weight)
         self._items.append(SceneLines(tuple(curves), drawn, name, layer))
 
@@ -197,17 +162,11 @@ class Scene:
         boundary = whole if side == "inside" else CircleArc(whole.center, whole.u, -whole.v)
         self.add_region([boundary], name=name, color=color)
 
-    def add_triangle_patch(
-        self,
-        a: npt.ArrayLike,
-        b: npt.ArrayLike,
-        c: npt.ArrayLike,
-        *,
-        name: str = "triangle",
-        color: ColorLike | None = None,
-    ) -> None:
-        """Tint the spherical triangle of three points, counterclockwise seen from outside."""
-        self.add_region([CircleArc.great(*pair) for pair in ((a, b), (b, c), (c, a))], name=name, color=color)
+    def add_patch(self, corners: npt.ArrayLike, *, name: str = "triangle", color: ColorLike | None = None) -> None:
+        """Tint a spherical polygon, such as a triangle, of corners (n, 3), counterclockwise seen from outside."""
+        starts = as_points(corners, 3, "corners")
+        sides = zip(starts, np.roll(starts, -1, axis=0), strict=True)
+        self.add_region([CircleArc.great(a, b) for a, b in sides], name=name, color=color)
 
     def add_flat_polygon(self, corners: npt.ArrayLike, *, name: str = "plane", color: ColorLike | None = None) -> None:
         """Tint a flat polygon in space, corners (n, 3) in order, such as a tangent plane or a chordal triangle.
@@ -244,7 +203,6 @@ class Scene:
         extent: tuple[float, float, float, float] | None = None,
         width: LengthLike = Page.width,
         background: ColorLike = styles.WHITE,
-        title: str = "",
     ) -> Page:
         """A page with the scene in a view.
 
@@ -258,49 +216,29 @@ class Scene:
             Width of the page in points, or with a unit, such as "17cm"; the height follows.
         background : color-like
             Colour of the background.
-        title : str
-            Title above the picture.
-
-        Raises
-        ------
-        ValueError
-            If the extent has no area, the width is not positive, or a colour is invalid.
         """
         if extent is None:
             (x, y), reach = view.project(self.center), (1 + MARGIN) * self.radius
             extent = (float(x) - reach, float(x) + reach, float(y) - reach, float(y) + reach)
-        page = Page(
+        return Page(
             extent, self.layout(view), as_length(width, "width"), as_color(background, "background"), (view.matrix,)
         )
-        return with_title(page, title)
 
     def layout(self, view: View, *, at: tuple[float, float] = (0.0, 0.0), scale: float = 1.0) -> tuple[Item, ...]:
         """Page items in painter's order, with hidden parts removed, for pages with more than one scene.
 
-        Parameters
-        ----------
-        view : View
-        at : tuple of float
-            Page coordinates of the origin of space.
-        scale : float
-            Page units per unit of space.
+        The origin of space is at page coordinates `at`, and a unit of space is `scale` page units.
         """
-        return self.placed(view, at=at, scale=scale).page_items()
+        placed = self.placed(view, at=at, scale=scale)
+        return laid_out(placed.items, placed.layout)
 
     def placed(self, view: View, *, at: tuple[float, float] = (0.0, 0.0), scale: float = 1.0) -> PlacedScene:
         """The scene at its position on a page, for a `Solid` with several scenes; parameters as in `layout`."""
         size = as_scalar(scale, "scale", low=0.0, open_low=True)
         return PlacedScene(Layout(view.matrix, self.center, self.radius, self.style, at, size), tuple(self._items))
 
-    def solid(
-        self,
-        view: View,
-        *,
-        extent: tuple[float, float, float, float] | None = None,
-        width: float = Page.width,
-        background: ColorLike = styles.WHITE,
-    ) -> Solid:
-        """The scene in space in a view; parameters and errors as in `page`.
+    def solid(self, view: View, **options: Any) -> Solid:
+        """The scene in space in a view; options and errors as in `page`.
 
         Examples
         --------
@@ -312,5 +250,4 @@ class Scene:
         ...     scene.solid(View(0, 20), width=200.0).save(Path(folder, "circle.glb")).stat().st_size > 1000
         True
         """
-        page = self.page(view, extent=extent, width=width, background=background)
-        return Solid(page, (self.placed(view),))
+        return Solid(self.page(view, **options), (self.placed(view),))

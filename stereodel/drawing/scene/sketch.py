@@ -1,8 +1,6 @@
 """Drawings of the plane and cross-sections: the counterpart of `Scene` without depth.
 
-A `Sketch` collects segments, circles, arcs, regions, dots, graphs and labels in painter's order and turns them into the
-items of a `Page`. Coordinates are those of the page (x right, y up). Ticks and arrowheads are measured in points, like
-type, so they are created together with the page, when the number of points per unit is known.
+Ticks and arrowheads are measured in points, so they are created with the page, when its scale is known.
 """
 
 from __future__ import annotations
@@ -18,11 +16,8 @@ from stereodel._arrays import FloatArray, as_vectors
 from stereodel.curves.view import View
 from stereodel.drawing.page import Beziers, Dots, Fill, Item, Label, Page, Stroke
 from stereodel.drawing.page.colors import ColorLike, as_color
-from stereodel.drawing.page.fonts import FontLike, as_font, in_font
 from stereodel.drawing.page.items import straight
-from stereodel.drawing.page.labels import with_title
-from stereodel.drawing.page.lengths import LengthLike, as_length
-from stereodel.drawing.page.style import PRINT_WIDTH, WHITE, DotStyle, LineStyle, dot, fill, line
+from stereodel.drawing.page.style import PRINT_WIDTH, WHITE, DotStyle, LengthLike, LineStyle, as_length, dot, fill, line
 from stereodel.drawing.scene.scene import Scene
 from stereodel.drawing.scene.space_curves import CircleArc, page_path
 
@@ -48,17 +43,6 @@ class Sketch:
     style of that name in `stereodel.drawing.page.style`, unless a `style` or `color` is given. It is also the id of the
     group in vector files.
 
-    Parameters
-    ----------
-    font : str, path-like, or sequence of them, optional
-        Font families or font files, see `stereodel.drawing.page.fonts.as_font`; by default STIX. Formulas, between
-        dollar signs, are always set in STIX.
-
-    Raises
-    ------
-    FileNotFoundError, ValueError
-        If a font does not exist.
-
     Examples
     --------
     >>> sketch = Sketch().add_circle((0, 0), 1, name="circle").add_segment((-1, 0), (1, 0), name="axis")
@@ -66,8 +50,7 @@ class Sketch:
     ['circle', 'axis']
     """
 
-    def __init__(self, *, font: FontLike | None = None) -> None:
-        self._font = as_font(font)
+    def __init__(self) -> None:
         self._parts: list[Item | InPoints] = []
         self._views: list[FloatArray] = []
 
@@ -117,12 +100,7 @@ class Sketch:
     ) -> Sketch:
         """The graph of a smooth function from values and derivatives (n,) at its knots, as cubic Hermite pieces.
 
-        Without `slope` the derivatives are those of parabolas through three neighbouring knots.
-
-        Raises
-        ------
-        ValueError
-            If there are fewer than three knots and no `slope`.
+        Without `slope` the derivatives are those of parabolas through three neighbouring knots, so there must be three.
         """
         across, up = np.asarray(x, dtype=np.float64), np.asarray(y, dtype=np.float64)
         if slope is None and len(across) < 3:
@@ -193,18 +171,12 @@ class Sketch:
         *,
         name: str,
         style: LineStyle | None = None,
-        gap: float = GAP,
         **options: Any,
     ) -> Sketch:
-        """A dimension line from a to b, with a tick across each end and a label along it, `gap` points away.
+        """A dimension line from a to b, with a tick across each end and a label along it.
 
         The label, if given, is on the left of the direction from a to b, and never upside down; `options` are passed to
-        `Label`.
-
-        Raises
-        ------
-        ValueError
-            If a and b coincide.
+        `Label`. ValueError if a and b coincide.
         """
         first, last = (np.array(end, dtype=np.float64) for end in (a, b))
         ahead, left = _frame(first, last)
@@ -217,17 +189,11 @@ class Sketch:
         upright = -90.0 < turn <= 90.0
         beside: dict[str, Any] = {"rotation": turn if upright else turn - np.copysign(180.0, turn)}
         beside["valign"] = "bottom" if upright else "top"
-        offset = (gap * float(left[0]), gap * float(left[1]))
+        offset = (GAP * float(left[0]), GAP * float(left[1]))
         return self.add_label((first + last) / 2, text, offset, **beside | options)
 
     def add_arrow(self, a: Point, b: Point, *, name: str, style: LineStyle | None = None) -> Sketch:
-        """An arrow from a to b, whose head is filled.
-
-        Raises
-        ------
-        ValueError
-            If a and b coincide.
-        """
+        """An arrow from a to b, whose head is filled; ValueError if they coincide."""
         drawn = line(name, style)
         tail, tip = (np.array(end, dtype=np.float64) for end in (a, b))
         ahead, left = _frame(tail, tip)
@@ -257,17 +223,11 @@ class Sketch:
 
         Parameters
         ----------
-        corner : (float, float)
-            Lower left corner of the rectangle.
-        width, height : float
-            Size of the rectangle in page units.
+        corner, width, height : (float, float), float, float
+            Lower left corner of the rectangle, and its size in page units.
         across, up : mapping of float to str
             Numbers and their texts, below and to the left of the rectangle. The smallest and the largest are at its
-            corners.
-        name, style
-            Name and style of the lines.
-        options
-            Passed to `Label`.
+            corners. Further `options` of these are passed to `Label`.
         """
         origin = np.array(corner, dtype=np.float64)
         right, above = np.array([1.0, 0.0]), np.array([0.0, 1.0])
@@ -298,19 +258,15 @@ class Sketch:
         *,
         width: LengthLike = PRINT_WIDTH,
         background: ColorLike = WHITE,
-        title: str = "",
     ) -> Page:
-        """The page of the extent (left, right, bottom, top), `width` points or another length wide, with a title above.
+        """The page of the extent (left, right, bottom, top), `width` points or another length wide.
 
-        Raises
-        ------
-        ValueError
-            If the extent has no area, the width is not positive, or a colour is invalid.
+        ValueError if the extent has no area, the width is not positive, or a colour is invalid.
         """
         blank = Page(extent, (), as_length(width, "width"), as_color(background, "background"), tuple(self._views))
         scale = blank.points_per_unit
         items = [item for part in self._parts for item in (part(scale) if callable(part) else (part,))]
-        return in_font(with_title(replace(blank, items=tuple(items)), title), self._font)
+        return replace(blank, items=tuple(items))
 
     def _add_tick(
         self, at: FloatArray, way: FloatArray, name: str, style: LineStyle | None, *, both_ways: bool = False

@@ -1,9 +1,4 @@
-"""Pictures in space: the bodies whose visible parts a page shows.
-
-A page is flat and lacks hidden parts. A `Solid` holds the page and the scenes from which it was laid out, placed as on
-the page: x right, y up, z toward the viewer, in page units. It is written as glTF, or drawn with shading and a depth
-buffer.
-"""
+"""Pictures in space: the bodies whose visible parts a page shows, placed as there: x right, y up, z to the viewer."""
 
 from __future__ import annotations
 
@@ -17,9 +12,9 @@ import numpy as np
 
 from stereodel._arrays import FloatArray, Pixels
 from stereodel._extras import of_extra
-from stereodel.drawing.page import Item, Page
+from stereodel.drawing.page import Page
 from stereodel.drawing.page.page import output
-from stereodel.drawing.scene.scene_items import Layout, SceneItem, laid_out
+from stereodel.drawing.scene.scene_items import Layout, SceneItem
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,10 +39,6 @@ class PlacedScene:
         pose[:3, :3] = self.layout.scale * self.layout.matrix
         pose[:2, 3] = self.layout.at
         return pose
-
-    def page_items(self) -> tuple[Item, ...]:
-        """Its visible parts on the page, in painter's order, as from `Scene.layout`."""
-        return laid_out(self.items, self.layout)
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,18 +76,13 @@ class Solid:
         trimesh.Scene
             Scene with a node for each item, under the name with which it was added, numbered if the name repeats. Dots
             have one child node each, all sharing one mesh; a label is a node without a mesh whose metadata hold the
-            text, its size and its offset in points. Several scenes are nodes "panel 1", "panel 2", …
-
-        Raises
-        ------
-        ImportError
-            If trimesh is missing (the extra ``render``).
+            text, its size and its offset in points. Several scenes are nodes "scene 1", "scene 2", …
         """
         with of_extra("render"):
             return output("to_trimesh")(self)
 
     def save(self, path: str | os.PathLike[str], *, size: int | None = None, text: bool = True) -> Path:
-        """Write a GLB, or a PNG with shading, according to the extension of `path`.
+        """Write a GLB, or a PNG with shading, according to the extension of `path`, and return that.
 
         Parameters
         ----------
@@ -104,11 +90,6 @@ class Solid:
             File to write, first under a temporary name in the same folder; an existing file is replaced.
         size, text
             For PNG, as for `Page.save`.
-
-        Returns
-        -------
-        Path
-            The file.
 
         Raises
         ------
@@ -128,18 +109,7 @@ class Solid:
         return Path(path)
 
     def pixels(self, *, size: int | None = None, text: bool = True) -> Pixels:
-        """Draw the bodies with shading: the pixels that `save` writes as PNG.
-
-        Parameters
-        ----------
-        size, text
-            As for `Page.pixels`.
-
-        Returns
-        -------
-        (height, width, 3) uint8 array
-            sRGB, rows from the top.
-        """
+        """Draw the bodies with shading: the pixels that `save` writes as PNG, as from `Page.pixels`."""
         with of_extra("render"):
             pixels: Pixels = output("draw_solid")(self, size=size, text=text)
         return pixels

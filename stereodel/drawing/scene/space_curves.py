@@ -114,13 +114,7 @@ class CircleArc:
 
     @classmethod
     def great(cls, a: npt.ArrayLike, b: npt.ArrayLike) -> CircleArc:
-        """The shorter great-circle arc of the unit sphere between two directions (3,), in plain doubles.
-
-        Raises
-        ------
-        ValueError
-            If the directions are equal or antipodal.
-        """
+        """The shorter great-circle arc of the unit sphere between two directions (3,), neither equal nor antipodal."""
         start, end = units(as_directions(a, "a")), units(as_directions(b, "b"))
         # a × b from difference and sum, which avoids cancellation for points that are close or nearly antipodal.
         axis = np.cross(start - end, start + end) / 2

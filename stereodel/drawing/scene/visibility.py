@@ -1,11 +1,8 @@
 """Visibility: curves and regions cut analytically into parts in front of a ball, inside it, beside it, behind it.
 
-All coordinates are in view axes (right, up, toward the viewer) about the ball's centre. With ρ the distance of a point
-x from the line of sight through the centre, the ball of radius r covers x if ρ < r and x is farther away than the near
-surface. A curve's place can change only where |x| = r or ρ = r: for a segment two quadratic equations, for a circle one
-equation linear in cos t, sin t and one quartic. Arcs *on* the sphere, where |x| = r holds throughout, are cut at the
-limb together by `stereodel.curves` and remain arcs. Regions of a sphere are bounded by arcs; the outlines of their
-visible parts are closed along the limb.
+All coordinates are in view axes (right, up, toward the viewer) about the ball's centre. The ball of radius r covers x
+if its distance ρ from the line of sight through the centre is below r and x is behind the near surface, so a place can
+change only where |x| = r or ρ = r. Arcs on the sphere are cut at the limb together by `stereodel.curves`.
 """
 
 from __future__ import annotations

@@ -173,14 +173,9 @@ def column(values: Iterable[Any]) -> Column:
 
 
 def of_objects(values: Any) -> Column:
-    """Objects of one type as an array of that type; other arrays as they are."""
+    """Objects as a column, see `column`; other arrays as they are."""
     array = np.asarray(values)
-    if array.dtype.kind != "O" or not len(array):
-        return array
-    cells = array.tolist()
-    if all(isinstance(cell, str) for cell in cells):
-        return texts(cells)
-    return column(cells) if all(cell is None or type(cell) is int for cell in cells) else array
+    return column(array.tolist()) if array.dtype.kind == "O" and len(array) else array
 
 
 def typed(values: Column, *, comma: bool = False) -> Column:

@@ -190,8 +190,9 @@ def write_layer(layer: MapRows, path: Path, *, progress: Progress | None = None)
     named = beside([layer.name, *RESERVED[kind]], layer.columns, any_case=True)
     check_held(named, kind)
     whole = replace(layer, columns={name: plain_column(values, kind) for name, values in named.items()})
-    kinds = sorted({SEVERAL.get(found, found) for found in layer.kinds}) if layer.has_several else layer.kinds
-    schema, batches = whole.batches(progress, several=layer.has_several)
+    several = any(found.startswith("Multi") for found in layer.kinds)  # then all need to be, in formats of one kind
+    kinds = sorted({SEVERAL.get(found, found) for found in layer.kinds}) if several else layer.kinds
+    schema, batches = whole.batches(progress, several=several)
     memory = BytesIO()
     with told(writing=True), warnings.catch_warnings(record=True) as said:
         warnings.simplefilter("always")

@@ -96,11 +96,6 @@ class MapRows:
         """Geometry types in the layer."""
         return wkb.kinds(self.binary)
 
-    @property
-    def has_several(self) -> bool:
-        """Whether some geometry is multi-part, so that formats that allow one geometry type only need all to be."""
-        return any(kind.startswith("Multi") for kind in self.kinds)
-
     def batches(self, progress: Progress | None = None, *, several: bool = False) -> tuple[Any, Iterator[Any]]:
         """Schema and Arrow record batches of the rows, with the geometries as binary in the last column.
 

@@ -56,12 +56,7 @@ SPELLING: Final[ContextVar[Mapping[str, str]]] = ContextVar("SPELLING", default=
 
 
 def spelled(argument: str, value: str = "") -> str:
-    """An argument in a message as the caller types it: ``crs``, with a value ``crs=…``; on the command line ``--crs``.
-
-    >>> with spelling({"crs": "--crs"}):
-    ...     spelled("crs"), spelled("layer", "=")
-    ('--crs', 'layer=')
-    """
+    """An argument in a message as the caller types it: ``crs``, with a value ``crs=…``; in the command ``--crs``."""
     return SPELLING.get().get(argument, argument + value)
 
 
@@ -90,10 +85,11 @@ def naming(source: Any) -> Iterator[None]:
     """Begin errors with the name of the file, unless it stands there already."""
     try:
         yield
-    except ValueError as error:
-        if not isinstance(source, str | os.PathLike) or not source or str(error).startswith(f"{os.fspath(source)}: "):
+    except (ValueError, TypeError) as error:
+        if not isinstance(source, str | os.PathLike) or str(error).startswith(os.fspath(source)):
             raise
-        raise ValueError(f"{os.fspath(source)}: {error}") from error
+        kind = ValueError if isinstance(error, ValueError) else TypeError
+        raise kind(f"{os.fspath(source)}: {error}") from error
 
 
 def find_lonlat(names: Sequence[str], lon: str | None = None, lat: str | None = None) -> tuple[str, str]:

@@ -18,9 +18,6 @@ from stereodel.io.formats.map_rows import Frame, MapRows, of_arrow
 
 VERSION: Final = "1.0.0"
 
-TEXTS: Final = ("string", "binary")
-"""Names of Arrow's types that Parquet packs by numbers of distinct values."""
-
 
 def read(file: Input, _: Wanted) -> Content:
     """A frame with geometries, or columns alone if the file has no metadata of geometries."""
@@ -31,7 +28,7 @@ def read(file: Input, _: Wanted) -> Content:
     check_size(8 * found.num_rows * found.num_columns, len(content))
     with told():
         # Text that repeats is read as it is packed, each once.
-        names = [field.name for field in parquet.read_schema(io.BytesIO(content)) if field.type in TEXTS]
+        names = [field.name for field in parquet.read_schema(io.BytesIO(content)) if field.type in ("string", "binary")]
         table = parquet.read_table(io.BytesIO(content), read_dictionary=names)
     check_size(sum(_letters(table[name]) for name in names), len(content))
     with told():

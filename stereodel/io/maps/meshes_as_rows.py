@@ -19,7 +19,7 @@ from stereodel.io.formats.map_rows import content_of, is_frame
 from stereodel.sphere import xyz_to_lonlat
 from stereodel.sphere.latitudes import Latitude
 from stereodel.triangulation import PlanarVoronoi, SphericalVoronoi
-from stereodel.triangulation.delaunay import Triangulation, open_triangles
+from stereodel.triangulation.delaunay import Triangulation, state_of
 from stereodel.triangulation.diagram import Diagram
 
 Mesh = Triangulation | Diagram[Any]
@@ -63,7 +63,7 @@ def triangulation_of(mesh: Mesh) -> Any:
 def triangles_of(mesh: Mesh) -> tuple[Any, Indices]:
     """The triangulation, and its triangles but for those that close the far side of the sphere."""
     triangulation = triangulation_of(mesh)
-    return triangulation, np.flatnonzero(open_triangles(triangulation))
+    return triangulation, np.flatnonzero(state_of(triangulation).open)
 
 
 def ridge_arcs(diagram: SphericalVoronoi) -> Arcs:

@@ -1,10 +1,7 @@
-"""Scenes in space as files and pictures: `stereodel.drawing.Solid` calls it.
+"""Scenes in space as files and pictures: scenes → bodies → trimesh → glTF, or pyrender → rows of pixels → labels.
 
-    scenes → bodies → trimesh → glTF, or pyrender, its lights and its depth test → rows of pixels → labels over them
-
-The PNG shows exactly the bodies that are written to glTF 2.0 in its binary form, GLB. trimesh writes it, but rounds
-colours to 1/255 of linear light, has only cameras with perspective, does not say what buffers are for, and takes four
-bytes an index, which makes files a third larger.
+The PNG shows exactly the bodies that are written to GLB. trimesh writes it, but rounds colours to 1/255 of linear
+light, has only cameras with perspective, does not say what buffers are for, and takes four bytes an index.
 """
 
 from __future__ import annotations
@@ -18,9 +15,8 @@ from typing import Any, Final
 import numpy as np
 
 from stereodel._arrays import FloatArray, Pixels
-from stereodel._files import replacing
+from stereodel._tasks.whole_files import replacing
 from stereodel.drawing.page.colors import Color
-from stereodel.drawing.page.lengths import as_width, pixel_height
 from stereodel.drawing.page.page import OUTPUTS
 from stereodel.drawing.scene.scene_items import Layer
 from stereodel.drawing.scene.solid import Solid
@@ -68,8 +64,8 @@ def save_solid(solid: Solid, path: str | os.PathLike[str], *, size: int | None, 
             with replacing(target) as temporary:
                 temporary.write_bytes(data)
         case ".png":
-            page, width = solid.page if text else solid.page.without_labels(), as_width(solid.page, size)
-            write_png(lit_rows(solid, width), page, target, width)
+            page, width = solid.page if text else solid.page.without_labels(), solid.page.pixels_across(size)
+            write_png(labelled(lit_rows(solid, width), page, width), page, target, width)
         case _:
             raise ValueError(f"path must end in .glb or .png, got {target.name!r}")
 
@@ -128,13 +124,13 @@ def page_box(solid: Solid, scene: Any) -> list[list[float]]:
 
 def draw_solid(solid: Solid, *, size: int | None, text: bool) -> Pixels:
     """Implementation of `Solid.pixels`."""
-    page, width = solid.page if text else solid.page.without_labels(), as_width(solid.page, size)
+    page, width = solid.page if text else solid.page.without_labels(), solid.page.pixels_across(size)
     return np.concatenate(list(labelled(lit_rows(solid, width), page, width)))
 
 
 def lit_rows(solid: Solid, width: int) -> Iterator[Pixels]:
     """A picture `width` pixels wide, without its labels, in blocks of rows (k, width, 3)."""
-    scene, large = to_trimesh(solid), (SUPERSAMPLING * width, SUPERSAMPLING * pixel_height(solid.page, width))
+    scene, large = to_trimesh(solid), (SUPERSAMPLING * width, SUPERSAMPLING * solid.page.pixels_up(width))
     make = partial(_lit, scene=scene, ground=over_white(solid.page.background))
     return gl.space_bands(make, page_box(solid, scene), *large, finish=averaged)
 

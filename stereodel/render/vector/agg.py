@@ -14,7 +14,6 @@ from stereodel.constants import PIXEL_ROUNDING
 from stereodel.drawing.page import Fill, Label, Page
 from stereodel.drawing.page.fonts import families_of, font_properties, quiet_fonts
 from stereodel.drawing.page.items import corners_along
-from stereodel.drawing.page.lengths import pixel_height
 from stereodel.drawing.page.style import TYPE
 from stereodel.render.vector.outlines import Drawn, Filled, Shape, Shown, shapes
 
@@ -41,7 +40,7 @@ def matplotlib_settings() -> Iterator[None]:
 
 def pixel_grid(page: Page, width_px: int) -> tuple[float, tuple[int, int]]:
     """Pixels per inch of a picture of a page, and its width and height in pixels."""
-    return 72.0 * width_px / page.width, (width_px, pixel_height(page, width_px))
+    return 72.0 * width_px / page.width, (width_px, page.pixels_up(width_px))
 
 
 def drawn(page: Page, dpi: float, pixels: tuple[int, int] | None = None) -> Canvas:

@@ -100,11 +100,6 @@ def shapes(page: Page, dpi: float, pictures: Sequence[Pixels] = ()) -> Iterator[
     dpi: pixels per inch of each `Picture`.
     pictures: an image of the whole page for each of `page.pictured`.
     """
-    count = len(page.pictured)
-    if len(pictures) != count:
-        raise ValueError(
-            f"pictures has {len(pictures)} entries, but {count} items of the page have too many colours; give each one"
-        )
     rest, scale = iter(pictures), page.points_per_unit
     for _, group in groupby(page.without_labels().items, key=alike):
         items = list(group)

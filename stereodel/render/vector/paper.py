@@ -1,10 +1,8 @@
 """Numbers in vector files: positions on paper in thousandths of a point, paths, and the light on a ball.
 
-Pixels of a ball are shaded individually (`shaders/flat.frag`), with ellipses as lines of equal brightness, and no
-gradient of SVG or PDF has that form. Their radial gradients have circles about (1 − s) f + s c with radii s r, which
-shrink to a focus f. With f on the axis toward the light, c farther from the light, and s = 1 at the far edge of the
-disc, the brightness at some values of s was fitted to that of pixels by least squares over the disc; of a grid of f and
-c, the pair with the smallest maximum difference is written below.
+Pixels of a ball are shaded individually (`shaders/flat.frag`); no gradient of SVG or PDF has that form. Theirs have
+circles about (1 − s) f + s c with radii s r. The brightness at some s was fitted to that of pixels by least squares,
+and focus f and centre c, on the axis toward the light, are those with the smallest maximum difference.
 """
 
 from __future__ import annotations

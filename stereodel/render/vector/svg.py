@@ -1,9 +1,7 @@
-"""Pages as SVG: exact curves, text as text, balls shaded by gradients.
+"""Pages as SVG: exact curves, text as text, balls shaded by gradients, in points from the upper left corner.
 
-Coordinates are points from the upper left corner, with three decimals. Names of items become unique ids. Glyphs are
-positioned individually, in embedded fonts: browsers show the same as PNG and PDF, and can find and select the text.
-Programs that do not use embedded fonts (librsvg, Inkscape) show the font of the same name if it is installed, otherwise
-another serif font, in the same places; for them there is PDF.
+Names of items become unique ids. Glyphs are positioned individually, in embedded fonts: browsers show the same as PNG
+and PDF, and can find and select the text. Programs that do not use them show another serif font in the same places.
 """
 
 from __future__ import annotations

@@ -4,11 +4,7 @@
  * Each is a text by name that `stereodel/web/contents.py` wrote: base64 of deflated bytes.
  */
 
-import { fromBase64, signed, wholeNumbers } from "./bytes.ts";
 import type { Latitude } from "./kernel/api.ts";
-
-/** The text of a name, or null where the page does not have it. */
-export type Blocks = (name: string) => string | null;
 
 /** Regions by rings that have them on their left; joined where maps are cut, at ±180° and along the poles. */
 export interface Rings {
@@ -29,9 +25,10 @@ export interface Given {
 
 /** What a page, or a widget, carries with it. */
 export class Contents {
-  readonly #blocks: Blocks;
+  readonly #blocks: (name: string) => string | null;
 
-  constructor(blocks: Blocks) {
+  /** @param blocks gets the text of a name, or null where the page does not have it. */
+  constructor(blocks: (name: string) => string | null) {
     this.#blocks = blocks;
   }
 
@@ -64,17 +61,22 @@ export class Contents {
 
   /** The points that the page was made for, or null. */
   async given(): Promise<Given | null> {
-    const name = await this.#bytes("given-name");
-    const bytes = await this.#bytes("given");
+    const [name, bytes, names] = [
+      await this.#text("given-name"),
+      await this.#bytes("given"),
+      await this.#text("given-names"),
+    ];
     if (name === null || bytes === null) return null;
-    const names = await this.#bytes("given-names");
-    return { name: String(json(name)), lonlat: doubles(bytes), names: names && (json(names) as string[]) };
+    return {
+      name: String(JSON.parse(name)),
+      lonlat: doubles(bytes),
+      names: JSON.parse(names ?? "null") as string[] | null,
+    };
   }
 
   /** What latitudes of places are on this page: those of the ellipsoid with equal areas, if it does not say. */
   async latitude(): Promise<Latitude> {
-    const bytes = await this.#bytes("latitude");
-    return bytes === null ? "authalic" : (new TextDecoder().decode(bytes) as Latitude);
+    return ((await this.#text("latitude")) as Latitude | null) ?? "authalic";
   }
 
   async #needed(name: string): Promise<Uint8Array<ArrayBuffer>> {
@@ -83,14 +85,15 @@ export class Contents {
     return bytes;
   }
 
+  async #text(name: string): Promise<string | null> {
+    const bytes = await this.#bytes(name);
+    return bytes && new TextDecoder().decode(bytes);
+  }
+
   async #bytes(name: string): Promise<Uint8Array<ArrayBuffer> | null> {
     const text = this.#blocks(name);
     return text === null ? null : inflated(text);
   }
-}
-
-function json(bytes: Uint8Array): unknown {
-  return JSON.parse(new TextDecoder().decode(bytes));
 }
 
 async function inflated(text: string): Promise<Uint8Array<ArrayBuffer>> {
@@ -108,7 +111,8 @@ function places(bytes: Uint8Array): Rings {
   for (let axis = 0; axis < 2; ++axis) {
     let place = 0;
     for (let k = 0; k < count; ++k) {
-      place += signed(numbers[rows + axis * count + k]);
+      const step = numbers[rows + axis * count + k]; // its sign is the last bit
+      place += step % 2 === 1 ? -(step + 1) / 2 : step / 2;
       lonlat[2 * k + axis] = place / unit;
     }
   }
@@ -122,4 +126,26 @@ function doubles(bytes: Uint8Array): Float64Array {
   for (let k = 0; k < count; ++k)
     for (let place = 0; place < 8; ++place) sorted[8 * k + place] = bytes[place * count + k];
   return new Float64Array(sorted.buffer);
+}
+
+/** The bytes of base64. */
+function fromBase64(text: string): Uint8Array<ArrayBuffer> {
+  const letters = atob(text);
+  const bytes = new Uint8Array(letters.length);
+  for (let k = 0; k < letters.length; ++k) bytes[k] = letters.charCodeAt(k);
+  return bytes;
+}
+
+/** Numbers of seven bits a byte, the lowest first. */
+function wholeNumbers(bytes: Uint8Array): number[] {
+  const numbers: number[] = [];
+  let [number, weight] = [0, 1];
+  for (const byte of bytes) {
+    number += (byte % 128) * weight; // products and not shifts, which end at 32 bits
+    weight *= 128;
+    if (byte >= 128) continue;
+    numbers.push(number);
+    [number, weight] = [0, 1];
+  }
+  return numbers;
 }

@@ -29,14 +29,11 @@ export function make<K extends keyof HTMLElementTagNameMap>(
  * The content is made of text nodes alone, so that names of files cannot become elements.
  */
 export function say(element: Element, text: string): void {
-  const parts = text.split(/(\*[^*]+\*|_[^_]+_)/).filter((part) => part !== "");
-  element.replaceChildren(
-    ...parts.map((part) => {
-      if (part.length > 2 && part.startsWith("*") && part.endsWith("*")) return make("i", "", part.slice(1, -1));
-      if (part.length > 2 && part.startsWith("_") && part.endsWith("_")) return make("span", "n", part.slice(1, -1));
-      return part;
-    }),
-  );
+  const parts = text.split(/(\*[^*]+\*|_[^_]+_)/).map((part, k) => {
+    if (k % 2 === 0) return part; // between two marks, if only nothing
+    return part.startsWith("*") ? make("i", "", part.slice(1, -1)) : make("span", "n", part.slice(1, -1));
+  });
+  element.replaceChildren(...parts.filter((part) => part !== ""));
 }
 
 /** The sentence as plain text, for a live region or a label. */

@@ -18,19 +18,6 @@ function download(name: string, content: Blob | string, type = "text/plain"): vo
   setTimeout(() => URL.revokeObjectURL(link.href), 60_000); // browsers read it after the click
 }
 
-/** Copies text; where the page may not use the clipboard, by way of a selection. */
-async function copy(text: string): Promise<void> {
-  try {
-    await navigator.clipboard.writeText(text);
-  } catch {
-    const area = make("textarea", { value: text, className: "unseen" });
-    document.body.append(area);
-    area.select();
-    document.execCommand("copy");
-    area.remove();
-  }
-}
-
 /** The picture as SVG, in the colours of the screen. */
 function sheetSvg({ title, width, height, weight, paint }: Sheet): string {
   const pen = new SvgPen(width, height, colours(), weight);
@@ -51,7 +38,6 @@ function sheetPng({ width, height, weight, paint }: Sheet, scale: number): Promi
 }
 
 const exchange = {
-  copy,
   download,
   globePython,
   liftPython,

@@ -37,23 +37,16 @@ export async function readPoints(
   kind: Kind,
   chosen?: [string, string],
 ): Promise<Points> {
-  const bytes = await unpacked(content);
-  const isJson = JSON_TEXT.test(file) || (!TEXT.test(file) && beginsAs(bytes, "{"));
-  if (!isJson && !TEXT.test(file) && isBinary(bytes))
-    throw new TableError("this is not a table, GeoJSON or a 2 : 1 picture");
-  const text = decoded(bytes);
-  const found = isJson ? ofGeojson(text, kind) : ofText(text, kind, chosen);
+  const text = decoded(await unpacked(content));
+  const isJson = JSON_TEXT.test(file) || (!TEXT.test(file) && /^[\s\x1e]*\{/.test(text));
+  if (isJson && kind === "plane") throw new TableError("columns of a plane are those of tables, not of GeoJSON");
+  const found = isJson ? geojsonPoints(text) : ofText(text, kind, chosen);
   const count = found.places.length / 2;
   if (count > MOST_POINTS) {
     const most = `the page takes up to ${counted(MOST_POINTS)}; for more there is the Python library`;
     throw new TableError(`there are ${counted(count)} points; ${most}`);
   }
   return { file, ...found };
-}
-
-function ofGeojson(text: string, kind: Kind): Omit<Points, "file"> {
-  if (kind === "plane") throw new TableError("columns of a plane are those of tables, not of GeoJSON");
-  return geojsonPoints(text);
 }
 
 function ofText(text: string, kind: Kind, chosen?: [string, string]): Omit<Points, "file"> {
@@ -64,20 +57,6 @@ function ofText(text: string, kind: Kind, chosen?: [string, string]): Omit<Point
   const places = kind === "lonlat" ? lonLatPlaces(table, ...pair) : planePlaces(table, ...pair);
   const named = all.find((name) => name.trim().toLowerCase() === "name");
   return { places, names: (named !== undefined && table.get(named)) || null };
-}
-
-function beginsAs(bytes: Uint8Array, mark: string): boolean {
-  const start = new TextDecoder("latin1").decode(bytes.subarray(0, 64)).replace(/^(\u00ef\u00bb\u00bf|\s|\x1e)+/, "");
-  return start.startsWith(mark);
-}
-
-/** Whether the first bytes are no text: a zero that no mark of UTF-16 explains. */
-function isBinary(bytes: Uint8Array): boolean {
-  return !isUtf16(bytes) && bytes.subarray(0, 1024).includes(0);
-}
-
-function isUtf16(bytes: Uint8Array): boolean {
-  return (bytes[0] === 0xff && bytes[1] === 0xfe) || (bytes[0] === 0xfe && bytes[1] === 0xff);
 }
 
 async function unpacked(bytes: Uint8Array): Promise<Uint8Array> {
@@ -91,15 +70,14 @@ async function unpacked(bytes: Uint8Array): Promise<Uint8Array> {
 }
 
 function decoded(bytes: Uint8Array): string {
-  if (isUtf16(bytes)) return new TextDecoder(bytes[0] === 0xff ? "utf-16le" : "utf-16be").decode(bytes);
+  const mark = (bytes[0] << 8) | bytes[1];
+  const encoding = mark === 0xfffe ? "utf-16le" : mark === 0xfeff ? "utf-16be" : "utf-8";
   try {
-    return new TextDecoder("utf-8", { fatal: true }).decode(bytes);
+    return new TextDecoder(encoding, { fatal: true }).decode(bytes);
   } catch {
-    throw new TableError("the file is not text in UTF-8; save it in that encoding");
+    throw new TableError("the file is neither text in UTF-8 nor a 2 : 1 picture; save tables in that encoding");
   }
 }
-
-const UNCHANGED = "Nothing has changed.";
 
 /** Calls `opened` with the points of a file, or says why there are none; the reader may be asked for the columns. */
 export async function openPoints(
@@ -113,15 +91,11 @@ export async function openPoints(
   try {
     points = await readPoints(file.name, new Uint8Array(await file.arrayBuffer()), kind, chosen);
   } catch (error) {
-    if (error instanceof ColumnsError && error.names.length > 1) {
-      const kinds: [string, string] = kind === "lonlat" ? ["Longitude", "Latitude"] : ["x", "y"];
-      askColumns(file.name, error.names, kinds, messages, (names) => {
-        void openPoints(file, kind, messages, opened, names);
-      });
-    } else {
-      messages.show(...complaint(file.name, error));
-    }
-    return;
+    const again = (...both: [string, string]): Promise<void> => openPoints(file, kind, messages, opened, both);
+    if (error instanceof ColumnsError && error.names.length > 1)
+      return askColumns(file.name, error.names, kind, messages, again);
+    const said = error instanceof TableError ? error.message : "the file cannot be read";
+    return messages.show(`${file.name}:`, `${said}${/[.?!]$/.test(said) ? "" : "."} Nothing has changed.`);
   }
   messages.close();
   opened(points);
@@ -131,25 +105,17 @@ export async function openPoints(
 function askColumns(
   file: string,
   names: readonly string[],
-  kinds: readonly [string, string],
+  kind: Kind,
   messages: Messages,
-  chosen: (names: [string, string]) => void,
+  chosen: (first: string, second: string) => void,
 ): void {
+  const kinds = kind === "lonlat" ? ["Longitude", "Latitude"] : ["x", "y"];
   const selects = kinds.map((_, k) => {
     const select = make("select", "", ...names.map((name) => make("option", "", name)));
     select.selectedIndex = Math.min(k, names.length - 1);
     return select;
   });
-  const open = { words: "Open", act: () => chosen([selects[0].value, selects[1].value]) };
+  const open = { words: "Open", act: () => chosen(selects[0].value, selects[1].value) };
   const inputs = kinds.map((kind, k) => make("label", "field column", `${kind} `, selects[k]));
   messages.show(`Which columns of ${file}?`, "", open, inputs);
-}
-
-/** A message's beginning and its words: the file, the row where there is one, then what is wrong. */
-function complaint(file: string, error: unknown): [string, string] {
-  if (!(error instanceof TableError)) return [`${file}:`, `the file cannot be read. ${UNCHANGED}`];
-  const [, place, rest] = /^((?:row|line) \d+): (.*)$/s.exec(error.message) ?? [];
-  const words = rest ?? error.message;
-  const stop = /[.?!]$/.test(words) ? "" : ".";
-  return [place === undefined ? `${file}:` : `${file}, ${place}:`, `${words}${stop} ${UNCHANGED}`];
 }

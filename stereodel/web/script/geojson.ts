@@ -4,6 +4,7 @@
  */
 
 import { along } from "./drawing/ball.ts";
+import { cornersOf } from "./drawing/pen.ts";
 import { SphericalVoronoi, type Latitude } from "./kernel/api.ts";
 import { tableLonlat } from "./kernel/coordinates.ts";
 import type { SphereSites } from "./rooms/sphere_sites.ts";
@@ -15,18 +16,10 @@ const DECIMALS = 7;
 type Position = [number, number];
 type Polygon = Position[][];
 
-/** A geometry of GeoJSON. */
-type Geometry =
-  | { type: "Polygon"; coordinates: Polygon }
-  | { type: "MultiPolygon"; coordinates: Polygon[] }
-  | { type: "LineString"; coordinates: Position[] }
-  | { type: "Point"; coordinates: Position };
+type Geometry = { type: "Polygon"; coordinates: Polygon } | { type: "MultiPolygon"; coordinates: Polygon[] };
 
-interface Feature {
-  type: "Feature";
-  properties: Record<string, unknown>;
-  geometry: Geometry;
-}
+/** Properties, and a geometry. */
+type Feature = [Record<string, unknown>, Geometry];
 
 /** Cells and triangles of the Sphere room's sites; closing facets are no triangles of the sphere. */
 export function sitesGeojson(sites: SphereSites): string {
@@ -36,13 +29,13 @@ export function sitesGeojson(sites: SphereSites): string {
   for (let site = 0; site < sites.count; ++site) {
     if (sites.sameAs(site) !== null) continue;
     const geometry = cellOf(voronoi, site) ?? (delaunay.dimension === 0 ? WHOLE_SPHERE : null);
-    if (geometry !== null) features.push(feature({ kind: "cell", point: site, area: areas[site] }, geometry));
+    if (geometry !== null) features.push([{ kind: "cell", point: site, area: areas[site] }, geometry]);
   }
   for (let facet = 0; facet < sites.facetCount; ++facet) {
     if (delaunay.closing[facet]) continue;
     const [a, b, c] = delaunay.simplices.subarray(3 * facet, 3 * facet + 3);
     const geometry = sphericalPolygon([a, b, c].map((site) => sites.site(site)));
-    features.push(feature({ kind: "triangle", triangle: facet, a, b, c }, geometry));
+    features.push([{ kind: "triangle", triangle: facet, a, b, c }, geometry]);
   }
   return collection(features);
 }
@@ -50,10 +43,10 @@ export function sitesGeojson(sites: SphereSites): string {
 /** Cells of places, (n, 2) in degrees with a kind of latitude. */
 export function placesGeojson(lonlat: Float64Array, kind: Latitude): string {
   const voronoi = SphericalVoronoi.fromLonlat(lonlat, kind);
-  const cells = Array.from({ length: lonlat.length / 2 }, (_, site) => {
+  const cells = Array.from({ length: lonlat.length / 2 }, (_, site): Feature[] => {
     const geometry = cellOf(voronoi, site, kind);
     const [longitude, latitude] = lonlat.subarray(2 * site, 2 * site + 2);
-    return geometry === null ? [] : [feature({ site: site + 1, longitude, latitude }, geometry)];
+    return geometry === null ? [] : [[{ site: site + 1, longitude, latitude }, geometry]];
   });
   return collection(cells.flat());
 }
@@ -64,30 +57,14 @@ function cellOf(voronoi: SphericalVoronoi, site: number, kind: Latitude = "spher
   return corners.length < 3 ? null : sphericalPolygon(corners, kind);
 }
 
-/** A feature of given properties. */
-function feature(properties: Record<string, unknown>, geometry: Geometry): Feature {
-  return { type: "Feature", properties, geometry };
-}
-
 /** A collection as text, a feature a line. */
 function collection(features: readonly Feature[]): string {
-  const rows = features.map((each) => JSON.stringify(each));
+  const rows = features.map(([properties, geometry]) => JSON.stringify({ type: "Feature", properties, geometry }));
   return `{"type":"FeatureCollection","features":[\n${rows.join(",\n")}\n]}\n`;
 }
 
 /** All of the sphere, which has no side. */
-const WHOLE_SPHERE: Geometry = {
-  type: "Polygon",
-  coordinates: [
-    [
-      [-180, -90],
-      [180, -90],
-      [180, 90],
-      [-180, 90],
-      [-180, -90],
-    ],
-  ],
-};
+const WHOLE_SPHERE: Geometry = { type: "Polygon", coordinates: [[...cornersOf(-180, -90, 180, 90), [-180, -90]]] };
 
 /**
  * The region on the left of a ring of great-circle sides, at most a hemisphere.

@@ -3,31 +3,24 @@
 import type { Contents } from "./contents.ts";
 import { shared } from "page:shared";
 
-/** The element of such a script: what the page hands over, and what the script offers. */
-interface Handover<T> extends HTMLScriptElement {
-  shared?: typeof shared;
-  offers?: T;
-}
-
 /** What such a script offers, when it is first asked for; after a failure the next call tries again. */
 export function laterScript<T>(contents: Contents, name: string): () => Promise<T> {
   let loaded: Promise<T> | null = null;
-  return async () => {
-    loaded ??= contents.script(name).then((code) => run<T>(code, name));
-    try {
-      return await loaded;
-    } catch (error) {
-      loaded = null;
-      throw error;
-    }
+  const failed = (error: unknown): never => {
+    loaded = null;
+    throw error;
   };
+  return () =>
+    (loaded ??= contents
+      .script(name)
+      .then((code) => run<T>(code, name))
+      .catch(failed));
 }
 
 /** Runs code that the policy of the page allows by its hash. */
 function run<T>(code: string, name: string): T {
-  const element: Handover<T> = document.createElement("script");
-  element.shared = shared;
-  element.textContent = code;
+  const element: HTMLScriptElement & { offers?: T } = document.createElement("script");
+  Object.assign(element, { shared, textContent: code });
   document.head.append(element); // runs it, to its end
   element.remove();
   if (element.offers === undefined) throw new Error(`the page's script ${name} did not run`);

@@ -6,7 +6,7 @@ import type { Exchange } from "./exchange.ts";
 import { load } from "./kernel/instance.ts";
 import { laterScript } from "./later_script.ts";
 import type { LiftRoomMaker } from "./lift.ts";
-import { LinkError, LinkValues, readLink, ROOMS, writeLink, type Link, type RoomName } from "./link.ts";
+import { LinkError, LinkValues, readLink, ROOMS, writeLink, type RoomName } from "./link.ts";
 import { Announcer, Messages } from "./messages.ts";
 import type { Room, RoomHost } from "./room.ts";
 import { NAMED } from "./rooms/controls.ts";
@@ -58,58 +58,48 @@ class Page {
 
   /** A room, which is made when it is first entered. */
   async #made(name: RoomName): Promise<Room> {
-    const made = await this.#makers[name](this.#host());
+    const made = await this.#makers[name]({
+      contents: this.#contents,
+      announcer: this.#announcer,
+      messages: this.#messages,
+      changed: (isStep = false) => this.#changed(isStep),
+      guarded: (body) => this.#guarded(body),
+    });
     const room = this.#rooms.get(name) ?? made; // it may have been entered twice meanwhile
     if (!this.#rooms.has(name)) room.attach(find(document, `#room-${name}`));
     this.#rooms.set(name, room);
     return room;
   }
 
-  #host(): RoomHost {
-    return {
-      contents: this.#contents,
-      announcer: this.#announcer,
-      messages: this.#messages,
-      changed: (isStep = false) => this.#changed(isStep),
-      guarded: (body) => this.#guarded(body),
-    };
-  }
-
   /** Enters the room of the address in its state; what cannot be read is said, and the room begins anew. */
   async #follow(): Promise<void> {
     clearTimeout(this.#timer);
-    let link: Link;
-    try {
-      link = readLink(location.hash);
-    } catch (error) {
-      this.#refuse(error);
-      link = { room: this.#name, values: new LinkValues() };
-    }
+    const link = this.#read(
+      () => readLink(location.hash),
+      () => ({ room: this.#name, values: new LinkValues() }),
+    );
     this.#enter(link.room);
-    const isNew = link.values.entries().length > 0 || !this.#rooms.has(link.room);
-    let room: Room;
+    const isNew = link.values.size > 0 || !this.#rooms.has(link.room);
     try {
-      room = this.#room ?? (await this.#made(link.room));
+      const room = this.#room ?? (await this.#made(link.room));
+      if (this.#name !== link.room) return; // the reader is in another room by now
+      const [restore, anew] = [link.values, new LinkValues()].map((values) => () => room.restore(values));
+      this.#guarded(() => isNew && this.#read(restore, anew));
+      this.#python();
     } catch (error) {
       this.#failed(error);
-      return;
     }
-    if (this.#name !== link.room) return; // the reader is in another room by now
-    this.#guarded(() => {
-      if (!isNew) return;
-      try {
-        room.restore(link.values);
-      } catch (error) {
-        this.#refuse(error);
-        room.restore(new LinkValues());
-      }
-    });
-    this.#python();
   }
 
-  #refuse(error: unknown): void {
-    if (!(error instanceof LinkError)) throw error;
-    this.#messages.show("", "This link cannot be read, so here is the room as it begins.");
+  /** What `body` reads of a link, or `otherwise` where it cannot be read. */
+  #read<T>(body: () => T, otherwise: () => T): T {
+    try {
+      return body();
+    } catch (error) {
+      if (!(error instanceof LinkError)) throw error;
+      this.#messages.show("", "This link cannot be read, so here is the room as it begins.");
+      return otherwise();
+    }
   }
 
   /** Shows a room's section and hides the others. */
@@ -117,8 +107,7 @@ class Page {
     this.#name = name;
     for (const room of ROOMS) find(document, `#room-${room}`).hidden = room !== name;
     for (const link of document.querySelectorAll<HTMLAnchorElement>(".rooms a")) {
-      if (link.hash === `#${name}`) link.setAttribute("aria-current", "page");
-      else link.removeAttribute("aria-current");
+      link.ariaCurrent = link.hash === `#${name}` ? "page" : null;
     }
     document.title = `${name[0].toUpperCase()}${name.slice(1)} · stereodel`;
   }
@@ -154,21 +143,16 @@ class Page {
 
   /** Files may be dropped anywhere. */
   #takeFiles(): void {
-    const body = document.body;
-    const holdsFiles = (event: DragEvent): boolean => event.dataTransfer?.types.includes("Files") ?? false;
-    addEventListener("dragover", (event) => {
-      if (!holdsFiles(event)) return;
-      event.preventDefault();
-      body.classList.add("dropping");
-    });
+    for (const type of ["dragover", "drop"] as const) {
+      addEventListener(type, (event) => {
+        if (!event.dataTransfer?.types.includes("Files")) return;
+        event.preventDefault();
+        document.body.classList.toggle("dropping", type === "dragover");
+        if (type === "drop") this.#open(event.dataTransfer.files[0]);
+      });
+    }
     addEventListener("dragleave", (event) => {
-      if (event.relatedTarget === null) body.classList.remove("dropping");
-    });
-    addEventListener("drop", (event) => {
-      if (!holdsFiles(event)) return;
-      event.preventDefault();
-      body.classList.remove("dropping");
-      this.#open(event.dataTransfer?.files[0]);
+      if (event.relatedTarget === null) document.body.classList.remove("dropping");
     });
     for (const input of document.querySelectorAll<HTMLInputElement>("input[type=file]")) {
       input.addEventListener("change", () => {
@@ -217,10 +201,13 @@ class Page {
       if (text !== null) exchange.download(`${name}.geojson`, text, "application/geo+json");
     } else {
       const state = room.state();
-      await exchange.copy(`${location.href.split("#")[0]}#${writeLink(this.#name, state)}`);
+      const link = `${location.href.split("#")[0]}#${writeLink(this.#name, state)}`;
+      const copied = Promise.resolve(link).then((text) => navigator.clipboard.writeText(text));
+      const problem: unknown = await copied.catch(String);
       const what = "file" in state ? "file" : "picture";
       const left = `The link names the ${what} but does not hold its ${NAMED[what]}; send the file along.`;
-      this.#messages.show("", what in state ? left : "Link copied.");
+      const words = problem ? "Nothing can be copied here; the link is the page's address." : "Link copied.";
+      this.#messages.show("", what in state && !problem ? left : words);
     }
   }
 
@@ -241,26 +228,23 @@ function placeMarks(): void {
   }
 }
 
-/** The sets are unpacked before the rooms are made, so that links can name them. */
-async function makersOf(contents: Contents): Promise<Makers> {
-  const stored: Record<string, Float64Array> = {};
+async function main(): Promise<void> {
+  placeMarks();
+  const contents = Contents.ofDocument();
+  const loaded = contents.kernel().then(load);
+  const stored: Record<string, Float64Array> = {}; // before the rooms are made, so that links can name them
   for (const name of ["gap", "everywhere", "hemisphere", "cities", "airports", "stars", "sheet"])
     stored[name] = await contents.set(name);
   const given = await contents.given();
   const lift = laterScript<LiftRoomMaker>(contents, "lift");
-  return {
+  await loaded;
+  document.body.classList.remove("loading");
+  const page = new Page(contents, {
     sphere: (host) => sphereRoom(host, stored, given),
     lift: async (host) => (await lift())(host, stored["sheet"]),
     globe: globeRoom,
-  };
-}
-
-async function main(): Promise<void> {
-  placeMarks();
-  const contents = Contents.ofDocument();
-  const [makers] = await Promise.all([makersOf(contents), contents.kernel().then(load)]);
-  document.body.classList.remove("loading");
-  await new Page(contents, makers).start();
+  });
+  await page.start();
   document.documentElement.dataset["ready"] = "true";
 }
 

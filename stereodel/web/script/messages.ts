@@ -22,12 +22,9 @@ export class Messages {
    * @param inputs stand before the buttons: what the action asks for.
    */
   show(what: string, text: string, action?: Action, inputs: readonly Node[] = []): void {
-    const line = make("p");
-    if (what) line.append(make("b", "", what), " ");
-    line.append(text);
-    const buttons = make("span", "line", ...inputs);
-    if (action) buttons.append(this.#button(action));
-    buttons.append(this.#button({ words: "Close", act: () => {} }));
+    const line = make("p", "", ...(what ? [make("b", "", what), " "] : []), text);
+    const actions = [...(action ? [action] : []), { words: "Close", act: () => {} }];
+    const buttons = make("span", "line", ...inputs, ...actions.map((each) => this.#button(each)));
     this.#place.replaceChildren(make("div", { className: "message", role: "alert" }, line, buttons));
   }
 

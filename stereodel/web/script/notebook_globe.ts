@@ -14,7 +14,7 @@ import {
 } from "./drawing/ball.ts";
 import { traceDisc, type Disc, type Pen } from "./drawing/pen.ts";
 import { Plate } from "./drawing/plate.ts";
-import { lonlatToXyz, MoebiusMap, SphericalDelaunay, SphericalVoronoi } from "./kernel/api.ts";
+import { lonlatToXyz, MoebiusMap, SphericalVoronoi } from "./kernel/api.ts";
 import { lonLatOf, row, type Vector } from "./space.ts";
 import { arrowStep, grabBall, type Turnable } from "./view/ball_hand.ts";
 import { distance, follow, type Gestures, type Place } from "./view/hand.ts";
@@ -23,21 +23,20 @@ import { Motion } from "./view/motion.ts";
 import { pointUnder, View } from "./view/view.ts";
 import { latitude, longitude } from "./words.ts";
 
-/** The lens: a fisheye, by the arguments of `stereodel.fisheye`. */
-export interface Lens {
-  readonly focus: readonly [number, number];
-  readonly magnification: number;
+/** What is shown. */
+export interface Shown {
+  /** Longitude and latitude in turn, degrees: doubles at any place of a buffer. */
+  sites: DataView;
+  /** A fisheye, by the arguments of `stereodel.fisheye`. */
+  lens: { readonly focus: readonly [number, number]; readonly magnification: number };
+  /** By the arguments of `stereodel.drawing.View`. */
+  view: { readonly lon: number; readonly lat: number; readonly roll: number };
+  /** Numbers of sites. */
+  selection: readonly number[];
 }
 
-/** The view, by the arguments of `stereodel.drawing.View`. */
-export interface ViewAngles {
-  readonly lon: number;
-  readonly lat: number;
-  readonly roll: number;
-}
-
-/** Hears what a hand has changed: the lens, the view or the selection. */
-export type Changed = (name: "lens" | "view" | "selection", value: Lens | ViewAngles | number[]) => void;
+/** Hears what a hand has changed. */
+type Changed = <K extends keyof Shown>(name: K, value: Shown[K]) => void;
 
 /** By which + and − magnify. */
 const STEP = 1.25;
@@ -48,16 +47,20 @@ const STRONGEST = 1e6;
 /** Sites beyond which cells are left out while the globe moves. */
 const MANY_SITES = 10_000;
 
-const KEYS = "arrows turn, + and − magnify, F sets the focus, comma and full stop walk the sites, Enter selects";
-
 export class NotebookGlobe implements Turnable {
   readonly isNorthUp = false; // but by keys
   readonly #root = make("div", "stereodel-globe");
-  readonly #canvas = make("canvas", { tabIndex: 0, role: "application" });
+  readonly #canvas = make("canvas", {
+    tabIndex: 0,
+    role: "application",
+    ariaRoleDescription: "globe to turn",
+    ariaDescription:
+      "arrows turn, + and − magnify, F sets the focus, comma and full stop walk the sites, Enter selects",
+  });
   readonly #status = make("p", { role: "status" });
   readonly #plate: Plate;
   readonly #changed: Changed;
-  readonly #ground: readonly Layer[];
+  readonly #ground: readonly (Layer | null)[];
   readonly #themes: MutationObserver; // notebooks change colours by attributes of the body
   readonly #motion = new Motion();
   readonly #release: () => void;
@@ -72,9 +75,7 @@ export class NotebookGlobe implements Turnable {
 
   constructor(place: HTMLElement, land: Rings | null, changed: Changed) {
     this.#changed = changed;
-    this.#ground = [...(land === null ? [] : [landLayer(land)]), arcLayer("graticule", graticuleArcs(10))];
-    this.#canvas.setAttribute("aria-roledescription", "globe to turn");
-    this.#canvas.setAttribute("aria-description", KEYS);
+    this.#ground = [land && landLayer(land), arcLayer("graticule", graticuleArcs(10))];
     this.#root.append(this.#canvas, this.#status);
     place.append(this.#root);
     this.#plate = new Plate(this.#canvas, (pen, isMoving) => this.#paint(pen, isMoving), undefined, this.#root);
@@ -87,33 +88,22 @@ export class NotebookGlobe implements Turnable {
     });
   }
 
-  /** Sites by longitude and latitude in turn, degrees. */
-  showSites(lonlat: Float64Array): void {
-    this.#sites = lonlatToXyz(lonlat);
-    const delaunay = new SphericalDelaunay(this.#sites);
-    this.#cells = arcLayer(
-      "voronoi",
-      lonlat.length > 2 ? ridgeArcs(new SphericalVoronoi(delaunay)) : new Float64Array(0),
-    );
-    this.#dots = dotLayer("site", this.#sites);
-    this.#walked = -1;
-    this.#show();
-  }
-
-  showLens({ focus, magnification }: Lens): void {
-    this.#focus = focus;
-    this.#lens = MoebiusMap.fisheye([...focus], magnification);
-    this.#show();
-  }
-
-  showView({ lon, lat, roll }: ViewAngles): void {
-    this.#view = View.above(lon, lat, roll);
-    this.#show();
-  }
-
-  showSelection(numbers: readonly number[]): void {
-    this.#selection = numbers;
-    this.#show();
+  /** Shows what Python has set. */
+  show({ sites, lens, view, selection }: Partial<Shown>): void {
+    if (sites !== undefined) {
+      const bytes = sites.buffer.slice(sites.byteOffset, sites.byteOffset + sites.byteLength);
+      this.#sites = lonlatToXyz(new Float64Array(bytes));
+      this.#cells = arcLayer("voronoi", ridgeArcs(new SphericalVoronoi(this.#sites)));
+      this.#dots = dotLayer("site", this.#sites);
+      this.#walked = -1;
+    }
+    if (lens !== undefined) {
+      this.#focus = lens.focus;
+      this.#lens = MoebiusMap.fisheye([...lens.focus], lens.magnification);
+    }
+    if (view !== undefined) this.#view = View.above(view.lon, view.lat, view.roll);
+    this.#selection = selection ?? this.#selection;
+    this.#update();
   }
 
   dispose(): void {
@@ -137,7 +127,7 @@ export class NotebookGlobe implements Turnable {
     return seenThrough(this.#lens, this.#view);
   }
 
-  #show(): void {
+  #update(): void {
     const { magnification } = this.#lens;
     const [lon, lat] = this.#view.middle;
     const lens = `${magnification.toPrecision(3)} times at ${latitude(this.#focus[1])}, ${longitude(this.#focus[0])}`;
@@ -147,8 +137,7 @@ export class NotebookGlobe implements Turnable {
       (magnification === 1 ? "" : `; ${lens}`) +
       (count === 0 ? "" : `; ${count} ${count === 1 ? "site" : "sites"}`) +
       (this.#selection.length === 0 ? "" : `, selected: ${this.#selection.slice(0, 5).join(", ")}`);
-    this.#canvas.setAttribute("aria-label", text);
-    this.#status.textContent = text;
+    this.#canvas.ariaLabel = this.#status.textContent = text;
     this.#plate.redraw("state");
   }
 
@@ -197,7 +186,7 @@ export class NotebookGlobe implements Turnable {
       ",": () => this.#walk(-1),
       ".": () => this.#walk(1),
       Enter: () => this.#toggle(this.#walked),
-      Escape: () => this.#select([]),
+      Escape: () => this.#set("selection", []),
     };
     const act = step === null ? acts[event.key] : () => this.turn(this.#view.stepped(...step, true));
     if (act === undefined) return false;
@@ -210,24 +199,27 @@ export class NotebookGlobe implements Turnable {
   turn(view: View): void {
     this.#view = view;
     const [lon, lat, roll] = [...view.middle, view.roll].map(rounded);
-    this.#show();
+    this.#update();
     this.#plate.redraw("hand");
     this.#changed("view", { lon, lat, roll });
   }
 
   #magnify(factor: number): void {
     const magnification = Math.min(STRONGEST, Math.max(1 / STRONGEST, this.#lens.magnification * factor));
-    this.showLens({ focus: this.#focus, magnification });
+    this.#set("lens", { focus: this.#focus, magnification });
     this.#plate.redraw("hand");
-    this.#changed("lens", { focus: this.#focus, magnification });
   }
 
   /** Moves the focus to what is seen at a point of the view. */
   #focusAt(point: Vector): void {
     const [lon, lat] = lonLatOf(sourceOf(this.#map, point)).map(rounded);
-    const focus = [lon, lat] as const;
-    this.showLens({ focus, magnification: this.#lens.magnification });
-    this.#changed("lens", { focus, magnification: this.#lens.magnification });
+    this.#set("lens", { focus: [lon, lat], magnification: this.#lens.magnification });
+  }
+
+  /** Shows what a hand has changed, and tells it. */
+  #set<K extends keyof Shown>(name: K, value: Shown[K]): void {
+    this.show({ [name]: value });
+    this.#changed(name, value);
   }
 
   // Sites
@@ -248,19 +240,14 @@ export class NotebookGlobe implements Turnable {
   #toggle(number: number): void {
     if (number < 0) return;
     const others = this.#selection.filter((each) => each !== number);
-    this.#select(others.length < this.#selection.length ? others : [...others, number]);
-  }
-
-  #select(numbers: number[]): void {
-    this.showSelection(numbers);
-    this.#changed("selection", numbers);
+    this.#set("selection", others.length < this.#selection.length ? others : [...others, number]);
   }
 
   /** To the next site in either direction, which comes to the middle of the view. */
   #walk(step: number): void {
     const count = this.#sites.length / 3;
     if (count === 0) return;
-    this.#walked = (this.#walked + step + count + (this.#walked < 0 && step < 0 ? 1 : 0)) % count;
+    this.#walked = (Math.max(this.#walked, step < 0 ? 0 : -1) + step + count) % count;
     const [lon, lat] = lonLatOf(row(this.#lens.apply(row(this.#sites, this.#walked)), 0));
     this.turn(View.above(lon, lat));
   }

@@ -15,47 +15,38 @@ const ROUGH = 0.25;
 /** How far width and height may be from two to one. */
 const RATIO_ERROR = 0.01;
 
-/** Calls `opened` with the picture of a file, or says why there is none. */
+/** Calls `opened` with the picture of a file, or says why there is none of the whole sphere. */
 export async function openPanorama(file: File, messages: Messages, opened: (picture: Painted) => void): Promise<void> {
-  const picture = await Painted.read(file);
-  if (typeof picture === "string") messages.show(`${file.name}:`, `${picture}. Nothing has changed.`);
-  else {
-    messages.close();
-    opened(picture);
+  const bitmap = await createImageBitmap(file).catch(() => null);
+  if (bitmap === null || Math.abs(bitmap.width / bitmap.height - 2) > RATIO_ERROR) {
+    const size = bitmap && `is ${bitmap.width} × ${bitmap.height}; one of the whole sphere is twice as wide as high`;
+    messages.show(`${file.name}:`, `the picture ${size ?? "cannot be read"}. Nothing has changed.`);
+    return;
   }
+  const half = Math.round(Math.min(bitmap.width, WIDEST) / 2);
+  const canvas = make("canvas", { width: 2 * half, height: half });
+  const context = canvas.getContext("2d", { willReadFrequently: true })!;
+  context.drawImage(bitmap, 0, 0, canvas.width, canvas.height);
+  bitmap.close();
+  messages.close();
+  opened(new Painted(file.name, context.getImageData(0, 0, canvas.width, canvas.height)));
 }
 
 export class Painted {
   readonly name: string;
   readonly #raster: Raster;
-  readonly #shader: PanoramaShader | null;
+  readonly #shader: Shader | null;
 
-  private constructor(name: string, pixels: ImageData) {
+  constructor(name: string, pixels: ImageData) {
     this.name = name;
     this.#raster = new Raster(pixels.data, pixels.width);
-    this.#shader = PanoramaShader.of(pixels);
-  }
-
-  /** The picture, or why there is none of the whole sphere. */
-  static async read(file: File): Promise<Painted | string> {
-    const bitmap = await createImageBitmap(file).catch(() => null);
-    if (bitmap === null) return "the picture cannot be read";
-    const { width, height } = bitmap;
-    if (Math.abs(width / height - 2) > RATIO_ERROR) {
-      return `the picture is ${width} × ${height}; one of the whole sphere is twice as wide as high`;
-    }
-    const half = Math.round(Math.min(width, WIDEST) / 2);
-    const canvas = make("canvas", { width: 2 * half, height: half });
-    const context = canvas.getContext("2d", { willReadFrequently: true })!;
-    context.drawImage(bitmap, 0, 0, canvas.width, canvas.height);
-    bitmap.close();
-    return new Painted(file.name, context.getImageData(0, 0, canvas.width, canvas.height));
+    this.#shader = shaderOf(pixels);
   }
 
   draw(pen: Pen, disc: Disc, map: MoebiusMap, isMoving: boolean): void {
     const scale = isMoving && this.#shader === null ? ROUGH : Math.min(SHARP, devicePixelRatio);
     const size = Math.max(1, Math.ceil(2 * disc.r * scale));
-    const picture = isMoving && this.#shader !== null ? this.#shader.draw(map, size) : this.#exact(map, size);
+    const picture = isMoving && this.#shader !== null ? this.#shader(map, size) : this.#exact(map, size);
     pen.clipped(
       (path) => path.ellipse(disc.x, disc.y, disc.r, disc.r, 0, 0, 2 * Math.PI),
       () => pen.picture(picture, disc.x - disc.r, disc.y - disc.r, 2 * disc.r, 2 * disc.r),
@@ -99,59 +90,41 @@ void main() {
   colour = square <= 1.02 ? textureGrad(picture, at, dx, dy) : vec4(0.0);
 }`;
 
-class PanoramaShader {
-  readonly #gl: WebGL2RenderingContext;
-  readonly #program: WebGLProgram;
+/** Draws the square round the disc, so many pixels wide; valid until the next one is drawn. */
+type Shader = (map: MoebiusMap, size: number) => HTMLCanvasElement;
 
-  private constructor(gl: WebGL2RenderingContext, program: WebGLProgram) {
-    [this.#gl, this.#program] = [gl, program];
-  }
-
-  /** Null where the browser has no WebGL2, or its texture is too small. */
-  static of(pixels: ImageData): PanoramaShader | null {
-    const gl = document.createElement("canvas").getContext("webgl2", { antialias: false, depth: false, alpha: true });
-    if (gl === null || gl.getParameter(gl.MAX_TEXTURE_SIZE) < pixels.width) return null;
-    const program = linked(gl);
-    if (program === null) return null;
-    gl.bindTexture(gl.TEXTURE_2D, gl.createTexture());
-    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
-    gl.generateMipmap(gl.TEXTURE_2D);
-    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR_MIPMAP_LINEAR);
-    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, gl.REPEAT);
-    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_T, gl.CLAMP_TO_EDGE);
-    return new PanoramaShader(gl, program);
-  }
-
-  /** The square round the disc, so many pixels wide; valid until the next one is drawn. */
-  draw(map: MoebiusMap, size: number): HTMLCanvasElement {
-    const gl = this.#gl;
-    const canvas = gl.canvas as HTMLCanvasElement;
-    if (canvas.width !== size) canvas.width = canvas.height = size;
-    gl.viewport(0, 0, size, size);
-    gl.useProgram(this.#program);
-    // Rows of the matrices are columns of the shader's: a vector to their left is turned back.
-    const matrix = (name: string, rotation: { readonly matrix: Float64Array }): void =>
-      gl.uniformMatrix3fv(gl.getUniformLocation(this.#program, name), true, new Float32Array(rotation.matrix));
-    matrix("left", map.left);
-    matrix("right", map.right);
-    gl.uniform1f(gl.getUniformLocation(this.#program, "magnification"), 1 / map.magnification);
-    gl.drawArrays(gl.TRIANGLES, 0, 3);
-    return canvas;
-  }
-}
-
-function linked(gl: WebGL2RenderingContext): WebGLProgram | null {
+/** Null where the browser has no WebGL2, or its texture is too small. */
+function shaderOf(pixels: ImageData): Shader | null {
+  const canvas = make("canvas");
+  const gl = canvas.getContext("webgl2", { antialias: false, depth: false, alpha: true });
+  if (gl === null || gl.getParameter(gl.MAX_TEXTURE_SIZE) < pixels.width) return null;
   const program = gl.createProgram();
   for (const [kind, source] of [
     [gl.VERTEX_SHADER, VERTEX],
     [gl.FRAGMENT_SHADER, FRAGMENT],
   ] as const) {
-    const shader = gl.createShader(kind);
-    if (shader === null) return null;
+    const shader = gl.createShader(kind)!;
     gl.shaderSource(shader, source);
     gl.compileShader(shader);
     gl.attachShader(program, shader);
   }
   gl.linkProgram(program);
-  return gl.getProgramParameter(program, gl.LINK_STATUS) ? program : null;
+  if (!gl.getProgramParameter(program, gl.LINK_STATUS)) return null;
+  gl.useProgram(program);
+  gl.bindTexture(gl.TEXTURE_2D, gl.createTexture());
+  gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+  gl.generateMipmap(gl.TEXTURE_2D);
+  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR_MIPMAP_LINEAR);
+  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, gl.REPEAT);
+  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_T, gl.CLAMP_TO_EDGE);
+  return ({ left, right, magnification }, size) => {
+    if (canvas.width !== size) canvas.width = canvas.height = size;
+    gl.viewport(0, 0, size, size);
+    // Rows of the matrices are columns of the shader's: a vector to their left is turned back.
+    for (const [name, { matrix }] of Object.entries({ left, right }))
+      gl.uniformMatrix3fv(gl.getUniformLocation(program, name), true, new Float32Array(matrix));
+    gl.uniform1f(gl.getUniformLocation(program, "magnification"), 1 / magnification);
+    gl.drawArrays(gl.TRIANGLES, 0, 3);
+    return canvas;
+  };
 }

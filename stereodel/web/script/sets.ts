@@ -17,14 +17,10 @@ export type Stored = Readonly<Record<string, Float64Array>>;
 
 /** The sets of the sphere: those that the page was made for and carries, and a dodecahedron. */
 export function sphereSets(stored: Stored, given: Given | null): SiteSet[] {
-  const kept = (name: string, words: string): SiteSet[] => {
-    const places = stored[name];
-    return places === undefined || places.length === 0 ? [] : [{ name, words, make: () => places }];
-  };
+  const kept = (name: string, words: string, places = stored[name], names: SiteSet["names"] = null): SiteSet[] =>
+    places?.length > 0 ? [{ name, words, names, make: () => places }] : [];
   return [
-    ...(given === null || given.lonlat.length === 0
-      ? []
-      : [{ name: "given", words: given.name, names: given.names, make: () => given.lonlat }]),
+    ...(given === null ? [] : kept("given", given.name, given.lonlat, given.names)),
     ...kept("gap", "Scattered, with a gap round P"),
     ...kept("everywhere", "Scattered everywhere"),
     ...kept("hemisphere", "In one hemisphere"),

@@ -3,7 +3,7 @@
  * twenty; readers of the screen hear how many there are.
  */
 
-import { make } from "./dom.ts";
+import { make, say } from "./dom.ts";
 
 /** Rows above and below the visible ones. */
 const AROUND = 12;
@@ -33,7 +33,6 @@ export interface Actions {
 
 export class SiteTable {
   readonly #place: HTMLElement;
-  readonly #actions: Actions;
   readonly #table = make("table");
   readonly #head = make("thead");
   readonly #body = make("tbody");
@@ -45,19 +44,18 @@ export class SiteTable {
   /** `place` scrolls: an element of the class `sites`. */
   constructor(place: HTMLElement, actions: Actions) {
     this.#place = place;
-    this.#actions = actions;
     this.#table.append(this.#head, this.#body);
     place.append(this.#table);
     place.addEventListener("scroll", () => this.#fill(), { passive: true });
     this.#body.addEventListener("click", (event) => {
       const site = siteOf(event.target);
-      if (site !== null && (event.target as Element).closest("button")) this.#actions.chosen(site);
+      if (site !== null && (event.target as Element).closest("button")) actions.chosen(site);
     });
     for (const type of ["pointerover", "focusin"] as const) {
-      this.#body.addEventListener(type, (event) => this.#actions.pointed(siteOf(event.target)));
+      this.#body.addEventListener(type, (event) => actions.pointed(siteOf(event.target)));
     }
     for (const type of ["pointerleave", "focusout"] as const) {
-      this.#body.addEventListener(type, () => this.#actions.pointed(null));
+      this.#body.addEventListener(type, () => actions.pointed(null));
     }
   }
 
@@ -65,10 +63,10 @@ export class SiteTable {
   show(rows: Rows): void {
     this.#rows = rows;
     this.#table.hidden = rows.count === 0;
-    this.#table.setAttribute("aria-rowcount", String(rows.count + 1));
+    this.#table.ariaRowCount = String(rows.count + 1);
     const heads = [rows.noun ?? "Site", ...(rows.names ? ["Name"] : []), ...rows.heads].map((head) => {
       const cell = make("th", { className: head === "Name" ? "name" : "", scope: "col" });
-      cell.append(...head.split(/\*([^*]+)\*/).map((part, k) => (k % 2 === 1 ? make("i", "", part) : part)));
+      say(cell, head);
       return cell;
     });
     this.#head.replaceChildren(make("tr", "", ...heads));
@@ -87,11 +85,9 @@ export class SiteTable {
 
   /** Brings a row into sight. */
   reveal(site: number): void {
-    const top = site * this.#rowHeight();
-    const inside = this.#place.clientHeight - this.#head.offsetHeight;
-    if (top < this.#place.scrollTop) this.#place.scrollTop = top;
-    else if (top + this.#rowHeight() > this.#place.scrollTop + inside)
-      this.#place.scrollTop = top + this.#rowHeight() - inside;
+    const [top, height] = [site * this.#rowHeight(), this.#rowHeight()];
+    const least = top + height - this.#place.clientHeight + this.#head.offsetHeight;
+    this.#place.scrollTop = Math.min(top, Math.max(least, this.#place.scrollTop));
     this.#fill();
   }
 
@@ -104,10 +100,8 @@ export class SiteTable {
   #fill(anew = false): void {
     const height = this.#rowHeight();
     const visible = Math.ceil((this.#place.clientHeight || 250) / height);
-    const begin = Math.max(
-      0,
-      Math.min(Math.floor(this.#place.scrollTop / height) - AROUND, this.#rows.count - visible),
-    );
+    const first = Math.floor(this.#place.scrollTop / height) - AROUND;
+    const begin = Math.max(0, Math.min(first, this.#rows.count - visible));
     if (!anew && Math.abs(begin - this.#begin) < AROUND / 2) return;
     this.#begin = begin;
     const end = Math.min(this.#rows.count, begin + visible + 2 * AROUND);
@@ -116,8 +110,8 @@ export class SiteTable {
     for (let site = begin; site < end; ++site) rows.push(this.#row(site));
     const width = this.#head.querySelectorAll("th").length;
     this.#body.replaceChildren(gap(begin * height, width), ...rows, gap((this.#rows.count - end) * height, width));
-    if (focused !== null)
-      this.#body.querySelector<HTMLElement>(`tr[data-site="${focused}"] button`)?.focus({ preventScroll: true });
+    const button = this.#body.querySelector<HTMLElement>(`tr[data-site="${focused}"] button`);
+    button?.focus({ preventScroll: true });
   }
 
   #row(site: number): HTMLElement {

@@ -6,16 +6,13 @@
 
 import { Contents } from "./contents.ts";
 import { load } from "./kernel/instance.ts";
-import { NotebookGlobe, type Lens, type ViewAngles } from "./notebook_globe.ts";
+import { NotebookGlobe, type Shown } from "./notebook_globe.ts";
 
 declare const CONTENTS: Readonly<Record<string, string>>;
 
 /** The part of a widget's model that is used here. */
 interface Model {
-  get(name: "sites"): DataView;
-  get(name: "lens"): Lens;
-  get(name: "view"): ViewAngles;
-  get(name: "selection"): number[];
+  get<K extends keyof Shown>(name: K): Shown[K];
   set(name: string, value: unknown): void;
   save_changes(): void;
   on(event: string, heard: () => void): void;
@@ -49,26 +46,17 @@ async function render({ model, el }: { model: Model; el: HTMLElement }): Promise
     clearTimeout(timer);
     timer = setTimeout(() => model.save_changes(), REST);
   });
-  const heard: Record<string, () => void> = {
-    "change:sites": () => globe.showSites(doubles(model.get("sites"))),
-    "change:lens": () => globe.showLens(model.get("lens")),
-    "change:view": () => globe.showView(model.get("view")),
-    "change:selection": () => globe.showSelection(model.get("selection")),
-  };
-  for (const [event, act] of Object.entries(heard)) {
+  const heard = (["sites", "lens", "view", "selection"] as const).map((name) => {
+    const act = (): void => globe.show({ [name]: model.get(name) });
     act();
-    model.on(event, act);
-  }
+    model.on(`change:${name}`, act);
+    return () => model.off(`change:${name}`, act);
+  });
   return () => {
     clearTimeout(timer);
-    for (const [event, act] of Object.entries(heard)) model.off(event, act);
+    for (const forget of heard) forget();
     globe.dispose();
   };
-}
-
-/** Numbers at any place of a buffer. */
-function doubles(view: DataView): Float64Array {
-  return new Float64Array(view.buffer.slice(view.byteOffset, view.byteOffset + view.byteLength) as ArrayBuffer);
 }
 
 export default { render };

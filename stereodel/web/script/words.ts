@@ -45,11 +45,7 @@ export function wrap(degrees: number): number {
  * @param where the facets are, and the triangles, and the pole with the space before it.
  */
 export function ofFacets(triangles: number, seeing: number, where: readonly [string, string, string]): string {
-  return [
-    `${several(triangles + seeing, "facet")} ${where[0]}`,
-    "=",
-    `${several(triangles, "triangle")} ${where[1]}`,
-    "+",
-    `${several(seeing, "facet")} that ${seeing === 1 ? "sees" : "see"}${where[2]}`,
-  ].join("\u2002");
+  const all = `${several(triangles + seeing, "facet")} ${where[0]}`;
+  const those = `${several(seeing, "facet")} that ${seeing === 1 ? "sees" : "see"}${where[2]}`;
+  return [all, "=", `${several(triangles, "triangle")} ${where[1]}`, "+", those].join("\u2002");
 }

@@ -1,12 +1,14 @@
 /**
- * Arcs of circles of a ball seen from afar, as the true arcs of ellipses that they are.
+ * Arcs of circles of a ball seen from afar, as the true arcs of ellipses that they are, and regions that fill right from
+ * every side and through every lens.
  * Points are in the axes of the view: x right, y up, z toward the reader, on the unit sphere; row k of an array is
  * point k. What has z >= 0 is seen. A circle n·x = d of the ball is seen as an ellipse with the middle d n and the half
  * axes r across n and r |n_z|, r = √(1 − d²).
  */
 
-import type { Vector } from "../space.ts";
-import type { Disc, Path } from "./pen.ts";
+import type { MoebiusMap } from "../kernel/api.ts";
+import { row, type Vector } from "../space.ts";
+import { traceDisc, type Disc, type Path } from "./pen.ts";
 
 /** The half of the ball that is drawn: that in front, or that behind. */
 export type Side = "front" | "back";
@@ -154,43 +156,244 @@ export function bow(p: ArrayLike<number>, a: number, m: number, b: number): numb
   return (seen * square) / (2 * (sides + flat));
 }
 
-/** Lays a line of points [begin, end) into a path, cut at the limb; points nearer than `least` pixels are passed over. */
-export function traceLine(
-  path: Path,
-  disc: Disc,
-  p: ArrayLike<number>,
-  begin: number,
-  end: number,
-  closed: boolean,
-  least = 0.5,
-): void {
-  const count = end - begin;
-  let isDown = false;
-  let [x, y, wasIn] = [0, 0, false];
-  for (let n = 0; n <= count - (closed ? 0 : 1); ++n) {
-    const i = 3 * (begin + (n % count));
-    const [px, py, isIn] = [disc.x + disc.r * p[i], disc.y - disc.r * p[i + 1], p[i + 2] >= 0];
-    if (n > 0 && isIn !== wasIn) {
-      const j = 3 * (begin + n - 1);
-      const t = p[j + 2] / (p[j + 2] - p[i + 2]);
-      const [cx, cy] = [p[j] + t * (p[i] - p[j]), p[j + 1] + t * (p[i + 1] - p[j + 1])];
-      const scale = disc.r / Math.hypot(cx, cy);
-      if (isIn) {
-        path.moveTo((x = disc.x + scale * cx), (y = disc.y - scale * cy));
-        isDown = true;
-      } else {
-        path.lineTo(disc.x + scale * cx, disc.y - scale * cy);
-        isDown = false;
+/** Rings of points in the axes of the view: ring i is rows [offsets[i], offsets[i + 1]), its end joined to its start. */
+export interface Rings {
+  readonly points: Float64Array;
+  readonly offsets: ArrayLike<number>;
+}
+
+/** Points nearer to the last one, pixels, are passed over. */
+const UNSEEN_STEP = 0.5;
+
+/** Lays rings into a path as lines, cut at the limb. */
+export function traceOutlines(path: Path, disc: Disc, { points: p, offsets }: Rings): void {
+  for (let ring = 0; ring + 1 < offsets.length; ++ring) {
+    const [begin, count] = [offsets[ring], offsets[ring + 1] - offsets[ring]];
+    let [x, y, before] = [0, 0, -1];
+    for (let n = 0; n <= count; ++n) {
+      const i = 3 * (begin + (n % count));
+      const [px, py, isIn] = [disc.x + disc.r * p[i], disc.y - disc.r * p[i + 1], p[i + 2] >= 0];
+      if (n > 0 && isIn !== p[before + 2] >= 0) {
+        const t = p[before + 2] / (p[before + 2] - p[i + 2]);
+        const [cx, cy] = [p[before] + t * (p[i] - p[before]), p[before + 1] + t * (p[i + 1] - p[before + 1])];
+        const scale = disc.r / Math.hypot(cx, cy);
+        [x, y] = [disc.x + scale * cx, disc.y - scale * cy];
+        if (isIn) path.moveTo(x, y);
+        else path.lineTo(x, y);
       }
-    }
-    if (isIn) {
-      if (!isDown) {
-        path.moveTo((x = px), (y = py));
-        isDown = true;
-      } else if (Math.abs(px - x) + Math.abs(py - y) > least || n === count - (closed ? 0 : 1)) {
+      if (isIn && n === 0) path.moveTo((x = px), (y = py));
+      else if (isIn && (Math.abs(px - x) + Math.abs(py - y) > UNSEEN_STEP || n === count))
         path.lineTo((x = px), (y = py));
-      }
+      before = i;
     }
-    wasIn = isIn;
   }
+}
+
+const TURN = 2 * Math.PI;
+const HALF_TURN = Math.PI;
+
+/**
+ * Lays regions into a path.
+ * What is hidden is pushed outward to the limb: the disc is then the sphere without its hidden pole M, the middle of the
+ * far side. With regions on the left of their rings the pushed rings wind once about what is inside and not at all about
+ * the rest, or, if M is inside, not at all and minus once: then the whole disc is added. Whether M is inside is found by
+ * counting crossings on the way from a place of which it is known, and never from areas, whose signs cannot be trusted.
+ * @param holdsHidden Whether M = (0, 0, −1) is inside: `holdsHidden` tells.
+ */
+export function traceRegions(path: Path, disc: Disc, rings: Rings, holdsHidden: boolean): void {
+  let discs = holdsHidden ? 1 : 0;
+  for (let ring = 0; ring + 1 < rings.offsets.length; ++ring) {
+    discs += traceRing(path, disc, rings.points, rings.offsets[ring], rings.offsets[ring + 1]);
+  }
+  // About the whole disc: with the rings' own sense, counterclockwise to the eye, or against it.
+  for (; discs > 0; --discs) traceWhole(path, disc, false);
+  for (; discs < 0; ++discs) traceWhole(path, disc, true);
+}
+
+/** One ring; a ring that is all hidden is not drawn, and its turns about M are returned. */
+function traceRing(path: Path, disc: Disc, p: Float64Array, begin: number, end: number): number {
+  let first = begin;
+  while (first < end && p[3 * first + 2] < 0) ++first;
+  if (first === end) return Math.round(turnsOf(p, begin, end) / TURN);
+  let [x, y] = [disc.x + disc.r * p[3 * first], disc.y - disc.r * p[3 * first + 1]];
+  path.moveTo(x, y);
+  let [from, turn] = [0, 0]; // along the limb, while the ring is hidden
+  let i = 3 * first;
+  for (let n = end - begin; n > 0; --n) {
+    const j = i + 3 === 3 * end ? 3 * begin : i + 3;
+    const [z, w] = [p[i + 2], p[j + 2]];
+    if (z >= 0 !== w >= 0) {
+      const t = z / (z - w);
+      const azimuth = Math.atan2(p[i + 1] + t * (p[j + 1] - p[i + 1]), p[i] + t * (p[j] - p[i]));
+      if (w < 0) {
+        [from, turn] = [azimuth, 0];
+        path.lineTo(disc.x + disc.r * Math.cos(azimuth), disc.y - disc.r * Math.sin(azimuth));
+        turn += wrapped(Math.atan2(p[j + 1], p[j]) - azimuth);
+      } else {
+        turn += wrapped(azimuth - from - turn);
+        traceLimb(path, disc, from, turn);
+        [x, y] = [Infinity, Infinity];
+      }
+    } else if (w < 0) turn += wrapped(Math.atan2(p[j + 1], p[j]) - from - turn);
+    if (w >= 0) {
+      const [nx, ny] = [disc.x + disc.r * p[j], disc.y - disc.r * p[j + 1]];
+      if (Math.abs(nx - x) + Math.abs(ny - y) > UNSEEN_STEP) path.lineTo((x = nx), (y = ny));
+    }
+    i = j;
+  }
+  path.closePath();
+  return 0;
+}
+
+/** How far a ring turns about the view's axis, counterclockwise from the front. */
+function turnsOf(p: Float64Array, begin: number, end: number): number {
+  let sum = 0;
+  for (let k = begin; k < end; ++k) {
+    const [i, j] = [3 * k, k + 1 === end ? 3 * begin : 3 * k + 3];
+    sum += wrapped(Math.atan2(p[j + 1], p[j]) - Math.atan2(p[i + 1], p[i]));
+  }
+  return sum;
+}
+
+function wrapped(angle: number): number {
+  return angle - TURN * Math.round(angle / TURN);
+}
+
+function traceWhole(path: Path, { x, y, r }: Disc, clockwise: boolean): void {
+  path.moveTo(x + r, y);
+  path.ellipse(x, y, r, r, 0, 0, clockwise ? TURN : -TURN, !clockwise);
+  path.closePath();
+}
+
+/**
+ * Whether M = (0, 0, −1) lies in regions.
+ * @param place A place of which it is known, axes of the view, nowhere near an outline.
+ * @param inside Whether that place is in the regions.
+ */
+export function holdsHidden({ points: p, offsets }: Rings, place: Vector, inside: boolean): boolean {
+  const [rx, ry, rz] = place;
+  let holds = inside;
+  for (let ring = 0; ring + 1 < offsets.length; ++ring) {
+    const [begin, end] = [3 * offsets[ring], 3 * offsets[ring + 1]];
+    let i = end - 3;
+    let before = rx * p[i + 1] - ry * p[i];
+    for (let j = begin; j < end; i = j, j += 3) {
+      const side = rx * p[j + 1] - ry * p[j];
+      if (side >= 0 !== before >= 0) {
+        // The plane through the axis and the place is crossed here; on their side, and below the place?
+        const t = before / (before - side);
+        const [x, y] = [p[i] + t * (p[j] - p[i]), p[i + 1] + t * (p[j + 1] - p[i + 1])];
+        const z = p[i + 2] + t * (p[j + 2] - p[i + 2]);
+        const along = x * rx + y * ry; // times the place's distance from the axis
+        if (along > 0 && z * (rx * rx + ry * ry) < rz * along) holds = !holds;
+      }
+      before = side;
+    }
+  }
+  return holds;
+}
+
+/** Lays the cap n·x > d into a path, with its hidden part pushed to the limb. */
+export function traceCap(path: Path, disc: Disc, cap: Circle): void {
+  const { n, d, from } = cap;
+  const parts = partsOf({ ...cap, to: from + TURN });
+  if (parts.length === 0) {
+    if (n[2] > d) traceDisc(path, disc);
+    return;
+  }
+  // A part that goes on over the circle's beginning is one.
+  if (parts.length === 4) parts.splice(0, 4, parts[2], parts[1] + TURN);
+  tracePart(path, disc, cap, parts[0], parts[1]);
+  if (parts[1] - parts[0] < TURN) traceHidden(path, disc, cap, parts[1], parts[0] + TURN);
+  path.closePath();
+  if (-n[2] > d) traceWhole(path, disc, false);
+}
+
+/** The hidden part of a circle, along the limb. */
+function traceHidden(path: Path, disc: Disc, cap: Circle, begin: number, end: number): void {
+  const azimuth = (t: number): number => {
+    const [x, y] = pointAt(cap, t);
+    return Math.atan2(y, x);
+  };
+  const [from, middle, to] = [azimuth(begin), azimuth((begin + end) / 2), azimuth(end)];
+  traceLimb(path, disc, from, wrapped(middle - from) + wrapped(to - middle));
+}
+
+/** Goes on along the limb, counterclockwise for positive turns; a canvas forgets all turns of an arc but one. */
+function traceLimb(path: Path, { x, y, r }: Disc, from: number, turn: number): void {
+  const pieces = Math.ceil(Math.abs(turn) / HALF_TURN);
+  for (let k = 0; k < pieces; ++k) {
+    const [begin, end] = [from + (turn * k) / pieces, from + (turn * (k + 1)) / pieces];
+    path.ellipse(x, y, r, r, 0, -begin, -end, turn > 0);
+  }
+}
+
+/** Sides of images that are shorter are left as they are, pixels. */
+const SHORT = 8;
+
+/** Largest distance of an outline from its points' polygon, pixels: less than half the width of a coast. */
+const LEAST_BOW = 0.3;
+
+const AXES = [0, 1, 2];
+
+/** Points of one side at the most: of half a circle round the whole ball they are some pixels apart. */
+const MOST_PIECES = 128;
+
+/**
+ * The images of rings of great-circle arcs, with as many points more as it takes: the distance from a side's chord falls
+ * with the square of the number of its pieces.
+ * @param source The rings' points before the map.
+ * @param rings Their images, in the axes of the view.
+ * @param radius Of the ball, pixels.
+ */
+export function bentRings(source: Float64Array, rings: Rings, map: MoebiusMap, radius: number): Rings {
+  const { points: p, offsets } = rings;
+  const sides: { from: number; to: number; pieces: number }[] = [];
+  const least = (SHORT / radius) ** 2;
+  for (let ring = 0; ring + 1 < offsets.length; ++ring) {
+    for (let from = offsets[ring]; from < offsets[ring + 1]; ++from) {
+      const to = from + 1 < offsets[ring + 1] ? from + 1 : offsets[ring];
+      const [i, j] = [3 * from, 3 * to];
+      const [x, y, z] = [p[j] - p[i], p[j + 1] - p[i + 1], p[j + 2] - p[i + 2]];
+      if (x * x + y * y + z * z > least) sides.push({ from, to, pieces: 1 });
+    }
+  }
+  const coordinate = (row: number, k: number): number => source[3 * row + k];
+  const middles = sides.flatMap(({ from, to }) => AXES.map((k) => coordinate(from, k) + coordinate(to, k)));
+  const images = map.apply(Float64Array.from(middles));
+  const between: number[] = [];
+  sides.forEach((side, at) => {
+    const { from, to } = side;
+    const three = [...row(p, from), ...row(images, at), ...row(p, to)];
+    const pieces = Math.ceil(Math.sqrt((radius * bow(three, 0, 1, 2)) / LEAST_BOW));
+    side.pieces = Math.max(1, Math.min(MOST_PIECES, pieces));
+    for (let piece = 1; piece < side.pieces; ++piece) {
+      const t = piece / side.pieces;
+      for (const k of AXES) between.push(coordinate(from, k) + t * (coordinate(to, k) - coordinate(from, k)));
+    }
+  });
+  return between.length === 0 ? rings : merged(rings, sides, map.apply(Float64Array.from(between)));
+}
+
+function merged(
+  { points, offsets }: Rings,
+  sides: readonly { from: number; pieces: number }[],
+  between: Float64Array,
+): Rings {
+  const more = new Float64Array(points.length + between.length);
+  const moved = new Uint32Array(offsets.length);
+  let [at, taken, side] = [0, 0, 0];
+  for (let ring = 0; ring + 1 < offsets.length; ++ring) {
+    for (let k = offsets[ring]; k < offsets[ring + 1]; ++k) {
+      more.set(points.subarray(3 * k, 3 * k + 3), at);
+      at += 3;
+      if (side === sides.length || sides[side].from !== k) continue;
+      const length = 3 * (sides[side++].pieces - 1);
+      more.set(between.subarray(taken, taken + length), at);
+      at += length;
+      taken += length;
+    }
+    moved[ring + 1] = at / 3;
+  }
+  return { points: more.subarray(0, at), offsets: moved };
 }

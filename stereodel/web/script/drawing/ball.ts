@@ -1,18 +1,12 @@
-/** What lies on a ball: layers whose directions stay in the kernel, each drawn as its images under a map are. */
+/** What lies on a ball or a plane: layers whose directions stay in the kernel, each drawn as its images under a map are. */
 
 import type { Rings as Places } from "../contents.ts";
-import {
-  Directions,
-  lonlatToXyz,
-  type MoebiusMap,
-  type SphericalDelaunay,
-  type SphericalVoronoi,
-} from "../kernel/api.ts";
+import { Directions, lonlatToXyz } from "../kernel/api.ts";
+import type { MoebiusMap, SphericalDelaunay, SphericalVoronoi } from "../kernel/api.ts";
 import { angle, cross, DEGREE, directionOf, dot, row, unit, type Vector } from "../space.ts";
-import { arcThrough, traceArc, traceLine, type Side } from "./arcs.ts";
-import { bentRings } from "./bent_rings.ts";
-import { holdsHidden, traceCap, traceRegions, type Rings } from "./fill.ts";
-import type { Disc, Path, Pen } from "./pen.ts";
+import { arcThrough, bentRings, holdsHidden, traceArc, traceCap, traceOutlines, traceRegions } from "./arcs.ts";
+import type { Side } from "./arcs.ts";
+import { traceCorners, traceSegment, type Disc, type Path, type Pen, type Point, type Trace } from "./pen.ts";
 import type { DotName, StyleName } from "./styles.ts";
 
 /** The longest arc of a circle that is drawn by three points, radians: they are well apart, and tell its sense. */
@@ -24,20 +18,13 @@ const AT_SEA = directionOf(-123.4, -48.9);
 export interface Layer {
   readonly directions: Directions;
   /** Draws images of the directions under a map, in the axes of the view. */
-  draw(pen: Pen, disc: Disc, images: Float64Array, map: MoebiusMap, side: Side): void;
+  draw(pen: Pen, disc: Disc, images: Float64Array, map: MoebiusMap): void;
 }
 
 /** Draws layers one over the other; `map` takes them to the axes of the view: x right, y up, z toward the reader. */
-export function drawLayers(
-  pen: Pen,
-  disc: Disc,
-  map: MoebiusMap,
-  layers: readonly (Layer | null)[],
-  side: Side = "front",
-): void {
+export function drawLayers(pen: Pen, disc: Disc, map: MoebiusMap, layers: readonly (Layer | null)[]): void {
   for (const layer of layers) {
-    if (layer !== null && layer.directions.xyz.length > 0)
-      layer.draw(pen, disc, map.apply(layer.directions), map, side);
+    if (layer !== null && layer.directions.xyz.length > 0) layer.draw(pen, disc, map.apply(layer.directions), map);
   }
 }
 
@@ -45,9 +32,9 @@ export function drawLayers(
 export function arcLayer(style: StyleName, points: Float64Array): Layer {
   return {
     directions: new Directions(points),
-    draw(pen, disc, images, _map, side) {
+    draw(pen, disc, images) {
       pen.draw(style, (path) => {
-        for (let k = 0; 3 * k < images.length; k += 3) traceArc(path, disc, images, k, k + 1, k + 2, side);
+        for (let k = 0; 3 * k < images.length; k += 3) traceArc(path, disc, images, k, k + 1, k + 2);
       });
     },
   };
@@ -71,11 +58,10 @@ export function capLayer(style: StyleName, points: Float64Array): Layer {
 export function dotLayer(style: DotName, points: Float64Array): Layer {
   return {
     directions: new Directions(points),
-    draw(pen, disc, images, _map, side) {
-      const sign = side === "front" ? 1 : -1;
+    draw(pen, disc, images) {
       const places: number[] = [];
       for (let i = 0; i < images.length; i += 3) {
-        if (sign * images[i + 2] >= 0) places.push(disc.x + disc.r * images[i], disc.y - disc.r * images[i + 1]);
+        if (images[i + 2] >= 0) places.push(disc.x + disc.r * images[i], disc.y - disc.r * images[i + 1]);
       }
       pen.dots(style, places);
     },
@@ -112,12 +98,6 @@ export function regionLayer(
 /** Land with its coast. */
 export function landLayer({ lonlat, offsets }: Places): Layer {
   return regionLayer("land", "coast", lonlatToXyz(lonlat), offsets, AT_SEA, false);
-}
-
-function traceOutlines(path: Path, disc: Disc, { points, offsets }: Rings): void {
-  for (let ring = 0; ring + 1 < offsets.length; ++ring) {
-    traceLine(path, disc, points, offsets[ring], offsets[ring + 1], true);
-  }
 }
 
 /** Edges of a triangulation as arcs. */
@@ -197,15 +177,53 @@ export function traceGreat(path: Path, disc: Disc, a: Vector, b: Vector, side: S
   traceArc(path, disc, [...a, ...unit([a[0] + b[0], a[1] + b[1], a[2] + b[2]]), ...b], 0, 1, 2, side);
 }
 
-/** The sides of a polygon of directions. */
-export function traceSides(path: Path, disc: Disc, corners: readonly Vector[]): void {
-  corners.forEach((a, k) => traceGreat(path, disc, a, corners[(k + 1) % corners.length]));
+/** Where a picture has sites, and lines and regions between them. */
+export interface Surface {
+  place(site: number): Point;
+  isSeen(site: number): boolean;
+  /** From one site to another. */
+  line(path: Path, a: number, b: number, side?: Side): void;
+  /** A closed line through sites. */
+  ring(path: Path, sites: readonly number[]): void;
+  /** The region on the left of such a line. @param holds Whether it holds the middle of the far side, or infinity. */
+  region(path: Path, sites: readonly number[], holds: boolean): void;
 }
 
-/** The region on the left of a polygon of great-circle sides. */
-export function tracePolygon(path: Path, disc: Disc, corners: readonly Vector[], holdsHidden: boolean): void {
-  const points = corners.flatMap((a, k) => along(a, corners[(k + 1) % corners.length]));
-  traceRegions(path, disc, { points: Float64Array.from(points.flat()), offsets: [0, points.length] }, holdsHidden);
+/** A ball. @param look Directions of the sites, axes of the view. */
+export function ballSurface(disc: Disc, look: (site: number) => Vector): Surface {
+  const sides = (sites: readonly number[]): [number, number][] =>
+    sites.map((a, k) => [a, sites[(k + 1) % sites.length]]);
+  const line = (path: Path, a: number, b: number, side?: Side): void => traceGreat(path, disc, look(a), look(b), side);
+  return {
+    place: (site) => placeOf(disc, look(site)),
+    isSeen: (site) => look(site)[2] >= 0,
+    line,
+    ring: (path, sites) => sides(sites).forEach(([a, b]) => line(path, a, b)),
+    region(path, sites, holds) {
+      const points = sides(sites).flatMap(([a, b]) => along(look(a), look(b)));
+      traceRegions(path, disc, { points: Float64Array.from(points.flat()), offsets: [0, points.length] }, holds);
+    },
+  };
+}
+
+/** A plane, as far as its frame goes. @param place Of the sites on the picture. */
+export function planeSurface(place: (site: number) => Point, frame: Trace): Surface {
+  const ring = (path: Path, sites: readonly number[]): void => traceCorners(path, sites.map(place));
+  return {
+    place,
+    isSeen: () => true,
+    line: (path, a, b) => traceSegment(path, place(a), place(b)),
+    ring,
+    region(path, sites, holds) {
+      if (holds) frame(path);
+      ring(path, sites);
+    },
+  };
+}
+
+/** Those of the sites that are seen, as dots. */
+export function drawDots(pen: Pen, surface: Surface, style: DotName, sites: readonly number[]): void {
+  pen.dots(style, sites.filter(surface.isSeen).flatMap(surface.place));
 }
 
 /** Points of a great-circle side, a degree apart at the most, from its first corner on, without its last. */

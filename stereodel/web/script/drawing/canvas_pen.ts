@@ -1,8 +1,9 @@
 /** The pen of the screen: a canvas with two dimensions. */
 
-import { textParts, traceDisc, type Disc, type Path, type Pen, type Picture, type Trace } from "./pen.ts";
+import { LIGHT, Pen, textParts, traceDisc } from "./pen.ts";
+import type { Disc, Gradient, Path, Picture, Trace } from "./pen.ts";
 import * as styles from "./styles.ts";
-import type { Colours, DotName, LabelStyle, Style, StyleName, Token } from "./styles.ts";
+import type { Colours, DotName, LabelStyle, Style, StyleName } from "./styles.ts";
 
 /** Arcs of ellipses that are stroked at once: browsers need quadratic time for paths of thousands. */
 const MOST_ARCS = 256;
@@ -12,20 +13,13 @@ const MANY_DOTS = 20_000;
 
 type Context = CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D;
 
-export class CanvasPen implements Pen {
-  readonly width: number;
-  readonly height: number;
+export class CanvasPen extends Pen {
   readonly #context: Context;
-  readonly #colours: Colours;
-  readonly #weight: number;
 
-  /** @param scale Pixels of the canvas for one of the drawing. @param weight Factor of the widths of lines. */
+  /** @param scale Pixels of the canvas for one of the drawing. */
   constructor(context: Context, width: number, height: number, scale: number, colours: Colours, weight: number) {
-    this.width = width;
-    this.height = height;
+    super(width, height, colours, weight);
     this.#context = context;
-    this.#colours = colours;
-    this.#weight = weight;
     context.setTransform(scale, 0, 0, scale, 0, 0);
     context.lineCap = context.lineJoin = "round";
     context.imageSmoothingQuality = "high";
@@ -36,7 +30,7 @@ export class CanvasPen implements Pen {
     const context = this.#context;
     if (style.fill === undefined && style.hatch === undefined) {
       this.#line(style);
-      const path = new StrokedPath(context);
+      const path = strokedPath(context);
       trace(path);
       path.flush();
       return;
@@ -45,7 +39,7 @@ export class CanvasPen implements Pen {
     trace(context);
     if (style.hatch !== undefined) this.#hatch(style.hatch === "crossed");
     if (style.fill !== undefined) {
-      context.fillStyle = this.#colours[style.fill];
+      context.fillStyle = this.colours[style.fill];
       context.globalAlpha *= style.fillOpacity ?? 1;
       context.fill();
       context.globalAlpha /= style.fillOpacity ?? 1;
@@ -72,26 +66,16 @@ export class CanvasPen implements Pen {
     });
   }
 
-  ball(disc: Disc, ground: "ball" | "ocean"): void {
-    if (ground === "ocean") this.#fillDisc(disc, this.#colours.ocean);
-    else this.#fillDisc(disc, this.#gradient(disc, 0.25, this.#colours.ball, this.#colours["ball-rim"]));
-  }
-
-  shade(disc: Disc): void {
-    this.#fillDisc(disc, this.#gradient(disc, 0.45, ...SHADE));
-  }
-
   dots(name: DotName, places: ArrayLike<number>): void {
     const { radius: r, fill, rim, rimWidth } = styles.DOTS[name];
     const context = this.#context;
     if (places.length > 2 * MANY_DOTS) {
-      context.fillStyle = this.#colours[fill];
+      context.fillStyle = this.colours[fill];
       for (let k = 0; k < places.length; k += 2) context.fillRect(places[k] - r / 2, places[k + 1] - r / 2, r, r);
       return;
     }
-    // First all rims: where dots lie close, none is hidden by the rim of another.
-    this.#discs(places, r + rimWidth / 2, this.#colours[rim]);
-    this.#discs(places, r - rimWidth / 2, this.#colours[fill]);
+    this.#discs(places, r + rimWidth / 2, this.colours[rim]);
+    this.#discs(places, r - rimWidth / 2, this.colours[fill]);
   }
 
   /** Discs about places; some at a time, as a call for each takes longer than the discs. */
@@ -128,8 +112,8 @@ export class CanvasPen implements Pen {
     context.textAlign = "left";
     context.setLineDash([]);
     context.lineWidth = styles.HALO_WIDTH;
-    context.strokeStyle = this.#colours[style.halo];
-    context.fillStyle = this.#colours[style.ink];
+    context.strokeStyle = this.colours[style.halo];
+    context.fillStyle = this.colours[style.ink];
     each((words, at) => context.strokeText(words, at, y));
     each((words, at) => context.fillText(words, at, y));
   }
@@ -138,9 +122,9 @@ export class CanvasPen implements Pen {
     this.#context.drawImage(picture, x, y, width, height);
   }
 
-  #line(style: { readonly stroke?: Token; readonly width?: number; readonly dash?: readonly number[] }): void {
-    this.#context.strokeStyle = this.#colours[style.stroke ?? "ink"];
-    this.#context.lineWidth = (style.width ?? 1) * this.#weight;
+  #line(style: Style): void {
+    this.#context.strokeStyle = this.colours[style.stroke ?? "ink"];
+    this.#context.lineWidth = (style.width ?? 1) * this.weight;
     this.#context.setLineDash([...(style.dash ?? [])]);
   }
 
@@ -171,62 +155,45 @@ export class CanvasPen implements Pen {
     });
   }
 
-  #fillDisc(disc: Disc, fill: string | CanvasGradient): void {
-    this.#context.beginPath();
-    traceDisc(this.#context, disc);
-    this.#context.fillStyle = fill;
-    this.#context.fill();
-  }
-
-  /** From the upper left of the middle outward; its place is that of an object's bounding box in SVG. */
-  #gradient({ x, y, r }: Disc, from: number, inner: string, outer: string): CanvasGradient {
-    const [cx, cy] = [x + (LIGHT.x - 0.5) * 2 * r, y + (LIGHT.y - 0.5) * 2 * r];
-    const gradient = this.#context.createRadialGradient(cx, cy, 0, cx, cy, LIGHT.r * 2 * r);
-    gradient.addColorStop(from, inner);
-    gradient.addColorStop(1, outer);
-    return gradient;
+  /** The place of a gradient is that of an object's bounding box in SVG. */
+  protected fillDisc(disc: Disc, fill: string | Gradient): void {
+    const context = this.#context;
+    const { x, y, r } = disc;
+    if (typeof fill === "string") context.fillStyle = fill;
+    else {
+      const [cx, cy] = [x + (LIGHT.x - 0.5) * 2 * r, y + (LIGHT.y - 0.5) * 2 * r];
+      const gradient = context.createRadialGradient(cx, cy, 0, cx, cy, LIGHT.r * 2 * r);
+      gradient.addColorStop(fill.from, fill.inner);
+      gradient.addColorStop(1, fill.outer);
+      context.fillStyle = gradient;
+    }
+    context.beginPath();
+    traceDisc(context, disc);
+    context.fill();
   }
 }
 
-/** Where the light falls on a ball: middle and radius of the gradient as parts of the ball's square. */
-export const LIGHT = { x: 0.42, y: 0.38, r: 0.68 };
-
-/** The shade of a globe, from none to its rim. */
-export const SHADE = ["rgb(27 39 48 / 0)", "rgb(27 39 48 / 0.2)"] as const;
-
 /** Strokes what it was given before its arcs are too many; only where a new line begins. */
-class StrokedPath implements Path {
-  readonly #context: Context;
-  #arcs = 0;
-
-  constructor(context: Context) {
-    this.#context = context;
-    context.beginPath();
-  }
-
-  moveTo(x: number, y: number): void {
-    if (this.#arcs >= MOST_ARCS) {
-      this.flush();
-      this.#context.beginPath();
-    }
-    this.#context.moveTo(x, y);
-  }
-
-  lineTo(x: number, y: number): void {
-    this.#context.lineTo(x, y);
-  }
-
-  ellipse(...given: Parameters<Path["ellipse"]>): void {
-    ++this.#arcs;
-    this.#context.ellipse(...given);
-  }
-
-  closePath(): void {
-    this.#context.closePath();
-  }
-
-  flush(): void {
-    this.#context.stroke();
-    this.#arcs = 0;
-  }
+function strokedPath(context: Context): Path & { flush(): void } {
+  let arcs = 0;
+  context.beginPath();
+  return {
+    moveTo(x, y) {
+      if (arcs >= MOST_ARCS) {
+        this.flush();
+        context.beginPath();
+      }
+      context.moveTo(x, y);
+    },
+    lineTo: (x, y) => context.lineTo(x, y),
+    ellipse(...given) {
+      ++arcs;
+      context.ellipse(...given);
+    },
+    closePath: () => context.closePath(),
+    flush() {
+      context.stroke();
+      arcs = 0;
+    },
+  };
 }

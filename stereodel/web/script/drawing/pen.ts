@@ -1,6 +1,6 @@
 /** The one interface through which rooms draw: the same trace becomes pixels or SVG. Pixels of the screen, y down. */
 
-import { HANDLE_CROSS, HANDLE_RADIUS, type DotName, type LabelStyle, type StyleName } from "./styles.ts";
+import { HANDLE_CROSS, HANDLE_RADIUS, type Colours, type DotName, type LabelStyle, type StyleName } from "./styles.ts";
 
 /** What a trace is laid into: a part of the canvas's own interface. */
 export interface Path {
@@ -22,6 +22,9 @@ export interface Path {
 
 export type Trace = (path: Path) => void;
 
+/** A place of the drawing, or of a plane. */
+export type Point = readonly [number, number];
+
 /** A disc of the drawing: a ball seen from afar. */
 export interface Disc {
   readonly x: number;
@@ -32,26 +35,53 @@ export interface Disc {
 /** A picture that is laid into the drawing. */
 export type Picture = HTMLCanvasElement | OffscreenCanvas;
 
-export interface Pen {
+/** Where the light falls on a ball: middle and radius of the gradient as parts of the ball's square. */
+export const LIGHT = { x: 0.42, y: 0.38, r: 0.68 };
+
+/** From the light outward: the inner colour up to a part of the radius, then gradually the outer one. */
+export interface Gradient {
+  readonly id: string;
+  readonly from: number;
+  readonly inner: string;
+  readonly outer: string;
+}
+
+export abstract class Pen {
   /** Of the drawing, pixels of the screen. */
   readonly width: number;
   readonly height: number;
+  protected readonly colours: Colours;
+  protected readonly weight: number;
+
+  /** @param weight Factor of the widths of lines. */
+  constructor(width: number, height: number, colours: Colours, weight: number) {
+    [this.width, this.height, this.colours, this.weight] = [width, height, colours, weight];
+  }
+
   /** Draws a path in a style; regions are those about which the path winds. */
-  draw(style: StyleName, trace: Trace): void;
+  abstract draw(style: StyleName, trace: Trace): void;
   /** Draws what lies behind, faintly. */
-  behind(body: () => void): void;
+  abstract behind(body: () => void): void;
   /** Draws only inside a region. */
-  clipped(trace: Trace, body: () => void): void;
-  /** The ground of a ball, lit from the upper left: the pale one of geometry, or water. */
-  ball(disc: Disc, ground: "ball" | "ocean"): void;
-  /** The shade that makes a disc of land and water round. */
-  shade(disc: Disc): void;
-  /** Dots at x, y in turn. */
-  dots(style: DotName, places: ArrayLike<number>): void;
+  abstract clipped(trace: Trace, body: () => void): void;
+  /** Dots at x, y in turn. First all rims: where dots lie close, none is hidden by the rim of another. */
+  abstract dots(style: DotName, places: ArrayLike<number>): void;
   /** Text at a point of its baseline. */
-  label(text: string, x: number, y: number, style: LabelStyle): void;
+  abstract label(text: string, x: number, y: number, style: LabelStyle): void;
   /** A picture, fitted into a rectangle. */
-  picture(picture: Picture, x: number, y: number, width: number, height: number): void;
+  abstract picture(picture: Picture, x: number, y: number, width: number, height: number): void;
+  protected abstract fillDisc(disc: Disc, fill: string | Gradient): void;
+
+  /** The ground of a ball, lit from the upper left: the pale one of geometry, or water. */
+  ball(disc: Disc, ground: "ball" | "ocean"): void {
+    const { ball: inner, "ball-rim": outer, ocean } = this.colours;
+    this.fillDisc(disc, ground === "ocean" ? ocean : { id: "ball", from: 0.25, inner, outer });
+  }
+
+  /** The shade that makes a disc of land and water round. */
+  shade(disc: Disc): void {
+    this.fillDisc(disc, { id: "shade", from: 0.45, inner: "rgb(27 39 48 / 0)", outer: "rgb(27 39 48 / 0.2)" });
+  }
 }
 
 /** A drawing as a file: a picture of a size in pixels of the screen, and what draws it. */
@@ -72,13 +102,13 @@ export function traceDisc(path: Path, { x, y, r }: Disc): void {
 }
 
 /** A straight line. */
-export function traceSegment(path: Path, a: readonly [number, number], b: readonly [number, number]): void {
+export function traceSegment(path: Path, a: Point, b: Point): void {
   path.moveTo(...a);
   path.lineTo(...b);
 }
 
 /** A closed line of straight sides. */
-export function traceCorners(path: Path, corners: readonly (readonly [number, number])[]): void {
+export function traceCorners(path: Path, corners: readonly Point[]): void {
   corners.forEach(([x, y], k) => (k === 0 ? path.moveTo(x, y) : path.lineTo(x, y)));
   if (corners.length > 0) path.closePath();
 }

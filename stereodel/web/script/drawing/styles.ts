@@ -139,17 +139,11 @@ export function colours(within: HTMLElement = document.documentElement): Colours
   const key = [...QUERIES.map((query) => matchMedia(query).matches), ...choice].join();
   const read = known.get(within);
   if (read?.key === key) return read.colours;
-  const probe = read?.probe ?? hiddenIn(within);
+  const probe = read?.probe ?? within.appendChild(make("span", { hidden: true }));
+  probe.style.setProperty("forced-color-adjust", "none"); // drawings keep their inks
   const found = readColours(probe);
   known.set(within, { key, probe, colours: found });
   return found;
-}
-
-function hiddenIn(within: HTMLElement): HTMLElement {
-  const probe = make("span", { hidden: true });
-  probe.style.setProperty("forced-color-adjust", "none"); // drawings keep their inks
-  within.append(probe);
-  return probe;
 }
 
 /** Calls back when the system's colours change, until the function that is returned is called. */

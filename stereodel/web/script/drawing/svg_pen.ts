@@ -1,23 +1,9 @@
 /** The pen of SVG: the same trace as on the screen, with true arcs of ellipses. */
 
 import { writeNumber } from "../link.ts";
-import { LIGHT, SHADE } from "./canvas_pen.ts";
-import { textParts, type Disc, type Path, type Pen, type Picture, type Trace } from "./pen.ts";
-import {
-  BEHIND,
-  DOTS,
-  HALO_WIDTH,
-  HATCH_PITCH,
-  HATCH_WIDTH,
-  SERIF,
-  STYLES,
-  type Colours,
-  type DotName,
-  type LabelStyle,
-  type Style,
-  type StyleName,
-  type Token,
-} from "./styles.ts";
+import { LIGHT, Pen, textParts, type Disc, type Gradient, type Picture, type Trace } from "./pen.ts";
+import { BEHIND, DOTS, HALO_WIDTH, HATCH_PITCH, HATCH_WIDTH, SERIF, STYLES } from "./styles.ts";
+import type { DotName, LabelStyle, Style, StyleName } from "./styles.ts";
 
 /** Decimals of a coordinate, pixels of the screen. */
 const DECIMALS = 3;
@@ -25,20 +11,9 @@ const DECIMALS = 3;
 /** Longest piece of an arc, radians: below half a turn its ends tell which of two arcs is meant. */
 const LONGEST_PIECE = 3;
 
-export class SvgPen implements Pen {
-  readonly width: number;
-  readonly height: number;
-  readonly #colours: Colours;
-  readonly #weight: number;
+export class SvgPen extends Pen {
   readonly #definitions: string[] = [];
   readonly #parts: string[] = [];
-
-  constructor(width: number, height: number, colours: Colours, weight: number) {
-    this.width = width;
-    this.height = height;
-    this.#colours = colours;
-    this.#weight = weight;
-  }
 
   /** The whole drawing, on paper. */
   text(title: string): string {
@@ -47,7 +22,7 @@ export class SvgPen implements Pen {
       `<svg xmlns="http://www.w3.org/2000/svg" width="${w}" height="${h}" viewBox="0 0 ${w} ${h}">`,
       `<title>${escaped(title)}</title>`,
       ...(this.#definitions.length > 0 ? [`<defs>${this.#definitions.join("")}</defs>`] : []),
-      `<rect width="${w}" height="${h}" ${paint("fill", this.#colours.paper)}/>`,
+      `<rect width="${w}" height="${h}" ${paint("fill", this.colours.paper)}/>`,
       `<g fill="none" stroke-linecap="round" stroke-linejoin="round" font-family='${SERIF}'>`,
       ...this.#parts,
     ];
@@ -60,7 +35,7 @@ export class SvgPen implements Pen {
     const style: Style = STYLES[name];
     const looks: string[] = [];
     if (style.hatch !== undefined) looks.push(`fill="url(#${this.#hatch(style.hatch)})"`);
-    if (style.fill !== undefined) looks.push(paint("fill", this.#colours[style.fill], style.fillOpacity));
+    if (style.fill !== undefined) looks.push(paint("fill", this.colours[style.fill], style.fillOpacity));
     if (style.stroke !== undefined) looks.push(this.#line(style));
     this.#parts.push(`<path class="${name}" ${looks.join(" ")} d="${d}"/>`);
   }
@@ -75,16 +50,6 @@ export class SvgPen implements Pen {
     this.#group(`clip-path="url(#${id})"`, body);
   }
 
-  ball(disc: Disc, ground: "ball" | "ocean"): void {
-    const { ball, ocean } = this.#colours;
-    if (ground === "ocean") this.#disc(disc, paint("fill", ocean));
-    else this.#disc(disc, `fill="url(#${this.#gradient("ball", 0.25, ball, this.#colours["ball-rim"])})"`);
-  }
-
-  shade(disc: Disc): void {
-    this.#disc(disc, `fill="url(#${this.#gradient("shade", 0.45, ...SHADE)})"`);
-  }
-
   dots(name: DotName, places: ArrayLike<number>): void {
     if (places.length === 0) return;
     const { radius, fill, rim, rimWidth } = DOTS[name];
@@ -95,10 +60,9 @@ export class SvgPen implements Pen {
       dots.push(`<circle cx="${number(places[k])}" cy="${number(places[k + 1])}" r="${r}"/>`);
     }
     this.#definitions.push(`<g id="${id}">${dots.join("")}</g>`);
-    // First all rims: where dots lie close, none is hidden by the rim of another.
-    const rims = `fill="none" ${paint("stroke", this.#colours[rim])} stroke-width="${number(2 * rimWidth)}"`;
+    const rims = `fill="none" ${paint("stroke", this.colours[rim])} stroke-width="${number(2 * rimWidth)}"`;
     this.#parts.push(`<use class="${name}-rim" href="#${id}" ${rims}/>`);
-    this.#parts.push(`<use class="${name}" href="#${id}" ${paint("fill", this.#colours[fill])}/>`);
+    this.#parts.push(`<use class="${name}" href="#${id}" ${paint("fill", this.colours[fill])}/>`);
   }
 
   label(text: string, x: number, y: number, style: LabelStyle): void {
@@ -106,9 +70,9 @@ export class SvgPen implements Pen {
     const words = textParts(text, style.italic ?? false)
       .map((part) => (part.italic ? `<tspan font-style="italic">${escaped(part.text)}</tspan>` : escaped(part.text)))
       .join("");
-    const halo = `paint-order="stroke" ${paint("stroke", this.#colours[style.halo])} stroke-width="${HALO_WIDTH}"`;
+    const halo = `paint-order="stroke" ${paint("stroke", this.colours[style.halo])} stroke-width="${HALO_WIDTH}"`;
     const place = `x="${number(x)}" y="${number(y)}" font-size="${style.size}" text-anchor="${anchor}"`;
-    this.#parts.push(`<text ${place} ${paint("fill", this.#colours[style.ink])} ${halo}>${words}</text>`);
+    this.#parts.push(`<text ${place} ${paint("fill", this.colours[style.ink])} ${halo}>${words}</text>`);
   }
 
   picture(picture: Picture, x: number, y: number, width: number, height: number): void {
@@ -119,10 +83,10 @@ export class SvgPen implements Pen {
     this.#parts.push(`<image ${place} preserveAspectRatio="none" href="${canvas.toDataURL("image/png")}"/>`);
   }
 
-  #line(style: { readonly stroke?: Token; readonly width?: number; readonly dash?: readonly number[] }): string {
+  #line(style: Style): string {
     const dash = style.dash === undefined ? "" : ` stroke-dasharray="${style.dash.join(" ")}"`;
-    const width = number((style.width ?? 1) * this.#weight);
-    return `${paint("stroke", this.#colours[style.stroke ?? "ink"])} stroke-width="${width}"${dash}`;
+    const width = number((style.width ?? 1) * this.weight);
+    return `${paint("stroke", this.colours[style.stroke ?? "ink"])} stroke-width="${width}"${dash}`;
   }
 
   #group(attributes: string, body: () => void): void {
@@ -131,24 +95,22 @@ export class SvgPen implements Pen {
     this.#parts.push("</g>");
   }
 
-  #disc({ x, y, r }: Disc, looks: string): void {
+  protected fillDisc({ x, y, r }: Disc, fill: string | Gradient): void {
+    const looks = typeof fill === "string" ? paint("fill", fill) : `fill="url(#${this.#gradient(fill)})"`;
     this.#parts.push(`<circle ${looks} cx="${number(x)}" cy="${number(y)}" r="${number(r)}"/>`);
   }
 
-  #gradient(id: string, from: number, inner: string, outer: string): string {
+  #gradient({ id, from, inner, outer }: Gradient): string {
     const stop = (offset: number, colour: string): string =>
       `<stop offset="${offset}" ${paint("stop-color", colour, 1, "stop-opacity")}/>`;
-    const place = `cx="${LIGHT.x}" cy="${LIGHT.y}" r="${LIGHT.r}"`;
-    return this.#define(
-      id,
-      `<radialGradient id="${id}" ${place}>${stop(from, inner)}${stop(1, outer)}</radialGradient>`,
-    );
+    const text = `<radialGradient id="${id}" cx="${LIGHT.x}" cy="${LIGHT.y}" r="${LIGHT.r}">`;
+    return this.#define(id, `${text}${stop(from, inner)}${stop(1, outer)}</radialGradient>`);
   }
 
   #hatch(kind: "plain" | "crossed"): string {
     const [id, p] = [`hatch-${kind}`, HATCH_PITCH];
     const lines = `M0 ${p / 2}H${p}${kind === "crossed" ? `M${p / 2} 0V${p}` : ""}`;
-    const line = `${paint("stroke", this.#colours.hatch)} stroke-width="${HATCH_WIDTH}"`;
+    const line = `${paint("stroke", this.colours.hatch)} stroke-width="${HATCH_WIDTH}"`;
     const place = `width="${p}" height="${p}" patternUnits="userSpaceOnUse" patternTransform="rotate(-45)"`;
     return this.#define(id, `<pattern id="${id}" ${place}><path ${line} d="${lines}"/></pattern>`);
   }
@@ -161,52 +123,28 @@ export class SvgPen implements Pen {
 
 /** What a trace lays down, as the attribute `d`. */
 function pathData(trace: Trace): string {
-  const path = new SvgPath();
-  trace(path);
-  return path.d;
-}
-
-class SvgPath implements Path {
-  d = "";
-  #isBegun = false;
-
-  moveTo(x: number, y: number): void {
-    this.d += `M${number(x)} ${number(y)}`;
-    this.#isBegun = true;
-  }
-
-  lineTo(x: number, y: number): void {
-    this.d += `L${number(x)} ${number(y)}`;
-  }
-
-  ellipse(
-    x: number,
-    y: number,
-    rx: number,
-    ry: number,
-    rotation: number,
-    from: number,
-    to: number,
-    counterclockwise = false,
-  ): void {
-    const [c, s] = [Math.cos(rotation), Math.sin(rotation)];
-    const at = (t: number): [number, number] => {
-      const [u, v] = [rx * Math.cos(t), ry * Math.sin(t)];
-      return [x + u * c - v * s, y + u * s + v * c];
-    };
-    if (this.#isBegun) this.lineTo(...at(from));
-    else this.moveTo(...at(from));
-    const pieces = Math.ceil(Math.abs(to - from) / LONGEST_PIECE);
-    const looks = `${number(rx)} ${number(ry)} ${number((rotation * 180) / Math.PI)} 0 ${counterclockwise ? 0 : 1}`;
-    for (let k = 1; k <= pieces; ++k) {
-      const [px, py] = at(from + ((to - from) * k) / pieces);
-      this.d += `A${looks} ${number(px)} ${number(py)}`;
-    }
-  }
-
-  closePath(): void {
-    this.d += "Z";
-  }
+  let d = "";
+  trace({
+    moveTo: (x, y) => (d += `M${number(x)} ${number(y)}`),
+    lineTo: (x, y) => (d += `L${number(x)} ${number(y)}`),
+    ellipse(x, y, rx, ry, rotation, from, to, counterclockwise = false) {
+      const [c, s] = [Math.cos(rotation), Math.sin(rotation)];
+      const at = (t: number): [number, number] => {
+        const [u, v] = [rx * Math.cos(t), ry * Math.sin(t)];
+        return [x + u * c - v * s, y + u * s + v * c];
+      };
+      if (d === "") this.moveTo(...at(from));
+      else this.lineTo(...at(from));
+      const pieces = Math.ceil(Math.abs(to - from) / LONGEST_PIECE);
+      const looks = `${number(rx)} ${number(ry)} ${number((rotation * 180) / Math.PI)} 0 ${counterclockwise ? 0 : 1}`;
+      for (let k = 1; k <= pieces; ++k) {
+        const [px, py] = at(from + ((to - from) * k) / pieces);
+        d += `A${looks} ${number(px)} ${number(py)}`;
+      }
+    },
+    closePath: () => (d += "Z"),
+  });
+  return d;
 }
 
 /** A coordinate with few digits and no more zeros than it takes. */

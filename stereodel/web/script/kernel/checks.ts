@@ -11,16 +11,11 @@
 export type Numbers = ArrayLike<number>;
 
 /** Points in 4 GiB, of which a triangulation takes 236 bytes each while it is made. Diagrams take twice as much. */
-export const MOST_POINTS = 16_000_000;
+const MOST_POINTS = 16_000_000;
 
-/** How a message names one value of an argument: `points[3, 0]`, or `k` for a single number. */
-export function entry(name: string, ...index: number[]): string {
-  return index.length === 0 ? name : `${name}[${index.join(", ")}]`;
-}
-
-/** What an entry is called: by its row and column where rows have several. */
+/** What a message calls an entry: `points[3, 0]` by its row and column, or `indices[3]`. */
 function place(name: string, at: number, width: number): string {
-  return width === 1 ? entry(name, at) : entry(name, Math.floor(at / width), at % width);
+  return `${name}[${width === 1 ? at : `${Math.floor(at / width)}, ${at % width}`}]`;
 }
 
 function kindOf(value: unknown): string {
@@ -28,14 +23,14 @@ function kindOf(value: unknown): string {
   return Array.isArray(value) || ArrayBuffer.isView(value) ? "an array" : `of type ${typeof value}`;
 }
 
-/** Finite doubles in rows of `width`, at most `most`; an array of doubles is returned as it is, not copied. */
-export function asRows(values: Numbers, width: number, name: string, most = Infinity): Float64Array {
+/** Finite doubles in rows of `width`, as many as the kernel has memory for; an array of doubles is returned as it is, not copied. */
+export function asRows(values: Numbers, width: number, name: string): Float64Array {
   CHECK: if (values === null || typeof values !== "object" || typeof values.length !== "number") {
     throw new TypeError(`${name} must be an array of numbers, row after row, but is ${kindOf(values)}`);
   }
-  CHECK: if (values.length > most * width) {
-    const rows = Math.floor(values.length / width);
-    throw new RangeError(`${name} has ${rows} rows, more than the ${most} that the kernel has memory for; give fewer`);
+  CHECK: if (values.length > MOST_POINTS * width) {
+    const rows = `${Math.floor(values.length / width)} rows, more than the ${MOST_POINTS}`;
+    throw new RangeError(`${name} has ${rows} that the kernel has memory for; give fewer`);
   }
   CHECK: for (let k = 0; k < values.length; ++k) {
     const value: unknown = values[k];
@@ -54,17 +49,12 @@ export function asRows(values: Numbers, width: number, name: string, most = Infi
   return values instanceof Float64Array ? values : new Float64Array(values);
 }
 
-/** Rows of points, at most as many as the kernel has memory for. */
-export function asPoints(values: Numbers, width: number, name = "points"): Float64Array {
-  return asRows(values, width, name, MOST_POINTS);
-}
-
-/** Vectors of three that are not zero. */
-export function asDirections(values: Numbers, name: string): Float64Array {
-  const array = asPoints(values, 3, name);
+/** Vectors of three that are not zero; `single` is the name of one that stands alone. */
+export function asDirections(values: Numbers, name: string, single?: string): Float64Array {
+  const array = asRows(values, 3, name);
   CHECK: for (let k = 0; k < array.length; k += 3) {
     if (array[k] === 0 && array[k + 1] === 0 && array[k + 2] === 0) {
-      throw new RangeError(`${entry(name, k / 3)} is the zero vector, which has no direction`);
+      throw new RangeError(`${single ?? place(name, k / 3, 1)} is the zero vector, which has no direction`);
     }
   }
   return array;
@@ -72,7 +62,7 @@ export function asDirections(values: Numbers, name: string): Float64Array {
 
 /** Rows (longitude, latitude) in degrees: any finite longitude, latitude in [-90, 90]. */
 export function asLonlat(values: Numbers, name = "lonlat"): Float64Array {
-  const array = asPoints(values, 2, name);
+  const array = asRows(values, 2, name);
   CHECK: for (let k = 1; k < array.length; k += 2) {
     if (Math.abs(array[k]) > 90) {
       throw new RangeError(
@@ -89,9 +79,9 @@ export function asIndices(values: Numbers, size: number, name = "indices"): Int3
   for (let k = 0; k < array.length; ++k) {
     const value: unknown = values[k];
     CHECK: if (!Number.isInteger(value))
-      throw new TypeError(`${name} must be integers, but ${entry(name, k)} is ${String(value)}`);
+      throw new TypeError(`${name} must be integers, but ${place(name, k, 1)} is ${String(value)}`);
     CHECK: if ((value as number) < 0 || (value as number) >= size) {
-      throw new RangeError(`${entry(name, k)} is ${String(value)}, but there are ${size} points (0 to ${size - 1})`);
+      throw new RangeError(`${place(name, k, 1)} is ${String(value)}, but there are ${size} points (0 to ${size - 1})`);
     }
     array[k] = value as number;
   }

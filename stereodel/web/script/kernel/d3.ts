@@ -10,6 +10,7 @@
 import { lonlatToXyz, xyzToLonlat } from "./coordinates.ts";
 import { SphericalDelaunay } from "./delaunay.ts";
 import { lazy } from "./lazy.ts";
+import { adjacencyOf } from "./topology.ts";
 import { SphericalVoronoi } from "./voronoi.ts";
 
 /** Longitude and latitude in degrees. */
@@ -56,19 +57,18 @@ export interface GeoDelaunay {
   find(lon: number, lat: number, node?: number): number;
 }
 
+type Cells = Pick<GeoDelaunay, "centers" | "polygons">;
+
 /** The triangulation of places [longitude, latitude]; what is not asked for is not made. */
 export function geoDelaunay(places: readonly (readonly [number, number])[]): GeoDelaunay {
   const lonlat = new Float64Array(2 * places.length);
-  for (let k = 0; k < places.length; ++k) {
-    lonlat[2 * k] = places[k][0];
-    lonlat[2 * k + 1] = places[k][1];
-  }
+  places.forEach(([lon, lat], k) => lonlat.set([lon, lat], 2 * k));
   const delaunay = SphericalDelaunay.fromLonlat(lonlat);
   const cells = lazy({ all: () => cellsOf(delaunay) });
   const geo: GeoDelaunay = lazy<GeoDelaunay>({
     delaunay: () => delaunay,
     edges: () => edgesOf(delaunay),
-    triangles: () => triples(delaunay.simplices).map(([a, b, c]): [number, number, number] => [a, c, b]),
+    triangles: () => clockwise(delaunay.simplices),
     centers: () => cells.all.centers,
     neighbors: () => neighborsOf(delaunay),
     polygons: () => cells.all.polygons,
@@ -82,9 +82,9 @@ export function geoDelaunay(places: readonly (readonly [number, number])[]): Geo
 
 // Loops rather than Array.from, which takes several times as long.
 
-function triples(numbers: Int32Array): [number, number, number][] {
+function clockwise(numbers: Int32Array): [number, number, number][] {
   const rows: [number, number, number][] = [];
-  for (let k = 0; k < numbers.length; k += 3) rows.push([numbers[k], numbers[k + 1], numbers[k + 2]]);
+  for (let k = 0; k < numbers.length; k += 3) rows.push([numbers[k], numbers[k + 2], numbers[k + 1]]);
   return rows;
 }
 
@@ -94,7 +94,7 @@ function pairs(numbers: ArrayLike<number>): [number, number][] {
   return rows;
 }
 
-const placesOf = (xyz: Float64Array): Place[] => pairs(xyzToLonlat(xyz));
+const placesOf = (xyz: ArrayLike<number>): Place[] => pairs(xyzToLonlat(xyz));
 
 /** Those of triangles smaller than a hemisphere; without triangles neighbours on the great circle. */
 function edgesOf(delaunay: SphericalDelaunay): [number, number][] {
@@ -102,34 +102,27 @@ function edgesOf(delaunay: SphericalDelaunay): [number, number][] {
     const around = pairs(new SphericalVoronoi(delaunay).ridgePoints);
     return around.filter(([i, j], k) => k === 0 || around[k - 1][0] !== i || around[k - 1][1] !== j);
   }
-  const { closing, simplices, neighbors } = delaunay;
   const edges = pairs(delaunay.edges);
-  if (closing.every((flag) => flag === 0)) return edges;
+  if (delaunay.closing.every((flag) => flag === 0)) return edges;
   const open = new Set<number>();
-  for (let t = 0; t < closing.length; ++t) {
-    if (closing[t] !== 0) continue;
-    for (let k = 0; k < 3; ++k) {
-      const [u, v] = [simplices[3 * t + ((k + 1) % 3)], simplices[3 * t + ((k + 2) % 3)]];
-      // Both sides have it; of two open ones one is enough.
-      if (u < v || closing[neighbors[3 * t + k]] !== 0) open.add(key(u, v));
-    }
-  }
+  for (const sides of openTriangles(delaunay)) for (const side of sides) open.add(side);
   return edges.filter(([i, j]) => open.has(key(i, j)));
 }
 
 /** An edge as one number: points have numbers below 2^26. */
 const key = (i: number, j: number): number => Math.min(i, j) * 2 ** 26 + Math.max(i, j);
 
-function neighborsOf(delaunay: SphericalDelaunay): number[][] {
-  if (delaunay.dimension < 2) {
-    const neighbors = Array.from({ length: delaunay.size }, (): number[] => []);
-    for (const [i, j] of edgesOf(delaunay)) {
-      neighbors[i].push(j);
-      neighbors[j].push(i);
-    }
-    return neighbors;
+/** Sides, as numbers, of the triangles that are smaller than a hemisphere. */
+function* openTriangles({ simplices, closing }: SphericalDelaunay): Generator<number[]> {
+  for (let t = 0; t < closing.length; ++t) {
+    const [a, b, c] = [simplices[3 * t], simplices[3 * t + 1], simplices[3 * t + 2]];
+    if (closing[t] === 0) yield [key(a, b), key(b, c), key(c, a)];
   }
-  const { indptr, indices } = delaunay.vertexNeighborVertices;
+}
+
+function neighborsOf(delaunay: SphericalDelaunay): number[][] {
+  const edges = delaunay.dimension < 2 ? Int32Array.from(edgesOf(delaunay).flat()) : delaunay.edges;
+  const { indptr, indices } = adjacencyOf(edges, delaunay.size);
   const neighbors: number[][] = [];
   for (let k = 0; k < delaunay.size; ++k) {
     const row: number[] = [];
@@ -140,8 +133,8 @@ function neighborsOf(delaunay: SphericalDelaunay): number[][] {
 }
 
 /** Clockwise, one center a triangle; where a cell has only two, the middles of its sides between them. */
-function cellsOf(delaunay: SphericalDelaunay): { centers: Place[]; polygons: (number[] | undefined)[] } {
-  const polygons = new Array<number[] | undefined>(delaunay.size).fill(undefined);
+function cellsOf(delaunay: SphericalDelaunay): Cells {
+  const polygons: Cells["polygons"] = new Array(delaunay.size).fill(undefined);
   if (delaunay.dimension < 1) return { centers: [], polygons };
   if (delaunay.simplices.length <= 6) return lunes(delaunay, polygons);
   const { simplices, neighbors } = delaunay;
@@ -160,21 +153,16 @@ function cellsOf(delaunay: SphericalDelaunay): { centers: Place[]; polygons: (nu
 }
 
 /** All sites on one circle: cells between its two poles. */
-function lunes(
-  delaunay: SphericalDelaunay,
-  polygons: (number[] | undefined)[],
-): { centers: Place[]; polygons: (number[] | undefined)[] } {
+function lunes(delaunay: SphericalDelaunay, polygons: Cells["polygons"]): Cells {
   const diagram = new SphericalVoronoi(delaunay);
   const [ridges, ends, normals] = [pairs(diagram.ridgePoints), pairs(diagram.ridgeVertices), diagram.ridgeNormals()];
   // Triangles count their centers first: those of three sites are both poles.
   const poles = delaunay.dimension === 2 ? Array.from(diagram.simplexVertex) : [0, 1];
-  const points = Float64Array.from({ length: 6 + normals.length }, (_, k) =>
-    k < 6 ? diagram.vertices[3 * poles[Math.floor(k / 3)] + (k % 3)] : 0,
-  );
+  const points = poles.flatMap((pole) => [...diagram.vertices.subarray(3 * pole, 3 * pole + 3)]);
   ends.forEach(([start], k) => {
     const [x, y, z] = diagram.vertices.subarray(3 * start, 3 * start + 3);
     const [a, b, c] = normals.subarray(3 * k, 3 * k + 3);
-    points.set([b * z - c * y, c * x - a * z, a * y - b * x], 6 + 3 * k); // a quarter turn along the ridge
+    points.push(b * z - c * y, c * x - a * z, a * y - b * x); // a quarter turn along the ridge
   });
   ridges.forEach(([i, j], k) => {
     // The ridge runs counterclockwise around i and clockwise around j, backwards in a polygon that is clockwise.
@@ -215,11 +203,9 @@ function hullOf(delaunay: SphericalDelaunay): number[] {
 function urquhart(delaunay: SphericalDelaunay, edges: [number, number][], distances: ArrayLike<number>): boolean[] {
   const lengths = new Map(edges.map(([i, j], k) => [key(i, j), distances[k]]));
   const longest = new Set<number>();
-  triples(delaunay.simplices).forEach(([a, b, c], t) => {
-    if (delaunay.closing[t] !== 0) return;
-    const sides = [key(a, b), key(b, c), key(c, a)];
+  for (const sides of openTriangles(delaunay)) {
     longest.add(sides.reduce((most, side) => (lengths.get(side)! > lengths.get(most)! ? side : most)));
-  });
+  }
   return edges.map(([i, j]) => !longest.has(key(i, j)));
 }
 

@@ -1,8 +1,8 @@
 /** Delaunay triangulations of the plane and of the sphere. */
 
-import { asCount, asDirections, asIndices, asPoints, type Numbers } from "./checks.ts";
+import { asCount, asDirections, asIndices, asRows, type Numbers } from "./checks.ts";
 import { lonlatToXyz, type Latitude } from "./coordinates.ts";
-import { computed, filled, Kept, kernel, type Answer, type Argument } from "./instance.ts";
+import { answered, computed, filled, Kept, type Argument } from "./instance.ts";
 import { adjacencyOf, boundaryOf, edgesOf } from "./topology.ts";
 
 /** Tests that each stage left open; `curvature` is a stage of the sphere alone. */
@@ -42,14 +42,9 @@ export abstract class Delaunay {
   /** Tests that each stage left open, in construction and changes. */
   readonly inconclusive!: Inconclusive;
 
-  private kept!: { points: Kept; simplices: Kept; neighbors: Kept };
-  private derived: {
-    edges?: Int32Array;
-    hull?: Int32Array;
-    centers?: Float64Array;
-    order?: Int32Array;
-    closing?: Kept;
-  } = {};
+  /** @internal All that the kernel takes; the arrays may stay there. */
+  readonly forKernel!: [points: Kept, size: number, simplices: Kept, neighbors: Kept, count: number];
+  private derived: { [K in "edges" | "hull" | "order"]?: Int32Array } & { centers?: Float64Array; closing?: Kept } = {};
 
   /** @param points Rows of finite numbers x, y, y up, or of directions x, y, z of any length but zero. Copied. */
   constructor(points: Numbers) {
@@ -74,12 +69,14 @@ export abstract class Delaunay {
 
   /** Directed edges around the triangles, which lie on the left, two points each, in lexicographic order. */
   get convexHull(): Int32Array {
-    return (this.derived.hull ??= this.boundary());
+    const closed = this.closed?.values;
+    const inside = (triangle: number): boolean => closed?.[triangle] !== 1;
+    return (this.derived.hull ??= boundaryOf(this.simplices, this.neighbors, inside));
   }
 
   /** The centre of each triangle's circle, rounded from the exact one: a point of the plane, or a unit vector. */
   get circumcenters(): Float64Array {
-    const { points, size, simplices, count } = this.forKernel;
+    const [points, size, simplices, , count] = this.forKernel;
     const name = `${this.space}_circumcenters`;
     return (this.derived.centers ??= computed(this.width * count, name, points, size, simplices, count));
   }
@@ -148,7 +145,7 @@ export abstract class Delaunay {
     const size = asked.length / this.width;
     const same = [this.duplicates, this.duplicates.length / 2];
     if (this.dimension < 2) {
-      const order = [this.kept.points, this.flatOrder, this.flatOrder.length];
+      const order = [this.forKernel[0], this.flatOrder, this.flatOrder.length];
       return this.answers(size * each, "nearest_flat", [...order, ...same, asked, size, each]);
     }
     if (k === undefined) return this.answers(size, "nearest", [...this.triangles(), asked, size]);
@@ -157,44 +154,31 @@ export abstract class Delaunay {
 
   /** The different points in the order along their line or great circle, without triangles. */
   get flatOrder(): Int32Array {
-    return (this.derived.order ??= kernel().run((session) =>
-      session.ask(`${this.space}_flat_diagram`, [this.kept.points, this.size], (answer) => {
-        for (let skipped = 0; skipped < 3; ++skipped) answer.next(Int32Array);
-        return answer.next(Int32Array);
-      }),
-    ));
-  }
-
-  /** @internal Points, simplices, neighbours and size for the kernel; the arrays may stay there. */
-  get forKernel(): { points: Kept; size: number; simplices: Kept; neighbors: Kept; count: number } {
-    return { ...this.kept, size: this.size, count: this.simplices.length / 3 };
+    const types = [Int32Array, Int32Array, Int32Array, Int32Array] as const;
+    return (this.derived.order ??= answered(types, `${this.space}_flat_diagram`, this.forKernel[0], this.size)[3]);
   }
 
   private triangles(): Argument[] {
-    const { points, simplices, neighbors } = this.kept;
-    return [points, simplices, neighbors, this.closed, this.simplices.length / 3];
+    const [points, , simplices, neighbors, count] = this.forKernel;
+    return [points, simplices, neighbors, this.closed, count];
   }
 
   /** One byte a triangle of the sphere: 1 where no query can lie. */
   protected get closed(): Kept | null {
     if (this.width === 2) return null;
-    const { points, size, simplices, count } = this.forKernel;
+    const [points, size, simplices, , count] = this.forKernel;
     return (this.derived.closing ??= new Kept(
       filled(Uint8Array, count, "sphere_closing", points, size, simplices, count),
     ));
   }
 
-  private get space(): string {
+  /** @internal Of the kernel's functions: the beginning of their names. */
+  get space(): string {
     return this.width === 2 ? "plane" : "sphere";
   }
 
   private check(points: Numbers, name: string): Float64Array {
-    return this.width === 2 ? asPoints(points, 2, name) : asDirections(points, name);
-  }
-
-  private boundary(): Int32Array {
-    const closed = this.closed?.values;
-    return boundaryOf(this.simplices, this.neighbors, (triangle) => closed?.[triangle] !== 1);
+    return this.width === 2 ? asRows(points, 2, name) : asDirections(points, name);
   }
 
   private answers(length: number, name: string, given: Argument[]): Int32Array {
@@ -203,33 +187,23 @@ export abstract class Delaunay {
 
   private fresh(points: Float64Array): void {
     const kept = new Kept(points);
-    const size = points.length / this.width;
-    this.hold(
-      kernel().run((session) =>
-        session.ask(`${this.space}_triangulate`, [kept, size], (answer) => read(answer, points, nothing)),
-      ),
-      kept,
-    );
+    const open: Inconclusive = { filter: 0, curvature: 0, doubleDouble: 0, exact: 0 };
+    this.hold(triangulated(points, open, `${this.space}_triangulate`, kept, points.length / this.width), kept);
   }
 
   /** The version after a change of this one; from the points alone if no triangles are left. */
   private change(what: "insert" | "remove", given: Argument[], points: Float64Array): void {
-    const { simplices, neighbors } = this.kept;
-    const now = [this.kept.points, this.size, simplices, neighbors, this.simplices.length / 3];
-    const same = [this.duplicates, this.duplicates.length / 2];
-    const changed = kernel().run((session) =>
-      session.ask(`${this.space}_${what}`, [...now, ...same, ...given], (answer) =>
-        read(answer, points, this.inconclusive),
-      ),
-    );
+    const now = [...this.forKernel, this.duplicates, this.duplicates.length / 2, ...given];
+    const changed = triangulated(points, this.inconclusive, `${this.space}_${what}`, ...now);
     if (changed.dimension === 2) this.hold(changed, new Kept(points));
     else this.fresh(points);
   }
 
   private hold(arrays: Arrays, points: Kept): void {
-    Object.assign(this, arrays);
-    this.derived = {};
-    this.kept = { points, simplices: new Kept(arrays.simplices), neighbors: new Kept(arrays.neighbors) };
+    const { simplices, neighbors } = arrays;
+    const size = arrays.points.length / this.width;
+    const forKernel = [points, size, new Kept(simplices), new Kept(neighbors), simplices.length / 3];
+    Object.assign(this, arrays, { forKernel, derived: {} });
   }
 }
 
@@ -278,16 +252,15 @@ export class SphericalDelaunay extends Delaunay {
   }
 }
 
-const nothing: Inconclusive = { filter: 0, curvature: 0, doubleDouble: 0, exact: 0 };
-
-function read(answer: Answer, points: Float64Array, before: Inconclusive): Arrays {
-  const [simplices, neighbors, duplicates, [dimension]] = [0, 1, 2, 3].map(() => answer.next(Int32Array));
-  const [filter, curvature, doubleDouble, exact] = answer.next(Float64Array);
+/** What the kernel makes of points; tests are counted on from those before. */
+function triangulated(points: Float64Array, before: Inconclusive, name: string, ...given: Argument[]): Arrays {
+  const types = [Int32Array, Int32Array, Int32Array, Int32Array, Float64Array] as const;
+  const [simplices, neighbors, duplicates, [dimension], open] = answered(types, name, ...given);
   const inconclusive = {
-    filter: before.filter + filter,
-    curvature: before.curvature + curvature,
-    doubleDouble: before.doubleDouble + doubleDouble,
-    exact: before.exact + exact,
+    filter: before.filter + open[0],
+    curvature: before.curvature + open[1],
+    doubleDouble: before.doubleDouble + open[2],
+    exact: before.exact + open[3],
   };
   return { points, simplices, neighbors, duplicates, dimension, inconclusive };
 }

@@ -14,13 +14,15 @@ type ArrayMaker<A extends NumberArray> = {
   readonly BYTES_PER_ELEMENT: number;
 };
 
-/** What a function of the module takes: a number, an array that is copied in, a place to fill, or nothing. */
-export type Argument = number | NumberArray | Place<NumberArray> | Kept | null;
+/** What a function of the module takes: a number or an address, an array that is copied in or may stay, or nothing. */
+export type Argument = number | NumberArray | Kept | null;
 
 /** What the module itself says went wrong: mostly that there is no more memory. */
 export class KernelError extends Error {
   override readonly name = "KernelError";
 }
+
+const OUT_OF_MEMORY = "out of memory: the kernel has 4 GiB at most; give fewer points";
 
 /** An address or a count from the module: what is above 2 GiB comes back negative. */
 export const unsigned = (value: number): number => value >>> 0;
@@ -38,18 +40,6 @@ export class Kept {
   constructor(values: NumberArray) {
     this.values = values;
   }
-}
-
-/** An array of the module that a call fills. */
-export interface Place<A extends NumberArray> {
-  readonly address: number;
-  /** What was filled in, as an array of its own. */
-  copy(): A;
-}
-
-/** Arrays whose lengths the module found out, read one after the other. */
-export interface Answer {
-  next<A extends NumberArray>(Type: ArrayMaker<A>): A;
 }
 
 /** A compiled module and its present instance. */
@@ -91,18 +81,24 @@ class Instance {
 
   constructor(module: WebAssembly.Module) {
     const fail = (kind: number, message: number): never => {
-      throw new KernelError(this.describe(this.text(unsigned(kind)), this.text(unsigned(message))));
+      const [what, words] = [kind, message].map((address) => this.text(unsigned(address)));
+      throw new KernelError(what === "St9bad_alloc" ? OUT_OF_MEMORY : words || what);
     };
     this.exports = new WebAssembly.Instance(module, { page: { fail } }).exports;
     this.memory = this.exports["memory"] as WebAssembly.Memory;
     this.invoke("_initialize");
   }
 
-  /** Room for `length` numbers that a function will fill. */
-  place<A extends NumberArray>(Type: ArrayMaker<A>, length: number): Place<A> {
-    const address = this.allocate(length * Type.BYTES_PER_ELEMENT);
+  /** The address of as many bytes, which a function will fill. */
+  place(bytes: number): number {
+    const address = this.allocate(bytes);
     this.taken.push(address);
-    return { address, copy: () => this.view(Type, address, length).slice() as A };
+    return address;
+  }
+
+  /** What stands at an address, as an array of its own. */
+  copy<A extends NumberArray>(Type: ArrayMaker<A>, at: number, length: number): A {
+    return new Type(this.memory.buffer, at, length).slice() as A;
   }
 
   /** Calls a function of the module. */
@@ -110,18 +106,15 @@ class Instance {
     return unsigned(this.invoke(name, ...given.map((argument) => this.addressOf(argument))));
   }
 
-  /** Calls one that answers with arrays, and reads them. */
-  ask<T>(name: string, given: Argument[], read: (answer: Answer) => T): T {
+  /** Calls one that answers with arrays of these types, whose lengths it finds out. */
+  ask(types: readonly ArrayMaker<NumberArray>[], name: string, given: Argument[]): NumberArray[] {
     const answer = this.call(name, ...given);
-    let slot = 0;
-    const result = read({
-      next: <A extends NumberArray>(Type: ArrayMaker<A>): A => {
-        const [address, length] = this.view(Uint32Array, answer + 8 * slot++, 2);
-        return this.view(Type, address, length).slice() as A;
-      },
+    const arrays = types.map((Type, slot) => {
+      const [address, length] = Array.from(this.copy(Int32Array, answer + 8 * slot, 2), unsigned);
+      return this.copy(Type, address, length);
     });
     this.invoke("discard", answer);
-    return result;
+    return arrays;
   }
 
   /** Gives back what was handed in, and of what may stay the longest unused. */
@@ -139,7 +132,6 @@ class Instance {
     if (argument === null) return 0;
     if (typeof argument === "number") return argument;
     if (argument instanceof Kept) return this.keep(argument.values);
-    if ("address" in argument) return argument.address;
     const address = this.copyIn(argument);
     this.taken.push(address);
     return address;
@@ -157,22 +149,13 @@ class Instance {
   private copyIn(array: NumberArray): number {
     const address = this.allocate(array.byteLength);
     const bytes = new Uint8Array(array.buffer, array.byteOffset, array.byteLength);
-    this.view(Uint8Array, address, array.byteLength).set(bytes);
+    new Uint8Array(this.memory.buffer, address).set(bytes);
     return address;
   }
 
   private allocate(bytes: number): number {
-    if (bytes >= 2 ** 32) throw new KernelError(this.describe("St9bad_alloc", ""));
+    if (bytes >= 2 ** 32) throw new KernelError(OUT_OF_MEMORY);
     return unsigned(this.invoke("allocate", Math.max(bytes, 1)));
-  }
-
-  /** A new view each time: memory that grows moves. */
-  private view<A>(
-    Type: new (buffer: ArrayBufferLike, offset: number, length: number) => A,
-    at: number,
-    length: number,
-  ): A {
-    return new Type(this.memory.buffer, at, length);
   }
 
   private invoke(name: string, ...numbers: number[]): number {
@@ -184,11 +167,6 @@ class Instance {
   private text(address: number): string {
     const bytes = new Uint8Array(this.memory.buffer, address);
     return new TextDecoder().decode(bytes.slice(0, bytes.indexOf(0)));
-  }
-
-  private describe(kind: string, message: string): string {
-    if (kind === "St9bad_alloc") return "out of memory: the kernel has 4 GiB at most; give fewer points";
-    return message === "" ? kind : message;
   }
 }
 
@@ -204,15 +182,12 @@ export type KernelSource = WebAssembly.Module | BufferSource | Response | Promis
  * Further calls wait for the first one; after one that failed the next tries again.
  */
 export function load(source: KernelSource): Promise<void> {
-  loading ??= compiled(source).then(
-    (module) => {
-      current = new Kernel(module);
-    },
-    (error: unknown) => {
+  loading ??= compiled(source)
+    .then((module) => void (current = new Kernel(module)))
+    .catch((error: unknown) => {
       loading = null;
       throw error;
-    },
-  );
+    });
   return loading;
 }
 
@@ -239,10 +214,19 @@ export function filled<A extends NumberArray>(
   ...given: Argument[]
 ): A {
   return kernel().run((session) => {
-    const out = session.place(Type, length);
+    const out = session.place(length * Type.BYTES_PER_ELEMENT);
     session.call(name, ...given, out);
-    return out.copy();
+    return session.copy(Type, out, length);
   });
+}
+
+/** The arrays of these types that a function of the kernel answers with. */
+export function answered<T extends NumberArray[]>(
+  types: readonly [...{ [K in keyof T]: ArrayMaker<T[K]> }],
+  name: string,
+  ...given: Argument[]
+): T {
+  return kernel().run((session) => session.ask(types, name, given)) as T;
 }
 
 /** So many doubles. */

@@ -1,6 +1,6 @@
 /** Exact signs for rows of points; one row alone stands for as many as the others have. */
 
-import { asDirections, asPoints, type Numbers } from "./checks.ts";
+import { asDirections, asRows, type Numbers } from "./checks.ts";
 import { filled } from "./instance.ts";
 
 /** Orientation of triangles of the plane: 1 counterclockwise, -1 clockwise, 0 on one line. */
@@ -33,7 +33,7 @@ export function turn(a: Numbers, b: Numbers, c: Numbers): Int8Array {
 
 function signs(name: string, width: number, given: Record<string, Numbers>): Int8Array {
   const rows = Object.entries(given).map(([argument, values]) =>
-    name.startsWith("sphere") ? asDirections(values, argument) : asPoints(values, width, argument),
+    name.startsWith("sphere") ? asDirections(values, argument) : asRows(values, width, argument),
   );
   const counts = rows.map((array) => array.length / width);
   const count = counts.includes(0) ? 0 : Math.max(...counts);

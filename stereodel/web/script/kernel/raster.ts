@@ -28,10 +28,8 @@ export class Raster {
     this.width = asCount(width, "width", 2, 2 ** 20);
     this.height = width / 2;
     if (pixels.length !== 4 * this.width * this.height) {
-      throw new RangeError(
-        `pixels has ${pixels.length} numbers, four for each of ${pixels.length / 4} pixels; a picture of the whole ` +
-          `globe is twice as wide as high: ${width} × ${this.height} pixels`,
-      );
+      const whole = `four for each of ${width} × ${this.height} pixels: a picture of the whole globe`;
+      throw new RangeError(`pixels has ${pixels.length} numbers, and not ${whole} is twice as wide as high`);
     }
     this.texels = new Kept(premultiplied(pixels));
     const size = kernel().run((session) => session.call("raster_levels_size", this.width, this.height));
@@ -48,8 +46,7 @@ export class Raster {
    * @returns sRGB and opacity, not premultiplied, rows from the top; opacity is also the part of a pixel in the globe.
    */
   warp(map: MoebiusMap, size: number): Uint8ClampedArray<ArrayBuffer> {
-    const step = 2 / asCount(size, "size", 1, MOST_ACROSS);
-    return this.painted(map, [-1, 1, step, step], size, size);
+    return this.painted(map, [-1, 1, 2 / size, 2 / size], size, size);
   }
 
   /**

@@ -1,6 +1,6 @@
 /** Rotations of the sphere, each defined exactly by the direction of a quaternion of four doubles. */
 
-import { asDirections, asLonlat, asRows, asScalar, entry, type Numbers } from "./checks.ts";
+import { asDirections, asLonlat, asRows, asScalar, type Numbers } from "./checks.ts";
 import { lonlatToXyz } from "./coordinates.ts";
 import { computed } from "./instance.ts";
 
@@ -80,28 +80,15 @@ export class Rotation {
 export function asDirection(point: Numbers, name: string): Float64Array {
   const values = asRows(point, 1, name);
   if (values.length === 2) return lonlatToXyz(asLonlat(values, name));
-  if (values.length === 3) {
-    CHECK: if (values.every((value) => value === 0)) {
-      throw new RangeError(`${entry(name)} is the zero vector, which has no direction`);
-    }
-    return asDirections(values, name);
-  }
+  if (values.length === 3) return asDirections(values, name, name);
   throw new RangeError(`${name} must be (lon, lat) in degrees or a direction (x, y, z), got ${values.length} numbers`);
 }
 
 /** Doubles over a power of two, the largest of them in [1/2, 1). */
 function scaled(values: Float64Array): Float64Array {
-  const exponent = exponentOf(values.reduce((most, value) => Math.max(most, Math.abs(value)), 0));
+  const most = values.reduce((largest, value) => Math.max(largest, Math.abs(value)), 0);
+  const near = most === 0 ? 0 : Math.floor(Math.log2(most)) + 1; // logarithms just below a whole number are rounded to it
+  const exponent = most < 2 ** (near - 1) ? near - 1 : near;
   const half = Math.floor(exponent / 2); // in two steps: 2^1074 is no double
   return values.map((value) => value * 2 ** -half * 2 ** (half - exponent));
-}
-
-const BITS = new DataView(new ArrayBuffer(8));
-
-/** k with |value| in [2^(k - 1), 2^k); 0 for 0. */
-function exponentOf(value: number): number {
-  if (value === 0) return 0;
-  BITS.setFloat64(0, value);
-  const stored = (BITS.getUint32(0) >>> 20) & 0x7ff;
-  return stored > 0 ? stored - 1022 : exponentOf(value * 2 ** 54) - 54; // below: a subnormal number
 }

@@ -36,16 +36,12 @@ export function boundaryOf(
   neighbors: Int32Array,
   inside: (triangle: number) => boolean,
 ): Int32Array {
-  const from: number[] = [];
-  const to: number[] = [];
+  const border: [number, number][] = [];
   forEdges(simplices, (u, v, opposite) => {
     const beyond = neighbors[opposite];
-    if (inside(Math.floor(opposite / 3)) && (beyond < 0 || !inside(beyond))) {
-      from.push(u);
-      to.push(v);
-    }
+    if (inside(Math.floor(opposite / 3)) && (beyond < 0 || !inside(beyond))) border.push([u, v]);
   });
-  return sortedPairs(Int32Array.from(from), Int32Array.from(to));
+  return Int32Array.from(border.sort(([a, b], [c, d]) => a - c || b - d).flat());
 }
 
 /** Calls visit(u, v, place) for the directed edge opposite each corner, counterclockwise. */

@@ -3,7 +3,7 @@
 import { asScalar, type Numbers } from "./checks.ts";
 import { lonlatToXyz, type Latitude } from "./coordinates.ts";
 import { PlanarDelaunay, SphericalDelaunay, type Delaunay } from "./delaunay.ts";
-import { computed, kernel, type Argument, type Kept } from "./instance.ts";
+import { answered, computed, type Argument, type Kept } from "./instance.ts";
 
 /**
  * A Voronoi diagram, the dual of a Delaunay triangulation.
@@ -26,30 +26,30 @@ export abstract class Diagram {
   readonly simplexVertex: Int32Array;
   private readonly width: 2 | 3;
   private readonly size: number;
+  private readonly space: string;
   private readonly triangulated: boolean;
   private readonly dropped: Int32Array;
   private readonly sites: Kept;
   /** Sites with cells, near ones soon after one another; around the circle without triangles. */
   private readonly order: Int32Array;
-  private ridges: { points: Int32Array; vertices: Int32Array } | null = null;
+  private ridges: readonly [points: Int32Array, vertices: Int32Array] | null = null;
 
   protected constructor(triangulation: Delaunay) {
-    const { points, size, simplices, neighbors, count } = triangulation.forKernel;
-    [this.points, this.width, this.size] = [triangulation.points, triangulation.width, size];
-    [this.triangulated, this.dropped, this.sites] = [triangulation.dimension === 2, triangulation.duplicates, points];
-    const [name, given]: [string, Argument[]] = this.triangulated
-      ? ["voronoi", [points, size, simplices, neighbors, count]]
-      : ["flat_diagram", [points, size]];
-    const { integers, vertices } = kernel().run((session) =>
-      session.ask(`${this.space}_${name}`, given, (answer) => ({
-        integers: Array.from({ length: this.triangulated || this.isStrips ? 5 : 4 }, () => answer.next(Int32Array)),
-        vertices: this.isStrips ? new Float64Array(0) : answer.next(Float64Array),
-      })),
-    );
-    const [offsets, indices, beyond, order, last = new Int32Array(0)] = integers;
-    [this.regionOffsets, this.regionIndices, this.regionNeighbors, this.order] = [offsets, indices, beyond, order];
-    [this.vertices, this.simplexVertex] = [vertices, this.isStrips ? new Int32Array(0) : last];
-    if (this.isStrips) this.ridges = { points: last, vertices: new Int32Array(last.length).fill(-1) };
+    const given = triangulation.forKernel;
+    [this.points, this.width, this.space] = [triangulation.points, triangulation.width, triangulation.space];
+    [this.sites, this.size] = given;
+    [this.triangulated, this.dropped] = [triangulation.dimension === 2, triangulation.duplicates];
+    const last = this.triangulated ? [Int32Array, Float64Array] : [this.isStrips ? Int32Array : Float64Array];
+    const types = [Int32Array, Int32Array, Int32Array, Int32Array, ...last];
+    const all = this.triangulated
+      ? answered(types, `${this.space}_voronoi`, ...given)
+      : answered(types, `${this.space}_flat_diagram`, this.sites, this.size);
+    const integers = all.filter((array) => array instanceof Int32Array);
+    [this.regionOffsets, this.regionIndices, this.regionNeighbors, this.order] = integers;
+    const line = integers[4] ?? new Int32Array(0);
+    this.vertices = all.find((array) => array instanceof Float64Array) ?? new Float64Array(0);
+    this.simplexVertex = this.isStrips ? new Int32Array(0) : line;
+    if (this.isStrips) this.ridges = [line, new Int32Array(line.length).fill(-1)];
   }
 
   /** The region of each point: its own number, for a duplicate that of the kept point. */
@@ -66,12 +66,12 @@ export abstract class Diagram {
 
   /** Sites i < j on both sides of each ridge, in lexicographic order. */
   get ridgePoints(): Int32Array {
-    return this.allRidges().points;
+    return this.allRidges()[0];
   }
 
   /** Start and end of each ridge, such that site i is on its left; -1 at infinity. */
   get ridgeVertices(): Int32Array {
-    return this.allRidges().vertices;
+    return this.allRidges()[1];
   }
 
   /**
@@ -99,10 +99,6 @@ export abstract class Diagram {
     return this.width === 2 && !this.triangulated;
   }
 
-  private get space(): string {
-    return this.width === 2 ? "plane" : "sphere";
-  }
-
   /** Numbers for each site from the cells. */
   private measured(what: string, width: number): Float64Array {
     const given = this.triangulated ? this.entries() : [this.size];
@@ -115,13 +111,8 @@ export abstract class Diagram {
     return [this.size, regionOffsets, regionIndices, regionNeighbors, vertices.length / this.width];
   }
 
-  private allRidges(): { points: Int32Array; vertices: Int32Array } {
-    return (this.ridges ??= kernel().run((session) =>
-      session.ask("voronoi_ridges", this.entries(), (answer) => ({
-        points: answer.next(Int32Array),
-        vertices: answer.next(Int32Array),
-      })),
-    ));
+  private allRidges(): readonly [points: Int32Array, vertices: Int32Array] {
+    return (this.ridges ??= answered([Int32Array, Int32Array], "voronoi_ridges", ...this.entries()));
   }
 }
 

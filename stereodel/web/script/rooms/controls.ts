@@ -11,10 +11,7 @@ export class NumberField {
   readonly #input: HTMLInputElement;
   readonly #decimals: number;
 
-  /**
-   * @param typed gets each valid number; the browser keeps to `min` and `max`.
-   * @param when Whether it does so while the reader types, or at the end.
-   */
+  /** @param typed gets each valid number, while the reader types or at the end; the browser keeps to `min` and `max`. */
   constructor(
     root: ParentNode,
     name: string,
@@ -33,15 +30,11 @@ export class NumberField {
   set value(value: number | null) {
     if (document.activeElement !== this.#input) this.#input.value = value?.toFixed(this.#decimals) ?? "";
   }
-
-  set max(value: number) {
-    this.#input.max = String(value);
-  }
 }
 
 /** Two fields of a place, longitude and latitude in degrees. */
 export class PlaceFields {
-  readonly #fields: readonly [NumberField, NumberField];
+  readonly #fields: readonly NumberField[];
 
   /** @param name Of the fields, before `-lon` and `-lat`. @param typed gets each valid place. */
   constructor(
@@ -50,33 +43,30 @@ export class PlaceFields {
     typed: (place: readonly [number, number]) => void,
     when: "input" | "change" = "input",
   ) {
-    const names = [`${name}-lon`, `${name}-lat`] as const;
+    const names = [`${name}-lon`, `${name}-lat`];
     const act = (): void => {
       const [lon, lat] = names.map((part) => field(root, part).valueAsNumber);
       if (Number.isFinite(lon) && Number.isFinite(lat)) typed([lon, lat]);
     };
-    this.#fields = [new NumberField(root, names[0], 1, act, when), new NumberField(root, names[1], 1, act, when)];
+    this.#fields = names.map((part) => new NumberField(root, part, 1, act, when));
   }
 
-  set value([lon, lat]: readonly [number, number]) {
-    [this.#fields[0].value, this.#fields[1].value] = [lon, lat];
+  set value(place: readonly [number, number]) {
+    this.#fields.forEach((part, k) => (part.value = place[k]));
   }
 }
 
 /** One of some words: a group of radio buttons. */
 export class Choice<T extends string> {
   readonly #inputs: readonly HTMLInputElement[];
-  readonly #words: readonly T[];
 
-  constructor(root: ParentNode, name: string, words: readonly T[], changed: () => void) {
+  constructor(root: ParentNode, name: string, changed: () => void) {
     this.#inputs = [...root.querySelectorAll<HTMLInputElement>(`input[name=${name}]`)];
-    this.#words = words;
     for (const input of this.#inputs) input.addEventListener("change", changed);
   }
 
   get value(): T {
-    const chosen = this.#inputs.find((input) => input.checked)?.value;
-    return this.#words.find((word) => word === chosen) ?? this.#words[0];
+    return this.#inputs.find((input) => input.checked)!.value as T;
   }
 
   set value(word: T) {
@@ -84,12 +74,21 @@ export class Choice<T extends string> {
   }
 }
 
-/** Switches of a room by name. */
+/** Writes a mark of a ruler and, in percent, where it stands. */
+export function mark(ruler: ParentNode, name: string, words: string, percent?: number): HTMLElement {
+  const element = find(ruler, name);
+  element.textContent = words;
+  if (percent !== undefined) element.style.setProperty("--at", `${percent.toFixed(2)}%`);
+  return element;
+}
+
+/** What can be switched in a room, by name: what is drawn, and the like. */
 export class Switches {
   readonly #inputs: ReadonlyMap<string, HTMLInputElement>;
 
-  constructor(root: ParentNode, names: readonly string[], changed: (name: string) => void) {
-    this.#inputs = new Map(names.map((name) => [name, field(root, name)]));
+  constructor(root: ParentNode, changed: (name: string) => void) {
+    const inputs = [...root.querySelectorAll<HTMLInputElement>(".switch input")];
+    this.#inputs = new Map(inputs.map((input) => [input.name, input]));
     for (const [name, input] of this.#inputs) input.addEventListener("change", () => changed(name));
   }
 
@@ -97,20 +96,19 @@ export class Switches {
     this.#inputs.get(name)!.checked = isOn;
   }
 
-  /** Whether something is drawn. */
   isOn(name: string): boolean {
     return this.#inputs.get(name)!.checked;
   }
 
-  /** Names of those that differ from the way the room begins. */
-  get turned(): string {
+  /** What a link says: names of those that differ from the way the room begins. */
+  get values(): Record<string, string> {
     const turned = [...this.#inputs].filter(([, { checked, defaultChecked }]) => checked !== defaultChecked);
-    return turned.map(([name]) => name).join(",");
+    return turned.length === 0 ? {} : { turned: turned.map(([name]) => name).join(",") };
   }
 
   /** Turns those of a link, and all others back. */
-  set turned(names: string) {
-    const turned = names.split(",");
+  restore(values: LinkValues): void {
+    const turned = values.text("turned", "").split(",");
     for (const [name, input] of this.#inputs) input.checked = input.defaultChecked !== turned.includes(name);
   }
 }
@@ -125,75 +123,51 @@ export function tellNamed(messages: Messages, values: LinkValues, what: keyof ty
   messages.show(values.text(what, ""), words);
 }
 
-/** What its buttons do. */
-interface SiteFormActions {
-  add(place: Place): void;
-  move(place: Place): void;
-  remove(): void;
-}
-
-export class SiteForm {
-  readonly #form: HTMLFormElement;
-
-  constructor(root: ParentNode, actions: SiteFormActions) {
-    const form = find<HTMLFormElement>(root, "[data-form=site]");
-    this.#form = form;
-    form.addEventListener("submit", (event) => {
-      event.preventDefault();
-      const place: Place = [field(form, "lon").valueAsNumber, field(form, "lat").valueAsNumber];
-      const what = event.submitter?.getAttribute("value") ?? "add";
-      if (what === "remove") actions.remove();
-      else if (what === "move") actions.move(place);
-      else actions.add(place);
-    });
-  }
-
-  /** Shows the place of the site that is held, unless it is being typed; without one there is nothing to move. */
-  show(place: Place | null): void {
-    const form = this.#form;
+/** The form of a site; what is returned shows the place of the site that is held: without one there is nothing to move. */
+export function siteForm(
+  root: ParentNode,
+  actions: Readonly<Record<"add" | "move" | "remove", (place: Place) => void>>,
+): (place: Place | null) => void {
+  const form = find<HTMLFormElement>(root, "[data-form=site]");
+  const [lon, lat] = [field(form, "lon"), field(form, "lat")];
+  form.addEventListener("submit", (event) => {
+    event.preventDefault();
+    const what = event.submitter?.getAttribute("value") as keyof typeof actions | null | undefined;
+    actions[what ?? "add"]([lon.valueAsNumber, lat.valueAsNumber]);
+  });
+  return (place) => {
     for (const button of form.querySelectorAll<HTMLButtonElement>("button")) {
       button.disabled = button.value !== "add" && place === null;
     }
-    if (place === null || form.contains(document.activeElement)) return;
-    field(form, "lon").value = String(place[0]);
-    field(form, "lat").value = String(place[1]);
-  }
+    if (place === null || form.contains(document.activeElement)) return; // being typed
+    [lon.value, lat.value] = place.map(String);
+  };
 }
 
 /** Sites from which on there are steps: four make the first facets. */
 const FIRST = 4;
 
-export class StepControl {
-  readonly #root: ParentNode;
-  #count = 0;
-  #all = 0;
-
-  /** @param chosen gets the number of sites that are inserted, or null for all of them. */
-  constructor(root: ParentNode, chosen: (count: number | null) => void) {
-    this.#root = root;
-    const set = (count: number): void => chosen(count >= this.#all ? null : Math.max(this.#least, count));
-    const slider = field(root, "step");
-    slider.addEventListener("input", () => set(slider.valueAsNumber));
-    find(root, "[data-do=back]").addEventListener("click", () => set(this.#count - 1));
-    find(root, "[data-do=next]").addEventListener("click", () => set(this.#count + 1));
-  }
-
-  /** Shows that so many of all sites are inserted; null for all. */
-  show(count: number | null, all: number): void {
-    [this.#count, this.#all] = [count ?? all, all];
-    const slider = field(this.#root, "step");
-    slider.min = String(this.#least);
-    slider.max = String(all);
-    slider.value = String(this.#count);
+/**
+ * The steps of the insertion; what is returned shows that so many of all sites are inserted, null for all.
+ * @param chosen gets their number.
+ */
+export function stepControl(
+  root: ParentNode,
+  chosen: (count: number | null) => void,
+): (count: number | null, all: number) => void {
+  const slider = field(root, "step");
+  const [back, next] = ["back", "next"].map((name) => find<HTMLButtonElement>(root, `[data-do=${name}]`));
+  const set = (count: number): void => chosen(count >= Number(slider.max) ? null : Math.max(Number(slider.min), count));
+  slider.addEventListener("input", () => set(slider.valueAsNumber));
+  back.addEventListener("click", () => set(slider.valueAsNumber - 1));
+  next.addEventListener("click", () => set(slider.valueAsNumber + 1));
+  return (inserted, all) => {
+    const [count, least] = [inserted ?? all, Math.min(FIRST, all)];
+    [slider.min, slider.max, slider.value] = [least, all, count].map(String);
     slider.disabled = all <= FIRST;
-    const words = all === 0 ? "no sites" : `site ${counted(this.#count)} of ${counted(all)}`;
+    const words = all === 0 ? "no sites" : `site ${counted(count)} of ${counted(all)}`;
     slider.setAttribute("aria-valuetext", words);
-    find(this.#root, "[data-out=step]").textContent = words;
-    find<HTMLButtonElement>(this.#root, "[data-do=back]").disabled = this.#count <= this.#least;
-    find<HTMLButtonElement>(this.#root, "[data-do=next]").disabled = this.#count >= all;
-  }
-
-  get #least(): number {
-    return Math.min(FIRST, this.#all);
-  }
+    find(root, "[data-out=step]").textContent = words;
+    [back.disabled, next.disabled] = [count <= least, count >= all];
+  };
 }

@@ -5,29 +5,19 @@ import type { Sheet } from "../drawing/pen.ts";
 import type { Reason } from "../drawing/plate.ts";
 import type { Exchange } from "../exchange.ts";
 import type { Latitude } from "../kernel/api.ts";
-import { MOST_SITES, packPlaces, type LinkValues } from "../link.ts";
+import type { LinkValues } from "../link.ts";
 import type { Painted } from "../panorama.ts";
 import type { Room, RoomHost } from "../room.ts";
 import { directionOf, lonLatOf, type Vector } from "../space.ts";
 import { capToCap, lensMap, MOST, scaleAt } from "../view/lens.ts";
 import { View } from "../view/view.ts";
 import { counted, latitude, longitude, scale } from "../words.ts";
-import { Choice, NumberField, PlaceFields, tellNamed } from "./controls.ts";
-import { BubbleGlobe } from "./globe_bubbles.ts";
-import { FisheyeGlobe } from "./globe_fisheye.ts";
-import { GLOBE_SWITCHES, GlobeScene, type GlobeSwitch, type Places } from "./globe_scene.ts";
-import {
-  BEGINNING,
-  fromValues,
-  LEAST_RADIUS,
-  MOST_RADIUS,
-  PRESETS,
-  sideView,
-  toValues,
-  type GlobeState,
-} from "./globe_state.ts";
-import { FiveViews } from "./globe_views.ts";
-import { TableRoom } from "./site_room.ts";
+import { Choice, mark, NumberField, PlaceFields, tellNamed } from "./controls.ts";
+import { BubbleGlobe, FisheyeGlobe, FiveViews } from "./globe_plates.ts";
+import { GlobeScene, type Places } from "./globe_scene.ts";
+import { BEGINNING, fromValues, LEAST_RADIUS, MOST_RADIUS, PRESETS, sideView, toValues } from "./globe_state.ts";
+import type { GlobeState } from "./globe_state.ts";
+import { heldValues, TableRoom } from "./site_room.ts";
 
 /** Files that are pictures, by the ends of their names. */
 const PICTURES = /\.(jpe?g|png|webp|avif)$/i;
@@ -56,20 +46,8 @@ export class GlobeRoom extends TableRoom implements Room {
   /** The lens that was announced last. */
   #said = BEGINNING.sight.lens;
 
-  constructor(host: RoomHost) {
-    super(host, GLOBE_SWITCHES);
-  }
-
   get shown(): GlobeState {
     return this.#state;
-  }
-
-  isOn(name: GlobeSwitch): boolean {
-    return this.switches.isOn(name);
-  }
-
-  run(body: () => void): void {
-    this.host.guarded(body);
   }
 
   override attach(section: HTMLElement): void {
@@ -83,7 +61,7 @@ export class GlobeRoom extends TableRoom implements Room {
       (which) => new BubbleGlobe(canvas(`globe-${which}`), which, this),
     );
     const lens = (): void => this.set({ lens: this.#lens.value }, "state", true);
-    this.#lens = new Choice(section, "lens", ["fisheye", "bubble"], () => guarded(lens));
+    this.#lens = new Choice(section, "lens", () => guarded(lens));
     const center = (place: readonly [number, number]): void => this.#center(directionOf(...place));
     this.#focus = new PlaceFields(section, "focus", (place) => guarded(() => center(place)), "change");
     const radius = (which: "from" | "to"): NumberField =>
@@ -102,20 +80,12 @@ export class GlobeRoom extends TableRoom implements Room {
   }
 
   state(): Record<string, string> {
-    const { places } = this.scene;
-    const held =
-      places === null || this.#isGiven
-        ? {}
-        : places.lonlat.length <= 2 * MOST_SITES
-          ? { sites: packPlaces(places.lonlat), name: places.name }
-          : { file: places.name };
-    const picture = this.scene.picture?.name;
-    const { turned } = this.switches;
+    const { places, picture } = this.scene;
     return {
       ...toValues(this.#state),
-      ...held,
-      ...(turned === "" ? {} : { turned }),
-      ...(picture === undefined ? {} : { picture }),
+      ...(places === null || this.#isGiven ? {} : heldValues(places.lonlat, places.name, { name: places.name })),
+      ...this.switches.values,
+      ...(picture === null ? {} : { picture: picture.name }),
     };
   }
 
@@ -123,9 +93,9 @@ export class GlobeRoom extends TableRoom implements Room {
     const state = fromValues(values);
     const lonlat = values.lonlat("sites");
     if (lonlat !== null) this.#show({ name: values.text("name", "sites"), lonlat }, false);
-    this.switches.turned = values.text("turned", "");
+    this.switches.restore(values);
     if (this.scene.places === null) this.switches.set("cells", false);
-    this.#globe.stop();
+    this.#globe.motion.stop();
     const { messages } = this.host;
     if (this.scene.places?.name !== values.text("file", "")) tellNamed(messages, values, "file");
     this.scene.picture = values.text("picture", "") === this.#picture?.name ? this.#picture : null;
@@ -172,7 +142,11 @@ export class GlobeRoom extends TableRoom implements Room {
   }
 
   python(exchange: Exchange): string {
-    return exchange.globePython(this.#state, this.scene, (name) => this.isOn(name));
+    return exchange.globePython(
+      this.#state,
+      this.scene,
+      this.scene.python((name) => this.switches.isOn(name)),
+    );
   }
 
   /** Unpacks what the page carries; until then the globe is water. */
@@ -195,7 +169,8 @@ export class GlobeRoom extends TableRoom implements Room {
     const { lonlat, names } = places;
     const count = lonlat.length / 2;
     find(this.section, "[data-show=places]").hidden = false;
-    this.out("places").textContent = placesWords(count, places.name);
+    const words = count === 0 ? "No places in" : count === 1 ? "The place of" : `The ${counted(count)} places of`;
+    this.out("places").textContent = `${words} ${places.name}`;
     this.out("latitude").textContent = AREAS[this.scene.latitude];
     this.table.show({
       count,
@@ -234,7 +209,7 @@ export class GlobeRoom extends TableRoom implements Room {
 
   #magnify(magnification: number): void {
     const { sight } = this.#state;
-    this.#globe.stop();
+    this.#globe.motion.stop();
     const kept = Math.max(1, Math.min(MOST, magnification));
     this.set({ sight: { ...sight, lens: { ...sight.lens, magnification: kept } } }, "hand");
   }
@@ -265,7 +240,6 @@ export class GlobeRoom extends TableRoom implements Room {
     this.host.announcer.say(button.textContent?.trim().replace(/^\d\s*/, "") ?? "");
   }
 
-  /** Everything of the margin and the sentences. */
   #write(): void {
     const { sight, from, to } = this.#state;
     const { magnification } = sight.lens;
@@ -286,7 +260,7 @@ export class GlobeRoom extends TableRoom implements Room {
     const { pointer, sight } = this.#state;
     const { magnification, focus } = sight.lens;
     const map = lensMap(sight.lens);
-    const [here, there] = [scaleAt(map, pointer), scaleAt(map, opposite(focus))];
+    const [here, there] = [scaleAt(map, pointer), scaleAt(map, [-focus[0], -focus[1], -focus[2]])];
     say(
       this.out("pointer"),
       `At the pointer, _${placeWords(pointer)}_, everything is _${scale(here)}_ times as large as on a plain globe; ` +
@@ -295,11 +269,9 @@ export class GlobeRoom extends TableRoom implements Room {
     const ruler = this.out("scale");
     const share = magnification > 1 ? Math.log(here) / Math.log(magnification) : 0;
     const [first, last] = ends(magnification);
-    find(ruler, ".mark-at.first").textContent = first;
-    find(ruler, ".mark-at.last").textContent = last;
-    const needle = find(ruler, ".needle");
-    needle.style.setProperty("--at", `${(50 * (share + 1)).toFixed(2)}%`);
-    needle.textContent = `${scale(here)}×`;
+    mark(ruler, ".mark-at.first", first);
+    mark(ruler, ".mark-at.last", last);
+    mark(ruler, ".needle", `${scale(here)}×`, 50 * (share + 1));
   }
 
   /** In the middle of the bubble and at its rim, as words. */
@@ -354,19 +326,9 @@ function placeWords(direction: Vector): string {
   return `${latitude(lat)} ${longitude(lon)}`;
 }
 
-/** How many places there are, and of which file. */
-function placesWords(count: number, name: string): string {
-  if (count === 0) return `No places in ${name}`;
-  return count === 1 ? `The place of ${name}` : `The ${counted(count)} places of ${name}`;
-}
-
 /** Square kilometres: whole ones, or three digits of what is smaller. */
 function area(size: number): string {
   return size >= 100 ? counted(Math.round(size)) : size.toPrecision(3);
-}
-
-function opposite([x, y, z]: Vector): Vector {
-  return [-x, -y, -z];
 }
 
 /** The ends of a ruler from 1/S to S: a fraction where S is whole. */

@@ -15,6 +15,7 @@ import {
 import type { Disc, Pen } from "../drawing/pen.ts";
 import { lonlatToXyz, SphericalVoronoi, xyzToLonlat, type Latitude, type MoebiusMap } from "../kernel/api.ts";
 import { tableLonlat } from "../kernel/coordinates.ts";
+import { lazy } from "../kernel/lazy.ts";
 import type { Painted } from "../panorama.ts";
 import { directionOf } from "../space.ts";
 
@@ -32,12 +33,8 @@ export const STEP = 10;
 /** Places beyond which their cells are left out while the globe moves. */
 const MANY_PLACES = 10_000;
 
-/** What the reader switches: what is drawn, and whether north stays up. */
-export const GLOBE_SWITCHES = ["land", "graticule", "tissot", "cells", "north"] as const;
-export type GlobeSwitch = (typeof GLOBE_SWITCHES)[number];
-
-/** Whether one of them is on. */
-type IsOn = (name: GlobeSwitch) => boolean;
+/** Whether something is drawn. */
+type IsOn = (name: "land" | "graticule" | "tissot" | "cells") => boolean;
 
 /** The reader's own places. */
 export interface Places {
@@ -59,10 +56,7 @@ export class GlobeScene {
   readonly #tissot = capLayer("tissot", equalCircles());
   #coarse: Layer | null = null;
   #fine: Layer | null = null;
-  #cells: Layer | null = null;
-  #dots: Layer | null = null;
-  #voronoi: SphericalVoronoi | null = null;
-  #areas: Float64Array | null = null;
+  #made: Made | null = null;
 
   /** Unpacks the land that the page carries. */
   async load(contents: Contents): Promise<void> {
@@ -72,57 +66,75 @@ export class GlobeScene {
     if (fine !== null) this.#fine = landLayer(fine);
   }
 
-  /** Shows the reader's places, or none. */
-  show(places: Places | null): void {
-    this.places = places;
-    this.#cells = this.#voronoi = this.#areas = this.lit = null;
-    this.#dots = places === null ? null : dotLayer("site", lonlatToXyz(places.lonlat));
+  show(places: Places): void {
+    [this.places, this.lit, this.#made] = [places, null, madeOf(places, this.latitude)];
   }
 
   /** The area of a place's cell, square kilometres. */
   area(place: number): number {
-    this.#areas ??= this.#diagram()?.areas(OF_EQUAL_AREA) ?? null;
-    return this.#areas?.[place] ?? 0;
+    return this.#made?.areas[place] ?? 0;
   }
 
   /** Draws a globe; `map` takes the Earth to the axes of the view. */
   draw(pen: Pen, disc: Disc, map: MoebiusMap, isOn: IsOn, isMoving: boolean): void {
     pen.ball(disc, "ocean");
     if (this.picture !== null) this.picture.draw(pen, disc, map, isMoving);
-    drawLayers(pen, disc, map, this.#layers(isOn, isMoving));
+    const layers = this.#parts(isOn, isMoving).map(([, layer]) => layer());
+    drawLayers(pen, disc, map, layers);
     pen.shade(disc);
   }
 
-  #layers(isOn: IsOn, isMoving: boolean): (Layer | null)[] {
-    const { places, lit } = this;
-    const count = (places?.lonlat.length ?? 0) / 2;
-    const lonlat = lit === null ? null : places?.lonlat.subarray(2 * lit, 2 * lit + 2);
-    return [
-      isOn("land") && this.picture === null ? (isMoving ? this.#coarse : (this.#fine ?? this.#coarse)) : null,
-      isOn("graticule") ? this.#graticule : null,
-      isOn("tissot") ? this.#tissot : null,
-      isOn("cells") && !(isMoving && count > MANY_PLACES) ? this.#ridges() : null,
-      this.#dots,
-      lonlat ? dotLayer("held", lonlatToXyz(lonlat)) : null,
+  /** The lines of Python that draw the same. */
+  python(isOn: IsOn): string[] {
+    const raster = this.picture === null ? [] : [`globe.add_raster(${JSON.stringify(this.picture.name)})`];
+    return [...raster, ...this.#parts(isOn, false).flatMap(([, , line]) => line ?? [])];
+  }
+
+  /** What is drawn over the ground and a picture: whether it is, its layer, and its line of Python. */
+  #parts(isOn: IsOn, isMoving: boolean): readonly [boolean, () => Layer | null, string?][] {
+    const { places, lit, latitude } = this;
+    const hasPlaces = places !== null;
+    const hasLand = isOn("land") && this.picture === null;
+    const isMuch = isMoving && hasPlaces && places.lonlat.length > 2 * MANY_PLACES;
+    const kind = latitude === "spherical" ? "" : `, latitude="${latitude}"`;
+    const held = (): Layer => dotLayer("held", lonlatToXyz(places!.lonlat.subarray(2 * lit!, 2 * lit! + 2)));
+    const parts: [boolean, () => Layer | null, string?][] = [
+      [hasLand, () => (isMoving ? this.#coarse : (this.#fine ?? this.#coarse)), 'globe.add_land(resolution="50m")'],
+      [isOn("graticule"), () => this.#graticule, `globe.add_graticule(${STEP}.0)`],
+      [hasLand, () => null, 'globe.add_coastlines(resolution="50m")'], // which the page draws with the land
+      [isOn("tissot"), () => this.#tissot, `globe.add_tissot(${STEP}.0, ${CIRCLE_RADIUS.toFixed(4)})`],
+      [hasPlaces, () => null, `places = read_points(${JSON.stringify(places?.name)}).lonlat`],
+      [
+        hasPlaces && isOn("cells"),
+        () => (isMuch ? null : this.#made!.cells),
+        `globe.add_cells(SphericalVoronoi.from_lonlat(places${kind}))`,
+      ],
+      [hasPlaces, () => this.#made!.dots, "globe.add_points(places)"],
+      [hasPlaces && lit !== null, held],
     ];
+    return parts.filter(([isThere]) => isThere);
   }
+}
 
-  /** The places' cells, which are computed when they are first asked for. */
-  #diagram(): SphericalVoronoi | null {
-    if (this.places === null) return null;
-    return (this.#voronoi ??= SphericalVoronoi.fromLonlat(this.places.lonlat, this.latitude));
-  }
+/** What is made of places when it is first asked for: their dots, the sides and the areas of their cells. */
+interface Made {
+  readonly dots: Layer;
+  readonly voronoi: SphericalVoronoi;
+  readonly cells: Layer;
+  readonly areas: Float64Array;
+}
 
-  /** Points of the cells' sphere where the globe shows them: at the latitudes of a table. */
-  #drawn(xyz: Float64Array): Float64Array {
-    return this.latitude === "spherical" ? xyz : lonlatToXyz(tableLonlat(xyzToLonlat(xyz), this.latitude));
-  }
-
-  /** Sides of the places' cells. */
-  #ridges(): Layer | null {
-    const diagram = this.#diagram();
-    return diagram === null ? null : (this.#cells ??= arcLayer("voronoi", this.#drawn(ridgeArcs(diagram))));
-  }
+function madeOf({ lonlat }: Places, latitude: Latitude): Made {
+  // Points of the cells' sphere are where the globe shows them: at the latitudes of a table.
+  const drawn = (xyz: Float64Array): Float64Array =>
+    latitude === "spherical" ? xyz : lonlatToXyz(tableLonlat(xyzToLonlat(xyz), latitude));
+  const made: Made = lazy({
+    dots: () => dotLayer("site", lonlatToXyz(lonlat)),
+    voronoi: () => SphericalVoronoi.fromLonlat(lonlat, latitude),
+    cells: () => arcLayer("voronoi", drawn(ridgeArcs(made.voronoi))),
+    areas: () => made.voronoi.areas(OF_EQUAL_AREA),
+  });
+  return made;
 }
 
 /** Three points of each circle, about places some distance apart on parallels that are as far apart. */

@@ -36,20 +36,20 @@ export const LEAST_RADIUS = 0.1;
 export const MOST_RADIUS = 180 - LEAST_RADIUS;
 
 const NEW_YORK = directionOf(-73.98, 40.75);
-/** 100 kilometres, degrees. */
-const NEW_YORK_RADIUS = 0.9;
+const ABOVE_NEW_YORK = View.above(-73.98, 40.75);
 
 /** What the buttons under "Begin with" begin with. */
 export const PRESETS: Readonly<Record<string, Partial<GlobeState>>> = {
   "figure-10": { lens: "fisheye", sight: figure(1) },
   "figure-11": { lens: "fisheye", sight: figure(4) },
   "figure-12": { lens: "fisheye", sight: figure(20) },
+  // 100 kilometres become a hemisphere.
   "new-york": {
     lens: "bubble",
-    from: { center: NEW_YORK, radius: NEW_YORK_RADIUS },
+    from: { center: NEW_YORK, radius: 0.9 },
     to: { center: NEW_YORK, radius: 90 },
-    before: View.above(-73.98, 40.75),
-    after: View.above(-73.98, 40.75),
+    before: ABOVE_NEW_YORK,
+    after: ABOVE_NEW_YORK,
   },
 };
 
@@ -61,80 +61,52 @@ function figure(magnification: number): Sight {
 /** The five sides from which a fisheye is shown, by the numbers of the figures' panels. */
 export function sideView(panel: number, focus: Vector): View {
   const [lon, lat] = lonLatOf(focus);
-  return [
-    View.above(lon, 0),
-    View.above(lon, 90),
-    View.above(lon, -90),
-    View.above(lon, lat),
-    View.above(lon + 180, -lat),
-  ][panel - 1];
+  const across = View.above(lon + 180, -lat);
+  return [View.above(lon, 0), View.above(lon, 90), View.above(lon, -90), View.above(lon, lat), across][panel - 1];
 }
 
 /** Digits behind the point of degrees and scales in links: finer than any pixel. */
 const DIGITS = 7;
 
-type Values = Record<string, string>;
-
-export function toValues(state: GlobeState): Values {
-  const { sight, from, to } = state;
-  return {
-    lens: state.lens,
-    s: writeNumber(sight.lens.magnification, DIGITS),
-    ...placeValues("focus", sight.lens.focus),
-    ...viewValues("view", sight.view),
-    ...placeValues("pointer", state.pointer),
-    ...(state.lens === "bubble"
-      ? {
-          ...placeValues("from", from.center),
-          fromradius: writeNumber(from.radius, DIGITS),
-          ...placeValues("to", to.center),
-          toradius: writeNumber(to.radius, DIGITS),
-          ...viewValues("before", state.before),
-          ...viewValues("after", state.after),
-        }
-      : {}),
+export function toValues({ lens, sight, pointer, from, to, before, after }: GlobeState): Record<string, string> {
+  const number = (value: number): string => writeNumber(value, DIGITS);
+  const place = (name: string, at: Vector) => writePlace(name, lonLatOf(at), DIGITS);
+  const cap = (name: string, { center, radius }: Cap) => ({
+    ...place(name, center),
+    [`${name}radius`]: number(radius),
+  });
+  const view = (name: string, seen: View) => {
+    const roll = number(seen.roll);
+    return { ...writePlace(name, seen.middle, DIGITS), ...(roll === "0" ? {} : { [`${name}roll`]: roll }) };
   };
+  const shown = { lens, s: number(sight.lens.magnification), ...place("focus", sight.lens.focus) };
+  const values = { ...shown, ...view("view", sight.view), ...place("pointer", pointer) };
+  if (lens === "fisheye") return values;
+  return { ...values, ...cap("from", from), ...cap("to", to), ...view("before", before), ...view("after", after) };
 }
 
 /** @throws LinkError where a value cannot be read. */
 export function fromValues(values: LinkValues): GlobeState {
   const begin = BEGINNING;
+  const place = (name: string, otherwise: Vector): Vector =>
+    values.has(`${name}lon`) || values.has(`${name}lat`)
+      ? directionOf(...values.place(name, lonLatOf(otherwise)))
+      : otherwise;
+  const view = (name: string, otherwise: View): View =>
+    View.above(...values.place(name, otherwise.middle), values.number(`${name}roll`, -360, 360, 0));
   const cap = (name: string, otherwise: Cap): Cap => ({
-    center: readPlace(values, name, otherwise.center),
+    center: place(name, otherwise.center),
     radius: values.number(`${name}radius`, LEAST_RADIUS, MOST_RADIUS, otherwise.radius),
   });
-  const { lens, view } = begin.sight;
+  const focus = place("focus", begin.sight.lens.focus);
+  const magnification = values.number("s", 1, MOST, begin.sight.lens.magnification);
   return {
     lens: values.word("lens", ["fisheye", "bubble"], begin.lens),
-    sight: {
-      lens: {
-        focus: readPlace(values, "focus", lens.focus),
-        magnification: values.number("s", 1, MOST, lens.magnification),
-      },
-      view: readView(values, "view", view),
-    },
-    pointer: readPlace(values, "pointer", begin.pointer),
+    sight: { lens: { focus, magnification }, view: view("view", begin.sight.view) },
+    pointer: place("pointer", begin.pointer),
     from: cap("from", begin.from),
     to: cap("to", begin.to),
-    before: readView(values, "before", begin.before),
-    after: readView(values, "after", begin.after),
+    before: view("before", begin.before),
+    after: view("after", begin.after),
   };
-}
-
-function placeValues(name: string, direction: Vector): Values {
-  return writePlace(name, lonLatOf(direction), DIGITS);
-}
-
-function viewValues(name: string, view: View): Values {
-  const roll = writeNumber(view.roll, DIGITS);
-  return { ...writePlace(name, view.middle, DIGITS), ...(roll === "0" ? {} : { [`${name}roll`]: roll }) };
-}
-
-function readPlace(values: LinkValues, name: string, otherwise: Vector): Vector {
-  if (!values.has(`${name}lon`) && !values.has(`${name}lat`)) return otherwise;
-  return directionOf(...values.place(name, lonLatOf(otherwise)));
-}
-
-function readView(values: LinkValues, name: string, otherwise: View): View {
-  return View.above(...values.place(name, otherwise.middle), values.number(`${name}roll`, -360, 360, 0));
 }

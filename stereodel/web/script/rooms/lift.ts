@@ -1,28 +1,24 @@
 /** The Lift room: a sheet that bends onto a hemisphere, and how far apart two of its points are there (P10, P13, P7). */
 
 import { field, find, plain, say } from "../dom.ts";
-import type { Sheet } from "../drawing/pen.ts";
+import type { Pen, Point, Sheet } from "../drawing/pen.ts";
 import { Plate, type Reason } from "../drawing/plate.ts";
 import type { Exchange } from "../exchange.ts";
 import { writeNumber, type LinkValues } from "../link.ts";
 import type { Room, RoomHost } from "../room.ts";
-import type { SiteSet } from "../sets.ts";
 import { arrowStep } from "../view/ball_hand.ts";
-import { distance, follow, type Gestures, type Hold, type Place as Point } from "../view/hand.ts";
+import { distance, follow, type Gestures, type Hold } from "../view/hand.ts";
 import { View } from "../view/view.ts";
 import { counted, fixed, ofFacets, wrap } from "../words.ts";
-import { NumberField } from "./controls.ts";
-import { drawLift, onPicture, sitePlace, standOf, type LiftScene } from "./lift_drawing.ts";
+import { mark, NumberField } from "./controls.ts";
+import { LiftPicture, type LiftScene } from "./lift_drawing.ts";
 import { LiftSites, SHEET_SIDES, sheetSets, type Sheet as BentSheet } from "./lift_sites.ts";
-import { measured, ofBend, ofBounds, ofPair, separation, withoutTriangles } from "./lift_words.ts";
+import { measured, ofBend, ofBounds, ofPair, separation, withoutTriangles } from "./lift_sites.ts";
 import { SiteRoom, type NamedSites } from "./site_room.ts";
-
-const SWITCHES = ["triangles", "cells", "rays", "seeing"] as const;
 
 /** How the room begins: corners of the sheet, height and side of the view, degrees; P and Q by their indices. */
 const HEMISPHERE = 90;
-const HEIGHT = 35;
-const SIDE = 17;
+const BEGINNING = { bend: HEMISPHERE, height: 35, side: 17 };
 const PAIR = { p: 43, q: 1 };
 
 type Letter = keyof typeof PAIR;
@@ -38,7 +34,7 @@ const MANY = 10_000;
 
 /** @param sheet The places of the first set. */
 export function liftRoom(host: RoomHost, sheet: Float64Array): Room {
-  return new LiftRoom(host, sheetSets(sheet));
+  return new LiftRoom(host, sheetSets(sheet), "plane");
 }
 
 class LiftRoom extends SiteRoom implements Room {
@@ -46,28 +42,24 @@ class LiftRoom extends SiteRoom implements Room {
   #fields!: Record<"height" | "side" | Letter, NumberField>;
 
   #sites = new LiftSites(new Float64Array(0));
-  #corner = HEMISPHERE;
-  #height = HEIGHT;
-  #side = SIDE;
+  #state = BEGINNING;
   #pair: Record<Letter, number | null> = { p: null, q: null };
   #next: Letter = "p";
 
-  constructor(host: RoomHost, sets: readonly SiteSet[]) {
-    super(host, sets, "plane", SWITCHES);
-  }
-
   override attach(section: HTMLElement): void {
     super.attach(section);
-    const canvas = find<HTMLCanvasElement>(section, "#lift-plate");
-    this.#plate = new Plate(canvas, (pen, moving) => drawLift(pen, this.#scene(moving), moving), this.host.guarded);
+    const paint = (pen: Pen, moving: boolean): void => this.#picture(moving, pen.width, pen.height).draw(pen, moving);
+    this.#plate = new Plate(find(section, "#lift-plate"), paint, this.host.guarded);
+    const number = (name: string, typed: (value: number) => void): NumberField =>
+      new NumberField(section, name, 0, typed);
     const turn = (): void => {
       this.#turn(field(section, "view-side").valueAsNumber, field(section, "view-height").valueAsNumber);
     };
     this.#fields = {
-      height: new NumberField(section, "view-height", 0, turn),
-      side: new NumberField(section, "view-side", 0, turn),
-      p: new NumberField(section, "p", 0, (number) => this.#setPair("p", number - 1)),
-      q: new NumberField(section, "q", 0, (number) => this.#setPair("q", number - 1)),
+      height: number("view-height", turn),
+      side: number("view-side", turn),
+      p: number("p", (site) => this.#setPair("p", site - 1)),
+      q: number("q", (site) => this.#setPair("q", site - 1)),
     };
     const slider = field(section, "bend");
     slider.addEventListener("input", () => this.host.guarded(() => this.#bend(slider.valueAsNumber)));
@@ -78,20 +70,21 @@ class LiftRoom extends SiteRoom implements Room {
 
   state(): Record<string, string> {
     const state = this.siteValues();
-    if (this.#corner !== HEMISPHERE) state["bend"] = writeNumber(this.#corner, 2);
-    if (this.#height !== HEIGHT) state["height"] = writeNumber(this.#height, 2);
-    if (this.#side !== SIDE) state["side"] = writeNumber(this.#side, 2);
+    for (const name of ["bend", "height", "side"] as const) {
+      if (this.#state[name] !== BEGINNING[name]) state[name] = writeNumber(this.#state[name], 2);
+    }
     for (const [letter, site] of Object.entries(this.#pair)) if (site !== null) state[letter] = String(site + 1);
     return state;
   }
 
   override restore(values: LinkValues): void {
-    const bend = values.number("bend", 0, HEMISPHERE, HEMISPHERE);
-    const [height, side] = [values.number("height", 0, 90, HEIGHT), values.number("side", -360, 360, SIDE)];
+    const bend = values.number("bend", 0, HEMISPHERE, BEGINNING.bend);
+    const height = values.number("height", 0, 90, BEGINNING.height);
+    const side = values.number("side", -360, 360, BEGINNING.side);
     const named = this.sitesOf(values);
     const count = named.places.length / 2;
     const [p, q] = [values.whole("p", 1, count, 0), values.whole("q", 1, count, 0)];
-    [this.#corner, this.#height, this.#side] = [bend, height, side];
+    this.#state = { bend, height, side };
     super.restore(values);
     this.begin(named);
     this.#pair = { p: p > 0 ? p - 1 : this.#pair.p, q: q > 0 ? q - 1 : this.#pair.q };
@@ -107,8 +100,7 @@ class LiftRoom extends SiteRoom implements Room {
     const label = `Sheet with ${counted(count)} ${count === 1 ? "site" : "sites"}, and ball`;
     this.#plate.canvas.setAttribute("aria-label", label);
     for (const letter of ["p", "q"] as const) {
-      this.#fields[letter].max = Math.max(1, count);
-      field(this.section, letter).disabled = count < 2;
+      Object.assign(field(this.section, letter), { max: String(Math.max(1, count)), disabled: count < 2 });
     }
     this.#update("state", named);
   }
@@ -120,24 +112,18 @@ class LiftRoom extends SiteRoom implements Room {
   }
 
   get #bent(): BentSheet {
-    return this.#sites.sheet(this.#corner);
+    return this.#sites.sheet(this.#state.bend);
   }
 
   #scene(isMoving: boolean): LiftScene {
-    return {
-      sites: this.#sites,
-      sheet: this.#bent,
-      view: View.above(this.#side - 90, this.#height),
-      height: this.#height,
-      shown: {
-        triangles: this.isOn("triangles", isMoving),
-        cells: this.isOn("cells", isMoving, MANY),
-        rays: this.isOn("rays"),
-        seeing: this.isOn("seeing", isMoving),
-      },
-      ...this.#pair,
-      lit: this.lit,
-    };
+    const { height, side } = this.#state;
+    const isOn = this.shown(isMoving, MANY);
+    const view = View.above(side - 90, height);
+    return { sites: this.#sites, sheet: this.#bent, view, height, isOn, ...this.#pair, lit: this.lit };
+  }
+
+  #picture(isMoving = false, width = this.#plate.width, height = this.#plate.height): LiftPicture {
+    return new LiftPicture(this.#scene(isMoving), width, height);
   }
 
   /** Everything that is said and drawn, after the state has changed. */
@@ -148,15 +134,19 @@ class LiftRoom extends SiteRoom implements Room {
     const alone = withoutTriangles(this.#sites);
     const { simplices } = this.#sites.delaunay;
     say(this.out("sum"), alone ?? ofFacets(simplices.length / 3, this.#sites.closing.length / 3, SUM));
-    [this.#fields.height.value, this.#fields.side.value] = [this.#height, this.#side];
+    this.#showView();
     this.redraw(reason);
+  }
+
+  #showView(): void {
+    [this.#fields.height.value, this.#fields.side.value] = [this.#state.height, this.#state.side];
   }
 
   #showBend(): void {
     const slider = field(this.section, "bend");
     const words = ofBend(this.#bent);
-    slider.value = String(this.#corner);
-    slider.setAttribute("aria-valuetext", `corners at ${fixed(this.#corner, 0)}°: ${words}`);
+    slider.value = String(this.#state.bend);
+    slider.setAttribute("aria-valuetext", `corners at ${fixed(this.#state.bend, 0)}°: ${words}`);
     this.out("bend").textContent = words;
   }
 
@@ -164,9 +154,9 @@ class LiftRoom extends SiteRoom implements Room {
   #showPair(): void {
     const bounds = find(this.section, ".bounds");
     const { p, q } = this.#pair;
-    const isEnd = this.#corner === HEMISPHERE;
+    const isEnd = this.#state.bend === HEMISPHERE;
     bounds.classList.toggle("flat", !isEnd);
-    bounds.classList.toggle("plane", this.#corner === 0);
+    bounds.classList.toggle("plane", this.#state.bend === 0);
     const ruler = this.out("scale");
     ruler.hidden = p === null || q === null;
     [this.#fields.p.value, this.#fields.q.value] = [p, q].map((site) => (p === null || q === null ? null : site! + 1));
@@ -176,25 +166,19 @@ class LiftRoom extends SiteRoom implements Room {
       return;
     }
     const now = separation(this.#sites, this.#bent, p, q);
-    say(this.out("separation"), ofPair(now, this.#corner));
+    say(this.out("separation"), ofPair(now, this.#state.bend));
     say(this.out("promise"), ofBounds(now));
-    const at = (degrees: number): string => `${fixed(degrees / 1.8, 2)}%`;
-    const mark = (name: string, words: string, value: number): HTMLElement => {
-      const element = find(bounds, name);
-      element.textContent = words;
-      element.style.setProperty("--at", at(value));
-      return element;
-    };
     const [low, high] = [`${fixed(now.low, 1)}°`, `${fixed(now.high, 1)}°`];
     const angle = now.angle === null ? "" : `${fixed(now.angle, 1)}°`;
-    mark(".needle", angle, now.angle ?? 0).hidden = now.angle === null;
+    mark(bounds, ".needle", angle, (now.angle ?? 0) / 1.8).hidden = now.angle === null;
     const span = find(bounds, ".span");
-    span.style.setProperty("--from", at(now.low));
-    span.style.setProperty("--to", at(now.high));
+    for (const [name, degrees] of Object.entries({ "--from": now.low, "--to": now.high })) {
+      span.style.setProperty(name, `${fixed(degrees / 1.8, 2)}%`);
+    }
     // Bounds whose marks would stand in each other's way share one.
     const isNarrow = now.high - now.low < CLOSE;
-    mark(".low", isNarrow ? `${low} to ${high}` : low, isNarrow ? (now.low + now.high) / 2 : now.low);
-    mark(".high", isNarrow ? "" : high, now.high);
+    mark(bounds, ".low", isNarrow ? `${low} to ${high}` : low, (isNarrow ? (now.low + now.high) / 2 : now.low) / 1.8);
+    mark(bounds, ".high", isNarrow ? "" : high, now.high / 1.8);
     // The bounds come before the ends of the ruler.
     const room = isNarrow ? 2 * CLOSE : CLOSE;
     find(bounds, ".first").classList.toggle("bare", isEnd && now.low < room);
@@ -206,13 +190,13 @@ class LiftRoom extends SiteRoom implements Room {
 
   /** What the sites are called, and the table, whose scales change with the sheet. */
   #showSites(named: NamedSites): void {
-    const { places, count } = this.#sites;
+    const { count } = this.#sites;
     const sheet = this.#bent;
     this.show(named, {
       count,
       heads: ["*x*", "*y*", "Scale"],
       cells: (site) => {
-        const [x, y] = [places[2 * site], places[2 * site + 1]];
+        const [x, y] = this.#sites.place(site);
         return [measured(x, sheet.diagonal), measured(y, sheet.diagonal), fixed(sheet.scale(x, y), 3)];
       },
       mark: (site) => (site === this.#pair.p ? "P" : site === this.#pair.q ? "Q" : ""),
@@ -222,19 +206,20 @@ class LiftRoom extends SiteRoom implements Room {
 
   // What can be done
 
-  #bend(corner: number): void {
-    this.#corner = corner;
+  #bend(bend: number): void {
+    this.#state = { ...this.#state, bend };
     this.#update("hand");
     this.changed(ofBend(this.#bent));
   }
 
   #turn(side: number, height: number, reason: Reason = "state"): void {
     if (!Number.isFinite(side) || !Number.isFinite(height)) return;
-    this.#side = exact(wrap(side));
-    this.#height = exact(Math.max(0, Math.min(90, height)));
-    [this.#fields.height.value, this.#fields.side.value] = [this.#height, this.#side];
+    this.#state = { ...this.#state, side: exact(wrap(side)), height: exact(Math.max(0, Math.min(90, height))) };
+    this.#showView();
     this.redraw(reason);
-    this.changed(`Seen from ${fixed(this.#height, 0)}° above the sheet, turned by ${fixed(this.#side, 0)}°`);
+    this.changed(
+      `Seen from ${fixed(this.#state.height, 0)}° above the sheet, turned by ${fixed(this.#state.side, 0)}°`,
+    );
   }
 
   protected override switched(): void {
@@ -256,7 +241,7 @@ class LiftRoom extends SiteRoom implements Room {
     const { p, q } = this.#pair;
     if (p === null || q === null) return;
     const now = separation(this.#sites, this.#bent, p, q);
-    this.host.announcer.say(plain(`${letter.toUpperCase()} is site ${site + 1}. ${ofPair(now, this.#corner)}`));
+    this.host.announcer.say(plain(`${letter.toUpperCase()} is site ${site + 1}. ${ofPair(now, this.#state.bend)}`));
   }
 
   // The hand
@@ -284,7 +269,7 @@ class LiftRoom extends SiteRoom implements Room {
         },
       };
     }
-    const [side, height] = [this.#side, this.#height];
+    const { side, height } = this.#state;
     return {
       move: ([x, y]) => {
         const [right, down] = [x - at[0], y - at[1]];
@@ -295,38 +280,30 @@ class LiftRoom extends SiteRoom implements Room {
 
   /** Where a held site is to be seen: its image, its place in the plane, its name. */
   #placesOf(site: number): Point[] {
-    const scene = this.#scene(false);
-    const stand = this.#stand();
-    const { places } = this.#sites;
-    const above = onPicture(stand, scene.view, scene.sheet.flat(places[2 * site], places[2 * site + 1]));
-    return [sitePlace(stand, scene, site).at, above, [above[0], above[1] - 14]];
-  }
-
-  #stand(): ReturnType<typeof standOf> {
-    return standOf(this.#plate.width, this.#plate.height, this.#height);
+    const picture = this.#picture();
+    const above = picture.above(site);
+    return [picture.surface.place(site), above, [above[0], above[1] - 14]];
   }
 
   #siteAt(at: Point, reach: number): number | null {
-    const scene = this.#scene(false);
-    const stand = this.#stand();
-    let best: { site: number; away: number } | null = null;
+    const { surface } = this.#picture();
+    let [best, least] = [null as number | null, Infinity];
     for (let site = 0; site < this.#sites.count; ++site) {
-      const { at: place, front } = sitePlace(stand, scene, site);
-      const away = distance(place, at);
-      if (front && away <= reach && away < (best?.away ?? Infinity)) best = { site, away };
+      const away = distance(surface.place(site), at);
+      if (surface.isSeen(site) && away < least) [best, least] = [site, away];
     }
-    return best?.site ?? null;
+    return least <= reach ? best : null;
   }
 
   #key(event: KeyboardEvent): boolean {
     if (event.ctrlKey) return false;
     const step = arrowStep(event);
     const actions: Record<string, () => void> = {
-      "0": () => this.#turn(SIDE, HEIGHT),
+      "0": () => this.#turn(BEGINNING.side, BEGINNING.height),
       ",": () => this.#walk(-1),
       ".": () => this.#walk(1),
     };
-    const turn = step && ((): void => this.#turn(this.#side + step[0], this.#height + step[1]));
+    const turn = step && ((): void => this.#turn(this.#state.side + step[0], this.#state.height + step[1]));
     const action = turn ?? actions[event.key];
     if (action !== undefined) this.host.guarded(action);
     return action !== undefined;
@@ -352,7 +329,7 @@ class LiftRoom extends SiteRoom implements Room {
 
   python(exchange: Exchange): string {
     const { set, file } = this.named;
-    return exchange.liftPython(this.#scene(false), this.#side, file, SHEET_SIDES[set]);
+    return exchange.liftPython(this.#scene(false), this.#state.side, file, SHEET_SIDES[set]);
   }
 }
 

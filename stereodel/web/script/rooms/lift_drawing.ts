@@ -1,14 +1,13 @@
 /** The picture of the Lift room: a sheet that bends onto a ball, under the plane that it was. */
 
-import { traceArc } from "../drawing/arcs.ts";
-import { traceGreat, tracePolygon } from "../drawing/ball.ts";
-import { traceRegions } from "../drawing/fill.ts";
-import { cornersOf, traceCorners, traceDisc, traceSegment, type Disc, type Path, type Pen } from "../drawing/pen.ts";
+import { traceArc, traceRegions, type Side } from "../drawing/arcs.ts";
+import { ballSurface, drawDots, planeSurface, traceGreat, type Surface } from "../drawing/ball.ts";
+import { cornersOf, traceCorners, traceDisc, traceSegment } from "../drawing/pen.ts";
+import type { Disc, Path, Pen, Point } from "../drawing/pen.ts";
 import type { LabelStyle } from "../drawing/styles.ts";
 import { cross, unit, type Vector } from "../space.ts";
 import type { View } from "../view/view.ts";
 import type { LiftSites, Sheet } from "./lift_sites.ts";
-import { chained } from "./sphere_sites.ts";
 
 /** What the picture shows. */
 export interface LiftScene {
@@ -17,12 +16,7 @@ export interface LiftScene {
   readonly view: View;
   /** Height of the view above the sheet, degrees: it says how large the picture can be. */
   readonly height: number;
-  readonly shown: {
-    readonly triangles: boolean;
-    readonly cells: boolean;
-    readonly rays: boolean;
-    readonly seeing: boolean;
-  };
+  readonly isOn: (name: string) => boolean;
   readonly p: number | null;
   readonly q: number | null;
   /** A site that the table points at. */
@@ -43,284 +37,218 @@ const BALL_FROM = 75;
 /** Points along each side of the sheet. */
 const PER_SIDE = 48;
 
-const LETTER: LabelStyle = { ink: "accent-text", halo: "ball", size: 17, italic: true, align: "center" };
+const LETTER: LabelStyle = { ink: "accent-text", halo: "halo", size: 17, italic: true, align: "center" };
 const WORD: LabelStyle = { ink: "ink-2", halo: "ball", size: 14 };
 
-/** Where the picture is in a drawing: the point of contact, and pixels of a diagonal. */
-interface Stand {
-  readonly x: number;
-  readonly y: number;
-  readonly scale: number;
-}
+/** A scene in a drawing of some pixels; what has its place there does not move while the ball is turned sideways. */
+export class LiftPicture {
+  readonly #scene: LiftScene;
+  /** Pixels of a diagonal, and the point of contact. */
+  readonly #scale: number;
+  readonly #contact: Point;
+  /** The ball; of no use where the sheet is flat. */
+  readonly #disc: Disc;
+  /** Corners of the sheet, counterclockwise. */
+  readonly #corners: readonly Point[];
+  readonly surface: Surface;
 
-/** The stand of a picture in a drawing of some pixels; it does not change while the ball is turned sideways. */
-export function standOf(width: number, height: number, elevation: number): Stand {
-  const unit = Math.min(width / BOX.width, height / BOX.height);
-  const steep = Math.sin((Math.max(HIGH, elevation) * Math.PI) / 180) / Math.sin((HIGH * Math.PI) / 180);
-  return { x: width / 2, y: (height - BOX.height * unit) / 2 + BOX.contact * unit, scale: (DIAGONAL * unit) / steep };
-}
-
-/** Where a point of space, in diagonals, is on the drawing. */
-export function onPicture({ x, y, scale }: Stand, view: View, point: Vector): [number, number] {
-  const seen = view.seen(point);
-  return [x + scale * seen[0], y - scale * seen[1]];
-}
-
-/** Where the image of a site is on the drawing, and whether it is in front. */
-export function sitePlace(
-  stand: Stand,
-  { sites, sheet, view }: LiftScene,
-  k: number,
-): { at: [number, number]; front: boolean } {
-  const [x, y] = [sites.places[2 * k], sites.places[2 * k + 1]];
-  const front = sheet.isFlat || view.seen(sheet.direction(x, y))[2] >= 0;
-  return { at: onPicture(stand, view, sheet.image(x, y)), front };
-}
-
-/** Draws the picture. */
-export function drawLift(pen: Pen, scene: LiftScene, isMoving: boolean): void {
-  const stand = standOf(pen.width, pen.height, scene.height);
-  if (scene.sheet.isFlat) drawFlat(pen, stand, scene);
-  else drawBent(pen, stand, scene, isMoving);
-  drawPair(pen, stand, scene);
-}
-
-function drawBent(pen: Pen, stand: Stand, scene: LiftScene, isMoving: boolean): void {
-  const { sheet, sites, shown } = scene;
-  const disc = discOf(stand, scene);
-  if (sheet.corner >= BALL_FROM) pen.ball(disc, "ball");
-  if (sheet.corner >= OUTLINE_FROM) pen.draw("limb-soft", (path) => traceDisc(path, disc));
-  const look = lookAt(scene);
-  const border = borderOf(scene);
-  const hull = hullOf(sites);
-  if (shown.seeing && hull.length > 2) drawSeeing(pen, disc, scene, hull, look);
-  const region = (path: Path): void => traceRegions(path, disc, ringOf(border), holds(scene, [0, 0, -1]));
-  // Seen from behind the ball is its mirror image: rings run the other way.
-  const mirrored = border.map(([x, y, z]): Vector => [x, y, -z]).reverse();
-  pen.behind(() => pen.draw("sheet", (path) => traceRegions(path, disc, ringOf(mirrored), holds(scene, [0, 0, 1]))));
-  pen.draw("sheet", region);
-  const { edges } = sites.delaunay;
-  const drawEdges = (side: "front" | "back"): void => {
-    pen.draw("delaunay", (path) => {
-      for (let k = 0; k < edges.length; k += 2) traceGreat(path, disc, look(edges[k]), look(edges[k + 1]), side);
-    });
-  };
-  pen.behind(() => {
-    pen.draw("side", (path) => traceBorder(path, disc, scene, "back"));
-    if (shown.triangles && !isMoving) drawEdges("back");
-  });
-  if (shown.triangles) drawEdges("front");
-  if (shown.cells) {
-    pen.clipped(region, () => {
-      pen.draw("voronoi", (path) => {
-        for (const [a, b] of ridgesOf(scene, look)) traceGreat(path, disc, a, b);
-      });
-    });
+  constructor(scene: LiftScene, width: number, height: number) {
+    const { sheet, sites, view } = scene;
+    this.#scene = scene;
+    const unit = Math.min(width / BOX.width, height / BOX.height);
+    const steep = Math.sin((Math.max(HIGH, scene.height) * Math.PI) / 180) / Math.sin((HIGH * Math.PI) / 180);
+    this.#scale = (DIAGONAL * unit) / steep;
+    this.#contact = [width / 2, (height - BOX.height * unit) / 2 + BOX.contact * unit];
+    const [x, y] = this.place([0, 0, -sheet.radius]);
+    this.#disc = { x, y, r: this.#scale * sheet.radius };
+    const { middle, width: w, height: h } = sites.rectangle;
+    this.#corners = cornersOf(middle[0] - w / 2, middle[1] - h / 2, middle[0] + w / 2, middle[1] + h / 2);
+    const looks: Vector[] = [];
+    this.surface = sheet.isFlat
+      ? planeSurface((site) => this.above(site), this.#plane)
+      : ballSurface(this.#disc, (k) => (looks[k] ??= view.seen(sheet.direction(...sites.place(k)))));
   }
-  pen.draw("side", (path) => traceBorder(path, disc, scene, "front"));
-  drawSites(pen, stand, scene);
-  pen.draw("sheet-plane", (path) => tracePlane(path, stand, scene));
-}
 
-function drawFlat(pen: Pen, stand: Stand, scene: LiftScene): void {
-  const { sites, sheet, view, shown } = scene;
-  const place = (x: number, y: number): [number, number] => onPicture(stand, view, sheet.flat(x, y));
-  const site = (k: number): [number, number] => place(sites.places[2 * k], sites.places[2 * k + 1]);
-  const outline = (path: Path): void => tracePlane(path, stand, scene);
-  pen.draw("sheet", outline);
-  if (shown.seeing) {
-    const hull = hullOf(sites);
-    pen.draw("hatch", (path) => {
-      outline(path);
-      traceCorners(path, hull.map(site).reverse());
-    });
-    pen.draw("hull", (path) => traceCorners(path, hull.map(site)));
+  /** Where a point of space, in diagonals, is on the drawing. */
+  place(point: Vector): Point {
+    const seen = this.#scene.view.seen(point);
+    return [this.#contact[0] + this.#scale * seen[0], this.#contact[1] - this.#scale * seen[1]];
   }
-  if (shown.triangles) {
+
+  /** Where a site is in the plane. */
+  above(site: number): Point {
+    return this.#flat(this.#scene.sites.place(site));
+  }
+
+  #flat(at: Point): Point {
+    return this.place(this.#scene.sheet.flat(...at));
+  }
+
+  /** The plane's rectangle. */
+  readonly #plane = (path: Path): void =>
+    traceCorners(
+      path,
+      this.#corners.map((at) => this.#flat(at)),
+    );
+
+  draw(pen: Pen, isMoving: boolean): void {
+    const [disc, surface] = [this.#disc, this.surface];
+    const { sites, sheet, isOn } = this.#scene;
+    const { isFlat, corner } = sheet;
     const { edges } = sites.delaunay;
-    pen.draw("delaunay", (path) => {
-      for (let k = 0; k < edges.length; k += 2) traceSegment(path, site(edges[k]), site(edges[k + 1]));
-    });
-  }
-  if (shown.cells) {
-    pen.clipped(outline, () => {
-      pen.draw("voronoi", (path) => {
-        for (const [a, b] of sites.ridges) traceSegment(path, place(...a), place(...b));
+    const border = isFlat ? [] : this.#border();
+    const bent = (path: Path): void => traceRegions(path, disc, ringOf(border), this.#holds([0, 0, -1]));
+    const region = isFlat ? this.#plane : bent;
+    const drawEdges = (side?: Side): void =>
+      pen.draw("delaunay", (path) => {
+        for (let k = 0; k < edges.length; k += 2) surface.line(path, edges[k], edges[k + 1], side);
       });
-    });
-  }
-  pen.draw("side", outline);
-  drawSites(pen, stand, scene);
-}
-
-/** The facets that see the pole: hatched, with their edges. */
-function drawSeeing(pen: Pen, disc: Disc, scene: LiftScene, hull: number[], look: (k: number) => Vector): void {
-  const { sites } = scene;
-  const outside = !insideHull(sites, hull, flatOf(scene, [0, 0, -1]));
-  pen.draw("hatch", (path) => tracePolygon(path, disc, hull.map(look).reverse(), outside));
-  pen.draw("hull", (path) => {
-    const { closing } = sites;
-    for (let k = 0; k < closing.length; ++k) {
-      const [a, b] = [closing[k], closing[k % 3 === 2 ? k - 2 : k + 1]];
-      if (a < b || hull.includes(a)) traceGreat(path, disc, look(a), look(b));
+    if (!isFlat && corner >= BALL_FROM) pen.ball(disc, "ball");
+    if (!isFlat && corner >= OUTLINE_FROM) pen.draw("limb-soft", (path) => traceDisc(path, disc));
+    if (isFlat) pen.draw("sheet", region);
+    if (isOn("seeing")) this.#drawSeeing(pen);
+    if (!isFlat) {
+      // Seen from behind the ball is its mirror image: rings run the other way.
+      const mirrored = ringOf(border.map(([x, y, z]): Vector => [x, y, -z]).reverse());
+      pen.behind(() => pen.draw("sheet", (path) => traceRegions(path, disc, mirrored, this.#holds([0, 0, 1]))));
+      pen.draw("sheet", region);
+      pen.behind(() => {
+        pen.draw("side", (path) => this.#traceBorder(path, "back"));
+        if (isOn("triangles") && !isMoving) drawEdges("back");
+      });
     }
-  });
-}
+    if (isOn("triangles")) drawEdges();
+    if (isOn("cells")) pen.clipped(region, () => pen.draw("voronoi", (path) => this.#traceRidges(path)));
+    pen.draw("side", isFlat ? region : (path) => this.#traceBorder(path, "front"));
+    drawDots(
+      pen,
+      surface,
+      "site",
+      Array.from({ length: sites.count }, (_, k) => k),
+    );
+    if (!isFlat) pen.draw("sheet-plane", this.#plane);
+    this.#drawPair(pen);
+  }
 
-/** P and Q: their rays, the arc between them, their places in the plane, and the pole. */
-function drawPair(pen: Pen, stand: Stand, scene: LiftScene): void {
-  const { sites, sheet, view, shown, p, q, lit } = scene;
-  const at = (k: number): [number, number] => [sites.places[2 * k], sites.places[2 * k + 1]];
-  if (!sheet.isFlat) {
-    const touch = onPicture(stand, view, [0, 0, 0]);
-    pen.draw("touch", (path) => {
-      traceSegment(path, [touch[0] - 4.5, touch[1]], [touch[0] + 4.5, touch[1]]);
-      traceSegment(path, [touch[0], touch[1] - 3.5], [touch[0], touch[1] + 3.5]);
+  /** The facets that see the pole: hatched, with their edges. */
+  #drawSeeing(pen: Pen): void {
+    const { sites, sheet } = this.#scene;
+    const { hull, closing } = sites;
+    if (!sheet.isFlat && hull.length < 3) return;
+    const holds = sheet.isFlat || !sites.isInHull(this.#flatOf([0, 0, -1]));
+    pen.draw("hatch", (path) => this.surface.region(path, [...hull].reverse(), holds));
+    pen.draw("hull", (path) => {
+      if (sheet.isFlat) this.surface.ring(path, hull);
+      else
+        closing.forEach((a, k) => {
+          const b = closing[k % 3 === 2 ? k - 2 : k + 1];
+          if (a < b || hull.includes(a)) this.surface.line(path, a, b);
+        });
     });
   }
-  if (p !== null && q !== null && p !== q) {
-    const [a, b] = [p, q].map(at).map(([x, y]) => (sheet.isFlat ? sheet.flat(x, y) : view.seen(sheet.direction(x, y))));
-    pen.draw("span", (path) => {
-      if (sheet.isFlat) traceSegment(path, onPicture(stand, view, a), onPicture(stand, view, b));
-      else for (const side of ["front", "back"] as const) traceGreat(path, discOf(stand, scene), a, b, side);
-    });
-  }
-  const pole = sheet.isFlat ? null : onPicture(stand, view, sheet.pole);
-  const poleIsSeen = pole !== null && pole[1] < pen.height - 20;
-  for (const [site, name] of [
-    [p, "P"],
-    [q, "Q"],
-  ] as const) {
-    if (site === null) continue;
-    const above = onPicture(stand, view, sheet.flat(...at(site)));
-    const image = onPicture(stand, view, sheet.image(...at(site)));
-    if (!sheet.isFlat) {
-      if (shown.rays) pen.draw("ray", (path) => traceSegment(path, poleIsSeen ? pole : image, above));
-      pen.dots("shadow", above);
+
+  /** P and Q: their rays, the arc between them, their places in the plane, and the pole. */
+  #drawPair(pen: Pen): void {
+    const { sites, sheet, isOn, p, q, lit } = this.#scene;
+    const [surface, isBent] = [this.surface, !sheet.isFlat];
+    if (isBent) {
+      const [x, y] = this.#contact;
+      pen.draw("touch", (path) => {
+        traceSegment(path, [x - 4.5, y], [x + 4.5, y]);
+        traceSegment(path, [x, y - 3.5], [x, y + 3.5]);
+      });
     }
-    pen.dots("held", image);
-    pen.label(name, above[0], above[1] - 9, { ...LETTER, halo: "halo" });
+    if (p !== null && q !== null && p !== q) {
+      pen.draw("span", (path) => {
+        for (const side of isBent ? (["front", "back"] as const) : (["front"] as const)) surface.line(path, p, q, side);
+      });
+    }
+    const pole = isBent ? this.place(sheet.pole) : null;
+    const poleIsSeen = pole !== null && pole[1] < pen.height - 20;
+    for (const [site, name] of [
+      [p, "P"],
+      [q, "Q"],
+    ] as const) {
+      if (site === null) continue;
+      const [above, image] = [this.above(site), surface.place(site)];
+      if (isBent) {
+        if (isOn("rays")) pen.draw("ray", (path) => traceSegment(path, poleIsSeen ? pole : image, above));
+        pen.dots("shadow", above);
+      }
+      pen.dots("held", image);
+      pen.label(name, above[0], above[1] - 9, LETTER);
+    }
+    if (poleIsSeen) {
+      pen.dots("pole", pole);
+      pen.label("pole", pole[0] + 7, pole[1] + 6, WORD);
+    }
+    if (lit !== null && lit < sites.count) pen.dots("held", surface.place(lit));
   }
-  if (poleIsSeen) {
-    pen.dots("pole", pole);
-    pen.label("pole", pole[0] + 7, pole[1] + 6, WORD);
+
+  /** A place of the bent sheet, axes of the view. */
+  #look(x: number, y: number): Vector {
+    return this.#scene.view.seen(this.#scene.sheet.direction(x, y));
   }
-  if (lit !== null && lit < sites.count) pen.dots("held", sitePlace(stand, scene, lit).at);
-}
 
-function drawSites(pen: Pen, stand: Stand, scene: LiftScene): void {
-  const places: number[] = [];
-  for (let k = 0; k < scene.sites.count; ++k) {
-    const { at, front } = sitePlace(stand, scene, k);
-    if (front) places.push(...at);
+  get #sides(): [Point, Point][] {
+    return this.#corners.map((a, k) => [a, this.#corners[(k + 1) % 4]]);
   }
-  pen.dots("site", places);
-}
 
-/** The ball on the drawing. */
-function discOf(stand: Stand, { sheet, view }: LiftScene): Disc {
-  const [x, y] = onPicture(stand, view, [0, 0, -sheet.radius]);
-  return { x, y, r: stand.scale * sheet.radius };
-}
+  /** Directions along the sheet's sides, axes of the view. */
+  #border(): Vector[] {
+    return this.#sides.flatMap(([[ax, ay], [bx, by]]) =>
+      Array.from({ length: PER_SIDE }, (_, j) => {
+        const t = j / PER_SIDE;
+        return this.#look(ax + t * (bx - ax), ay + t * (by - ay));
+      }),
+    );
+  }
 
-/** The directions of sites' images in the axes of the view, each made once. */
-function lookAt({ sites, sheet, view }: LiftScene): (k: number) => Vector {
-  const known: Vector[] = [];
-  return (k) => (known[k] ??= view.seen(sheet.direction(sites.places[2 * k], sites.places[2 * k + 1])));
-}
+  /** The sheet's sides: arcs of circles through the pole. */
+  #traceBorder(path: Path, side: Side): void {
+    for (const [[ax, ay], [bx, by]] of this.#sides) {
+      const rows = [...this.#look(ax, ay), ...this.#look((ax + bx) / 2, (ay + by) / 2), ...this.#look(bx, by)];
+      traceArc(path, this.#disc, rows, 0, 1, 2, side);
+    }
+  }
 
-/** Corners of the sheet, counterclockwise. */
-function sheetCorners({ sites }: LiftScene): [number, number][] {
-  const { middle, width, height } = sites.rectangle;
-  const [w, h] = [width / 2, height / 2];
-  return cornersOf(middle[0] - w, middle[1] - h, middle[0] + w, middle[1] + h);
-}
+  /** The place of the plane, in its units, whose image is a direction in the axes of the view. */
+  #flatOf(seen: Vector): Point {
+    const { sheet, view } = this.#scene;
+    const [x, y, z] = view.onBall(seen);
+    const stretch = (2 * sheet.radius * sheet.diagonal) / (1 + z);
+    return [sheet.rectangle.middle[0] + stretch * x, sheet.rectangle.middle[1] + stretch * y];
+  }
 
-/** Directions along the sheet's sides, axes of the view. */
-function borderOf(scene: LiftScene): Vector[] {
-  const corners = sheetCorners(scene);
-  return corners.flatMap(([ax, ay], k) => {
-    const [bx, by] = corners[(k + 1) % 4];
-    return Array.from({ length: PER_SIDE }, (_, j) => {
-      const t = j / PER_SIDE;
-      return scene.view.seen(scene.sheet.direction(ax + t * (bx - ax), ay + t * (by - ay)));
+  /** Whether the bent sheet holds a direction in the axes of the view. */
+  #holds(seen: Vector): boolean {
+    const { middle, width, height } = this.#scene.sites.rectangle;
+    const [x, y] = this.#flatOf(seen);
+    return Math.abs(x - middle[0]) <= width / 2 && Math.abs(y - middle[1]) <= height / 2;
+  }
+
+  /** Sides of the cells; on the ball from the centre of a facet's circle to those of the facets across its edges. */
+  #traceRidges(path: Path): void {
+    const { sites, sheet } = this.#scene;
+    if (sheet.isFlat) {
+      for (const [a, b] of sites.ridges) traceSegment(path, this.#flat(a), this.#flat(b));
+      return;
+    }
+    const facets = [...sites.delaunay.simplices, ...sites.closing];
+    const looks = facets.map((site) => this.#look(...sites.place(site)));
+    const centers = new Map<string, Vector>();
+    facets.forEach((from, at) => {
+      const [first, to] = [at - (at % 3), facets[at % 3 === 2 ? at - 2 : at + 1]];
+      const center = facetCenter(looks[first], looks[first + 1], looks[first + 2]);
+      const beyond = centers.get(`${to} ${from}`);
+      if (beyond === undefined) centers.set(`${from} ${to}`, center);
+      else traceGreat(path, this.#disc, center, beyond);
     });
-  });
+  }
 }
 
 function ringOf(points: readonly Vector[]): { points: Float64Array; offsets: number[] } {
   return { points: Float64Array.from(points.flat()), offsets: [0, points.length] };
-}
-
-/** The sheet's sides: arcs of circles through the pole. */
-function traceBorder(path: Path, disc: Disc, scene: LiftScene, side: "front" | "back"): void {
-  const corners = sheetCorners(scene);
-  const look = (x: number, y: number): Vector => scene.view.seen(scene.sheet.direction(x, y));
-  corners.forEach(([ax, ay], k) => {
-    const [bx, by] = corners[(k + 1) % 4];
-    const rows = [...look(ax, ay), ...look((ax + bx) / 2, (ay + by) / 2), ...look(bx, by)];
-    traceArc(path, disc, rows, 0, 1, 2, side);
-  });
-}
-
-/** The plane's rectangle. */
-function tracePlane(path: Path, stand: Stand, scene: LiftScene): void {
-  traceCorners(
-    path,
-    sheetCorners(scene).map(([x, y]) => onPicture(stand, scene.view, scene.sheet.flat(x, y))),
-  );
-}
-
-/** The place of the plane, in its units, whose image is a direction in the axes of the view. */
-function flatOf({ sheet, view }: LiftScene, seen: Vector): [number, number] {
-  const [x, y, z] = view.onBall(seen);
-  const stretch = (2 * sheet.radius * sheet.diagonal) / (1 + z);
-  return [sheet.rectangle.middle[0] + stretch * x, sheet.rectangle.middle[1] + stretch * y];
-}
-
-/** Whether the bent sheet holds a direction in the axes of the view. */
-function holds(scene: LiftScene, seen: Vector): boolean {
-  const { middle, width, height } = scene.sites.rectangle;
-  const [x, y] = flatOf(scene, seen);
-  return Math.abs(x - middle[0]) <= width / 2 && Math.abs(y - middle[1]) <= height / 2;
-}
-
-/** Sites of the convex hull, counterclockwise. */
-function hullOf(sites: LiftSites): number[] {
-  const { convexHull } = sites.delaunay;
-  const starts = convexHull.filter((_, k) => k % 2 === 0);
-  return chained(new Map(Array.from(starts, (a, k) => [a, convexHull[2 * k + 1]])));
-}
-
-/** Whether a place lies in a convex polygon of sites. */
-function insideHull({ places }: LiftSites, hull: readonly number[], [x, y]: readonly [number, number]): boolean {
-  return hull.every((a, k) => {
-    const b = hull[(k + 1) % hull.length];
-    const [ax, ay, bx, by] = [places[2 * a], places[2 * a + 1], places[2 * b], places[2 * b + 1]];
-    return (bx - ax) * (y - ay) - (by - ay) * (x - ax) >= 0;
-  });
-}
-
-/** Sides of the cells on the ball: from the centre of a facet's circle to that of the facet across each of its edges. */
-function ridgesOf({ sites }: LiftScene, look: (k: number) => Vector): [Vector, Vector][] {
-  const centers = new Map<string, Vector>();
-  const ridges: [Vector, Vector][] = [];
-  for (const facets of [sites.delaunay.simplices, sites.closing]) {
-    for (let at = 0; at < facets.length; at += 3) {
-      const [a, b, c] = facets.subarray(at, at + 3);
-      const center = facetCenter(look(a), look(b), look(c));
-      for (const [from, to] of [
-        [a, b],
-        [b, c],
-        [c, a],
-      ]) {
-        const beyond = centers.get(`${to} ${from}`);
-        if (beyond === undefined) centers.set(`${from} ${to}`, center);
-        else ridges.push([center, beyond]);
-      }
-    }
-  }
-  return ridges;
 }
 
 /** The middle of a facet's circle on the ball, on the outer side of its plane. */

@@ -1,9 +1,11 @@
-/** Sites of the Lift room: the sets, the sheet that bends onto a ball (P10, P13), and all that the kernel says of them. */
+/** Sites of the Lift room: the sheet that bends onto a ball (P10, P13), what the kernel and the room say of them, the sets. */
 
+import type { Point } from "../drawing/pen.ts";
 import { PlanarDelaunay, PlanarVoronoi, SphericalDelaunay } from "../kernel/api.ts";
 import type { SiteSet } from "../sets.ts";
-import { DEGREES, type Vector } from "../space.ts";
-import { bubbleSigns } from "./sphere_sites.ts";
+import { angle, DEGREES, type Vector } from "../space.ts";
+import { counted, fixed } from "../words.ts";
+import { bubbleSigns, chained } from "./sphere_sites.ts";
 
 type Place = [number, number];
 
@@ -28,13 +30,26 @@ export class LiftSites {
 
   /** The sheet bent so that its corners stand at so many degrees from the point of contact. */
   sheet(corner: number): Sheet {
-    return new Sheet(this.rectangle, corner);
+    return sheetOf(this.rectangle, corner);
   }
 
-  /** Distance of two sites in the plane. */
-  distance(p: number, q: number): number {
-    const { places } = this;
-    return Math.hypot(places[2 * p] - places[2 * q], places[2 * p + 1] - places[2 * q + 1]);
+  place(site: number): Place {
+    return [this.places[2 * site], this.places[2 * site + 1]];
+  }
+
+  /** Sites of the convex hull, counterclockwise. */
+  get hull(): number[] {
+    const { convexHull } = this.delaunay;
+    const next = new Map<number, number>();
+    for (let k = 0; k < convexHull.length; k += 2) next.set(convexHull[k], convexHull[k + 1]);
+    return chained(next);
+  }
+
+  isInHull([x, y]: Point): boolean {
+    return this.hull.every((site, k, hull) => {
+      const [[ax, ay], [bx, by]] = [this.place(site), this.place(hull[(k + 1) % hull.length])];
+      return (bx - ax) * (y - ay) - (by - ay) * (x - ax) >= 0;
+    });
   }
 
   /**
@@ -53,10 +68,9 @@ export class LiftSites {
   #ridgesOfPlane(): [Place, Place][] {
     if (this.count < 2) return [];
     const { vertices, ridgeVertices, ridgePoints } = new PlanarVoronoi(this.delaunay);
-    const site = (k: number): Place => [this.places[2 * k], this.places[2 * k + 1]];
     const far = 4 * Math.hypot(this.rectangle.width, this.rectangle.height);
     return Array.from({ length: ridgeVertices.length / 2 }, (_, k): [Place, Place] => {
-      const [[ax, ay], [bx, by]] = [site(ridgePoints[2 * k]), site(ridgePoints[2 * k + 1])];
+      const [[ax, ay], [bx, by]] = [this.place(ridgePoints[2 * k]), this.place(ridgePoints[2 * k + 1])];
       // Site a is on the left of the way from start to end.
       const size = Math.hypot(bx - ax, by - ay);
       const [u, v] = [(far * (ay - by)) / size, (far * (bx - ax)) / size];
@@ -77,8 +91,7 @@ export class LiftSites {
     const unit = 2 ** -Math.round(Math.log2(Math.hypot(width, height) || 1));
     const rays = new Float64Array(3 * this.count);
     for (let k = 0; k < this.count; ++k) {
-      const u = (this.places[2 * k] - middle[0]) * unit;
-      const v = (this.places[2 * k + 1] - middle[1]) * unit;
+      const [u, v] = this.place(k).map((value, axis) => (value - middle[axis]) * unit);
       rays.set([2 * u, 2 * v, 1 - u * u - v * v], 3 * k);
     }
     const { simplices } = new SphericalDelaunay(rays);
@@ -108,92 +121,112 @@ function rectangleAround(places: Float64Array, sides?: readonly [number, number]
   return { middle: [low[0] + width / 2, low[1] + height / 2], width, height };
 }
 
-/** Angles in degrees between which the images of two points lie. */
-export interface Bounds {
-  readonly low: number;
-  readonly high: number;
-  /** The lower bound with the paper's constant ½, and the upper one with its 4/π. */
-  readonly promised: readonly [number, number];
-}
-
 /**
  * The sheet, bent so that its corners stand at `corner` degrees from the point of contact: 0 is the plane, 90 the
  * hemisphere. Lengths are in diagonals of the rectangle; the point of contact is on top, at the origin.
  */
-export class Sheet {
-  readonly rectangle: Rectangle;
-  readonly corner: number;
-  /** Of the ball, in diagonals; infinite in the plane. */
-  readonly radius: number;
-
-  constructor(rectangle: Rectangle, corner: number) {
-    this.rectangle = rectangle;
-    this.corner = corner;
-    this.radius = corner === 0 ? Infinity : 1 / (4 * Math.tan((corner * Math.PI) / 360));
-  }
-
-  /** The diagonal in units of the plane; 1 where all places are one. */
-  get diagonal(): number {
-    return Math.hypot(this.rectangle.width, this.rectangle.height) || 1;
-  }
-
-  /** Whether nothing is bent. */
-  get isFlat(): boolean {
-    return this.corner === 0;
-  }
-
+export function sheetOf(rectangle: Rectangle, corner: number) {
+  const { middle, width, height } = rectangle;
+  const isFlat = corner === 0;
+  /** In units of the plane; 1 where all places are one. */
+  const diagonal = Math.hypot(width, height) || 1;
+  /** Of the ball, in diagonals. */
+  const radius = isFlat ? Infinity : 1 / (4 * Math.tan((corner * Math.PI) / 360));
+  const pole: Vector = [0, 0, -2 * radius];
   /** A place of the plane in the sheet before it is bent, in diagonals. */
-  flat(x: number, y: number): Vector {
-    const { middle } = this.rectangle;
-    return [(x - middle[0]) / this.diagonal, (y - middle[1]) / this.diagonal, 0];
-  }
-
+  const flat = (x: number, y: number): Vector => [(x - middle[0]) / diagonal, (y - middle[1]) / diagonal, 0];
   /** The direction from the ball's centre to the image of a place; straight up in the plane. */
-  direction(x: number, y: number): Vector {
-    const [u, v] = this.flat(x, y);
-    const [s, t] = [u / (2 * this.radius), v / (2 * this.radius)];
+  const direction = (x: number, y: number): Vector => {
+    const [u, v] = flat(x, y);
+    const [s, t] = [u / (2 * radius), v / (2 * radius)];
     const square = s * s + t * t;
     return [(2 * s) / (1 + square), (2 * t) / (1 + square), (1 - square) / (1 + square)];
-  }
-
+  };
   /** Where the image of a place is in space, in diagonals. */
-  image(x: number, y: number): Vector {
-    return this.isFlat ? this.flat(x, y) : this.onBall(this.direction(x, y));
-  }
-
-  /** Where a direction from the ball's centre meets the ball. */
-  onBall(direction: Vector): Vector {
-    return [this.radius * direction[0], this.radius * direction[1], this.radius * (direction[2] - 1)];
-  }
-
-  /** The projection pole. */
-  get pole(): Vector {
-    return [0, 0, -2 * this.radius];
-  }
-
+  const image = (x: number, y: number): Vector => {
+    if (isFlat) return flat(x, y);
+    const [u, v, w] = direction(x, y);
+    return [radius * u, radius * v, radius * (w - 1)];
+  };
   /** Length on the ball over length in the sheet at a place: 1 at the middle, least at the corners. */
-  scale(x: number, y: number): number {
-    const [u, v] = this.flat(x, y);
-    return 1 / (1 + (u * u + v * v) / (4 * this.radius * this.radius));
-  }
-
-  /** Scale at the corners. */
-  get leastScale(): number {
-    return 1 / (1 + 1 / (16 * this.radius * this.radius));
-  }
+  const scale = (x: number, y: number): number => {
+    const [u, v] = flat(x, y);
+    return 1 / (1 + (u * u + v * v) / (4 * radius * radius));
+  };
+  const leastScale = 1 / (1 + 1 / (16 * radius * radius));
+  return { rectangle, corner, isFlat, diagonal, radius, pole, flat, direction, image, scale, leastScale };
 }
+
+export type Sheet = ReturnType<typeof sheetOf>;
 
 /**
  * Between which angles images on the hemisphere lie of two points whose distance is this fraction of the diagonal:
- * 2 arcsin of it, of two corners, and 4 arctan of it, of pairs symmetric about the middle.
+ * 2 arcsin of it, of two corners, and 4 arctan of it, of pairs symmetric about the middle. What is promised are the
+ * lower bound with the paper's constant ½, and the upper one with its 4/π.
  */
-export function separationBounds(fraction: number): Bounds {
+export function separationBounds(fraction: number): { low: number; high: number; promised: [number, number] } {
   const t = Math.min(1, fraction);
   return {
     low: 2 * Math.asin(t) * DEGREES,
     high: 4 * Math.atan(t) * DEGREES,
     promised: [90 * t, (720 / Math.PI) * t],
   };
+}
+
+/** How far apart two sites are, and the bounds of it on the hemisphere. */
+export type Separation = ReturnType<typeof separation>;
+
+/** In the plane, in its unit and as a part of the diagonal; on the ball in degrees, null in the plane. */
+export function separation(sites: LiftSites, sheet: Sheet, p: number, q: number) {
+  const [a, b] = [sites.place(p), sites.place(q)];
+  const distance = Math.hypot(a[0] - b[0], a[1] - b[1]);
+  const fraction = Math.min(1, distance / sheet.diagonal);
+  const between = sheet.isFlat ? null : angle(sheet.direction(...a), sheet.direction(...b));
+  return { distance, diagonal: sheet.diagonal, fraction, angle: between, ...separationBounds(fraction) };
+}
+
+/** The distances of a pair in the sheet and on the ball. */
+export function ofPair({ distance, diagonal, fraction, angle }: Separation, corner: number): string {
+  const inSheet = `In the sheet _${measured(distance, diagonal)}_, which is _${fixed(fraction, 3)}_ of the diagonal.`;
+  if (angle === null) return `${inSheet} Bend it for an angle.`;
+  const on = `_${fixed(angle, 1)}°_`;
+  return corner === 90
+    ? `${inSheet} On the hemisphere ${on}, never outside this span:`
+    : `${inSheet} On the ball ${on}. The bounds are those of the hemisphere.`;
+}
+
+/** The paper's bounds, and the best ones. */
+export function ofBounds({ low, high, promised }: Separation): string {
+  return (
+    `The paper promises _${fixed(promised[0], 1)}°_ to _${fixed(Math.min(180, promised[1]), 1)}°_, with the constants ½ and 4/π. ` +
+    `The best bounds are 2\u202farcsin and 4\u202farctan of the fraction: _${fixed(low, 1)}°_ to _${fixed(high, 1)}°_.`
+  );
+}
+
+/** Digits behind the point beyond which a sheet is too small to be written without a power of ten. */
+const MOST_DECIMALS = 12;
+
+/** A length or a coordinate in the plane's unit: four digits of the sheet's diagonal, whole numbers in groups of three. */
+export function measured(value: number, diagonal: number): string {
+  const size = diagonal || Math.abs(value) || 1;
+  const decimals = Math.max(0, 3 - Math.floor(Math.log10(size)));
+  if (decimals > MOST_DECIMALS || Math.abs(value) >= 1e15) return value.toPrecision(4).replace(/-/g, "\u2212");
+  const [whole, rest] = fixed(Math.abs(value), decimals).split(".");
+  const text = rest === undefined ? counted(Number(whole)) : `${counted(Number(whole))}.${rest}`;
+  return value < 0 && /[1-9]/.test(text) ? `\u2212${text}` : text;
+}
+
+/** What there is to say of sites without triangles; null where there are triangles. */
+export function withoutTriangles(sites: LiftSites): string | null {
+  if (sites.delaunay.dimension === 2) return null;
+  if (sites.count === 0) return "No sites yet. Open a file.";
+  if (sites.delaunay.dimension === 0) return "All sites lie at one place: there are no triangles.";
+  return "All sites lie on one line: there are no triangles.";
+}
+
+export function ofBend(sheet: Sheet): string {
+  if (sheet.isFlat) return "flat: an infinite radius";
+  return `radius ${fixed(sheet.radius, 3)} of the diagonal, scale 1 to ${fixed(sheet.leastScale, 2)}`;
 }
 
 /** Decimals of metres to which places are rounded. */

@@ -2,7 +2,7 @@
 
 import { writeNumber } from "../link.ts";
 import { lonLatOf, type Vector } from "../space.ts";
-import { CIRCLE_RADIUS, STEP, type GlobeScene, type GlobeSwitch } from "./globe_scene.ts";
+import type { GlobeScene } from "./globe_scene.ts";
 import type { GlobeState } from "./globe_state.ts";
 import type { LiftScene } from "./lift_drawing.ts";
 import type { SphereSites } from "./sphere_sites.ts";
@@ -85,26 +85,17 @@ export function liftPython(
   );
 }
 
-export function globePython(
-  state: GlobeState,
-  { places, picture, latitude }: GlobeScene,
-  isOn: (name: GlobeSwitch) => boolean,
-): string {
-  const { sight, from, to } = state;
-  const hasLand = isOn("land") && picture === null;
+/** Lines that draw the globe. @param drawn Those of what is drawn on it. */
+export function globePython(state: GlobeState, { places, latitude }: GlobeScene, drawn: readonly string[]): string {
+  const { from, to } = state;
+  const { focus, magnification } = state.sight.lens;
   const isBubble = state.lens === "bubble";
-  const kind = latitude === "spherical" ? "" : `latitude="${latitude}"`;
-  const names = [
-    ...(isBubble ? ["SphereCircle"] : []),
-    ...(places === null ? [] : ["SphericalVoronoi"]),
-    isBubble ? "bubble_to_bubble" : "fisheye",
-  ];
+  const names = [isBubble && "SphereCircle", places !== null && "SphericalVoronoi"].filter(Boolean);
   const at = (direction: Vector): string => `(${lonLatOf(direction).map(float).join(", ")})`;
-  const view = isBubble ? state.after : sight.view;
-  const angles = [...view.middle, view.roll].map(float);
-  const isLevel = angles[2] === "0.0";
+  const view = isBubble ? state.after : state.sight.view;
+  const [roll, ...middle] = [view.roll, ...view.middle].map(float);
   return text(
-    `from stereodel import ${names.join(", ")}`,
+    `from stereodel import ${[...names, isBubble ? "bubble_to_bubble" : "fisheye"].join(", ")}`,
     "from stereodel.drawing import View",
     "from stereodel.globe import Globe",
     places !== null && "from stereodel.io import read_points",
@@ -113,19 +104,10 @@ export function globePython(
     isBubble && `filled = SphereCircle.around(${at(to.center)}, ${float(to.radius)})`,
     isBubble
       ? "lens = bubble_to_bubble(taken, filled)"
-      : `lens = fisheye(${at(sight.lens.focus)}, magnification=${float(sight.lens.magnification)})`,
-    `globe = Globe(${places === null ? "" : kind})`,
-    picture !== null && `globe.add_raster(${quoted(picture.name)})`,
-    hasLand && 'globe.add_land(resolution="50m")',
-    isOn("graticule") && `globe.add_graticule(${float(STEP)})`,
-    hasLand && 'globe.add_coastlines(resolution="50m")',
-    isOn("tissot") && `globe.add_tissot(${float(STEP)}, ${CIRCLE_RADIUS.toFixed(4)})`,
-    places !== null && `places = read_points(${quoted(places.name)}).lonlat`,
-    places !== null &&
-      isOn("cells") &&
-      `globe.add_cells(SphericalVoronoi.from_lonlat(${["places", kind].filter(Boolean).join(", ")}))`,
-    places !== null && "globe.add_points(places)",
-    `globe.save("globe.svg", lens, View(${(isLevel ? angles.slice(0, 2) : angles).join(", ")}))`,
+      : `lens = fisheye(${at(focus)}, magnification=${float(magnification)})`,
+    `globe = Globe(${places === null || latitude === "spherical" ? "" : `latitude="${latitude}"`})`,
+    ...drawn,
+    `globe.save("globe.svg", lens, View(${[...middle, ...(roll === "0.0" ? [] : [roll])].join(", ")}))`,
   );
 }
 

@@ -32,20 +32,22 @@ function ofSet(set: SiteSet): NamedSites {
   return { places: set.make(), names: set.names ?? null, set: set.name, file: null };
 }
 
+/** What a link says of places of the reader's own: themselves, or where they are too many the name of their file. */
+export function heldValues(places: Float64Array, file: string, words = {}): Record<string, string> {
+  return places.length <= 2 * MOST_SITES ? { sites: packPlaces(places), ...words } : { file };
+}
+
 /** Sites from which on nothing but dots is drawn while something moves. */
 const VERY_MANY = 100_000;
 
-/** A room with switches and a table. */
 export abstract class TableRoom {
-  protected readonly host: RoomHost;
+  readonly host: RoomHost;
   protected section!: HTMLElement;
   protected table!: SiteTable;
-  protected switches!: Switches;
-  readonly #names: readonly string[];
+  switches!: Switches;
 
-  /** @param switches Names of what can be left out of the drawing, and the like. */
-  constructor(host: RoomHost, switches: readonly string[]) {
-    [this.host, this.#names] = [host, switches];
+  constructor(host: RoomHost) {
+    this.host = host;
   }
 
   /** The number of a site was pressed. */
@@ -61,7 +63,7 @@ export abstract class TableRoom {
       chosen: (site) => this.host.guarded(() => this.chosen(site)),
       pointed: (site) => this.pointed(site),
     });
-    this.switches = new Switches(section, this.#names, (name) => {
+    this.switches = new Switches(section, (name) => {
       this.host.guarded(() => this.switched(name));
       this.host.changed();
     });
@@ -90,8 +92,8 @@ export abstract class SiteRoom extends TableRoom {
   #select!: HTMLSelectElement;
 
   /** @param kind What the coordinates of the sites are. */
-  constructor(host: RoomHost, sets: readonly SiteSet[], kind: "lonlat" | "plane", switches: readonly string[]) {
-    super(host, switches);
+  constructor(host: RoomHost, sets: readonly SiteSet[], kind: "lonlat" | "plane") {
+    super(host);
     [this.sets, this.#kind] = [sets, kind];
   }
 
@@ -117,14 +119,7 @@ export abstract class SiteRoom extends TableRoom {
   /** What a link says of the sites and of the switches. */
   protected siteValues(): Record<string, string> {
     const { places, set, file } = this.named;
-    const { turned } = this.switches;
-    const sites: Record<string, string> =
-      set !== OWN
-        ? { set }
-        : places.length <= 2 * MOST_SITES
-          ? { sites: packPlaces(places) }
-          : { file: file ?? "sites" };
-    return turned === "" ? sites : { ...sites, turned };
+    return { ...(set === OWN ? heldValues(places, file ?? "sites") : { set }), ...this.switches.values };
   }
 
   /** The sites of a link; nothing is shown yet. @throws LinkError where they cannot be read. */
@@ -137,13 +132,14 @@ export abstract class SiteRoom extends TableRoom {
 
   /** Turns the switches as a link says, and tells what it names and does not hold. */
   restore(values: LinkValues): void {
-    this.switches.turned = values.text("turned", "");
+    this.switches.restore(values);
     tellNamed(this.host.messages, values, "file");
   }
 
-  /** Whether something is drawn; while the picture moves, up to so many sites. */
-  protected isOn(name: string, isMoving = false, most = VERY_MANY): boolean {
-    return this.switches.isOn(name) && !(isMoving && this.named.places.length > 2 * most);
+  /** Whether something is drawn. @param most Sites beyond which cells are left out while the picture moves. */
+  protected shown(isMoving: boolean, most: number): (name: string) => boolean {
+    const count = this.named.places.length / 2;
+    return (name) => this.switches.isOn(name) && !(isMoving && count > (name === "cells" ? most : VERY_MANY));
   }
 
   /** Shows what the sites are called, how many there are, and the table. */
@@ -176,23 +172,10 @@ export abstract class SiteRoom extends TableRoom {
   }
 }
 
-/** The sites with one more at the end. */
-export function withSite({ places, names }: NamedSites, place: Place): NamedSites {
-  const more = new Float64Array(places.length + 2);
-  more.set(places);
-  more.set(place, places.length);
-  return ownSites(more, names && [...names, ""]);
-}
-
-/** The sites with one of them elsewhere. */
-export function withMoved({ places, names }: NamedSites, site: number, place: Place): NamedSites {
-  const moved = places.slice();
-  moved.set(place, 2 * site);
-  return ownSites(moved, names);
-}
-
-/** The sites without one of them; those behind it take the numbers before theirs. */
-export function withoutSite({ places, names }: NamedSites, site: number): NamedSites {
-  const left = places.filter((_, k) => k >> 1 !== site);
-  return ownSites(left, names && names.filter((_, k) => k !== site));
+/** The sites with one of them elsewhere, one more at the end, or, without a place, one less: its number is the next one's. */
+export function edited({ places, names }: NamedSites, site: number, place: Place | null): NamedSites {
+  const [numbers, words] = [[...places], names && [...names]];
+  numbers.splice(2 * site, 2, ...(place ?? []));
+  words?.splice(site, 1, ...(place === null ? [] : [words[site] ?? ""]));
+  return ownSites(Float64Array.from(numbers), words);
 }

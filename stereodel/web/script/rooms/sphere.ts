@@ -8,33 +8,20 @@ import { Plate, type Reason } from "../drawing/plate.ts";
 import type { Exchange } from "../exchange.ts";
 import { LinkValues } from "../link.ts";
 import type { Room, RoomHost } from "../room.ts";
-import { sphereSets, type SiteSet, type Stored } from "../sets.ts";
+import { sphereSets, type Stored } from "../sets.ts";
 import { dot, lonLatOf, type Vector } from "../space.ts";
 import { arrowed, arrowStep, grabBall, type Turnable } from "../view/ball_hand.ts";
 import { distance, follow, type Gestures, type Hold, type Place as Point } from "../view/hand.ts";
 import { Motion } from "../view/motion.ts";
 import { pointUnder, View } from "../view/view.ts";
 import { counted, latitude, longitude, ofFacets, wrap } from "../words.ts";
-import { Choice, PlaceFields, SiteForm, StepControl } from "./controls.ts";
-import { SiteRoom, withMoved, withoutSite, withSite, type NamedSites } from "./site_room.ts";
+import { Choice, PlaceFields, siteForm, stepControl } from "./controls.ts";
+import { edited, SiteRoom, type NamedSites } from "./site_room.ts";
 import { ballLayers, drawBall, drawPlane, type SphereScene, type Step } from "./sphere_drawing.ts";
-import { SphereSites, type Bubble } from "./sphere_sites.ts";
-import {
-  CLICKS,
-  directionAt,
-  fromValues,
-  handPlace,
-  setPlace,
-  toValues,
-  VIEW,
-  viewPlace,
-  type Click,
-  type Place,
-} from "./sphere_state.ts";
-import { ofBubble, ofDuplicates, ofSite, ofStep, withoutTriangles } from "./sphere_words.ts";
-import { PlaneFrame, reachAround, Twin } from "./twin.ts";
-
-const SWITCHES = ["triangles", "cells", "bubble", "seeing", "closing"] as const;
+import { ofBubble, ofDuplicates, ofSite, ofStep, SphereSites, withoutTriangles, type Bubble } from "./sphere_sites.ts";
+import { directionAt, fromValues, handPlace, toValues, VIEW, viewPlace } from "./sphere_state.ts";
+import type { Click, Place, SphereState } from "./sphere_state.ts";
+import { planeFrame, reachAround, Twin, type PlaneFrame } from "./twin.ts";
 
 /** Sites from which on cells are left out while something moves. */
 const MANY = 3_000;
@@ -53,7 +40,17 @@ const GAP = 32;
 
 /** @param stored Sets that the page carries. @param given The points that it was made for. */
 export function sphereRoom(host: RoomHost, stored: Stored, given: Given | null): Room {
-  return new SphereRoom(host, sphereSets(stored, given));
+  return new SphereRoom(host, sphereSets(stored, given), "lonlat");
+}
+
+/** What the hand finds on one of the pictures. */
+interface Picture {
+  /** The direction under a place. */
+  under(at: Point): Vector;
+  /** Where a direction is, or null while it is behind. */
+  place(direction: Vector): Point | null;
+  take(at: Point, reach: number): Hold | null;
+  isOn(at: Point, reach?: number): boolean;
 }
 
 class SphereRoom extends SiteRoom implements Room, Turnable {
@@ -64,8 +61,8 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
   #ball!: Plate;
   #plane!: Plate;
   #click!: Choice<Click>;
-  #steps!: StepControl;
-  #form!: SiteForm;
+  #showStep!: ReturnType<typeof stepControl>;
+  #showSite!: ReturnType<typeof siteForm>;
   #poleFields!: PlaceFields;
   #viewFields!: PlaceFields;
 
@@ -81,10 +78,6 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
   #step: Step | "done" = "done";
   #bubble: Bubble | null = null;
 
-  constructor(host: RoomHost, sets: readonly SiteSet[]) {
-    super(host, sets, "lonlat", SWITCHES);
-  }
-
   override attach(section: HTMLElement): void {
     super.attach(section);
     const { guarded } = this.host;
@@ -94,16 +87,19 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
     this.#plane = plate("plane", (pen, scene) => drawPlane(pen, this.#frame, scene));
     this.#poleFields = new PlaceFields(section, "pole", (place) => guarded(() => this.#movePole(place)));
     this.#viewFields = new PlaceFields(section, "view", (place) => guarded(() => this.#turn(place)));
-    this.#click = new Choice(section, "click", CLICKS, () => this.host.changed());
-    this.#steps = new StepControl(section, (count) => guarded(() => this.#setStep(count)));
-    this.#form = new SiteForm(section, {
+    this.#click = new Choice(section, "click", () => this.host.changed());
+    this.#showStep = stepControl(section, (count) => guarded(() => this.#setStep(count)));
+    this.#showSite = siteForm(section, {
       add: (place) => guarded(() => this.#add(directionAt(place))),
       move: (place) => guarded(() => this.#moveHeld(place)),
       remove: () => guarded(() => this.#remove(this.#held)),
     });
     find(section, "[data-do=undo]").addEventListener("click", () => this.#undo());
-    follow(this.#ball, this.#ballGestures());
-    follow(this.#plane, this.#planeGestures());
+    const under = (at: Point): Vector => this.#twin.inverse(...this.#frame.point(at));
+    const place = (point: Vector): Point => this.#frame.place(this.#twin.forward(point));
+    const take = (): Hold => ({ move: () => {} });
+    follow(this.#plane, this.#gestures({ under, place, take, isOn: () => true }));
+    follow(this.#ball, this.#gestures(this.#onBall));
   }
 
   // State
@@ -184,7 +180,7 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
   }
 
   #findBubble(): Bubble | null {
-    if (!this.isOn("bubble") || this.#state.step !== null) return null;
+    if (!this.switches.isOn("bubble") || this.#state.step !== null) return null;
     const facet = this.#sites.facetAt(this.#state.aim);
     return facet === null ? null : this.#sites.bubble(facet);
   }
@@ -205,12 +201,7 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
       view: this.view,
       twin: this.#twin,
       seeing: this.#seeing,
-      shown: {
-        triangles: this.isOn("triangles", isMoving),
-        cells: this.isOn("cells", isMoving, MANY),
-        seeing: this.isOn("seeing", isMoving),
-        closing: this.isOn("closing", isMoving),
-      },
+      isOn: this.shown(isMoving, MANY),
       bubble: this.#bubble,
       held: [this.#held, this.lit].filter((site) => site !== null && site < this.#sites.count) as number[],
       step: this.#step,
@@ -227,12 +218,12 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
     this.out("sum").hidden = step !== "done" || alone !== null;
     const side = dot(this.#twin.pole, directionAt(this.#state.view)) < 0 ? "behind" : "in front";
     say(this.out("pole-side"), `*P*, the pole of projection, lies ${side}.`);
-    this.#steps.show(this.#state.step, sites.count);
+    this.#showStep(this.#state.step, sites.count);
     this.#poleFields.value = this.#state.pole;
     this.#viewFields.value = this.#state.view;
     this.table.hold([...(this.#bubble?.sites ?? []), ...(held === null ? [] : [held])]);
     find<HTMLButtonElement>(this.section, "[data-do=undo]").disabled = this.#history.length === 0;
-    this.#form.show(held === null ? null : [sites.lonlat[2 * held], sites.lonlat[2 * held + 1]]);
+    this.#showSite(held === null ? null : [sites.lonlat[2 * held], sites.lonlat[2 * held + 1]]);
   }
 
   get #seeingCount(): number {
@@ -250,79 +241,59 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
   }
 
   get #frame(): PlaneFrame {
-    return new PlaneFrame(1, 1, Math.min(this.#plane.width, this.#plane.height) - 2, this.#reach);
+    return planeFrame(1, 1, Math.min(this.#plane.width, this.#plane.height) - 2, this.#reach);
   }
 
   turn(view: View, reason: Reason): void {
     this.#turn(view.middle, reason);
   }
 
-  #ballGestures(): Gestures {
+  #gestures(picture: Picture): Gestures {
+    const { under } = picture;
     return {
-      take: (at, reach) => this.#grab(at, reach),
+      take: picture.take,
       hover: (at) => {
-        if (at !== null && this.#isOnBall(at)) this.#hover(this.#direction(at));
+        if (at !== null && picture.isOn(at)) this.#hover(under(at));
       },
-      click: (at, reach) => this.#press(this.#direction(at), this.#siteOnBall(at, reach)),
+      click: (at, reach) => this.#press(under(at), this.#siteNear(picture, at, reach)),
       key: (event) => this.#key(event),
     };
   }
 
-  #planeGestures(): Gestures {
-    const direction = (at: Point): Vector => this.#twin.inverse(...this.#frame.point(at));
-    const place = (point: Vector): Point => this.#frame.place(this.#twin.forward(point));
-    return {
-      take: () => ({ move: () => {} }),
-      hover: (at) => {
-        if (at !== null) this.#hover(direction(at));
-      },
-      click: (at, reach) => this.#press(direction(at), this.#siteNear(direction(at), at, reach, place)),
-      key: (event) => this.#key(event),
-    };
-  }
+  readonly #onBall: Picture = {
+    under: (at) => this.view.onBall(pointUnder(this.disc, at)),
+    place: (direction) => {
+      const point = this.view.seen(direction);
+      return point[2] >= 0 ? placeOf(this.disc, point) : null;
+    },
+    take: (at, reach) => this.#grab(at, reach),
+    isOn: (at, reach = 0) => distance(at, [this.disc.x, this.disc.y]) <= this.disc.r + reach,
+  };
 
-  #isOnBall(at: Point, reach = 0): boolean {
-    return distance(at, [this.disc.x, this.disc.y]) <= this.disc.r + reach;
-  }
-
-  /** What is under a place of the ball. */
-  #direction(at: Point): Vector {
-    return this.view.onBall(pointUnder(this.disc, at));
-  }
-
-  /** The visible site within reach of a place of the ball, or null. */
-  #siteOnBall(at: Point, reach: number): number | null {
-    const { view, disc } = this;
-    return this.#siteNear(this.#direction(at), at, reach, (direction) => {
-      const point = view.seen(direction);
-      return point[2] >= 0 ? placeOf(disc, point) : null;
-    });
-  }
-
-  /** The site nearest to a direction, where its place on the picture is within reach. */
-  #siteNear(direction: Vector, at: Point, reach: number, place: (direction: Vector) => Point | null): number | null {
+  /** The site nearest to what is under a place of a picture, where it is within reach. */
+  #siteNear({ under, place }: Picture, at: Point, reach: number): number | null {
     if (this.#sites.count === 0) return null;
-    const [site] = this.#sites.delaunay.nearest(direction);
+    const [site] = this.#sites.delaunay.nearest(under(at));
     const found = place(this.#sites.site(site));
     return found !== null && distance(found, at) <= reach ? site : null;
   }
 
   /** Takes hold of the pole's handle, a site, or the ball; null beside them. */
   #grab(at: Point, reach: number): Hold | null {
-    if (!this.#isOnBall(at, reach)) return null;
+    if (!this.#onBall.isOn(at, reach)) return null;
     const pole = this.view.seen(this.#twin.pole);
     if (distance(placeOf(this.disc, pole), at) <= reach) return this.#grabPole(pole[2] < 0);
     // Where sites lie close, evenly spread, the ball can still be turned between them.
     const spacing = this.disc.r * Math.sqrt((4 * Math.PI) / this.#sites.count);
     const near = Math.min(reach, REACH_OF_SITES, spacing / 3);
-    const site = this.#state.step === null ? this.#siteOnBall(at, near) : null;
+    const site = this.#state.step === null ? this.#siteNear(this.#onBall, at, near) : null;
     if (site === null) return grabBall(this, this.#motion, at);
     let isFirst = true;
     return {
       move: (to) => {
         if (isFirst) this.#note();
         isFirst = false;
-        this.host.guarded(() => this.#moveSite(site, this.#direction(to), "hand"));
+        this.host.guarded(() => this.#moveSite(site, this.#onBall.under(to), "hand"));
       },
       end: () => this.#rest(),
     };
@@ -333,7 +304,7 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
     let [behind, wasOut] = [isBehind, false];
     return {
       move: (to) => {
-        const isOut = !this.#isOnBall(to);
+        const isOut = !this.#onBall.isOn(to);
         if (!isOut && wasOut) behind = !behind;
         wasOut = isOut;
         const [x, y, z] = pointUnder(this.disc, to);
@@ -397,7 +368,7 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
   }
 
   #movePole(place: Place, rests = true): void {
-    this.#state.pole = setPlace(place);
+    this.#state.pole = handPlace(place);
     this.#project();
     if (rests) this.#rescale();
     this.#update(rests ? "state" : "hand");
@@ -406,21 +377,18 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
     this.host.announcer.say(`${this.#sites.facetCount - seeing} triangles in the plane, ${seeing} facets see P`);
   }
 
-  /** The bubble there stays, or follows the pointer again where it is the one that was kept. */
-  #keep(direction: Vector, site: number | null): void {
-    this.#held = site;
-    this.#state.isPinned = !this.#state.isPinned || this.#sites.facetAt(direction) !== this.#bubble?.facet;
-    this.#state.aim = direction;
+  #set(change: Partial<SphereState>, held: number | null): void {
+    Object.assign(this.#state, change);
+    this.#held = held;
     this.#update();
     this.host.changed();
-    if (this.#bubble !== null) this.host.announcer.say(ofBubble(this.#bubble, this.#sites, this.#twin));
   }
 
-  #free(): void {
-    this.#state.isPinned = false;
-    this.#held = null;
-    this.#update();
-    this.host.changed();
+  /** The bubble there stays, or follows the pointer again where it is the one that was kept. */
+  #keep(aim: Vector, site: number | null): void {
+    const isPinned = !this.#state.isPinned || this.#sites.facetAt(aim) !== this.#bubble?.facet;
+    this.#set({ isPinned, aim }, site);
+    if (this.#bubble !== null) this.host.announcer.say(ofBubble(this.#bubble, this.#sites, this.#twin));
   }
 
   /** Shows what a hand has made of the sites, and says it. */
@@ -431,10 +399,10 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
   }
 
   #moveSite(site: number, direction: Vector, reason: Reason = "state"): void {
-    const [lon, lat] = handPlace(direction);
+    const [lon, lat] = handPlace(lonLatOf(direction));
     this.#state.aim = direction;
     const words = (): string => `Site ${site + 1}: ${latitude(lat)}, ${longitude(lon)}`;
-    this.#edit(withMoved(this.named, site, [lon, lat]), site, words, reason);
+    this.#edit(edited(this.named, site, [lon, lat]), site, words, reason);
   }
 
   /** Keeps the sites to go back to. */
@@ -451,7 +419,7 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
   #add(direction: Vector): void {
     const { count } = this.#sites;
     this.#note();
-    this.#edit(withSite(this.named, handPlace(direction)), count, () => {
+    this.#edit(edited(this.named, count, handPlace(lonLatOf(direction))), count, () => {
       const same = this.#sites.sameAs(count);
       return same === null
         ? `Site ${count + 1} added, ${this.#sites.neighborCounts[count]} neighbours`
@@ -463,7 +431,7 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
   #remove(site: number | null): void {
     if (site === null) return;
     this.#note();
-    this.#edit(withoutSite(this.named, site), null, () => `Site ${site + 1} removed`);
+    this.#edit(edited(this.named, site, null), null, () => `Site ${site + 1} removed`);
   }
 
   #undo(): void {
@@ -480,11 +448,8 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
     this.changed(ofSite(this.#sites, site, this.named.names?.[site]));
   }
 
-  #setStep(count: number | null): void {
-    this.#state.step = count;
-    this.#held = null;
-    this.#update();
-    this.host.changed();
+  #setStep(step: number | null): void {
+    this.#set({ step }, null);
     if (this.#step !== "done") this.host.announcer.say(ofStep(this.#step.insertion, this.#step.site));
   }
 
@@ -515,7 +480,7 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
       Delete: () => this.#remove(this.#held),
       Backspace: () => this.#remove(this.#held),
       Enter: () => this.#press(middle, null),
-      Escape: () => this.#free(),
+      Escape: () => this.#set({ isPinned: false }, null),
     };
     return (this.#sites.count > 0 && withSites[key]) || null;
   }
@@ -541,7 +506,7 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
     const size = this.#ball.width;
     const { disc } = this;
     const scene = this.#scene(false);
-    const frame = new PlaneFrame(size + GAP + 1, 1, size - 2, this.#reach);
+    const frame = planeFrame(size + GAP + 1, 1, size - 2, this.#reach);
     return {
       title: this.title,
       width: 2 * size + GAP,

@@ -1,29 +1,21 @@
 /** The two pictures of the Sphere room: the ball, and the plane that its sites are projected to. */
 
-import { circle, traceCircle } from "../drawing/arcs.ts";
+import { circle, traceCap, traceCircle } from "../drawing/arcs.ts";
 import {
   arcLayer,
+  ballSurface,
   dotLayer,
+  drawDots,
   drawLayers,
   edgeArcs,
   placeOf,
+  planeSurface,
   ridgeArcs,
-  traceGreat,
-  tracePolygon,
-  traceSides,
   type Layer,
+  type Surface,
 } from "../drawing/ball.ts";
-import { traceCap } from "../drawing/fill.ts";
-import {
-  cornersOf,
-  drawHandle,
-  traceCorners,
-  traceDisc,
-  traceSegment,
-  type Disc,
-  type Path,
-  type Pen,
-} from "../drawing/pen.ts";
+import { cornersOf, drawHandle, traceCorners, traceDisc, traceSegment } from "../drawing/pen.ts";
+import type { Disc, Path, Pen, Point } from "../drawing/pen.ts";
 import type { LabelStyle } from "../drawing/styles.ts";
 import { MoebiusMap } from "../kernel/api.ts";
 import { lazy } from "../kernel/lazy.ts";
@@ -48,13 +40,7 @@ export interface SphereScene {
   readonly twin: Twin;
   /** One byte a facet: 1 where it sees the pole. */
   readonly seeing: Uint8Array;
-  /** Of what is drawn. */
-  readonly shown: {
-    readonly triangles: boolean;
-    readonly cells: boolean;
-    readonly seeing: boolean;
-    readonly closing: boolean;
-  };
+  readonly isOn: (name: string) => boolean;
   readonly bubble: Bubble | null;
   /** Sites that are held besides those of the bubble. */
   readonly held: readonly number[];
@@ -63,7 +49,6 @@ export interface SphereScene {
 }
 
 const BALL_LABEL: LabelStyle = { ink: "accent-text", halo: "ball", size: 15 };
-const PLANE_LABEL: LabelStyle = { ink: "accent-text", halo: "halo", size: 15 };
 
 /** Height above the picture, ball radii, below which a site's number would be cut by the limb. */
 const LEAST_HEIGHT = 0.2;
@@ -85,67 +70,127 @@ export function ballLayers(sites: SphereSites): BallLayers {
   });
 }
 
-/** Where sites are drawn, those that are seen, and how a line runs from one to another. */
-interface Surface {
-  place(site: number): [number, number];
-  isSeen(site: number): boolean;
-  line(path: Path, a: number, b: number): void;
+/** What the pictures of all sites draw each in its own way. */
+interface Own {
+  /** The region of the facets that see the pole, with the outline on whose left they are. */
+  hatch(path: Path, outline: number[]): void;
+  closing?(): void;
+  triangles(): void;
+  cells(): void;
+  bubble(bubble: Bubble): void;
+  dots(): void;
+  /** The side of its dot on which the number of a bubble's site stands, y up; null where it is left out. */
+  side(bubble: Bubble, site: number): Point | null;
 }
 
 /** Draws the ball into a disc. */
 export function drawBall(pen: Pen, disc: Disc, scene: SphereScene): void {
-  const { sites, view, step } = scene;
+  const { sites, layers, view, seeing, step } = scene;
   const look = (k: number): Vector => view.seen(sites.site(k));
+  const surface = ballSurface(disc, look);
+  const map = MoebiusMap.rotation(view.rotation);
+  const hidden = view.onBall([0, 0, -1]);
   pen.ball(disc, "ball");
-  if (step === "done") drawWholeBall(pen, disc, scene, look);
-  else {
-    const surface = {
-      place: (k: number) => placeOf(disc, look(k)),
-      isSeen: (k: number) => look(k)[2] >= 0,
-      line: (path: Path, a: number, b: number) => traceGreat(path, disc, look(a), look(b)),
-    };
+  if (step === "done") {
+    drawWhole(pen, surface, scene, BALL_LABEL, {
+      hatch: (path, outline) => surface.region(path, outline, sites.regionHolds(seeing, hidden)),
+      closing() {
+        const isHeld = sites.facetAt(hidden) === null;
+        pen.draw("closing", (path) => surface.region(path, sites.closingOutline, isHeld));
+      },
+      triangles: () => drawLayers(pen, disc, map, [layers.edges]),
+      cells: () => drawLayers(pen, disc, map, [layers.ridges]),
+      bubble(bubble) {
+        const rim = circle(view.seen(bubble.center), bubble.cosine);
+        pen.draw("seen", (path) => traceCap(path, disc, rim));
+        pen.draw("bubble-open", (path) => traceCircle(path, disc, rim));
+        pen.draw("triangle", (path) => surface.ring(path, bubble.sites));
+      },
+      dots: () => drawLayers(pen, disc, map, [layers.dots]),
+      side(bubble, site) {
+        const [point, middle] = [look(site), view.seen(bubble.center)];
+        return point[2] >= LEAST_HEIGHT ? [point[0] - middle[0], point[1] - middle[1]] : null;
+      },
+    });
+  } else {
     drawStep(pen, surface, step, false, (path, { outline, ...facets }) => {
-      tracePolygon(path, disc, outline.map(look), holdsDirection(facets, sites, view.onBall([0, 0, -1])));
+      surface.region(path, outline, holdsDirection(facets, sites, hidden));
     });
   }
   pen.draw("limb", (path) => traceDisc(path, disc));
   drawPole(pen, disc, scene);
 }
 
-function drawWholeBall(pen: Pen, disc: Disc, scene: SphereScene, look: (k: number) => Vector): void {
-  const { sites, layers, view, seeing, shown, bubble } = scene;
-  const map = MoebiusMap.rotation(view.rotation);
-  const hidden = view.onBall([0, 0, -1]);
-  const outline = sites.outline(seeing).map(look);
-  if (shown.seeing && outline.length > 0) {
-    pen.draw("hatch", (path) => tracePolygon(path, disc, outline, sites.regionHolds(seeing, hidden)));
-  }
-  if (shown.closing && sites.hasClosing) {
-    const rim = sites.closingOutline.map(look);
-    pen.draw("closing", (path) => tracePolygon(path, disc, rim, sites.facetAt(hidden) === null));
-  }
-  if (shown.triangles) drawLayers(pen, disc, map, [layers.edges]);
-  if (shown.cells) drawLayers(pen, disc, map, [layers.ridges]);
-  if (shown.seeing) pen.draw("hull", (path) => traceSides(path, disc, outline));
-  if (bubble !== null) drawBallBubble(pen, disc, bubble, view, look);
-  drawLayers(pen, disc, map, [layers.dots]);
-  const held = [...(bubble?.sites ?? []), ...scene.held].map(look).filter((point) => point[2] >= 0);
-  const places = held.flatMap((point) => placeOf(disc, point));
-  pen.dots("held", places);
-  if (bubble === null) return;
-  const middle = view.seen(bubble.center);
-  for (const site of bubble.sites) {
-    const point = look(site);
-    const out = [point[0] - middle[0], point[1] - middle[1]] as const;
-    if (point[2] >= LEAST_HEIGHT) numberAt(pen, placeOf(disc, point), out, site, BALL_LABEL);
-  }
+/** Draws the plane into its frame. */
+export function drawPlane(pen: Pen, frame: PlaneFrame, scene: SphereScene): void {
+  const { sites, twin, seeing, step } = scene;
+  const { x, y, size } = frame;
+  const flat = (k: number): Point => frame.place(twin.forward(sites.site(k)));
+  const whole = (path: Path): void => traceCorners(path, cornersOf(x, y, x + size, y + size));
+  const surface = planeSurface(flat, whole);
+  pen.clipped(whole, () => {
+    if (step === "done") {
+      drawWhole(
+        pen,
+        surface,
+        scene,
+        { ...BALL_LABEL, halo: "halo" },
+        {
+          // The outline runs clockwise on the picture, as the frame does: turned round, the path winds once between them.
+          hatch: (path, outline) => surface.region(path, outline.reverse(), true),
+          triangles: () =>
+            pen.draw("delaunay", (path) => {
+              eachEdge(sites.delaunay.simplices, seeing, (a, b) => surface.line(path, a, b));
+            }),
+          cells: () => pen.draw("voronoi", (path) => planeRidges(path, frame, scene)),
+          bubble: (bubble) => drawPlaneBubble(pen, frame, bubble, twin, surface, whole),
+          dots: () =>
+            drawDots(
+              pen,
+              surface,
+              "site",
+              Array.from({ length: sites.count }, (_, k) => k),
+            ),
+          side(bubble, site) {
+            const image = twin.circle(bubble.center, bubble.cosine);
+            if (image.kind === "line" || image.radius * frame.scale < LEAST_CIRCLE) return null;
+            const [u, v] = twin.forward(sites.site(site));
+            const sign = image.holdsPole ? -1 : 1;
+            return [sign * (u - image.middle[0]), sign * (v - image.middle[1])];
+          },
+        },
+      );
+    } else {
+      drawStep(pen, surface, step, true, (path, { outline }, isThere) => {
+        outline.forEach((a, k) => {
+          if (isThere(k)) surface.ring(path, [a, outline[(k + 1) % outline.length], step.site]);
+        });
+      });
+    }
+  });
+  pen.draw("frame", whole);
 }
 
-function drawBallBubble(pen: Pen, disc: Disc, bubble: Bubble, view: View, look: (site: number) => Vector): void {
-  const rim = circle(view.seen(bubble.center), bubble.cosine);
-  pen.draw("seen", (path) => traceCap(path, disc, rim));
-  pen.draw("bubble-open", (path) => traceCircle(path, disc, rim));
-  pen.draw("triangle", (path) => traceSides(path, disc, bubble.sites.map(look)));
+/** The picture of all sites. */
+function drawWhole(pen: Pen, surface: Surface, scene: SphereScene, label: LabelStyle, own: Own): void {
+  const { sites, seeing, isOn, bubble } = scene;
+  const outline = sites.outline(seeing);
+  if (isOn("seeing") && outline.length > 0) pen.draw("hatch", (path) => own.hatch(path, [...outline]));
+  if (isOn("closing") && sites.hasClosing) own.closing?.();
+  if (isOn("triangles")) own.triangles();
+  if (isOn("cells")) own.cells();
+  if (isOn("seeing")) pen.draw("hull", (path) => surface.ring(path, outline));
+  if (bubble !== null) own.bubble(bubble);
+  own.dots();
+  drawDots(pen, surface, "held", [...(bubble?.sites ?? []), ...scene.held]);
+  for (const site of bubble?.sites ?? []) {
+    const out = own.side(bubble!, site);
+    if (out === null) continue;
+    const [x, y] = surface.place(site);
+    const [u, v] = out.map((part) => part / (Math.hypot(...out) || 1));
+    const align = u > 0.35 ? "left" : u < -0.35 ? "right" : "center";
+    pen.label(String(site + 1), x + 0.6 * AWAY * u, y - AWAY * v + 5, { ...label, align });
+  }
 }
 
 /** A step of the insertion. @param region Traces the facets that see the new site, or those of its fan. */
@@ -171,9 +216,13 @@ function drawStep(
       outline.forEach((a, k) => isThere(k) && surface.line(path, a, outline[(k + 1) % outline.length]));
     });
   }
-  const sites = Array.from({ length: site + 1 }, (_, k) => k).filter((k) => surface.isSeen(k));
-  pen.dots("site", sites.flatMap(surface.place));
-  if (surface.isSeen(site)) pen.dots("held", surface.place(site));
+  drawDots(
+    pen,
+    surface,
+    "site",
+    Array.from({ length: site + 1 }, (_, k) => k),
+  );
+  drawDots(pen, surface, "held", [site]);
 }
 
 /** Whether the region of the facets that see a new site holds a direction. */
@@ -198,83 +247,13 @@ function drawPole(pen: Pen, disc: Disc, { view, twin }: SphereScene): void {
   pen.label(text, x + (left ? -11 : 11), y + 5, { ...BALL_LABEL, align: left ? "right" : "left" });
 }
 
-/** Draws the plane into its frame. */
-export function drawPlane(pen: Pen, frame: PlaneFrame, scene: SphereScene): void {
-  const { sites, twin } = scene;
-  const flat = (k: number): [number, number] => frame.place(twin.forward(sites.site(k)));
-  pen.clipped(
-    (path) => traceFrame(path, frame),
-    () => {
-      if (scene.step === "done") drawWholePlane(pen, frame, scene, flat);
-      else {
-        const surface = {
-          place: flat,
-          isSeen: () => true,
-          line: (path: Path, a: number, b: number) => traceSegment(path, flat(a), flat(b)),
-        };
-        const { site } = scene.step;
-        drawStep(pen, surface, scene.step, true, (path, { outline }, isThere) => {
-          outline.forEach((a, k) => {
-            if (isThere(k)) traceCorners(path, [a, outline[(k + 1) % outline.length], site].map(flat));
-          });
-        });
-      }
-    },
-  );
-  pen.draw("frame", (path) => traceFrame(path, frame));
-}
-
-function traceFrame(path: Path, { x, y, size }: PlaneFrame): void {
-  traceCorners(path, cornersOf(x, y, x + size, y + size));
-}
-
-function drawWholePlane(pen: Pen, frame: PlaneFrame, scene: SphereScene, flat: (k: number) => [number, number]): void {
-  const { sites, twin, seeing, shown, bubble, held } = scene;
-  const outline = sites.outline(seeing).map(flat);
-  if (shown.seeing && outline.length > 0) {
-    // The outline runs clockwise on the picture, the frame the same way turned round: between them the path winds once.
-    pen.draw("hatch", (path) => {
-      traceFrame(path, frame);
-      traceCorners(path, counterclockwise(outline));
-    });
-  }
-  if (shown.triangles) {
-    pen.draw("delaunay", (path) => {
-      eachEdge(sites.delaunay.simplices, seeing, (a, b) => traceSegment(path, flat(a), flat(b)));
-    });
-  }
-  if (shown.cells) pen.draw("voronoi", (path) => planeRidges(path, frame, scene));
-  if (shown.seeing) pen.draw("hull", (path) => traceCorners(path, outline));
-  if (bubble !== null) drawPlaneBubble(pen, frame, bubble, twin, flat);
-  const places = Array.from({ length: sites.count }, (_, k) => flat(k)).flat();
-  pen.dots("site", places);
-  pen.dots("held", [...(bubble?.sites ?? []), ...held].flatMap(flat));
-  if (bubble === null) return;
-  const image = twin.circle(bubble.center, bubble.cosine);
-  if (image.kind === "line" || image.radius * frame.scale < LEAST_CIRCLE) return;
-  for (const site of bubble.sites) {
-    const [u, v] = twin.forward(sites.site(site));
-    const out: [number, number] = [u - image.middle[0], v - image.middle[1]];
-    numberAt(pen, flat(site), image.holdsPole ? [-out[0], -out[1]] : out, site, PLANE_LABEL);
-  }
-}
-
-/** A ring so that it runs against a clock on a picture whose y points down. */
-function counterclockwise(ring: readonly (readonly [number, number])[]): (readonly [number, number])[] {
-  let area = 0;
-  ring.forEach(([x, y], k) => {
-    const [u, v] = ring[(k + 1) % ring.length];
-    area += x * v - u * y;
-  });
-  return area > 0 ? [...ring].reverse() : [...ring];
-}
-
 function drawPlaneBubble(
   pen: Pen,
   frame: PlaneFrame,
   bubble: Bubble,
   twin: Twin,
-  flat: (k: number) => [number, number],
+  surface: Surface,
+  whole: (path: Path) => void,
 ): void {
   const image = twin.circle(bubble.center, bubble.cosine);
   if (image.kind === "line") {
@@ -294,18 +273,18 @@ function drawPlaneBubble(
     path.closePath();
   };
   pen.draw("seen", (path) => {
-    if (image.holdsPole) traceFrame(path, frame);
+    if (image.holdsPole) whole(path);
     ring(path);
   });
   pen.draw("bubble-open", ring);
-  if (!image.holdsPole) pen.draw("triangle", (path) => traceCorners(path, bubble.sites.map(flat)));
+  if (!image.holdsPole) pen.draw("triangle", (path) => surface.ring(path, bubble.sites));
 }
 
 /** Ridges between the triangles of the plane, and rays where one has no neighbour: the centres are those of its circles. */
 function planeRidges(path: Path, frame: PlaneFrame, { sites, twin, seeing }: SphereScene): void {
   const { simplices, neighbors } = sites.delaunay;
-  const middles = new Map<number, readonly [number, number]>();
-  const middle = (facet: number): readonly [number, number] => {
+  const middles = new Map<number, Point>();
+  const middle = (facet: number): Point => {
     let found = middles.get(facet);
     if (found === undefined) {
       const { center, cosine } = sites.bubble(facet);
@@ -330,20 +309,6 @@ function planeRidges(path: Path, frame: PlaneFrame, { sites, twin, seeing }: Sph
     const far = (4 * frame.reach + Math.hypot(u, v)) / length;
     traceSegment(path, frame.place([u, v]), frame.place([u + far * (b[1] - a[1]), v - far * (b[0] - a[0])]));
   }
-}
-
-/** A site's number beside its dot, on the side `out`, whose y points up. */
-function numberAt(
-  pen: Pen,
-  [x, y]: [number, number],
-  out: readonly [number, number],
-  site: number,
-  style: LabelStyle,
-): void {
-  const size = Math.hypot(...out) || 1;
-  const [u, v] = [out[0] / size, out[1] / size];
-  const align = u > 0.35 ? "left" : u < -0.35 ? "right" : "center";
-  pen.label(String(site + 1), x + 0.6 * AWAY * u, y - AWAY * v + 5, { ...style, align });
 }
 
 /** Every edge of facets once; with `seeing` those of the plane, of whose facets one at least does not see the pole. */

@@ -45,7 +45,7 @@ export function toValues({ pole, view, aim, isPinned, step, click }: SphereState
   put("pole", pole, POLE);
   put("view", view, VIEW);
   if (isPinned) {
-    put("aim", handPlace(aim), AIM);
+    put("aim", handPlace(lonLatOf(aim)), AIM);
     values["pin"] = "1";
   }
   if (step !== null) values["step"] = String(step);
@@ -74,21 +74,16 @@ export function directionAt([lon, lat]: Place): Vector {
   return row(lonlatToXyz([lon, lat]), 0);
 }
 
-/** The place of a direction, as the hand sets it. */
-export function handPlace(direction: Vector): Place {
-  return rounded(lonLatOf(direction), HAND_DECIMALS);
-}
-
-/** A place that something is moved to, as the hand sets it. */
-export function setPlace([lon, lat]: Place): Place {
-  return rounded([wrap(lon), lat], HAND_DECIMALS);
+/** A place as the hand sets it. */
+export function handPlace(place: Place): Place {
+  return rounded(place, HAND_DECIMALS);
 }
 
 /** A view as a link holds it. */
-export function viewPlace([lon, lat]: Place): Place {
-  return rounded([wrap(lon), lat], VIEW_DECIMALS);
+export function viewPlace(place: Place): Place {
+  return rounded(place, VIEW_DECIMALS);
 }
 
 function rounded([lon, lat]: Place, decimals: number): Place {
-  return [Number(lon.toFixed(decimals)), Number(lat.toFixed(decimals))];
+  return [Number(wrap(lon).toFixed(decimals)), Number(lat.toFixed(decimals))];
 }

@@ -1,17 +1,8 @@
 /** The plane beside the sphere: stereographic projection from a pole to the plane that touches opposite it, and its frame. */
 
+import type { Point } from "../drawing/pen.ts";
 import { dot, lonLatOf, type Vector } from "../space.ts";
 import type { SphereSites } from "./sphere_sites.ts";
-
-/** The image of a circle of the sphere: a circle with its middle and radius, or a line through the pole's circle. */
-type PlaneCircle =
-  | {
-      readonly kind: "circle";
-      readonly middle: readonly [number, number];
-      readonly radius: number;
-      readonly holdsPole: boolean;
-    }
-  | { readonly kind: "line"; readonly normal: readonly [number, number]; readonly offset: number };
 
 /** Cosines nearer to each other than this are those of a circle through the pole: its radius would be 1e12 ball radii. */
 const THROUGH_POLE = 1e-12;
@@ -51,18 +42,18 @@ export class Twin {
   }
 
   /**
-   * The image of the circle of points x with center·x = cosine.
+   * The image of the circle of points x with center·x = cosine: a circle, or a line where it goes through the pole.
    * With c the centre, s the point of contact and d the cosine, 2 tan(χ/2) = |X| turns c·x = d into
    * |X|²(d + c·s) − 4 X·c + 4(d − c·s) = 0.
    */
-  circle(center: Vector, cosine: number): PlaneCircle {
+  circle(center: Vector, cosine: number) {
     const along = dot(center, this.#south);
     const across: [number, number] = [dot(center, this.#east), dot(center, this.#north)];
     const lead = cosine + along;
-    if (Math.abs(lead) < THROUGH_POLE) return { kind: "line", normal: across, offset: cosine - along };
+    if (Math.abs(lead) < THROUGH_POLE) return { kind: "line" as const, normal: across, offset: cosine - along };
     return {
-      kind: "circle",
-      middle: [(2 * across[0]) / lead, (2 * across[1]) / lead],
+      kind: "circle" as const,
+      middle: [(2 * across[0]) / lead, (2 * across[1]) / lead] as Point,
       radius: (2 * Math.sqrt(Math.max(0, 1 - cosine * cosine))) / Math.abs(lead),
       holdsPole: lead < 0,
     };
@@ -75,34 +66,14 @@ const OUTSIDE = 20;
 /** Room around the sites in the frame. */
 const ROOM = 1.07;
 
-export class PlaneFrame {
-  /** The upper left corner and the side, px. */
-  readonly x: number;
-  readonly y: number;
-  readonly size: number;
-  /** Half the side, ball radii. */
-  readonly reach: number;
+export type PlaneFrame = ReturnType<typeof planeFrame>;
 
-  constructor(x: number, y: number, size: number, reach: number) {
-    [this.x, this.y, this.size, this.reach] = [x, y, size, reach];
-  }
-
-  /** Pixels of a ball radius. */
-  get scale(): number {
-    return this.size / 2 / this.reach;
-  }
-
-  /** Where a point of the plane is on the picture. */
-  place([u, v]: readonly [number, number]): [number, number] {
-    const { x, y, size, scale } = this;
-    return [x + size / 2 + scale * u, y + size / 2 - scale * v];
-  }
-
-  /** The point of the plane at a place of the picture. */
-  point([px, py]: readonly [number, number]): [number, number] {
-    const { x, y, size, scale } = this;
-    return [(px - x - size / 2) / scale, (y + size / 2 - py) / scale];
-  }
+/** A square of a picture, from its upper left corner, px, and what it shows of the plane: half its side, ball radii. */
+export function planeFrame(x: number, y: number, size: number, reach: number) {
+  const scale = size / 2 / reach;
+  const place = ([u, v]: Point): Point => [x + size / 2 + scale * u, y + size / 2 - scale * v];
+  const point = ([px, py]: Point): Point => [(px - x - size / 2) / scale, (y + size / 2 - py) / scale];
+  return { x, y, size, reach, scale, place, point };
 }
 
 /** Half the side of a frame that holds nearly all sites, ball radii, and the number of sites that lie outside. */

@@ -51,9 +51,9 @@ export function lonLatPlaces(table: TextTable, lon: string, lat: string): Float6
 
 /** Places, whose latitudes must be those of a sphere. */
 export function onEarth(lonlat: Float64Array): Float64Array {
-  const rows = rowsWhere(lonlat.length / 2, (row) => Math.abs(lonlat[2 * row + 1]) > 90);
   refuse(
-    rows,
+    lonlat.length / 2,
+    (row) => Math.abs(lonlat[2 * row + 1]) > 90,
     (row) => `latitude ${lonlat[2 * row + 1]} is outside [-90, 90]`,
     "; is it the longitude, or not in degrees?",
   );
@@ -74,7 +74,8 @@ export function planePlaces(table: TextTable, first: string, second: string): Fl
     const cells = table.get(name)!;
     const unsure = (cell: string): boolean => GROUPED.test(cell) && markOf(cell) !== known;
     refuse(
-      rowsWhere(cells.length, (row) => unsure(cells[row].trim())),
+      cells.length,
+      (row) => unsure(cells[row].trim()),
       (row) => `the ${name} '${cells[row].trim()}' may have a decimal mark or thousands`,
       "; write thousands without a separator",
     );
@@ -94,19 +95,18 @@ function numbers(cells: readonly string[], name: string): Float64Array {
     const text = cell.trim();
     return NUMBER.test(text) ? Number(text.replace(",", ".")) : NaN;
   });
-  const wrong = rowsWhere(cells.length, (row) => !Number.isFinite(values[row]));
-  refuse(wrong, (row) => `the ${name} ${MISSING.test(said(row)) ? "is missing" : `'${said(row)}' is not a number`}`);
+  refuse(
+    cells.length,
+    (row) => !Number.isFinite(values[row]),
+    (row) => `the ${name} ${MISSING.test(said(row)) ? "is missing" : `'${said(row)}' is not a number`}`,
+  );
   return values;
 }
 
-function rowsWhere(count: number, isWrong: (row: number) => boolean): number[] {
+/** Tells the first row that is wrong, and how many there are. */
+function refuse(count: number, isWrong: (row: number) => boolean, words: (row: number) => string, advice = ""): void {
   const rows: number[] = [];
   for (let row = 0; row < count; ++row) if (isWrong(row)) rows.push(row);
-  return rows;
-}
-
-/** Tells the first wrong row, and how many there are. */
-function refuse(rows: readonly number[], words: (row: number) => string, advice = ""): void {
   if (rows.length === 0) return;
   const more = rows.length === 1 ? "" : ` (and ${rows.length - 1} more ${rows.length === 2 ? "row" : "rows"} like it)`;
   throw new TableError(`row ${rows[0] + 1}: ${words(rows[0])}${more}${advice}`);

@@ -51,7 +51,7 @@ const WHEEL = 500;
 interface Finger {
   at: Place;
   readonly start: Place;
-  readonly touch: boolean;
+  readonly by: "touch" | "mouse";
   hold: Hold | null;
   isDrag: boolean;
   readonly track: { at: Place; time: number }[];
@@ -75,13 +75,10 @@ class Hand {
   }
 
   start(): () => void {
-    const canvas = this.#plate.canvas;
+    const { canvas } = this.#plate;
     const abort = new AbortController();
-    const on = <K extends keyof HTMLElementEventMap>(
-      name: K,
-      act: (event: HTMLElementEventMap[K]) => void,
-      passive = true,
-    ): void => canvas.addEventListener(name, act, { signal: abort.signal, passive });
+    const on = <K extends keyof HTMLElementEventMap>(name: K, act: (event: HTMLElementEventMap[K]) => void): void =>
+      canvas.addEventListener(name, act, { signal: abort.signal });
     on("pointerdown", (event) => this.#down(event));
     on("pointermove", (event) => this.#move(event));
     on("pointerup", (event) => this.#up(event, false));
@@ -89,23 +86,22 @@ class Hand {
     on("pointerleave", () => {
       if (this.#fingers.size === 0) this.#gestures.hover?.(null);
     });
-    on("wheel", (event) => this.#wheel(event), false);
-    const key = (event: KeyboardEvent): void => {
+    on("wheel", (event) => this.#wheel(event));
+    on("keydown", (event) => {
       if (!event.altKey && !event.metaKey && this.#gestures.key?.(event)) event.preventDefault();
-    };
-    on("keydown", key, false);
+    });
     return () => abort.abort();
   }
 
   #down(event: PointerEvent): void {
     if (event.button !== 0) return;
     const at = this.#plate.placeOf(event);
-    const touch = event.pointerType === "touch";
-    const hold = this.#fingers.size === 0 ? this.#gestures.take(at, reachOf(touch)) : null;
+    const by = event.pointerType === "touch" ? "touch" : "mouse";
+    const hold = this.#fingers.size === 0 ? this.#gestures.take(at, REACH[by]) : null;
     if (hold === null && this.#fingers.size === 0) return;
     this.#plate.canvas.setPointerCapture(event.pointerId);
     const track = [{ at, time: event.timeStamp }];
-    this.#fingers.set(event.pointerId, { at, start: at, touch, hold, isDrag: false, track });
+    this.#fingers.set(event.pointerId, { at, start: at, by, hold, isDrag: false, track });
     if (this.#fingers.size === 2 && this.#gestures.pinch !== undefined) {
       for (const finger of this.#fingers.values()) {
         finger.hold = null;
@@ -130,7 +126,7 @@ class Hand {
       return;
     }
     finger.track.push({ at, time: event.timeStamp });
-    finger.isDrag ||= distance(at, finger.start) > (finger.touch ? STEADY.touch : STEADY.mouse);
+    finger.isDrag ||= distance(at, finger.start) > STEADY[finger.by];
     if (finger.isDrag) finger.hold?.move(at);
   }
 
@@ -149,15 +145,11 @@ class Hand {
   }
 
   #click(finger: Finger, time: number): void {
-    const last = this.#lastClick;
-    const { doubleClick } = this.#gestures;
-    if (doubleClick && last && time - last.time < DOUBLE.time && distance(last.at, finger.at) < DOUBLE.distance) {
-      this.#lastClick = null;
-      doubleClick(finger.at, reachOf(finger.touch));
-      return;
-    }
-    this.#lastClick = { at: finger.at, time };
-    this.#gestures.click?.(finger.at, reachOf(finger.touch));
+    const [last, { at, by }] = [this.#lastClick, finger];
+    const { doubleClick, click } = this.#gestures;
+    const isDouble = doubleClick && last && time - last.time < DOUBLE.time && distance(last.at, at) < DOUBLE.distance;
+    this.#lastClick = isDouble ? null : { at, time };
+    (isDouble ? doubleClick : click)?.(at, REACH[by]);
   }
 
   #wheel(event: WheelEvent): void {
@@ -173,10 +165,6 @@ class Hand {
     const middle: Place = [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2];
     return { middle, spread: Math.max(1, distance(a, b)), turn: Math.atan2(b[1] - a[1], b[0] - a[0]) };
   }
-}
-
-function reachOf(touch: boolean): number {
-  return touch ? REACH.touch : REACH.mouse;
 }
 
 /** Of two places of a drawing, pixels. */

@@ -96,10 +96,7 @@ function betweenLenses(a: Lens, b: Lens, t: number): Lens {
   const d = 2 * Math.asinh(Math.sqrt(Math.sinh((p - q) / 2) ** 2 + Math.sinh(p) * Math.sinh(q) * chord ** 2));
   const share = (u: number): number => (d > 0 ? Math.sinh(u * d) / Math.sinh(d) : u);
   const [before, after] = [share(1 - t) * Math.sinh(p), share(t) * Math.sinh(q)];
-  const vector = row(
-    [0, 1, 2].map((k) => before * a.focus[k] + after * b.focus[k]),
-    0,
-  );
+  const vector = a.focus.map((value, k) => before * value + after * b.focus[k]) as unknown as Vector;
   const size = Math.hypot(...vector);
   return { focus: size === 0 ? b.focus : unit(vector), magnification: Math.exp(Math.asinh(size)) };
 }

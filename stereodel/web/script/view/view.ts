@@ -74,21 +74,13 @@ export class View {
     const [oldLon, oldLat] = this.middle;
     // The place may be on this or the far side of the pole; the view that is nearer to this one.
     const views = [Math.asin(sine), Math.PI - Math.asin(sine)].map((east) => {
-      const across = reach * Math.cos(east);
-      const up = Math.atan2(direction[2], across) - Math.atan2(to[1], to[2]);
-      const turn = up - 2 * Math.PI * Math.round(up / (2 * Math.PI));
-      return {
-        lon: lon - east / DEGREE,
-        lat: Math.max(-90, Math.min(90, turn / DEGREE)),
-        excess: Math.abs(turn / DEGREE),
-      };
+      const up = Math.atan2(direction[2], reach * Math.cos(east)) - Math.atan2(to[1], to[2]);
+      const turn = (up - 2 * Math.PI * Math.round(up / (2 * Math.PI))) / DEGREE;
+      const [newLon, newLat] = [lon - east / DEGREE, Math.max(-90, Math.min(90, turn))];
+      const apart = Math.abs(wrap(newLon - oldLon)) * Math.cos(oldLat * DEGREE) + Math.abs(newLat - oldLat);
+      return { cost: apart + 10 * Math.max(0, Math.abs(turn) - 90), view: View.above(newLon, newLat) };
     });
-    const cost = (view: { lon: number; lat: number; excess: number }): number => {
-      const apart = Math.abs(wrap(view.lon - oldLon));
-      return apart * Math.cos(oldLat * DEGREE) + Math.abs(view.lat - oldLat) + 10 * Math.max(0, view.excess - 90);
-    };
-    const best = views.reduce((a, b) => (cost(b) < cost(a) ? b : a));
-    return View.above(best.lon, best.lat);
+    return views.reduce((a, b) => (b.cost < a.cost ? b : a)).view;
   }
 
   /** Turned by degrees: the middle goes east and north; with north up it stops at the poles. */

@@ -1,9 +1,16 @@
-"""The predicates on arrays: points are checked and broadcast here, the kernel decides."""
+"""Exact signs: orientation, incircle and their counterpart on the sphere.
+
+The kernel evaluates each polynomial in doubles with a derived error bound, then, where that leaves the sign open, in
+about twice the precision, and in integers at last: the answer is always that of exact arithmetic on the given doubles.
+Plane: the idea of Shewchuk's staged predicates ("Adaptive precision floating-point arithmetic", 1997); sphere: the
+curvature form of the paper's idea to lift flat regions (rows P5 and P6 of the ledger).
+"""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 import numpy.typing as npt
@@ -12,6 +19,8 @@ from stereodel import _kernel
 from stereodel._arrays import FloatArray, SignArray, as_directions, as_vectors
 from stereodel._docs import shared
 from stereodel._threads import thread_count
+
+__all__ = ["in_bubble", "incircle", "orient2d", "orient3d"]
 
 _SHARED = {
     "signs": """
@@ -52,8 +61,7 @@ def orient2d(a: npt.ArrayLike, b: npt.ArrayLike, c: npt.ArrayLike) -> SignArray 
     >>> orient2d([0, 0], [1, 0], [[0, 1], [2, 0], [0, -1e-300]])
     array([ 1,  0, -1], dtype=int8)
     """
-    points = (as_vectors(p, 2, name) for p, name in ((a, "a"), (b, "b"), (c, "c")))
-    return _over_rows(_kernel.plane.turn, *points)
+    return _over_rows(_kernel.plane.turn, partial(as_vectors, dimension=2), a=a, b=b, c=c)
 
 
 @shared(**_SHARED)
@@ -80,8 +88,7 @@ def incircle(a: npt.ArrayLike, b: npt.ArrayLike, c: npt.ArrayLike, d: npt.ArrayL
     >>> incircle([0, 0], [1, 0], [0, 1], [[0.5, 0.5], [1, 1], [2, 2]])
     array([ 1,  0, -1], dtype=int8)
     """
-    points = (as_vectors(p, 2, name) for p, name in ((a, "a"), (b, "b"), (c, "c"), (d, "d")))
-    return _over_rows(_kernel.plane.in_circle, *points)
+    return _over_rows(_kernel.plane.in_circle, partial(as_vectors, dimension=2), a=a, b=b, c=c, d=d)
 
 
 @shared(**_SHARED)
@@ -107,8 +114,7 @@ def orient3d(a: npt.ArrayLike, b: npt.ArrayLike, c: npt.ArrayLike, d: npt.ArrayL
     >>> orient3d([0, 0, 0], [1, 0, 0], [0, 1, 0], [[0, 0, 1], [5, 5, 0], [0, 0, -1e-200]])
     array([ 1,  0, -1], dtype=int8)
     """
-    points = (as_vectors(p, 3, name) for p, name in ((a, "a"), (b, "b"), (c, "c"), (d, "d")))
-    return _over_rows(_kernel.orient3d, *points)
+    return _over_rows(_kernel.orient3d, partial(as_vectors, dimension=3), a=a, b=b, c=c, d=d)
 
 
 @shared(**_SHARED)
@@ -136,12 +142,14 @@ def in_bubble(a: npt.ArrayLike, b: npt.ArrayLike, c: npt.ArrayLike, p: npt.Array
     >>> in_bubble([1, 0, 0], [0, 2, 0], [0, 0, 3], [[1, 1, 1], [-1, 0, 0], [0, 0, 7]])
     array([ 1, -1,  0], dtype=int8)
     """
-    points = (as_directions(v, name) for v, name in ((a, "a"), (b, "b"), (c, "c"), (p, "p")))
-    return _over_rows(_kernel.sphere.in_circle, *points)
+    return _over_rows(_kernel.sphere.in_circle, as_directions, a=a, b=b, c=c, p=p)
 
 
-def _over_rows(signs: Callable[..., SignArray], *points: FloatArray) -> SignArray | int:
+def _over_rows(
+    signs: Callable[..., SignArray], check: Callable[..., FloatArray], **given: npt.ArrayLike
+) -> SignArray | int:
     """Signs for points of any leading shape, broadcast together; an int for single points."""
+    points = [check(point, name=name) for name, point in given.items()]
     leading = np.broadcast_shapes(*(p.shape[:-1] for p in points))
     workers = thread_count(None, math.prod(leading))
     result = signs(*(_rows(p, leading) for p in points), workers=workers)

@@ -1,0 +1,390 @@
+/** Drawings of the Globe room: the Earth through a fisheye, two globes with bubbles, and the fisheye from five sides. */
+
+import { arcThrough, circle, pointAt, traceCap, type Circle } from "../drawing/arcs.ts";
+import { arcLayer, circlePoints, drawLayers, graticuleArcs, placeOf, regionLayer } from "../drawing/ball.ts";
+import type { Layer } from "../drawing/ball.ts";
+import { cornersOf, drawHandle, traceDisc, type Disc, type Pen } from "../drawing/pen.ts";
+import { Plate, type Reason } from "../drawing/plate.ts";
+import type { LabelStyle } from "../drawing/styles.ts";
+import { MoebiusMap, Rotation } from "../kernel/api.ts";
+import { angle, cross, directionOf, lonLatOf, row, type Vector } from "../space.ts";
+import { arrowed, grabBall, type Turnable } from "../view/ball_hand.ts";
+import { distance, follow, type Gestures, type Hold, type Pinch, type Place } from "../view/hand.ts";
+import * as lenses from "../view/lens.ts";
+import type { Cap, Lens, Sight } from "../view/lens.ts";
+import { Motion } from "../view/motion.ts";
+import { pointUnder, type View } from "../view/view.ts";
+import { fixed, scale } from "../words.ts";
+import type { GlobeRoom } from "./globe.ts";
+import { CIRCLE_RADIUS, STEP } from "./globe_scene.ts";
+import { BEGINNING, LEAST_RADIUS, MOST_RADIUS, sideView, type GlobeState } from "./globe_state.ts";
+
+const LABEL: LabelStyle = { ink: "accent-text", halo: "halo", size: 14 };
+const LETTER: LabelStyle = { ...LABEL, size: 15, italic: true };
+
+/** What the globes have in common: what is drawn of the Earth, the circle at the pointer, the hand. */
+abstract class GlobePlate implements Turnable {
+  readonly plate: Plate;
+  readonly motion = new Motion();
+  protected readonly room: GlobeRoom;
+
+  constructor(canvas: HTMLCanvasElement, room: GlobeRoom) {
+    this.room = room;
+    const paint = (pen: Pen, isMoving: boolean): void => {
+      room.scene.draw(pen, this.disc, this.map, (name) => room.switches.isOn(name), isMoving);
+      pen.draw("limb", (path) => traceDisc(path, this.disc));
+    };
+    const overlay = (pen: Pen): void => {
+      this.#paintPointer(pen);
+      this.paintHeld(pen);
+    };
+    this.plate = new Plate(canvas, paint, room.host.guarded, document.documentElement, overlay);
+    follow(this.plate, { hover: (at) => this.point(at), ...this.gestures() });
+  }
+
+  abstract get view(): View;
+  abstract turn(view: View, reason: Reason): void;
+
+  /** From the Earth to the axes of the view. */
+  protected abstract get map(): MoebiusMap;
+  /** What there is at the pointer: a circle, with its scale where scales differ from those of a plain globe. */
+  protected abstract get pointed(): "scale" | "circle" | null;
+  /** What there is to drag. */
+  protected abstract paintHeld(pen: Pen): void;
+  protected abstract gestures(): Gestures;
+
+  get disc(): Disc {
+    return this.plate.disc;
+  }
+
+  get isNorthUp(): boolean {
+    return this.room.switches.isOn("north");
+  }
+
+  protected change(change: Partial<GlobeState>): void {
+    this.motion.stop();
+    this.room.set(change, "hand");
+  }
+
+  protected under(at: Place): Vector {
+    return pointUnder(this.disc, at);
+  }
+
+  protected isOnBall(at: Place): boolean {
+    return distance(at, [this.disc.x, this.disc.y]) <= this.disc.r;
+  }
+
+  /** The circle goes to the pointer. */
+  protected point(at: Place | null): void {
+    if (at === null || !this.isOnBall(at)) return;
+    this.room.set({ pointer: lenses.sourceOf(this.map, this.under(at)) }, "pointer");
+  }
+
+  /** The circle at the pointer; its scale stands below it, or above it near the lower limb. */
+  #paintPointer(pen: Pen): void {
+    const { disc, map, pointed } = this;
+    if (pointed === null) return;
+    const { pointer } = this.room.shown;
+    const images = map.apply(Float64Array.from(circlePoints(pointer, CIRCLE_RADIUS).flat()));
+    const rim = arcThrough(images, 0, 1, 2, true);
+    const at = lenses.imageOf(map, pointer);
+    if (rim === null || at[2] <= 0) return;
+    pen.draw("bubble", (path) => traceCap(path, disc, rim));
+    if (pointed === "circle") return;
+    const [x, y] = placeOf(disc, at);
+    const away = rim.r * disc.r;
+    const isBelow = y + away + 20 < disc.y + disc.r * Math.sqrt(Math.max(0, 1 - at[0] ** 2));
+    const words = `${scale(lenses.scaleAt(map, pointer))}×`;
+    const inward = disc.x + (x - disc.x) * 0.98;
+    pen.label(words, inward, isBelow ? y + away + 17 : y - away - 7, { ...LABEL, align: "center" });
+  }
+}
+
+const KEY_FACTOR = 1.25;
+
+/** The large globe through the fisheye: turned, magnified and focused by hand. */
+export class FisheyeGlobe extends GlobePlate {
+  protected readonly pointed = "scale";
+
+  get view(): View {
+    return this.#sight.view;
+  }
+
+  protected get map(): MoebiusMap {
+    return lenses.sightMap(this.#sight);
+  }
+
+  get #sight(): Sight {
+    return this.room.shown.sight;
+  }
+
+  turn(view: View, reason: Reason): void {
+    this.room.set({ sight: { ...this.#sight, view } }, reason);
+  }
+
+  /** Goes to another sight, on the way that a flight takes. */
+  fly(to: Sight): void {
+    const from = this.#sight;
+    this.motion.fly((t) => {
+      const sight = lenses.betweenSights(from, to, t, this.isNorthUp);
+      this.room.set({ sight }, t < 1 ? "flight" : "state", t === 1);
+    });
+  }
+
+  protected paintHeld(pen: Pen): void {
+    const focus = this.view.seen(this.#sight.lens.focus);
+    const [x, y] = placeOf(this.disc, focus);
+    drawHandle(pen, x, y, focus[2] >= 0 ? "front" : "behind");
+    const isRight = focus[0] <= 0.75;
+    const words = focus[2] >= 0 ? "focus" : "focus*, behind*";
+    pen.label(words, x + (isRight ? 9 : -9), y - 7, { ...LETTER, align: isRight ? "left" : "right" });
+  }
+
+  protected gestures(): Gestures {
+    return {
+      take: (at, reach) => this.#take(at, reach),
+      click: (at) => {
+        this.motion.stop();
+        this.point(at);
+      },
+      doubleClick: (at) => {
+        if (this.isOnBall(at)) this.fly(this.#focusedAt(this.under(at)));
+      },
+      pinch: (middle, spread) => this.#pinch(middle, spread),
+      wheel: (at, factor) => {
+        const point = this.isOnBall(at) ? this.under(at) : ([0, 0, 1] as const);
+        this.change({ sight: lenses.magnified(this.#sight, point, factor, this.isNorthUp) });
+      },
+      key: (event) => {
+        const view = arrowed(this, event);
+        const sight = view === null ? this.#keyed(event.key) : { ...this.#sight, view };
+        if (sight === null || event.ctrlKey) return false;
+        this.change({ sight });
+        return true;
+      },
+    };
+  }
+
+  #focusedAt(point: Vector): Sight {
+    return lenses.focused(this.#sight, lenses.sourceOf(this.map, point), this.isNorthUp);
+  }
+
+  #take(at: Place, reach: number): Hold | null {
+    const { lens, view } = this.#sight;
+    if (distance(at, placeOf(this.disc, view.seen(lens.focus))) > reach) return grabBall(this, this.motion, at);
+    this.motion.stop();
+    // The fisheye leaves its focus where it is: the ring is at the pointer where the view stays as it is.
+    return {
+      move: (to) => {
+        this.change({ sight: { lens: { ...lens, focus: view.onBall(this.under(to)) }, view } });
+      },
+    };
+  }
+
+  #pinch(middle: Place, spread: number): Pinch {
+    this.motion.stop();
+    const start = this.#sight;
+    const from = this.under(middle);
+    let turnedBefore: number | null = null;
+    return {
+      move: (now, nowSpread, turn) => {
+        turnedBefore ??= turn;
+        const sight = lenses.magnified(start, from, nowSpread / spread, this.isNorthUp);
+        const to = this.under(now);
+        let view = lenses.holding(sight.view, sight.view.onBall(from), to, this.isNorthUp);
+        if (!this.isNorthUp) view = view.turned(Rotation.about(to, ((turnedBefore - turn) * 180) / Math.PI));
+        this.change({ sight: { ...sight, view } });
+      },
+    };
+  }
+
+  #keyed(key: string): Sight | null {
+    const { lens, view } = this.#sight;
+    const sized = (factor: number): Sight => ({
+      lens: { ...lens, magnification: Math.max(1, Math.min(lenses.MOST, lens.magnification * factor)) },
+      view,
+    });
+    if (key === "+" || key === "=") return sized(KEY_FACTOR);
+    if (key === "-") return sized(1 / KEY_FACTOR);
+    if (key === "0") return BEGINNING.sight;
+    return key === "f" || key === "F" ? this.#focusedAt([0, 0, 1]) : null;
+  }
+}
+
+/** Where a rim has its handle: the point of the rim that lies farthest this way in the drawing. */
+const TOWARD = [0.8, -1] as const;
+
+/** Points of a rim that are tried for the handle. */
+const TRIED = 180;
+
+/** Degrees by which a pointer of a link may be off the one that it names. */
+const UNMOVED = 1e-6;
+
+/** The bubble that is taken, or the one that it fills; rims and insides are dragged in either. */
+export class BubbleGlobe extends GlobePlate {
+  readonly #which: "before" | "after";
+
+  constructor(canvas: HTMLCanvasElement, which: "before" | "after", room: GlobeRoom) {
+    super(canvas, room);
+    this.#which = which;
+  }
+
+  get view(): View {
+    return this.room.shown[this.#which];
+  }
+
+  protected get map(): MoebiusMap {
+    const { from, to } = this.room.shown;
+    return lenses.seenThrough(this.#which === "after" ? lenses.capToCap(from, to) : MoebiusMap.identity(), this.view);
+  }
+
+  /** Nothing before anybody has pointed. */
+  protected get pointed(): "scale" | "circle" | null {
+    if (angle(this.room.shown.pointer, BEGINNING.pointer) <= UNMOVED) return null;
+    return this.#which === "after" ? "scale" : "circle";
+  }
+
+  turn(view: View, reason: Reason): void {
+    this.room.set({ [this.#which]: view }, reason);
+  }
+
+  get #end(): "from" | "to" {
+    return this.#which === "before" ? "from" : "to";
+  }
+
+  get #cap(): Cap {
+    return this.room.shown[this.#end];
+  }
+
+  /** The bubble's rim, axes of the view. */
+  get #rim(): Circle {
+    const { center, radius } = this.#cap;
+    return circle(this.view.seen(center), Math.cos((radius * Math.PI) / 180));
+  }
+
+  #setCap(cap: Cap): void {
+    this.change({ [this.#end]: { ...cap, radius: Math.max(LEAST_RADIUS, Math.min(MOST_RADIUS, cap.radius)) } });
+  }
+
+  protected paintHeld(pen: Pen): void {
+    const { disc } = this;
+    const rim = this.#rim;
+    pen.draw(this.#which === "before" ? "bubble" : "bubble-open", (path) => traceCap(path, disc, rim));
+    const handle = this.#handle();
+    if (handle === null) return;
+    const [x, y] = placeOf(disc, handle);
+    drawHandle(pen, x, y, "rim");
+    const isRight = handle[0] < 0.55;
+    // Near the lower limb the label stands above its handle: below there is no drawing.
+    const isLow = handle[1] < -0.5 && handle[2] < 0.4;
+    const style: LabelStyle = { ...LABEL, align: isRight ? "left" : "right" };
+    pen.label(`${fixed(this.#cap.radius, 1)}°`, x + (isRight ? 9 : -9), y + (isLow ? -6 : 14), style);
+  }
+
+  /** The handle's point of the view, or null while the rim is behind. */
+  #handle(): Vector | null {
+    const rim = this.#rim;
+    const toward = ([x, y]: Vector): number => TOWARD[0] * x + TOWARD[1] * y;
+    const points = Array.from({ length: TRIED }, (_, k) => pointAt(rim, (2 * Math.PI * k) / TRIED));
+    const seen = points.filter((point) => point[2] >= 0);
+    return seen.length === 0 ? null : seen.reduce((a, b) => (toward(b) > toward(a) ? b : a));
+  }
+
+  protected gestures(): Gestures {
+    return {
+      take: (at, reach) => this.#take(at, reach),
+      key: (event) => {
+        const view = event.key === "0" ? BEGINNING[this.#which] : arrowed(this, event);
+        if (view !== null) this.change({ [this.#which]: view });
+        return view !== null;
+      },
+    };
+  }
+
+  #take(at: Place, reach: number): Hold | null {
+    if (!this.isOnBall(at)) return null;
+    const start = this.#cap;
+    const point = this.under(at);
+    const center = this.view.seen(start.center);
+    // Near the rim, in the drawing: one degree of it is not so many pixels everywhere.
+    const axis = cross(center, point);
+    const rim =
+      Math.hypot(...axis) === 0
+        ? circlePoints(center, start.radius)[0]
+        : row(Rotation.about(axis, start.radius).apply(center), 0);
+    const isNear = (place: Vector | null): boolean =>
+      place !== null && place[2] >= 0 && distance(at, placeOf(this.disc, place)) <= reach;
+    const isRim = isNear(rim) || isNear(this.#handle());
+    if (!isRim && angle(center, point) > start.radius) return grabBall(this, this.motion, at);
+    this.motion.stop();
+    return {
+      move: (to) => {
+        const now = this.under(to);
+        if (isRim) return this.#setCap({ ...start, radius: angle(center, now) });
+        const moved = row(Rotation.between(point, now).apply(center), 0);
+        this.#setCap({ ...start, center: this.view.onBall(moved) });
+      },
+    };
+  }
+}
+
+/** Half the side of the tinted surroundings as in the figures, degrees: 8 up to S = 4, then as large as they are seen. */
+const REACH = 8;
+const REACH_TIMES_S = 32;
+
+/** Points of each of their sides. */
+const POINTS = 16;
+
+/** Between limb and edge of the small globes, pixels. */
+const MARGIN = 1;
+
+/** Five small globes: the lens from five sides, as the panels of Figures 10 to 12, with the surroundings of the focus. */
+export class FiveViews {
+  readonly #room: GlobeRoom;
+  readonly #plates: Plate[];
+  readonly #graticule = arcLayer("graticule", graticuleArcs(STEP));
+  #shown: Lens | null = null;
+
+  constructor(buttons: readonly HTMLButtonElement[], room: GlobeRoom) {
+    this.#room = room;
+    this.#plates = buttons.map((button) => {
+      const paint = (pen: Pen): void => this.#paint(pen, Number(button.value));
+      return new Plate(button.querySelector("canvas")!, paint, room.host.guarded);
+    });
+  }
+
+  /** Draws what has changed: while the ball turns under a lens that stays, nothing has. */
+  redraw(reason: Reason): void {
+    const { lens } = this.#room.shown.sight;
+    const isMoving = reason === "hand" || reason === "flight";
+    if (isMoving && this.#shown === lens) return;
+    this.#shown = lens;
+    for (const plate of this.#plates) plate.redraw(isMoving ? "state" : reason);
+  }
+
+  #paint(pen: Pen, panel: number): void {
+    const { lens } = this.#room.shown.sight;
+    const disc = { x: pen.width / 2, y: pen.height / 2, r: Math.max(pen.width / 2 - MARGIN, 1) };
+    const map = lenses.seenThrough(lenses.lensMap(lens), sideView(panel, lens.focus));
+    pen.ball(disc, "ball");
+    drawLayers(pen, disc, map, [patchLayer(lens), this.#graticule]);
+    pen.draw("limb-small", (path) => traceDisc(path, disc));
+  }
+}
+
+/** A box of longitudes and latitudes round the focus; near a pole it ends there. */
+function patchLayer({ focus, magnification }: Lens): Layer {
+  const [lon, lat] = lonLatOf(focus);
+  const reach = Math.min(REACH, REACH_TIMES_S / magnification);
+  const [south, north] = [Math.max(lat - reach, -89), Math.min(lat + reach, 89)];
+  const corners = cornersOf(lon - reach, south, lon + reach, north);
+  const ring = corners.flatMap(([x, y], k) => {
+    const [toX, toY] = corners[(k + 1) % 4];
+    return Array.from({ length: POINTS }, (_, n) => {
+      const t = n / POINTS;
+      return [...directionOf(x + t * (toX - x), y + t * (toY - y))];
+    });
+  });
+  const opposite: Vector = [-focus[0], -focus[1], -focus[2]];
+  return regionLayer("seen", "patch-line", Float64Array.from(ring.flat()), [0, ring.length], opposite, false);
+}
