@@ -28,8 +28,6 @@ class Wanted:
     crs: str | None = None
     skip_missing: bool = False
     progress: Progress | None = None
-    choice: str = ""
-    """What to do where a file has several layers, if not to name one."""
 
     def axes(self, names: Sequence[str]) -> tuple[str, str]:
         """The columns of the coordinates; ValueError lists the columns if they are not among them."""

@@ -71,7 +71,7 @@ def read(file: Input, wanted: Wanted) -> Frame:
     optional("geopandas", "geo")
     with file.on_disk() as path, self_contained(path) as source:
         _check_whole(source)
-        return Frame(in_degrees(_read_frame(source, wanted.layer, wanted.choice)))
+        return Frame(in_degrees(_read_frame(source, wanted.layer)))
 
 
 FORMAT = FileFormat(
@@ -97,10 +97,10 @@ def in_degrees(frame: Any) -> Any:
         return frame if crs is None else frame.to_crs("EPSG:4326")
 
 
-def _read_frame(path: Path, layer: str | None, choice: str) -> Any:
+def _read_frame(path: Path, layer: str | None) -> Any:
     with warnings.catch_warnings(record=True) as said:
         warnings.simplefilter("always", RuntimeWarning)
-        chosen = _chosen(path, layer, choice)
+        chosen = _chosen(path, layer)
         # Integers with missing values stay integers, which doubles may not represent.
         objects = {"integer_object_nulls": True}
         with told():
@@ -122,7 +122,7 @@ def _read_frame(path: Path, layer: str | None, choice: str) -> Any:
     return frame
 
 
-def _chosen(path: Path, layer: str | None, choice: str) -> str:
+def _chosen(path: Path, layer: str | None) -> str:
     """The name of the layer to read: of those with geometries, if there are any, the only one that has rows."""
     with told():
         layers = pyogrio.list_layers(path)
@@ -138,7 +138,7 @@ def _chosen(path: Path, layer: str | None, choice: str) -> str:
             counts = [pyogrio.read_info(path, layer=name, force_feature_count=True)["features"] for name in names]
         names = [name for name, count in zip(names, counts, strict=True) if count] or names[:1]
     if len(names) > 1:
-        advice = choice or f"say which with {spelled('layer', '=')}"
+        advice = f"give a file with one, or say which with {spelled('layer', '=')}"
         raise ValueError(f"there are several layers, {listed(names)}; {advice}")
     return names[0]
 

@@ -144,9 +144,11 @@ def _find(names: Sequence[str], kind: str, given: str | None) -> str:
     sure, unsure = NAMES[kind]
     meant = max(sure, key=len)
     plain = {name: name.strip().lower() for name in names}
+    # Split at punctuation and where a capital follows a small letter.
+    words = {name: set(re.split(r"[^a-z]+", re.sub(r"(?<=[a-z])(?=[A-Z])", " ", name).lower())) for name in names}
     for matching in (
         [name for name in names if plain[name] in sure],
-        [name for name in names if any(map(plain[name].__contains__, sure)) and sure & words(name)],
+        [name for name in names if sure & words[name]],
         [name for name in names if plain[name] in unsure],
     ):
         if len(matching) == 1:
@@ -155,11 +157,6 @@ def _find(names: Sequence[str], kind: str, given: str | None) -> str:
             raise ValueError(f"{listed(matching)} may all be the {meant}; say which with {spelled(kind, '=')}")
     advice = f"say which with {spelled(kind, '=')}, the columns are {listed(names)}"
     raise ValueError(f"no column looks like the {meant}; {advice}")
-
-
-def words(name: str) -> set[str]:
-    """Words of a column name in lower case, split at punctuation and where a capital follows a small letter."""
-    return set(re.split(r"[^a-z]+", re.sub(r"(?<=[a-z])(?=[A-Z])", " ", name).lower()))
 
 
 def listed(names: Sequence[str]) -> str:
