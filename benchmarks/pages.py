@@ -22,7 +22,7 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter
 from benchmarks.engines import CONTENDERS, Contender
 from benchmarks.rounds import paired
 from stereodel._tasks.whole_files import replacing
-from stereodel.drawing.page.style import DARK_GRAY, LIGHT_GRAY, PRINT_WIDTH, TYPE
+from stereodel.drawing.page.style import DARK_GRAY, PRINT_WIDTH, TYPE
 
 HERE = Path(__file__).resolve().parent
 DOCS = HERE.parent / "docs"
@@ -96,7 +96,7 @@ def plot(name: str, height: float, **options: Any) -> Iterator[Sequence[Axes]]:
         "axes.titlesize": 9,
         "legend.fontsize": 8,
         "legend.frameon": False,
-        "grid.color": LIGHT_GRAY,
+        "grid.color": "#a6a6a6",
         "grid.linewidth": 0.3,
     }
     ticks = {"labelsize": 7.5, "major.width": 0.5, "minor.width": 0.3}

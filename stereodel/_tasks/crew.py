@@ -3,8 +3,7 @@
 `concurrent.futures` does the work, by an executor of one process for each place: when a process dies its task is
 known and tried again, and it holds no lock of queues that others share. Processes are spawned, because neither OpenGL
 contexts nor threads survive a fork. They import the program's main script only if their work is defined there, so that
-calls need no guard around them; and they end at once after Ctrl-C, and when the process that started them ends, even if
-that is killed.
+calls need no guard around them; and they end at once after Ctrl-C, and when the process that started them ends or dies.
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -52,9 +52,8 @@ def command(
         found = contours(table.points(latitude), values[:, 0], wanted)
     if not found:
         raise NothingToDoError(f"{table.name}: no lines: no level lies between the values")
-    drawn: dict[str, Any] = {"max_segment": max_segment, "latitude": latitude, "crs": table.crs}
     with reporting(f"writing {output.out}") as told, destination.file() as path:
-        write(path, found, progress=told, **drawn)
+        write(path, found, progress=told, max_segment=max_segment, latitude=latitude, crs=table.crs)
     say(f"{output.out}: {len(found)} lines of {len(wanted)} levels")
 
 

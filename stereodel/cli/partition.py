@@ -45,8 +45,6 @@ def command(
     """
     from stereodel.partitioned import Execution, triangulate
 
-    if "-" in points:
-        raise ValueError(f"results in the folder {out} are of files, not of stdin")
     if (lon is None) != (lat is None):
         raise ValueError("--lon and --lat are given together")
     names = {**ARGUMENTS, "columns": "--plane" if plane else "--lon"}

@@ -52,8 +52,8 @@ from stereodel.globe.layers import Areas, GridLines, Ground, Image, Limb, LineLa
 from stereodel.globe.outlines_on_sphere import Rings, SphereLines, SphereRegions, earth_lines, earth_regions
 from stereodel.globe.pages import Panel, default_view, panels
 from stereodel.globe.raster import Raster
-from stereodel.io.maps.meshes_as_rows import ridge_arcs
 from stereodel.io.reading import Shapes, shapes_of
+from stereodel.io.rows_of import ridge_arcs
 from stereodel.sphere import SphereCircle, lonlat_to_xyz
 from stereodel.sphere.latitudes import KINDS, Latitude
 from stereodel.sphere.vectors import units

@@ -16,7 +16,7 @@ from stereodel.curves.chart import Chart
 from stereodel.curves.insides import oriented
 from stereodel.curves.ragged import Ragged, thinned
 from stereodel.curves.seams import stitched
-from stereodel.io.maps.meshes_as_rows import ridge_arcs, triangle_sides, voronoi_sides
+from stereodel.io.rows_of import ridge_arcs, triangle_sides, voronoi_sides
 from stereodel.sphere import SphereArc, SphereCircle
 from stereodel.sphere.latitudes import Latitude
 from stereodel.sphere.vectors import units

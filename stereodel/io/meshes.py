@@ -14,7 +14,9 @@ from stereodel._extras import optional
 from stereodel._spaces import SPHERE
 from stereodel.curves.clip import points_along
 from stereodel.curves.ragged import Ragged, spans
-from stereodel.io.maps.meshes_as_rows import (
+from stereodel.io.maps.on_map import steps_of
+from stereodel.io.rows_of import (
+    LARGEST_SEGMENT,
     Mesh,
     diagram_of,
     places_of,
@@ -24,8 +26,6 @@ from stereodel.io.maps.meshes_as_rows import (
     usual_kind,
     voronoi_sides,
 )
-from stereodel.io.maps.on_map import steps_of
-from stereodel.io.rows_of import LARGEST_SEGMENT
 from stereodel.sphere import lonlat_to_xyz
 from stereodel.sphere.latitudes import Latitude
 from stereodel.sphere.vectors import units

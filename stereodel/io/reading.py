@@ -350,7 +350,7 @@ def _shapes_of_file(path: Path) -> Shapes:
     with naming(path):
         known = {*PACKED, *(ending for each in FORMATS.values() for ending in each.endings)}
         file = SourceFile(path, None if path.suffix.lower() in known else "vector")
-        found = _rows_of(file, Wanted(choice="give a file with one"))
+        found = _rows_of(file, Wanted())
         if isinstance(found, geojson.Features):
             return of_features(found)
         if not (isinstance(found, Frame) and hasattr(found.frame, "to_crs")):

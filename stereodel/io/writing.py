@@ -27,19 +27,19 @@ from stereodel.io.formats.map_rows import MapRows
 from stereodel.io.formats.names import beside
 from stereodel.io.formats.parquet import write_parquet
 from stereodel.io.grids import Grid, write_geotiff
-from stereodel.io.maps.meshes_as_rows import (
+from stereodel.io.meshes import to_polydata, to_trimesh, to_ugrid
+from stereodel.io.reading import read_points
+from stereodel.io.rows_of import (
     MESHES,
     Columns,
     Mesh,
     diagram_of,
     places_of,
     point_columns,
+    rows_of,
     triangulation_of,
     usual_kind,
 )
-from stereodel.io.meshes import to_polydata, to_trimesh, to_ugrid
-from stereodel.io.reading import read_points
-from stereodel.io.rows_of import rows_of
 from stereodel.io.table import AXES, PointTable
 from stereodel.sphere.latitudes import Latitude
 

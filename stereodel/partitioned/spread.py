@@ -118,6 +118,8 @@ def points_of(plan: Plan, ranges: Sequence[RowRange]) -> FloatArray:
         for rows in read(plan.files[file], plan.columns, first, last):
             points[filled : filled + len(rows)] = rows
             filled += len(rows)
+    if filled < len(points):
+        raise ValueError(f"{plan.files[ranges[0].file].path} and those after it have {filled} of {len(points)} rows")
     return points
 
 

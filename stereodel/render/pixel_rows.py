@@ -8,6 +8,7 @@ asked for, with the pixels of one for the whole page. PNG is written here, as Pi
 from __future__ import annotations
 
 import hashlib
+import math
 import struct
 import zlib
 from collections.abc import Iterable, Iterator, Mapping
@@ -159,6 +160,13 @@ class LabelLayer:
     def rows(self, top: int = 0, bottom: int | None = None) -> Pixels:
         """The labels in the rows from `top` to before `bottom`, (bottom − top, width, 4), colours not premultiplied."""
         return self._drawn(top, self.height if bottom is None else bottom).copy()
+
+    @property
+    def span(self) -> tuple[int, int]:
+        """Range of rows that contains all labels on the page; empty if there are none."""
+        first = min((first for _, first, _ in self._placed), default=0.0)
+        last = max((last for _, _, last in self._placed), default=0.0)
+        return max(0, math.floor(first)), min(self.height, math.ceil(last))
 
     def _drawn(self, top: int, bottom: int) -> Pixels:
         """As for `rows`, valid until the next call."""

@@ -52,7 +52,7 @@ voronoi cities.csv --clip none.geojson → none.geojson: No such file or directo
 voronoi cities.csv --clip land -o a.svg → --clip is for csv, geojson, geojsonl, parquet, gpkg, fgb, shp, kml, and a.svg
 voronoi cities.csv --clip land --plane lon lat → --clip is for cells of the sphere
 voronoi cities.csv -o points → points: cannot write a file without extension; choose .csv
-partition - -o a/ → results in the folder a/ are of files, not of stdin
+partition - -o a/ → - is no file, folder or pattern of Parquet files
 partition FILE -o a/ --lon lon → --lon and --lat are given together
 partition FILE -o a/ --lon x --lat y → --lon has 'x', which is not one of the columns 'lon'
 partition FILE -o a/ --keep x → --keep has 'x', which is not one of the columns 'lon', 'lat', 'id'
@@ -60,7 +60,7 @@ partition nowhere.parquet -o a/ → nowhere.parquet is no file, folder or patter
 partition cities.csv -o a/ → cities.csv is not a Parquet file
 partition FILES -o points/ → lies in out, the folder of results; take another folder
 partition flags.parquet -o a/ → flags.parquet: the column 'lon' holds bool, not numbers
-voronoi two.gpkg → two.gpkg: there are several layers, 'first', 'second'; say which with --layer-name
+voronoi two.gpkg → two.gpkg: there are several layers, 'first', 'second'; give a file with one, or say which
 triangulate cities.csv --max-segment=-1 -o out.geojson → --max-segment is -1.0, outside (0, 90]
 triangulate cities.csv --edges -o out.glb → holds faces, not edges
 voronoi cut.gml → cut.gml: the file is damaged: unclosed token: line 20

@@ -13,7 +13,7 @@ from stereodel.curves.fill import triangles
 from stereodel.curves.ragged import Ragged
 from stereodel.curves.trace import great
 from stereodel.curves.view import StereographicView, View
-from stereodel.io.maps.meshes_as_rows import voronoi_sides
+from stereodel.io.rows_of import voronoi_sides
 from tests import sets
 from tests.curves.oracle import Star, in_sight, off_lines, ring, rings, rows, units, whole_circles, winding
 from tests.examples import examples

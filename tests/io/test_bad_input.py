@@ -177,7 +177,7 @@ def face(entries, value):
         (lambda: to_geodataframe([], clip="land"), "not of contours"),
         (lambda: to_geodataframe(LINES, what="cells"), "not of contours"),
         *(
-            (lambda bounds=bounds: to_geodataframe(PLANE, bounds=bounds), r"bounds must be \(xmin, ymin, xmax, ymax\)")
+            (lambda bounds=bounds: to_geodataframe(PLANE, bounds=bounds), r"bounds .*\(xmin, ymin, xmax, ymax\)")
             for bounds in [(0, 0, 1), (0, 1, 2, 1), (3, 0, 0, 2)]
         ),
         *(

@@ -35,8 +35,6 @@ class Wanted:
     skip_rows: int = 0
     wrap: bool = False
     progress: Progress | None = None
-    choice: str = ""
-    """What to do where a file has several layers, if not to name one."""
 
     def check(self) -> None:
         """ValueError or TypeError for options that are wrong or contradict each other."""

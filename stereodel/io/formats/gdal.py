@@ -76,11 +76,11 @@ def read(file: Input, wanted: Wanted) -> Content:
     optional("geopandas", "geo")
     with file.on_disk() as path, self_contained(path) as source:
         _check_whole(source)
-        frame = in_degrees(_read_frame(source, wanted.layer, wanted.choice))
+        frame = in_degrees(_read_frame(source, wanted.layer))
         names = {wanted.lon, wanted.lat, *(wanted.plane or ())} & set(frame.columns)
         if source.suffix not in SHEETS or names or has_lonlat([str(name) for name in frame.columns]):
             return Frame(frame)
-        cells = _read_frame(source, wanted.layer, wanted.choice, HEADERS="DISABLE")
+        cells = _read_frame(source, wanted.layer, HEADERS="DISABLE")
         text = cells.astype(object).where(cells.notna(), "").astype(str)
         rows = (row for row in text.to_numpy().tolist() if any(row))
         return delimited.tabulated(delimited.Cells(rows), wanted)
@@ -109,10 +109,10 @@ def in_degrees(frame: Any) -> Any:
         return frame if crs is None else frame.to_crs("EPSG:4326")
 
 
-def _read_frame(path: Path, layer: str | None, choice: str, **options: str) -> Any:
+def _read_frame(path: Path, layer: str | None, **options: str) -> Any:
     with warnings.catch_warnings(record=True) as said:
         warnings.simplefilter("always", RuntimeWarning)
-        chosen = _chosen(path, layer, choice)
+        chosen = _chosen(path, layer)
         # Integers with missing values stay integers, which doubles may not represent.
         objects = {"integer_object_nulls": True}
         with told():
@@ -136,7 +136,7 @@ def _read_frame(path: Path, layer: str | None, choice: str, **options: str) -> A
     return frame
 
 
-def _chosen(path: Path, layer: str | None, choice: str) -> str:
+def _chosen(path: Path, layer: str | None) -> str:
     """The name of the layer to read: of those with geometries, if there are any, the only one that has rows."""
     with told():
         layers = pyogrio.list_layers(path)
@@ -152,7 +152,7 @@ def _chosen(path: Path, layer: str | None, choice: str) -> str:
             counts = [pyogrio.read_info(path, layer=name, force_feature_count=True)["features"] for name in names]
         names = [name for name, count in zip(names, counts, strict=True) if count] or names[:1]
     if len(names) > 1:
-        advice = choice or f"say which with {spelled('layer', '=')}"
+        advice = f"give a file with one, or say which with {spelled('layer', '=')}"
         raise ValueError(f"there are several layers, {listed(names)}; {advice}")
     return names[0]
 
