@@ -40,7 +40,10 @@ PYARROW: Final = Library("pyarrow", "19")
 RICH: Final = Library("rich", "13.7")
 
 EXTRAS: Final[Mapping[str, Extra]] = {
-    "cli": Extra("the command line", (Library("typer", "0.19"), RICH)),
+    "cli": Extra(
+        "the command line, guessed encodings",
+        (Library("typer", "0.19"), RICH, Library("charset-normalizer", "3.4", "charset_normalizer")),
+    ),
     "draw": Extra(
         "SVG, PDF, pictures of the plane, matplotlib axes",
         (Library("matplotlib", "3.9"), Library("pillow", "11.1", "PIL"), Library("mapbox_earcut", "1.0.3")),

@@ -42,7 +42,7 @@ voronoi wrong.csv → wrong.csv: no column looks like the longitude; say which w
 voronoi both.csv → both.csv: 'lon', 'lng' may all be the longitude; say which with --lon
 voronoi cities.csv --lon x → cities.csv: --lon is 'x', which is not one of the columns
 voronoi cities.csv --lat x → cities.csv: --lat is 'x', which is not one of the columns
-voronoi cities.csv --lon lat --lat lat → cities.csv: --lon and --lat are both the column
+voronoi cities.csv --lon lat --lat lat → cities.csv: column 'lat' is to have both coordinates
 voronoi cities.csv --crs EPSG:99 → cities.csv: --crs is 'EPSG:99', which PROJ does not know;
 voronoi plane.csv --plane x1 z → plane.csv: there is no column 'z'; the columns are
 voronoi gap.csv → gap.csv: row 1: the latitude is missing; leave such rows out with --skip-missing

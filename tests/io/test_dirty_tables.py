@@ -168,7 +168,9 @@ def test_sheets_of_text_with_titles_and_several_sheets(tmp_path):
             table = read_points(path, layer=sheet)
         assert table.lonlat.tolist() == [list(place) for place in TWO]
         assert table.columns["name"].tolist() == ["Ulm", "Kiel"]
-    with pytest.raises(ValueError, match="several layers, 'Text', 'Titel'; say which with layer="):
+    with pytest.raises(
+        ValueError, match="several layers, 'Text', 'Titel'; give a file with one, or say which with layer="
+    ):
         read_points(path)
 
 

@@ -10,7 +10,6 @@ separate thousands, as in 9,9934 or 0.125.
 
 from __future__ import annotations
 
-import importlib.util
 import json
 import re
 import warnings
@@ -21,6 +20,7 @@ from typing import Any, Final
 import numpy as np
 
 from stereodel._arrays import BoolArray, Column, FloatArray
+from stereodel._extras import MissingExtraError, optional
 from stereodel.io.formats.names import DataWarning, listed, spelled
 
 MISSING: Final = ("", "na", "n/a", "nan", "null", "none", "<na>", "-")
@@ -127,11 +127,10 @@ def _guessed(content: bytes) -> str | None:
     head = content[:GUESSED_FROM].rpartition(b"\n")[0] or content
     if not WESTERN.search(head.decode("cp1252", "replace")):
         return "cp1252"
-    if importlib.util.find_spec("charset_normalizer") is None:
+    try:
+        found = optional("charset_normalizer", "cli").from_bytes(head, cp_isolation=[*GUESSES]).best()
+    except MissingExtraError:
         return None
-    from charset_normalizer import from_bytes
-
-    found = from_bytes(head, cp_isolation=[*GUESSES]).best()
     return None if found is None else str(found.encoding)
 
 
