@@ -27,7 +27,7 @@ export function spherePython(
     "from stereodel.drawing import Scene, Sketch, View",
     isRead && "from stereodel.io import read_points",
     "from stereodel.sphere import SphereCircle",
-    "from stereodel.triangulation.theorem import planar_part",
+    "from stereodel.triangulation import planar_part",
     "",
     `lonlat = ${isRead ? `read_points(${quoted(file)}).lonlat` : written(sites.lonlat)}`,
     "delaunay = SphericalDelaunay.from_lonlat(lonlat)",
