@@ -6,7 +6,7 @@ import type { Sheet } from "./drawing/pen.ts";
 import { colours } from "./drawing/styles.ts";
 import { SvgPen } from "./drawing/svg_pen.ts";
 import { openPoints } from "./files.ts";
-import { placesGeojson, sitesGeojson } from "./geojson.ts";
+import { geojson } from "./geojson.ts";
 import { openPanorama } from "./panorama.ts";
 import { globePython, liftPython, spherePython } from "./rooms/python.ts";
 
@@ -39,14 +39,13 @@ function sheetPng({ width, height, weight, paint }: Sheet, scale: number): Promi
 
 const exchange = {
   download,
+  geojson,
   globePython,
   liftPython,
   openPanorama,
   openPoints,
-  placesGeojson,
   sheetPng,
   sheetSvg,
-  sitesGeojson,
   spherePython,
 };
 

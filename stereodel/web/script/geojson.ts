@@ -1,14 +1,14 @@
 /**
- * Cells and triangles of the sphere as GeoJSON (RFC 7946): outer rings counterclockwise, cut at ±180° and led along ±90°
+ * Regions of the sphere as GeoJSON (RFC 7946): outer rings counterclockwise, cut at ±180° and led along ±90°
  * around the poles. Sides are great circles, sampled so that no chord is longer than a degree.
  */
 
 import { along } from "./drawing/ball.ts";
+import type { Region } from "./drawing/parts.ts";
 import { cornersOf } from "./drawing/pen.ts";
-import { SphericalVoronoi, type Latitude } from "./kernel/api.ts";
+import type { Latitude } from "./kernel/api.ts";
 import { tableLonlat } from "./kernel/coordinates.ts";
-import type { SphereSites } from "./rooms/sphere_sites.ts";
-import { lonLatOf, row, type Vector } from "./space.ts";
+import { lonLatOf, type Vector } from "./space.ts";
 
 /** Digits behind the point of a degree: a centimetre of the Earth. */
 const DECIMALS = 7;
@@ -18,48 +18,12 @@ type Polygon = Position[][];
 
 type Geometry = { type: "Polygon"; coordinates: Polygon } | { type: "MultiPolygon"; coordinates: Polygon[] };
 
-/** Properties, and a geometry. */
-type Feature = [Record<string, unknown>, Geometry];
-
-/** Cells and triangles of the Sphere room's sites; closing facets are no triangles of the sphere. */
-export function sitesGeojson(sites: SphereSites): string {
-  const features: Feature[] = [];
-  const { voronoi, delaunay } = sites;
-  const areas = sites.count > 0 ? voronoi.areas() : new Float64Array(0);
-  for (let site = 0; site < sites.count; ++site) {
-    if (sites.sameAs(site) !== null) continue;
-    const geometry = cellOf(voronoi, site) ?? (delaunay.dimension === 0 ? WHOLE_SPHERE : null);
-    if (geometry !== null) features.push([{ kind: "cell", point: site, area: areas[site] }, geometry]);
-  }
-  for (let facet = 0; facet < sites.facetCount; ++facet) {
-    if (delaunay.closing[facet]) continue;
-    const [a, b, c] = delaunay.simplices.subarray(3 * facet, 3 * facet + 3);
-    const geometry = sphericalPolygon([a, b, c].map((site) => sites.site(site)));
-    features.push([{ kind: "triangle", triangle: facet, a, b, c }, geometry]);
-  }
-  return collection(features);
-}
-
-/** Cells of places, (n, 2) in degrees with a kind of latitude. */
-export function placesGeojson(lonlat: Float64Array, kind: Latitude): string {
-  const voronoi = SphericalVoronoi.fromLonlat(lonlat, kind);
-  const cells = Array.from({ length: lonlat.length / 2 }, (_, site): Feature[] => {
-    const geometry = cellOf(voronoi, site, kind);
-    const [longitude, latitude] = lonlat.subarray(2 * site, 2 * site + 2);
-    return geometry === null ? [] : [[{ site: site + 1, longitude, latitude }, geometry]];
+/** A collection as text, a feature a line. @param kind Of the latitudes that are written. */
+export function geojson(regions: readonly Region[], kind: Latitude = "spherical"): string {
+  const rows = regions.map(({ properties, corners }) => {
+    const geometry = corners.length === 0 ? WHOLE_SPHERE : sphericalPolygon(corners, kind);
+    return JSON.stringify({ type: "Feature", properties, geometry });
   });
-  return collection(cells.flat());
-}
-
-/** The cell of a site, or null where it has no corners. */
-function cellOf(voronoi: SphericalVoronoi, site: number, kind: Latitude = "spherical"): Geometry | null {
-  const corners = Array.from(voronoi.region(site), (vertex) => row(voronoi.vertices, vertex));
-  return corners.length < 3 ? null : sphericalPolygon(corners, kind);
-}
-
-/** A collection as text, a feature a line. */
-function collection(features: readonly Feature[]): string {
-  const rows = features.map(([properties, geometry]) => JSON.stringify({ type: "Feature", properties, geometry }));
   return `{"type":"FeatureCollection","features":[\n${rows.join(",\n")}\n]}\n`;
 }
 
@@ -69,9 +33,8 @@ const WHOLE_SPHERE: Geometry = { type: "Polygon", coordinates: [[...cornersOf(-1
 /**
  * The region on the left of a ring of great-circle sides, at most a hemisphere.
  * @param corners three or more, counterclockwise seen from outside.
- * @param kind of the latitudes that are written.
  */
-function sphericalPolygon(corners: readonly Vector[], kind: Latitude = "spherical"): Geometry {
+function sphericalPolygon(corners: readonly Vector[], kind: Latitude): Geometry {
   const ring = unwrapped(
     corners.flatMap((corner, k) => along(corner, corners[(k + 1) % corners.length])),
     kind,

@@ -57,8 +57,6 @@ export class Announcer {
   /** Says a sentence after a while without another; marks of `say` are taken out. */
   say(sentence: string): void {
     clearTimeout(this.#timer);
-    this.#timer = setTimeout(() => {
-      this.#region.textContent = plain(sentence);
-    }, REST);
+    this.#timer = setTimeout(() => (this.#region.textContent = plain(sentence)), REST);
   }
 }

@@ -28,44 +28,39 @@ export function drawLayers(pen: Pen, disc: Disc, map: MoebiusMap, layers: readon
   }
 }
 
+function layerOf(points: Float64Array, draw: Layer["draw"]): Layer {
+  return { directions: new Directions(points), draw };
+}
+
 /** Lines: arcs of three points each, an end, a point between, the other end. */
 export function arcLayer(style: StyleName, points: Float64Array): Layer {
-  return {
-    directions: new Directions(points),
-    draw(pen, disc, images) {
-      pen.draw(style, (path) => {
-        for (let k = 0; 3 * k < images.length; k += 3) traceArc(path, disc, images, k, k + 1, k + 2);
-      });
-    },
-  };
+  return layerOf(points, (pen, disc, images) =>
+    pen.draw(style, (path) => {
+      for (let k = 0; 3 * k < images.length; k += 3) traceArc(path, disc, images, k, k + 1, k + 2);
+    }),
+  );
 }
 
 /** Caps by three points of each circle, counterclockwise about the cap. */
 export function capLayer(style: StyleName, points: Float64Array): Layer {
-  return {
-    directions: new Directions(points),
-    draw(pen, disc, images) {
-      // One after the other: where they overlap, both are seen.
-      for (let k = 0; 3 * k < images.length; k += 3) {
-        const circle = arcThrough(images, k, k + 1, k + 2, true);
-        if (circle !== null) pen.draw(style, (path) => traceCap(path, disc, circle));
-      }
-    },
-  };
+  return layerOf(points, (pen, disc, images) => {
+    // One after the other: where they overlap, both are seen.
+    for (let k = 0; 3 * k < images.length; k += 3) {
+      const circle = arcThrough(images, k, k + 1, k + 2, true);
+      if (circle !== null) pen.draw(style, (path) => traceCap(path, disc, circle));
+    }
+  });
 }
 
 /** Dots, those that are seen. */
 export function dotLayer(style: DotName, points: Float64Array): Layer {
-  return {
-    directions: new Directions(points),
-    draw(pen, disc, images) {
-      const places: number[] = [];
-      for (let i = 0; i < images.length; i += 3) {
-        if (images[i + 2] >= 0) places.push(disc.x + disc.r * images[i], disc.y - disc.r * images[i + 1]);
-      }
-      pen.dots(style, places);
-    },
-  };
+  return layerOf(points, (pen, disc, images) => {
+    const places: number[] = [];
+    for (let i = 0; i < images.length; i += 3) {
+      if (images[i + 2] >= 0) places.push(disc.x + disc.r * images[i], disc.y - disc.r * images[i + 1]);
+    }
+    pen.dots(style, places);
+  });
 }
 
 /**
@@ -84,15 +79,12 @@ export function regionLayer(
   const withPlace = new Float64Array(points.length + 3);
   withPlace.set(points);
   withPlace.set(place, points.length);
-  return {
-    directions: new Directions(withPlace),
-    draw(pen, disc, images, map) {
-      const rings = bentRings(points, { points: images.subarray(0, points.length), offsets }, map, disc.r);
-      const holds = holdsHidden(rings, row(images, points.length / 3), inside);
-      pen.draw(fill, (path) => traceRegions(path, disc, rings, holds));
-      if (outline !== null) pen.draw(outline, (path) => traceOutlines(path, disc, rings));
-    },
-  };
+  return layerOf(withPlace, (pen, disc, images, map) => {
+    const rings = bentRings(points, { points: images.subarray(0, points.length), offsets }, map, disc.r);
+    const holds = holdsHidden(rings, row(images, points.length / 3), inside);
+    pen.draw(fill, (path) => traceRegions(path, disc, rings, holds));
+    if (outline !== null) pen.draw(outline, (path) => traceOutlines(path, disc, rings));
+  });
 }
 
 /** Land with its coast. */
@@ -222,8 +214,8 @@ export function planeSurface(place: (site: number) => Point, frame: Trace): Surf
 }
 
 /** Those of the sites that are seen, as dots. */
-export function drawDots(pen: Pen, surface: Surface, style: DotName, sites: readonly number[]): void {
-  pen.dots(style, sites.filter(surface.isSeen).flatMap(surface.place));
+export function drawDots(pen: Pen, surface: Surface, style: DotName, sites: Iterable<number>): void {
+  pen.dots(style, [...sites].filter(surface.isSeen).flatMap(surface.place));
 }
 
 /** Points of a great-circle side, a degree apart at the most, from its first corner on, without its last. */

@@ -6,19 +6,16 @@ import type { Messages } from "../messages.ts";
 import { counted } from "../words.ts";
 import type { Place } from "./sphere_state.ts";
 
+/** While the reader types, or at the end. */
+type When = "input" | "change";
+
 /** A field of numbers: what is typed and valid is told, and what the hand does is shown. */
 export class NumberField {
   readonly #input: HTMLInputElement;
   readonly #decimals: number;
 
-  /** @param typed gets each valid number, while the reader types or at the end; the browser keeps to `min` and `max`. */
-  constructor(
-    root: ParentNode,
-    name: string,
-    decimals: number,
-    typed: (value: number) => void,
-    when: "input" | "change" = "input",
-  ) {
+  /** @param typed gets each valid number; the browser keeps to `min` and `max`. */
+  constructor(root: ParentNode, name: string, decimals: number, typed: (value: number) => void, when: When = "input") {
     this.#input = field(root, name);
     this.#decimals = decimals;
     this.#input.addEventListener(when, () => {
@@ -37,12 +34,7 @@ export class PlaceFields {
   readonly #fields: readonly NumberField[];
 
   /** @param name Of the fields, before `-lon` and `-lat`. @param typed gets each valid place. */
-  constructor(
-    root: ParentNode,
-    name: string,
-    typed: (place: readonly [number, number]) => void,
-    when: "input" | "change" = "input",
-  ) {
+  constructor(root: ParentNode, name: string, typed: (place: Place) => void, when: When = "input") {
     const names = [`${name}-lon`, `${name}-lat`];
     const act = (): void => {
       const [lon, lat] = names.map((part) => field(root, part).valueAsNumber);
@@ -51,7 +43,7 @@ export class PlaceFields {
     this.#fields = names.map((part) => new NumberField(root, part, 1, act, when));
   }
 
-  set value(place: readonly [number, number]) {
+  set value(place: Place) {
     this.#fields.forEach((part, k) => (part.value = place[k]));
   }
 }

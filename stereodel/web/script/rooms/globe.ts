@@ -1,6 +1,7 @@
 /** The Globe room: the Earth through a fisheye, or one bubble of it sent onto another. */
 
 import { field, find, say } from "../dom.ts";
+import { regionsOf } from "../drawing/parts.ts";
 import type { Sheet } from "../drawing/pen.ts";
 import type { Reason } from "../drawing/plate.ts";
 import type { Exchange } from "../exchange.ts";
@@ -136,17 +137,13 @@ export class GlobeRoom extends TableRoom implements Room {
 
   geojson(exchange: Exchange): string | null {
     const { places } = this.scene;
-    if (places !== null) return exchange.placesGeojson(places.lonlat, this.scene.latitude);
+    if (places !== null) return exchange.geojson(regionsOf(this.scene.parts, this.isOn), this.scene.latitude);
     this.host.messages.show("", "There are no cells yet: open a file with places of your own.");
     return null;
   }
 
   python(exchange: Exchange): string {
-    return exchange.globePython(
-      this.#state,
-      this.scene,
-      this.scene.python((name) => this.switches.isOn(name)),
-    );
+    return exchange.globePython(this.#state, this.scene, this.isOn);
   }
 
   /** Unpacks what the page carries; until then the globe is water. */

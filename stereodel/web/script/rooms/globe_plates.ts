@@ -3,6 +3,7 @@
 import { arcThrough, circle, pointAt, traceCap, type Circle } from "../drawing/arcs.ts";
 import { arcLayer, circlePoints, drawLayers, graticuleArcs, placeOf, regionLayer } from "../drawing/ball.ts";
 import type { Layer } from "../drawing/ball.ts";
+import { drawParts } from "../drawing/parts.ts";
 import { cornersOf, drawHandle, traceDisc, type Disc, type Pen } from "../drawing/pen.ts";
 import { Plate, type Reason } from "../drawing/plate.ts";
 import type { LabelStyle } from "../drawing/styles.ts";
@@ -31,7 +32,7 @@ abstract class GlobePlate implements Turnable {
   constructor(canvas: HTMLCanvasElement, room: GlobeRoom) {
     this.room = room;
     const paint = (pen: Pen, isMoving: boolean): void => {
-      room.scene.draw(pen, this.disc, this.map, (name) => room.switches.isOn(name), isMoving);
+      drawParts(pen, { disc: this.disc, map: this.map, isMoving }, room.scene.parts, room.isOn);
       pen.draw("limb", (path) => traceDisc(path, this.disc));
     };
     const overlay = (pen: Pen): void => {
@@ -174,11 +175,7 @@ export class FisheyeGlobe extends GlobePlate {
     if (distance(at, placeOf(this.disc, view.seen(lens.focus))) > reach) return grabBall(this, this.motion, at);
     this.motion.stop();
     // The fisheye leaves its focus where it is: the ring is at the pointer where the view stays as it is.
-    return {
-      move: (to) => {
-        this.change({ sight: { lens: { ...lens, focus: view.onBall(this.under(to)) }, view } });
-      },
-    };
+    return { move: (to) => this.change({ sight: { lens: { ...lens, focus: view.onBall(this.under(to)) }, view } }) };
   }
 
   #pinch(middle: Place, spread: number): Pinch {

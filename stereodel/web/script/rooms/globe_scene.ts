@@ -1,18 +1,10 @@
 /** What the globes of the room show: land, graticule, circles, the reader's places, a picture of the whole sphere. */
 
 import type { Contents } from "../contents.ts";
-import {
-  arcLayer,
-  capLayer,
-  circlePoints,
-  dotLayer,
-  drawLayers,
-  graticuleArcs,
-  landLayer,
-  ridgeArcs,
-  type Layer,
-} from "../drawing/ball.ts";
-import type { Disc, Pen } from "../drawing/pen.ts";
+import * as balls from "../drawing/ball.ts";
+import type { Layer } from "../drawing/ball.ts";
+import { cellOf, type Part, type Region } from "../drawing/parts.ts";
+import type { Disc } from "../drawing/pen.ts";
 import { lonlatToXyz, SphericalVoronoi, xyzToLonlat, type Latitude, type MoebiusMap } from "../kernel/api.ts";
 import { tableLonlat } from "../kernel/coordinates.ts";
 import { lazy } from "../kernel/lazy.ts";
@@ -33,8 +25,12 @@ export const STEP = 10;
 /** Places beyond which their cells are left out while the globe moves. */
 const MANY_PLACES = 10_000;
 
-/** Whether something is drawn. */
-type IsOn = (name: "land" | "graticule" | "tissot" | "cells") => boolean;
+/** A globe; `map` takes the Earth to the axes of the view. */
+interface Ball {
+  readonly disc: Disc;
+  readonly map: MoebiusMap;
+  readonly isMoving: boolean;
+}
 
 /** The reader's own places. */
 export interface Places {
@@ -52,8 +48,8 @@ export class GlobeScene {
   picture: Painted | null = null;
   /** The place whose row the pointer or the focus is on. */
   lit: number | null = null;
-  readonly #graticule = arcLayer("graticule", graticuleArcs(STEP));
-  readonly #tissot = capLayer("tissot", equalCircles());
+  readonly #graticule = balls.arcLayer("graticule", balls.graticuleArcs(STEP));
+  readonly #tissot = balls.capLayer("tissot", equalCircles());
   #coarse: Layer | null = null;
   #fine: Layer | null = null;
   #made: Made | null = null;
@@ -62,8 +58,8 @@ export class GlobeScene {
   async load(contents: Contents): Promise<void> {
     this.latitude = await contents.latitude();
     const [coarse, fine] = await Promise.all([contents.land("110m"), contents.land("50m")]);
-    if (coarse !== null) this.#coarse = landLayer(coarse);
-    if (fine !== null) this.#fine = landLayer(fine);
+    if (coarse !== null) this.#coarse = balls.landLayer(coarse);
+    if (fine !== null) this.#fine = balls.landLayer(fine);
   }
 
   show(places: Places): void {
@@ -75,53 +71,56 @@ export class GlobeScene {
     return this.#made?.areas[place] ?? 0;
   }
 
-  /** Draws a globe; `map` takes the Earth to the axes of the view. */
-  draw(pen: Pen, disc: Disc, map: MoebiusMap, isOn: IsOn, isMoving: boolean): void {
-    pen.ball(disc, "ocean");
-    if (this.picture !== null) this.picture.draw(pen, disc, map, isMoving);
-    const layers = this.#parts(isOn, isMoving).map(([, layer]) => layer());
-    drawLayers(pen, disc, map, layers);
-    pen.shade(disc);
-  }
-
-  /** The lines of Python that draw the same. */
-  python(isOn: IsOn): string[] {
-    const raster = this.picture === null ? [] : [`globe.add_raster(${JSON.stringify(this.picture.name)})`];
-    return [...raster, ...this.#parts(isOn, false).flatMap(([, , line]) => line ?? [])];
-  }
-
-  /** What is drawn over the ground and a picture: whether it is, its layer, and its line of Python. */
-  #parts(isOn: IsOn, isMoving: boolean): readonly [boolean, () => Layer | null, string?][] {
-    const { places, lit, latitude } = this;
-    const hasPlaces = places !== null;
-    const hasLand = isOn("land") && this.picture === null;
-    const isMuch = isMoving && hasPlaces && places.lonlat.length > 2 * MANY_PLACES;
+  get parts(): Part<Ball>[] {
+    const { picture, places, lit, latitude } = this;
+    const lonlat = places?.lonlat ?? new Float64Array(0);
+    const [hasPicture, hasPlaces] = [picture !== null, places !== null];
     const kind = latitude === "spherical" ? "" : `, latitude="${latitude}"`;
-    const held = (): Layer => dotLayer("held", lonlatToXyz(places!.lonlat.subarray(2 * lit!, 2 * lit! + 2)));
-    const parts: [boolean, () => Layer | null, string?][] = [
-      [hasLand, () => (isMoving ? this.#coarse : (this.#fine ?? this.#coarse)), 'globe.add_land(resolution="50m")'],
-      [isOn("graticule"), () => this.#graticule, `globe.add_graticule(${STEP}.0)`],
-      [hasLand, () => null, 'globe.add_coastlines(resolution="50m")'], // which the page draws with the land
-      [isOn("tissot"), () => this.#tissot, `globe.add_tissot(${STEP}.0, ${CIRCLE_RADIUS.toFixed(4)})`],
-      [hasPlaces, () => null, `places = read_points(${JSON.stringify(places?.name)}).lonlat`],
-      [
-        hasPlaces && isOn("cells"),
-        () => (isMuch ? null : this.#made!.cells),
-        `globe.add_cells(SphericalVoronoi.from_lonlat(places${kind}))`,
-      ],
-      [hasPlaces, () => this.#made!.dots, "globe.add_points(places)"],
-      [hasPlaces && lit !== null, held],
+    const drawn = (layer: (isMoving: boolean) => Layer | null): Pick<Part<Ball>, "draw"> => ({
+      draw: (pen, { disc, map, isMoving }) => balls.drawLayers(pen, disc, map, [layer(isMoving)]),
+    });
+    const land = drawn((isMoving) => (isMoving ? this.#coarse : (this.#fine ?? this.#coarse)));
+    const held = drawn(() => balls.dotLayer("held", lonlatToXyz(lonlat.subarray(2 * lit!, 2 * lit! + 2))));
+    const isMuch = lonlat.length > 2 * MANY_PLACES;
+    return [
+      { draw: (pen, { disc }) => pen.ball(disc, "ocean") },
+      {
+        isThere: hasPicture,
+        draw: (pen, { disc, map, isMoving }) => picture!.draw(pen, disc, map, isMoving),
+        python: { globe: `globe.add_raster(${JSON.stringify(picture?.name)})` },
+      },
+      { layer: "land", isThere: !hasPicture, ...land, python: { globe: 'globe.add_land(resolution="50m")' } },
+      { layer: "graticule", ...drawn(() => this.#graticule), python: { globe: `globe.add_graticule(${STEP}.0)` } },
+      // The page draws coasts with the land.
+      { layer: "land", isThere: !hasPicture, python: { globe: 'globe.add_coastlines(resolution="50m")' } },
+      {
+        layer: "tissot",
+        ...drawn(() => this.#tissot),
+        python: { globe: `globe.add_tissot(${STEP}.0, ${CIRCLE_RADIUS.toFixed(4)})` },
+      },
+      { isThere: hasPlaces, python: { globe: `places = read_points(${JSON.stringify(places?.name)}).lonlat` } },
+      {
+        layer: "cells",
+        isThere: hasPlaces,
+        always: ["geojson"], // the data of the places, whatever is drawn of it
+        ...drawn((isMoving) => (isMoving && isMuch ? null : this.#made!.cells)),
+        python: { globe: `globe.add_cells(SphericalVoronoi.from_lonlat(places${kind}))` },
+        regions: () => this.#made?.regions ?? [],
+      },
+      { isThere: hasPlaces, ...drawn(() => this.#made!.dots), python: { globe: "globe.add_points(places)" } },
+      { isThere: hasPlaces && lit !== null, ...held },
+      { draw: (pen, { disc }) => pen.shade(disc) },
     ];
-    return parts.filter(([isThere]) => isThere);
   }
 }
 
-/** What is made of places when it is first asked for: their dots, the sides and the areas of their cells. */
+/** What is made of places when it is first asked for: their dots, their cells, the areas of these. */
 interface Made {
   readonly dots: Layer;
   readonly voronoi: SphericalVoronoi;
   readonly cells: Layer;
   readonly areas: Float64Array;
+  readonly regions: readonly Region[];
 }
 
 function madeOf({ lonlat }: Places, latitude: Latitude): Made {
@@ -129,10 +128,15 @@ function madeOf({ lonlat }: Places, latitude: Latitude): Made {
   const drawn = (xyz: Float64Array): Float64Array =>
     latitude === "spherical" ? xyz : lonlatToXyz(tableLonlat(xyzToLonlat(xyz), latitude));
   const made: Made = lazy({
-    dots: () => dotLayer("site", lonlatToXyz(lonlat)),
+    dots: () => balls.dotLayer("site", lonlatToXyz(lonlat)),
     voronoi: () => SphericalVoronoi.fromLonlat(lonlat, latitude),
-    cells: () => arcLayer("voronoi", drawn(ridgeArcs(made.voronoi))),
+    cells: () => balls.arcLayer("voronoi", drawn(balls.ridgeArcs(made.voronoi))),
     areas: () => made.voronoi.areas(OF_EQUAL_AREA),
+    regions: () =>
+      Array.from({ length: lonlat.length / 2 }, (_, site) => {
+        const [longitude, latitude] = lonlat.subarray(2 * site, 2 * site + 2);
+        return cellOf(made.voronoi, site, { site: site + 1, longitude, latitude });
+      }).flat(),
   });
   return made;
 }
@@ -143,7 +147,8 @@ function equalCircles(): Float64Array {
   for (let lat = -90; lat <= 90; lat += STEP) {
     const count = Math.max(1, Math.round((360 / STEP) * Math.cos((lat * Math.PI) / 180)));
     for (let k = 0; k < count; ++k) {
-      for (const point of circlePoints(directionOf((360 * k) / count - 180, lat), CIRCLE_RADIUS)) points.push(...point);
+      for (const point of balls.circlePoints(directionOf((360 * k) / count - 180, lat), CIRCLE_RADIUS))
+        points.push(...point);
     }
   }
   return Float64Array.from(points);

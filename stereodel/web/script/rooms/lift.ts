@@ -48,7 +48,7 @@ class LiftRoom extends SiteRoom implements Room {
 
   override attach(section: HTMLElement): void {
     super.attach(section);
-    const paint = (pen: Pen, moving: boolean): void => this.#picture(moving, pen.width, pen.height).draw(pen, moving);
+    const paint = (pen: Pen, moving: boolean): void => this.#picture(moving, pen.width, pen.height).draw(pen);
     this.#plate = new Plate(find(section, "#lift-plate"), paint, this.host.guarded);
     const number = (name: string, typed: (value: number) => void): NumberField =>
       new NumberField(section, name, 0, typed);
@@ -119,7 +119,7 @@ class LiftRoom extends SiteRoom implements Room {
     const { height, side } = this.#state;
     const isOn = this.shown(isMoving, MANY);
     const view = View.above(side - 90, height);
-    return { sites: this.#sites, sheet: this.#bent, view, height, isOn, ...this.#pair, lit: this.lit };
+    return { sites: this.#sites, sheet: this.#bent, view, height, isOn, isMoving, ...this.#pair, lit: this.lit };
   }
 
   #picture(isMoving = false, width = this.#plate.width, height = this.#plate.height): LiftPicture {
@@ -329,7 +329,8 @@ class LiftRoom extends SiteRoom implements Room {
 
   python(exchange: Exchange): string {
     const { set, file } = this.named;
-    return exchange.liftPython(this.#scene(false), this.#state.side, file, SHEET_SIDES[set]);
+    const scene = this.#scene(false);
+    return exchange.liftPython(scene, LiftPicture.parts(scene), this.#state.side, file, SHEET_SIDES[set]);
   }
 }
 

@@ -2,6 +2,7 @@
 
 import { traceArc, traceRegions, type Side } from "../drawing/arcs.ts";
 import { ballSurface, drawDots, planeSurface, traceGreat, type Surface } from "../drawing/ball.ts";
+import { drawParts, type IsOn, type Part } from "../drawing/parts.ts";
 import { cornersOf, traceCorners, traceDisc, traceSegment } from "../drawing/pen.ts";
 import type { Disc, Path, Pen, Point } from "../drawing/pen.ts";
 import type { LabelStyle } from "../drawing/styles.ts";
@@ -16,7 +17,8 @@ export interface LiftScene {
   readonly view: View;
   /** Height of the view above the sheet, degrees: it says how large the picture can be. */
   readonly height: number;
-  readonly isOn: (name: string) => boolean;
+  readonly isOn: IsOn;
+  readonly isMoving: boolean;
   readonly p: number | null;
   readonly q: number | null;
   /** A site that the table points at. */
@@ -80,54 +82,82 @@ export class LiftPicture {
     return this.#flat(this.#scene.sites.place(site));
   }
 
-  #flat(at: Point): Point {
-    return this.place(this.#scene.sheet.flat(...at));
-  }
+  readonly #flat = (at: Point): Point => this.place(this.#scene.sheet.flat(...at));
 
   /** The plane's rectangle. */
-  readonly #plane = (path: Path): void =>
-    traceCorners(
-      path,
-      this.#corners.map((at) => this.#flat(at)),
-    );
+  readonly #plane = (path: Path): void => traceCorners(path, this.#corners.map(this.#flat));
 
-  draw(pen: Pen, isMoving: boolean): void {
-    const [disc, surface] = [this.#disc, this.surface];
-    const { sites, sheet, isOn } = this.#scene;
+  draw(pen: Pen): void {
+    drawParts(pen, this, LiftPicture.parts(this.#scene), this.#scene.isOn);
+  }
+
+  static parts({ sites, sheet, isOn, isMoving, p, q, lit }: LiftScene): Part<LiftPicture>[] {
     const { isFlat, corner } = sheet;
-    const { edges } = sites.delaunay;
-    const border = isFlat ? [] : this.#border();
-    const bent = (path: Path): void => traceRegions(path, disc, ringOf(border), this.#holds([0, 0, -1]));
-    const region = isFlat ? this.#plane : bent;
-    const drawEdges = (side?: Side): void =>
-      pen.draw("delaunay", (path) => {
-        for (let k = 0; k < edges.length; k += 2) surface.line(path, edges[k], edges[k + 1], side);
-      });
-    if (!isFlat && corner >= BALL_FROM) pen.ball(disc, "ball");
-    if (!isFlat && corner >= OUTLINE_FROM) pen.draw("limb-soft", (path) => traceDisc(path, disc));
-    if (isFlat) pen.draw("sheet", region);
-    if (isOn("seeing")) this.#drawSeeing(pen);
-    if (!isFlat) {
-      // Seen from behind the ball is its mirror image: rings run the other way.
-      const mirrored = ringOf(border.map(([x, y, z]): Vector => [x, y, -z]).reverse());
-      pen.behind(() => pen.draw("sheet", (path) => traceRegions(path, disc, mirrored, this.#holds([0, 0, 1]))));
-      pen.draw("sheet", region);
-      pen.behind(() => {
-        pen.draw("side", (path) => this.#traceBorder(path, "back"));
-        if (isOn("triangles") && !isMoving) drawEdges("back");
-      });
-    }
-    if (isOn("triangles")) drawEdges();
-    if (isOn("cells")) pen.clipped(region, () => pen.draw("voronoi", (path) => this.#traceRidges(path)));
-    pen.draw("side", isFlat ? region : (path) => this.#traceBorder(path, "front"));
-    drawDots(
-      pen,
-      surface,
-      "site",
-      Array.from({ length: sites.count }, (_, k) => k),
-    );
-    if (!isFlat) pen.draw("sheet-plane", this.#plane);
-    this.#drawPair(pen);
+    const isBent = !isFlat;
+    const letters = [p, q].map((site, k): Part<LiftPicture>[] => [
+      { layer: "rays", isThere: isBent && site !== null, draw: (pen, on) => on.#drawRay(pen, site!) },
+      { isThere: site !== null, draw: (pen, on) => on.#drawLetter(pen, site!, "PQ"[k]) },
+    ]);
+    return [
+      { isThere: isBent && corner >= BALL_FROM, draw: (pen, on) => pen.ball(on.#disc, "ball") },
+      { isThere: isBent && corner >= OUTLINE_FROM, draw: (pen, on) => pen.draw("limb-soft", on.#limb) },
+      {
+        isThere: isFlat,
+        draw: (pen, on) => pen.draw("sheet", on.#region),
+        python: { sheet: 'diagram_page(sheet).save("sheet.svg")' }, // with all that lies on it
+      },
+      { layer: "seeing", draw: (pen, on) => on.#drawSeeing(pen) },
+      { isThere: isBent, draw: (pen, on) => on.#drawBehind(pen, isOn("triangles") && !isMoving) },
+      {
+        layer: "triangles",
+        always: ["python"], // the lines are of the sites, whatever is drawn of them
+        draw: (pen, on) => on.#drawEdges(pen),
+        python: { ball: 'ball.add_edges(xyz, sheet.edges, name="delaunay")' },
+      },
+      { layer: "cells", draw: (pen, on) => pen.clipped(on.#region, () => pen.draw("voronoi", on.#ridges)) },
+      { draw: (pen, on) => pen.draw("side", isFlat ? on.#region : (path) => on.#traceBorder(path, "front")) },
+      {
+        draw: (pen, on) => drawDots(pen, on.surface, "site", Array(sites.count).keys()),
+        python: { ball: 'ball.add_points(xyz, name="sites")' },
+      },
+      { isThere: isBent, draw: (pen, on) => on.#drawPlane(pen) },
+      {
+        isThere: p !== null && q !== null,
+        draw: (pen, on) => p !== q && pen.draw("span", (path) => on.#traceSpan(path, p!, q!)),
+        python: { pair: `print(angular_distance(xyz[${p}], xyz[${q}]))` },
+      },
+      ...letters.flat(),
+      { isThere: isBent, draw: (pen, on) => on.#drawPole(pen) },
+      { isThere: lit !== null && lit < sites.count, draw: (pen, on) => pen.dots("held", on.surface.place(lit!)) },
+    ];
+  }
+
+  readonly #limb = (path: Path): void => traceDisc(path, this.#disc);
+
+  /** The sheet on the ball, or the plane's rectangle. */
+  readonly #region = (path: Path): void => {
+    if (this.#scene.sheet.isFlat) this.#plane(path);
+    else traceRegions(path, this.#disc, ringOf(this.#border()), this.#holds([0, 0, -1]));
+  };
+
+  #drawEdges(pen: Pen, side?: Side): void {
+    const { edges } = this.#scene.sites.delaunay;
+    pen.draw("delaunay", (path) => {
+      for (let k = 0; k < edges.length; k += 2) this.surface.line(path, edges[k], edges[k + 1], side);
+    });
+  }
+
+  /** The bent sheet and what is faint of it, with the far side of its triangles. */
+  #drawBehind(pen: Pen, hasTriangles: boolean): void {
+    // Seen from behind the ball is its mirror image: rings run the other way.
+    const border = this.#border().map(([x, y, z]): Vector => [x, y, -z]);
+    const mirrored = ringOf(border.reverse());
+    pen.behind(() => pen.draw("sheet", (path) => traceRegions(path, this.#disc, mirrored, this.#holds([0, 0, 1]))));
+    pen.draw("sheet", this.#region);
+    pen.behind(() => {
+      pen.draw("side", (path) => this.#traceBorder(path, "back"));
+      if (hasTriangles) this.#drawEdges(pen, "back");
+    });
   }
 
   /** The facets that see the pole: hatched, with their edges. */
@@ -147,42 +177,45 @@ export class LiftPicture {
     });
   }
 
-  /** P and Q: their rays, the arc between them, their places in the plane, and the pole. */
-  #drawPair(pen: Pen): void {
-    const { sites, sheet, isOn, p, q, lit } = this.#scene;
-    const [surface, isBent] = [this.surface, !sheet.isFlat];
-    if (isBent) {
-      const [x, y] = this.#contact;
-      pen.draw("touch", (path) => {
-        traceSegment(path, [x - 4.5, y], [x + 4.5, y]);
-        traceSegment(path, [x, y - 3.5], [x, y + 3.5]);
-      });
-    }
-    if (p !== null && q !== null && p !== q) {
-      pen.draw("span", (path) => {
-        for (const side of isBent ? (["front", "back"] as const) : (["front"] as const)) surface.line(path, p, q, side);
-      });
-    }
-    const pole = isBent ? this.place(sheet.pole) : null;
-    const poleIsSeen = pole !== null && pole[1] < pen.height - 20;
-    for (const [site, name] of [
-      [p, "P"],
-      [q, "Q"],
-    ] as const) {
-      if (site === null) continue;
-      const [above, image] = [this.above(site), surface.place(site)];
-      if (isBent) {
-        if (isOn("rays")) pen.draw("ray", (path) => traceSegment(path, poleIsSeen ? pole : image, above));
-        pen.dots("shadow", above);
-      }
-      pen.dots("held", image);
-      pen.label(name, above[0], above[1] - 9, LETTER);
-    }
-    if (poleIsSeen) {
-      pen.dots("pole", pole);
-      pen.label("pole", pole[0] + 7, pole[1] + 6, WORD);
-    }
-    if (lit !== null && lit < sites.count) pen.dots("held", surface.place(lit));
+  /** The plane over the bent sheet, and the point of contact. */
+  #drawPlane(pen: Pen): void {
+    const [x, y] = this.#contact;
+    pen.draw("sheet-plane", this.#plane);
+    pen.draw("touch", (path) => {
+      traceSegment(path, [x - 4.5, y], [x + 4.5, y]);
+      traceSegment(path, [x, y - 3.5], [x, y + 3.5]);
+    });
+  }
+
+  #traceSpan(path: Path, p: number, q: number): void {
+    this.surface.line(path, p, q);
+    if (!this.#scene.sheet.isFlat) this.surface.line(path, p, q, "back");
+  }
+
+  /** From the pole, or where that is out of sight from a site's image, to its place in the plane. */
+  #drawRay(pen: Pen, site: number): void {
+    const from = this.#seenPole(pen) ?? this.surface.place(site);
+    pen.draw("ray", (path) => traceSegment(path, from, this.above(site)));
+  }
+
+  /** P or Q, and its place in the plane. */
+  #drawLetter(pen: Pen, site: number, letter: string): void {
+    const above = this.above(site);
+    if (!this.#scene.sheet.isFlat) pen.dots("shadow", above);
+    pen.dots("held", this.surface.place(site));
+    pen.label(letter, above[0], above[1] - 9, LETTER);
+  }
+
+  #drawPole(pen: Pen): void {
+    const pole = this.#seenPole(pen);
+    if (pole === null) return;
+    pen.dots("pole", pole);
+    pen.label("pole", pole[0] + 7, pole[1] + 6, WORD);
+  }
+
+  #seenPole(pen: Pen): Point | null {
+    const pole = this.place(this.#scene.sheet.pole);
+    return pole[1] < pen.height - 20 ? pole : null;
   }
 
   /** A place of the bent sheet, axes of the view. */
@@ -228,7 +261,7 @@ export class LiftPicture {
   }
 
   /** Sides of the cells; on the ball from the centre of a facet's circle to those of the facets across its edges. */
-  #traceRidges(path: Path): void {
+  readonly #ridges = (path: Path): void => {
     const { sites, sheet } = this.#scene;
     if (sheet.isFlat) {
       for (const [a, b] of sites.ridges) traceSegment(path, this.#flat(a), this.#flat(b));
@@ -244,7 +277,7 @@ export class LiftPicture {
       if (beyond === undefined) centers.set(`${from} ${to}`, center);
       else traceGreat(path, this.#disc, center, beyond);
     });
-  }
+  };
 }
 
 function ringOf(points: readonly Vector[]): { points: Float64Array; offsets: number[] } {

@@ -1,11 +1,12 @@
 /** The Python lines that make the picture of a room. */
 
+import { linesOf, type IsOn, type Part } from "../drawing/parts.ts";
 import { writeNumber } from "../link.ts";
 import { lonLatOf, type Vector } from "../space.ts";
 import type { GlobeScene } from "./globe_scene.ts";
 import type { GlobeState } from "./globe_state.ts";
 import type { LiftScene } from "./lift_drawing.ts";
-import type { SphereSites } from "./sphere_sites.ts";
+import type { SphereScene } from "./sphere_drawing.ts";
 import type { SphereState } from "./sphere_state.ts";
 
 /** Sites beyond which the lines name a file in place of the places. */
@@ -13,10 +14,10 @@ const MOST_WRITTEN = 200;
 
 /** Lines that draw the ball and the plane into two files. @param file Of the sites, if they are of one. */
 export function spherePython(
-  sites: SphereSites,
+  { sites, isOn }: SphereScene,
+  parts: readonly Part<never>[],
+  { pole, view }: SphereState,
   file: string | null,
-  { pole, view, aim }: SphereState,
-  hasBubble: boolean,
 ): string {
   const tangent = [pole[0] > 0 ? pole[0] - 180 : pole[0] + 180, -pole[1]] as const;
   const isRead = file !== null || sites.count > MOST_WRITTEN;
@@ -26,19 +27,14 @@ export function spherePython(
     "from stereodel.drawing import Scene, Sketch, View",
     isRead && "from stereodel.io import read_points",
     "from stereodel.sphere import SphereCircle",
-    "from stereodel.triangulation.theorem import planar_part",
+    "from stereodel.triangulation import planar_part",
     "",
     `lonlat = ${isRead ? `read_points(${quoted(file)}).lonlat` : written(sites.lonlat)}`,
     "delaunay = SphericalDelaunay.from_lonlat(lonlat)",
     "voronoi = SphericalVoronoi(delaunay)",
     "",
     "ball = Scene()",
-    'ball.add_edges(delaunay.points, delaunay.edges, name="delaunay")',
-    'ball.add_arcs(voronoi.ridge_arcs(), name="voronoi")',
-    hasBubble && `triangle = delaunay.simplices[delaunay.find_simplex(lonlat_to_xyz((${numbers(lonLatOf(aim))})))]`,
-    hasBubble && "bubble = SphereCircle.through(*delaunay.points[triangle])",
-    hasBubble && 'ball.add_circles([bubble], name="accent2")',
-    'ball.add_points(delaunay.points, name="sites")',
+    ...linesOf(parts, isOn, "ball"),
     `ball.page(View(${numbers(view)}), width=340).save("ball.svg")`,
     "",
     `pole = lonlat_to_xyz((${numbers(pole)}))`,
@@ -46,8 +42,7 @@ export function spherePython(
     "triangles = planar_part(delaunay, pole)",
     "edges = np.unique(np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)), axis=0)",
     "plane = Sketch()",
-    'plane.add_edges(flat, edges, name="delaunay")',
-    'plane.add_points(flat, name="sites")',
+    ...linesOf(parts, isOn, "plane"),
     "size = 1.07 * np.abs(flat).max()",
     'plane.page((-size, size, -size, size)).save("plane.svg")',
   );
@@ -55,7 +50,8 @@ export function spherePython(
 
 /** Lines that draw the sheet or the ball. @param sides Of the rectangle, where it is not the smallest one. */
 export function liftPython(
-  { sites, sheet, height, p, q }: LiftScene,
+  { sites, sheet, height, isOn }: LiftScene,
+  parts: readonly Part<never>[],
   side: number,
   file: string | null,
   sides?: readonly [number, number],
@@ -66,10 +62,9 @@ export function liftPython(
     "xyz = sphere.inverse(points - lift.center)[:, [1, 0, 2]] * [1, 1, -1]  # the point of contact on top",
     "",
     "ball = Scene()",
-    'ball.add_edges(xyz, sheet.edges, name="delaunay")',
-    'ball.add_points(xyz, name="sites")',
+    ...linesOf(parts, isOn, "ball"),
     `ball.page(View(${side - 90}, ${height}), width=340).save("lift.svg")`,
-    p !== null && q !== null && `print(angular_distance(xyz[${p}], xyz[${q}]))`,
+    ...linesOf(parts, isOn, "pair"),
   ];
   return text(
     "import numpy as np",
@@ -81,12 +76,13 @@ export function liftPython(
       : `points = ${written(sites.places)}`,
     `lift = ${sides === undefined ? "RectangleLift.fit(points)" : `RectangleLift(${sides.join(", ")})`}`,
     "sheet = PlanarDelaunay(points)",
-    ...(sheet.isFlat ? ['diagram_page(sheet).save("sheet.svg")'] : ball),
+    ...linesOf(parts, isOn, "sheet"),
+    ...(sheet.isFlat ? [] : ball),
   );
 }
 
-/** Lines that draw the globe. @param drawn Those of what is drawn on it. */
-export function globePython(state: GlobeState, { places, latitude }: GlobeScene, drawn: readonly string[]): string {
+/** Lines that draw the globe. */
+export function globePython(state: GlobeState, { places, latitude, parts }: GlobeScene, isOn: IsOn): string {
   const { from, to } = state;
   const { focus, magnification } = state.sight.lens;
   const isBubble = state.lens === "bubble";
@@ -106,7 +102,7 @@ export function globePython(state: GlobeState, { places, latitude }: GlobeScene,
       ? "lens = bubble_to_bubble(taken, filled)"
       : `lens = fisheye(${at(focus)}, magnification=${float(magnification)})`,
     `globe = Globe(${places === null || latitude === "spherical" ? "" : `latitude="${latitude}"`})`,
-    ...drawn,
+    ...linesOf(parts, isOn, "globe"),
     `globe.save("globe.svg", lens, View(${[...middle, ...(roll === "0.0" ? [] : [roll])].join(", ")}))`,
   );
 }

@@ -1,6 +1,7 @@
 /** What rooms have in common: switches and a table; those of sites a list of sets, and what a link calls the sites. */
 
 import { find } from "../dom.ts";
+import type { IsOn, Switch } from "../drawing/parts.ts";
 import type { Exchange } from "../exchange.ts";
 import { MOST_SITES, packPlaces, type LinkValues } from "../link.ts";
 import type { RoomHost } from "../room.ts";
@@ -37,7 +38,7 @@ export function heldValues(places: Float64Array, file: string, words = {}): Reco
   return places.length <= 2 * MOST_SITES ? { sites: packPlaces(places), ...words } : { file };
 }
 
-/** Sites from which on nothing but dots is drawn while something moves. */
+/** Sites from which on nothing but dots and the bubble is drawn while something moves. */
 const VERY_MANY = 100_000;
 
 export abstract class TableRoom {
@@ -45,6 +46,7 @@ export abstract class TableRoom {
   protected section!: HTMLElement;
   protected table!: SiteTable;
   switches!: Switches;
+  readonly isOn: IsOn = (name) => this.switches.isOn(name);
 
   constructor(host: RoomHost) {
     this.host = host;
@@ -136,10 +138,11 @@ export abstract class SiteRoom extends TableRoom {
     tellNamed(this.host.messages, values, "file");
   }
 
-  /** Whether something is drawn. @param most Sites beyond which cells are left out while the picture moves. */
-  protected shown(isMoving: boolean, most: number): (name: string) => boolean {
+  /** Whether something is drawn. @param cells Sites beyond which cells are left out while the picture moves. */
+  protected shown(isMoving: boolean, cells: number): IsOn {
     const count = this.named.places.length / 2;
-    return (name) => this.switches.isOn(name) && !(isMoving && count > (name === "cells" ? most : VERY_MANY));
+    const most: Partial<Record<Switch, number>> = { cells, bubble: Infinity };
+    return (name) => this.isOn(name) && !(isMoving && count > (most[name] ?? VERY_MANY));
   }
 
   /** Shows what the sites are called, how many there are, and the table. */

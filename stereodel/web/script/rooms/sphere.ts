@@ -3,6 +3,7 @@
 import type { Given } from "../contents.ts";
 import { find, say } from "../dom.ts";
 import { placeOf } from "../drawing/ball.ts";
+import { regionsOf } from "../drawing/parts.ts";
 import type { Pen, Sheet } from "../drawing/pen.ts";
 import { Plate, type Reason } from "../drawing/plate.ts";
 import type { Exchange } from "../exchange.ts";
@@ -17,7 +18,7 @@ import { pointUnder, View } from "../view/view.ts";
 import { counted, latitude, longitude, ofFacets, wrap } from "../words.ts";
 import { Choice, PlaceFields, siteForm, stepControl } from "./controls.ts";
 import { edited, SiteRoom, type NamedSites } from "./site_room.ts";
-import { ballLayers, drawBall, drawPlane, type SphereScene, type Step } from "./sphere_drawing.ts";
+import { ballLayers, drawBall, drawPlane, sphereParts, type SphereScene, type Step } from "./sphere_drawing.ts";
 import { ofBubble, ofDuplicates, ofSite, ofStep, SphereSites, withoutTriangles, type Bubble } from "./sphere_sites.ts";
 import { directionAt, fromValues, handPlace, toValues, VIEW, viewPlace } from "./sphere_state.ts";
 import type { Click, Place, SphereState } from "./sphere_state.ts";
@@ -203,6 +204,7 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
       seeing: this.#seeing,
       isOn: this.shown(isMoving, MANY),
       bubble: this.#bubble,
+      aim: this.#state.aim,
       held: [this.#held, this.lit].filter((site) => site !== null && site < this.#sites.count) as number[],
       step: this.#step,
     };
@@ -520,11 +522,12 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
   }
 
   geojson(exchange: Exchange): string {
-    return exchange.sitesGeojson(this.#sites);
+    return exchange.geojson(regionsOf(sphereParts(this.#scene(false)), this.isOn));
   }
 
   python(exchange: Exchange): string {
-    return exchange.spherePython(this.#sites, this.named.file, this.#state, this.#bubble !== null);
+    const scene = this.#scene(false);
+    return exchange.spherePython(scene, sphereParts(scene), this.#state, this.named.file);
   }
 }
 

@@ -1,25 +1,16 @@
 /** The two pictures of the Sphere room: the ball, and the plane that its sites are projected to. */
 
 import { circle, traceCap, traceCircle } from "../drawing/arcs.ts";
-import {
-  arcLayer,
-  ballSurface,
-  dotLayer,
-  drawDots,
-  drawLayers,
-  edgeArcs,
-  placeOf,
-  planeSurface,
-  ridgeArcs,
-  type Layer,
-  type Surface,
-} from "../drawing/ball.ts";
+import * as balls from "../drawing/ball.ts";
+import type { Layer, Surface } from "../drawing/ball.ts";
+import { drawParts, type IsOn, type Part } from "../drawing/parts.ts";
 import { cornersOf, drawHandle, traceCorners, traceDisc, traceSegment } from "../drawing/pen.ts";
 import type { Disc, Path, Pen, Point } from "../drawing/pen.ts";
 import type { LabelStyle } from "../drawing/styles.ts";
 import { MoebiusMap } from "../kernel/api.ts";
 import { lazy } from "../kernel/lazy.ts";
-import { cross, dot, type Vector } from "../space.ts";
+import { writeNumber } from "../link.ts";
+import { cross, dot, lonLatOf, type Vector } from "../space.ts";
 import type { View } from "../view/view.ts";
 import type { Bubble, Insertion, SphereSites } from "./sphere_sites.ts";
 import type { PlaneFrame, Twin } from "./twin.ts";
@@ -40,8 +31,10 @@ export interface SphereScene {
   readonly twin: Twin;
   /** One byte a facet: 1 where it sees the pole. */
   readonly seeing: Uint8Array;
-  readonly isOn: (name: string) => boolean;
+  readonly isOn: IsOn;
   readonly bubble: Bubble | null;
+  /** Where the pointer was last. */
+  readonly aim: Vector;
   /** Sites that are held besides those of the bubble. */
   readonly held: readonly number[];
   /** The step of the insertion that is looked at; "done" for the picture of all sites. */
@@ -64,16 +57,18 @@ export type BallLayers = Readonly<Record<"edges" | "ridges" | "dots", Layer>>;
 
 export function ballLayers(sites: SphereSites): BallLayers {
   return lazy({
-    edges: () => arcLayer("delaunay", edgeArcs(sites.delaunay)),
-    ridges: () => arcLayer("voronoi", ridgeArcs(sites.voronoi)),
-    dots: () => dotLayer("site", sites.xyz),
+    edges: () => balls.arcLayer("delaunay", balls.edgeArcs(sites.delaunay)),
+    ridges: () => balls.arcLayer("voronoi", balls.ridgeArcs(sites.voronoi)),
+    dots: () => balls.dotLayer("site", sites.xyz),
   });
 }
 
-/** What the pictures of all sites draw each in its own way. */
-interface Own {
+/** The ball or the plane: a surface, and what is drawn on it in its own way. */
+interface Picture extends Surface {
+  readonly isPlane: boolean;
+  readonly label: LabelStyle;
   /** The region of the facets that see the pole, with the outline on whose left they are. */
-  hatch(path: Path, outline: number[]): void;
+  hatch(outline: readonly number[]): void;
   closing?(): void;
   triangles(): void;
   cells(): void;
@@ -81,156 +76,197 @@ interface Own {
   dots(): void;
   /** The side of its dot on which the number of a bubble's site stands, y up; null where it is left out. */
   side(bubble: Bubble, site: number): Point | null;
+  /** The facets that see the new site of a step, or those of its fan. */
+  opening(path: Path, insertion: Insertion, isThere: (k: number) => boolean): void;
+}
+
+/** What both pictures show. Python and GeoJSON have the diagram of all sites, whatever is drawn of it, at any step. */
+export function sphereParts({ sites, seeing, bubble, aim, held, step }: SphereScene): Part<Picture>[] {
+  const isThere = step === "done";
+  const outline = sites.outline(seeing);
+  const isAimed = isThere && bubble !== null;
+  const place = lonLatOf(aim).map((degrees) => writeNumber(degrees, 4));
+  return [
+    { layer: "seeing", isThere: isThere && outline.length > 0, draw: (_, on) => on.hatch(outline) },
+    { layer: "closing", isThere: isThere && sites.hasClosing, draw: (_, on) => on.closing?.() },
+    {
+      layer: "triangles",
+      isThere,
+      always: ["python", "geojson"],
+      draw: (_, on) => on.triangles(),
+      python: {
+        ball: 'ball.add_edges(delaunay.points, delaunay.edges, name="delaunay")',
+        plane: 'plane.add_edges(flat, edges, name="delaunay")',
+      },
+      regions: () => sites.triangles(),
+    },
+    {
+      layer: "cells",
+      isThere,
+      always: ["python", "geojson"],
+      draw: (_, on) => on.cells(),
+      python: { ball: 'ball.add_arcs(voronoi.ridge_arcs(), name="voronoi")' },
+      regions: () => sites.cells(),
+    },
+    { layer: "seeing", isThere, draw: (pen, on) => pen.draw("hull", (path) => on.ring(path, outline)) },
+    {
+      layer: "bubble",
+      isThere: isAimed,
+      draw: (_, on) => on.bubble(bubble!),
+      python: {
+        ball: [
+          `triangle = delaunay.simplices[delaunay.find_simplex(lonlat_to_xyz((${place.join(", ")})))]`,
+          "bubble = SphereCircle.through(*delaunay.points[triangle])",
+          'ball.add_circles([bubble], name="accent2")',
+        ],
+      },
+    },
+    {
+      isThere,
+      always: ["python"],
+      draw: (_, on) => on.dots(),
+      python: { ball: 'ball.add_points(delaunay.points, name="sites")', plane: 'plane.add_points(flat, name="sites")' },
+    },
+    { isThere, draw: (pen, on) => balls.drawDots(pen, on, "held", [...(bubble?.sites ?? []), ...held]) },
+    { layer: "bubble", isThere: isAimed, draw: (pen, on) => drawNumbers(pen, on, bubble!) },
+    { isThere: !isThere, draw: (pen, on) => drawStep(pen, on, step as Step) },
+  ];
 }
 
 /** Draws the ball into a disc. */
 export function drawBall(pen: Pen, disc: Disc, scene: SphereScene): void {
-  const { sites, layers, view, seeing, step } = scene;
+  const { sites, layers, view, seeing } = scene;
   const look = (k: number): Vector => view.seen(sites.site(k));
-  const surface = ballSurface(disc, look);
+  const surface = balls.ballSurface(disc, look);
   const map = MoebiusMap.rotation(view.rotation);
   const hidden = view.onBall([0, 0, -1]);
+  const ball: Picture = {
+    ...surface,
+    isPlane: false,
+    label: BALL_LABEL,
+    hatch(outline) {
+      pen.draw("hatch", (path) => surface.region(path, outline, sites.regionHolds(seeing, hidden)));
+    },
+    closing() {
+      const isHeld = sites.facetAt(hidden) === null;
+      pen.draw("closing", (path) => surface.region(path, sites.closingOutline, isHeld));
+    },
+    triangles: () => balls.drawLayers(pen, disc, map, [layers.edges]),
+    cells: () => balls.drawLayers(pen, disc, map, [layers.ridges]),
+    bubble(bubble) {
+      const rim = circle(view.seen(bubble.center), bubble.cosine);
+      pen.draw("seen", (path) => traceCap(path, disc, rim));
+      pen.draw("bubble-open", (path) => traceCircle(path, disc, rim));
+      pen.draw("triangle", (path) => surface.ring(path, bubble.sites));
+    },
+    dots: () => balls.drawLayers(pen, disc, map, [layers.dots]),
+    side(bubble, site) {
+      const [point, middle] = [look(site), view.seen(bubble.center)];
+      return point[2] >= LEAST_HEIGHT ? [point[0] - middle[0], point[1] - middle[1]] : null;
+    },
+    opening: (path, step) => surface.region(path, step.outline, holdsDirection(step, sites, hidden)),
+  };
   pen.ball(disc, "ball");
-  if (step === "done") {
-    drawWhole(pen, surface, scene, BALL_LABEL, {
-      hatch: (path, outline) => surface.region(path, outline, sites.regionHolds(seeing, hidden)),
-      closing() {
-        const isHeld = sites.facetAt(hidden) === null;
-        pen.draw("closing", (path) => surface.region(path, sites.closingOutline, isHeld));
-      },
-      triangles: () => drawLayers(pen, disc, map, [layers.edges]),
-      cells: () => drawLayers(pen, disc, map, [layers.ridges]),
-      bubble(bubble) {
-        const rim = circle(view.seen(bubble.center), bubble.cosine);
-        pen.draw("seen", (path) => traceCap(path, disc, rim));
-        pen.draw("bubble-open", (path) => traceCircle(path, disc, rim));
-        pen.draw("triangle", (path) => surface.ring(path, bubble.sites));
-      },
-      dots: () => drawLayers(pen, disc, map, [layers.dots]),
-      side(bubble, site) {
-        const [point, middle] = [look(site), view.seen(bubble.center)];
-        return point[2] >= LEAST_HEIGHT ? [point[0] - middle[0], point[1] - middle[1]] : null;
-      },
-    });
-  } else {
-    drawStep(pen, surface, step, false, (path, { outline, ...facets }) => {
-      surface.region(path, outline, holdsDirection(facets, sites, hidden));
-    });
-  }
+  drawParts(pen, ball, sphereParts(scene), scene.isOn);
   pen.draw("limb", (path) => traceDisc(path, disc));
   drawPole(pen, disc, scene);
 }
 
 /** Draws the plane into its frame. */
 export function drawPlane(pen: Pen, frame: PlaneFrame, scene: SphereScene): void {
-  const { sites, twin, seeing, step } = scene;
+  const { sites, twin, seeing } = scene;
   const { x, y, size } = frame;
   const flat = (k: number): Point => frame.place(twin.forward(sites.site(k)));
   const whole = (path: Path): void => traceCorners(path, cornersOf(x, y, x + size, y + size));
-  const surface = planeSurface(flat, whole);
-  pen.clipped(whole, () => {
-    if (step === "done") {
-      drawWhole(
-        pen,
-        surface,
-        scene,
-        { ...BALL_LABEL, halo: "halo" },
-        {
-          // The outline runs clockwise on the picture, as the frame does: turned round, the path winds once between them.
-          hatch: (path, outline) => surface.region(path, outline.reverse(), true),
-          triangles: () =>
-            pen.draw("delaunay", (path) => {
-              eachEdge(sites.delaunay.simplices, seeing, (a, b) => surface.line(path, a, b));
-            }),
-          cells: () => pen.draw("voronoi", (path) => planeRidges(path, frame, scene)),
-          bubble: (bubble) => drawPlaneBubble(pen, frame, bubble, twin, surface, whole),
-          dots: () =>
-            drawDots(
-              pen,
-              surface,
-              "site",
-              Array.from({ length: sites.count }, (_, k) => k),
-            ),
-          side(bubble, site) {
-            const image = twin.circle(bubble.center, bubble.cosine);
-            if (image.kind === "line" || image.radius * frame.scale < LEAST_CIRCLE) return null;
-            const [u, v] = twin.forward(sites.site(site));
-            const sign = image.holdsPole ? -1 : 1;
-            return [sign * (u - image.middle[0]), sign * (v - image.middle[1])];
-          },
-        },
-      );
-    } else {
-      drawStep(pen, surface, step, true, (path, { outline }, isThere) => {
-        outline.forEach((a, k) => {
-          if (isThere(k)) surface.ring(path, [a, outline[(k + 1) % outline.length], step.site]);
-        });
+  const surface = balls.planeSurface(flat, whole);
+  const plane: Picture = {
+    ...surface,
+    isPlane: true,
+    label: { ...BALL_LABEL, halo: "halo" },
+    // The outline runs clockwise on the picture, as the frame does: turned round, the path winds once between them.
+    hatch: (outline) => pen.draw("hatch", (path) => surface.region(path, [...outline].reverse(), true)),
+    triangles: () =>
+      pen.draw("delaunay", (path) => {
+        eachEdge(sites.delaunay.simplices, seeing, (a, b) => surface.line(path, a, b));
+      }),
+    cells: () => pen.draw("voronoi", (path) => planeRidges(path, frame, scene)),
+    bubble(bubble) {
+      const image = twin.circle(bubble.center, bubble.cosine);
+      if (image.kind === "line") {
+        const [a, b] = image.normal;
+        const size = a * a + b * b;
+        const [u, v] = [(a * image.offset) / size, (b * image.offset) / size];
+        const ends = [-1e3, 1e3].map((far) => frame.place([u + far * b, v - far * a]));
+        pen.draw("bubble-open", (path) => traceSegment(path, ends[0], ends[1]));
+        return;
+      }
+      const [x, y] = frame.place(image.middle);
+      const r = image.radius * frame.scale;
+      const ring = (path: Path): void => {
+        path.moveTo(x + r, y);
+        path.ellipse(x, y, r, r, 0, 2 * Math.PI, 0, true);
+        path.closePath();
+      };
+      pen.draw("seen", (path) => {
+        if (image.holdsPole) whole(path);
+        ring(path);
       });
-    }
-  });
+      pen.draw("bubble-open", ring);
+      if (!image.holdsPole) pen.draw("triangle", (path) => surface.ring(path, bubble.sites));
+    },
+    dots: () => balls.drawDots(pen, surface, "site", Array(sites.count).keys()),
+    side(bubble, site) {
+      const image = twin.circle(bubble.center, bubble.cosine);
+      if (image.kind === "line" || image.radius * frame.scale < LEAST_CIRCLE) return null;
+      const [u, v] = twin.forward(sites.site(site));
+      const sign = image.holdsPole ? -1 : 1;
+      return [sign * (u - image.middle[0]), sign * (v - image.middle[1])];
+    },
+    opening(path, { outline, site }, isThere) {
+      outline.forEach((a, k) => {
+        if (isThere(k)) surface.ring(path, [a, outline[(k + 1) % outline.length], site]);
+      });
+    },
+  };
+  pen.clipped(whole, () => drawParts(pen, plane, sphereParts(scene), scene.isOn));
   pen.draw("frame", whole);
 }
 
-/** The picture of all sites. */
-function drawWhole(pen: Pen, surface: Surface, scene: SphereScene, label: LabelStyle, own: Own): void {
-  const { sites, seeing, isOn, bubble } = scene;
-  const outline = sites.outline(seeing);
-  if (isOn("seeing") && outline.length > 0) pen.draw("hatch", (path) => own.hatch(path, [...outline]));
-  if (isOn("closing") && sites.hasClosing) own.closing?.();
-  if (isOn("triangles")) own.triangles();
-  if (isOn("cells")) own.cells();
-  if (isOn("seeing")) pen.draw("hull", (path) => surface.ring(path, outline));
-  if (bubble !== null) own.bubble(bubble);
-  own.dots();
-  drawDots(pen, surface, "held", [...(bubble?.sites ?? []), ...scene.held]);
-  for (const site of bubble?.sites ?? []) {
-    const out = own.side(bubble!, site);
+/** The numbers of a bubble's sites. */
+function drawNumbers(pen: Pen, on: Picture, bubble: Bubble): void {
+  for (const site of bubble.sites) {
+    const out = on.side(bubble, site);
     if (out === null) continue;
-    const [x, y] = surface.place(site);
+    const [x, y] = on.place(site);
     const [u, v] = out.map((part) => part / (Math.hypot(...out) || 1));
     const align = u > 0.35 ? "left" : u < -0.35 ? "right" : "center";
-    pen.label(String(site + 1), x + 0.6 * AWAY * u, y - AWAY * v + 5, { ...label, align });
+    pen.label(String(site + 1), x + 0.6 * AWAY * u, y - AWAY * v + 5, { ...on.label, align });
   }
 }
 
-/** A step of the insertion. @param region Traces the facets that see the new site, or those of its fan. */
-function drawStep(
-  pen: Pen,
-  surface: Surface,
-  { site, insertion, beforeSeeing, fanSeeing }: Step,
-  isPlane: boolean,
-  region: (path: Path, insertion: Insertion, isThere: (k: number) => boolean) => void,
-): void {
+/** A step of the insertion. */
+function drawStep(pen: Pen, on: Picture, { site, insertion, beforeSeeing, fanSeeing }: Step): void {
   if (insertion !== null) {
     const { outline, before } = insertion;
     // Facets of the fan that see the pole are no triangles of the plane, nor are sides between two of them its sides.
-    const isThere = (k: number): boolean => !isPlane || !fanSeeing[(k + outline.length) % outline.length];
-    if (outline.length > 0) pen.draw("seen", (path) => region(path, insertion, isThere));
+    const isThere = (k: number): boolean => !on.isPlane || !fanSeeing[(k + outline.length) % outline.length];
+    if (outline.length > 0) pen.draw("seen", (path) => on.opening(path, insertion, isThere));
     pen.draw("delaunay", (path) => {
-      eachEdge(before, isPlane ? beforeSeeing : null, (a, b) => surface.line(path, a, b));
+      eachEdge(before, on.isPlane ? beforeSeeing : null, (a, b) => on.line(path, a, b));
     });
     pen.draw("fan", (path) => {
-      outline.forEach((a, k) => (isThere(k) || isThere(k - 1)) && surface.line(path, site, a));
+      outline.forEach((a, k) => (isThere(k) || isThere(k - 1)) && on.line(path, site, a));
     });
     pen.draw("horizon", (path) => {
-      outline.forEach((a, k) => isThere(k) && surface.line(path, a, outline[(k + 1) % outline.length]));
+      outline.forEach((a, k) => isThere(k) && on.line(path, a, outline[(k + 1) % outline.length]));
     });
   }
-  drawDots(
-    pen,
-    surface,
-    "site",
-    Array.from({ length: site + 1 }, (_, k) => k),
-  );
-  drawDots(pen, surface, "held", [site]);
+  balls.drawDots(pen, on, "site", Array(site + 1).keys());
+  balls.drawDots(pen, on, "held", [site]);
 }
 
 /** Whether the region of the facets that see a new site holds a direction. */
-function holdsDirection(
-  { before, seeing }: Pick<Insertion, "before" | "seeing">,
-  sites: SphereSites,
-  direction: Vector,
-): boolean {
+function holdsDirection({ before, seeing }: Insertion, sites: SphereSites, direction: Vector): boolean {
   return seeing.some((facet) => {
     const [a, b, c] = [0, 1, 2].map((k) => sites.site(before[3 * facet + k]));
     return [cross(a, b), cross(b, c), cross(c, a)].every((normal) => dot(direction, normal) >= 0);
@@ -240,44 +276,11 @@ function holdsDirection(
 /** The handle of the pole of projection, and its name. */
 function drawPole(pen: Pen, disc: Disc, { view, twin }: SphereScene): void {
   const pole = view.seen(twin.pole);
-  const [x, y] = placeOf(disc, pole);
+  const [x, y] = balls.placeOf(disc, pole);
   drawHandle(pen, x, y, pole[2] >= 0 ? "front" : "behind");
   const text = pole[2] >= 0 ? "*P*" : "*P*, behind";
   const left = x > disc.x; // towards the middle, where there is room
   pen.label(text, x + (left ? -11 : 11), y + 5, { ...BALL_LABEL, align: left ? "right" : "left" });
-}
-
-function drawPlaneBubble(
-  pen: Pen,
-  frame: PlaneFrame,
-  bubble: Bubble,
-  twin: Twin,
-  surface: Surface,
-  whole: (path: Path) => void,
-): void {
-  const image = twin.circle(bubble.center, bubble.cosine);
-  if (image.kind === "line") {
-    const [a, b] = image.normal;
-    const size = a * a + b * b;
-    const [u, v] = [(a * image.offset) / size, (b * image.offset) / size];
-    pen.draw("bubble-open", (path) =>
-      traceSegment(path, frame.place([u - 1e3 * b, v + 1e3 * a]), frame.place([u + 1e3 * b, v - 1e3 * a])),
-    );
-    return;
-  }
-  const [x, y] = frame.place(image.middle);
-  const r = image.radius * frame.scale;
-  const ring = (path: Path): void => {
-    path.moveTo(x + r, y);
-    path.ellipse(x, y, r, r, 0, 2 * Math.PI, 0, true);
-    path.closePath();
-  };
-  pen.draw("seen", (path) => {
-    if (image.holdsPole) whole(path);
-    ring(path);
-  });
-  pen.draw("bubble-open", ring);
-  if (!image.holdsPole) pen.draw("triangle", (path) => surface.ring(path, bubble.sites));
 }
 
 /** Ridges between the triangles of the plane, and rays where one has no neighbour: the centres are those of its circles. */

@@ -1,5 +1,6 @@
 /** Sites of the sphere with all that the kernel and the Sphere room say of them. Nothing here is drawn. */
 
+import { cellOf, type Region } from "../drawing/parts.ts";
 import { inBubble, lonlatToXyz, SphericalDelaunay, SphericalVoronoi } from "../kernel/api.ts";
 import { DEGREES, dot, row, type Vector } from "../space.ts";
 import { fixed, latitude, longitude, several } from "../words.ts";
@@ -107,6 +108,27 @@ export class SphereSites {
     if (facet !== null) return seeing[facet] === 1;
     const { closing } = this.delaunay;
     return seeing.some((sees, k) => sees === 1 && closing[k] === 1);
+  }
+
+  /** The sites' cells; that of a site alone is all of the sphere. */
+  cells(): Region[] {
+    const areas = this.count > 0 ? this.voronoi.areas() : [];
+    return Array.from(areas, (area, site) => {
+      if (this.sameAs(site) !== null) return [];
+      const properties = { kind: "cell", point: site, area };
+      return this.delaunay.dimension === 0 ? [{ properties, corners: [] }] : cellOf(this.voronoi, site, properties);
+    }).flat();
+  }
+
+  /** The facets that are triangles of the sphere. */
+  triangles(): Region[] {
+    const { simplices, closing } = this.delaunay;
+    const facets = Array.from(closing.keys()).filter((facet) => !closing[facet]);
+    return facets.map((triangle) => {
+      const [a, b, c] = simplices.subarray(3 * triangle, 3 * triangle + 3);
+      const corners = [a, b, c].map((site) => this.site(site));
+      return { properties: { kind: "triangle", triangle, a, b, c }, corners };
+    });
   }
 
   /** What it does to insert a site into those before it; null while these have no facets. */

@@ -1,0 +1,60 @@
+/** What a room shows as one list of parts, the lowest first: canvas, SVG, the lines of Python and GeoJSON read it. */
+
+import type { SphericalVoronoi } from "../kernel/api.ts";
+import { row, type Vector } from "../space.ts";
+import type { Pen } from "./pen.ts";
+
+/** What the reader can switch on and off. */
+export type Switch = "bubble" | "cells" | "closing" | "graticule" | "land" | "rays" | "seeing" | "tissot" | "triangles";
+
+type Outlet = "picture" | "python" | "geojson";
+
+export type IsOn = (layer: Switch) => boolean;
+
+/** A region of the sphere and what GeoJSON says of it: the left of a ring of great-circle sides, or without corners all. */
+export interface Region {
+  readonly properties: Readonly<Record<string, unknown>>;
+  readonly corners: readonly Vector[];
+}
+
+/** A part of what is shown on one kind of surface. */
+export interface Part<Surface> {
+  /** Its switch; without one it is shown whenever it is there. */
+  readonly layer?: Switch;
+  /** Whether the picture has it in this state, as it has unless this is false. */
+  readonly isThere?: boolean;
+  /** Where it is written although the picture does not show it. */
+  readonly always?: readonly Outlet[];
+  draw?(pen: Pen, surface: Surface): void;
+  /** Lines, by the drawing of Python that they belong to. */
+  readonly python?: Readonly<Record<string, string | readonly string[]>>;
+  regions?(): readonly Region[];
+}
+
+export function drawParts<S>(pen: Pen, surface: S, parts: readonly Part<S>[], isOn: IsOn): void {
+  for (const part of shown(parts, isOn, "picture")) part.draw?.(pen, surface);
+}
+
+/** Lines of one drawing of Python. */
+export function linesOf(parts: readonly Part<never>[], isOn: IsOn, drawing: string): string[] {
+  return shown(parts, isOn, "python").flatMap(({ python }) => python?.[drawing] ?? []);
+}
+
+/** Regions for GeoJSON, those of the topmost part first. */
+export function regionsOf(parts: readonly Part<never>[], isOn: IsOn): Region[] {
+  const regions = shown(parts, isOn, "geojson").map((part) => part.regions?.() ?? []);
+  return regions.reverse().flat();
+}
+
+function shown<P extends Part<never>>(parts: readonly P[], isOn: IsOn, outlet: Outlet): P[] {
+  return parts.filter(
+    ({ layer, isThere = true, always }) =>
+      always?.includes(outlet) || (isThere && (layer === undefined || isOn(layer))),
+  );
+}
+
+/** The cell of a site; none where it has no corners. */
+export function cellOf(voronoi: SphericalVoronoi, site: number, properties: Region["properties"]): Region[] {
+  const corners = Array.from(voronoi.region(site), (vertex) => row(voronoi.vertices, vertex));
+  return corners.length < 3 ? [] : [{ properties, corners }];
+}
