@@ -169,11 +169,10 @@ def read_points(
     becomes numeric if all its values are numbers whose digits a double can hold and none has a leading zero followed by
     digits. Degrees may be angles, such as 10°59'07"E, 170 41.4 W and N48.5.
 
-    Where each point or comma in a column may separate thousands (128.928, 1,234), the other numbers of the table
-    decide: if theirs is the same decimal mark, and no other, it is decimal, and so is a point if they have none; if
-    theirs is the other mark, and no other, it separates thousands, which a `DataWarning` says; else the column stays
-    text, with a `DataWarning`. A row of units below the header and one of totals at the end are left out, too. Marks
-    in degrees are decimal. If columns of a GeoJSON file's properties would have more than a million cells, and more
+    Where the points or commas of a column may be decimal or separate thousands (128.928, 1,234), the other columns and
+    degrees decide, if their decimal mark is the same one; a point is decimal if they have none; else the column stays
+    text. A `DataWarning` tells that, and marks between thousands. A row of units below the header and one of totals at
+    the end are left out, too. If columns of a GeoJSON file's properties would have more than a million cells, and more
     than fifty for each property of a feature, those that fewer than one in fifty features have are together, as
     mappings, in a column ``others``, with a `DataWarning`.
 
@@ -258,8 +257,8 @@ def inspect(source: Source | Any, *, format: FormatName | None = None, **options
     with naming(source), warnings.catch_warnings(record=True) as said:
         warnings.simplefilter("always", DataWarning)
         content, named, kind = _content(source, wanted, format)
-    report = summary(named, content, wanted, kind)
-    report.found["notes"][:0] = [str(each.message) for each in said]
+        report = summary(named, content, wanted, kind)
+    report.found["notes"] = [str(each.message) for each in said]
     return report
 
 

@@ -335,7 +335,7 @@ def _refuse(
     """A ValueError for the first bad row, how many more there are, and what to do; `wrong` takes them instead."""
     places = np.flatnonzero(bad)
     if wrong is not None:
-        wrong.update({int(rows[k]): said(k) for k in places.tolist()})
+        wrong.update({int(rows[k]): said(k) for k in places.tolist() if int(rows[k]) not in wrong})
     elif len(places):
         more = f" (and {len(places) - 1} more rows like it)" if len(places) > 1 else ""
         raise ValueError(f"row {rows[places[0]]}: {said(places[0])}{more}{advice and '; '}{advice}")
