@@ -59,9 +59,8 @@ LIKE_POWER: Final = re.compile(r"[0-9]+E[0-9]+")
 
 SPACED: Final = re.compile(r"(?<=[0-9])[ '’\xa0\u202f\u2009](?=[0-9]{3}(?![0-9]))")
 THOUSANDS: Final = {
-    "": re.compile(r"[-+]?[1-9][0-9]{0,2}(?:[ '’\xa0\u202f\u2009][0-9]{3})+(?:[.,][0-9]+)?"),
-    ".": re.compile(r"[-+]?[1-9][0-9]{0,2}(?:\.[0-9]{3})+(?:,[0-9]+)?"),
-    ",": re.compile(r"[-+]?[1-9][0-9]{0,2}(?:,[0-9]{3})+(?:\.[0-9]+)?"),
+    mark: re.compile(rf"[-+]?[1-9][0-9]{{0,2}}(?:[{between}][0-9]{{3}})+(?:[{decimal}][0-9]+)?")
+    for mark, between, decimal in (("", " '’\xa0\u202f\u2009", ".,"), (".", ".", ","), (",", ",", "."))
 }
 """Numbers whose thousands are separated by blanks or apostrophes, points, or commas."""
 
@@ -82,10 +81,7 @@ UNWRITABLE: Final = {
 GUESSED_FROM: Final = 1 << 20
 """Bytes from which an encoding is guessed."""
 
-GUESSES: Final = (
-    *("cp1250", "cp1251", "cp1252", "cp1253", "cp1254", "cp1255", "cp1256", "koi8_r", "cp866"),
-    *("cp932", "euc_jp", "gb18030", "big5", "cp949"),
-)
+GUESSES: Final = (*(f"cp125{k}" for k in range(7)), "koi8_r", "cp866", "cp932", "euc_jp", "gb18030", "big5", "cp949")
 """Encodings that tables without Unicode have."""
 
 WESTERN: Final = re.compile("[^\x00-\x7f\xb0\xba\xaaà-öø-ÿÀ-ÖØ-ß€‘’“”–—«»²³µ\xa0ŒœŠšŽžŸ]|[^\x00-\x7f]{3}")
