@@ -109,7 +109,7 @@ def _of_column(values: Column) -> dict[str, Any]:
 def _options(found: Mapping[str, Any], wanted: Wanted) -> dict[str, Any]:
     """Arguments that say what was understood, and those that were given."""
     given = {each.name: getattr(wanted, each.name) for each in fields(wanted) if each.name not in NOT_SAID}
-    result = {name: value for name, value in given.items() if value not in (None, (), 0, False)}
+    result = {name: value for name, value in given.items() if value}
     if found.get("encoding") not in (None, "utf-8-sig", "utf-16"):
         result["encoding"] = found["encoding"]
     if "place" in found and wanted.plane is None:
@@ -119,12 +119,13 @@ def _options(found: Mapping[str, Any], wanted: Wanted) -> dict[str, Any]:
         result["decimal"] = OTHER[min(marks)]
     if (found.get("header") or 1) > 1:
         result["skip_rows"] = found["header"] - 1
-    if sentinels := sorted({value for values in found["far"].values() for value in values}):
-        result["missing"] = [*wanted.missing, *sentinels]
+    sentinels = sorted({value for values in found["far"].values() for value in values})
+    if sentinels or wanted.sentinels:
+        result["missing"] = [*wanted.sentinels, *sentinels]
     if found.get("left_out") and found["rows"]:
         gaps = all(why.endswith(" is missing") for why in found["left_out"].values())
         result["skip_missing" if gaps else "skip_invalid"] = True
-    return {name: list(value) if isinstance(value, tuple) else value for name, value in result.items()}
+    return result | ({"plane": list(wanted.plane)} if wanted.plane else {})
 
 
 def _typed(options: Mapping[str, Any]) -> list[str]:

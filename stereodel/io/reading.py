@@ -192,16 +192,12 @@ def read_points(
     ValueError: row 2: latitude 95.2 is outside [-90, 90]; is it the longitude, or not in degrees? ...
     """
     options = Wanted(
-        *(lon, lat, plane, layer, crs, skip_missing, skip_invalid, _marks(missing), encoding, decimal, skip_rows, wrap),
+        *(lon, lat, plane, layer, crs, skip_missing, skip_invalid, missing, encoding, decimal, skip_rows, wrap),
         progress=progress,
     )
     with naming(source):
         content, named, _ = _content(source, options, format)
         return located(content, options, named)
-
-
-def _marks(missing: Any) -> tuple[str, ...]:
-    return tuple(map(str, [missing] if isinstance(missing, str | float | int) else missing))
 
 
 def _content(source: Any, wanted: Wanted, kind: FormatName | None) -> tuple[Content, str, str]:
@@ -243,7 +239,7 @@ def inspect(source: Source | Any, *, format: FormatName | None = None, **options
     >>> report.found["left_out"], report.found["far"], report.found["options"]["missing"]
     ({3: 'latitude 99.0 is outside [-90, 90]'}, {'temp': {-9999.0: 1}}, [-9999.0])
     """
-    wanted = Wanted(**(options | {"skip_invalid": True, "missing": _marks(options.get("missing", ()))}))
+    wanted = Wanted(**options | {"skip_invalid": True})
     with naming(source), warnings.catch_warnings(record=True) as said:
         warnings.simplefilter("always", DataWarning)
         content, named, kind = _content(source, wanted, format)

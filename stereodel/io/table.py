@@ -176,7 +176,10 @@ def located(found: Content, wanted: Wanted, name: str = "") -> PointTable:
     """
     gaps = wanted.skip_missing or wanted.skip_invalid
     pair = None if wanted.plane else found.places(skip_missing=gaps)
-    columns, crs = {key: blanked(np.asarray(each), wanted.missing) for key, each in found.columns().items()}, found.crs
+    columns, crs = (
+        {key: blanked(np.asarray(each), wanted.sentinels) for key, each in found.columns().items()},
+        found.crs,
+    )
     if pair is None:
         pair, columns, crs = _place_columns(columns, wanted, found.understood)
     named = wanted.plane or (("longitude", "latitude") if crs is None else ("easting", "northing"))

@@ -89,15 +89,13 @@ def tabulated(rows: Iterable[list[str]], wanted: Wanted, *, comma: bool = True, 
     `comma` says whether a comma may be a decimal mark.
     """
     columns, invalid, header = _split(iter(rows), wanted)
-    names = wanted.plane or tuple(name for name in (wanted.lon, wanted.lat) if name is not None)
-    places = wanted.plane or ()
     degrees: tuple[str, ...] = ()
-    alike = wanted.lon is not None and wanted.lon == wanted.lat
-    if wanted.crs is None and wanted.plane is None and not alike and (names or has_lonlat(list(columns))):
-        places = degrees = wanted.axes(list(columns))
-    columns = {name: blanked(values, wanted.missing) for name, values in columns.items()}
+    named = wanted.lon != wanted.lat or (wanted.lon is None and has_lonlat(list(columns)))
+    if named and wanted.crs is None and wanted.plane is None:
+        degrees = wanted.axes(list(columns))
+    columns = {name: blanked(values, wanted.sentinels) for name, values in columns.items()}
     count = len(next(iter(columns.values()), ()))
-    words = _rows_of_words(columns, places, count)
+    words = _rows_of_words(columns, wanted.plane or degrees, count)
     for row, what in words.items():
         _note(f"{what} is left out: {listed([str(values[row]) for values in columns.values()])}")
     units = 0 in words
@@ -125,12 +123,13 @@ def typed_columns(
     comma = comma or "," in known or decimal == ","
     for name in [name for name in columns if name not in degrees]:
         ways = readings(columns[name])
-        mark, separator = next(iter(ways), ""), _first(columns[name], OTHER.get(next(iter(ways), ""), "\n"))
-        if mark == "," and not comma and not separator:
+        mark = next(iter(ways), "")
+        separated = mark != "" and _first(columns[name], OTHER[mark]) != ""
+        if mark == "," and not comma and not separated:
             continue
         if len(ways) == 1:
             known |= {mark} - {""}
-        if len(ways) == 1 and not separator and decimal in (None, mark, mark or decimal):
+        if len(ways) == 1 and not separated and (not decimal or mark in ("", decimal)):
             result[name] = ways[mark]
         elif ways:
             doubtful[name] = ways
@@ -250,19 +249,15 @@ def _separator(text: str) -> str | None:
     # One field may be as long as the table; by default, csv refuses fields of 131 072 characters for the whole process.
     csv.field_size_limit(max(csv.field_size_limit(), len(text)))
     lines = list(islice(io.StringIO(text, newline=""), LOOKED_AT))
-    lengths = {mark: _lengths(lines, mark) for mark in SEPARATORS}
+    # But for the last line, which may end inside a quoted field.
+    rows = {mark: [len(row) for row in csv.reader(lines, delimiter=mark) if row] for mark in SEPARATORS}
+    lengths = {mark: set(each[:-1] or each) for mark, each in rows.items()}
     several = [mark for mark in SEPARATORS if max(lengths[mark], default=0) > 1]
     even = [mark for mark in several if len(lengths[mark]) == 1]
     blanks = {len(line.split()) for line in lines if line.strip()}
     if not several or (not even and len(blanks) == 1 and blanks != {1}):
         return None
     return max(even or several, key=lambda mark: max(lengths[mark]))
-
-
-def _lengths(lines: list[str], mark: str) -> set[int]:
-    """Numbers of fields of the lines, except the last line, which may end inside a quoted field."""
-    lengths = [len(row) for row in csv.reader(lines, delimiter=mark) if row]
-    return set(lengths[:-1] or lengths)
 
 
 def _rows(text: str, mark: str | None, above: int, progress: Progress | None) -> Iterator[list[str]]:
