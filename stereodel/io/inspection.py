@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields
+from shlex import quote
 from typing import Any, Final
 
 import numpy as np
@@ -27,10 +28,11 @@ class Inspection:
     found : dict
         ``file``, ``format``; of text ``encoding``, ``separator``, ``header`` (its line, None without), ``thousands``
         (marks by column); ``columns``, each with its type, range or examples, and number of missing values; ``place``,
-        the columns or the notation that say where a point is; ``crs``; ``rows``; ``left_out``, what is wrong by row;
-        ``duplicates``, the points that have another one at their place; ``far``, values by column far outside all
-        others, and how many there are; ``extent``, west, south, east, north; ``notes``; ``options``, which say aloud
-        what was understood; and ``problem``, why the table cannot be read with these options, if it cannot.
+        the columns that say where a point is, and ``notation`` of one that has both coordinates; ``crs``; ``rows``;
+        ``left_out``, what is wrong by row; ``swapped``, whether the axes seem to be; ``duplicates``, the points that
+        have another one at their place; ``far``, values by column far outside all others, and how many there are;
+        ``extent``, west, south, east, north; ``notes``; ``options``, which say aloud what was understood; and
+        ``problem``, why the table cannot be read with these options, if it cannot.
 
     Examples
     --------
@@ -75,7 +77,8 @@ def summary(name: str, content: Content, wanted: Wanted, kind: str) -> Inspectio
     if table is not None:
         found |= {"crs": table.crs, "rows": len(table), "left_out": dict(sorted(content.invalid.items()))}
         problem = "no row has a place" if found["left_out"] and not len(table) else ""
-        found["swapped"] = table.surface == "sphere" and wanted.crs is None and _swapped(content, found["place"])
+        two = len(found.get("place", ())) == 2 and wanted.plane is None and wanted.crs is None
+        found["swapped"] = two and _swapped(content, found["place"])
     if table is not None and len(table):
         found["duplicates"] = len(table) - len(np.unique(table.points(), axis=0))
         found["extent"] = [*table.places.min(axis=0).tolist(), *table.places.max(axis=0).tolist()]
@@ -85,12 +88,10 @@ def summary(name: str, content: Content, wanted: Wanted, kind: str) -> Inspectio
     return Inspection(found | {"options": _options(found, wanted), "problem": problem})
 
 
-def _swapped(content: Content, place: str) -> bool:
+def _swapped(content: Content, place: Sequence[str]) -> bool:
     """Whether more rows have a place only if the longitude is the latitude than have one as they are."""
-    columns, axes = content.columns(), place.split(", ")
-    if len(axes) != 2:
-        return False
-    lon, lat = (np.abs(doubles(np.asarray(columns[name]), decimal=True)[0]) for name in axes)
+    columns = content.columns()
+    lon, lat = (np.abs(doubles(np.asarray(columns[name]), decimal=True)[0]) for name in place)
     return bool(((lon <= 90) & (lat > 90) & (lat <= 360)).sum() > (lat <= 90).sum())
 
 
@@ -113,8 +114,7 @@ def _options(found: Mapping[str, Any], wanted: Wanted) -> dict[str, Any]:
     if found.get("encoding") not in (None, "utf-8-sig", "utf-16"):
         result["encoding"] = found["encoding"]
     if "place" in found and wanted.plane is None:
-        place = found["place"].split(": ")[0].split(", ")
-        result |= {"lon": place[0], "lat": place[-1]}
+        result |= {"lon": found["place"][0], "lat": found["place"][-1]}
     if marks := set(found.get("thousands", {}).values()):
         result["decimal"] = OTHER[min(marks)]
     if (found.get("header") or 1) > 1:
@@ -137,9 +137,9 @@ def _typed(options: Mapping[str, Any]) -> list[str]:
         if option == name:
             parts.append(f"{name}={value!r}")
         elif value is True or name == "plane":
-            parts += [option, *(several if name == "plane" else [])]
+            parts += [option, *(map(quote, several) if name == "plane" else [])]
         else:
-            parts += [f"{option}={each}" for each in several]
+            parts += [quote(f"{option}={each}") for each in several]
     return [" ".join(parts) or "none are needed"]
 
 
@@ -164,7 +164,8 @@ LINES: Final[dict[str, Callable[[Any], list[str]]]] = {
     **dict.fromkeys(("file", "format", "encoding", "separator"), lambda value: [value]),
     "header": lambda row: [f"row {row}" if row else "none"],
     "thousands": lambda marks: [f"{name}: {mark!r}" for name, mark in marks.items()],
-    **dict.fromkeys(("place", "crs", "rows", "duplicates"), lambda value: [str(value)]),
+    "place": lambda names: [", ".join(names)],
+    **dict.fromkeys(("notation", "crs", "rows", "duplicates"), lambda value: [str(value)]),
     "left_out": _of_rows,
     "extent": lambda ends: [_ends(ends)],
     "swapped": lambda _: ["the longitudes look like latitudes, and the other way round"],

@@ -222,7 +222,7 @@ def _place_columns(
         found = {name: each for name, each in every.items() if each.how == notation.WELL_KNOWN} or every
         if len(found) == 1:
             ((name, each),) = found.items()
-            understood["place"] = f"{name}: {each.how}"
+            understood |= {"place": [name], "notation": each.how}
             if not same and each.how != notation.WELL_KNOWN:
                 warnings.warn(f"column {name!r} is read as {each.how}", DataWarning, stacklevel=2)
             return (each.x, each.y), {key: columns[key] for key in names if key != name}, each.crs or crs
@@ -231,7 +231,7 @@ def _place_columns(
                 f"column {wanted.lon!r} is to have both coordinates, as POINT (10 48.4) or '48.4, 10', but has not"
             )
     axes = wanted.axes(names)
-    understood["place"] = ", ".join(axes)
+    understood["place"] = [*axes]
     return (columns[axes[0]], columns[axes[1]]), {key: columns[key] for key in names if key not in axes}, crs
 
 

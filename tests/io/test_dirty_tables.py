@@ -11,8 +11,10 @@ import pandas as pd
 import polars as pl
 import pyarrow as pa
 import pytest
+from typer.testing import CliRunner
 
 from stereodel import SphericalVoronoi
+from stereodel.cli.application import app
 from stereodel.io import DataWarning, PointTable, inspect, read_points, to_geodataframe, write
 from tests.workbooks import workbook
 
@@ -230,7 +232,7 @@ Ulm;9,99;48,4;7;14"""
 def test_inspect_says_what_was_understood():
     report = inspect(io.BytesIO(DIRTY.encode("cp1252")))
     found = report.found
-    assert (found["encoding"], found["separator"], found["place"]) == ("cp1252", ";", "Länge, Breite")
+    assert (found["encoding"], found["separator"], found["place"]) == ("cp1252", ";", ["Länge", "Breite"])
     assert (found["rows"], found["duplicates"], found["extent"]) == (3, 1, [6.95, 48.4, 9.99, 50.94])
     assert found["left_out"] == {3: "latitude 91.0 is outside [-90, 90]"}
     assert found["far"] == {"t": {-9999.0: 1}}
@@ -255,6 +257,21 @@ def test_inspect_says_what_was_understood():
     text = str(report)
     assert "left out    row 3: latitude 91.0" in text
     assert "options     encoding='cp1252' lon='Länge' lat='Breite' decimal=',' skip_rows=2 missing=[-9999.0]" in text
+
+
+SAME = ("place", "notation", "rows", "left_out", "extent", "header", "separator", "thousands", "columns", "crs")
+
+
+@pytest.mark.parametrize(("content", "options"), [each[:2] for each in READ if not isinstance(each[2], str)])
+def test_the_options_of_an_inspection_say_the_same(content, options):
+    found = inspect(io.StringIO(content), **options).found
+    again = inspect(io.StringIO(content), **found["options"]).found
+    assert {name: again.get(name) for name in SAME} == {name: found.get(name) for name in SAME}
+
+
+def test_options_are_quoted_as_a_shell_wants_them():
+    ran = CliRunner().invoke(app, ["inspect", "-"], input="My Lon, [deg];lat\n9,5;48,5\n")
+    assert "options     '--lon=My Lon, [deg]' --lat=lat\n" in ran.stdout
 
 
 def test_inspect_answers_where_reading_cannot():

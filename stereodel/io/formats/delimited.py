@@ -249,11 +249,11 @@ def _separator(text: str) -> str | None:
     # One field may be as long as the table; by default, csv refuses fields of 131 072 characters for the whole process.
     csv.field_size_limit(max(csv.field_size_limit(), len(text)))
     lines = list(islice(io.StringIO(text, newline=""), LOOKED_AT))
-    # But for the last line, which may end inside a quoted field.
+    # If need be but for the last line, which may end inside a quoted field or be a footnote.
     rows = {mark: [len(row) for row in csv.reader(lines, delimiter=mark) if row] for mark in SEPARATORS}
     lengths = {mark: set(each[:-1] or each) for mark, each in rows.items()}
     several = [mark for mark in SEPARATORS if max(lengths[mark], default=0) > 1]
-    even = [mark for mark in several if len(lengths[mark]) == 1]
+    even = [mark for mark in several if len({*rows[mark]}) == 1] or [m for m in several if len(lengths[m]) == 1]
     blanks = {len(line.split()) for line in lines if line.strip()}
     if not several or (not even and len(blanks) == 1 and blanks != {1}):
         return None
