@@ -6,6 +6,7 @@ import enum
 import inspect
 import pickle
 from collections.abc import Mapping
+from io import StringIO
 
 import numpy as np
 import pytest
@@ -67,6 +68,7 @@ def examples():
     others = ("NearestInterpolator", "SmoothInterpolator", "NaturalNeighborInterpolator")
     yield from (getattr(interpolation, name)(plane, range(5)) for name in others)
     yield io.Grid(grid.lon, grid.lat, {"v": np.ones((3, 4))}, {"v": "m"})
+    yield io.inspect(StringIO("lon,lat\n1,2"))
     yield io.PointTable(LONLAT[:2], {"name": ["a", "b"], "v": np.array([1, None], dtype=object)}, rows=[4, 7])
     yield from (relaxed, relaxed.quality(), relaxation.Progress(1, 2.0, 3.0))
     yield from (spatial.Delaunay(PLANE), spatial.Voronoi(PLANE), spatial.SphericalVoronoi(BALLS))

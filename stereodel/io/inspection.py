@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-import warnings
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, fields
+from shlex import quote
 from typing import Any, Final
 
 import numpy as np
 
 from stereodel._arrays import Column
 from stereodel.io.formats import Content, Wanted
-from stereodel.io.formats.columns import MISSING, far
-from stereodel.io.formats.names import DataWarning, listed, spelled
-from stereodel.io.table import PointTable, located
+from stereodel.io.formats.columns import MISSING, OTHER, doubles, far
+from stereodel.io.formats.names import listed, spelled
+from stereodel.io.table import located
 
 SHOWN: Final = 5
 """Rows that are left out, and values, that a text shows."""
@@ -26,12 +26,13 @@ class Inspection:
     Attributes
     ----------
     found : dict
-        ``file``, ``format``; of text ``encoding``, ``separator``, ``header`` (its row), ``thousands`` (marks by
-        column); ``columns``, each with its type, range or examples, and number of missing values; ``place``, the
-        columns or the notation that say where a point is; ``crs``; ``rows``; ``left_out``, what is wrong by row;
-        ``duplicates``, the points that have another one at their place; ``far``, values by column far outside all
-        others, and how many there are; ``extent``, west, south, east, north; ``notes``; ``options``, which say aloud
-        what was understood; and ``problem``, why the table cannot be read with these options, if it cannot.
+        ``file``, ``format``; of text ``encoding``, ``separator``, ``header`` (its line, None without), ``thousands``
+        (marks by column); ``columns``, each with its type, range or examples, and number of missing values; ``place``,
+        the columns that say where a point is, and ``notation`` of one that has both coordinates; ``crs``; ``rows``;
+        ``left_out``, what is wrong by row; ``swapped``, whether the axes seem to be; ``duplicates``, the points that
+        have another one at their place; ``far``, values by column far outside all others, and how many there are;
+        ``extent``, west, south, east, north; ``notes``; ``options``, which say aloud what was understood; and
+        ``problem``, why the table cannot be read with these options, if it cannot.
 
     Examples
     --------
@@ -53,112 +54,131 @@ class Inspection:
     found: dict[str, Any]
 
     def __str__(self) -> str:
-        return "\n".join(f"{name.replace('_', ' '):12}{line}".rstrip() for name, line in _lines(self.found))
+        lines = []
+        for name, said in LINES.items():
+            value = self.found.get(name)
+            if value or (name in ALWAYS and name in self.found):
+                shown = said(value)
+                labels = [SHOWN_AS.get(name, name)] + [""] * len(shown)
+                lines += [f"{label:12}{line}".rstrip() for label, line in zip(labels, shown, strict=False)]
+        return "\n".join(lines)
 
 
 def summary(name: str, content: Content, wanted: Wanted, kind: str) -> Inspection:
-    """What was understood of a file's content, and what reading it says."""
+    """What was understood of a file's content; what is said while it is read is a warning."""
     found: dict[str, Any] = {"file": name, "format": kind}
-    notes: list[str] = []
-    with warnings.catch_warnings(record=True) as said:
-        warnings.simplefilter("always", DataWarning)
-        table, problem = None, ""
-        try:
-            table = located(content, wanted, name)
-        except (ValueError, ImportError) as error:
-            problem = str(error)
-        notes += [str(each.message) for each in said]
-    columns = content.columns() if table is None else dict(table.columns)
+    table, problem = None, ""
+    try:
+        table = located(content, wanted, name)
+    except (ValueError, ImportError) as error:
+        problem = str(error)
     found |= {key: value for key, value in content.understood.items() if value not in ("", {})}
+    columns = {key: np.asarray(each) for key, each in (content.columns() if table is None else table.columns).items()}
     if table is not None:
-        found |= {"crs": table.crs, "rows": len(table), "left_out": dict(content.invalid), **_of_places(table)}
-    found["columns"] = {key: _of_column(np.asarray(values)) for key, values in columns.items()}
-    outside = {key: far(values.astype(float)) for key, values in _numeric(columns).items()}
+        found |= {"crs": table.crs, "rows": len(table), "left_out": dict(sorted(content.invalid.items()))}
+        problem = "no row has a place" if found["left_out"] and not len(table) else ""
+        two = len(found.get("place", ())) == 2 and wanted.plane is None and wanted.crs is None
+        found["swapped"] = two and _swapped(content, found["place"])
+    if table is not None and len(table):
+        found["duplicates"] = len(table) - len(np.unique(table.points(), axis=0))
+        found["extent"] = [*table.places.min(axis=0).tolist(), *table.places.max(axis=0).tolist()]
+    found["columns"] = {key: _of_column(values) for key, values in columns.items()}
+    outside = {key: far(values.astype(float)) for key, values in columns.items() if values.dtype.kind in "iuf"}
     found["far"] = {key: values for key, values in outside.items() if values}
-    found |= {"notes": notes, "options": _options(found, wanted), "problem": problem}
-    return Inspection(found)
+    return Inspection(found | {"options": _options(found, wanted), "problem": problem})
 
 
-def _numeric(columns: Mapping[str, Any]) -> dict[str, Column]:
-    return {key: np.asarray(each) for key, each in columns.items() if np.asarray(each).dtype.kind in "iuf"}
-
-
-def _of_places(table: PointTable) -> dict[str, Any]:
-    if not len(table):
-        return {}
-    (west, south), (east, north) = table.places.min(axis=0).tolist(), table.places.max(axis=0).tolist()
-    alike = len(table) - len(np.unique(table.points(), axis=0))
-    swapped = table.surface == "sphere" and max(abs(west), abs(east)) <= 90 < max(abs(south), abs(north))
-    return {"duplicates": alike, "extent": [west, south, east, north], "swapped": swapped}
+def _swapped(content: Content, place: Sequence[str]) -> bool:
+    """Whether more rows have a place only if the longitude is the latitude than have one as they are."""
+    columns = content.columns()
+    lon, lat = (np.abs(doubles(np.asarray(columns[name]), decimal=True)[0]) for name in place)
+    return bool(((lon <= 90) & (lat > 90) & (lat <= 360)).sum() > (lat <= 90).sum())
 
 
 def _of_column(values: Column) -> dict[str, Any]:
     if values.dtype.kind in "iuf":
         known = values[np.isfinite(values)]
-        whole = "integer" if values.dtype.kind in "iu" else "number"
         ends = [known.min().item(), known.max().item()] if len(known) else []
+        whole = "number" if values.dtype.kind == "f" else "integer"
         return {"type": whole, "range": ends, "missing": len(values) - len(known)}
     cells = ["" if cell is None else str(cell) for cell in values.ravel().tolist()]
-    known_cells = [cell for cell in cells if cell.strip().lower() not in MISSING]
-    examples = list(dict.fromkeys(known_cells))[:SHOWN]
+    given = [cell for cell in cells if cell.strip().lower() not in MISSING]
     kind = {"M": "time", "b": "boolean"}.get(values.dtype.kind, "text")
-    return {"type": kind, "examples": examples, "missing": len(cells) - len(known_cells)}
+    return {"type": kind, "examples": list(dict.fromkeys(given))[:SHOWN], "missing": len(cells) - len(given)}
 
 
 def _options(found: Mapping[str, Any], wanted: Wanted) -> dict[str, Any]:
-    """Arguments that say what was understood."""
-    result: dict[str, Any] = {}
-    if found.get("encoding", "utf-8-sig") not in ("utf-8-sig", "utf-16"):
+    """Arguments that say what was understood, and those that were given."""
+    given = {each.name: getattr(wanted, each.name) for each in fields(wanted) if each.name not in NOT_SAID}
+    result = {name: value for name, value in given.items() if value}
+    if found.get("encoding") not in (None, "utf-8-sig", "utf-16"):
         result["encoding"] = found["encoding"]
-    place = found.get("place", "").split(": ")[0].split(", ")
-    if place != [""] and wanted.plane is None:
-        result |= dict(zip(("lon", "lat"), place if len(place) > 1 else place * 2, strict=False))
-    if wanted.plane is not None:
-        result["plane"] = list(wanted.plane)
-    if wanted.crs is not None:
-        result["crs"] = wanted.crs
-    marks = set(found.get("thousands", {}).values())
-    if marks:
-        result["decimal"] = "," if marks == {"."} else "."
+    if "place" in found and wanted.plane is None:
+        result |= {"lon": found["place"][0], "lat": found["place"][-1]}
+    if marks := set(found.get("thousands", {}).values()):
+        result["decimal"] = OTHER[min(marks)]
+    if (found.get("header") or 1) > 1:
+        result["skip_rows"] = found["header"] - 1
     sentinels = sorted({value for values in found["far"].values() for value in values})
-    if sentinels:
-        result["missing"] = sentinels
-    if found.get("left_out"):
-        result["skip_invalid"] = True
-    return result
+    if sentinels or wanted.sentinels:
+        result["missing"] = [*wanted.sentinels, *sentinels]
+    if found.get("left_out") and found["rows"]:
+        gaps = all(why.endswith(" is missing") for why in found["left_out"].values())
+        result["skip_missing" if gaps else "skip_invalid"] = True
+    return result | ({"plane": list(wanted.plane)} if wanted.plane else {})
 
 
-def _said(name: str, value: Any) -> str:
-    """An argument with its value, as it is typed in Python or on the command line."""
-    option = spelled(name)
-    if option == name:
-        return f"{name}={value!r}"
-    if value is True:
-        return option
-    parts = [f"{each:.12g}" if isinstance(each, float) else str(each) for each in np.atleast_1d(value).tolist()]
-    return f"{option} {' '.join(parts)}" if name == "plane" else " ".join(f"{option}={each}" for each in parts)
+def _typed(options: Mapping[str, Any]) -> list[str]:
+    """Arguments with their values, as they are typed in Python or on the command line."""
+    parts: list[str] = []
+    for name, value in options.items():
+        option = spelled(name)
+        several = [f"{each:.12g}" if isinstance(each, float) else str(each) for each in np.atleast_1d(value).tolist()]
+        if option == name:
+            parts.append(f"{name}={value!r}")
+        elif value is True or name == "plane":
+            parts += [option, *(map(quote, several) if name == "plane" else [])]
+        else:
+            parts += [quote(f"{option}={each}") for each in several]
+    return [" ".join(parts) or "none are needed"]
 
 
-def _lines(found: Mapping[str, Any]) -> list[tuple[str, str]]:
-    """The lines of the text: what is not there is left out."""
-    lines = [(name, str(found[name])) for name in ("file", "format", "encoding", "separator") if found.get(name)]
-    if "header" in found:
-        lines.append(("header", f"row {found['header']}"))
-    lines += [("thousands", f"{key}: {mark!r}") for key, mark in found.get("thousands", {}).items()]
-    lines += [(name, str(found[name])) for name in ("place", "crs", "rows", "duplicates") if found.get(name)]
-    left = found.get("left_out", {})
-    lines += [("left out", f"row {row}: {why}") for row, why in sorted(left.items())[:SHOWN]]
-    if len(left) > SHOWN:
-        lines.append(("", f"and {len(left) - SHOWN} more"))
-    if "extent" in found:
-        lines.append(("extent", ", ".join(f"{end:.9g}" for end in found["extent"])))
-    if found.get("swapped"):
-        lines.append(("swapped?", "the longitudes look like latitudes, and the other way round"))
-    for number, (name, each) in enumerate(found["columns"].items()):
-        gaps = f", {each['missing']} missing" if each["missing"] else ""
-        values = listed(each["examples"]) if "examples" in each else " to ".join(f"{end:.9g}" for end in each["range"])
-        lines.append(("columns" if not number else "", f"{name}: {each['type']}, {values}{gaps}"))
-    lines += [("far outside", f"{key}: {each}") for key, each in found["far"].items()]
-    lines += [("note", note) for note in found["notes"]]
-    lines.append(("options", " ".join(_said(*each) for each in found["options"].items()) or "none are needed"))
-    return lines + [("problem", found["problem"])] * bool(found["problem"])
+def _of_columns(columns: Mapping[str, Mapping[str, Any]]) -> list[str]:
+    lines = []
+    for name, each in columns.items():
+        values = listed(each["examples"]) if "examples" in each else _ends(each["range"], " to ")
+        lines.append(f"{name}: {each['type']}, {values}" + (f", {each['missing']} missing" if each["missing"] else ""))
+    return lines
+
+
+def _of_rows(rows: Mapping[int, str]) -> list[str]:
+    more = [f"and {len(rows) - SHOWN} more"] if len(rows) > SHOWN else []
+    return [f"row {row}: {why}" for row, why in [*rows.items()][:SHOWN]] + more
+
+
+def _ends(numbers: Sequence[float], between: str = ", ") -> str:
+    return between.join(f"{number:.9g}" for number in numbers)
+
+
+LINES: Final[dict[str, Callable[[Any], list[str]]]] = {
+    **dict.fromkeys(("file", "format", "encoding", "separator"), lambda value: [value]),
+    "header": lambda row: [f"row {row}" if row else "none"],
+    "thousands": lambda marks: [f"{name}: {mark!r}" for name, mark in marks.items()],
+    "place": lambda names: [", ".join(names)],
+    **dict.fromkeys(("notation", "crs", "rows", "duplicates"), lambda value: [str(value)]),
+    "left_out": _of_rows,
+    "extent": lambda ends: [_ends(ends)],
+    "swapped": lambda _: ["the longitudes look like latitudes, and the other way round"],
+    "columns": _of_columns,
+    "far": lambda far: [f"{name}: {_ends([end])} ({n})" for name, ends in far.items() for end, n in ends.items()],
+    "notes": list,
+    "options": _typed,
+    "problem": lambda value: [value],
+}
+"""The lines of the text for what was found, which are left out where there is nothing to say."""
+
+ALWAYS: Final = ("header", "rows", "options")
+SHOWN_AS: Final = {"left_out": "left out", "swapped": "swapped?", "far": "far outside", "notes": "note"}
+
+NOT_SAID: Final = ("skip_invalid", "progress")
+"""What inspection gives reading itself."""

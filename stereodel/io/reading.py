@@ -163,19 +163,16 @@ def read_points(
 
     Notes
     -----
-    Text may be compressed with gzip or bzip2. CSV: separated by commas,
-    semicolons, tabs, vertical bars or blanks; decimal commas are accepted with any separator but the comma; the first
-    line is a header unless most of its fields are numbers; leading lines that begin with # are comments. A column
-    becomes numeric if all its values are numbers whose digits a double can hold and none has a leading zero followed by
-    digits. Degrees may be angles, such as 10°59'07"E, 170 41.4 W and N48.5.
+    Text may be compressed with gzip or bzip2. CSV is separated by commas, semicolons, tabs, vertical bars or blanks;
+    decimal commas are accepted with any but the comma; leading lines that begin with # are comments. A column becomes
+    numeric if all its values are numbers whose digits a double can hold and none is a code such as 007 or 1E3. Degrees
+    may be angles, such as 10°59'07"E, 170 41.4 W and N48.5. Titles above the header, a row of units below it and one of
+    totals at the end are left out; what is guessed a `DataWarning` tells.
 
-    Where each point or comma in a column may separate thousands (128.928, 1,234), the other numbers of the table
-    decide: if theirs is the same decimal mark, and no other, it is decimal, and so is a point if they have none; if
-    theirs is the other mark, and no other, it separates thousands, which a `DataWarning` says; else the column stays
-    text, with a `DataWarning`. A row of units below the header and one of totals at the end are left out, too. Marks
-    in degrees are decimal. If columns of a GeoJSON file's properties would have more than a million cells, and more
-    than fifty for each property of a feature, those that fewer than one in fifty features have are together, as
-    mappings, in a column ``others``, with a `DataWarning`.
+    Where the points or commas of a column may be decimal or separate thousands (128.928, 1,234), the other columns and
+    degrees decide, if their decimal mark is the same one; a point is decimal if they have none; else the column stays
+    text. If columns of a GeoJSON file's properties would have more than a million cells, and more than fifty for each
+    property of a feature, those that fewer than one in fifty features have are mappings in one column, ``others``.
 
     Geometries in another coordinate system (in GeoJSON, with a member ``crs``) are transformed to EPSG:4326; without
     one they are taken as longitude and latitude in degrees. A MultiPoint with one point counts as a point.
@@ -195,16 +192,12 @@ def read_points(
     ValueError: row 2: latitude 95.2 is outside [-90, 90]; is it the longitude, or not in degrees? ...
     """
     options = Wanted(
-        *(lon, lat, plane, layer, crs, skip_missing, skip_invalid, _marks(missing), encoding, decimal, skip_rows, wrap),
+        *(lon, lat, plane, layer, crs, skip_missing, skip_invalid, missing, encoding, decimal, skip_rows, wrap),
         progress=progress,
     )
     with naming(source):
         content, named, _ = _content(source, options, format)
         return located(content, options, named)
-
-
-def _marks(missing: Any) -> tuple[str, ...]:
-    return tuple(map(str, [missing] if isinstance(missing, str | float | int) else missing))
 
 
 def _content(source: Any, wanted: Wanted, kind: FormatName | None) -> tuple[Content, str, str]:
@@ -237,15 +230,7 @@ def inspect(source: Source | Any, *, format: FormatName | None = None, **options
     Returns
     -------
     Inspection
-        Encoding, separator, header, columns and their ranges, places, rows that are left out and why, duplicates,
-        values far outside all others, and the options that say the same.
-
-    Raises
-    ------
-    ValueError
-        If the file is damaged, or an option is wrong.
-    ImportError, OSError
-        As for `read_points`.
+        Also where reading would fail, unless the file is damaged or an option is wrong, which is a ValueError.
 
     Examples
     --------
@@ -254,12 +239,12 @@ def inspect(source: Source | Any, *, format: FormatName | None = None, **options
     >>> report.found["left_out"], report.found["far"], report.found["options"]["missing"]
     ({3: 'latitude 99.0 is outside [-90, 90]'}, {'temp': {-9999.0: 1}}, [-9999.0])
     """
-    wanted = Wanted(**(options | {"skip_invalid": True, "missing": _marks(options.get("missing", ()))}))
+    wanted = Wanted(**options | {"skip_invalid": True})
     with naming(source), warnings.catch_warnings(record=True) as said:
         warnings.simplefilter("always", DataWarning)
         content, named, kind = _content(source, wanted, format)
-    report = summary(named, content, wanted, kind)
-    report.found["notes"][:0] = [str(each.message) for each in said]
+        report = summary(named, content, wanted, kind)
+    report.found["notes"] = [str(each.message) for each in said]
     return report
 
 

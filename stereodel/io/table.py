@@ -176,7 +176,10 @@ def located(found: Content, wanted: Wanted, name: str = "") -> PointTable:
     """
     gaps = wanted.skip_missing or wanted.skip_invalid
     pair = None if wanted.plane else found.places(skip_missing=gaps)
-    columns, crs = {key: blanked(np.asarray(each), wanted.missing) for key, each in found.columns().items()}, found.crs
+    columns, crs = (
+        {key: blanked(np.asarray(each), wanted.sentinels) for key, each in found.columns().items()},
+        found.crs,
+    )
     if pair is None:
         pair, columns, crs = _place_columns(columns, wanted, found.understood)
     named = wanted.plane or (("longitude", "latitude") if crs is None else ("easting", "northing"))
@@ -219,7 +222,7 @@ def _place_columns(
         found = {name: each for name, each in every.items() if each.how == notation.WELL_KNOWN} or every
         if len(found) == 1:
             ((name, each),) = found.items()
-            understood["place"] = f"{name}: {each.how}"
+            understood |= {"place": [name], "notation": each.how}
             if not same and each.how != notation.WELL_KNOWN:
                 warnings.warn(f"column {name!r} is read as {each.how}", DataWarning, stacklevel=2)
             return (each.x, each.y), {key: columns[key] for key in names if key != name}, each.crs or crs
@@ -228,7 +231,7 @@ def _place_columns(
                 f"column {wanted.lon!r} is to have both coordinates, as POINT (10 48.4) or '48.4, 10', but has not"
             )
     axes = wanted.axes(names)
-    understood["place"] = ", ".join(axes)
+    understood["place"] = [*axes]
     return (columns[axes[0]], columns[axes[1]]), {key: columns[key] for key in names if key not in axes}, crs
 
 
@@ -335,7 +338,7 @@ def _refuse(
     """A ValueError for the first bad row, how many more there are, and what to do; `wrong` takes them instead."""
     places = np.flatnonzero(bad)
     if wrong is not None:
-        wrong.update({int(rows[k]): said(k) for k in places.tolist()})
+        wrong.update({int(rows[k]): said(k) for k in places.tolist() if int(rows[k]) not in wrong})
     elif len(places):
         more = f" (and {len(places) - 1} more rows like it)" if len(places) > 1 else ""
         raise ValueError(f"row {rows[places[0]]}: {said(places[0])}{more}{advice and '; '}{advice}")

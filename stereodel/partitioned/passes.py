@@ -80,11 +80,6 @@ class Execution:
     progress : callable, optional
         Called with the name of a pass, the number of its tasks that are done, and that of all of them.
 
-    Attributes
-    ----------
-    partition, limit, executor, jobs, scratch, resume, progress
-        As given.
-
     Raises
     ------
     ValueError, TypeError

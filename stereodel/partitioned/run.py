@@ -272,10 +272,6 @@ def triangulate(
     areas with that of the sphere; then the files of results with the plan. They are moved into `out` when all are
     right, ``run.json`` last.
 
-    Where files are compact, as pixels of HEALPix or files sorted along a space-filling curve, they are the partitions,
-    cut where they are large and grouped where they are small: nothing is copied. That is measured, on a sample: see
-    `stereodel.partitioned.spread.is_compact`. Otherwise points are spread over the leaves of a k-d tree.
-
     Examples
     --------
     >>> import tempfile, pyarrow, pyarrow.parquet

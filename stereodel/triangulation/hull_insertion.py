@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Self
 
 import numpy as np
 import numpy.typing as npt
@@ -19,13 +18,9 @@ from stereodel._arrays import (
     FloatArray,
     IntArray,
     as_plane_or_sphere,
-    as_points,
     read_only,
 )
-from stereodel._docs import shared
 from stereodel._spaces import surface_of
-from stereodel.sphere.coordinates import LONLAT, as_asked, as_sites, as_told
-from stereodel.sphere.latitudes import Latitude
 from stereodel.triangulation.sites import GHOST, SITES, InsertionSites
 from stereodel.triangulation.topology import Edge, Facet, Facets, as_rows
 
@@ -70,8 +65,6 @@ class HullInsertion:
     Attributes
     ----------
     points : (n, 2) or (n, 3) array
-    latitude : str or None
-        The kind of latitude by which the points were given (`from_lonlat`).
     start : tuple of int
         The points of the first surface; fewer than three if all lie on one line (one great circle).
 
@@ -104,7 +97,6 @@ class HullInsertion:
 
     def __init__(self, points: npt.ArrayLike) -> None:
         array = as_plane_or_sphere(points)
-        self.latitude: Latitude | None = None
         self.surface = surface_of(array)
         self._sites = SITES[self.surface]()
         self._hull = Facets()
@@ -116,40 +108,9 @@ class HullInsertion:
         self.start: tuple[int, ...] = ()
         self._append(array)
 
-    @classmethod
-    @shared(**LONLAT)
-    def from_lonlat(cls, lonlat: npt.ArrayLike, *, latitude: Latitude = "spherical") -> Self:
-        """The hull of points given by longitude and latitude.
-
-        Parameters
-        ----------
-        {lonlat}
-        {latitude}
-
-        {lonlat_raises}
-
-        Examples
-        --------
-        >>> hull = HullInsertion.from_lonlat([[0, 0], [90, 0], [0, 90]])
-        >>> hull.extend(lonlat=[[-135, -35]])
-        >>> [step.inserted for step in hull], hull.latitude
-        ([3], 'spherical')
-        """
-        xyz, kind = as_sites(None, lonlat, latitude)
-        self = cls(xyz)
-        self.latitude = kind
-        return self
-
-    @property
-    def lonlat(self) -> FloatArray:
-        """Longitude and latitude of `points`, (n, 2) in degrees, if the points were given by them."""
-        return as_told(self.points, self.latitude)
-
-    def extend(self, points: npt.ArrayLike | None = None, *, lonlat: npt.ArrayLike | None = None) -> None:
-        """Append points, or `lonlat` with the same kind of latitude; iterate (or `run`) to insert them."""
-        pairs = None if lonlat is None else as_points(lonlat, 2, "lonlat")
-        given = as_asked(points, pairs, self.latitude, "points")
-        self._append(self.surface.as_points(given, "extend(lonlat=…)"))
+    def extend(self, points: npt.ArrayLike) -> None:
+        """Append points; iterate (or `run`) to insert them."""
+        self._append(self.surface.as_points(points, "lonlat_to_xyz"))
 
     def run(self) -> None:
         """Insert all pending points, without a record of the steps."""

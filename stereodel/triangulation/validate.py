@@ -10,8 +10,9 @@ locally convex. `check_delaunay` therefore certifies three things, each exactly:
    the same after projection from one vertex v, where a triangle a b c is counterclockwise if and only if v is outside
    its bubble, circles stay circles, and the boundary is the link of v.
 
-From 3 the projected triangles tile a convex polygon once, and for a tiling 2 implies empty circles (Delaunay, 1934).
-Turning once is counted by local maxima along a direction: a locally convex closed polygon has one for each turn.
+From 3 the projected triangles tile a convex polygon once, and for a tiling 2 implies empty circles (B. Delaunay, "Sur
+la sphère vide", 1934). Turning once is counted by local maxima along a direction: a locally convex closed polygon has
+one for each turn.
 """
 
 from __future__ import annotations
@@ -98,10 +99,6 @@ def check_delaunay(
     -----
     All signs are those of exact arithmetic on the given doubles; on the sphere, on the rays through them. Points all
     on one line (one great circle) must have no simplices. Points on one small circle form a closed two-sided polygon.
-
-    References
-    ----------
-    B. Delaunay, "Sur la sphère vide", Bull. Acad. Sci. URSS (1934): locally empty circles are empty.
 
     Examples
     --------

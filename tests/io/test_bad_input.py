@@ -44,7 +44,7 @@ lon,lat|1,2|,4 → row 2: the longitude is missing
 lon,lat|1,|1,n/a → row 1: the latitude is missing (and 1 more rows like it)
 lon,lat|1,2|3,north → row 2: the latitude 'north' is not a number
 lon,lat|1,2|inf,4 → row 2: the longitude is inf, but must be finite
-lon,lat|1,2|3 → row 2 has 1 fields, but there are 2 columns
+lon,lat|1,2|3 → row 2 has 1 field, but there are 2 columns
  → the table is empty
 name,lon,lat,lon| → several columns with the name 'lon'
 a,10,48.4|b,2,51 → column_1', 'column_2', 'column_3

@@ -191,7 +191,7 @@ def test_long_tables_are_read_in_blocks(monkeypatch):
     table = read_points(io.StringIO("\n".join(["lon,lat,name", *rows, ",,", "", " "])))
     assert table.lonlat.tolist() == [[k, k / 2] for k in range(7)]
     assert table.columns["name"][6] == "name 6"
-    with pytest.raises(ValueError, match="row 6 has 1 fields"):
+    with pytest.raises(ValueError, match="row 6 has 1 field"):
         read_points(io.StringIO("\n".join(["lon,lat,name", *rows[:5], "7", *rows[5:]])))
 
 

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from stereodel.io.formats.columns import LONG, column, doubles, texts, typed
+from stereodel.io.formats.columns import LONG, column, doubles, readings, texts
 
 
 @pytest.mark.parametrize(
@@ -44,7 +44,7 @@ from stereodel.io.formats.columns import LONG, column, doubles, texts, typed
     ],
 )
 def test_numbers_are_taken_where_doubles_hold_them(cells, kind):
-    found = typed(np.array(cells))
+    found = readings(np.array(cells)).get("." if "." in "".join(cells) else "", np.array(cells))
     assert found.dtype.kind == kind
     if kind == "U":
         assert found.tolist() == cells
@@ -55,17 +55,27 @@ def test_numbers_are_taken_where_doubles_hold_them(cells, kind):
 
 @pytest.mark.parametrize(
     ("cells", "values"),
-    [(["1,5", "2"], [1.5, 2]), (["1,5", ""], [1.5, None]), (["1.5", "2,5"], None), (["1.234,5", "2"], None)],
+    [
+        (["1,5", "2"], {",": [1.5, 2]}),
+        (["1,5", ""], {",": [1.5, None]}),
+        (["1.5", "2,5"], {}),
+        (["1.234,5", "2"], {",": [1234.5, 2]}),
+        (["1.234.567", "128,5"], {",": [1234567, 128.5]}),
+        (["1.234", "2,345"], {".": [1.234, 2345], ",": [1234, 2.345]}),
+        (["1.234", "0.5"], {".": [1.234, 0.5]}),
+        (["1'234.5", "\u22122"], {".": [1234.5, -2]}),
+        (["1\n2", "3"], {}),
+    ],
 )
-def test_decimal_commas_beside_another_separator(cells, values):
-    found = typed(np.array(cells), comma=True).tolist()
-    assert [None if value != value else value for value in found] == (cells if values is None else values)
+def test_readings_by_the_decimal_mark(cells, values):
+    found = readings(np.array(cells))
+    assert {mark: [None if x != x else x for x in each.tolist()] for mark, each in found.items()} == values
 
 
 @given(st.lists(st.one_of(st.integers(), st.floats(allow_nan=False, allow_infinity=False)), min_size=1, max_size=5))
 def test_what_is_written_comes_back(values):
     cells = [repr(value) for value in values]
-    for cell, found in zip(cells, typed(np.array(cells)).tolist(), strict=True):
+    for cell, found in zip(cells, next(iter(readings(np.array(cells)).values())).tolist(), strict=True):
         assert cell == found or Fraction(cell) == Fraction(repr(found))
 
 

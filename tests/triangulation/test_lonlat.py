@@ -9,12 +9,12 @@ from stereodel import SphericalDelaunay, SphericalVoronoi, angular_distance, gra
 from stereodel.interpolation import contours
 from stereodel.relaxation import lloyd
 from stereodel.sphere.latitudes import KINDS
-from stereodel.triangulation import HullInsertion, PlanarDelaunay, PlanarVoronoi
+from stereodel.triangulation import PlanarDelaunay, PlanarVoronoi
 from tests import sets
 from tests.graphs.test_proximity import FROM_THE_INSIDE
 from tests.interpolation.known import KINDS as INTERPOLATORS
 
-MADE = [SphericalDelaunay.from_lonlat, SphericalVoronoi.from_lonlat, HullInsertion.from_lonlat]
+MADE = [SphericalDelaunay.from_lonlat, SphericalVoronoi.from_lonlat]
 
 
 def places(n, seed=0):
@@ -62,16 +62,6 @@ def test_changes_speak_it_too():
     again = SphericalDelaunay.from_lonlat(left, latitude="geodetic")
     assert np.array_equal(triangulation.points, again.points)
     assert sorted(map(tuple, triangulation.simplices.tolist())) == sorted(map(tuple, again.simplices.tolist()))
-
-
-def test_hull_insertion_goes_on_with_it():
-    lonlat = places(40)
-    begun = HullInsertion.from_lonlat(lonlat[:10], latitude="authalic")
-    begun.extend(lonlat=lonlat[10:])
-    begun.run()
-    assert same(begun.lonlat, lonlat)
-    whole = SphericalDelaunay.from_lonlat(lonlat, latitude="authalic")
-    assert sorted(map(tuple, begun.facets.tolist())) == sorted(map(tuple, whole.simplices.tolist()))
 
 
 def test_results_are_told():
@@ -139,7 +129,7 @@ def test_contours():
 
 FLAT, ROUND = sets.grid(3, 3), sets.AXES
 WITHOUT = [cls(FLAT) for cls in (PlanarDelaunay, PlanarVoronoi)]
-WITHOUT += [cls(ROUND) for cls in (SphericalDelaunay, SphericalVoronoi, HullInsertion)]
+WITHOUT += [cls(ROUND) for cls in (SphericalDelaunay, SphericalVoronoi)]
 WITHOUT += [lloyd(ROUND, steps=1), contours(ROUND, ROUND[:, 2], 0.5)[0]]
 
 

@@ -29,12 +29,17 @@ class Wanted:
     crs: str | None = None
     skip_missing: bool = False
     skip_invalid: bool = False
-    missing: tuple[str, ...] = ()
+    missing: str | float | Sequence[str | float] = ()
     encoding: str | None = None
     decimal: str | None = None
     skip_rows: int = 0
     wrap: bool = False
     progress: Progress | None = None
+
+    @property
+    def sentinels(self) -> list[str]:
+        """What stands for missing values, as text."""
+        return list(map(str, [self.missing] if isinstance(self.missing, str | float | int) else self.missing))
 
     def check(self) -> None:
         """ValueError or TypeError for options that are wrong or contradict each other."""

@@ -15,6 +15,7 @@ import re
 import warnings
 from collections.abc import Iterable, Mapping
 from decimal import Decimal
+from itertools import compress
 from typing import Any, Final
 
 import numpy as np
@@ -23,7 +24,7 @@ from stereodel._arrays import BoolArray, Column, FloatArray
 from stereodel._extras import MissingExtraError, optional
 from stereodel.io.formats.names import DataWarning, listed, spelled
 
-MISSING: Final = ("", "na", "n/a", "nan", "null", "none", "<na>", "-")
+MISSING: Final = ("", "na", "n/a", "#n/a", "nan", "null", "none", "<na>", "-", "–")
 """Spellings of a missing value, in any case."""
 
 NUMBER: Final = re.compile(r"[-+]?(?:(?:[0-9]+[.,]?[0-9]*|[.,][0-9]+)(?:[eE][-+]?[0-9]+)?|inf|infinity)", re.IGNORECASE)
@@ -46,7 +47,7 @@ TINY: Final = float(np.finfo(np.float64).tiny)
 EXACT_INTEGERS: Final = 2.0**53
 """Up to this number doubles represent every integer."""
 
-LETTERS: Final = frozenset("0123456789+-.,eE")
+LETTERS: Final = frozenset("0123456789+-.,eE\n")
 WRITTEN: Final = LETTERS | frozenset(" '’\xa0\u202f\u2009\N{MINUS SIGN}")
 """What finite numbers are written with, and also with separators of thousands and the minus sign of printers."""
 
@@ -58,9 +59,8 @@ LIKE_POWER: Final = re.compile(r"[0-9]+E[0-9]+")
 
 SPACED: Final = re.compile(r"(?<=[0-9])[ '’\xa0\u202f\u2009](?=[0-9]{3}(?![0-9]))")
 THOUSANDS: Final = {
-    "": re.compile(r"[-+]?[1-9][0-9]{0,2}(?:[ '’\xa0\u202f\u2009][0-9]{3})+(?:[.,][0-9]+)?"),
-    ".": re.compile(r"[-+]?[1-9][0-9]{0,2}(?:\.[0-9]{3})+(?:,[0-9]+)?"),
-    ",": re.compile(r"[-+]?[1-9][0-9]{0,2}(?:,[0-9]{3})+(?:\.[0-9]+)?"),
+    mark: re.compile(rf"[-+]?[1-9][0-9]{{0,2}}(?:[{between}][0-9]{{3}})+(?:[{decimal}][0-9]+)?")
+    for mark, between, decimal in (("", " '’\xa0\u202f\u2009", ".,"), (".", ".", ","), (",", ",", "."))
 }
 """Numbers whose thousands are separated by blanks or apostrophes, points, or commas."""
 
@@ -81,10 +81,7 @@ UNWRITABLE: Final = {
 GUESSED_FROM: Final = 1 << 20
 """Bytes from which an encoding is guessed."""
 
-GUESSES: Final = (
-    *("cp1250", "cp1251", "cp1252", "cp1253", "cp1254", "cp1255", "cp1256", "koi8_r", "cp866"),
-    *("cp932", "euc_jp", "gb18030", "big5", "cp949"),
-)
+GUESSES: Final = (*(f"cp125{k}" for k in range(7)), "koi8_r", "cp866", "cp932", "euc_jp", "gb18030", "big5", "cp949")
 """Encodings that tables without Unicode have."""
 
 WESTERN: Final = re.compile("[^\x00-\x7f\xb0\xba\xaaà-öø-ÿÀ-ÖØ-ß€‘’“”–—«»²³µ\xa0ŒœŠšŽžŸ]|[^\x00-\x7f]{3}")
@@ -103,7 +100,8 @@ def decoded(content: bytes, encoding: str | None = None) -> tuple[str, str]:
     ValueError for an encoding that does not exist or does not fit, and where nothing can be guessed.
     """
     marked = content.startswith((b"\xff\xfe", b"\xfe\xff"))
-    tried = encoding or ("utf-16" if marked else "utf-8-sig")
+    zeros = "utf-16-le" if content[1:2] == b"\0" else "utf-8-sig"  # as the first letter of a table has one
+    tried = encoding or ("utf-16" if marked else zeros)
     try:
         return content.decode("utf-8-sig" if tried.lower() in ("utf-8", "utf8") else tried), tried
     except LookupError:
@@ -177,76 +175,57 @@ def of_objects(values: Any) -> Column:
     return column(array.tolist()) if array.dtype.kind == "O" and len(array) else array
 
 
-def typed(values: Column, *, comma: bool = False) -> Column:
-    """A column of text as integers, or as floats with NaN for missing values, if all its values are numbers.
+def readings(values: Column) -> dict[str, Column]:
+    """A column of text as integers or floats, by each decimal mark with which all its values are numbers, "" without.
 
-    The column stays text if a number has more digits than a double can hold, or starts with a zero and another digit,
-    as codes do. `comma` says whether a comma may be a decimal mark.
+    Missing values are NaN. Blanks and apostrophes separate thousands, and so does the mark that is not decimal. There
+    is no reading if a number has more digits than a double can hold, or is a code: if it starts with a zero and another
+    digit, or all exponents are like 1E3 and no number has a point or sign.
     """
-    if values.dtype.kind != "U":
-        return values
-    text = [cell.strip() for cell in values.tolist()]
-    known = [cell for cell in text if cell.lower() not in MISSING]
+    cells = [cell.strip() for cell in values.tolist()] if values.dtype.kind == "U" else []
+    there = [cell.lower() not in MISSING for cell in cells]
+    known = list(compress(cells, there))
     if not known:
-        return np.full(len(text), np.nan) if len(text) and not any(text) else values
+        return {"": np.full(len(cells), np.nan)} if cells and not any(cells) else {}
     joined = "\n".join(known)
-    if not LETTERS.issuperset(joined.replace("\n", "")):
-        if not WRITTEN.issuperset(joined.replace("\n", "")):
-            return values
-        known = [
-            SPACED.sub("", cell) if THOUSANDS[""].fullmatch(cell) else cell
-            for cell in joined.replace("\N{MINUS SIGN}", "-").split("\n")
-        ]
-        joined = "\n".join(known)
-    codes = "E" in joined and not set("+-.,") & set(joined) and all(LIKE_POWER.fullmatch(c) for c in known if "E" in c)
+    used = set(joined)
+    if not used <= WRITTEN or joined.count("\n") >= len(known):
+        return {}
+    if not used <= LETTERS:
+        plain = joined.replace("\N{MINUS SIGN}", "-").split("\n")
+        joined = "\n".join(SPACED.sub("", cell) if THOUSANDS[""].fullmatch(cell) else cell for cell in plain)
+        used = set(joined)
+    codes = "E" in used and used.isdisjoint("+-.,") and all(map(LIKE_POWER.fullmatch, re.findall(".*E.*", joined)))
     if codes or CODE.search(joined):
-        return values
-    if "," in joined:
-        if not comma or "." in joined:
-            return values
-        known = [cell.replace(",", ".") for cell in known]
-    try:
-        if len(known) == len(text):
-            return np.array(list(map(int, known)), dtype=np.int64)
-    except (ValueError, OverflowError):
-        pass
-    try:
-        numbers = np.array(list(map(float, known)))
-    except ValueError:
-        return values
-    if not _all_held(known, numbers):
-        return values
-    result = np.full(len(text), np.nan)
-    result[[cell.lower() not in MISSING for cell in text]] = numbers
+        return {}
+    result = {}
+    for decimal, mark in OTHER.items() if "." in used or "," in used else [("", "")]:
+        having = [cell for cell in joined.split("\n") if mark in cell] if mark in used else []
+        if not all(map(THOUSANDS[mark].fullmatch, having)):
+            continue
+        numbers = _held((joined.replace(mark, "") if mark else joined).replace(",", ".").split("\n"), all(there))
+        if numbers is not None:
+            result[decimal] = numbers if all(there) else np.full(len(cells), np.nan)
+            result[decimal][there] = numbers
     return result
 
 
-def decimal_mark(values: Column) -> tuple[str, bool]:
-    """The decimal mark of numbers that are given as text, "" if there is none, and whether it is sure to be one."""
-    mark = ""
-    for cell in values.tolist():
-        found = "." if "." in cell else "," if "," in cell else ""
-        if found and not GROUPED.fullmatch(cell.strip()):
-            return found, True
-        mark = mark or found
-    return mark, False
-
-
-def grouped(values: Column, decimal: str = "") -> str:
-    """The mark that separates thousands in a column of text, "" if none is sure to do so.
-
-    It does where a number has it several times, or has a decimal mark after it, or where another is known to be the
-    `decimal` mark; and all numbers with the mark have it in these places.
-    """
-    cells = [cell.strip() for cell in values.tolist() if cell.strip().lower() not in MISSING]
-    for mark, other in OTHER.items():
-        having = [cell for cell in cells if mark in cell]
-        sure = decimal == other or any(cell.count(mark) > 1 or other in cell for cell in having)
-        if having and sure and decimal != mark and all(THOUSANDS[mark].fullmatch(cell) for cell in having):
-            plain = [cell.replace(mark, "") for cell in cells]
-            if all(NUMBER.fullmatch(cell) for cell in plain):
-                return mark
-    return ""
+def _held(text: list[str], whole: bool) -> Column | None:
+    """Text as integers, where `whole` says that they may be, or as doubles that preserve all digits; else None."""
+    try:
+        if whole:
+            return np.array(list(map(int, text)), dtype=np.int64)
+    except (ValueError, OverflowError):
+        pass
+    try:
+        numbers = list(map(float, text))
+    except ValueError:
+        return None
+    for cell, number in zip(text, numbers, strict=True):
+        unsure = (len(cell) > SAFE_DIGITS or not TINY <= abs(number) < np.inf) and cell != repr(number)
+        if unsure and Decimal(cell) != Decimal(repr(number)):
+            return None
+    return np.array(numbers)
 
 
 def blanked(values: Column, missing: Iterable[str]) -> Column:
@@ -286,8 +265,10 @@ def far(values: FloatArray) -> dict[float, int]:
     return result
 
 
-def why_not(cell: str) -> str:
-    """Why text is not taken for a number, as the end of a message."""
+def why_not(cell: str, decimal: str = "") -> str:
+    """Why text is not taken for a number, where another mark may be said to be decimal, as the end of a message."""
+    if decimal:
+        return f"is not a number with the decimal mark {decimal!r}"
     if not GROUPED.fullmatch(cell):
         return "is not a number"
     digits = cell.replace(",", ".")
@@ -300,44 +281,21 @@ def doubles(values: Column, *, decimal: bool = False) -> tuple[FloatArray, BoolA
     Points and commas are decimal marks. Unless `decimal` says that all are, one that may separate thousands makes its
     number wrong, if the other numbers of the column do not have the same mark, and no other.
     """
-    result, wrong = _doubles(values)
-    if decimal or values.dtype.kind not in "UO":
-        return result, wrong
-    numbers = [str(cell).strip() for cell in values[~wrong].tolist()]
-    unsure = np.array([GROUPED.fullmatch(cell) is not None for cell in numbers], dtype=np.bool_)
-    marks = {mark for cell, doubt in zip(numbers, unsure, strict=True) for mark in ".," if not doubt and mark in cell}
-    unsure &= np.array([marks != {"." if "." in cell else ","} for cell in numbers], dtype=np.bool_)
-    wrong[~wrong] = unsure
-    return np.where(wrong, np.nan, result), wrong
-
-
-def _doubles(values: Column) -> tuple[FloatArray, BoolArray]:
-    if values.dtype.kind == "U":
-        text = np.char.strip(values.astype(np.str_, copy=False))
+    given = values.tolist()
+    cells = ["" if cell is None else str(cell).strip() for cell in given]
+    if decimal and LETTERS.issuperset("".join(cells)):
         try:
-            if LETTERS.issuperset("".join(text.tolist())):
-                return text.astype(np.float64), np.zeros(len(text), dtype=np.bool_)
+            return np.array(list(map(float, cells))), np.zeros(len(cells), dtype=np.bool_)
         except ValueError:
             pass
-    result, wrong = np.full(len(values), np.nan), np.zeros(len(values), dtype=np.bool_)
-    for row, cell in enumerate(values.tolist()):
-        said = "" if cell is None else str(cell).strip()
-        if NUMBER.fullmatch(said):
-            result[row] = float(said.replace(",", "."))
-        else:
-            wrong[row] = said.lower() not in MISSING
-    return result, wrong
-
-
-def _all_held(text: list[str], numbers: FloatArray) -> bool:
-    """Whether the doubles preserve all digits of the text from which they were read."""
-    if not np.isfinite(numbers).all():
-        return False
-    for cell, number in zip(text, numbers.tolist(), strict=True):
-        unsure = (len(cell) > SAFE_DIGITS or abs(number) < TINY) and cell != repr(number)
-        if unsure and Decimal(cell) != Decimal(repr(number)):
-            return False
-    return True
+    numbers = [NUMBER.fullmatch(cell) is not None for cell in cells]
+    unsure = [not decimal and isinstance(cell, str) and GROUPED.fullmatch(cell.strip()) is not None for cell in given]
+    sure = [cell for cell, number, doubt in zip(cells, numbers, unsure, strict=True) if number and not doubt]
+    marks = {mark for mark in ".," if any(mark in cell for cell in sure)}
+    good = [n and not (d and marks != set(cell) & set(".,")) for cell, n, d in zip(cells, numbers, unsure, strict=True)]
+    result = [float(cell.replace(",", ".")) if known else np.nan for cell, known in zip(cells, good, strict=True)]
+    wrong = [not known and cell.lower() not in MISSING for cell, known in zip(cells, good, strict=True)]
+    return np.array(result, dtype=np.float64), np.array(wrong, dtype=np.bool_)
 
 
 def plain_cells(values: Any) -> list[Any]:

@@ -21,16 +21,15 @@ from stereodel.io.formats import Content, FileFormat, Input, Wanted
 from stereodel.io.formats.columns import (
     EXACT_INTEGERS,
     NUMBER,
+    OTHER,
     as_text,
     blanked,
     check_held,
-    decimal_mark,
     decoded,
-    grouped,
     objects,
     plain_cells,
+    readings,
     texts,
-    typed,
     why_not,
 )
 from stereodel.io.formats.names import DataWarning, has_lonlat, left_out, listed, spelled
@@ -61,88 +60,51 @@ SEPARATED: Final = re.compile(r"sep=([^\r\n])\r?\n", re.IGNORECASE)
 Lines = list[list[str]]
 
 
-class Cells:
-    """Rows of text, as of a sheet."""
-
-    separator: str | None = "\t"
-    above = 0
-
-    def __init__(self, rows: Iterable[list[str]]) -> None:
-        self._cells = rows
-
-    def __iter__(self) -> Iterator[list[str]]:
-        return iter(self._cells)
-
-    def told(self, progress: Progress | None) -> None:
-        """Say how much is read; here, all."""
-
-
-class Lined(Cells):
-    """The rows of a text table as lists of fields, what separates them, and the number of lines above."""
-
-    def __init__(self, text: str, above: int = 0) -> None:
-        said, start = SEPARATED.match(text), 0
-        if said:
-            start, above = said.end(), above + 1
-        if comments := COMMENTS.match(text, start):
-            start, above = comments.end(), above + len(comments[0].splitlines())
-        text = text[start:] if start else text
-        for begin in range(0, len(text) - MOST_LINE, MOST_LINE):
-            if max(text.find(end, begin, begin + MOST_LINE) for end in "\r\n") < 0:
-                raise ValueError(f"a line has more than {MOST_LINE} characters, which no line of a table needs")
-        self.separator = said[1] if said else _separator(text)
-        self.above, self._text, self._stream = above, text, io.StringIO(text, newline="")
-
-    def __iter__(self) -> Iterator[list[str]]:
-        rows = _rows(self._stream, self.separator, self.above)
-        return (row for row in rows if any(row) and (len(row) > 1 or row[0].strip()))
-
-    def told(self, progress: Progress | None) -> None:
-        """Say how many characters are read."""
-        if progress is not None:
-            progress("reading", self._stream.tell(), len(self._text))
-
-
 def read(file: Input, wanted: Wanted) -> Content:
     """A table of text; columns whose values are all numbers become numeric, but for degrees."""
     text, encoding = decoded(file.content, wanted.encoding)
-    passed = text.splitlines(keepends=True)[: wanted.skip_rows] if wanted.skip_rows else []
-    return tabulated(Lined(text[sum(map(len, passed)) :], len(passed)), wanted, encoding)
+    start = sum(map(len, text.splitlines(keepends=True)[: wanted.skip_rows])) if wanted.skip_rows else 0
+    said = SEPARATED.match(text) or SEPARATED.match(text, start)
+    start = max(start, said.end()) if said else start
+    comments = COMMENTS.match(text, start)
+    start = comments.end() if comments else start
+    above, text = len(text[:start].splitlines()), text[start:]
+    for begin in range(0, len(text) - MOST_LINE, MOST_LINE):
+        if max(text.find(end, begin, begin + MOST_LINE) for end in "\r\n") < 0:
+            raise ValueError(f"a line has more than {MOST_LINE} characters, which no line of a table needs")
+    separator = said[1] if said else _separator(text)
+    rows = _rows(text, separator, above, wanted.progress)
+    found = tabulated(rows, wanted, comma=separator != ",", above=above)
+    shown = {None: "blanks", "\t": "tab"}.get(separator, separator)
+    found.understood = {"encoding": encoding, "separator": shown, **found.understood}
+    return found
 
 
 FORMAT = FileFormat((".csv", ".tsv", ".txt"), {}, read)
 
 
-def tabulated(lined: Cells, wanted: Wanted, encoding: str = "") -> Content:
-    """A table of rows of text: its header found, rows of units and totals left out, numbers typed."""
-    named = [name for name in wanted.plane or (wanted.lon, wanted.lat) if name is not None]
-    columns, invalid, titles = _split(lined, named, wanted)
-    if titles:
-        _note(f"{titles} {'rows' if titles > 1 else 'row'} above the header left out", "skip_rows")
-    places: tuple[str, ...] = wanted.plane or ()
-    decimals: tuple[str, ...] = ()
-    alike = wanted.lon is not None and wanted.lon == wanted.lat
-    if wanted.crs is None and wanted.plane is None and not alike and (named or has_lonlat(list(columns))):
-        places = decimals = wanted.axes(list(columns))
-    columns = {name: blanked(values, wanted.missing) for name, values in columns.items()}
+def tabulated(rows: Iterable[list[str]], wanted: Wanted, *, comma: bool = True, above: int = 0) -> Content:
+    """A table of rows of text, after lines `above`: its header found, units and totals left out, numbers typed.
+
+    `comma` says whether a comma may be a decimal mark.
+    """
+    columns, invalid, header = _split(iter(rows), wanted)
+    degrees: tuple[str, ...] = ()
+    named = wanted.lon != wanted.lat or (wanted.lon is None and has_lonlat(list(columns)))
+    if named and wanted.crs is None and wanted.plane is None:
+        degrees = wanted.axes(list(columns))
+    columns = {name: blanked(values, wanted.sentinels) for name, values in columns.items()}
     count = len(next(iter(columns.values()), ()))
-    words = _rows_of_words(columns, places, count)
+    words = _rows_of_words(columns, wanted.plane or degrees, count)
     for row, what in words.items():
         _note(f"{what} is left out: {listed([str(values[row]) for values in columns.values()])}")
-    rows = np.setdiff1d(np.arange(1, count + len(invalid) + 1), [*invalid])
-    if words:
-        kept = np.setdiff1d(np.arange(count), [*words])
-        columns, rows = {name: values[kept] for name, values in columns.items()}, rows[kept] - (0 in words)
-    typed_ones, thousands = typed_columns(columns, lined.separator != ",", decimals, wanted.decimal)
-    found = Content(typed_ones, rows)
-    found.invalid.update(invalid)
-    found.understood |= {
-        "encoding": encoding,
-        "separator": encoding and {None: "blanks", "\t": "tab"}.get(lined.separator, lined.separator),
-        "header": lined.above + titles + 1,
-        "thousands": thousands,
-        **dict.fromkeys(words.values(), True),
-    }
+    units = 0 in words
+    numbers = np.delete(np.arange(1 - units, count + len(invalid) + 1 - units), [row - 1 for row in invalid])
+    columns = {name: np.delete(values, [*words]) for name, values in columns.items()} if words else columns
+    typed, thousands = typed_columns(columns, comma, degrees, wanted.decimal)
+    found = Content(typed, np.delete(numbers, [*words]))
+    found.invalid.update({row - units: why for row, why in invalid.items()})
+    found.understood |= {"header": above + header if header else None, "thousands": thousands}
     return found
 
 
@@ -151,39 +113,45 @@ def typed_columns(
 ) -> tuple[dict[str, Column], dict[str, str]]:
     """The columns, and marks between thousands by column: one whose values are all numbers becomes numeric.
 
-    Except `degrees`, whose marks are decimal. Numbers whose marks separate thousands are numbers where these are known:
-    by `decimal`, by the marks that are certainly decimal in the table, or by what stands in the column. Those that may
-    separate thousands stay text, with a warning, if the table has another decimal mark, or if their mark is a comma,
-    which may be decimal where `comma`, and no other number has it.
+    Except `degrees`, whose marks are decimal. Where the marks of a column may be decimal or separate thousands, the
+    others decide: `decimal`, degrees, and columns that are numbers with one decimal mark alone. If they have the same
+    one it holds, and if they have none a point is decimal; else the column stays text, with a warning.
     """
-    result, thousands = dict(columns), dict[str, str]()
-    marks = {name: decimal_mark(columns[name]) for name in degrees}
-    for name in [name for name in columns if name not in marks]:
-        result[name] = typed(columns[name], comma=comma)
-        if result[name].dtype.kind == "f":
-            marks[name] = decimal_mark(columns[name])
-    known = {mark for name, (mark, sure) in marks.items() if sure or name in degrees} - {""}
-    known = {decimal} if decimal else known
+    result, thousands, doubtful = dict(columns), dict[str, str](), dict[str, dict[str, Column]]()
+    text = "\n".join(cell for name in degrees for cell in columns[name].tolist())
+    known = {mark for mark in ".," if mark in text and re.search(rf"[0-9][{mark}]", text)}
+    comma = comma or "," in known or decimal == ","
     for name in [name for name in columns if name not in degrees]:
-        mark, sure = marks.get(name, ("", True))
-        if decimal and mark and mark != decimal:
-            result[name], sure = columns[name], True  # text, unless its thousands are separated
-        elif sure and result[name].dtype.kind != "U":
+        ways = readings(columns[name])
+        mark = next(iter(ways), "")
+        separated = mark != "" and _first(columns[name], OTHER[mark]) != ""
+        if mark == "," and not comma and not separated:
             continue
-        separator = grouped(columns[name], known.copy().pop() if len(known) == 1 else "")
-        if separator:
-            plain = texts(cell.replace(separator, "") for cell in columns[name].tolist())
-            result[name], thousands[name] = typed(plain, comma=separator == "."), separator
-            cell = next(cell.strip() for cell in columns[name].tolist() if separator in cell)
-            if not decimal:
-                _note(
-                    f"column {name!r} has marks between thousands: {cell!r} is {cell.replace(separator, '')}", "decimal"
-                )
-        elif mark and not sure and (known - {mark} or (mark == "," and not known)):
-            result[name] = columns[name]
-            cell = next(cell.strip() for cell in columns[name].tolist() if mark in cell)
-            _note(f"column {name!r} is kept as text: {cell!r} {why_not(cell)}")
+        if len(ways) == 1:
+            known |= {mark} - {""}
+        if len(ways) == 1 and not separated and (not decimal or mark in ("", decimal)):
+            result[name] = ways[mark]
+        elif ways:
+            doubtful[name] = ways
+    known = {decimal} if decimal else known
+    for name, ways in doubtful.items():
+        mark = "".join(known) if len(known) == 1 else "" if known or _first(columns[name], ",") else "."
+        if mark in ways:
+            result[name], cell = ways[mark], _first(columns[name], OTHER[mark])
+            if cell:
+                thousands[name] = OTHER[mark]
+            if cell and not decimal:
+                plain = cell.replace(OTHER[mark], "")
+                _note(f"column {name!r} has marks between thousands: {cell!r} is {plain}", "decimal")
+        else:
+            cell = _first(columns[name], ",") or _first(columns[name], ".")
+            _note(f"column {name!r} is kept as text: {cell!r} {why_not(cell, ''.join(known - ways.keys()))}")
     return result, thousands
+
+
+def _first(values: Column, mark: str) -> str:
+    """The first cell that has a mark, "" if none has."""
+    return next((cell.strip() for cell in values.tolist() if mark in cell), "")
 
 
 def _note(what: str, option: str = "") -> None:
@@ -191,27 +159,23 @@ def _note(what: str, option: str = "") -> None:
     warnings.warn(f"{what}{advice}", DataWarning, stacklevel=2)
 
 
-def _split(lined: Cells, wanted: Collection[str], how: Wanted) -> tuple[dict[str, Column], dict[int, str], int]:
-    """Columns of a table as text, rows that are left out and why, and the number of rows above the header.
+def _filled(rows: Iterable[list[str]]) -> Lines:
+    """Rows that have anything: a line of blanks has one field, or none."""
+    return [row for row in rows if any(row) and (len(row) > 1 or row[0].strip())]
 
-    A first line that contains one of the names `wanted` is a header.
-    """
-    rows = iter(lined)
+
+def _split(rows: Iterator[list[str]], wanted: Wanted) -> tuple[dict[str, Column], dict[int, str], int]:
+    """Columns of a table as text, rows that are left out and why, and the number of the header's row, 0 without."""
     top = list(islice(rows, TITLES))
-    if not top:
-        raise ValueError("the table is empty: there is not even a line with the names of the columns")
-    if len(top[0]) > MOST_COLUMNS:
-        raise ValueError(f"the first line has {len(top[0])} columns; {MOST_COLUMNS} are the most that are read")
-    titles = 0 if how.skip_rows else _titles(top, wanted)
-    names, data = _header(top[titles], wanted)
-    data += top[titles + 1 :]
+    header, names, data = _header(top, wanted)
     invalid: dict[int, str] = {}
     # In blocks: a million lists at once would keep the garbage collector busy.
-    blocks, before = [_columns(data, len(names), 0, invalid, skip=how.skip_invalid)], len(data)
-    while block := list(islice(rows, BLOCK)):
-        blocks.append(_columns(block, len(names), before, invalid, skip=how.skip_invalid))
-        before += len(block)
-        lined.told(how.progress)
+    blocks, block, before = list[list[Column]](), data, 0
+    while block or not blocks:
+        filled = _filled(block)
+        blocks.append(_columns(filled, len(names), before, invalid, skip=wanted.skip_invalid))
+        before += len(filled)
+        block = list(islice(rows, BLOCK))
     columns = [np.concatenate(parts) for parts in zip(*blocks, strict=True)]
     # Spreadsheets write columns without a name or a value.
     named = {
@@ -219,23 +183,36 @@ def _split(lined: Cells, wanted: Collection[str], how: Wanted) -> tuple[dict[str
         for k, (name, values) in enumerate(zip(names, columns, strict=True), 1)
         if name or (values != "").any()
     }
-    return named, invalid, titles
+    return named, invalid, header
 
 
-def _titles(top: Lines, wanted: Collection[str]) -> int:
-    """The number of rows above the header: before the first one with names of coordinates, else those of one field."""
+def _header(top: Lines, wanted: Wanted) -> tuple[int, list[str], Lines]:
+    """The number of the header's row among the first ones, 0 without; names of the columns; and the rows below.
 
-    def names_places(row: list[str]) -> bool:
-        return bool(set(wanted) & {field.strip() for field in row}) or has_lonlat([field for field in row if field])
-
-    def is_heading(row: list[str]) -> bool:
-        return names_places(row) and not any(NUMBER.fullmatch(field.strip()) for field in row)
-
-    if names_places(top[0]):
-        return 0
-    heading = next((k for k, row in enumerate(top) if is_heading(row)), 0)
-    alone = next((k for k, row in enumerate(top) if sum(map(bool, map(str.strip, row))) > 1), 0)
-    return heading or alone
+    It is the first row with names of coordinates, else the first one of several fields; or else it is the first data,
+    if most of its fields are numbers. Two columns without names are longitude and latitude.
+    """
+    known = {*(wanted.plane or ()), wanted.lon, wanted.lat}
+    rows = {k: [field.strip() for field in row] for k, row in enumerate(top) if _filled([row])}
+    if not rows:
+        raise ValueError("the table is empty: there is not even a line with the names of the columns")
+    first = next(iter(rows))
+    if len(rows[first]) > MOST_COLUMNS:
+        raise ValueError(f"the first line has {len(top[0])} columns; {MOST_COLUMNS} are the most that are read")
+    places = [k for k, row in rows.items() if not known.isdisjoint(row) or has_lonlat(list(filter(None, row)))]
+    worded = [k for k in places if k == first or not any(map(NUMBER.fullmatch, rows[k]))]
+    several = [k for k, row in rows.items() if sum(map(bool, row)) > 1]
+    header = first if wanted.skip_rows else (worded or several or [first])[0]
+    titles = sum(k < header for k in rows)
+    if titles:
+        _note(f"{titles} {'rows' if titles > 1 else 'row'} above the header left out", "skip_rows")
+    names = rows[header]
+    if header not in places and 2 * sum(map(bool, map(NUMBER.fullmatch, names))) > sum(map(bool, names)):
+        return 0, ["lon", "lat"] if len(names) == 2 else [f"column_{k + 1}" for k in range(len(names))], top[header:]
+    repeated = sorted(name for name, times in Counter(names).items() if name and times > 1)
+    if repeated:
+        raise ValueError(f"there are several columns with the name {listed(repeated)}")
+    return header + 1, names, top[header + 1 :]
 
 
 def _rows_of_words(columns: Mapping[str, Column], places: Collection[str], count: int) -> dict[int, str]:
@@ -255,16 +232,15 @@ def _rows_of_words(columns: Mapping[str, Column], places: Collection[str], count
 
 def _columns(rows: Lines, width: int, before: int, invalid: dict[int, str], *, skip: bool) -> list[Column]:
     """Rows of text as columns, after `before` others; `invalid` takes those with too many or too few fields."""
-    wrong = [k for k, row in enumerate(rows) if len(row) != width]
-    for k in wrong:
+    for k in [k for k, row in enumerate(rows) if len(row) != width]:
         if len(rows[k]) > width and not any(rows[k][width:]):
             rows[k] = rows[k][:width]  # of separators at the end
             continue
-        said = f"has {len(rows[k])} fields, but there are {width} columns"
+        said = f"has {len(rows[k])} {'field' if len(rows[k]) == 1 else 'fields'}, but there are {width} columns"
         if not skip:
             raise ValueError(f"row {before + k + 1} {said}; {left_out('skip_invalid')}")
         invalid[before + k + 1] = said
-    good = rows if not wrong else [row for row in rows if len(row) == width]
+    good = [row for row in rows if len(row) == width] if invalid else rows
     return [texts(column) for column in zip(*good, strict=True)] or [np.zeros(0, dtype="<U1")] * width
 
 
@@ -273,55 +249,35 @@ def _separator(text: str) -> str | None:
     # One field may be as long as the table; by default, csv refuses fields of 131 072 characters for the whole process.
     csv.field_size_limit(max(csv.field_size_limit(), len(text)))
     lines = list(islice(io.StringIO(text, newline=""), LOOKED_AT))
-    lengths = {mark: _lengths(lines, mark) for mark in SEPARATORS}
+    # If need be but for the last line, which may end inside a quoted field or be a footnote.
+    rows = {mark: [len(row) for row in csv.reader(lines, delimiter=mark) if row] for mark in SEPARATORS}
+    lengths = {mark: set(each[:-1] or each) for mark, each in rows.items()}
     several = [mark for mark in SEPARATORS if max(lengths[mark], default=0) > 1]
-    even = [mark for mark in several if len(lengths[mark]) == 1]
+    even = [mark for mark in several if len({*rows[mark]}) == 1] or [m for m in several if len(lengths[m]) == 1]
     blanks = {len(line.split()) for line in lines if line.strip()}
     if not several or (not even and len(blanks) == 1 and blanks != {1}):
         return None
     return max(even or several, key=lambda mark: max(lengths[mark]))
 
 
-def _lengths(lines: list[str], mark: str) -> set[int]:
-    """Numbers of fields of the lines, except the last line, which may end inside a quoted field."""
-    lengths = [len(row) for row in csv.reader(lines, delimiter=mark) if row]
-    return set(lengths[:-1] or lengths)
-
-
-def _rows(lines: TextIO, mark: str | None, above: int) -> Iterator[list[str]]:
+def _rows(text: str, mark: str | None, above: int, progress: Progress | None) -> Iterator[list[str]]:
     """Fields of each row; an unclosed quotation mark is an error and does not swallow the rest of the table."""
-    if mark is None:
-        yield from (line.split() for line in lines)
-        return
-    reader = csv.reader(lines, delimiter=mark, strict=True)
-    while True:
-        line = above + reader.line_num + 1
-        try:
-            row = next(reader)
-        except StopIteration:
-            return
-        except csv.Error as error:
-            raise ValueError(
-                f"line {line}: a field begins with a quotation mark but does not end with one ({error}); "
-                "inside such a field write it twice"
-            ) from error
-        yield row
-
-
-def _header(row: list[str], wanted: Collection[str]) -> tuple[list[str], Lines]:
-    """Names of the columns, empty where there is none, and the first row if it is data.
-
-    The row is data if most of its fields are numbers, unless names of coordinates are among them. Two columns without
-    names are longitude and latitude.
-    """
-    first = [field.strip() for field in row]
-    numbers = sum(NUMBER.fullmatch(field) is not None for field in first)
-    if 2 * numbers > sum(map(bool, first)) and not (set(wanted) & set(first) or has_lonlat(first)):
-        return (["lon", "lat"] if len(first) == 2 else [f"column_{k}" for k in range(1, len(first) + 1)]), [row]
-    repeated = sorted(name for name, times in Counter(first).items() if name and times > 1)
-    if repeated:
-        raise ValueError(f"there are several columns with the name {listed(repeated)}")
-    return first, []
+    stream, begun = io.StringIO(text, newline=""), 0
+    lines = stream if mark else (" ".join(line.split()) for line in stream)
+    reader = csv.reader(lines, delimiter=mark or " ", strict=True)
+    try:
+        for number, row in enumerate(reader, 1):
+            begun = reader.line_num
+            if progress is not None and number % BLOCK == 0:
+                progress("reading", stream.tell(), len(text))
+            yield row
+        if progress is not None:
+            progress("reading", len(text), len(text))
+    except csv.Error as error:
+        raise ValueError(
+            f"line {above + begun + 1}: a field begins with a quotation mark but does not end with one ({error}); "
+            "inside such a field write it twice"
+        ) from error
 
 
 def write_csv(columns: Mapping[str, Column], stream: TextIO) -> None:

@@ -82,8 +82,7 @@ def read(file: Input, wanted: Wanted) -> Content:
             return Frame(frame)
         cells = _read_frame(source, wanted.layer, HEADERS="DISABLE")
         text = cells.astype(object).where(cells.notna(), "").astype(str)
-        rows = (row for row in text.to_numpy().tolist() if any(row))
-        return delimited.tabulated(delimited.Cells(rows), wanted)
+        return delimited.tabulated(text.to_numpy().tolist()[wanted.skip_rows :], wanted, above=wanted.skip_rows)
 
 
 FORMAT = FileFormat(

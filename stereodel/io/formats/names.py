@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import re
 import warnings
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from itertools import count
@@ -36,16 +36,7 @@ UNSURE: Final = {
 """Words that are both coordinates where there are no others: *Länge* and *Breite* are also length and width."""
 
 BESIDE: Final = {
-    "coord",
-    "coords",
-    "coordinate",
-    "coordinates",
-    "point",
-    "geogr",
-    "geographische",
-    "deg",
-    "degrees",
-    "grad",
+    *("coord", "coords", "coordinate", "coordinates", "point", "geogr", "geographische", "deg", "degrees", "grad")
 }
 """What may stand beside a word that is unsure."""
 
@@ -172,25 +163,19 @@ def _find(names: Sequence[str], kind: str, given: str | None) -> str:
         return same[0]
     sure, meant = NAMES[kind], NAMES[kind][0]
     plain = {name: name.strip().casefold() for name in names}
-    for matching in (
-        [name for name in names if plain[name] in sure],
-        [name for name in names if any(_is_word(word, plain[name], name) for word in sure)],
-        [
-            name
-            for name in names
-            if plain[name] in UNSURE[kind] or (words(name) - BESIDE and words(name) - BESIDE <= UNSURE[kind])
-        ],
-    ):
+    ways: tuple[Callable[[str], bool], ...] = (
+        lambda name: plain[name] in sure,
+        lambda name: any(word in plain[name] and (word > IDEOGRAPHS or word in words(name)) for word in sure),
+        lambda name: plain[name] in UNSURE[kind] or set() < words(name) - BESIDE <= UNSURE[kind],
+    )
+    for fits in ways:
+        matching = [name for name in names if fits(name)]
         if len(matching) == 1:
             return matching[0]
         if matching:
             raise ValueError(f"{listed(matching)} may all be the {meant}; say which with {spelled(kind, '=')}")
     advice = f"say which with {spelled(kind, '=')}, the columns are {listed(names)}"
     raise ValueError(f"no column looks like the {meant}; {advice}")
-
-
-def _is_word(word: str, plain: str, name: str) -> bool:
-    return word in plain and (word > IDEOGRAPHS or word in words(name))
 
 
 def words(name: str) -> set[str]:

@@ -96,19 +96,13 @@ def both(values: Column, name: str) -> Both | None:
     if not known or not all(_pair(cell) for cell in known[:LOOKED_AT]):
         return None
     pairs = [_pair(cell) for cell in cells]
-    there = [pair for pair in pairs if pair is not None]
-    named = re.search(r"lon|lng", name, re.IGNORECASE), re.search(r"lat", name, re.IGNORECASE)
-    lon_first = bool(named[0] and named[1] and named[0].start() < named[1].start())
-    lon_first = lon_first or any(abs(first.degrees) > 90 and not first.axis for first, _ in there)
+    lon_first = re.search("(lon|lng).*lat", name, re.IGNORECASE | re.DOTALL) is not None
+    lon_first = lon_first or any(abs(pair[0].degrees) > 90 and not pair[0].axis for pair in pairs if pair)
     x, y = list(cells), list(cells)
     for row, pair in enumerate(pairs):
         if pair is not None:
-            swap = (
-                pair[0].axis == "latitude" or pair[1].axis == "longitude"
-                if any(a.axis for a in pair)
-                else not lon_first
-            )
-            lon, lat = reversed(pair) if swap else pair
+            said = pair[0].axis == "latitude" or pair[1].axis == "longitude"
+            lon, lat = pair[::-1] if said or not (lon_first or pair[0].axis or pair[1].axis) else pair
             x[row], y[row] = repr(lon.degrees), repr(lat.degrees)
     return Both(texts(x), texts(y), "longitude, latitude" if lon_first else "latitude, longitude", None)
 
@@ -118,11 +112,9 @@ def _well_known(cells: list[str]) -> Both:
     systems = {point["srid"] for point in points if point is not None} - {None, "4326"}
     if len(systems) > 1:
         raise ValueError(f"the points are in several coordinate systems, {', '.join(sorted(systems))}")
-    x, y = (
-        texts(cell if point is None else point[axis] for cell, point in zip(cells, points, strict=True))
-        for axis in "xy"
-    )
-    return Both(x, y, WELL_KNOWN, f"EPSG:{systems.pop()}" if systems else None)
+    both = zip(cells, points, strict=True)
+    x, y = zip(*((cell, cell) if point is None else point.group("x", "y") for cell, point in both), strict=True)
+    return Both(texts(x), texts(y), WELL_KNOWN, f"EPSG:{systems.pop()}" if systems else None)
 
 
 def _pair(cell: str) -> tuple[Angle, Angle] | None:
