@@ -32,7 +32,7 @@ ARGUMENTS: Final = {
     "crs": "--crs",
     "skip_missing": "--skip-missing",
     "spacing": "--grid",
-    "bounds": "--box",
+    "bounds": "--bounds",
     "max_segment": "--max-segment",
     "columns": "--lon",
     "keep": "--keep",
