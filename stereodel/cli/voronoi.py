@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
 from stereodel.cli import options
+
+if TYPE_CHECKING:
+    from stereodel._arrays import Column, Indices
+    from stereodel.io import PointTable
 
 EXAMPLE = "stereodel voronoi cities.csv -o cells.gpkg"
 
@@ -25,7 +29,25 @@ def command(
             metavar="land|FILE", help="Clip the cells to land, or to the polygons of a file; areas are those inside."
         ),
     ] = None,
+    dissolve: Annotated[
+        str | None,
+        typer.Option(
+            metavar="COLUMN", help="One feature for all cells of equal value in this column, in place of one a point."
+        ),
+    ] = None,
+    of: Annotated[
+        str | None,
+        typer.Option(metavar="FILE", help="Table of points to gather, each in the cell that it is in; - is stdin."),
+    ] = None,
+    sums: Annotated[
+        list[str] | None, typer.Option("--sum", metavar="COLUMN", help="Column of --of to add up; repeatable.")
+    ] = None,
+    means: Annotated[
+        list[str] | None, typer.Option("--mean", metavar="COLUMN", help="Column of --of to average; repeatable.")
+    ] = None,
+    rows: Annotated[bool, typer.Option("--rows", help="Count the rows of --of.")] = False,
     columns: options.AnyTable,
+    of_columns: Annotated[options.SecondTable, "--of"],
     latitude: options.LatitudeKind = "authalic",
 ) -> None:
     """Write the Voronoi cell of each point, the region nearer to it than to any other, with its area.
@@ -41,33 +63,66 @@ def command(
     from stereodel.earth import AUTHALIC_RADIUS_KM
     from stereodel.io import write
     from stereodel.io.formats.names import beside, naming
+    from stereodel.io.maps.dissolving import codes_of, grouped, merged
     from stereodel.io.rows_of import rows_of
 
-    destination = output.of(options.TABLES + options.MESHES, points, clip)
+    destination = output.of(options.TABLES + options.MESHES, points, clip, of)
     kind = destination.kind
     if kind in options.MESHES:
-        options.refuse({"--clip": clip}, f"{', '.join(options.TABLES)}, and {output.out} holds whole cells")
+        whole = {"--clip": clip, "--dissolve": dissolve, "--of": of}
+        options.refuse(whole, f"{', '.join(options.TABLES)}, and {output.out} holds whole cells")
     if columns.plane is not None:
         options.refuse({"--clip": clip}, "cells of the sphere, not of a plane")
+    asked = {"--sum": sums, "--mean": means, "--rows": rows}
+    if of is None:
+        options.refuse({**asked, **of_columns.given}, "the table --of, and there is none")
+    elif not any(asked.values()):
+        raise ValueError("--of needs --sum, --mean or --rows, which say what to gather of its points")
+    if of == points == "-":
+        raise ValueError("POINTS and --of cannot both be stdin")
     table = columns.read(points)
+    by = np.arange(len(table)) if dissolve is None else table.column(dissolve)
     with reporting(f"cells of {len(table)} points"):
         diagram = (PlanarVoronoi if columns.plane else SphericalVoronoi)(table.points(latitude))
     name = "area" if columns.plane else f"area_{area_unit}"
     radius = 1.0 if columns.plane or area_unit == "sr" else AUTHALIC_RADIUS_KM
     found: Any = diagram
-    if kind == "csv" and clip is None:
-        found = table.beside({name: diagram.areas(radius=radius)})
-    elif kind not in options.MESHES:
-        drawn: dict[str, Any] = {"latitude": latitude, "radius": radius, "max_segment": max_segment, "clip": clip}
-        with reporting(f"drawing {len(table)} cells") as told, naming(clip):
-            cells = rows_of(diagram, crs=table.crs, progress=told, **drawn)
-        point, area = cells.columns["point"], np.zeros(len(table))
-        area[point] = cells.columns["area"]
-        if kind == "csv":
-            found = table.beside({name: area})
+    if kind not in options.MESHES:
+        cells: Any = None
+        if kind == "csv" and clip is None:
+            kept = np.flatnonzero(diagram.is_kept)
+            drawn: dict[str, Any] = {"point": kept, "area": diagram.areas(radius=radius)[kept]}
+            drawn = drawn if dissolve is None else merged(drawn, grouped(codes_of(by[kept])))
         else:
-            rows = table.beside({name: area}, first={"row": table.rows}).taken(point)
-            found = replace(cells, columns=beside(["geometry"], rows.located()))
+            said: dict[str, Any] = {"latitude": latitude, "radius": radius, "max_segment": max_segment, "clip": clip}
+            said |= {} if dissolve is None else {"columns": {dissolve: by}, "dissolve": dissolve}
+            with reporting(f"drawing {len(table)} cells") as told, naming(clip):
+                cells = rows_of(diagram, crs=table.crs, progress=told, **said)
+            drawn = dict(cells.columns)
+        point: Any = drawn["point"]
+        area = drawn["area"]
+        if kind == "csv" and dissolve is None:  # all points have a row
+            point, area = np.arange(len(table)), np.zeros(len(table))
+            area[drawn["point"]] = drawn["area"]
+        codes = by if dissolve is None else codes_of(by)
+        row = np.full(len(table), -1)
+        row[codes[point]] = np.arange(len(point))
+        results: dict[str, Any] = {name: area}
+        if of is not None:
+            others = of_columns.read(of, columns)
+            with reporting(f"cells of {len(others)} points"):
+                nearest = diagram.delaunay().nearest(others.points(latitude))
+            gaps = columns.skip_missing
+            results |= _gathered(others, row[codes[nearest]], len(point), sums or [], means or [], rows, gaps=gaps)
+        if dissolve is None:
+            numbered = {} if kind == "csv" else {"row": table.rows[point]}
+            found = table.taken(point).beside(results, first=numbered)
+            rest = {} if kind == "csv" else found.located()
+        else:
+            results = {"cells": drawn["cells"], **results}
+            found = rest = beside(results, {dissolve: by[point]}) | results
+        if kind != "csv":
+            found = replace(cells, columns=beside(["geometry"], rest))
     with reporting(f"writing {output.out}") as told, destination.file() as path:
         if kind in options.PICTURES:
             from stereodel.drawing import diagram_page
@@ -75,5 +130,28 @@ def command(
             diagram_page(diagram).save(path)
         else:
             write(path, found, progress=told, **({"latitude": latitude} if kind == "nc" else {}))
-    said = "" if columns.plane else f", with {latitude} latitudes"
-    say(f"{output.out}: cells of {len(table)} points{said}")
+    ending = "" if columns.plane else f", with {latitude} latitudes"
+    say(f"{output.out}: cells of {len(table)} points{ending}")
+
+
+def _gathered(
+    table: PointTable, cell: Indices, count: int, sums: list[str], means: list[str], rows: bool, *, gaps: bool
+) -> dict[str, Column]:
+    """Sums, means and numbers of rows of a table by cells, of which some rows may be in none, -1."""
+    import numpy as np
+
+    from stereodel.curves.ragged import Ragged
+    from stereodel.io.maps.dissolving import means as averages
+    from stereodel.io.maps.dissolving import sums as totals
+
+    def in_cells(chosen: Any) -> Ragged:
+        some = np.flatnonzero(chosen & (cell >= 0))
+        order = some[np.argsort(cell[some], kind="stable")]
+        return Ragged.grouped(order, cell[order], count)
+
+    found: dict[str, Column] = {}
+    for what, names, of in (("sum", sums, totals), ("mean", means, averages)):
+        for name in names:
+            values = table.numbers(name, gaps=gaps)
+            found[f"{what}_{name}"] = of(values, in_cells(~np.isnan(values)))
+    return found | ({"rows": in_cells(True).sizes} if rows else {})

@@ -11,6 +11,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any, BinaryIO, Final
 
+import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import as_choice
@@ -27,6 +28,7 @@ from stereodel.io.formats.map_rows import MapRows
 from stereodel.io.formats.names import beside
 from stereodel.io.formats.parquet import write_parquet
 from stereodel.io.grids import Grid, write_geotiff
+from stereodel.io.maps.dissolving import codes_of, dividing, grouped, merged
 from stereodel.io.maps.meshes_as_rows import (
     MESHES,
     Columns,
@@ -86,8 +88,9 @@ def write(
     Notes
     -----
     CSV: for cells and sites, one row for each point, duplicates included, with lon and lat (x and y in the plane), the
-    area of its cell and `columns`; for triangles and edges, the indices of their corners, from 0. Its options are
-    `what`, `columns`, `latitude` and `radius`. It needs no other library.
+    area of its cell and `columns`, or with `dissolve` one row for each value; for triangles and edges, the indices of
+    their corners, from 0. Its options are `what`, `columns`, `latitude`, `radius` and `dissolve`. It needs no other
+    library.
 
     Examples
     --------
@@ -154,6 +157,7 @@ def _mesh_columns(
     columns: Mapping[str, npt.ArrayLike] | None = None,
     latitude: Latitude | None = None,
     radius: float = 1.0,
+    dissolve: str | None = None,
 ) -> Columns:
     kind = as_choice(what or usual_kind(mesh), ("cells", "sites", "triangles", "edges"), "what")
     if kind in ("triangles", "edges"):
@@ -164,7 +168,12 @@ def _mesh_columns(
     found = dict(zip(AXES[mesh.surface.name], places.T, strict=True))
     if kind == "cells":
         found["area"] = diagram_of(mesh).areas(radius=radius)
-    return found | beside(found, point_columns(columns, len(places)))
+    given = point_columns(columns, len(places))
+    if dissolve is not None:
+        by, point = dividing(dissolve, given, kind), np.flatnonzero(diagram_of(mesh).is_kept)
+        found = merged({"point": point, "area": found["area"][point]}, grouped(codes_of(by[point])))
+        return found | beside(found, {dissolve: by[found["point"]]})
+    return found | beside(found, given)
 
 
 def _write_rows(thing: Any, path: Path, options: dict[str, Any], progress: Progress | None) -> None:

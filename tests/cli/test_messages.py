@@ -51,6 +51,13 @@ voronoi cities.csv --max-segment=0 -o out.geojson → --max-segment is 0.0, outs
 voronoi cities.csv --clip none.geojson → none.geojson: No such file or directory
 voronoi cities.csv --clip land -o a.svg → --clip is for csv, geojson, geojsonl, parquet, gpkg, fgb, shp, kml, and a.svg
 voronoi cities.csv --clip land --plane lon lat → --clip is for cells of the sphere
+voronoi cities.csv --dissolve x → cities.csv: there is no column 'x'; the columns are name, people
+voronoi cities.csv --dissolve name --of two.csv -o a.nc → --dissolve and --of are for csv, geojson
+voronoi cities.csv --of two.csv → --of needs --sum, --mean or --rows, which say what to gather of its points
+voronoi cities.csv --sum x --rows --of-lon y → --sum, --rows and --of-lon are for the table --of, and there is none
+voronoi cities.csv --of gappy.csv --sum size → gappy.csv: row 1: the size is missing; leave such rows out with --skip
+voronoi cities.csv --of gappy.csv --sum x → gappy.csv: there is no column 'x'; the columns are size
+voronoi - --of - --rows → cannot both be stdin
 voronoi cities.csv -o points → points: cannot write a file without extension; choose .csv
 partition - -o a/ → results in the folder a/ are of files, not of stdin
 partition FILE -o a/ --lon lon → --lon and --lat are given together
