@@ -30,6 +30,8 @@ if TYPE_CHECKING:
 
 TABLES = ("csv", "geojson", "geojsonl", "parquet", "gpkg", "fgb", "shp", "kml")
 PICTURES = ("svg", "pdf")
+VALUED = ("nc", "vtp")
+"""Formats of meshes that hold the columns of points."""
 MESHES = ("nc", "glb", "ply", "vtp", *PICTURES)
 
 Place = tuple[float, float]

@@ -70,7 +70,8 @@ def command(
 
             diagram_page(triangulation).save(path)
         else:
-            write(path, found, progress=told, **({"latitude": latitude} if kind == "nc" else {}))
+            own: dict[str, Any] = {"columns": table.columns} if kind in options.VALUED else {}
+            write(path, found, progress=told, **own, **({"latitude": latitude} if kind == "nc" else {}))
     say(f"{output.out}: {count} triangles of {len(table)} points")
 
 

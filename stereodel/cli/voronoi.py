@@ -129,7 +129,8 @@ def command(
 
             diagram_page(diagram).save(path)
         else:
-            write(path, found, progress=told, **({"latitude": latitude} if kind == "nc" else {}))
+            own: dict[str, Any] = {"columns": table.columns} if kind in options.VALUED else {}
+            write(path, found, progress=told, **own, **({"latitude": latitude} if kind == "nc" else {}))
     ending = "" if columns.plane else f", with {latitude} latitudes"
     say(f"{output.out}: cells of {len(table)} points{ending}")
 

@@ -20,7 +20,7 @@ from stereodel._tasks.progress import Progress
 from stereodel._tasks.whole_files import replacing, said_of
 from stereodel.interpolation import Contour
 from stereodel.io.formats import wkb
-from stereodel.io.formats.columns import objects
+from stereodel.io.formats.columns import check_held, objects
 from stereodel.io.formats.delimited import write_csv
 from stereodel.io.formats.gdal import DRIVERS, write_layer
 from stereodel.io.formats.geojson import write_geojson
@@ -197,6 +197,7 @@ def _write_nc(thing: Any, path: Path, options: dict[str, Any], progress: Progres
     if isinstance(thing, Grid):
         dataset, form = thing.to_xarray(), "NETCDF3_64BIT"  # the classic format, which every reader supports
     else:
+        check_held(options.get("columns") or {}, "nc")
         dataset, form = to_ugrid(thing, **options), "NETCDF4"
     try:
         dataset.to_netcdf(path, engine="netcdf4", format=form)

@@ -51,7 +51,7 @@ CODE: Final = re.compile(r"^[-+]?0[0-9]", re.MULTILINE)
 
 UNWRITABLE: Final = {
     "kml": re.compile("[\x00-\x08\x0b-\x1f\ufffe\uffff\ud800-\udfff]"),
-    **dict.fromkeys(("gpkg", "fgb", "shp"), re.compile("[\x00\ud800-\udfff]")),
+    **dict.fromkeys(("gpkg", "fgb", "shp", "nc"), re.compile("[\x00\ud800-\udfff]")),
 }
 """Characters that text of a format cannot have: those that XML lacks or changes, and the end of text in GDAL."""
 
