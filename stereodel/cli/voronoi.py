@@ -89,7 +89,7 @@ def command(
     found: Any = diagram
     if kind not in options.MESHES:
         cells: Any = None
-        if kind == "csv" and clip is None:
+        if kind in options.FLAT and clip is None:
             kept = np.flatnonzero(diagram.is_kept)
             drawn: dict[str, Any] = {"point": kept, "area": diagram.areas(radius=radius)[kept]}
             drawn = drawn if dissolve is None else merged(drawn, grouped(codes_of(by[kept])))
@@ -101,7 +101,7 @@ def command(
             drawn = dict(cells.columns)
         point: Any = drawn["point"]
         area = drawn["area"]
-        if kind == "csv" and dissolve is None:  # all points have a row
+        if kind in options.FLAT and dissolve is None:  # all points have a row
             point, area = np.arange(len(table)), np.zeros(len(table))
             area[drawn["point"]] = drawn["area"]
         codes = by if dissolve is None else codes_of(by)
@@ -115,13 +115,13 @@ def command(
             gaps = columns.skip_missing
             results |= _gathered(others, row[codes[nearest]], len(point), sums or [], means or [], rows, gaps=gaps)
         if dissolve is None:
-            numbered = {} if kind == "csv" else {"row": table.rows[point]}
+            numbered = {} if kind in options.FLAT else {"row": table.rows[point]}
             found = table.taken(point).beside(results, first=numbered)
-            rest = {} if kind == "csv" else found.located()
+            rest = {} if kind in options.FLAT else found.located()
         else:
             results = {"cells": drawn["cells"], **results}
             found = rest = beside(results, {dissolve: by[point]}) | results
-        if kind != "csv":
+        if kind not in options.FLAT:
             found = replace(cells, columns=beside(["geometry"], rest))
     with reporting(f"writing {output.out}") as told, destination.file() as path:
         if kind in options.PICTURES:

@@ -72,7 +72,7 @@ def write(
         Called repeatedly with the name of the stage, how much of it is done, and how much there is: rows, where they
         are written.
     **options
-        Options of the function that makes the contents: `to_geodataframe` for csv, geojson and geojsonl (and
+        Options of the function that makes the contents: `to_geodataframe` for csv, xlsx, geojson and geojsonl (and
         ``decimals`` of `to_geojson`), parquet, gpkg, fgb, shp and kml; `to_ugrid` for nc; `to_trimesh` for glb and ply;
         `to_polydata` for vtp.
 
@@ -87,10 +87,10 @@ def write(
 
     Notes
     -----
-    CSV: for cells and sites, one row for each point, duplicates included, with lon and lat (x and y in the plane), the
-    area of its cell and `columns`, or with `dissolve` one row for each value; for triangles and edges, the indices of
-    their corners, from 0. Its options are `what`, `columns`, `latitude`, `radius` and `dissolve`. It needs no other
-    library.
+    CSV, which needs no other library, and XLSX: for cells and sites, one row for each point, duplicates included, with
+    lon and lat (x and y in the plane), the area of its cell and `columns`, or with `dissolve` one row for each value;
+    for triangles and edges, the indices of their corners, from 0. Their options are `what`, `columns`, `latitude`,
+    `radius` and `dissolve`.
 
     Examples
     --------
@@ -139,13 +139,17 @@ def _layer(thing: Any, options: dict[str, Any]) -> MapRows:
     return MapRows.of_frame(thing)
 
 
-def _write_csv(thing: Any, path: Path, options: dict[str, Any], progress: Progress | None) -> None:
+def _write_table(thing: Any, path: Path, options: dict[str, Any], progress: Progress | None) -> None:
     if isinstance(thing, MESHES):
         columns = _mesh_columns(thing, **options)
     elif isinstance(thing, Grid | PointTable | dict):
         columns = thing if isinstance(thing, dict) else thing.located()
     else:
         columns = from_geodataframe(_layer(thing, options).frame()).located()
+    if path.suffix == ".xlsx":
+        count = max((len(values) for values in columns.values()), default=0)
+        write_layer(MapRows(columns, np.full(count, None, dtype=object)), path, progress=progress)
+        return
     with path.open("w", encoding="utf-8", newline="") as stream:
         write_csv(columns, stream)
 
@@ -229,8 +233,9 @@ LAYERS: Final[dict[str, Callable[..., None]]] = {
 """What writes rows of maps, by format."""
 
 WRITERS: Final[dict[str, Callable[[Any, Path, dict[str, Any], Progress | None], None]]] = {
-    "csv": _write_csv,
+    "csv": _write_table,
     **dict.fromkeys(LAYERS, _write_rows),
+    "xlsx": _write_table,
     "nc": _write_nc,
     "tif": _write_tif,
     "glb": _write_trimesh,

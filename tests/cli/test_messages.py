@@ -49,7 +49,7 @@ voronoi gap.csv → gap.csv: row 1: the latitude is missing; leave such rows out
 voronoi infinite.csv → infinite.csv: row 1: the latitude is inf, but must be finite; correct or
 voronoi cities.csv --max-segment=0 -o out.geojson → --max-segment is 0.0, outside (0, 90]
 voronoi cities.csv --clip none.geojson → none.geojson: No such file or directory
-voronoi cities.csv --clip land -o a.svg → --clip is for csv, geojson, geojsonl, parquet, gpkg, fgb, shp, kml, and a.svg
+voronoi cities.csv --clip land -o a.svg → --clip is for csv, geojson, geojsonl, parquet, gpkg, fgb, shp, kml, xlsx
 voronoi cities.csv --clip land --plane lon lat → --clip is for cells of the sphere
 voronoi cities.csv --dissolve x → cities.csv: there is no column 'x'; the columns are name, people
 voronoi cities.csv --dissolve name --of two.csv -o a.nc → --dissolve and --of are for csv, geojson

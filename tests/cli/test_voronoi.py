@@ -10,7 +10,7 @@ from typer.testing import CliRunner
 
 from stereodel import PlanarDelaunay, SphericalDelaunay, check_delaunay, lonlat_to_xyz
 from stereodel.cli import app
-from stereodel.cli.options import TABLES
+from stereodel.cli.options import FLAT, TABLES
 from stereodel.earth import AUTHALIC_RADIUS_KM
 from stereodel.io import read_points
 
@@ -95,7 +95,7 @@ def regions(folder):
 @pytest.mark.parametrize(
     ("kind", "options"),
     [
-        *((kind, []) for kind in TABLES if kind != "csv"),
+        *((kind, []) for kind in TABLES if kind not in FLAT),
         ("parquet", ["--clip", "square.geojson"]),
         ("parquet", ["--plane", "lon", "lat"]),
         ("geojson", ["--plane", "lon", "lat"]),
@@ -120,6 +120,11 @@ def test_dissolved_cells_are_those_of_geopandas(regions, run, rows, kind, option
     areas = found[area].astype(float).fillna(np.inf)  # GeoJSON knows no infinity
     assert np.allclose(areas, expected["sum"], rtol=1e-14 if kind not in ("kml", "shp") else 1e-9, atol=0)
     table = rows(run("voronoi", "regions.csv", *options, "--dissolve", "region", "-o", "-"))
+    if not options:
+        run("voronoi", "regions.csv", "--dissolve", "region", "-o", "regions.xlsx", "--overwrite")
+        sheet = geopandas.read_file(regions / "regions.xlsx")
+        assert sheet["cells"].tolist() == [int(row["cells"]) for row in table]
+        assert sheet[area].tolist() == pytest.approx([float(row[area]) for row in table], rel=1e-14)
     assert [row["region"] for row in table] == ["America", "Pacific", "Europe", ""]
     assert [float(row[area] or "inf") for row in table] == pytest.approx(
         [expected["sum"][row["region"]] for row in table], rel=1e-14

@@ -199,13 +199,13 @@ def test_columns_of_meshes_come_back(tmp_path, what, kind):
     assert (read["since"].astype("M8[ns]") == VALUED["since"]).all()
 
 
-def test_points_without_a_face_lose_their_values():
+def test_points_without_a_face_lose_their_values(tmp_path):
     points = np.vstack([SPHERE, SPHERE[:3]])
     with pytest.warns(DataWarning, match=f"3 of {len(points)} points have no bounded cell of their own: their values"):
         dataset = to_ugrid(SphericalVoronoi(points), columns={"k": range(len(points))})
     assert dataset["k"].values.tolist() == list(range(len(SPHERE)))
     with pytest.raises(ValueError, match=r"column 'k' has .* \.nc cannot hold"):
-        write("never.nc", SphericalVoronoi(SPHERE), columns={"k": ["a\0"] * len(SPHERE)})
+        write(tmp_path / "a.nc", SphericalVoronoi(SPHERE), columns={"k": ["a\0b"] * len(SPHERE)})
 
 
 @pytest.mark.parametrize("mesh", [SphericalVoronoi(SPHERE), SphericalDelaunay(SPHERE), PlanarVoronoi(PLANE)])

@@ -50,7 +50,7 @@ CODE: Final = re.compile(r"^[-+]?0[0-9]", re.MULTILINE)
 """A value that starts, after an optional sign, with a zero and another digit."""
 
 UNWRITABLE: Final = {
-    "kml": re.compile("[\x00-\x08\x0b-\x1f\ufffe\uffff\ud800-\udfff]"),
+    **dict.fromkeys(("kml", "xlsx"), re.compile("[\x00-\x08\x0b-\x1f\ufffe\uffff\ud800-\udfff]")),
     **dict.fromkeys(("gpkg", "fgb", "shp", "nc"), re.compile("[\x00\ud800-\udfff]")),
 }
 """Characters that text of a format cannot have: those that XML lacks or changes, and the end of text in GDAL."""
@@ -58,8 +58,8 @@ UNWRITABLE: Final = {
 HALVES: Final = re.compile("[\ud800-\udfff]")
 """Halves of characters, which UTF-8 lacks."""
 
-LARGEST: Final = {"shp": 1e23, "kml": 1.797693134862315e308}
-"""From here on a number has more digits than a shapefile's field, or GDAL's 15 digits of it are infinite."""
+LARGEST: Final = {"shp": 1e23, "kml": 1.797693134862315e308, "xlsx": 1e308}
+"""From here on a number has more digits than a shapefile's field, GDAL's 15 digits of it are infinite, or Excel's."""
 
 
 def decoded(content: bytes) -> str:
