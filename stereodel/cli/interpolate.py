@@ -32,17 +32,11 @@ def command(
         str | None, typer.Option(metavar="FILE", help="Table of the points where values are wanted; - is stdin.")
     ] = None,
     grid: Annotated[
-        float | None,
-        typer.Option(
-            metavar="STEP", help="Spacing of a grid of values, instead of --at: degrees, or units of the plane."
-        ),
+        float | None, typer.Option(metavar="STEP", help="Spacing of a grid, instead of --at: degrees, or of the plane.")
     ] = None,
     bounds: Annotated[
         str | None,
-        typer.Option(
-            metavar="W,S,E,N",
-            help="Bounds of the grid, or world; by default those of the points. Was --box.",
-        ),
+        typer.Option(metavar="W,S,E,N", help="Bounds of the grid, or world, in place of those of the points."),
     ] = None,
     centers: Annotated[
         bool, typer.Option("--centers", help="Values at the centres of the cells of the grid, instead of at its nodes.")

@@ -3,15 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import Annotated, Any, Literal
 
 import typer
 
 from stereodel.cli import options
-
-if TYPE_CHECKING:
-    from stereodel._arrays import Column, Indices
-    from stereodel.io import PointTable
 
 EXAMPLE = "stereodel voronoi cities.csv -o cells.gpkg"
 
@@ -36,15 +32,10 @@ def command(
         ),
     ] = None,
     of: Annotated[
-        str | None,
-        typer.Option(metavar="FILE", help="Table of points to gather, each in the cell that it is in; - is stdin."),
+        str | None, typer.Option(metavar="FILE", help="Table of points to gather by cells; - is stdin.")
     ] = None,
-    sums: Annotated[
-        list[str] | None, typer.Option("--sum", metavar="COLUMN", help="Column of --of to add up; repeatable.")
-    ] = None,
-    means: Annotated[
-        list[str] | None, typer.Option("--mean", metavar="COLUMN", help="Column of --of to average; repeatable.")
-    ] = None,
+    sums: Annotated[list[str] | None, typer.Option("--sum", metavar="COLUMN", help="Column of --of to add up.")] = None,
+    means: Annotated[list[str] | None, typer.Option("--mean", metavar="COLUMN", help="The same to average.")] = None,
     rows: Annotated[bool, typer.Option("--rows", help="Count the rows of --of.")] = False,
     columns: options.AnyTable,
     of_columns: Annotated[options.SecondTable, "--of"],
@@ -63,7 +54,7 @@ def command(
     from stereodel.earth import AUTHALIC_RADIUS_KM
     from stereodel.io import write
     from stereodel.io.formats.names import beside, naming
-    from stereodel.io.maps.dissolving import codes_of, grouped, merged
+    from stereodel.io.maps.dissolving import added, averaged, cell_columns, codes_of, grouped
     from stereodel.io.rows_of import rows_of
 
     destination = output.of(options.TABLES + options.MESHES, points, clip, of)
@@ -73,10 +64,10 @@ def command(
         options.refuse(whole, f"{', '.join(options.TABLES)}, and {output.out} holds whole cells")
     if columns.plane is not None:
         options.refuse({"--clip": clip}, "cells of the sphere, not of a plane")
-    asked = {"--sum": sums, "--mean": means, "--rows": rows}
     if of is None:
-        options.refuse({**asked, **of_columns.given}, "the table --of, and there is none")
-    elif not any(asked.values()):
+        asked = {"--sum": sums, "--mean": means, "--rows": rows}
+        options.refuse(asked | of_columns.given, "the table --of, and there is none")
+    elif not (sums or means or rows):
         raise ValueError("--of needs --sum, --mean or --rows, which say what to gather of its points")
     if of == points == "-":
         raise ValueError("POINTS and --of cannot both be stdin")
@@ -88,19 +79,15 @@ def command(
     radius = 1.0 if columns.plane or area_unit == "sr" else AUTHALIC_RADIUS_KM
     found: Any = diagram
     if kind not in options.MESHES:
-        cells: Any = None
         if kind in options.FLAT and clip is None:
-            kept = np.flatnonzero(diagram.is_kept)
-            drawn: dict[str, Any] = {"point": kept, "area": diagram.areas(radius=radius)[kept]}
-            drawn = drawn if dissolve is None else merged(drawn, grouped(codes_of(by[kept])))
+            drawn: dict[str, Any] = cell_columns(diagram, radius, None if dissolve is None else by)
         else:
             said: dict[str, Any] = {"latitude": latitude, "radius": radius, "max_segment": max_segment, "clip": clip}
-            said |= {} if dissolve is None else {"columns": {dissolve: by}, "dissolve": dissolve}
+            said |= {} if dissolve is None else {"columns": {"by": by}, "dissolve": "by"}
             with reporting(f"drawing {len(table)} cells") as told, naming(clip):
                 cells = rows_of(diagram, crs=table.crs, progress=told, **said)
             drawn = dict(cells.columns)
-        point: Any = drawn["point"]
-        area = drawn["area"]
+        point, area = drawn["point"], drawn["area"]
         if kind in options.FLAT and dissolve is None:  # all points have a row
             point, area = np.arange(len(table)), np.zeros(len(table))
             area[drawn["point"]] = drawn["area"]
@@ -112,17 +99,20 @@ def command(
             others = of_columns.read(of, columns)
             with reporting(f"cells of {len(others)} points"):
                 nearest = diagram.delaunay().nearest(others.points(latitude))
-            gaps = columns.skip_missing
-            results |= _gathered(others, row[codes[nearest]], len(point), sums or [], means or [], rows, gaps=gaps)
+            cell = row[codes[nearest]]
+            for what, names, together in (("sum", sums, added), ("mean", means, averaged)):
+                for each in names or ():
+                    values = others.numbers(each, gaps=columns.skip_missing)
+                    results[f"{what}_{each}"] = together(values, grouped(cell, ~np.isnan(values), len(point)))
+            results |= {"rows": grouped(cell, True, len(point)).sizes} if rows else {}
         if dissolve is None:
             numbered = {} if kind in options.FLAT else {"row": table.rows[point]}
-            found = table.taken(point).beside(results, first=numbered)
-            rest = {} if kind in options.FLAT else found.located()
+            found = table.taken(point).beside(results, first=numbered).located()
         else:
             results = {"cells": drawn["cells"], **results}
-            found = rest = beside(results, {dissolve: by[point]}) | results
+            found = beside(results, {dissolve: by[point]}) | results
         if kind not in options.FLAT:
-            found = replace(cells, columns=beside(["geometry"], rest))
+            found = replace(cells, columns=beside(["geometry"], found))
     with reporting(f"writing {output.out}") as told, destination.file() as path:
         if kind in options.PICTURES:
             from stereodel.drawing import diagram_page
@@ -133,26 +123,3 @@ def command(
             write(path, found, progress=told, **own, **({"latitude": latitude} if kind == "nc" else {}))
     ending = "" if columns.plane else f", with {latitude} latitudes"
     say(f"{output.out}: cells of {len(table)} points{ending}")
-
-
-def _gathered(
-    table: PointTable, cell: Indices, count: int, sums: list[str], means: list[str], rows: bool, *, gaps: bool
-) -> dict[str, Column]:
-    """Sums, means and numbers of rows of a table by cells, of which some rows may be in none, -1."""
-    import numpy as np
-
-    from stereodel.curves.ragged import Ragged
-    from stereodel.io.maps.dissolving import means as averages
-    from stereodel.io.maps.dissolving import sums as totals
-
-    def in_cells(chosen: Any) -> Ragged:
-        some = np.flatnonzero(chosen & (cell >= 0))
-        order = some[np.argsort(cell[some], kind="stable")]
-        return Ragged.grouped(order, cell[order], count)
-
-    found: dict[str, Column] = {}
-    for what, names, of in (("sum", sums, totals), ("mean", means, averages)):
-        for name in names:
-            values = table.numbers(name, gaps=gaps)
-            found[f"{what}_{name}"] = of(values, in_cells(~np.isnan(values)))
-    return found | ({"rows": in_cells(True).sizes} if rows else {})

@@ -156,25 +156,33 @@ class Grid:
         The extent of points of the sphere crosses the 180th meridian where that makes it smaller and at least 90° of
         longitude are empty; a `DataWarning` says so. No meridian is twice in it, and no latitude beyond a pole.
         """
-        plane = of is not None and of.surface == "plane"
         known: dict[str, Any] = {} if of is None else {"surface": of.surface, "axes": of.axes, "crs": of.crs}
+        plane, name, half = known.get("surface") == "plane", spelled("bounds"), 0.5 if centers else 0.0
         if isinstance(bounds, str) or (bounds is None and of is None):
-            if as_choice(bounds or "world", ("world",), spelled("bounds")) and plane:
-                raise ValueError(f"{spelled('bounds')} is 'world', which no plane has; give (xmin, ymin, xmax, ymax)")
+            if as_choice(bounds or "world", ("world",), name) and plane:
+                raise ValueError(f"{name} is 'world', which no plane has; give (xmin, ymin, xmax, ymax)")
             steps = as_steps(180.0, spacing, spelled("spacing"))
             step, rows = 180.0 / steps, steps if centers else steps + 1
             _check_places(spacing, 2 * steps, rows)
-            lon, lat = (np.arange(*ends, dtype=np.float64) + centers / 2 for ends in ((-steps, steps), (0, rows)))
+            lon, lat = (np.arange(low, high, dtype=np.float64) + half for low, high in ((-steps, steps), (0, rows)))
             return cls(lon * step, lat * step - 90.0, centers=centers, **known)
-        if bounds is None and of is not None:
-            found = _around(of, spacing, centers=centers)
-        else:
-            found = _within(bounds, spacing, plane=plane, centers=centers)
-        _check_places(spacing, *(count for _, count, _ in found))
-        half, unit = Decimal(int(centers)) / 2, _decimal(spacing)
+        given: Any = bounds if bounds is not None or of is None else _extent(of, spacing, centers=centers)
+        west, south, east, north = as_bounds(given, name) if plane else as_vectors(given, 4, name).tolist()
+        if not plane:
+            as_lonlat([[west, south], [east, north]], name)
+            if not south < north:
+                raise ValueError(f"{name} is {(west, south, east, north)}, but south must be below north")
+            east = east if east > west else east + 360.0
+        sides = ((west, east), (south, north))
+        step = as_scalar(
+            spacing, spelled("spacing"), low=0.0, high=min(high - low for low, high in sides), open_low=True
+        )
+        counts = [int(np.floor((high - low) / step + GRID_ROUNDING)) + (0 if centers else 1) for low, high in sides]
+        _check_places(step, *counts)
+        unit, begin = _decimal(step), Decimal(half)
         lon, lat = (
-            np.minimum(np.array([float(start + (k + half) * unit) for k in range(count)]), high)
-            for start, count, high in found
+            np.minimum(np.array([float(_decimal(low) + (k + begin) * unit) for k in range(count)]), high)
+            for (low, high), count in zip(sides, counts, strict=True)
         )
         return cls(lon, lat, centers=centers, **known)
 
@@ -243,32 +251,10 @@ def _decimal(value: float) -> Decimal:
     return Decimal(repr(float(value)))
 
 
-Span = tuple[Decimal, int, float]
-"""Where an axis begins, how many places it has, and what none exceeds."""
-
-
-def _within(bounds: Any, spacing: float, *, plane: bool, centers: bool) -> list[Span]:
-    """Both axes of a grid that begins at the southwest corner of bounds and goes as far as it fits."""
-    name = spelled("bounds")
-    if plane:
-        west, south, east, north = as_bounds(bounds, name)
-    else:
-        west, south, east, north = as_vectors(bounds, 4, name).tolist()
-        as_lonlat([[west, south], [east, north]], name)
-        if not south < north:
-            raise ValueError(f"{name} is {(west, south, east, north)}, but south must be below north")
-        east = east if east > west else east + 360.0
-    sides = ((west, east), (south, north))
-    widest = min(high - low for low, high in sides)
-    step = as_scalar(spacing, spelled("spacing"), low=0.0, high=widest, open_low=True)
-    return [(_decimal(low), int((high - low) / step + GRID_ROUNDING) + (not centers), high) for low, high in sides]
-
-
-def _around(points: PointTable, spacing: float, *, centers: bool) -> list[Span]:
-    """Both axes of a grid over the extent of points, up to the next multiples of its spacing."""
+def _extent(points: PointTable, spacing: float, *, centers: bool) -> list[float]:
+    """Bounds around points, up to the next multiples of a spacing: no meridian twice, no parallel beyond a pole."""
     plane, across = points.surface == "plane", False
-    limit = np.inf if plane else 180.0
-    unit = _decimal(as_scalar(spacing, spelled("spacing"), low=0.0, high=limit, open_low=True))
+    unit = _decimal(as_scalar(spacing, spelled("spacing"), low=0.0, high=np.inf if plane else 180.0, open_low=True))
     low, high = points.places.min(axis=0), points.places.max(axis=0)
     if not plane:
         lon = points.places[:, 0]
@@ -277,20 +263,20 @@ def _around(points: PointTable, spacing: float, *, centers: bool) -> list[Span]:
         k = int(np.argmax(gaps))
         across = bool(gaps[k] >= EMPTY and gaps[k] > 360.0 - (lon[-1] - lon[0]))
         low[0], high[0] = (lon[k + 1], lon[k] + 360.0) if across else (lon[0], lon[-1])
-    first = [int((_decimal(value) / unit).to_integral_value(ROUND_FLOOR)) for value in low]
-    last = [int((_decimal(value) / unit).to_integral_value(ROUND_CEILING)) for value in high]
-    last = [max(end, begin + centers) for begin, end in zip(first, last, strict=True)]
-    if not plane:  # no meridian twice, no parallel beyond a pole
-        last[0] = min(last[0], first[0] + int(360 / unit) - (not centers and 360 % unit == 0))
-        pole = int(90 / unit)
-        first[1], last[1] = max(min(first[1], pole - centers), -pole), min(last[1], pole)
-    if across and high[0] > limit:
-        ends = (first[0] * unit, first[1] * unit, last[0] * unit - 360, last[1] * unit)
-        said = f"{spelled('bounds')}={','.join(f'{end:.15g}' for end in map(float, ends))}"
-        text = f"the points lie on both sides of the 180th meridian, and so does the grid; {said} says the same"
+    west, south = ((_decimal(value) / unit).to_integral_value(ROUND_FLOOR) * unit for value in low)
+    east, north = ((_decimal(value) / unit).to_integral_value(ROUND_CEILING) * unit for value in high)
+    east, north = max(east, west + unit), max(north, south + unit)
+    if not plane:
+        east = min(east, west + 360 - (0 if centers else unit))
+        north = min(north, Decimal(90))
+        south = max(min(south, north - unit), Decimal(-90))
+    bounds = [float(west), float(south), float(east), float(north)]
+    if across and east > 180:
+        bounds[2] -= 360.0
+        said = f"{spelled('bounds')}={','.join(f'{end:.15g}' for end in bounds)} says the same"
+        text = f"the points lie on both sides of the 180th meridian, and so does the grid; {said}"
         warnings.warn(text, DataWarning, stacklevel=3)
-    sides = zip(first, last, (np.inf, limit / 2), strict=True)
-    return [(begin * unit, end - begin + (not centers), most) for begin, end, most in sides]
+    return bounds
 
 
 def _check_places(spacing: float, columns: int, rows: int) -> None:

@@ -28,7 +28,7 @@ from stereodel.io.formats.map_rows import MapRows
 from stereodel.io.formats.names import beside
 from stereodel.io.formats.parquet import write_parquet
 from stereodel.io.grids import Grid, write_geotiff
-from stereodel.io.maps.dissolving import codes_of, dividing, grouped, merged
+from stereodel.io.maps.dissolving import cell_columns, dividing
 from stereodel.io.maps.meshes_as_rows import (
     MESHES,
     Columns,
@@ -170,13 +170,13 @@ def _mesh_columns(
         return dict(zip("abc", rows.T, strict=False))
     places = places_of(mesh, mesh.points, latitude or mesh.latitude or "spherical")
     found = dict(zip(AXES[mesh.surface.name], places.T, strict=True))
-    if kind == "cells":
-        found["area"] = diagram_of(mesh).areas(radius=radius)
     given = point_columns(columns, len(places))
     if dissolve is not None:
-        by, point = dividing(dissolve, given, kind), np.flatnonzero(diagram_of(mesh).is_kept)
-        found = merged({"point": point, "area": found["area"][point]}, grouped(codes_of(by[point])))
+        by = dividing(dissolve, given, kind)
+        found = cell_columns(diagram_of(mesh), radius, by)
         return found | beside(found, {dissolve: by[found["point"]]})
+    if kind == "cells":
+        found["area"] = diagram_of(mesh).areas(radius=radius)
     return found | beside(found, given)
 
 

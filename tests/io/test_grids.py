@@ -65,15 +65,15 @@ def test_xarray_reads_what_it_is_given(tmp_path, name):
         ([[3, 1]], 2, True, (3, 3), (1, 1)),
         ([[4, 2]], 2, True, (5, 5), (3, 3)),  # on an edge of cells: one is there nonetheless
         ([[4, 90]], 2, True, (5, 5), (89, 89)),
-        ([[0, -90], [1, 90]], 7, False, (0, 7), (-84, 84)),  # no latitude beyond a pole
-        (np.column_stack([range(-180, 181, 60), [0] * 7]), 60, False, (-180, 120), (0, 0)),  # no meridian twice
+        ([[0, -90], [1, 90]], 7, False, (0, 7), (-90, 85)),  # no latitude beyond a pole
+        (np.column_stack([range(-180, 181, 60), [0] * 7]), 60, False, (-180, 120), (0, 60)),  # no meridian twice
         (np.column_stack([range(-180, 181, 60), [1] * 7]), 60, True, (-150, 150), (30, 30)),
-        ([[-180, 0], [180, 0], [0, 0]], 60, False, (0, 180), (0, 0)),
-        ([[0, 0], [180, 0]], 90, False, (0, 180), (0, 0)),  # as wide across 180: not across
-        ([[359, 0], [2, 0]], 1, False, (-1, 2), (0, 0)),
-        ([[-120, 0], [-20, 0], [70, 0], [150, 0]], 10, False, (-20, 240), (0, 0)),  # 100 degrees are empty
-        ([[-120, 0], [-40, 0], [40, 0], [150, 0]], 10, False, (150, 400), (0, 0)),
-        ([[-120, 0], [-40, 0], [40, 0], [125, 0]], 10, False, (-120, 130), (0, 0)),  # 85 degrees are not enough
+        ([[-180, 0], [180, 0], [0, 0]], 60, False, (0, 180), (0, 60)),
+        ([[0, 0], [180, 0]], 90, False, (0, 180), (0, 90)),  # as wide across 180: not across
+        ([[359, 0], [2, 0]], 1, False, (-1, 2), (0, 1)),
+        ([[-120, 0], [-20, 0], [70, 0], [150, 0]], 10, False, (-20, 240), (0, 10)),  # 100 degrees are empty
+        ([[-120, 0], [-40, 0], [40, 0], [150, 0]], 10, False, (150, 400), (0, 10)),
+        ([[-120, 0], [-40, 0], [40, 0], [125, 0]], 10, False, (-120, 130), (0, 10)),  # 85 degrees are not enough
     ],
 )
 @pytest.mark.filterwarnings("ignore:the points lie on both sides")

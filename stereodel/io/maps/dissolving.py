@@ -43,12 +43,14 @@ def codes_of(values: Any) -> Indices:
     return np.array([known.setdefault(key, len(known)) for key in keys], dtype=np.intp)
 
 
-def grouped(codes: Indices) -> Ragged:
-    """The rows of each code, in their order."""
-    return Ragged.grouped(np.argsort(codes, kind="stable"), codes, int(codes.max(initial=-1)) + 1)
+def grouped(codes: Indices, chosen: Any = True, count: int = 0) -> Ragged:
+    """The rows of each of `count` codes, in their order; of those chosen, and none whose code is negative."""
+    some = np.flatnonzero(chosen & (codes >= 0))
+    rows = some[np.argsort(codes[some], kind="stable")]
+    return Ragged.grouped(rows, codes[rows], count)
 
 
-def sums(values: FloatArray, groups: Ragged) -> FloatArray:
+def added(values: FloatArray, groups: Ragged) -> FloatArray:
     """Sums of the values of each group, rounded once."""
     cells = values[groups.values].tolist()
     try:
@@ -57,9 +59,9 @@ def sums(values: FloatArray, groups: Ragged) -> FloatArray:
         raise ValueError("a sum is beyond the largest double; divide the values by a power of ten") from error
 
 
-def means(values: FloatArray, groups: Ragged) -> FloatArray:
+def averaged(values: FloatArray, groups: Ragged) -> FloatArray:
     """Means of the values of each group, NaN for an empty one; rounded once, from sums in twice the precision."""
-    cells, high = values[groups.values].tolist(), sums(values, groups).tolist()
+    cells, high = values[groups.values].tolist(), added(values, groups).tolist()
     parts = zip(pairwise(groups.offsets.tolist()), high, strict=True)
     rest = (Fraction(total) + Fraction(fsum([*cells[a:b], -total])) if a < b else 0 for (a, b), total in parts)
     return np.array([float(total / n) if n else np.nan for total, n in zip(rest, groups.sizes.tolist(), strict=True)])
@@ -68,7 +70,14 @@ def means(values: FloatArray, groups: Ragged) -> FloatArray:
 def merged(cells: Mapping[str, Any], groups: Ragged) -> dict[str, Column]:
     """Columns of groups of cells: the first point of each, the number of cells, and their area together."""
     first = cells["point"][groups.values[groups.offsets[:-1]]]
-    return {"point": first, "cells": groups.sizes, "area": sums(cells["area"], groups)}
+    return {"point": first, "cells": groups.sizes, "area": added(cells["area"], groups)}
+
+
+def cell_columns(diagram: Any, radius: float, by: Any = None) -> dict[str, Column]:
+    """The cells of a diagram without their shapes: their points and areas, or those of equal values together."""
+    kept = np.flatnonzero(diagram.is_kept)
+    cells = {"point": kept, "area": diagram.areas(radius=radius)[kept]}
+    return cells if by is None else merged(cells, grouped(codes_of(by[kept])))
 
 
 def dissolved(binary: Packed, groups: Ragged) -> Packed:
