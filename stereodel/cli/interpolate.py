@@ -36,7 +36,7 @@ def command(
     ] = None,
     bounds: Annotated[
         str | None,
-        typer.Option(metavar="W,S,E,N", help="Bounds of the grid, or world, in place of those of the points."),
+        typer.Option(metavar="W,S,E,N", help="Bounds of the grid, formerly --box, or world; else those of points."),
     ] = None,
     centers: Annotated[
         bool, typer.Option("--centers", help="Values at the centres of the cells of the grid, instead of at its nodes.")

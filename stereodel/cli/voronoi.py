@@ -32,7 +32,7 @@ def command(
         ),
     ] = None,
     of: Annotated[
-        str | None, typer.Option(metavar="FILE", help="Table of points to gather by cells; - is stdin.")
+        str | None, typer.Option(metavar="FILE", help="Points to gather by cells, in place of a spatial join.")
     ] = None,
     sums: Annotated[list[str] | None, typer.Option("--sum", metavar="COLUMN", help="Column of --of to add up.")] = None,
     means: Annotated[list[str] | None, typer.Option("--mean", metavar="COLUMN", help="The same to average.")] = None,

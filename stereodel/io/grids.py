@@ -177,7 +177,8 @@ class Grid:
         step = as_scalar(
             spacing, spelled("spacing"), low=0.0, high=min(high - low for low, high in sides), open_low=True
         )
-        counts = [int(np.floor((high - low) / step + GRID_ROUNDING)) + (0 if centers else 1) for low, high in sides]
+        most = 2.0 * MOST_PLACES
+        counts = [int(min((high - low) / step + GRID_ROUNDING, most)) + (0 if centers else 1) for low, high in sides]
         _check_places(step, *counts)
         unit, begin = _decimal(step), Decimal(half)
         lon, lat = (
@@ -253,6 +254,8 @@ def _decimal(value: float) -> Decimal:
 
 def _extent(points: PointTable, spacing: float, *, centers: bool) -> list[float]:
     """Bounds around points, up to the next multiples of a spacing: no meridian twice, no parallel beyond a pole."""
+    if not len(points):
+        raise ValueError(f"there are no points, whose extent would be that of the grid; give {spelled('bounds')}")
     plane, across = points.surface == "plane", False
     unit = _decimal(as_scalar(spacing, spelled("spacing"), low=0.0, high=np.inf if plane else 180.0, open_low=True))
     low, high = points.places.min(axis=0), points.places.max(axis=0)
