@@ -39,7 +39,7 @@ ARGUMENTS: Final = {
     "wrap": "--wrap",
     "plane": "--plane",
     "spacing": "--grid",
-    "bounds": "--box",
+    "bounds": "--bounds",
     "max_segment": "--max-segment",
     "columns": "--lon",
     "keep": "--keep",

@@ -13,6 +13,8 @@ if TYPE_CHECKING:
     from stereodel._arrays import FloatArray
 
 GRIDS = ("csv", "nc", "tif")
+PLANE = ("xmin,ymin,xmax,ymax", "0,0,5000,9000")
+"""What --bounds must be in a plane, with an example."""
 Method = Literal["nearest", "linear", "smooth", "natural"]
 PIECE = 100_000  # rows between two signs of progress
 EXAMPLE = "stereodel interpolate stations.csv --value temperature --grid 5 -o temperature.csv"
@@ -30,10 +32,11 @@ def command(
         str | None, typer.Option(metavar="FILE", help="Table of the points where values are wanted; - is stdin.")
     ] = None,
     grid: Annotated[
-        float | None, typer.Option(metavar="DEGREES", help="Spacing of a grid of values, instead of --at.")
+        float | None, typer.Option(metavar="STEP", help="Spacing of a grid, instead of --at: degrees, or of the plane.")
     ] = None,
-    box: Annotated[
-        str | None, typer.Option(metavar="W,S,E,N", help="Bounds of the grid in degrees; the whole Earth by default.")
+    bounds: Annotated[
+        str | None,
+        typer.Option(metavar="W,S,E,N", help="Bounds of the grid, formerly --box, or world; else those of points."),
     ] = None,
     centers: Annotated[
         bool, typer.Option("--centers", help="Values at the centres of the cells of the grid, instead of at its nodes.")
@@ -46,38 +49,35 @@ def command(
     at_columns: Annotated[options.SecondTable, "--at"],
     latitude: options.LatitudeKind = "authalic",
 ) -> None:
-    """Interpolate values at other points, or on a grid of longitude and latitude.
+    """Interpolate values at other points, or on a grid of longitude and latitude or of a plane.
 
     Give either --at or --grid. Outside the convex hull of the points, linear, smooth and natural leave values empty.
     """
     from stereodel.cli.application import reporting
     from stereodel.io import Grid, PointTable, write
-    from stereodel.sphere import lonlat_to_xyz
 
     if (at is None) == (grid is None):
-        raise ValueError("give either --at, a table of points, or --grid, a spacing in degrees")
+        raise ValueError("give either --at, a table of points, or --grid, a spacing")
     if at is None:
         options.refuse(at_columns.given, "the table --at, and there is none")
     else:
-        options.refuse({"--box": box, "--centers": centers, "--unit": unit}, "a --grid, and there is none")
+        options.refuse({"--bounds": bounds, "--centers": centers, "--unit": unit}, "a --grid, and there is none")
     if unit is not None and len(unit) != len(value):
         raise ValueError(f"there are {len(unit)} of --unit, but {len(value)} of --value; give each its own")
-    if at is None and columns.plane is not None:
-        raise ValueError("--grid is one of longitudes and latitudes; give the points of a plane with --at")
     if at == points == "-":
         raise ValueError("POINTS and --at cannot both be stdin")
     destination = output.of(options.TABLES if grid is None else GRIDS, points, at)
-    if grid is not None:
-        sides = box and options.numbers(box, "--box", "W,S,E,N in degrees", "-25,34,45,72", 4)
-        empty = Grid.regular(grid, sides or None, centers=centers)
+    meant = ("W,S,E,N in degrees", "-25,34,45,72") if columns.plane is None else PLANE
+    sides = bounds if bounds in (None, "world") else options.numbers(bounds, "--bounds", *meant, 4)
     values, table = columns.read(points).values(value, skip_missing=columns.skip_missing)
     sites = table.points(latitude)
-    if at is None:
-        nodes = lonlat_to_xyz(empty.lonlat.reshape(-1, 2), latitude=latitude)
+    if grid is not None:
+        empty = Grid.regular(grid, sides, of=table, centers=centers)
+        nodes = PointTable(empty.places.reshape(-1, 2), surface=table.surface).points(latitude)
         found = _interpolated(sites, values, method, nodes)
-        shaped = {name: column.reshape(empty.lonlat.shape[:2]) for name, column in zip(value, found.T, strict=True)}
+        shaped = {name: column.reshape(empty.places.shape[:2]) for name, column in zip(value, found.T, strict=True)}
         result: Grid | PointTable = replace(empty, values=shaped, units=dict(zip(value, unit or (), strict=False)))
-    else:
+    elif at is not None:
         asking = at_columns.read(at, columns)
         found = _interpolated(sites, values, method, asking.points(latitude))
         result = asking.beside(dict(zip(value, found.T, strict=True)))

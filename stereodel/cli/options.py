@@ -28,8 +28,12 @@ if TYPE_CHECKING:
     from stereodel.io import PointTable
 
 
-TABLES = ("csv", "geojson", "geojsonl", "parquet", "gpkg", "fgb", "shp", "kml")
+TABLES = ("csv", "geojson", "geojsonl", "parquet", "gpkg", "fgb", "shp", "kml", "xlsx")
+FLAT = ("csv", "xlsx")
+"""Those without shapes."""
 PICTURES = ("svg", "pdf")
+VALUED = ("nc", "vtp")
+"""Formats of meshes that hold the columns of points."""
 MESHES = ("nc", "glb", "ply", "vtp", *PICTURES)
 
 Place = tuple[float, float]

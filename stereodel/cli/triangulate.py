@@ -50,7 +50,7 @@ def command(
         raise NothingToDoError(f"{table.name}: no triangles: too few points, or all on one line or great circle")
     what: Literal["triangles", "edges"] = "edges" if edges else "triangles"
     found: Any = triangulation
-    if kind == "csv":
+    if kind in options.FLAT:
         found = _corner_rows(triangulation, what, table)
     elif kind not in options.MESHES:
         with reporting(f"drawing {what}") as shown:
@@ -70,7 +70,8 @@ def command(
 
             diagram_page(triangulation).save(path)
         else:
-            write(path, found, progress=told, **({"latitude": latitude} if kind == "nc" else {}))
+            own: dict[str, Any] = {"columns": table.columns} if kind in options.VALUED else {}
+            write(path, found, progress=told, **own, **({"latitude": latitude} if kind == "nc" else {}))
     say(f"{output.out}: {count} triangles of {len(table)} points")
 
 

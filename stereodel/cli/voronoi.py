@@ -25,7 +25,20 @@ def command(
             metavar="land|FILE", help="Clip the cells to land, or to the polygons of a file; areas are those inside."
         ),
     ] = None,
+    dissolve: Annotated[
+        str | None,
+        typer.Option(
+            metavar="COLUMN", help="One feature for all cells of equal value in this column, in place of one a point."
+        ),
+    ] = None,
+    of: Annotated[
+        str | None, typer.Option(metavar="FILE", help="Points to gather by cells, in place of a spatial join.")
+    ] = None,
+    sums: Annotated[list[str] | None, typer.Option("--sum", metavar="COLUMN", help="Column of --of to add up.")] = None,
+    means: Annotated[list[str] | None, typer.Option("--mean", metavar="COLUMN", help="The same to average.")] = None,
+    rows: Annotated[bool, typer.Option("--rows", help="Count the rows of --of.")] = False,
     columns: options.AnyTable,
+    of_columns: Annotated[options.SecondTable, "--of"],
     latitude: options.LatitudeKind = "authalic",
 ) -> None:
     """Write the Voronoi cell of each point, the region nearer to it than to any other, with its area.
@@ -41,39 +54,72 @@ def command(
     from stereodel.earth import AUTHALIC_RADIUS_KM
     from stereodel.io import write
     from stereodel.io.formats.names import beside, naming
+    from stereodel.io.maps.dissolving import added, averaged, cell_columns, codes_of, grouped
     from stereodel.io.rows_of import rows_of
 
-    destination = output.of(options.TABLES + options.MESHES, points, clip)
+    destination = output.of(options.TABLES + options.MESHES, points, clip, of)
     kind = destination.kind
     if kind in options.MESHES:
-        options.refuse({"--clip": clip}, f"{', '.join(options.TABLES)}, and {output.out} holds whole cells")
+        whole = {"--clip": clip, "--dissolve": dissolve, "--of": of}
+        options.refuse(whole, f"{', '.join(options.TABLES)}, and {output.out} holds whole cells")
     if columns.plane is not None:
         options.refuse({"--clip": clip}, "cells of the sphere, not of a plane")
+    if of is None:
+        asked = {"--sum": sums, "--mean": means, "--rows": rows}
+        options.refuse(asked | of_columns.given, "the table --of, and there is none")
+    elif not (sums or means or rows):
+        raise ValueError("--of needs --sum, --mean or --rows, which say what to gather of its points")
+    if of == points == "-":
+        raise ValueError("POINTS and --of cannot both be stdin")
     table = columns.read(points)
+    by = np.arange(len(table)) if dissolve is None else table.column(dissolve)
     with reporting(f"cells of {len(table)} points"):
         diagram = (PlanarVoronoi if columns.plane else SphericalVoronoi)(table.points(latitude))
     name = "area" if columns.plane else f"area_{area_unit}"
     radius = 1.0 if columns.plane or area_unit == "sr" else AUTHALIC_RADIUS_KM
     found: Any = diagram
-    if kind == "csv" and clip is None:
-        found = table.beside({name: diagram.areas(radius=radius)})
-    elif kind not in options.MESHES:
-        drawn: dict[str, Any] = {"latitude": latitude, "radius": radius, "max_segment": max_segment, "clip": clip}
-        with reporting(f"drawing {len(table)} cells") as told, naming(clip):
-            cells = rows_of(diagram, crs=table.crs, progress=told, **drawn)
-        point, area = cells.columns["point"], np.zeros(len(table))
-        area[point] = cells.columns["area"]
-        if kind == "csv":
-            found = table.beside({name: area})
+    if kind not in options.MESHES:
+        if kind in options.FLAT and clip is None:
+            drawn: dict[str, Any] = cell_columns(diagram, radius, None if dissolve is None else by)
         else:
-            rows = table.beside({name: area}, first={"row": table.rows}).taken(point)
-            found = replace(cells, columns=beside(["geometry"], rows.located()))
+            said: dict[str, Any] = {"latitude": latitude, "radius": radius, "max_segment": max_segment, "clip": clip}
+            said |= {} if dissolve is None else {"columns": {"by": by}, "dissolve": "by"}
+            with reporting(f"drawing {len(table)} cells") as told, naming(clip):
+                cells = rows_of(diagram, crs=table.crs, progress=told, **said)
+            drawn = dict(cells.columns)
+        point, area = drawn["point"], drawn["area"]
+        if kind in options.FLAT and dissolve is None:  # all points have a row
+            point, area = np.arange(len(table)), np.zeros(len(table))
+            area[drawn["point"]] = drawn["area"]
+        codes = by if dissolve is None else codes_of(by)
+        row = np.full(len(table), -1)
+        row[codes[point]] = np.arange(len(point))
+        results: dict[str, Any] = {name: area}
+        if of is not None:
+            others = of_columns.read(of, columns)
+            with reporting(f"cells of {len(others)} points"):
+                nearest = diagram.delaunay().nearest(others.points(latitude))
+            cell = row[codes[nearest]]
+            for what, names, together in (("sum", sums, added), ("mean", means, averaged)):
+                for each in names or ():
+                    values = others.numbers(each, gaps=columns.skip_missing)
+                    results[f"{what}_{each}"] = together(values, grouped(cell, ~np.isnan(values), len(point)))
+            results |= {"rows": grouped(cell, True, len(point)).sizes} if rows else {}
+        if dissolve is None:
+            numbered = {} if kind in options.FLAT else {"row": table.rows[point]}
+            found = table.taken(point).beside(results, first=numbered).located()
+        else:
+            results = {"cells": drawn["cells"], **results}
+            found = beside(results, {dissolve: by[point]}) | results
+        if kind not in options.FLAT:
+            found = replace(cells, columns=beside(["geometry"], found))
     with reporting(f"writing {output.out}") as told, destination.file() as path:
         if kind in options.PICTURES:
             from stereodel.drawing import diagram_page
 
             diagram_page(diagram).save(path)
         else:
-            write(path, found, progress=told, **({"latitude": latitude} if kind == "nc" else {}))
-    said = "" if columns.plane else f", with {latitude} latitudes"
-    say(f"{output.out}: cells of {len(table)} points{said}")
+            own: dict[str, Any] = {"columns": table.columns} if kind in options.VALUED else {}
+            write(path, found, progress=told, **own, **({"latitude": latitude} if kind == "nc" else {}))
+    ending = "" if columns.plane else f", with {latitude} latitudes"
+    say(f"{output.out}: cells of {len(table)} points{ending}")

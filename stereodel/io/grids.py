@@ -1,21 +1,34 @@
-"""Values on regular grids of longitude and latitude: NetCDF, GeoTIFF, tables, xarray."""
+"""Values on regular grids of longitude and latitude or of a plane: NetCDF, GeoTIFF, tables, xarray."""
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, Final
+from typing import Any, Final, Literal
 
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import FloatArray, as_floats, as_lonlat, as_scalar, as_steps, as_vectors, read_only
+from stereodel._arrays import (
+    FloatArray,
+    as_bounds,
+    as_choice,
+    as_floats,
+    as_lonlat,
+    as_scalar,
+    as_steps,
+    as_vectors,
+    read_only,
+)
 from stereodel._extras import optional
 from stereodel.constants import GRID_ROUNDING, MOST_PLACES
 from stereodel.earth import EQUATORIAL_RADIUS_KM, INVERSE_FLATTENING
-from stereodel.io.formats.names import beside, spelled
+from stereodel.io.formats.names import DataWarning, beside, spelled
+from stereodel.io.table import AXES, DEGREES, PointTable, known_crs
 
 WGS84: Final = {
     "grid_mapping_name": "latitude_longitude",
@@ -30,23 +43,37 @@ WGS84: Final = {
 }
 """The coordinate system of longitude and latitude in terms of the CF conventions (1.8, appendix F) and GDAL."""
 
+LONLAT: Final = {
+    "X": {"units": "degrees_east", "standard_name": "longitude", "long_name": "longitude", "axis": "X"},
+    "Y": {"units": "degrees_north", "standard_name": "latitude", "long_name": "latitude", "axis": "Y"},
+}
+"""Its axes, as pyproj describes those of other systems."""
+
+EMPTY: Final = 90.0
+"""Degrees without a point from which on a grid leads across the 180th meridian, if that makes it smaller.
+
+Places all over the Earth have a widest gap somewhere, too, and their grid is better one of the usual map.
+"""
+
 
 @dataclass(frozen=True, eq=False)
 class Grid:
-    """Values at the nodes of a regular grid of longitude and latitude, or at the centres of its cells.
+    """Values at the nodes of a regular grid of longitude and latitude, or of a plane, or at the centres of its cells.
 
     Parameters
     ----------
     lon : (w,) array_like
-        Degrees, from west to east in equal steps; above 180 where the grid crosses the 180th meridian.
+        Degrees, from west to east in equal steps; above 180 where the grid crosses the 180th meridian. In the plane x.
     lat : (h,) array_like
-        Degrees in [−90, 90], from south to north in equal steps.
+        Degrees in [−90, 90], from south to north in equal steps. In the plane y.
     values : mapping of str to (h, w) array_like
         Values by name, rows from south to north; NaN marks a missing value.
     units : mapping of str to str, optional
         Units by name, for some or all of the values.
     centers : bool
         Whether values belong to cells, with the nodes at their centres.
+    surface, axes, crs
+        What the grid is on, the names of its coordinates and their coordinate reference system, as in `PointTable`.
 
     Raises
     ------
@@ -60,6 +87,8 @@ class Grid:
     ([-180.0, -90.0, 0.0, 90.0], [-90.0, 0.0, 90.0], (3, 4, 2))
     >>> Grid.regular(90, centers=True).lat.tolist()
     [-45.0, 45.0]
+    >>> Grid.regular(0.5, of=PointTable([[3.2, 50.9], [4.4, 51.1]])).lon.tolist()
+    [3.0, 3.5, 4.0, 4.5]
     """
 
     lon: FloatArray
@@ -67,8 +96,12 @@ class Grid:
     values: Mapping[str, FloatArray] = field(default_factory=dict)
     units: Mapping[str, str] = field(default_factory=dict)
     centers: bool = False
+    surface: Literal["sphere", "plane"] = "sphere"
+    axes: tuple[str, ...] = ()
+    crs: str | None = None
 
     def __post_init__(self) -> None:
+        axes = tuple(self.axes) or AXES[as_choice(self.surface, tuple(AXES), "surface")]
         lon, lat = (read_only(as_floats(axis, name)) for axis, name in ((self.lon, "lon"), (self.lat, "lat")))
         for axis, name in ((lon, "lon"), (lat, "lat")):
             if axis.ndim != 1 or not len(axis):
@@ -76,7 +109,9 @@ class Grid:
             steps = np.diff(axis)
             if len(steps) and (steps.min() <= 0 or np.ptp(steps) > GRID_ROUNDING * steps.max()):
                 raise ValueError(f"{name} must grow by equal steps, which go from {steps.min()} to {steps.max()}")
-        as_lonlat(np.column_stack([np.zeros(len(lat)), lat]), "lat")
+        if self.surface == "sphere":
+            as_lonlat(np.column_stack([np.zeros(len(lat)), lat]), "lat")
+            object.__setattr__(self, "crs", DEGREES)
         values = {str(name): read_only(np.asarray(array, dtype=np.float64)) for name, array in self.values.items()}
         for name, array in values.items():
             if array.shape != (len(lat), len(lon)):
@@ -84,65 +119,94 @@ class Grid:
         unknown = sorted(set(self.units) - set(values))
         if values and unknown:
             raise ValueError(f"units are given for {', '.join(map(repr, unknown))}, which are not among the values")
-        for name, value in (("lon", lon), ("lat", lat)):
+        for name, value in (("lon", lon), ("lat", lat), ("axes", axes)):
             object.__setattr__(self, name, value)
         object.__setattr__(self, "values", MappingProxyType(values))
 
     def __reduce__(self) -> tuple[Any, ...]:  # a read-only mapping cannot be pickled or copied
-        return type(self), (self.lon, self.lat, dict(self.values), self.units, self.centers)
+        given = self.lon, self.lat, dict(self.values), self.units, self.centers, self.surface, self.axes, self.crs
+        return type(self), given
 
     @classmethod
-    def regular(cls, spacing: float, bounds: npt.ArrayLike | None = None, *, centers: bool = False) -> Grid:
-        """A grid without values, for the whole Earth or part of it.
+    def regular(
+        cls,
+        spacing: float,
+        bounds: npt.ArrayLike | Literal["world"] | None = None,
+        *,
+        of: PointTable | None = None,
+        centers: bool = False,
+    ) -> Grid:
+        """A grid without values.
 
         Parameters
         ----------
         spacing : float
-            Degrees between neighbouring nodes; for the whole Earth a divisor of 180.
-        bounds : (4,) array_like, optional
-            (west, south, east, north) in degrees; east is less than west if the grid crosses the 180th meridian. The
-            grid starts at the southwest corner and extends as far as it fits.
+            Degrees between neighbouring nodes, for the whole Earth a divisor of 180; or units of the plane.
+        bounds : (4,) array_like or "world", optional
+            (west, south, east, north) in degrees; east is less than west if the grid crosses the 180th meridian. In the
+            plane (xmin, ymin, xmax, ymax). The grid starts at the southwest corner and extends as far as it fits. By
+            default the extent of `of`, up to the next multiples of `spacing`; without `of`, "world", the whole Earth.
+        of : PointTable, optional
+            Points whose plane or sphere, names of coordinates and coordinate system the grid takes.
         centers : bool
             Whether `bounds` are the outer edges of cells, half a step beyond their centres.
+
+        Notes
+        -----
+        The extent of points of the sphere crosses the 180th meridian where that makes it smaller and at least 90° of
+        longitude are empty; a `DataWarning` says so. No meridian is twice in it, and no latitude beyond a pole.
         """
-        half = 0.5 if centers else 0.0
-        if bounds is None:
+        known: dict[str, Any] = {} if of is None else {"surface": of.surface, "axes": of.axes, "crs": of.crs}
+        plane, name, half = known.get("surface") == "plane", spelled("bounds"), 0.5 if centers else 0.0
+        if isinstance(bounds, str) or (bounds is None and of is None):
+            if as_choice(bounds or "world", ("world",), name) and plane:
+                raise ValueError(f"{name} is 'world', which no plane has; give (xmin, ymin, xmax, ymax)")
             steps = as_steps(180.0, spacing, spelled("spacing"))
             step, rows = 180.0 / steps, steps if centers else steps + 1
             _check_places(spacing, 2 * steps, rows)
             lon, lat = (np.arange(low, high, dtype=np.float64) + half for low, high in ((-steps, steps), (0, rows)))
-            return cls(lon * step, lat * step - 90.0, centers=centers)
-        name = spelled("bounds")
-        west, south, east, north = as_vectors(bounds, 4, name).tolist()
-        as_lonlat([[west, south], [east, north]], name)
-        if not south < north:
-            raise ValueError(f"{name} is {(west, south, east, north)}, but south must be below north")
-        east = east if east > west else east + 360.0
+            return cls(lon * step, lat * step - 90.0, centers=centers, **known)
+        given: Any = bounds if bounds is not None or of is None else _extent(of, spacing, centers=centers)
+        west, south, east, north = as_bounds(given, name) if plane else as_vectors(given, 4, name).tolist()
+        if not plane:
+            as_lonlat([[west, south], [east, north]], name)
+            if not south < north:
+                raise ValueError(f"{name} is {(west, south, east, north)}, but south must be below north")
+            east = east if east > west else east + 360.0
         sides = ((west, east), (south, north))
         step = as_scalar(
             spacing, spelled("spacing"), low=0.0, high=min(high - low for low, high in sides), open_low=True
         )
-        counts = [int(np.floor((high - low) / step + GRID_ROUNDING)) + (0 if centers else 1) for low, high in sides]
+        most = 2.0 * MOST_PLACES
+        counts = [int(min((high - low) / step + GRID_ROUNDING, most)) + (0 if centers else 1) for low, high in sides]
         _check_places(step, *counts)
+        unit, begin = _decimal(step), Decimal(half)
         lon, lat = (
-            np.minimum(low + step * (np.arange(count) + half), high)
+            np.minimum(np.array([float(_decimal(low) + (k + begin) * unit) for k in range(count)]), high)
             for (low, high), count in zip(sides, counts, strict=True)
         )
-        return cls(lon, lat, centers=centers)
+        return cls(lon, lat, centers=centers, **known)
+
+    @property
+    def places(self) -> FloatArray:
+        """Coordinates of the nodes, (h, w, 2), rows from south to north."""
+        return np.stack(np.meshgrid(self.lon, self.lat), axis=-1)
 
     @property
     def lonlat(self) -> FloatArray:
-        """Coordinates of the nodes, (h, w, 2) in degrees, rows from south to north."""
-        return np.stack(np.meshgrid(self.lon, self.lat), axis=-1)
+        """The same in degrees; ValueError for a grid of a plane."""
+        if self.surface == "plane":
+            raise ValueError("the grid is one of a plane, not of the sphere; use places")
+        return self.places
 
     def located(self) -> dict[str, FloatArray]:
         """Columns of a table with a row for each node, starting in the southwest."""
-        columns = dict(zip(("lon", "lat"), self.lonlat.reshape(-1, 2).T, strict=True))
+        columns = dict(zip(self.axes, self.places.reshape(-1, 2).T, strict=True))
         return columns | {name: values.ravel() for name, values in beside(columns, self.values).items()}
 
     @property
     def steps(self) -> tuple[float, float]:
-        """Degrees between neighbours in longitude and latitude; along an axis with one node, the size of its cell."""
+        """Distances of neighbours along both axes; along an axis with one node, the size of its cell."""
         lon, lat = (
             float(axis[-1] - axis[0]) / (len(axis) - 1) if len(axis) > 1 else 0.0 for axis in (self.lon, self.lat)
         )
@@ -157,27 +221,65 @@ class Grid:
         >>> grid.to_xarray()["depth"].attrs["units"]
         'm'
         """
+        system, described = WGS84, LONLAT
+        if self.surface == "plane":
+            crs = self.crs and known_crs(self.crs)
+            system = crs.to_cf() if crs else {}
+            described = {each.get("axis", ""): each for each in crs.cs_to_cf()} if crs else {}
         coordinates: dict[str, Any] = {}
-        variables: dict[str, Any] = {"crs": ((), np.int32(0), WGS84)}
-        axes = (
-            ("lat", self.lat, self.steps[1], "degrees_north", "latitude", "Y"),
-            ("lon", self.lon, self.steps[0], "degrees_east", "longitude", "X"),
-        )
-        for name, places, step, units, meaning, letter in axes:
-            attributes = {"units": units, "standard_name": meaning, "long_name": meaning, "axis": letter}
+        variables: dict[str, Any] = {"crs": ((), np.int32(0), system)} if system else {}
+        axes = (self.axes[1], self.lat, self.steps[1], "Y"), (self.axes[0], self.lon, self.steps[0], "X")
+        for name, places, step, letter in axes:
+            attributes = {**described.get(letter, {"axis": letter})}
             if self.centers:
                 attributes["bounds"] = f"{name}_bnds"
                 edges = np.stack([places - step / 2, places + step / 2], axis=1)
                 variables[f"{name}_bnds"] = ((name, "bnds"), edges)
             coordinates[name] = (name, places, attributes)
-        named = beside([*variables, *coordinates, "bnds"], self.values)
+        named = beside([*variables, *coordinates, "crs", "bnds"], self.values)
         for (given, values), name in zip(self.values.items(), named, strict=True):
-            unit = {"units": self.units[given]} if given in self.units else {}
-            variables[name] = (("lat", "lon"), values, {"long_name": given, "grid_mapping": "crs"} | unit)
+            own = {"units": self.units[given]} if given in self.units else {}
+            own = {"long_name": given} | ({"grid_mapping": "crs"} if system else {}) | own
+            variables[name] = (self.axes[::-1], values, own)
         dataset = optional("xarray", "grid").Dataset(variables, coordinates, {"Conventions": "CF-1.8"})
-        for variable in dataset.variables.values():  # in files, values can be missing, and nothing else
-            variable.encoding["_FillValue"] = np.nan if "grid_mapping" in variable.attrs else None
+        for name, variable in dataset.variables.items():  # in files, values can be missing, and nothing else
+            variable.encoding["_FillValue"] = np.nan if name in named else None
         return dataset
+
+
+def _decimal(value: float) -> Decimal:
+    """The number as it is written: multiples of 0.1 are then the doubles nearest to 0.2, 0.3 and so on."""
+    return Decimal(repr(float(value)))
+
+
+def _extent(points: PointTable, spacing: float, *, centers: bool) -> list[float]:
+    """Bounds around points, up to the next multiples of a spacing: no meridian twice, no parallel beyond a pole."""
+    if not len(points):
+        raise ValueError(f"there are no points, whose extent would be that of the grid; give {spelled('bounds')}")
+    plane, across = points.surface == "plane", False
+    unit = _decimal(as_scalar(spacing, spelled("spacing"), low=0.0, high=np.inf if plane else 180.0, open_low=True))
+    low, high = points.places.min(axis=0), points.places.max(axis=0)
+    if not plane:
+        lon = points.places[:, 0]
+        lon = np.sort(np.where(np.abs(lon) > 180.0, (lon + 180.0) % 360.0 - 180.0, lon))
+        gaps = np.append(np.diff(lon), 0.0)
+        k = int(np.argmax(gaps))
+        across = bool(gaps[k] >= EMPTY and gaps[k] > 360.0 - (lon[-1] - lon[0]))
+        low[0], high[0] = (lon[k + 1], lon[k] + 360.0) if across else (lon[0], lon[-1])
+    west, south = ((_decimal(value) / unit).to_integral_value(ROUND_FLOOR) * unit for value in low)
+    east, north = ((_decimal(value) / unit).to_integral_value(ROUND_CEILING) * unit for value in high)
+    east, north = max(east, west + unit), max(north, south + unit)
+    if not plane:
+        east = min(east, west + 360 - (0 if centers else unit))
+        north = min(north, Decimal(90))
+        south = max(min(south, north - unit), Decimal(-90))
+    bounds = [float(west), float(south), float(east), float(north)]
+    if across and east > 180:
+        bounds[2] -= 360.0
+        said = f"{spelled('bounds')}={','.join(f'{end:.15g}' for end in bounds)} says the same"
+        text = f"the points lie on both sides of the 180th meridian, and so does the grid; {said}"
+        warnings.warn(text, DataWarning, stacklevel=3)
+    return bounds
 
 
 def _check_places(spacing: float, columns: int, rows: int) -> None:
@@ -188,13 +290,13 @@ def _check_places(spacing: float, columns: int, rows: int) -> None:
 
 
 def write_geotiff(grid: Grid, path: Path) -> None:
-    """Write a grid as a GeoTIFF in EPSG:4326, one band for each name; rows from north to south, as in images."""
+    """Write a grid as a GeoTIFF, one band for each name; rows from north to south, as in images."""
     rasterio = optional("rasterio", "raster")
     (dx, dy), bands = grid.steps, list(grid.values.items())
     if not bands:
         raise ValueError("the grid has no values to write")
     transform = rasterio.Affine(dx, 0.0, grid.lon[0] - dx / 2, 0.0, -dy, grid.lat[-1] + dy / 2)
-    profile = {"driver": "GTiff", "dtype": "float64", "nodata": np.nan, "crs": "EPSG:4326", "transform": transform}
+    profile = {"driver": "GTiff", "dtype": "float64", "nodata": np.nan, "crs": grid.crs, "transform": transform}
     shape = {"count": len(bands), "height": len(grid.lat), "width": len(grid.lon)}
     # In memory first: GDAL does not report a full disk.
     with rasterio.MemoryFile() as memory:

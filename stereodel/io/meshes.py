@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import colorsys
+import re
+import warnings
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, Final
 
@@ -14,12 +17,16 @@ from stereodel._extras import optional
 from stereodel._spaces import SPHERE
 from stereodel.curves.clip import points_along
 from stereodel.curves.ragged import Ragged, spans
+from stereodel.io.formats.columns import as_text, of_objects, plain_cells
+from stereodel.io.formats.names import DataWarning, beside
 from stereodel.io.maps.on_map import steps_of
 from stereodel.io.rows_of import (
     LARGEST_SEGMENT,
+    Columns,
     Mesh,
     diagram_of,
     places_of,
+    point_columns,
     ridge_arcs,
     triangles_of,
     triangulation_of,
@@ -97,7 +104,7 @@ def to_trimesh(
     return trimesh.Trimesh(points[simplices.ravel()], apart, process=False, vertex_colors=paint)
 
 
-def to_polydata(mesh: Mesh, *, what: str | None = None) -> Any:
+def to_polydata(mesh: Mesh, *, what: str | None = None, columns: Mapping[str, npt.ArrayLike] | None = None) -> Any:
     """Triangles or cells as a pyvista.PolyData.
 
     Parameters
@@ -105,6 +112,8 @@ def to_polydata(mesh: Mesh, *, what: str | None = None) -> Any:
     mesh : SphericalDelaunay, SphericalVoronoi, PlanarDelaunay or PlanarVoronoi
     what : {"triangles", "cells"}, optional
         By default triangles of a triangulation and cells of a diagram.
+    columns : mapping of str to (n,) array_like, optional
+        Values of the points, for cells as ``cell_data``, for triangles as ``point_data``; dates are text here.
 
     Returns
     -------
@@ -132,10 +141,24 @@ def to_polydata(mesh: Mesh, *, what: str | None = None) -> Any:
     result.cell_data[faces.what] = faces.number
     if faces.what == "point":
         result.cell_data["area"] = faces.areas(mesh)
+    into = result.cell_data if faces.what == "point" else result.point_data
+    for name, values in faces.valued(mesh, columns, list(into)).items():
+        cells = values.astype(str) if values.dtype.kind == "M" else values
+        if cells.dtype.kind != "U" or "".join(cells.tolist()).isascii():
+            into[name] = cells
+        else:
+            said = f"column {name!r} is left out, as it has text beyond ASCII, which PyVista does not hold"
+            warnings.warn(said, DataWarning, stacklevel=2)
     return result
 
 
-def to_ugrid(mesh: Mesh, *, what: str | None = None, latitude: Latitude | None = None) -> Any:
+def to_ugrid(
+    mesh: Mesh,
+    *,
+    what: str | None = None,
+    columns: Mapping[str, npt.ArrayLike] | None = None,
+    latitude: Latitude | None = None,
+) -> Any:
     """Triangles or cells as an xarray Dataset with a UGRID mesh topology.
 
     Parameters
@@ -143,6 +166,9 @@ def to_ugrid(mesh: Mesh, *, what: str | None = None, latitude: Latitude | None =
     mesh : SphericalDelaunay, SphericalVoronoi, PlanarDelaunay or PlanarVoronoi
     what : {"triangles", "cells"}, optional
         By default the triangles of a triangulation and the cells of a diagram.
+    columns : mapping of str to (n,) array_like, optional
+        Values of the points, which become data on the faces of cells, and on the nodes of triangles. What is neither
+        number, truth, date nor text becomes text, and missing text is empty.
     latitude : {"spherical", "geodetic", "authalic"}, optional
         Kind of latitude of the nodes, as in `xyz_to_lonlat`; by default that of the input points.
 
@@ -202,6 +228,10 @@ def to_ugrid(mesh: Mesh, *, what: str | None = None, latitude: Latitude | None =
         **{f"{at}_dimension": at for at in ("face", "edge")},
     }
     variables["mesh"] = ((), np.int32(0), topology)
+    at = "face" if faces.what == "point" else "node"
+    given = faces.valued(mesh, columns, [*variables, "node", "face", "edge", "two", width])
+    for (name, values), own in zip(given.items(), columns or (), strict=True):
+        variables[name] = (at, values, {"mesh": "mesh", "location": at, "long_name": own})
     return optional("xarray", "grid").Dataset(variables, attrs={"Conventions": "CF-1.11 UGRID-1.0"})
 
 
@@ -353,6 +383,14 @@ def _pale(count: int) -> Bytes:
     return _as_colors(wheel[number % 3, (360 * (GOLDEN * number % 1.0)).astype(np.intp)], count)
 
 
+def _held(values: npt.NDArray[Any]) -> npt.NDArray[Any]:
+    """A column of a type that NetCDF and VTK know."""
+    array = of_objects(values)
+    if array.ndim == 1 and array.dtype.kind in "biufUM":
+        return array.astype({"e": np.float32, "g": np.float64}.get(array.dtype.char, array.dtype), copy=False)
+    return np.array(["" if cell is None else as_text(cell) for cell in plain_cells(array)], dtype=np.str_)
+
+
 @dataclass(frozen=True, eq=False)
 class Faces:
     """Polygons of nodes, counterclockwise, without unbounded cells, those of two nodes, and closing triangles."""
@@ -393,6 +431,18 @@ class Faces:
     def centers(self, mesh: Mesh) -> FloatArray:
         """The sites of cells, or the means of triangles' corners."""
         return mesh.points[self.number] if self.what == "point" else self.nodes[self.table].mean(axis=1)
+
+    def valued(self, mesh: Mesh, columns: Mapping[str, Any] | None, taken: list[str]) -> Columns:
+        """Columns of the points as the data of cells or of the nodes of triangles, under names that are not taken."""
+        given = point_columns(columns, len(mesh.points))
+        lost = len(mesh.points) - len(self.number)
+        if self.what == "point" and given and lost:
+            said = f"{lost} of {len(mesh.points)} points have no bounded cell of their own: their values are left out"
+            warnings.warn(said, DataWarning, stacklevel=4)
+        some = self.number if self.what == "point" else slice(None)
+        return beside(
+            taken, {re.sub(r"^(?=\W)|(?<=\s)$|/", "_", name): _held(values[some]) for name, values in given.items()}
+        )
 
     def areas(self, mesh: Mesh) -> FloatArray:
         """The areas of cells or triangles, on the sphere in steradians."""

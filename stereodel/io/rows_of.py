@@ -28,6 +28,7 @@ from stereodel.io.formats import wkb
 from stereodel.io.formats.map_rows import MapRows, content_of, is_frame, packed, shapely
 from stereodel.io.formats.names import beside, spelled
 from stereodel.io.maps.clipping import clipped
+from stereodel.io.maps.dissolving import codes_of, dissolved, dividing, grouped, merged
 from stereodel.io.maps.on_map import polygons_on_map, repaired, steps_of
 from stereodel.io.maps.tiles import Net, sphere_lines, sphere_polygons
 from stereodel.io.reading import shapes_of
@@ -60,6 +61,7 @@ def rows_of(
     bounds: npt.ArrayLike | None = None,
     crs: Any = None,
     clip: Any = None,
+    dissolve: str | None = None,
     progress: Progress | None = None,
 ) -> MapRows:
     """Cells, triangles, edges, ridges, sites or contours as a GeoDataFrame.
@@ -91,6 +93,8 @@ def rows_of(
         Polygons to which cells or triangles of the sphere are clipped, in degrees or with a coordinate system of their
         own; "land" is the land of Natural Earth, 1:50 000 000. What lies outside has no row; ``area`` is the area
         inside.
+    dissolve : str, optional
+        One of `columns`: the cells of points with the same value in it, missing values among them, are one feature.
     progress : callable, optional
         Called repeatedly with the name of the stage, how much of it is done, and how much there is.
 
@@ -100,8 +104,10 @@ def rows_of(
         ``point`` (index of the point) and ``area`` for cells; ``triangle``, ``a``, ``b``, ``c`` (indices of its
         corners) and ``area`` for triangles; ``a``, ``b`` and ``length`` for edges and ridges; ``point`` for sites;
         ``level`` and ``closed`` for contours, whose lines have higher values on their left; then `columns`, then
-        ``geometry``, longitude before latitude. Duplicates and cells outside the bounds have no row. A column of
-        `columns` whose name is taken gets a number appended, with a warning.
+        ``geometry``, longitude before latitude. Duplicates and cells outside the bounds have no row. With `dissolve`
+        ``point`` is the first of the points, ``cells`` the number of cells, ``area`` that of all, rounded once, and of
+        `columns` there is that one alone. A column of `columns` whose name is taken gets a number appended, with a
+        warning.
 
     Raises
     ------
@@ -121,7 +127,8 @@ def rows_of(
     Polygons are clipped on the map, where the lines of `clip` are straight, as in a GIS, and arcs are chords no longer
     than `max_segment`. Crossings are rounded to doubles separately for each of two neighbours. The area of a clipped
     polygon is the share of the polygon on the map that remains, measured on the sphere, times the area of the whole
-    cell or triangle, which comes from its arcs.
+    cell or triangle, which comes from its arcs. Cells are dissolved before they are clipped, by the sides that they
+    share point for point; their area is the sum of their clipped areas.
 
     Examples
     --------
@@ -140,9 +147,9 @@ def rows_of(
     """
     as_scalar(max_segment, spelled("max_segment"), low=0.0, high=LARGEST_SEGMENT, open_low=True)
     if isinstance(mesh, list):
-        if what is not None or columns or bounds is not None or clip is not None:
+        if what is not None or columns or bounds is not None or clip is not None or dissolve is not None:
             raise ValueError(
-                "what, columns, bounds and clip are options of triangulations and diagrams, not of contours"
+                "what, columns, bounds, clip and dissolve are options of triangulations and diagrams, not of contours"
             )
         return _of_contours(mesh, max_segment, latitude, crs)
     wanted = as_choice(what or usual_kind(mesh), WHAT, "what")
@@ -151,6 +158,8 @@ def rows_of(
     box = None if mesh.surface is SPHERE else frame_of(mesh.points, bounds)
     if clip is not None and (box or wanted not in ("cells", "triangles")):
         raise ValueError("clip is for cells and triangles of the sphere; what is in the plane is cut to bounds")
+    given = point_columns(columns, len(mesh.points))
+    by = None if dissolve is None else dividing(dissolve, given, wanted)
     optional("shapely", "geo")
     found: Columns
     if wanted == "sites":
@@ -161,11 +170,18 @@ def rows_of(
     else:
         found, binary = _lines(mesh, wanted, max_segment, chosen, box)
         found["length"] = found["length"] * scale
+    whole = binary
     if clip is not None:
         shapes = shapes_of(data.land() if isinstance(clip, str) and clip == "land" else clip)
-        binary, share = clipped(binary, shapes.rings, shapes.ring_polygon, chosen)
+        binary, share = clipped(whole, shapes.rings, shapes.ring_polygon, chosen)
         found["area"] = found["area"] * share
-    given = point_columns(columns, len(mesh.points))
+    if by is not None:
+        there = np.flatnonzero(wkb.is_there(binary))
+        given, groups = {str(dissolve): by}, grouped(codes_of(by[there]))
+        found = merged({name: values[there] for name, values in found.items()}, groups)
+        binary = dissolved(whole[there], groups)
+        if clip is not None:
+            binary, _ = clipped(binary, shapes.rings, shapes.ring_polygon, chosen)
     if "point" in found:
         named = beside([*found, "geometry"], given)
         found |= {name: values[found["point"]] for name, values in named.items()}

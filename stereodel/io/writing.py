@@ -11,6 +11,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any, BinaryIO, Final
 
+import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import as_choice
@@ -19,7 +20,7 @@ from stereodel._tasks.progress import Progress
 from stereodel._tasks.whole_files import replacing, said_of
 from stereodel.interpolation import Contour
 from stereodel.io.formats import wkb
-from stereodel.io.formats.columns import objects
+from stereodel.io.formats.columns import check_held, objects
 from stereodel.io.formats.delimited import write_csv
 from stereodel.io.formats.gdal import DRIVERS, write_layer
 from stereodel.io.formats.geojson import write_geojson
@@ -27,6 +28,7 @@ from stereodel.io.formats.map_rows import MapRows
 from stereodel.io.formats.names import beside
 from stereodel.io.formats.parquet import write_parquet
 from stereodel.io.grids import Grid, write_geotiff
+from stereodel.io.maps.dissolving import cell_columns, dividing
 from stereodel.io.meshes import to_polydata, to_trimesh, to_ugrid
 from stereodel.io.reading import read_points
 from stereodel.io.rows_of import (
@@ -70,7 +72,7 @@ def write(
         Called repeatedly with the name of the stage, how much of it is done, and how much there is: rows, where they
         are written.
     **options
-        Options of the function that makes the contents: `to_geodataframe` for csv, geojson and geojsonl (and
+        Options of the function that makes the contents: `to_geodataframe` for csv, xlsx, geojson and geojsonl (and
         ``decimals`` of `to_geojson`), parquet, gpkg, fgb, shp and kml; `to_ugrid` for nc; `to_trimesh` for glb and ply;
         `to_polydata` for vtp.
 
@@ -85,9 +87,10 @@ def write(
 
     Notes
     -----
-    CSV: for cells and sites, one row for each point, duplicates included, with lon and lat (x and y in the plane), the
-    area of its cell and `columns`; for triangles and edges, the indices of their corners, from 0. Its options are
-    `what`, `columns`, `latitude` and `radius`. It needs no other library.
+    CSV, which needs no other library, and XLSX: for cells and sites, one row for each point, duplicates included, with
+    lon and lat (x and y in the plane), the area of its cell and `columns`, or with `dissolve` one row for each value;
+    for triangles and edges, the indices of their corners, from 0. Their options are `what`, `columns`, `latitude`,
+    `radius` and `dissolve`.
 
     Examples
     --------
@@ -136,13 +139,17 @@ def _layer(thing: Any, options: dict[str, Any]) -> MapRows:
     return MapRows.of_frame(thing)
 
 
-def _write_csv(thing: Any, path: Path, options: dict[str, Any], progress: Progress | None) -> None:
+def _write_table(thing: Any, path: Path, options: dict[str, Any], progress: Progress | None) -> None:
     if isinstance(thing, MESHES):
         columns = _mesh_columns(thing, **options)
     elif isinstance(thing, Grid | PointTable | dict):
         columns = thing if isinstance(thing, dict) else thing.located()
     else:
         columns = read_points(_layer(thing, options).frame()).located()
+    if path.suffix == ".xlsx":
+        count = max((len(values) for values in columns.values()), default=0)
+        write_layer(MapRows(columns, np.full(count, None, dtype=object)), path, progress=progress)
+        return
     with path.open("w", encoding="utf-8", newline="") as stream:
         write_csv(columns, stream)
 
@@ -154,6 +161,7 @@ def _mesh_columns(
     columns: Mapping[str, npt.ArrayLike] | None = None,
     latitude: Latitude | None = None,
     radius: float = 1.0,
+    dissolve: str | None = None,
 ) -> Columns:
     kind = as_choice(what or usual_kind(mesh), ("cells", "sites", "triangles", "edges"), "what")
     if kind in ("triangles", "edges"):
@@ -162,9 +170,14 @@ def _mesh_columns(
         return dict(zip("abc", rows.T, strict=False))
     places = places_of(mesh, mesh.points, latitude or mesh.latitude or "spherical")
     found = dict(zip(AXES[mesh.surface.name], places.T, strict=True))
+    given = point_columns(columns, len(places))
+    if dissolve is not None:
+        by = dividing(dissolve, given, kind)
+        found = cell_columns(diagram_of(mesh), radius, by)
+        return found | beside(found, {dissolve: by[found["point"]]})
     if kind == "cells":
         found["area"] = diagram_of(mesh).areas(radius=radius)
-    return found | beside(found, point_columns(columns, len(places)))
+    return found | beside(found, given)
 
 
 def _write_rows(thing: Any, path: Path, options: dict[str, Any], progress: Progress | None) -> None:
@@ -188,6 +201,7 @@ def _write_nc(thing: Any, path: Path, options: dict[str, Any], progress: Progres
     if isinstance(thing, Grid):
         dataset, form = thing.to_xarray(), "NETCDF3_64BIT"  # the classic format, which every reader supports
     else:
+        check_held(options.get("columns") or {}, "nc")
         dataset, form = to_ugrid(thing, **options), "NETCDF4"
     try:
         dataset.to_netcdf(path, engine="netcdf4", format=form)
@@ -219,8 +233,9 @@ LAYERS: Final[dict[str, Callable[..., None]]] = {
 """What writes rows of maps, by format."""
 
 WRITERS: Final[dict[str, Callable[[Any, Path, dict[str, Any], Progress | None], None]]] = {
-    "csv": _write_csv,
+    "csv": _write_table,
     **dict.fromkeys(LAYERS, _write_rows),
+    "xlsx": _write_table,
     "nc": _write_nc,
     "tif": _write_tif,
     "glb": _write_trimesh,

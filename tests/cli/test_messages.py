@@ -49,8 +49,15 @@ voronoi gap.csv → gap.csv: row 1: the latitude is missing; leave such rows out
 voronoi infinite.csv → infinite.csv: row 1: the latitude is inf, but must be finite; correct or
 voronoi cities.csv --max-segment=0 -o out.geojson → --max-segment is 0.0, outside (0, 90]
 voronoi cities.csv --clip none.geojson → none.geojson: No such file or directory
-voronoi cities.csv --clip land -o a.svg → --clip is for csv, geojson, geojsonl, parquet, gpkg, fgb, shp, kml, and a.svg
+voronoi cities.csv --clip land -o a.svg → --clip is for csv, geojson, geojsonl, parquet, gpkg, fgb, shp, kml, xlsx
 voronoi cities.csv --clip land --plane lon lat → --clip is for cells of the sphere
+voronoi cities.csv --dissolve x → cities.csv: there is no column 'x'; the columns are name, people
+voronoi cities.csv --dissolve name --of two.csv -o a.nc → --dissolve and --of are for csv, geojson
+voronoi cities.csv --of two.csv → --of needs --sum, --mean or --rows, which say what to gather of its points
+voronoi cities.csv --sum x --rows --of-lon y → --sum, --rows and --of-lon are for the table --of, and there is none
+voronoi cities.csv --of gappy.csv --sum size → gappy.csv: row 1: the size is missing; leave such rows out with --skip
+voronoi cities.csv --of gappy.csv --sum x → gappy.csv: there is no column 'x'; the columns are size
+voronoi - --of - --rows → cannot both be stdin
 voronoi cities.csv -o points → points: cannot write a file without extension; choose .csv
 partition - -o a/ → - is no file, folder or pattern of Parquet files
 partition FILE -o a/ --lon lon → --lon and --lat are given together
@@ -81,17 +88,19 @@ interpolate PEOPLE --at cities.csv --at-lat x → cities.csv: --at-lat is 'x', w
 interpolate PEOPLE --at cities.csv --at-crs x → cities.csv: --at-crs is 'x', which PROJ does not know;
 interpolate cities.csv --value x --grid 5 → cities.csv: there is no column 'x'; the columns
 interpolate gappy.csv --value size --grid 5 → gappy.csv: row 1: the size is missing; leave such rows out
-interpolate PEOPLE --at cities.csv --box=0,0,9,9 --centers → --box and --centers are for a --grid, and there is none
+interpolate PEOPLE --at cities.csv --bounds=0,0,9,9 --centers → --bounds and --centers are for a --grid, and
 interpolate PEOPLE --grid 5 --at-lon x → --at-lon is for the table --at, and there is none
 interpolate PEOPLE --grid 0 → --grid is 0.0, outside (0, 180]
-interpolate PEOPLE --grid 7 → --grid is 7, but 180 must be a whole multiple of it
-interpolate PEOPLE --grid 1e-05 → --grid is 1e-05, which makes a grid of 36000000 × 18000001 places; 1073741824 are the
+interpolate PEOPLE --grid 7 --bounds world → --grid is 7, but 180 must be a whole multiple of it
+interpolate PEOPLE --grid 1e-05 --bounds world → --grid is 1e-05, which makes a grid of 36000000 × 18000001 places
 interpolate PEOPLE --grid nan → --grid is nan; every value must be a finite number
-interpolate PEOPLE --grid 5 --box=0,0,7 → --box is '0,0,7', but must be W,S,E,N in degrees, e.g. --box=-25,34,45,72
-interpolate PEOPLE --grid 5 --box=0,9,7,5 → --box is (0.0, 9.0, 7.0, 5.0), but south must be below north
-interpolate PEOPLE --grid 5 --box=nan,5,7,9 → --box is 'nan,5,7,9', but must be W,S,E,N in degrees
+interpolate PEOPLE --grid 5 --bounds=0,0,7 → --bounds is '0,0,7', but must be W,S,E,N in degrees, e.g. --bounds=-25,34
+interpolate PEOPLE --grid 5 --bounds=0,9,7,5 → --bounds is (0.0, 9.0, 7.0, 5.0), but south must be below north
+interpolate PEOPLE --grid 5 --bounds=nan,5,7,9 → --bounds is 'nan,5,7,9', but must be W,S,E,N in degrees
 interpolate PEOPLE → either --at
-interpolate PEOPLE --grid 1 --plane lon lat → --at
+interpolate PEOPLE --grid 1 --plane lon lat --bounds world → --bounds is 'world', which no plane has; give (xmin, ymin
+interpolate PEOPLE --grid 1 --plane lon lat --bounds 1,2 → --bounds is '1,2', but must be xmin,ymin,xmax,ymax, e.g.
+interpolate PEOPLE --grid 0 --plane lon lat → --grid is 0.0, outside (0, inf]
 interpolate cities.csv --value name --grid 90 → cities.csv: row 1: the name 'Quito' is not a number
 contour PEOPLE --levels=1,x → --levels is '1,x', but must be numbers, e.g. --levels=-10,0,10
 contour PEOPLE --interval=0 → --interval is 0.0, outside (0, inf]

@@ -35,7 +35,7 @@ EVERY = {
 }
 PAIRS = {
     "voronoi": ("gpkg", "shp", "vtp"),
-    "nearest": ("csv", "kml"),
+    "nearest": ("csv", "kml", "xlsx"),
     "interpolate": ("parquet", "geojsonl"),
     "clip": ("geojson",),
     "triangulate": ("fgb", "glb", "ply", "nc", "svg"),

@@ -5,11 +5,12 @@ import json
 import geopandas
 import numpy as np
 import pytest
+import shapely
 from typer.testing import CliRunner
 
 from stereodel import PlanarDelaunay, SphericalDelaunay, check_delaunay, lonlat_to_xyz
 from stereodel.cli import app
-from stereodel.cli.options import TABLES
+from stereodel.cli.options import FLAT, TABLES
 from stereodel.earth import AUTHALIC_RADIUS_KM
 from stereodel.io import read_points
 
@@ -66,6 +67,122 @@ def test_cells_on_land_and_in_the_polygons_of_a_file(folder, run, rows):
     (folder / "square.geojson").write_text(json.dumps(square), encoding="utf-8")
     found = rows(run("voronoi", "cities.csv", "--clip", "square.geojson", "-o", "-"))
     assert [row["name"] for row in found if float(row["area_km2"]) > 0] == ["Ulm"]
+
+
+REGIONS = """name,region,lon,lat
+Quito,America,-78.5,-0.2
+Suva,Pacific,178.4,-18.1
+Lima,America,-77,-12
+Apia,Pacific,-171.8,-13.8
+Ulm,Europe,10,48.4
+Oslo,Europe,10.7,59.9
+Pole,,0,-90
+Quito again,Nowhere,-78.5,-0.2
+McMurdo,,166.7,-77.8
+Nome,America,-165.4,64.5
+"""
+
+
+@pytest.fixture
+def regions(folder):
+    square = {"type": "Polygon", "coordinates": [[[-170, -60], [60, -60], [60, 70], [-170, 55], [-170, -60]]]}
+    (folder / "square.geojson").write_text(json.dumps(square), "utf-8")
+    (folder / "regions.csv").write_text(REGIONS, encoding="utf-8")
+    (folder / "shops.csv").write_text("x,y,turnover\n-78,0,0.1\n-78,-12,0.2\n-78,1,0.3\n9,48,7\n3,-80,\n", "utf-8")
+    return folder
+
+
+@pytest.mark.parametrize(
+    ("kind", "options"),
+    [
+        *((kind, []) for kind in TABLES if kind not in FLAT),
+        ("parquet", ["--clip", "square.geojson"]),
+        ("parquet", ["--plane", "lon", "lat"]),
+        ("geojson", ["--plane", "lon", "lat"]),
+    ],
+)
+def test_dissolved_cells_are_those_of_geopandas(regions, run, rows, kind, options):
+    """The same regions as one line of GeoPandas makes of the cells, valid, with areas added and cells counted."""
+    read = geopandas.read_parquet if kind == "parquet" else geopandas.read_file
+    run("voronoi", "regions.csv", *options, "-o", "cells.parquet")
+    run("voronoi", "regions.csv", *options, "--dissolve", "region", "-o", f"regions.{kind}")
+    cells, found = geopandas.read_parquet(regions / "cells.parquet"), read(regions / f"regions.{kind}")
+    area = "area" if "--plane" in options else "area_km2"
+    if kind != "kml":  # which has columns of its own
+        assert list(found.columns) == ["region", "cells", area, "geometry"]
+    expected = cells.dissolve("region", aggfunc={area: ["sum", "count"]}, method="unary")
+    expected.columns = ["geometry", "sum", "count"]
+    found = found.assign(region=found["region"].fillna("")).set_index("region").loc[expected.index]
+    assert found.is_valid.all()
+    assert found["cells"].astype(int).tolist() == expected["count"].tolist()
+    ours, theirs = np.asarray(found.geometry.force_2d()), np.asarray(expected.geometry)
+    assert (shapely.area(shapely.symmetric_difference(ours, theirs)) < 1e-9 * shapely.area(theirs)).all()
+    areas = found[area].astype(float).fillna(np.inf)  # GeoJSON knows no infinity
+    assert np.allclose(areas, expected["sum"], rtol=1e-14 if kind not in ("kml", "shp") else 1e-9, atol=0)
+    table = rows(run("voronoi", "regions.csv", *options, "--dissolve", "region", "-o", "-"))
+    if not options:
+        run("voronoi", "regions.csv", "--dissolve", "region", "-o", "regions.xlsx", "--overwrite")
+        sheet = geopandas.read_file(regions / "regions.xlsx")
+        assert sheet["cells"].tolist() == [int(row["cells"]) for row in table]
+        assert sheet[area].tolist() == pytest.approx([float(row[area]) for row in table], rel=1e-14)
+    assert [row["region"] for row in table] == ["America", "Pacific", "Europe", ""]
+    assert [float(row[area] or "inf") for row in table] == pytest.approx(
+        [expected["sum"][row["region"]] for row in table], rel=1e-14
+    )
+
+
+def test_dissolved_borders_are_those_of_cells(regions, run):
+    """No side between cells of one region is left, and every other point is there to the bit."""
+    run("voronoi", "regions.csv", "-o", "cells.parquet")
+    run("voronoi", "regions.csv", "--dissolve", "region", "-o", "regions.parquet")
+    cells, found = (geopandas.read_parquet(regions / f"{name}.parquet") for name in ("cells", "regions"))
+
+    def sides(frame):
+        found = {}
+        for region, shape in zip(frame["region"], frame.geometry.force_2d(), strict=True):
+            for part in shape.geoms if hasattr(shape, "geoms") else [shape]:
+                for ring in (part.exterior, *part.interiors):
+                    for side in zip(ring.coords[:-1], ring.coords[1:], strict=True):
+                        found.setdefault(frozenset(side), []).append(region)
+        return found
+
+    before, after = sides(cells), sides(found)
+    between = {side for side, of in before.items() if len(of) == 2 and of[0] == of[1]}
+    assert between
+    assert set(after) == set(before) - between
+
+
+def test_values_of_other_points_by_cells(regions, run, rows):
+    other = ("--of", "shops.csv", "--of-lon", "x", "--of-lat", "y", "--sum", "turnover", "--mean", "turnover", "--rows")
+    message = run("voronoi", "regions.csv", *other, "-o", "-", code=2)
+    assert message == ("error: shops.csv: row 5: the turnover is missing; leave such rows out with --skip-missing\n")
+    table = rows(run("voronoi", "regions.csv", *other, "--skip-missing", "-o", "-"))
+    said = {row["name"]: (row["sum_turnover"], row["mean_turnover"], row["rows"]) for row in table}
+    assert said["Quito"] == ("0.4", "0.2", "2")  # once rounded
+    assert said["Quito again"] == said["Oslo"] == ("0.0", "", "0")
+    assert said["Pole"] == ("0.0", "", "1")  # a place without a value is counted, and adds none
+    together = rows(run("voronoi", "regions.csv", *other, "--skip-missing", "--dissolve", "region", "-o", "-"))
+    assert list(together[0].values())[3:] == ["0.6", "0.2", "3"]
+    run("voronoi", "regions.csv", *other, "--skip-missing", "--clip", "square.geojson", "-o", "cells.gpkg")
+    cells = geopandas.read_file(regions / "cells.gpkg").set_index("name")
+    assert cells["sum_turnover"].to_dict() == {name: float(said[name][0]) for name in cells.index}
+
+
+def test_sums_by_cells_are_those_of_numpy(folder, run, rows):
+    rng = np.random.default_rng(8)
+    sites, points = rng.uniform(-50, 50, (40, 2)), rng.uniform(-60, 60, (2000, 2))
+    values = rng.normal(size=2000)
+    np.savetxt(folder / "sites.csv", sites, delimiter=",", header="x,y", comments="", fmt="%.17g")
+    np.savetxt(
+        folder / "of.csv", np.column_stack([points, values]), delimiter=",", header="x,y,v", comments="", fmt="%.17g"
+    )
+    gathered = ("--of", "of.csv", "--sum", "v", "--mean", "v", "--rows")
+    table = rows(run("voronoi", "sites.csv", "--plane", "x", "y", *gathered, "-o", "-"))
+    cell = np.argmin(((points[:, None] - sites) ** 2).sum(axis=2), axis=1)
+    count, total = np.bincount(cell, minlength=40), np.bincount(cell, values, minlength=40)
+    assert [int(row["rows"]) for row in table] == count.tolist()
+    assert np.allclose([float(row["sum_v"]) for row in table], total)
+    assert np.allclose([float(row["mean_v"]) for row in table], total / count)
 
 
 def corners(rows, text):

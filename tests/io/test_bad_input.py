@@ -230,7 +230,7 @@ def test_values(case):
     [
         ("a.svg", CELLS, {}, ValueError, "format is 'svg', but must be one of 'csv'"),
         ("a.PNG", CELLS, {}, ValueError, "format is 'png', but must be one of 'csv'"),
-        ("a.xlsx", TABLE, {}, ValueError, "format is 'xlsx'"),
+        ("a.ods", TABLE, {}, ValueError, "format is 'ods'"),
         ("a.csv", [[1, 2]], {}, TypeError, r"mesh\[0\] must be a Contour, not list"),
         ("a.csv", 5, {}, TypeError, "thing must be a mesh, a PointTable or a GeoDataFrame, not int"),
         ("a.csv", TABLE, {"what": "cells"}, TypeError, "what is not an option"),

@@ -1,5 +1,8 @@
 """GeoDataFrames: rows, columns, options, the plane, lines, contours; and the way back from points."""
 
+import io
+import math
+
 import geopandas
 import numpy as np
 import pytest
@@ -18,7 +21,7 @@ from stereodel import (
 )
 from stereodel.earth import AUTHALIC_RADIUS_KM
 from stereodel.interpolation import contours
-from stereodel.io import read_points, to_geodataframe
+from stereodel.io import read_points, to_geodataframe, write
 from tests import sets
 from tests.examples import examples
 
@@ -42,6 +45,48 @@ def test_columns_of_each_kind():
         assert next(iter(to_geodataframe(mesh))) == first
     for mesh in (SphericalVoronoi([]), SphericalDelaunay(np.zeros((0, 3))), PlanarVoronoi([]), PlanarDelaunay([])):
         assert not any(len(to_geodataframe(mesh, what=what)) for what in kinds)
+
+
+@pytest.mark.parametrize(
+    "points",
+    [
+        SPHERE,
+        PLANE,
+        SPHERE * (1, 0, 1),  # strips between the poles of a great circle, whose polygons overlap by rounding
+        np.vstack([np.eye(3), -np.eye(3)]),
+        lonlat_to_xyz([[0, 90 - 1e-9], [1, 90], [120, 90 - 2e-9], [-100, 90 - 1e-9]]),
+    ],
+)
+def test_dissolved_cells(points):
+    """Valid, the same as Shapely's overlay, and nothing of the map is lost; equal values are one, and so are gaps."""
+    diagram = (PlanarVoronoi if points.shape[1] == 2 else SphericalVoronoi)(points)
+    values = np.array([[1, 1.0, "1", None, float("nan")][k % 5] for k in range(len(points))], dtype=object)
+    cells = to_geodataframe(diagram, columns={"v": values})
+    found = to_geodataframe(diagram, columns={"v": values, "w": values}, dissolve="v")
+    assert list(found) == ["point", "cells", "area", "v", "geometry"]
+    assert found.is_valid.all()
+    assert found["v"].tolist() == [1, "1", None][: len(found)]
+    assert found["point"].tolist() == [0, 2, 3][: len(found)]
+    of = [{1: 0, "1": 1, None: 2}[None if value != value else value] for value in cells["v"]]
+    assert found["cells"].tolist() == np.bincount(of).tolist()
+    for k, shape in enumerate(found.geometry):
+        chosen = cells[np.array(of) == k]
+        assert found["area"][k] == math.fsum(chosen["area"])
+        overlay = shapely.union_all(np.asarray(chosen.geometry))
+        assert shapely.area(shapely.symmetric_difference(shape, overlay)) < 1e-9 * shapely.area(overlay)
+
+
+def test_dissolving_in_a_table_and_by_nothing():
+    diagram, columns = SphericalVoronoi(np.vstack([SPHERE[:3], SPHERE[:1]])), {"v": ["a", "b", "a", "c"]}
+    stream = io.BytesIO()
+    write(stream, diagram, format="csv", columns=columns, dissolve="v", radius=2.0)
+    table = [line.split(",") for line in stream.getvalue().decode().split()]
+    assert [(row[0], row[1], row[3]) for row in table] == [("point", "cells", "v"), ("0", "2", "a"), ("1", "1", "b")]
+    assert float(table[1][2]) == math.fsum(4 * to_geodataframe(diagram)["area"][[0, 2]])
+    for options in ({"dissolve": "w"}, {"what": "sites", "dissolve": "v"}):
+        for ask in (to_geodataframe, lambda *args, **given: write(io.BytesIO(), *args, format="csv", **given)):
+            with pytest.raises(ValueError, match=r"dissolve is .*, but it is for"):
+                ask(diagram, columns=columns, **options)
 
 
 def test_own_columns_follow_their_points():

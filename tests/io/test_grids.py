@@ -5,7 +5,7 @@ import pytest
 import rasterio
 import xarray as xr
 
-from stereodel.io import Grid, write
+from stereodel.io import Grid, PointTable, write
 from stereodel.io.formats.names import RenamedColumnWarning
 
 
@@ -56,6 +56,52 @@ def test_xarray_reads_what_it_is_given(tmp_path, name):
         assert found["place"].attrs == {"long_name": "place", "grid_mapping": "crs", "units": "m"}
         assert found["lon"].attrs["standard_name"] == "longitude"
         assert ("lat_bnds" in found) == grid.centers
+
+
+@pytest.mark.parametrize(
+    ("lonlat", "spacing", "centers", "lon", "lat"),
+    [
+        ([[0, 0], [3, 1]], 2, False, (0, 4), (0, 2)),
+        ([[3, 1]], 2, True, (3, 3), (1, 1)),
+        ([[4, 2]], 2, True, (5, 5), (3, 3)),  # on an edge of cells: one is there nonetheless
+        ([[4, 90]], 2, True, (5, 5), (89, 89)),
+        ([[0, -90], [1, 90]], 7, False, (0, 7), (-90, 85)),  # no latitude beyond a pole
+        (np.column_stack([range(-180, 181, 60), [0] * 7]), 60, False, (-180, 120), (0, 60)),  # no meridian twice
+        (np.column_stack([range(-180, 181, 60), [1] * 7]), 60, True, (-150, 150), (30, 30)),
+        ([[-180, 0], [180, 0], [0, 0]], 60, False, (0, 180), (0, 60)),
+        ([[0, 0], [180, 0]], 90, False, (0, 180), (0, 90)),  # as wide across 180: not across
+        ([[359, 0], [2, 0]], 1, False, (-1, 2), (0, 1)),
+        ([[-120, 0], [-20, 0], [70, 0], [150, 0]], 10, False, (-20, 240), (0, 10)),  # 100 degrees are empty
+        ([[-120, 0], [-40, 0], [40, 0], [150, 0]], 10, False, (150, 400), (0, 10)),
+        ([[-120, 0], [-40, 0], [40, 0], [125, 0]], 10, False, (-120, 130), (0, 10)),  # 85 degrees are not enough
+    ],
+)
+@pytest.mark.filterwarnings("ignore:the points lie on both sides")
+def test_the_extent_of_points(lonlat, spacing, centers, lon, lat):
+    grid = Grid.regular(spacing, of=PointTable(lonlat), centers=centers)
+    assert (grid.lon[0], grid.lon[-1]) == lon
+    assert (grid.lat[0], grid.lat[-1]) == lat
+
+
+def test_extents_that_no_grid_has():
+    with pytest.raises(ValueError, match="there are no points, whose extent would be that of the grid; give bounds"):
+        Grid.regular(1, of=PointTable(np.zeros((0, 2))))
+    with pytest.raises(ValueError, match="spacing is 1e-300, which makes a grid of"):
+        Grid.regular(1e-300, of=PointTable([[0.0, 0.0], [1e300, 1.0]], surface="plane"))
+
+
+@pytest.mark.filterwarnings("ignore::stereodel.io.RenamedColumnWarning")
+def test_a_plane_without_a_coordinate_system(tmp_path):
+    table = PointTable([[-3.5, 200.0], [1.0, 203.0]], surface="plane")
+    grid = Grid.regular(0.5, of=table)
+    write(tmp_path / "grid.nc", Grid(grid.lon, grid.lat, {"x": grid.places[..., 0]}, surface="plane"))
+    with xr.open_dataset(tmp_path / "grid.nc") as found:
+        assert "crs" not in found
+        assert found["x_1"].attrs == {"long_name": "x"}
+        assert (found["x_1"] == found["x"]).all()
+        assert found["x"].attrs["axis"] == "X"
+    with pytest.raises(ValueError, match="the grid is one of a plane"):
+        _ = grid.lonlat
 
 
 def test_missing_values(tmp_path):

@@ -4,6 +4,7 @@ import datetime as dt
 import json
 import math
 import warnings
+import zipfile
 from uuid import UUID
 
 import numpy as np
@@ -14,7 +15,7 @@ import pytest
 
 from stereodel.io import PointTable, RenamedColumnWarning, read_points, write
 
-FORMATS = ["csv", "geojson", "geojsonl", "parquet", "gpkg", "fgb", "shp", "kml"]
+FORMATS = ["csv", "geojson", "geojsonl", "parquet", "gpkg", "fgb", "shp", "kml", "xlsx"]
 JSON = {"geojson", "geojsonl"}
 DATABASES = {"gpkg", "fgb"}
 OF_TEXT = {"csv", "shp", "kml"}
@@ -66,10 +67,10 @@ COLUMNS = {
 
 REFUSED = {
     "half letter": set(FORMATS),
-    "zero letter": DATABASES | {"shp", "kml"},
-    "control": {"kml"},
-    "return": {"kml"},
-    "ends": {"shp", "kml"},
+    "zero letter": DATABASES | {"shp", "kml", "xlsx"},
+    "control": {"kml", "xlsx"},
+    "return": {"kml", "xlsx"},
+    "ends": {"shp", "kml", "xlsx"},
 }
 
 NESTED = {
@@ -98,21 +99,25 @@ def expected(name, kind):
         return texts
     if name in ("uint64", "huge") and kind not in JSON | ({"parquet"} if name == "uint64" else set()):
         return texts
-    if name == "int64" and kind in ("shp", "kml"):
+    if name == "int64" and kind in ("shp", "kml", "xlsx"):
         return texts
     if (name == "mixed" and kind not in JSON) or (name == "ids" and (kind != "parquet" or not arrow_knows_ids())):
         return texts
-    if name == "zeros" and kind == "gpkg":
+    if name == "zeros" and kind in ("gpkg", "xlsx"):
         return [0.0, 0.0, 1.0, 2.0]
     if name == "double" and kind in ("shp", "kml"):
         return [0.1, -1.5e9, 0.333333333333333, 2.0]
     if name == "single" and kind in ("gpkg", "shp", "kml"):
         return [values[0] if kind == "gpkg" else 0.100000001490116, -1.5, 7.0, 0.0 if kind == "gpkg" else -0.0]
-    if name == "infinite" and kind in JSON | {"csv"}:
+    if name == "single" and kind == "xlsx":
+        return [0.1000000014901161, *values[1:]]
+    if name == "infinite" and kind in JSON | {"csv", "xlsx"}:
         return [None, None, 1.5, None]
+    if name == "blanks" and kind == "xlsx":
+        return [" both ", None, "x", "y"]
     if name == "blanks" and kind in ("shp", "kml"):
         return ["both", None, "x", "y"]
-    if name == "bytes" and kind in JSON | OF_TEXT:
+    if name == "bytes" and kind in JSON | OF_TEXT | {"xlsx"}:
         return ["00FF", "6162", None, "0F"]
     if name == "dates" and (kind == "fgb" or (kind in ("gpkg", "shp") and pyogrio.__version__ < "0.13")):
         return [value and dt.datetime(value.year, value.month, value.day) for value in values]
@@ -120,7 +125,7 @@ def expected(name, kind):
         return [value and f"{value:%Y/%m/%d}" for value in values]
     if name == "dates" and kind in JSON | {"csv"}:
         return texts
-    if name == "zoned" and kind in JSON | OF_TEXT:
+    if name == "zoned" and kind in JSON | OF_TEXT | {"xlsx"}:
         return [value and value.isoformat() for value in values]
     if name in ("times", "instants"):
         cells = COLUMNS[name] if kind in JSON | {"csv", "parquet"} else COLUMNS[name].astype("M8[ms]")
@@ -173,3 +178,23 @@ def test_a_column_comes_back_or_is_refused(tmp_path, name, kind):
     if read.columns["v"].dtype.kind in "mM":
         found = [read.columns["v"][k] for k in order]
     assert all(map(same, found, expected(name, kind))), (found, expected(name, kind))
+
+
+@pytest.mark.parametrize(
+    ("name", "values", "said"),
+    [("v", ["x" * 32_768] * 4, "32768 characters of a text"), (None, range(4), "16387 columns")],
+)
+def test_what_a_sheet_cannot_hold(tmp_path, name, values, said):
+    columns = {name: values} if name else {f"c{k}": values for k in range(16_385)}
+    with pytest.raises(ValueError, match=rf"there are {said}, but \.xlsx holds"):
+        write(tmp_path / "a.xlsx", PointTable(LONLAT, columns))
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_sheet_is_named_and_filled_as_excel_wants(tmp_path):
+    """Names of sheets have up to 31 letters, and not these; a text that begins with = is no formula."""
+    path = tmp_path / "areas [km2]: a name of more than thirty letters.xlsx"
+    write(path, PointTable(LONLAT, {"v": ["=1+1", "-", "+", "@"]}))
+    with zipfile.ZipFile(path) as book:
+        assert b'name="areas _km2__ a name of more tha"' in book.read("xl/workbook.xml")
+        assert b"<f>" not in book.read("xl/worksheets/sheet1.xml")

@@ -2,6 +2,7 @@
 
 import io
 import json
+from contextlib import nullcontext
 
 import geopandas
 import numpy as np
@@ -21,6 +22,7 @@ from stereodel import (
     lonlat_to_xyz,
 )
 from stereodel.io import (
+    DataWarning,
     PointTable,
     from_ugrid,
     to_geodataframe,
@@ -148,6 +150,62 @@ def test_uxarray_opens_the_grid(tmp_path, points, what):
     if points is SPHERE:
         assert (grid.face_node_connectivity.values[:, :3] == ours["face_node_connectivity"].values[:, :3]).all()
         assert grid.n_node - grid.n_edge + grid.n_face == 2
+
+
+VALUED = {
+    "people": np.array([2**62 + k for k in range(len(SPHERE))]),
+    "name": np.array([f"site {k}, „ü“" for k in range(len(SPHERE))]),
+    "part": np.array([None, "x"] * (len(SPHERE) // 2), dtype=object),
+    "half": np.linspace(0, 1, len(SPHERE)).astype(np.float16),
+    "flag": np.arange(len(SPHERE)) % 2 == 0,
+    "since": np.datetime64("2020-01-01T00:00:00.25", "ns") + np.arange(len(SPHERE)).astype("m8[h]"),
+    "list": np.arange(2 * len(SPHERE)).reshape(-1, 2),
+    "node_x": np.zeros(len(SPHERE)),
+    "km/h, (mean) ": np.ones(len(SPHERE)),
+}
+"""A column of each kind, and names that are taken or that NetCDF has not."""
+
+
+@pytest.mark.filterwarnings("ignore::stereodel.io.RenamedColumnWarning")
+@pytest.mark.parametrize(
+    ("what", "kind"), [("cells", "nc"), ("triangles", "nc"), ("cells", "vtp"), ("triangles", "vtp")]
+)
+def test_columns_of_meshes_come_back(tmp_path, what, kind):
+    """Data on the faces of cells, and on the nodes of triangles, as uxarray and PyVista read them."""
+    path = tmp_path / f"mesh.{kind}"
+    with (
+        nullcontext() if kind == "nc" else pytest.warns(DataWarning, match="column 'name' is left out, as it has text")
+    ):
+        write(path, SphericalDelaunay(SPHERE), what=what, columns=VALUED)
+    names = [*list(VALUED)[:-2], *(["node_x_1"] if kind == "nc" else ["node_x"]), "km_h, (mean) _"]
+    if kind == "nc":
+        import uxarray
+
+        found = uxarray.open_dataset(path, path)
+        for name, given in zip(names, VALUED, strict=True):
+            assert found[name].dims == ("n_face" if what == "cells" else "n_node",)
+            assert found[name].attrs == {"mesh": "mesh", "location": found[name].dims[0][2:], "long_name": given}
+    else:
+        import pyvista
+
+        mesh = pyvista.read(path)
+        found = mesh.cell_data if what == "cells" else mesh.point_data
+    assert ("name" in found) == (kind == "nc")
+    read = {given: np.asarray(found[name]) for name, given in zip(names, VALUED, strict=True) if name in found}
+    for name in {"people", "name", "half", "flag"} & set(read):
+        assert read[name].tolist() == VALUED[name].tolist()
+    assert read["part"].tolist() == ["", "x"] * (len(SPHERE) // 2)
+    assert read["list"].tolist() == [f"[{a}, {b}]" for a, b in VALUED["list"]]
+    assert (read["since"].astype("M8[ns]") == VALUED["since"]).all()
+
+
+def test_points_without_a_face_lose_their_values(tmp_path):
+    points = np.vstack([SPHERE, SPHERE[:3]])
+    with pytest.warns(DataWarning, match=f"3 of {len(points)} points have no bounded cell of their own: their values"):
+        dataset = to_ugrid(SphericalVoronoi(points), columns={"k": range(len(points))})
+    assert dataset["k"].values.tolist() == list(range(len(SPHERE)))
+    with pytest.raises(ValueError, match=r"column 'k' has .* \.nc cannot hold"):
+        write(tmp_path / "a.nc", SphericalVoronoi(SPHERE), columns={"k": ["a\0b"] * len(SPHERE)})
 
 
 @pytest.mark.parametrize("mesh", [SphericalVoronoi(SPHERE), SphericalDelaunay(SPHERE), PlanarVoronoi(PLANE)])

@@ -73,8 +73,8 @@ OTHER: Final = {".": ",", ",": "."}
 """What separates thousands where this is the decimal mark."""
 
 UNWRITABLE: Final = {
-    "kml": re.compile("[\x00-\x08\x0b-\x1f\ufffe\uffff\ud800-\udfff]"),
-    **dict.fromkeys(("gpkg", "fgb", "shp"), re.compile("[\x00\ud800-\udfff]")),
+    **dict.fromkeys(("kml", "xlsx"), re.compile("[\x00-\x08\x0b-\x1f\ufffe\uffff\ud800-\udfff]")),
+    **dict.fromkeys(("gpkg", "fgb", "shp", "nc"), re.compile("[\x00\ud800-\udfff]")),
 }
 """Characters that text of a format cannot have: those that XML lacks or changes, and the end of text in GDAL."""
 
@@ -90,8 +90,8 @@ WESTERN: Final = re.compile("[^\x00-\x7f\xb0\xba\xaaà-öø-ÿÀ-ÖØ-ß€‘�
 HALVES: Final = re.compile("[\ud800-\udfff]")
 """Halves of characters, which UTF-8 lacks."""
 
-LARGEST: Final = {"shp": 1e23, "kml": 1.797693134862315e308}
-"""From here on a number has more digits than a shapefile's field, or GDAL's 15 digits of it are infinite."""
+LARGEST: Final = {"shp": 1e23, "kml": 1.797693134862315e308, "xlsx": 1e308}
+"""From here on a number has more digits than a shapefile's field, GDAL's 15 digits of it are infinite, or Excel's."""
 
 
 def decoded(content: bytes, encoding: str | None = None) -> tuple[str, str]:

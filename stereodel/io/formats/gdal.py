@@ -26,10 +26,16 @@ from stereodel.io.formats.wkb import is_there
 
 pyogrio: Any = OnUse(lambda: optional("pyogrio", "geo"))
 
-RESERVED: Final = {"gpkg": ("fid", "geom"), "fgb": (), "shp": (), "kml": ()}
+RESERVED: Final = {"gpkg": ("fid", "geom"), "fgb": (), "shp": (), "kml": (), "xlsx": ()}
 """Column names that a format reserves."""
 
-DRIVERS: Final = {"gpkg": "GPKG", "fgb": "FlatGeobuf", "shp": "ESRI Shapefile", "kml": "LIBKML"}
+DRIVERS: Final = {"gpkg": "GPKG", "fgb": "FlatGeobuf", "shp": "ESRI Shapefile", "kml": "LIBKML", "xlsx": "XLSX"}
+
+IN_MEMORY: Final = ("kml", "xlsx")
+"""Formats that are written in memory first, as GDAL does not report a full disk."""
+
+SHEET: Final = {"rows": 1_048_575, "columns": 16_384, "characters of a text": 32_767}
+"""What a sheet of a workbook holds at most, below its header."""
 
 SEVERAL: Final = {kind: f"Multi{kind}" for kind in ("Point", "LineString", "Polygon")}
 """The multi-part kind of each single-part kind of geometry."""
@@ -192,20 +198,24 @@ def write_layer(layer: MapRows, path: Path, *, progress: Progress | None = None)
     several = any(found.startswith("Multi") for found in layer.kinds)  # then all need to be, in formats of one kind
     kinds = sorted({SEVERAL.get(found, found) for found in layer.kinds}) if several else layer.kinds
     schema, batches = whole.batches(progress, several=several)
+    flat = kind == "xlsx"
+    if flat:
+        _check_sheet(whole)
+        schema, batches = schema.remove(len(named)), (batch.select(list(named)) for batch in batches)
     memory = BytesIO()
     with told(writing=True), warnings.catch_warnings(record=True) as said:
         warnings.simplefilter("always")
         pyogrio.write_arrow(
             arrow.RecordBatchReader.from_batches(schema, batches),
-            memory if kind == "kml" else path,
-            layer=path.stem,
+            memory if kind in IN_MEMORY else path,
+            layer=re.sub(r"[\[\]:*?/\\]", "_", path.stem)[:31] if flat else path.stem,
             driver=DRIVERS[kind],
-            geometry_name=layer.name,
-            geometry_type=kinds[0] if len(kinds) == 1 else "Unknown",
+            geometry_name=None if flat else layer.name,
+            geometry_type=None if flat else kinds[0] if len(kinds) == 1 else "Unknown",
             crs=None if layer.crs is None else optional("pyproj", "geo").CRS(layer.crs).to_wkt("WKT1_GDAL"),
             **OPTIONS.get(kind, {}),
         )
-        if kind == "kml":  # in memory first: GDAL does not report a full disk
+        if kind in IN_MEMORY:
             path.write_bytes(memory.getbuffer())
         elif len(layer) and not _is_whole(path, layer):
             raise OSError(errno.EIO, "the file could not be written to its end")
@@ -214,6 +224,15 @@ def write_layer(layer: MapRows, path: Path, *, progress: Progress | None = None)
         if found:
             text = f"column {found[1]!r} is written as {found[2]!r}, which is as long as the format allows"
             warnings.warn(text, RenamedColumnWarning, stacklevel=2)
+
+
+def _check_sheet(layer: MapRows) -> None:
+    """A ValueError for a table that is larger than the sheets of workbooks."""
+    texts = [values for values in layer.columns.values() if arrow.types.is_string(values.type)]
+    longest = max((arrow.compute.max(arrow.compute.utf8_length(values)).as_py() or 0 for values in texts), default=0)
+    for (what, most), size in zip(SHEET.items(), (len(layer), len(layer.columns), longest), strict=True):
+        if size > most:
+            raise ValueError(f"there are {size} {what}, but .xlsx holds {most}; choose another format")
 
 
 def _is_whole(path: Path, layer: MapRows) -> bool:
@@ -240,13 +259,19 @@ def plain_column(values: Any, kind: str) -> Any:
         column = column.dictionary_decode()
     if arrow.types.is_nested(column.type):
         return arrow.array([as_text(plain(cell)) for cell in column.to_pylist()], arrow.string())
-    if arrow.types.is_uint64(column.type) or (kind == "shp" and arrow.types.is_int64(column.type)):
+    doubles = kind in ("shp", "xlsx")  # a shapefile's numbers of 19 digits are doubles, and all of a workbook
+    if arrow.types.is_uint64(column.type) or (doubles and arrow.types.is_int64(column.type)):
         ends = arrow.compute.min_max(column).as_py().values()
-        bound = 2**53 if kind == "shp" else 2**63  # a shapefile's numbers of 19 digits are doubles
+        bound = 2**53 if doubles else 2**63
         fits = all(end is None or -bound <= end < bound for end in ends)
         return column.cast(arrow.int64() if fits else arrow.string())
     if arrow.types.is_duration(column.type) or isinstance(column.type, arrow.BaseExtensionType):
         return arrow.array([None if cell is None else str(cell) for cell in column.to_pylist()], arrow.string())
+    if kind == "xlsx" and arrow.types.is_timestamp(column.type) and column.type.tz:
+        return arrow.array([cell and cell.isoformat() for cell in column.to_pylist()], arrow.string())
+    if kind == "xlsx" and arrow.types.is_floating(column.type):  # which knows no infinity
+        column = column.cast(arrow.float64())
+        return arrow.compute.if_else(arrow.compute.is_finite(column), column, None)
     if kind == "kml" and arrow.types.is_float32(column.type):
         return column.cast(arrow.float64())  # GDAL writes too few digits of a float
     return column.cast(arrow.float32()) if arrow.types.is_float16(column.type) else column

@@ -89,9 +89,9 @@ class Mask:
             tiles, number = np.unique(low[fits].astype(int), axis=0, return_inverse=True)
             for k, (x, y) in enumerate(tiles.tolist()):
                 rows = waiting[fits][number.ravel() == k]
-                result[rows] = _areal(shapely.intersection(polygons[rows], self._tile(level, x, y)))
+                result[rows] = areal(shapely.intersection(polygons[rows], self._tile(level, x, y)))
             waiting = waiting[~fits]
-        result[waiting] = _areal(shapely.intersection(polygons[waiting], self._whole))
+        result[waiting] = areal(shapely.intersection(polygons[waiting], self._whole))
         return result
 
 
@@ -100,7 +100,7 @@ def _moved(geometry: Any, degrees: float) -> Any:
     return shapely.transform(geometry, lambda lonlat: lonlat + np.array([degrees, 0.0]))
 
 
-def _areal(geometries: Geometries) -> Geometries:
+def areal(geometries: Geometries) -> Geometries:
     """The polygons in results of overlays, counterclockwise; where borders touch, these also hold lines and points."""
     mixed = shapely.get_type_id(geometries) == 7
     for place in np.flatnonzero(mixed | (shapely.get_dimensions(geometries) < 2)).tolist():
