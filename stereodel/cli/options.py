@@ -172,7 +172,7 @@ class Table(Where):
         bool, typer.Option("--skip-missing", help="Leave out rows without a position or a value, instead of stopping.")
     ] = False
 
-    def read(self, name: str) -> PointTable:
+    def read(self, name: str, reader: Callable[..., PointTable] | None = None) -> PointTable:
         """The table in a file, or on stdin if `name` is "-"; NothingToDoError for one without points."""
         from stereodel.io import read_points
         from stereodel.io.formats.names import naming
@@ -180,7 +180,7 @@ class Table(Where):
         shown = "stdin" if name == "-" else name
         source = sys.stdin.buffer if name == "-" else name
         with reporting(f"reading {shown}") as told, naming(shown if name == "-" else None):
-            table = read_points(
+            table = (reader or read_points)(
                 source,
                 lon=self.lon,
                 lat=self.lat,

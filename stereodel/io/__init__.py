@@ -9,6 +9,7 @@ from stereodel.io.formats.names import DataWarning, RenamedColumnWarning
 from stereodel.io.grids import Grid
 from stereodel.io.maps.warping import warp
 from stereodel.io.meshes import from_ugrid, to_polydata, to_trimesh, to_ugrid
+from stereodel.io.nearest_shapes import nearest_shapes
 from stereodel.io.reading import from_geodataframe, read_points
 from stereodel.io.rows_of import to_geodataframe
 from stereodel.io.table import PointTable
@@ -21,6 +22,7 @@ __all__ = [
     "RenamedColumnWarning",
     "from_geodataframe",
     "from_ugrid",
+    "nearest_shapes",
     "read_points",
     "to_geodataframe",
     "to_geojson",

@@ -20,7 +20,7 @@ from stereodel.curves.ragged import Ragged
 from stereodel.io.formats import Content, FileFormat, FormatName, Source, Wanted, delimited, gdal, geojson, parquet
 from stereodel.io.formats.foreign import unpacked
 from stereodel.io.formats.map_rows import POINT, POLYGON, Frame, shapely
-from stereodel.io.formats.names import naming, spelled
+from stereodel.io.formats.names import NoPointError, naming, spelled
 from stereodel.io.table import PointTable, degrees, located
 
 FORMATS: Final[dict[FormatName, FileFormat]] = {
@@ -165,12 +165,13 @@ def read_points(
         ...
     ValueError: row 2: latitude 95.2 is outside [-90, 90]; is it the longitude, or not in degrees?
     """
-    if plane is not None and (lon is not None or lat is not None):
-        raise ValueError("plane names the columns of both coordinates; leave out lon and lat")
     wanted = Wanted(lon, lat, plane, layer, crs, skip_missing, progress)
     with naming(source):
-        name = os.fspath(source) if isinstance(source, str | os.PathLike) else ""
-        return located(_rows_of(SourceFile(source, format), wanted), wanted, name)
+        return located(_rows_of(SourceFile(source, format), wanted), wanted, _name_of(source))
+
+
+def _name_of(source: Source) -> str:
+    return os.fspath(source) if isinstance(source, str | os.PathLike) else ""
 
 
 def _rows_of(file: SourceFile, wanted: Wanted) -> Content:
@@ -272,6 +273,26 @@ class Shapes:
         return values
 
 
+@dataclass(frozen=True, eq=False)
+class ShapeTable(PointTable):
+    """Shapes and their columns, as a table whose places mean nothing."""
+
+    shapes: Shapes | None = None
+
+
+def read_sites(source: Source, **options: Any) -> PointTable:
+    """What `read_points` reads; of a source in which others than points are, a `ShapeTable`."""
+    wanted = Wanted(**options)
+    with naming(source):
+        found = _rows_of(SourceFile(source), wanted)
+        try:
+            return located(found, wanted, _name_of(source))
+        except NoPointError:
+            shapes = _shapes_in(found)
+        nowhere = np.zeros((len(shapes.properties), 2))
+        return ShapeTable(nowhere, found.columns(), name=_name_of(source), shapes=shapes)
+
+
 def shapes_of(source: Any) -> Shapes:
     """The shapes of a file, of GeoJSON, of a frame, or of geometries: one feature for each row.
 
@@ -298,12 +319,15 @@ def _shapes_of_file(path: Path) -> Shapes:
     with naming(path):
         known = {*PACKED, *(ending for each in FORMATS.values() for ending in each.endings)}
         file = SourceFile(path, None if path.suffix.lower() in known else "vector")
-        found = _rows_of(file, Wanted(choice="give a file with one"))
-        if isinstance(found, geojson.Features):
-            return of_features(found)
-        if not (isinstance(found, Frame) and hasattr(found.frame, "to_crs")):
-            raise ValueError("the file is a table without geometries")
-        return shapes_of(found.frame)
+        return _shapes_in(_rows_of(file, Wanted(choice="give a file with one")))
+
+
+def _shapes_in(found: Content) -> Shapes:
+    if isinstance(found, geojson.Features):
+        return of_features(found)
+    if not (isinstance(found, Frame) and hasattr(found.frame, "to_crs")):
+        raise ValueError("the file is a table without geometries")
+    return shapes_of(found.frame)
 
 
 def of_items(items: list[Any]) -> Shapes:

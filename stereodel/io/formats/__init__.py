@@ -31,6 +31,10 @@ class Wanted:
     choice: str = ""
     """What to do where a file has several layers, if not to name one."""
 
+    def __post_init__(self) -> None:
+        if self.plane is not None and (self.lon is not None or self.lat is not None):
+            raise ValueError("plane names the columns of both coordinates; leave out lon and lat")
+
     def axes(self, names: Sequence[str]) -> tuple[str, str]:
         """The columns of the coordinates; ValueError lists the columns if they are not among them."""
         if self.plane is None:
