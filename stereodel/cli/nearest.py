@@ -11,8 +11,6 @@ from stereodel.cli import options
 if TYPE_CHECKING:
     from stereodel._arrays import Column, FloatArray, Indices
     from stereodel.io import PointTable
-    from stereodel.io.reading import ShapeTable
-    from stereodel.sphere.latitudes import Latitude
 
 EXAMPLE = "stereodel nearest airports.csv --of cities.csv -o nearest.csv"
 
@@ -47,8 +45,10 @@ def command(
     Writes the columns of the query points, then the row number of each site in its table, the columns kept from it, and
     the distance. A query point with several sites has several rows, ranked from 1; a query point with no site has none.
     """
+    import numpy as np
+
     from stereodel.cli.application import reporting, say
-    from stereodel.io import write
+    from stereodel.io import nearest_shapes, write
     from stereodel.io.formats.names import NoPointError
     from stereodel.io.reading import ShapeTable, read_sites
 
@@ -63,7 +63,9 @@ def command(
     if isinstance(chosen, ShapeTable):
         if count > 1 or exclude_self:
             raise ValueError(f"{sites}: has not only points; leave out --count and --exclude-self, which are for these")
-        pairs = _to_shapes(chosen, asking, max_distance, latitude)
+        site, distance = nearest_shapes(asking.lonlat, chosen.shapes, latitude=latitude)
+        query = np.flatnonzero(distance <= (np.inf if max_distance is None else max_distance))
+        pairs = Pairs(query, site[query], np.ones_like(query), distance[query])
     else:
         pairs = _pairs(chosen.points(latitude), asking.points(latitude), count, max_distance, exclude_self)
     table = _with_sites(asking.taken(pairs.query), chosen, pairs, keep, ranked=count > 1)
@@ -79,17 +81,6 @@ class Pairs(NamedTuple):
     site: Indices
     rank: Indices
     distance: FloatArray
-
-
-def _to_shapes(shapes: ShapeTable, queries: PointTable, max_distance: float | None, latitude: Latitude) -> Pairs:
-    """The nearest shape of each query point."""
-    import numpy as np
-
-    from stereodel.io import nearest_shapes
-
-    site, distance = nearest_shapes(queries.lonlat, shapes.shapes, latitude=latitude)
-    query = np.flatnonzero(distance <= (np.inf if max_distance is None else max_distance))
-    return Pairs(query, site[query], np.ones_like(query), distance[query])
 
 
 def _pairs(sites: FloatArray, queries: FloatArray, count: int, max_distance: float | None, exclude_self: bool) -> Pairs:

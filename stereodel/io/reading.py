@@ -167,11 +167,8 @@ def read_points(
     """
     wanted = Wanted(lon, lat, plane, layer, crs, skip_missing, progress)
     with naming(source):
-        return located(_rows_of(SourceFile(source, format), wanted), wanted, _name_of(source))
-
-
-def _name_of(source: Source) -> str:
-    return os.fspath(source) if isinstance(source, str | os.PathLike) else ""
+        name = os.fspath(source) if isinstance(source, str | os.PathLike) else ""
+        return located(_rows_of(SourceFile(source, format), wanted), wanted, name)
 
 
 def _rows_of(file: SourceFile, wanted: Wanted) -> Content:
@@ -286,11 +283,10 @@ def read_sites(source: Source, **options: Any) -> PointTable:
     with naming(source):
         found = _rows_of(SourceFile(source), wanted)
         try:
-            return located(found, wanted, _name_of(source))
+            return located(found, wanted)
         except NoPointError:
             shapes = _shapes_in(found)
-        nowhere = np.zeros((len(shapes.properties), 2))
-        return ShapeTable(nowhere, found.columns(), name=_name_of(source), shapes=shapes)
+        return ShapeTable(np.zeros((len(shapes.properties), 2)), found.columns(), shapes=shapes)
 
 
 def shapes_of(source: Any) -> Shapes:

@@ -66,8 +66,8 @@ def test_the_nearest_is_that_of_minima_along_all_sides(seed, latitude):
     number, distance = nearest_shapes(places, shapes, latitude=latitude, radius=1.0)
     for place, found, far in zip(places, number, distance, strict=True):
         every = np.array([brute(place, shape, latitude) for shape in shapes])
-        assert far == pytest.approx(every.min(), abs=1.1 * OUTLINE_TOLERANCE)
-        assert every[found] <= every.min() + 2.2 * OUTLINE_TOLERANCE
+        assert far == pytest.approx(every.min(), abs=OUTLINE_TOLERANCE)
+        assert every[found] <= every.min() + 2 * OUTLINE_TOLERANCE
 
 
 LAKE = [(2, 2), (8, 2), (8, 8), (2, 8), (2, 2)]
