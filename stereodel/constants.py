@@ -246,6 +246,12 @@ OPPOSITE: Final = 1e-9
 Above it rounding rotates the circle between them by less than 1e-6 rad.
 """
 
+OUTLINE_TOLERANCE: Final = 1e-8
+"""Largest deviation, radians, of arcs from outlines to which distances are taken: 6 cm on the Earth.
+
+Two distances that differ by more than twice that are in the right order; rounding, 1e-15, does not matter beside it.
+"""
+
 CHART_TOLERANCE: Final = 1e-4
 """Default largest deviation of charts from the exact image, in radii of the disc: 1/10 pixel at 1000 pixels."""
 

@@ -18,7 +18,9 @@ EXAMPLE = "stereodel nearest airports.csv --of cities.csv -o nearest.csv"
 @options.grouped
 def command(
     *,
-    sites: Annotated[str, typer.Argument(metavar="SITES", help="Table of the sites; - is stdin.")],
+    sites: Annotated[
+        str, typer.Argument(metavar="SITES", help="Table of the sites, or file of lines and polygons; - is stdin.")
+    ],
     queries: Annotated[str, typer.Option("--of", metavar="FILE", help="Table of the query points; - is stdin.")],
     output: options.Output,
     count: Annotated[int, typer.Option("--count", "-k", min=1, help="Number of sites for each query point.")] = 1,
@@ -38,20 +40,34 @@ def command(
     of_columns: Annotated[options.SecondTable, "--of"],
     latitude: options.LatitudeKind = "authalic",
 ) -> None:
-    """Find the sites nearest to each query point, and their distances in kilometres.
+    """Find the sites nearest to each query point, and their distances in kilometres, 0 within a polygon.
 
     Writes the columns of the query points, then the row number of each site in its table, the columns kept from it, and
     the distance. A query point with several sites has several rows, ranked from 1; a query point with no site has none.
     """
+    import numpy as np
+
     from stereodel.cli.application import reporting, say
-    from stereodel.io import write
+    from stereodel.io import nearest_shapes, write
+    from stereodel.io.formats.names import NoPointError
+    from stereodel.io.reading import ShapeTable, read_sites
 
     destination = output.of(options.TABLES, sites, queries)
     if sites == queries == "-":
         raise ValueError("SITES and --of cannot both be stdin")
-    chosen = columns.read(sites)
-    asking = of_columns.read(queries, columns)
-    pairs = _pairs(chosen.points(latitude), asking.points(latitude), count, max_distance, exclude_self)
+    chosen = columns.read(sites, read_sites)
+    try:
+        asking = of_columns.read(queries, columns)
+    except NoPointError as error:
+        raise ValueError(f"{error}, or ask for the shapes nearest to points: {queries} --of {sites}") from error
+    if isinstance(chosen, ShapeTable):
+        if count > 1 or exclude_self:
+            raise ValueError(f"{sites}: has not only points; leave out --count and --exclude-self, which are for these")
+        site, distance = nearest_shapes(asking.lonlat, chosen.shapes, latitude=latitude)
+        query = np.flatnonzero(distance <= (np.inf if max_distance is None else max_distance))
+        pairs = Pairs(query, site[query], np.ones_like(query), distance[query])
+    else:
+        pairs = _pairs(chosen.points(latitude), asking.points(latitude), count, max_distance, exclude_self)
     table = _with_sites(asking.taken(pairs.query), chosen, pairs, keep, ranked=count > 1)
     with reporting(f"writing {output.out}") as told, destination.file() as path:
         write(path, table, progress=told)

@@ -198,7 +198,7 @@ class Table(Where):
         named = {field.name: getattr(self, field.name) for field in fields(Table) if field.name != "of"}
         return named | {"layer": named.pop("layer_name"), "missing": named["missing"] or ()}
 
-    def read(self, name: str) -> PointTable:
+    def read(self, name: str, reader: Callable[..., PointTable] | None = None) -> PointTable:
         """The table in a file, or on stdin if `name` is "-"; NothingToDoError for one without points."""
         from stereodel.io import read_points
         from stereodel.io.formats.names import naming
@@ -206,7 +206,8 @@ class Table(Where):
         shown = "stdin" if name == "-" else name
         source = sys.stdin.buffer if name == "-" else name
         with reporting(f"reading {shown}") as told, naming(shown if name == "-" else None):
-            table = read_points(source, plane=getattr(self, "plane", None), progress=told, **self.arguments)
+            given = {"plane": getattr(self, "plane", None), "progress": told, **self.arguments}
+            table = (reader or read_points)(source, **given)
         if len(table) == 0:
             raise NothingToDoError(f"{shown}: there are no points")
         return table if table.name else replace(table, name=shown)

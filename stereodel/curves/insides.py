@@ -44,9 +44,9 @@ def oriented(rings: Ragged, hole: BoolArray) -> tuple[Ragged, FloatArray]:
 
 
 def on_the_left(
-    rings: Ragged, owner: Indices, count: int, spot: FloatArray, *, straight: bool
-) -> tuple[Ragged, BoolArray]:
-    """Closed rings with their region on the left, and which regions contain a spot, (2,) in degrees.
+    rings: Ragged, owner: Indices, count: int, spots: FloatArray, *, straight: bool
+) -> tuple[Ragged, tuple[Indices, Indices]]:
+    """Closed rings with their region on the left, and pairs of spots, (m, 2) in degrees, and regions they are in.
 
     rings: (k, 2) in degrees, the first point repeated at the end.
     owner, count: the region of each ring, (r,), and the number of regions.
@@ -59,11 +59,13 @@ def on_the_left(
     over = np.rint(total(np.where(edges.lat > 0, edges.border, 0.0)) / 360.0).astype(np.intp)
     over += around & ((total(edges.turn) > 0) == left)
     hole = _is_hole(edges, rings, owner, count, left, over)
-    edge, _, ahead = edges.passing(spot[:1])
+    edge, spot, ahead = edges.passing(spots[:, 0])
     # For the pole itself, test a place next to it, below the border of the map.
-    lat = min(spot[1], 90.0 - DEGREE_ROUNDING)
-    above = np.bincount(owner[edges.ring[edge]], edges.height(edge, ahead) > lat, minlength=count)
-    return rings.reversed(left == hole), (above + np.bincount(owner, over, minlength=count)) % 2 == 1
+    above = edges.height(edge, ahead) > np.minimum(spots[spot, 1], 90.0 - DEGREE_ROUNDING)
+    polar = np.flatnonzero(np.bincount(owner, over, minlength=count) % 2)
+    pairs = spot[above] * count + owner[edges.ring[edge[above]]], np.arange(len(spots))[:, None] * count + polar
+    pair, times = np.unique(np.append(*pairs), return_counts=True)
+    return rings.reversed(left == hole), np.divmod(pair[times % 2 == 1], count)
 
 
 @dataclass(frozen=True, eq=False)

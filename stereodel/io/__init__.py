@@ -10,6 +10,7 @@ from stereodel.io.grids import Grid
 from stereodel.io.inspection import Inspection
 from stereodel.io.maps.warping import warp
 from stereodel.io.meshes import from_ugrid, to_polydata, to_trimesh, to_ugrid
+from stereodel.io.nearest_shapes import nearest_shapes
 from stereodel.io.reading import inspect, read_points
 from stereodel.io.rows_of import to_geodataframe
 from stereodel.io.table import PointTable
@@ -23,6 +24,7 @@ __all__ = [
     "RenamedColumnWarning",
     "from_ugrid",
     "inspect",
+    "nearest_shapes",
     "read_points",
     "to_geodataframe",
     "to_geojson",

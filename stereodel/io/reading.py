@@ -21,7 +21,7 @@ from stereodel.curves.ragged import Ragged
 from stereodel.io.formats import Content, FileFormat, FormatName, Source, Wanted, delimited, gdal, geojson, parquet
 from stereodel.io.formats.foreign import unpacked
 from stereodel.io.formats.map_rows import POINT, POLYGON, Frame, content_of, is_frame, shapely
-from stereodel.io.formats.names import DataWarning, naming, spelled
+from stereodel.io.formats.names import DataWarning, NoPointError, naming, spelled
 from stereodel.io.inspection import Inspection, summary
 from stereodel.io.table import PointTable, degrees, located
 
@@ -202,7 +202,6 @@ def read_points(
 
 def _content(source: Any, wanted: Wanted, kind: FormatName | None) -> tuple[Content, str, str]:
     """What a source holds, its name for messages, and its format."""
-    wanted.check()
     if is_frame(source):
         return content_of(source), "", "frame"
     file = SourceFile(source, kind)
@@ -309,6 +308,25 @@ class Shapes:
         return values
 
 
+@dataclass(frozen=True, eq=False)
+class ShapeTable(PointTable):
+    """Shapes and their columns, as a table whose places mean nothing."""
+
+    shapes: Shapes | None = None
+
+
+def read_sites(source: Source, **options: Any) -> PointTable:
+    """What `read_points` reads; of a source in which others than points are, a `ShapeTable`."""
+    wanted = Wanted(**options)
+    with naming(source):
+        found = _rows_of(SourceFile(source), wanted)
+        try:
+            return located(found, wanted)
+        except NoPointError:
+            shapes = _shapes_in(found)
+        return ShapeTable(np.zeros((len(shapes.properties), 2)), found.columns(), shapes=shapes)
+
+
 def shapes_of(source: Any) -> Shapes:
     """The shapes of a file, of GeoJSON, of a frame, or of geometries: one feature for each row.
 
@@ -335,12 +353,15 @@ def _shapes_of_file(path: Path) -> Shapes:
     with naming(path):
         known = {*PACKED, *(ending for each in FORMATS.values() for ending in each.endings)}
         file = SourceFile(path, None if path.suffix.lower() in known else "vector")
-        found = _rows_of(file, Wanted())
-        if isinstance(found, geojson.Features):
-            return of_features(found)
-        if not (isinstance(found, Frame) and hasattr(found.frame, "to_crs")):
-            raise ValueError("the file is a table without geometries")
-        return shapes_of(found.frame)
+        return _shapes_in(_rows_of(file, Wanted()))
+
+
+def _shapes_in(found: Content) -> Shapes:
+    if isinstance(found, geojson.Features):
+        return of_features(found)
+    if not (isinstance(found, Frame) and hasattr(found.frame, "to_crs")):
+        raise ValueError("the file is a table without geometries")
+    return shapes_of(found.frame)
 
 
 def of_items(items: list[Any]) -> Shapes:

@@ -98,7 +98,8 @@ class LonLatToPage(Transform):
         lon = np.rint(rings.values[:, 0] / WHOLE_TURNS) * WHOLE_TURNS
         rings = Ragged(np.stack([lon, rings.values[:, 1]], axis=1), rings.offsets)
         rings = rings if self.edges == "straight" else self._led(rings)
-        rings, middle = on_the_left(rings, owner, count, self._middle, straight=self.edges == "straight")
+        rings, (_, held) = on_the_left(rings, owner, count, self._middle[None], straight=self.edges == "straight")
+        middle = np.isin(np.arange(count), held)
         rings = unwrapped(rings)
         # The map is cut at its own western border if it is as wide as the Earth, otherwise at ±180°.
         lon = rings.values[:, 0]

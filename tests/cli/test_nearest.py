@@ -1,7 +1,9 @@
 """`stereodel nearest` beside brute force."""
 
+import io
 import tracemalloc
 
+import geopandas
 import numpy as np
 import pytest
 
@@ -100,3 +102,50 @@ def test_exclude_self_and_max_distance_in_the_command(folder, run, rows):
     table = rows(run("nearest", "cities.csv", "--of", "cities.csv", *options))
     pairs = [("Lagos", "Ulm"), ("Ulm", "Lagos"), ("Kyoto", "Perth"), ("Perth", "Kyoto")]
     assert [(row["name"], row["site_name"]) for row in table] == pairs
+
+
+SQUARES = """{"type": "FeatureCollection", "features": [
+{"type": "Feature", "properties": {"name": "west", "size": 4}, "geometry":
+ {"type": "Polygon", "coordinates": [[[0, 0], [2, 0], [2, 2], [0, 2], [0, 0]]]}},
+{"type": "Feature", "properties": {"name": "mark", "size": null}, "geometry": {"type": "Point", "coordinates": [5, 5]}},
+{"type": "Feature", "properties": {"name": "road", "size": 1}, "geometry":
+ {"type": "LineString", "coordinates": [[3, 0], [3, 2]]}}]}"""
+INNER = "lon,lat,name\n1,1,in\n2.9,1,near\n5,6,north\n"
+
+
+@pytest.fixture
+def shapes(folder):
+    """Shapes in two formats, and a table of points; distances are on a sphere, with plain latitudes."""
+    geopandas.read_file(io.StringIO(SQUARES)).to_crs("EPSG:3857").to_file(folder / "shapes.gpkg")
+    (folder / "shapes.geojson").write_text(SQUARES, encoding="utf-8")
+    (folder / "inner.csv").write_text(INNER, encoding="utf-8")
+    return ("--of", "inner.csv", "--latitude", "spherical", "-o", "-")
+
+
+@pytest.mark.parametrize("name", ["shapes.geojson", "shapes.gpkg", "-"])
+def test_lines_and_polygons(shapes, run, rows, name):
+    table = rows(run("nearest", name, *shapes, "--keep", "name", "--keep", "size", stdin=SQUARES))
+    assert [(row["name"], row["site_row"], row["site_name"]) for row in table] == [
+        ("in", "1", "west"),
+        ("near", "3", "road"),
+        ("north", "2", "mark"),
+    ]
+    assert [row["site_size"] for row in table] == ["4", "1", ""]
+    degree = np.radians(1) * MEAN_RADIUS_KM
+    across = np.degrees(np.arcsin(np.sin(np.radians(0.1)) * np.cos(np.radians(1))))
+    assert [float(row["distance_km"]) / degree for row in table] == pytest.approx([0, across, 1], abs=1e-9)
+    assert [row["name"] for row in rows(run("nearest", name, *shapes, "--max-distance", 50, stdin=SQUARES))] == [
+        "in",
+        "near",
+    ]
+
+
+def test_what_is_said_of_shapes(shapes, run):
+    said = run("nearest", "inner.csv", "--of", "shapes.gpkg", "-o", "-", code=2)
+    assert "shapes.gpkg: row 1: a Point is needed, not Polygon; take e.g. centroids first" in said
+    assert "or ask for the shapes nearest to points: shapes.gpkg --of inner.csv" in said
+    for option in (("-k", 2), ("--exclude-self",)):
+        said = run("nearest", "shapes.gpkg", *shapes, *option, code=2)
+        assert "shapes.gpkg: has not only points; leave out --count and --exclude-self" in said
+    said = run("nearest", "shapes.gpkg", *shapes, "--plane", "lon", "lat", code=2)
+    assert "there is no column 'lon'; the columns are 'name', 'size'" in said

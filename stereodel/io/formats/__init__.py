@@ -41,8 +41,7 @@ class Wanted:
         """What stands for missing values, as text."""
         return list(map(str, [self.missing] if isinstance(self.missing, str | float | int) else self.missing))
 
-    def check(self) -> None:
-        """ValueError or TypeError for options that are wrong or contradict each other."""
+    def __post_init__(self) -> None:
         if self.plane is not None and (self.lon is not None or self.lat is not None):
             raise ValueError("plane names the columns of both coordinates; leave out lon and lat")
         if self.decimal is not None:

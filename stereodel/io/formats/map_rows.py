@@ -18,7 +18,7 @@ from stereodel._extras import OnUse, optional
 from stereodel._tasks.progress import Progress
 from stereodel.io.formats import Content, wkb
 from stereodel.io.formats.columns import as_text, column, of_objects, plain_cells
-from stereodel.io.formats.names import beside, index_columns, left_out
+from stereodel.io.formats.names import NoPointError, beside, index_columns, left_out
 
 shapely: Any = OnUse(lambda: optional("shapely", "geo"))
 arrow: Any = OnUse(lambda: optional("pyarrow", "geo"))
@@ -185,5 +185,6 @@ class Frame(Content):
 
 def no_point(row: Any, kind: Any) -> ValueError:
     """The error for a row with another geometry than a point, or with "no geometry"."""
-    advice = left_out() if kind == "no geometry" else "take e.g. centroids first"
-    return ValueError(f"row {row}: a Point is needed, not {kind}; {advice}")
+    if kind == "no geometry":
+        return ValueError(f"row {row}: a Point is needed, not {kind}; {left_out()}")
+    return NoPointError(f"row {row}: a Point is needed, not {kind}; take e.g. centroids first")

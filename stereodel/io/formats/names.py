@@ -79,7 +79,7 @@ def naming(source: Any) -> Iterator[None]:
     except (ValueError, TypeError) as error:
         if not isinstance(source, str | os.PathLike) or str(error).startswith(os.fspath(source)):
             raise
-        kind = ValueError if isinstance(error, ValueError) else TypeError
+        kind = next(each for each in (NoPointError, ValueError, TypeError) if isinstance(error, each))
         raise kind(f"{os.fspath(source)}: {error}") from error
 
 
@@ -104,6 +104,10 @@ def has_lonlat(names: Sequence[str]) -> bool:
     except ValueError:
         return False
     return True
+
+
+class NoPointError(ValueError):
+    """A row has another geometry than a point."""
 
 
 class DataWarning(UserWarning):
