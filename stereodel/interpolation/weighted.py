@@ -153,9 +153,9 @@ class NaturalNeighborInterpolator(WeightedInterpolator):
 
     def _evaluate(self, queries: FloatArray, workers: int | None) -> FloatArray:
         result = self._ask(queries, workers, gradients=False)[:, 0]
-        if self._nearest_outside:
-            outside = self._outside(queries, workers)
-            result[outside] = self._of_nearest(queries[outside], workers)
+        if self._fills_outside:
+            rows, points = self._beyond(queries, self._outside(queries, workers), workers)
+            result[rows] = self._values[points]
         return result
 
     def _evaluate_gradient(self, queries: FloatArray, workers: int | None) -> FloatArray:
