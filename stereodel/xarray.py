@@ -35,14 +35,6 @@ WORDS: Final = {
 NAMES: Final = r"(nav_|geo_?|[a-z]_?)?({})s?_?(rho|psi|cell|vertex|edge|node|face|[a-z\d]{{0,2}})"
 """As NEMO, ROMS, WRF, MPAS, ICON, POP, MOM and FVCOM name longitudes and latitudes."""
 
-NOWHERE: Final = "name two by source=, ask the dataset that has it as a variable, or give HEALPix by healpix(nside)"
-"""What to do where there is no coordinate."""
-
-RADIANS: Final = ("rad", "radian", "radians")
-
-DEGREES: Final = DoubleDouble(np.array(57.29577951308232), np.array(-1.9878495670576283e-15))
-"""Degrees of a radian."""
-
 
 class StereodelAccessor:
     """The accessor ``stereodel`` of arrays and datasets.
@@ -188,7 +180,8 @@ class StereodelAccessor:
             found = [name for name in found if name in listed] or found
             found = [name for name in found if ranks[name] == max(ranks[other] for other in found)]
             if len(found) != 1:
-                said = f"are several: {_listed(found)}; name two by source=" if found else f"is none; {NOWHERE}"
+                none = "is none; name two by source=, ask the whole dataset, or add those of pixels by healpix(nside)"
+                said = f"are several: {_listed(found)}; name two by source=" if found else none
                 raise ValueError(f"the values need one coordinate of {standard}, but there {said}")
             pair += found
         return pair
@@ -266,9 +259,10 @@ def _places(lon: xarray.DataArray, lat: xarray.DataArray) -> _Places:
 
 
 def _in_degrees(angles: xarray.DataArray) -> npt.NDArray[Any]:
-    if str(angles.attrs.get("units", "")).lower() not in RADIANS:
+    if str(angles.attrs.get("units", "")).lower() not in ("rad", "radian", "radians"):
         return np.asarray(angles.values)
-    return (DoubleDouble(angles.values.astype(np.float64)) * DEGREES).round()
+    degrees = DoubleDouble(np.array(57.29577951308232), np.array(-1.9878495670576283e-15))  # of a radian
+    return (DoubleDouble(angles.values.astype(np.float64)) * degrees).round()
 
 
 def _as_axis(values: Any, name: str) -> xarray.DataArray:

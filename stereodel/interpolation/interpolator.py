@@ -242,11 +242,6 @@ class Interpolator(ABC):
             outside, points = outside[at], points[at]
         return outside, points
 
-    def _of_nearest(self, queries: FloatArray, workers: int | None) -> FloatArray:
-        if len(self._values) == 0:
-            return np.full((len(queries), self._values.shape[1]), np.nan)
-        return self._values[self.triangulation.nearest(queries, workers=workers)]
-
     def __repr__(self) -> str:
         return f"{type(self).__name__}({self.triangulation!r}, values {self.values.shape})"
 

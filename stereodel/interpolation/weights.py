@@ -68,8 +68,8 @@ class Weights:
     >>> hours = np.outer([1, 10], [0.0, 4.0, 8.0, 12.0])  # (time, point)
     >>> weights.apply(hours, axis=1).tolist()
     [[5.0, 9.0, nan], [50.0, 90.0, nan]]
-    >>> weights.to_scipy().shape
-    (3, 4)
+    >>> weights.to_scipy().shape, weights.to_xarray()["row"].values.tolist()
+    ((3, 4), [1, 1, 1, 2, 2, 2])
     """
 
     indptr: Indices
@@ -154,17 +154,9 @@ class Weights:
         Returns
         -------
         xarray.Dataset
-            For each entry (n_s) the query `row` and the point `col`, numbered from 1, and the weight `S`. As ESMF says
-            it of methods that do not conserve, `frac_a` (n_a) is 0 for all points, and `frac_b` (n_b) is 1 for queries
-            that have entries, else 0. `src_grid_dims` is n, `dst_grid_dims` the shape of the queries, the axis that
-            varies fastest first.
-
-        Examples
-        --------
-        >>> from stereodel.interpolation import NearestInterpolator
-        >>> dataset = NearestInterpolator([[0, 0], [4, 0]], [0.0, 0.0]).weights([[3, 1], [1, 1]]).to_xarray()
-        >>> dataset["row"].values.tolist(), dataset["col"].values.tolist(), dataset["S"].values.tolist()
-        ([1, 2], [2, 1], [1.0, 1.0])
+            For each entry (n_s) the query `row` and the point `col`, numbered from 1, and the weight `S`; `frac_b`
+            (n_b) is 1 for queries that have entries, else 0, `frac_a` (n_a) 0, as no areas are conserved;
+            `src_grid_dims` is n, `dst_grid_dims` the shape of the queries, the axis that varies fastest first.
         """
         held = np.diff(self.indptr) > 0
         kind: Any = np.int32 if max(len(held), self.size) < 2**31 else np.int64
@@ -190,7 +182,8 @@ class Weights:
             conservative remapping, which `apply` cannot do.
         """
         where = dataset.encoding.get("source", "the dataset")
-        row, column, data, source, target = _parts(dataset.variables, where, _LAYOUT)
+        names = ("row", "col", "S", "src_grid_dims", "dst_grid_dims")
+        row, column, data, source, target = _parts(dataset.variables, where, names)
         order = np.argsort(row.values, kind="stable")
         counts = np.bincount(np.maximum(row, 0), minlength=int(target.values.prod()) + 1)[1:]  # none for rows below 1
         parts = offsets_of(counts), (column.values - 1)[order], data.values[order].astype(np.float64)
@@ -241,10 +234,6 @@ class Weights:
 
     def __repr__(self) -> str:
         return f"Weights({self.size} points at {self.shape} places, {len(self.data)} entries)"
-
-
-_LAYOUT = ("row", "col", "S", "src_grid_dims", "dst_grid_dims")
-"""What files of ESMF have that is needed."""
 
 
 def _parts(held: Any, where: str, names: tuple[str, ...]) -> list[Any]:
@@ -301,17 +290,9 @@ class WeightedInterpolator(Interpolator):
     def _with_nearest(self, shares: Shares, queries: FloatArray, outside: AnyIndices, workers: int | None) -> Shares:
         """The shares with the empty rows of those queries `outside` that take the value of a point filled."""
         outside, points = self._beyond(queries, outside, workers)
-        if not len(outside):
-            return shares
-        counts = np.diff(shares.indptr)
+        counts, at = np.diff(shares.indptr), shares.indptr[outside]
         counts[outside] = 1
-        indptr = offsets_of(counts)
-        alone = np.zeros(indptr[-1], dtype=np.bool_)
-        alone[indptr[outside]] = True
-        columns, data = np.empty(len(alone), dtype=np.int32), np.ones(len(alone))
-        columns[alone] = points
-        columns[~alone], data[~alone] = shares.columns, shares.data
-        return Shares(indptr, columns, data)
+        return Shares(offsets_of(counts), np.insert(shares.columns, at, points), np.insert(shares.data, at, 1.0))
 
     def _among_duplicates(self, shares: Shares) -> Shares:
         """The shares with the weight of each place divided among its coincident points."""
