@@ -1,5 +1,6 @@
 """Datasets as models of ocean, atmosphere and sky write them: coordinates are found, all variables interpolated."""
 
+import mpmath
 import numpy as np
 import pytest
 import xarray as xr
@@ -139,9 +140,16 @@ def test_an_atmosphere_model_whose_coordinates_have_a_time(times):
     with pytest.raises(ValueError, match="there are several: XLONG, XLONG_U; name two by source="):
         ask(air.drop_vars("P_TOP").assign(T2=air.T2.drop_attrs()))
     with pytest.warns(UserWarning, match="left out.*: U, P_TOP|left out.*: U$"):
-        both = ask(air, source=("XLONG", "XLAT"))
+        both = ask(air)  # T2 names its coordinates, U does not
     assert np.array_equal(both.T2, ask(air.drop_vars(["U"])).T2)
     assert np.array_equal(both.P_TOP, air.P_TOP)
+
+
+def test_stations_with_a_time_of_one_step():
+    points = BENT.reshape(-1, 2)
+    coords = {name: (("Time", "station"), points[None, :, k]) for k, name in enumerate(("XLONG", "XLAT"))}
+    values = xr.DataArray(field(points, 1), coords, ("Time", "station"))
+    assert np.array_equal(values.stereodel.interpolate(**PLACES), expected(points, values.values))
 
 
 def test_points_that_move_in_time_are_refused():
@@ -170,6 +178,27 @@ def test_cells_in_radians():
     with pytest.raises(ValueError, match="longitude, but there are several: lonCell, lonVertex; name two by source="):
         ask(mesh)
     assert ask(mesh, source=("lonCell", "latCell")).vorticity.identical(mesh.vorticity)
+
+
+def test_degrees_of_radians_are_the_nearest_doubles(rng):
+    values = nemo().votemper[0, 0].assign_coords(lon=nemo().nav_lon, lat=nemo().nav_lat)
+    radians = [rng.uniform(*sides, size=200) * np.pi / 180 for sides in ((0, 15), (38, 48))]
+    with mpmath.workprec(200):
+        degrees = [np.array([float(mpmath.degrees(mpmath.mpf(float(x)))) for x in each]) for each in radians]
+    assert any((np.degrees(x) != y).any() for x, y in zip(radians, degrees, strict=True))
+    asked = [xr.DataArray(x, dims="place", attrs={"units": "radians"}) for x in radians]
+    plain = [xr.DataArray(x, dims="place") for x in degrees]
+    found, wanted = (values.stereodel.interpolate(lon=lon, lat=lat) for lon, lat in (asked, plain))
+    assert np.isfinite(wanted).any()
+    assert np.array_equal(found, wanted, equal_nan=True)
+
+
+def test_the_conventions_come_before_names():
+    points = BENT.reshape(-1, 2)
+    said = {way: ("node", points[:, k], {"units": f"degrees_{way}"}) for k, way in enumerate(("east", "north"))}
+    named = {"lon": ("node", 0 * points[:, 0]), "lat": ("node", 0 * points[:, 1])}
+    both = xr.Dataset({"zeta": ("node", field(points))} | named | said)
+    assert np.array_equal(ask(both).zeta, expected(points, field(points)))
 
 
 @pytest.mark.parametrize(
