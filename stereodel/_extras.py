@@ -66,6 +66,7 @@ EXTRAS: Final[Mapping[str, Extra]] = {
         ),
     ),
     "grid": Extra("xarray, NetCDF, UGRID", (Library("xarray", "2024.7"), Library("netCDF4", "1.7.1.post1"))),
+    "healpix": Extra("pixels of HEALPix", (Library("hpgeom", "1.4"),)),
     "raster": Extra("GeoTIFF", (Library("rasterio", "1.4"),)),
     "jupyter": Extra("the globe in notebooks", (Library("anywidget", "0.9.18"), Library("traitlets", "5.9"))),
     "partitioned": Extra("stereodel.partitioned: triangulations beyond memory, of Parquet", (PYARROW,)),

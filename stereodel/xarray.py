@@ -1,18 +1,21 @@
-"""Arrays of xarray: values at scattered points or on a grid, interpolated at other points.
+"""Arrays and datasets of xarray: values at scattered points or on a grid, interpolated at other points.
 
-``import stereodel.xarray`` gives every DataArray the accessor ``stereodel``. Dask arrays stay lazy.
+``import stereodel.xarray`` gives every DataArray and Dataset the accessor ``stereodel``. Dask arrays stay lazy.
 """
 
 from __future__ import annotations
 
+import re
+import warnings
 from collections.abc import Callable, Hashable
-from typing import Any, NamedTuple
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import FloatArray
-from stereodel._extras import of_extra
+from stereodel._arrays import FloatArray, as_choice, as_count
+from stereodel._double_double import DoubleDouble
+from stereodel._extras import of_extra, optional
 from stereodel.interpolation.methods import Method, as_method
 from stereodel.interpolation.weights import WeightedInterpolator
 from stereodel.sphere.latitudes import Latitude
@@ -21,25 +24,28 @@ from stereodel.triangulation.spherical_delaunay import SphericalDelaunay
 with of_extra("grid"):
     import xarray
 
-__all__ = ["StereodelAccessor"]
+__all__ = ["StereodelAccessor", "healpix"]
 
-_WORDS = {
-    "lon": ("longitude", ("degrees_east", "degree_east", "degrees_E", "degree_E")),
-    "lat": ("latitude", ("degrees_north", "degree_north", "degrees_N", "degree_N")),
+WORDS: Final = {
+    "lon": ("longitude", ("degrees_east", "degree_east", "degrees_E", "degree_E"), "X", "lon(g|gitude)?|glam"),
+    "lat": ("latitude", ("degrees_north", "degree_north", "degrees_N", "degree_N"), "Y", "lat(itude)?|gphi"),
 }
-"""By the CF conventions: standard name and units."""
+"""By the CF conventions: standard name, units and axis; then names, without what models write around them."""
+
+NAMES: Final = r"(nav_|geo_?|[a-z]_?)?({})s?_?(rho|psi|cell|vertex|edge|node|face|[a-z\d]{{0,2}})"
+"""As NEMO, ROMS, WRF, MPAS, ICON, POP, MOM and FVCOM name longitudes and latitudes."""
 
 
 class StereodelAccessor:
-    """The accessor ``array.stereodel``.
+    """The accessor ``stereodel`` of arrays and datasets.
 
     Parameters
     ----------
-    values : xarray.DataArray
-        With longitudes and latitudes among its coordinates.
+    values : xarray.DataArray or xarray.Dataset
+        With longitudes and latitudes among its coordinates, or among the variables of the dataset.
     """
 
-    def __init__(self, values: xarray.DataArray) -> None:
+    def __init__(self, values: xarray.DataArray | xarray.Dataset) -> None:
         self._values = values
 
     def interpolate(
@@ -49,24 +55,26 @@ class StereodelAccessor:
         lat: npt.ArrayLike | xarray.DataArray,
         method: Method = "linear",
         latitude: Latitude = "spherical",
-        source: tuple[Hashable, Hashable] | None = None,
+        source: tuple[Hashable | xarray.DataArray, Hashable | xarray.DataArray] | None = None,
         extrapolate: str | None = None,
         workers: int | None = None,
-    ) -> xarray.DataArray:
+    ) -> Any:
         """Values at other points of the sphere.
 
         Parameters
         ----------
         lon, lat : DataArray, number or (k,) array_like
-            Query points, in degrees. DataArrays of the same dimension are points, or a curvilinear
-            grid if they have two; of different dimensions, and lists of numbers, they are the axes of a grid.
+            Query points, in degrees; DataArrays also in radians, if their units say so. DataArrays of the same
+            dimension are points, or a curvilinear grid if they have two; of different dimensions, and lists of numbers,
+            they are the axes of a grid. ``**healpix(nside)`` gives both.
         method : {"linear", "nearest", "natural", "smooth"}, optional
             As for `stereodel.interpolation.griddata`.
         latitude : {"spherical", "geodetic", "authalic"}, optional
             The kind of all latitudes, as in `stereodel.lonlat_to_xyz`.
-        source : tuple of two names, optional
-            The coordinates that hold longitude and latitude of the values. By default they are recognised by their
-            names ("lon", "longitude", …), standard names or units.
+        source : tuple of two names or DataArrays, optional
+            Longitude and latitude of the values. By default they are the coordinates, or variables of the dataset, that
+            say so by the CF conventions (standard name, units, axis, the attribute `coordinates`), else those with
+            such names: ``lon``, ``nav_lat``, ``XLONG``, ``latCell``, ….
         extrapolate : "nearest", optional
             As for `stereodel.interpolation.LinearInterpolator`; not with "nearest".
         workers : int, optional
@@ -74,21 +82,23 @@ class StereodelAccessor:
 
         Returns
         -------
-        xarray.DataArray
+        xarray.DataArray or xarray.Dataset
             The dimensions of the values without those of the source, then those of the queries, with the coordinates of
-            both; doubles; name and attributes of the values. Lazy, if the values are.
+            both; doubles; name and attributes of the values. Lazy, if the values are. Of a dataset, all variables with
+            numbers at the points; those that have nothing to do with them are kept, and a warning names the others.
 
         Raises
         ------
         ValueError
             For values without such coordinates, or with several; for queries with a dimension that the values have too,
-            beside those of the source.
+            beside those of the source; for points that move in time.
 
         Notes
         -----
         The dimensions of the source's longitude and latitude, at any position, are those of the points: one for
-        stations, two for a grid. The triangulation is made once, and so are the weights: each further field, hour or
-        level costs a product with a sparse matrix. For "smooth" gradients are estimated for each.
+        stations, two for a grid. Those along which neither changes, as WRF's Time, are not. The triangulation is made
+        once, and so are the weights: each further variable, hour or level costs a product with a sparse matrix. For
+        "smooth" gradients are estimated for each.
 
         Examples
         --------
@@ -101,17 +111,19 @@ class StereodelAccessor:
         >>> grid.dims, grid.sel(month=0, lon=9.2, lat=45.5).round(2).item()
         (('month', 'lat', 'lon'), 12.8)
         """
-        sites, places = _places(*self._source(source)), _places(_as_axis(lon, "lon"), _as_axis(lat, "lat"))
+        lon_lat = self._source(source)
+        sites, places = _places(*lon_lat), _places(_as_axis(lon, "lon"), _as_axis(lat, "lat"))
         points, wanted = sites.dims, places.dims
         common = set(wanted) & (set(self._values.dims) - set(points))
         if common:
             raise ValueError(f"lon and lat have the dimension {common.pop()!r}, which the values also have; rename it")
+        values, kept = self._parted(points, [each.name for each in lon_lat])
         triangulation = SphericalDelaunay.from_lonlat(sites.pairs.reshape(-1, 2), latitude=latitude, workers=workers)
         options = {} if extrapolate is None else {"extrapolate": extrapolate}
         function = _fields(as_method(method), triangulation, places.pairs, options, workers)
         found = xarray.apply_ufunc(
             lambda block: function(block.reshape(*block.shape[: block.ndim - len(points)], -1)),
-            self._values,
+            values,
             input_core_dims=[points],
             output_core_dims=[wanted],
             exclude_dims=set(points),
@@ -123,34 +135,110 @@ class StereodelAccessor:
                 "allow_rechunk": True,
             },
         )
-        return found.assign_coords(places.coords)
+        return found.assign_coords(places.coords).assign(kept) if kept else found.assign_coords(places.coords)
 
-    def _source(self, names: tuple[Hashable, Hashable] | None) -> tuple[xarray.DataArray, xarray.DataArray]:
-        lon, lat = (self._found("lon"), self._found("lat")) if names is None else names
-        for name in (lon, lat):
-            if name not in self._values.coords:
-                raise ValueError(
-                    f"source names {name!r}, but the coordinates are {sorted(map(str, self._values.coords))}"
-                )
-        return self._values.coords[lon].reset_coords(drop=True), self._values.coords[lat].reset_coords(drop=True)
+    def _parted(self, points: tuple[Hashable, ...], source: list[Hashable]) -> tuple[Any, dict[Hashable, Any]]:
+        """What is interpolated, and what stays as it is."""
+        if not isinstance(self._values, xarray.Dataset):
+            return self._values, {}
+        others = self._values.drop_vars(source, errors="ignore").data_vars
+        inside = [name for name, each in others.items() if set(points) <= set(each.dims) and each.dtype.kind in "iuf"]
+        kept = {name: each for name, each in others.items() if not set(points) & set(each.dims)}
+        if not inside:
+            raise ValueError(f"no variable has numbers at the points of the source, along {_listed(points)}")
+        if left := [name for name in others if name not in inside and name not in kept]:
+            warnings.warn(f"left out, without numbers at all points of the source: {_listed(left)}", stacklevel=3)
+        return self._values[inside], kept
 
-    def _found(self, kind: str) -> Hashable:
-        """The coordinate of longitude or latitude."""
-        standard, units = _WORDS[kind]
-        names = [
-            name
-            for name, coord in self._values.coords.items()
-            if coord.attrs.get("standard_name") == standard
-            or coord.attrs.get("units") in units
-            or str(name).lower() in (kind, standard)
+    def _source(self, given: tuple[Any, Any] | None) -> list[xarray.DataArray]:
+        """Longitude and latitude of the values."""
+        held = self._values if isinstance(self._values, xarray.Dataset) else self._values.coords
+        pair = []
+        for each in self._found(held) if given is None else given:
+            if not isinstance(each, xarray.DataArray) and each not in held.variables:
+                raise ValueError(f"source names {each!r}, but the coordinates are {sorted(map(str, held.variables))}")
+            pair.append((each if isinstance(each, xarray.DataArray) else held[each]).reset_coords(drop=True).compute())
+        for dim in [dim for dim in pair[0].dims if dim in pair[1].dims and pair[0].ndim > 1]:
+            still, timely = all((each == each.isel({dim: 0})).all() for each in pair), "time" in str(dim).lower()
+            if still and (timely or pair[0].sizes[dim] > 1 or pair[0].ndim > 2):
+                pair = [each.isel({dim: 0}, drop=True) for each in pair]
+            elif timely:
+                raise ValueError(f"the points of the source move along {dim!r}; take one time, isel({dim}=0)")
+        return pair
+
+    def _found(self, held: Any) -> list[Hashable]:
+        """The names of longitude and latitude."""
+        arrays = list(held.data_vars.values()) if isinstance(held, xarray.Dataset) else [self._values]
+        listed = " ".join(str(a.attrs.get("coordinates", a.encoding.get("coordinates", ""))) for a in arrays).split()
+        known = [{name: rank for name in held.variables if (rank := _rank(held[name], *WORDS[kind]))} for kind in WORDS]
+        dims = [
+            set(each.dims) for each in arrays if each is self._values or not any(each.name in names for names in known)
         ]
-        if len(names) != 1:
-            found = f"are several: {', '.join(map(str, names))}" if names else "is none"
-            raise ValueError(f"the values need one coordinate of {standard}, but there {found}; name two by source=")
-        return names[0]
+        pair = []
+        for ranks, (standard, *_) in zip(known, WORDS.values(), strict=True):
+            found = [name for name in ranks if any(set(held[name].dims) <= each for each in dims)]
+            found = [name for name in found if name in listed] or found
+            found = [name for name in found if ranks[name] == max(ranks[other] for other in found)]
+            if len(found) != 1:
+                none = "is none; name two by source=, ask the whole dataset, or add those of pixels by healpix(nside)"
+                said = f"are several: {_listed(found)}; name two by source=" if found else none
+                raise ValueError(f"the values need one coordinate of {standard}, but there {said}")
+            pair += found
+        return pair
 
 
 xarray.register_dataarray_accessor("stereodel")(StereodelAccessor)
+xarray.register_dataset_accessor("stereodel")(StereodelAccessor)
+
+
+def healpix(nside: int, *, order: str = "nested", dim: str = "cell") -> dict[str, xarray.DataArray]:
+    """Longitude and latitude of the centres of all pixels of HEALPix, as `interpolate` and ``assign_coords`` take them.
+
+    Parameters
+    ----------
+    nside : int
+        Pixels along a side of each of the twelve base pixels; a power of two for nested order.
+    order : {"nested", "ring"}, optional
+        How pixels are numbered.
+    dim : str, optional
+        Name of their dimension, of size 12 nside².
+
+    Returns
+    -------
+    dict of str to xarray.DataArray
+        ``"lon"`` and ``"lat"`` in degrees.
+
+    Examples
+    --------
+    >>> import xarray
+    >>> from stereodel.xarray import healpix
+    >>> sky = xarray.DataArray(range(48), dims="cell").assign_coords(healpix(2))
+    >>> round(sky.stereodel.interpolate(lon=45.0, lat=0.0).item(), 6)
+    17.5
+    """
+    side, nest = as_count(nside, "nside"), as_choice(order, ("nested", "ring"), "order") == "nested"
+    if nest and side & (side - 1):
+        raise ValueError(f'nside is {side}, but must be a power of two for nested order; or give order="ring"')
+    places = optional("hpgeom", "healpix").pixel_to_angle(side, np.arange(12 * side**2), nest=nest)
+    return {
+        name: xarray.DataArray(each, dims=dim, name=name, attrs={"standard_name": standard, "units": f"degrees_{way}"})
+        for name, each, standard, way in zip(WORDS, places, ("longitude", "latitude"), ("east", "north"), strict=True)
+    }
+
+
+def _rank(array: xarray.DataArray, standard: str, units: tuple[str, ...], axis: str, stem: str) -> int:
+    """2 for what is a coordinate by the CF conventions, 1 by its name, 0 for others."""
+    attributes = array.attrs
+    if attributes.get("standard_name", standard) != standard:  # as of rotated grids
+        return 0
+    plain = attributes.get("axis") == axis and attributes.get("units") in ("degree", "degrees")
+    if "standard_name" in attributes or plain or attributes.get("units") in units:
+        return 2
+    return int(re.fullmatch(NAMES.format(stem), str(array.name).lower()) is not None)
+
+
+def _listed(names: Any) -> str:
+    return ", ".join(map(str, names))
 
 
 class _Places(NamedTuple):
@@ -167,7 +255,14 @@ def _places(lon: xarray.DataArray, lat: xarray.DataArray) -> _Places:
     coords: dict[Hashable, Any] = dict(two.coords)
     for given, name in ((lon, "lon"), (lat, "lat")):
         coords[name if given.name is None else given.name] = (given.dims, given.values, given.attrs)
-    return _Places(np.stack([one.values, two.values], axis=-1), two.dims, coords)
+    return _Places(np.stack([_in_degrees(one), _in_degrees(two)], axis=-1), two.dims, coords)
+
+
+def _in_degrees(angles: xarray.DataArray) -> npt.NDArray[Any]:
+    if str(angles.attrs.get("units", "")).lower() not in ("rad", "radian", "radians"):
+        return np.asarray(angles.values)
+    degrees = DoubleDouble(np.array(57.29577951308232), np.array(-1.9878495670576283e-15))  # of a radian
+    return (DoubleDouble(angles.values.astype(np.float64)) * degrees).round()
 
 
 def _as_axis(values: Any, name: str) -> xarray.DataArray:

@@ -260,6 +260,10 @@ AS_SCIPY = [
 ]
 
 OF_ANOTHER_TYPE = [
+    (
+        lambda: lloyd([[0, 0]], bounds=SQUARE, density=np.ones(1)),
+        r"a function of points, not ndarray; .*Interpolator\(",
+    ),
     (lambda: Rotation.identity() @ 3.0, "unsupported operand"),
     (lambda: IDENTITY @ 3, "unsupported operand"),
     (lambda: NAMED.nearest(10, 50), rf"nearest\(\) takes 1 argument by position, got 2; {BY_NAME}"),

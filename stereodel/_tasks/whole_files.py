@@ -10,7 +10,9 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Final
+from typing import Any, Final
+
+from stereodel._extras import optional
 
 NAME_LENGTH: Final = 32
 """Number of characters of a file's name kept in its temporary name; file systems limit names to 255 bytes."""
@@ -46,6 +48,15 @@ def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
     kept = Path(os.path.realpath(target))
     with said_of(target), _streamed(target) if streamed else _beside(kept) as temporary:
         yield temporary
+
+
+def write_netcdf(dataset: Any, path: Path, *, form: str = "NETCDF4") -> None:
+    """Write a dataset of xarray; what HDF5 says of files becomes an OSError."""
+    optional("netCDF4", "grid")
+    try:
+        dataset.to_netcdf(path, engine="netcdf4", format=form)
+    except RuntimeError as error:
+        raise OSError(errno.EIO, f"the file cannot be written: {error}") from error
 
 
 @contextmanager

@@ -13,6 +13,7 @@ from stereodel._arrays import AnyIndices, FloatArray, as_choice, as_values, lock
 from stereodel._docs import by_name, shared
 from stereodel._double_double import ROWS, DoubleDouble, unit
 from stereodel._spaces import SPHERE, surface_of
+from stereodel.constants import SAME_DIRECTION
 from stereodel.sphere.coordinates import BY_NAME, IN_ROWS, LONLAT, as_asked
 from stereodel.sphere.latitudes import Latitude
 from stereodel.triangulation.delaunay import Triangulation, as_triangulation
@@ -225,10 +226,21 @@ class Interpolator(ABC):
     def _evaluate_gradient(self, queries: FloatArray, workers: int | None) -> FloatArray:
         """Gradients (m, d, k) at queries (m, d)."""
 
-    def _of_nearest(self, queries: FloatArray, workers: int | None) -> FloatArray:
-        if len(self._values) == 0:
-            return np.full((len(queries), self._values.shape[1]), np.nan)
-        return self._values[self.triangulation.nearest(queries, workers=workers)]
+    @property
+    def _fills_outside(self) -> bool:
+        """Whether queries outside can have values: by extrapolation, or at points that have no triangles."""
+        return self._nearest_outside or self.triangulation.dimension < 2
+
+    def _beyond(self, queries: FloatArray, outside: AnyIndices, workers: int | None) -> tuple[AnyIndices, AnyIndices]:
+        """Those of the queries `outside` that take the value of a point, and the points."""
+        if not self._fills_outside or not len(outside) or not len(self._values):
+            return outside[:0], outside[:0]
+        points = np.asarray(self.triangulation.nearest(queries[outside], workers=workers))
+        if not self._nearest_outside:
+            gaps = PrecisePoints(queries[outside]).minus(np.arange(len(outside)), self._sites, points)
+            at = np.abs(gaps).max(axis=1) <= (SAME_DIRECTION if self._sites.curved else 0.0)
+            outside, points = outside[at], points[at]
+        return outside, points
 
     def __repr__(self) -> str:
         return f"{type(self).__name__}({self.triangulation!r}, values {self.values.shape})"
@@ -239,9 +251,9 @@ class TriangleInterpolator(Interpolator):
 
     def _evaluate(self, queries: FloatArray, workers: int | None) -> FloatArray:
         result = np.full((len(queries), self._values.shape[1]), np.nan)
-        outside = self._in_blocks(result, queries, workers, self._within) < 0
-        if self._nearest_outside and outside.any():
-            result[outside] = self._of_nearest(queries[outside], workers)
+        found = self._in_blocks(result, queries, workers, self._within)
+        rows, points = self._beyond(queries, np.flatnonzero(found < 0), workers)
+        result[rows] = self._values[points]
         return result
 
     def _evaluate_gradient(self, queries: FloatArray, workers: int | None) -> FloatArray:

@@ -47,7 +47,9 @@ class NearestInterpolator(WeightedInterpolator):
         super().__init__(points, values)
 
     def _evaluate(self, queries: FloatArray, workers: int | None) -> FloatArray:
-        return self._of_nearest(queries, workers)
+        if len(self._values) == 0:
+            return np.full((len(queries), self._values.shape[1]), np.nan)
+        return self._values[self.triangulation.nearest(queries, workers=workers)]
 
     def _evaluate_gradient(self, queries: FloatArray, workers: int | None) -> FloatArray:
         size = 1 if len(self._values) else np.nan
@@ -153,9 +155,9 @@ class NaturalNeighborInterpolator(WeightedInterpolator):
 
     def _evaluate(self, queries: FloatArray, workers: int | None) -> FloatArray:
         result = self._ask(queries, workers, gradients=False)[:, 0]
-        if self._nearest_outside:
-            outside = self._outside(queries, workers)
-            result[outside] = self._of_nearest(queries[outside], workers)
+        if self._fills_outside:
+            rows, points = self._beyond(queries, self._outside(queries, workers), workers)
+            result[rows] = self._values[points]
         return result
 
     def _evaluate_gradient(self, queries: FloatArray, workers: int | None) -> FloatArray:

@@ -6,15 +6,17 @@ import os
 from abc import abstractmethod
 from dataclasses import dataclass
 from functools import cached_property
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import AnyIndices, FloatArray, Indices, as_values, locked
+from stereodel._arrays import AnyIndices, FloatArray, Indices, as_choice, as_values, locked
 from stereodel._docs import shared
 from stereodel._extras import optional
-from stereodel._tasks.whole_files import replacing
+from stereodel._tasks.whole_files import replacing, write_netcdf
+from stereodel.constants import WEIGHT_ROUNDING
 from stereodel.curves.ragged import offsets_of, spans
 from stereodel.interpolation.interpolator import Interpolator
 from stereodel.sphere.coordinates import LONLAT
@@ -66,8 +68,8 @@ class Weights:
     >>> hours = np.outer([1, 10], [0.0, 4.0, 8.0, 12.0])  # (time, point)
     >>> weights.apply(hours, axis=1).tolist()
     [[5.0, 9.0, nan], [50.0, 90.0, nan]]
-    >>> weights.to_scipy().shape
-    (3, 4)
+    >>> weights.to_scipy().shape, weights.to_xarray()["row"].values.tolist()
+    ((3, 4), [1, 1, 1, 2, 2, 2])
     """
 
     indptr: Indices
@@ -146,22 +148,51 @@ class Weights:
         parts = (self.data.copy(), self.columns.copy(), self.indptr.copy())
         return sparse.csr_array(parts, shape=(len(self.indptr) - 1, self.size))
 
-    def save(self, path: str | os.PathLike[str]) -> None:
-        """Write to a file, an npz archive of the parameters; an existing file is replaced."""
-        with replacing(path) as temporary, temporary.open("wb") as file:
-            np.savez_compressed(
-                file, indptr=self.indptr, columns=self.columns, data=self.data, shape=self.shape, size=self.size
-            )
+    def to_xarray(self) -> Any:
+        """As a dataset in the layout of the weight files of ESMF and xESMF.
+
+        Returns
+        -------
+        xarray.Dataset
+            For each entry (n_s) the query `row` and the point `col`, numbered from 1, and the weight `S`; `frac_b`
+            (n_b) is 1 for queries that have entries, else 0, `frac_a` (n_a) 0, as no areas are conserved;
+            `src_grid_dims` is n, `dst_grid_dims` the shape of the queries, the axis that varies fastest first.
+        """
+        held = np.diff(self.indptr) > 0
+        kind: Any = np.int32 if max(len(held), self.size) < 2**31 else np.int64
+        variables = {
+            "row": ("n_s", (self.rows + 1).astype(kind)),
+            "col": ("n_s", self.columns.astype(kind) + 1),
+            "S": ("n_s", self.data.copy()),
+            "frac_a": ("n_a", np.zeros(self.size)),
+            "frac_b": ("n_b", held.astype(np.float64)),
+            "src_grid_dims": ("src_grid_rank", np.array([self.size], kind)),
+            "dst_grid_dims": ("dst_grid_rank", np.array(self.shape[::-1], kind)),
+        }
+        return optional("xarray", "grid").Dataset(variables, attrs={"title": "weights of stereodel, as of ESMF"})
 
     @classmethod
-    def load(cls, path: str | os.PathLike[str]) -> Weights:
-        """Read from a file written by `save`; ValueError if it does not contain weights."""
-        with np.load(path, allow_pickle=False) as archive:
-            missing = {"indptr", "columns", "data", "shape", "size"} - set(getattr(archive, "files", ()))
-            if missing:
-                raise ValueError(f"{os.fspath(path)} is not a file of weights: {', '.join(sorted(missing))} is missing")
-            indptr, columns, data = (archive[name] for name in ("indptr", "columns", "data"))
-            shape, size = tuple(archive["shape"].tolist()), int(archive["size"])
+    def from_xarray(cls, dataset: Any) -> Weights:
+        """From a dataset as of `to_xarray` or of ESMF; to one of xESMF add `src_grid_dims` and `dst_grid_dims`.
+
+        Raises
+        ------
+        ValueError
+            If something is missing or does not fit together; if the weights of a row do not sum to one, as in
+            conservative remapping, which `apply` cannot do.
+        """
+        where = dataset.encoding.get("source", "the dataset")
+        names = ("row", "col", "S", "src_grid_dims", "dst_grid_dims")
+        row, column, data, source, target = _parts(dataset.variables, where, names)
+        order = np.argsort(row.values, kind="stable")
+        counts = np.bincount(np.maximum(row, 0), minlength=int(target.values.prod()) + 1)[1:]  # none for rows below 1
+        parts = offsets_of(counts), (column.values - 1)[order], data.values[order].astype(np.float64)
+        return cls._checked(where, *parts, tuple(target.values[::-1].tolist()), int(source.values.prod()))
+
+    @classmethod
+    def _checked(cls, where: str, *parts: Any) -> Weights:
+        """Weights whose parts come from elsewhere."""
+        indptr, columns, data, shape, size = parts
         agree = (
             len(indptr) == np.prod(shape, dtype=np.intp) + 1
             and indptr[0] == 0
@@ -170,11 +201,50 @@ class Weights:
             and not ((columns < 0) | (columns >= size)).any()
         )
         if not agree:
-            raise ValueError(f"{os.fspath(path)} is not a file of weights: its arrays do not fit together")
-        return cls(indptr, columns, data, shape, size)
+            raise ValueError(f"{where} is not a file of weights: its arrays do not fit together")
+        found = cls(*parts)
+        sums = np.bincount(found.rows, data, len(indptr) - 1)
+        wrong = np.flatnonzero((np.diff(indptr) > 0) & ~(np.abs(sums - 1.0) <= WEIGHT_ROUNDING))
+        if len(wrong):
+            said = f"the weights of row {wrong[0] + 1} sum to {sums[wrong[0]]:g}, not to one as for interpolation"
+            raise ValueError(f"{where}: {said}; scipy.sparse.coo_array takes any")
+        return found
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write to a file, by its name .npz, or .nc: NetCDF as of `to_xarray`; an existing one is replaced."""
+        form = _form(path)
+        with replacing(path) as temporary:
+            if form == ".nc":
+                write_netcdf(self.to_xarray(), temporary)
+                return
+            with temporary.open("wb") as file:
+                np.savez_compressed(
+                    file, indptr=self.indptr, columns=self.columns, data=self.data, shape=self.shape, size=self.size
+                )
+
+    @classmethod
+    def load(cls, path: str | os.PathLike[str]) -> Weights:
+        """Read from a file written by `save`, or by ESMF; ValueError if it does not contain weights."""
+        if _form(path) == ".nc":
+            with optional("xarray", "grid").open_dataset(path, engine="netcdf4") as dataset:
+                return cls.from_xarray(dataset)
+        with np.load(path, allow_pickle=False) as archive:
+            *arrays, shape, size = _parts(archive, os.fspath(path), ("indptr", "columns", "data", "shape", "size"))
+            return cls._checked(os.fspath(path), *arrays, tuple(shape.tolist()), int(size))
 
     def __repr__(self) -> str:
         return f"Weights({self.size} points at {self.shape} places, {len(self.data)} entries)"
+
+
+def _parts(held: Any, where: str, names: tuple[str, ...]) -> list[Any]:
+    missing = [name for name in names if name not in getattr(held, "files", held)]
+    if missing:
+        raise ValueError(f"{where} is not a file of weights: {', '.join(missing)} is missing")
+    return [held[name] for name in names]
+
+
+def _form(path: str | os.PathLike[str]) -> str:
+    return as_choice(Path(path).suffix.lower(), (".npz", ".nc"), "the ending of path")
 
 
 class WeightedInterpolator(Interpolator):
@@ -218,18 +288,11 @@ class WeightedInterpolator(Interpolator):
         """Points and weights at queries (m, d), without duplicates."""
 
     def _with_nearest(self, shares: Shares, queries: FloatArray, outside: AnyIndices, workers: int | None) -> Shares:
-        """The shares with the empty rows of queries `outside` replaced by the nearest point, if extrapolation is on."""
-        if not self._nearest_outside or not len(outside):
-            return shares
-        counts = np.diff(shares.indptr)
+        """The shares with the empty rows of those queries `outside` that take the value of a point filled."""
+        outside, points = self._beyond(queries, outside, workers)
+        counts, at = np.diff(shares.indptr), shares.indptr[outside]
         counts[outside] = 1
-        indptr = offsets_of(counts)
-        alone = np.zeros(indptr[-1], dtype=np.bool_)
-        alone[indptr[outside]] = True
-        columns, data = np.empty(len(alone), dtype=np.int32), np.ones(len(alone))
-        columns[alone] = self.triangulation.nearest(queries[outside], workers=workers)
-        columns[~alone], data[~alone] = shares.columns, shares.data
-        return Shares(indptr, columns, data)
+        return Shares(offsets_of(counts), np.insert(shares.columns, at, points), np.insert(shares.data, at, 1.0))
 
     def _among_duplicates(self, shares: Shares) -> Shares:
         """The shares with the weight of each place divided among its coincident points."""

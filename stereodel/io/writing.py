@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import errno
 import os
 import shutil
 from collections.abc import Callable, Mapping
@@ -17,7 +16,7 @@ import numpy.typing as npt
 from stereodel._arrays import as_choice
 from stereodel._extras import optional
 from stereodel._tasks.progress import Progress
-from stereodel._tasks.whole_files import replacing, said_of
+from stereodel._tasks.whole_files import replacing, said_of, write_netcdf
 from stereodel.interpolation import Contour
 from stereodel.io.formats import wkb
 from stereodel.io.formats.columns import check_held, objects
@@ -197,16 +196,11 @@ def _write_tif(thing: Any, path: Path, options: dict[str, Any], progress: Progre
 
 
 def _write_nc(thing: Any, path: Path, options: dict[str, Any], progress: Progress | None) -> None:
-    optional("netCDF4", "grid")
     if isinstance(thing, Grid):
-        dataset, form = thing.to_xarray(), "NETCDF3_64BIT"  # the classic format, which every reader supports
+        write_netcdf(thing.to_xarray(), path, form="NETCDF3_64BIT")  # the classic format, which every reader supports
     else:
         check_held(options.get("columns") or {}, "nc")
-        dataset, form = to_ugrid(thing, **options), "NETCDF4"
-    try:
-        dataset.to_netcdf(path, engine="netcdf4", format=form)
-    except RuntimeError as error:  # HDF5's errors about files
-        raise OSError(errno.EIO, f"the file cannot be written: {error}") from error
+        write_netcdf(to_ugrid(thing, **options), path)
 
 
 def _write_trimesh(thing: Any, path: Path, options: dict[str, Any], progress: Progress | None) -> None:

@@ -249,6 +249,11 @@ def lloyd(
         given, kind = points.points, points.latitude
     else:
         given, kind = as_sites(points, lonlat, latitude)
+    if density is not None and not callable(density):
+        raise TypeError(
+            f"density must be a function of points, not {type(density).__name__}; of values at points, "
+            'LinearInterpolator(points, values, extrapolate="nearest") is one'
+        )
     share = as_scalar(factor, "factor", low=0.0, high=2.0, open_low=True, open_high=True)
     limit, last = as_scalar(tolerance, "tolerance", low=0.0), as_count(steps, "steps", low=0)
     ground: _Polygon | _WholeSphere

@@ -206,16 +206,19 @@ def test_a_value_that_is_not_known_stays_in_its_triangles(method, make_points, r
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("one", sets.of("flat", "few"))
 def test_points_without_triangles(method, one):
-    """The nearest point is known, and nothing between points."""
+    """The nearest point is known, and what is at points, and nothing between them."""
     points = one.points
     values = np.arange(float(len(points)))
-    function, somewhere = method(points, values), [[1.0, 2.0, 3.0][: points.shape[1]]]
+    function, somewhere = method(points, values), [[1.0, 2.5, 3.25][: points.shape[1]]]
     assert np.isnan(estimate_gradients(points, values)).all()
+    assert np.array_equal(function(points), function.values)
+    if points.shape[1] == 3:
+        assert np.array_equal(function(3.0 * points), function.values)
+    if hasattr(function, "weights"):
+        assert np.allclose(function.weights(points) @ values, function.values, rtol=0, atol=1e-14)
     if method is NearestInterpolator:
-        assert np.array_equal(function(points), function.values)
         assert np.isnan(function(somewhere)).all() == (len(points) == 0)
     else:
-        assert np.isnan(function(points)).all()
         assert np.isnan(function(somewhere)).all()
         assert np.isnan(function.gradient(somewhere)).all()
         assert np.array_equal(method(points, values, extrapolate="nearest")(points), function.values)
@@ -290,9 +293,10 @@ def test_all_methods_take_any_directions(points, queries):
         if method is NearestInterpolator:
             assert np.isfinite(result).all()
         else:
-            assert np.array_equal(np.isfinite(result), held)
-            at_point = (np.cross(np.array(queries)[:, None], points).any(axis=2) == 0).any(axis=1)  # or opposite
-            assert np.isfinite(slopes[held & ~at_point]).all()
+            on_line = np.cross(np.array(queries)[:, None], points).any(axis=2) == 0
+            at_point = (on_line & (np.array(queries) @ np.transpose(points) > 0)).any(axis=1)
+            assert np.array_equal(np.isfinite(result), held | at_point)
+            assert np.isfinite(slopes[held & ~on_line.any(axis=1)]).all()
 
 
 def test_later_changes_of_the_triangulation_do_not_matter(rng):

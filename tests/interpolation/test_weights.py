@@ -4,6 +4,8 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+import scipy.sparse
+import xarray as xr
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -89,13 +91,97 @@ def test_a_file_gives_back_what_was_saved(tmp_path, rng):
     assert np.array_equal(again @ values, weights @ values, equal_nan=True)
     assert repr(again) == repr(weights)
     np.savez(tmp_path / "other.npz", a=1)
-    with pytest.raises(ValueError, match=r"other\.npz is not a file of weights: columns, data, indptr"):
+    with pytest.raises(ValueError, match=r"other\.npz is not a file of weights: indptr, columns, data"):
         Weights.load(tmp_path / "other.npz")
     parts = {name: getattr(weights, name) for name in ("indptr", "columns", "data", "shape", "size")}
     for wrong in ({"size": 3}, {"columns": weights.columns[1:]}, {"shape": (7,)}, {"indptr": weights.indptr[::-1]}):
         np.savez(tmp_path / "wrong.npz", **parts | wrong)
         with pytest.raises(ValueError, match="do not fit together"):
             Weights.load(tmp_path / "wrong.npz")
+
+
+@every_function
+@pytest.mark.parametrize("kind", [".npz", ".nc"])
+def test_a_file_of_any_kind_gives_back_every_bit(function, options, kind, tmp_path, rng):
+    points, values, queries = scene(3, rng)
+    for asked in (queries, queries[0, 0], queries[:0]):
+        weights = function(points, values, **options).weights(asked)
+        weights.save(tmp_path / f"weights{kind}")
+        again = Weights.load(tmp_path / f"weights{kind}")
+        for name in ("indptr", "columns", "data"):
+            assert np.array_equal(getattr(again, name), getattr(weights, name))
+        assert (again.shape, again.size) == (weights.shape, weights.size)
+        assert np.array_equal(again @ values, weights @ values, equal_nan=True)
+
+
+def read_weights(path, n_in, n_out):
+    """The matrix of a file of weights, as xESMF reads it: row and col count from one."""
+    with xr.open_dataset(path) as dataset:
+        entries = dataset["S"].values, (dataset["row"].values - 1, dataset["col"].values - 1)
+    return scipy.sparse.coo_matrix(entries, shape=(n_out, n_in))
+
+
+@every_function
+def test_files_are_those_of_xesmf(function, options, tmp_path, rng):
+    """On a lattice, where weights and values have few digits, the product is the interpolated value to the bit."""
+    lattice = np.stack(np.meshgrid(np.arange(8.0), np.arange(8.0)), axis=-1).reshape(-1, 2)
+    linear = function is not NaturalNeighborInterpolator
+    queries = rng.integers(-4, 68, size=(30, 20, 2)) / (8 if linear else 1)
+    interpolator = function(lattice, rng.integers(0, 99, size=64), **options)
+    interpolator.weights(queries).save(tmp_path / "weights.nc")
+    matrix, expected = read_weights(tmp_path / "weights.nc", 64, 600), interpolator(queries)
+    with xr.open_dataset(tmp_path / "weights.nc") as dataset:
+        held = dataset["frac_b"].values == 1
+        assert dataset.sizes["n_a"] == 64
+        assert dataset["dst_grid_dims"].values.tolist() == [20, 30]
+    assert np.array_equal((matrix @ interpolator.values)[held].ravel(), expected.ravel()[held])
+    assert np.array_equal(held, np.isfinite(expected).ravel())
+    assert held.any()
+
+
+def test_the_matrix_in_a_file_is_that_of_scipy(tmp_path, rng):
+    """To the bit; its product is the interpolated value up to the rounding of the sum."""
+    points, values, queries = scene(3, rng)
+    weights = NaturalNeighborInterpolator(points, np.zeros(200)).weights(queries)
+    weights.save(tmp_path / "weights.nc")
+    matrix, held = read_weights(tmp_path / "weights.nc", 200, 1000), np.diff(weights.indptr) > 0
+    assert np.array_equal(matrix.toarray(), weights.to_scipy().toarray())
+    field = values[:, 1, 1]
+    assert np.allclose((matrix @ field)[held], (weights @ field).ravel()[held], rtol=0, atol=1e-14)
+
+
+def test_entries_of_others_come_in_any_order(rng):
+    """As ESMF writes them; what does not interpolate, or lacks something, is refused."""
+    points, _, queries = scene(3, rng)
+    dataset = LinearInterpolator(points, np.zeros(200)).weights(queries).to_xarray()
+    shuffled = dataset.isel(n_s=rng.permutation(dataset.sizes["n_s"])).drop_vars(["frac_a", "frac_b"])
+    again = Weights.from_xarray(shuffled)
+    values = rng.normal(size=200)
+    assert np.allclose(again @ values, Weights.from_xarray(dataset) @ values, rtol=0, atol=1e-15, equal_nan=True)
+    with pytest.raises(
+        ValueError, match="the dataset is not a file of weights: src_grid_dims, dst_grid_dims is missing"
+    ):
+        Weights.from_xarray(dataset[["row", "col", "S"]])
+    for wrong in (
+        {"row": dataset.row - 1},
+        {"row": dataset.row + 1},
+        {"col": dataset.col - 1},
+        {"col": dataset.col + 199},
+    ):
+        with pytest.raises(ValueError, match="do not fit together"):
+            Weights.from_xarray(dataset.assign(wrong))
+    row = int(dataset.row[0])
+    with pytest.raises(ValueError, match=rf"row {row} sum to 0\.5, not to one as for interpolation; scipy\.sparse"):
+        Weights.from_xarray(dataset.assign(S=dataset.S / 2))
+
+
+def test_a_file_of_another_kind_is_refused(tmp_path):
+    weights = NearestInterpolator([[0, 0]], [1.0]).weights([1, 1])
+    for name in ("weights", "weights.zip"):
+        for door in (weights.save, Weights.load):
+            with pytest.raises(ValueError, match=r"ending of path is '.*', but must be one of '\.npz', '\.nc'"):
+                door(tmp_path / name)
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_masked_values_are_not_known(rng):
