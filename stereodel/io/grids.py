@@ -13,6 +13,7 @@ import numpy.typing as npt
 
 from stereodel._arrays import FloatArray, as_floats, as_lonlat, as_scalar, as_steps, as_vectors, read_only
 from stereodel._extras import optional
+from stereodel._notebook import Shown, tabular
 from stereodel.constants import GRID_ROUNDING, MOST_PLACES
 from stereodel.earth import EQUATORIAL_RADIUS_KM, INVERSE_FLATTENING
 from stereodel.io.formats.names import beside, spelled
@@ -32,7 +33,7 @@ WGS84: Final = {
 
 
 @dataclass(frozen=True, eq=False)
-class Grid:
+class Grid(Shown):
     """Values at the nodes of a regular grid of longitude and latitude, or at the centres of its cells.
 
     Parameters
@@ -67,6 +68,13 @@ class Grid:
     values: Mapping[str, FloatArray] = field(default_factory=dict)
     units: Mapping[str, str] = field(default_factory=dict)
     centers: bool = False
+    _mimes = tabular(
+        lambda it: len(it.lat) * len(it.lon),
+        lambda it, k: (
+            {"lon": it.lon[k % len(it.lon)], "lat": it.lat[k // len(it.lon)]}
+            | {name: values[k // len(it.lon), k % len(it.lon)] for name, values in it.values.items()}
+        ),
+    )
 
     def __post_init__(self) -> None:
         lon, lat = (read_only(as_floats(axis, name)) for axis, name in ((self.lon, "lon"), (self.lat, "lat")))
