@@ -13,7 +13,6 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import FloatArray, as_vectors
-from stereodel._notebook import Shown
 from stereodel.curves.view import View
 from stereodel.drawing.page import Beziers, Dots, Fill, Item, Label, Page, Stroke
 from stereodel.drawing.page.colors import ColorLike, as_color
@@ -37,7 +36,7 @@ HEAD: Final = (6.0, 2.0)
 """Length and half width of an arrowhead, in points."""
 
 
-class Sketch(Shown):
+class Sketch:
     """A drawing under construction.
 
     Every `add_…` method appends to the picture and returns the sketch, so calls can be chained. `name` selects the
