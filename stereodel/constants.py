@@ -302,3 +302,21 @@ MOST_LINE: Final = 2**22
 
 MOST_COLUMNS: Final = 2**15
 """Columns that a table of text may have: each takes 30 µs, however few its rows are. Databases hold fewer."""
+
+MOST_SHOWN_BYTES: Final = 2**19
+"""Bytes of a picture in a notebook, which is loaded whole with all its pictures; a film may have four times as many."""
+
+MOST_SHOWN_NUMBERS: Final = 2**21
+"""Coordinates of a picture in a notebook: three seconds. What it is drawn from may have 16 times as many."""
+
+MOST_SHOWN_POINTS: Final = 2000
+"""Points of a diagram that a notebook draws: in a second or two, cells ten pixels wide; more would be a grey page."""
+
+MOST_SHOWN_SECONDS: Final = 4.0
+"""Seconds that drawing the frames of a film may take in a notebook, which shows the first one otherwise."""
+
+SHOWN_PIXELS: Final = 576
+"""Longer side of a picture in a notebook, CSS pixels: six inches, which a notebook is wide where it is printed."""
+
+SHOWN_TABLE: Final = (10, 20, 50)
+"""Most rows (half of them the first, half the last), columns, and characters of a cell of a table in a notebook."""

@@ -17,7 +17,7 @@ ROOT = Path(__file__).resolve().parent.parent
 PACKAGE = ROOT / "stereodel"
 
 BASE = {"constants", "earth"}
-BASE |= {"_arrays", "_docs", "_extras", "_numbers", "_double_double", "_threads"}
+BASE |= {"_arrays", "_docs", "_extras", "_notebook", "_numbers", "_double_double", "_threads"}
 MATHEMATICS = BASE | {"sphere", "projections", "conformal", "predicates", "triangulation"}
 KERNEL = BASE | {"_kernel", "_spaces"}
 MAY_IMPORT = {
@@ -25,6 +25,7 @@ MAY_IMPORT = {
     "earth": set(),
     "_docs": set(),
     "_extras": set(),
+    "_notebook": {"constants"},
     "_kernel": set(),
     "_spaces": {"_arrays", "_kernel", "sphere"},
     "_arrays": BASE,

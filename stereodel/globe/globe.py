@@ -23,6 +23,7 @@ from stereodel._arrays import (
     as_values,
 )
 from stereodel._extras import of_extra
+from stereodel._notebook import Shown, drawn
 from stereodel.conformal import MoebiusMap
 from stereodel.curves.chart import Chart
 from stereodel.curves.view import MapView
@@ -67,7 +68,7 @@ LEGEND_INDENT: Final = 24.0
 """White space around a legend, in points."""
 
 
-class Globe:
+class Globe(Shown):
     """A map of the sphere in layers, the first at the bottom, drawn through a conformal lens from any side.
 
     Layers are added once; each picture then has its own view and, optionally, a lens.
@@ -110,6 +111,8 @@ class Globe:
     >>> [type(item).__name__ for item in page.items]
     ['Fill', 'Polygons', 'Polylines', 'Stroke']
     """
+
+    _mimes = drawn(lambda it: it.page(width=340.0, tolerance=0.2, legend=True))
 
     def __init__(
         self,

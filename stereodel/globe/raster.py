@@ -26,6 +26,7 @@ from stereodel._arrays import (
     locked,
 )
 from stereodel._extras import of_extra
+from stereodel._notebook import Shown
 from stereodel._threads import thread_count
 from stereodel.conformal import MoebiusMap
 from stereodel.constants import MOST_PIXELS_ACROSS, MOST_TEXELS
@@ -131,7 +132,7 @@ def _converted(name: str, image: Any) -> Pixels:
 
 
 @dataclass(frozen=True, eq=False)
-class Raster:
+class Raster(Shown):
     """An equirectangular image of the Earth or part of it.
 
     Parameters

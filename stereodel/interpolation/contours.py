@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from stereodel._arrays import AnyIndices, BoolArray, FloatArray, Keyed, as_levels, as_values, read_only
 from stereodel._docs import shared
+from stereodel._notebook import Shown
 from stereodel.interpolation.interpolator import FAMILY, PrecisePoints, one_value_a_place
 from stereodel.sphere.coordinates import as_told
 from stereodel.sphere.latitudes import Latitude
@@ -16,7 +17,7 @@ from stereodel.triangulation.delaunay import Triangulation, as_triangulation, st
 
 
 @dataclass(frozen=True, eq=False)
-class Contour(Keyed):
+class Contour(Keyed, Shown):
     """A connected component of a contour.
 
     Parameters

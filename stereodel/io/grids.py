@@ -25,6 +25,7 @@ from stereodel._arrays import (
     read_only,
 )
 from stereodel._extras import optional
+from stereodel._notebook import Shown, tabular
 from stereodel.constants import GRID_ROUNDING, MOST_PLACES
 from stereodel.earth import EQUATORIAL_RADIUS_KM, INVERSE_FLATTENING
 from stereodel.io.formats.names import DataWarning, beside, spelled
@@ -57,7 +58,7 @@ Places all over the Earth have a widest gap somewhere, too, and their grid is be
 
 
 @dataclass(frozen=True, eq=False)
-class Grid:
+class Grid(Shown):
     """Values at the nodes of a regular grid of longitude and latitude, or of a plane, or at the centres of its cells.
 
     Parameters
@@ -99,6 +100,13 @@ class Grid:
     surface: Literal["sphere", "plane"] = "sphere"
     axes: tuple[str, ...] = ()
     crs: str | None = None
+    _mimes = tabular(
+        lambda it: len(it.lat) * len(it.lon),
+        lambda it, k: (
+            dict(zip(it.axes, (it.lon[k % len(it.lon)], it.lat[k // len(it.lon)]), strict=True))
+            | {name: values[k // len(it.lon), k % len(it.lon)] for name, values in it.values.items()}
+        ),
+    )
 
     def __post_init__(self) -> None:
         axes = tuple(self.axes) or AXES[as_choice(self.surface, tuple(AXES), "surface")]

@@ -12,6 +12,7 @@ import numpy as np
 
 from stereodel._arrays import BoolArray, Column, FloatArray, Indices, as_choice, as_lonlat, as_points, read_only
 from stereodel._extras import optional
+from stereodel._notebook import Shown, tabular
 from stereodel.io.formats import Content, Wanted, notation
 from stereodel.io.formats.columns import EXACT_INTEGERS, blanked, doubles, far, why_not
 from stereodel.io.formats.map_rows import content_of, is_frame
@@ -27,7 +28,7 @@ AXES: Final = {"sphere": ("lon", "lat"), "plane": ("x", "y")}
 
 
 @dataclass(frozen=True, eq=False)
-class PointTable:
+class PointTable(Shown):
     """Points of the Earth or of a plane and their other columns, from `read_points` and for `write`.
 
     Parameters
@@ -75,6 +76,7 @@ class PointTable:
     axes: tuple[str, ...] = ()
     crs: str | None = None
     name: str = ""
+    _mimes = tabular(len, lambda it, k: {"row": it.rows[k]} | {name: its[k] for name, its in it.located().items()})
 
     def __post_init__(self) -> None:
         axes = self.axes or AXES[as_choice(self.surface, tuple(AXES), "surface")]

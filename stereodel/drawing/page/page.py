@@ -16,6 +16,7 @@ import numpy as np
 
 from stereodel._arrays import FloatArray, Pixels, as_count, as_scalar
 from stereodel._extras import of_extra
+from stereodel._notebook import Shown, drawn
 from stereodel.drawing.page.colors import Color
 from stereodel.drawing.page.items import Arrays, Item, Label, Polygons
 from stereodel.drawing.page.style import PRINT_DPI
@@ -44,7 +45,7 @@ def output(work: str) -> Callable[..., Any]:
 
 
 @dataclass(frozen=True, eq=False)
-class Page:
+class Page(Shown):
     """A picture.
 
     Parameters
@@ -75,6 +76,7 @@ class Page:
     views: tuple[FloatArray, ...] = field(default=())
     title: str = ""
     description: str = ""
+    _mimes = drawn(lambda it: it)
 
     def __post_init__(self) -> None:
         left, right, bottom, top = self.extent

@@ -8,7 +8,9 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import as_lonlat
+from stereodel._notebook import drawn
 from stereodel._spaces import PLANE
+from stereodel.constants import MOST_SHOWN_POINTS
 from stereodel.curves.borders import frame_of
 from stereodel.curves.view import View
 from stereodel.drawing.page import Page
@@ -61,7 +63,11 @@ def diagram_page(
 def _globe(mesh: SphericalDelaunay | SphericalVoronoi, view: npt.ArrayLike) -> Page:
     scene = Scene()
     if isinstance(mesh, Diagram):
-        scene.add_arcs(mesh.ridge_arcs(), name="voronoi")
+        chords = np.linalg.norm(np.diff(mesh.vertices[mesh.ridge_vertices], axis=1), axis=-1)
+        if ((chords > 1e-30) & (chords < 1.9)).all():  # the ends say what arc: nearly always, and six times as fast
+            scene.add_edges(mesh.vertices, mesh.ridge_vertices, name="voronoi")
+        else:
+            scene.add_arcs(mesh.ridge_arcs(), name="voronoi")
     else:
         scene.add_edges(mesh.points, edges_of(mesh.simplices[~mesh.closing]), name="delaunay")
     scene.add_points(mesh.points, name="sites")
@@ -82,3 +88,6 @@ def _plane(mesh: PlanarDelaunay | PlanarVoronoi, bounds: npt.ArrayLike | None) -
     sketch.add_polyline(box.corners, closed=True, name="frame")
     pad = MARGIN * (box.right - box.left) / 2
     return sketch.page((box.left - pad, box.right + pad, box.bottom - pad, box.top + pad))
+
+
+Triangulation._mimes = Diagram._mimes = drawn(diagram_page, MOST_SHOWN_POINTS)  # type: ignore[assignment]

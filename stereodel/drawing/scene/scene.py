@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import as_choice, as_directions, as_indices, as_points, as_scalar, as_vectors
+from stereodel._notebook import Shown, drawn
 from stereodel.curves.view import View
 from stereodel.drawing.page import Item, Label, Page
 from stereodel.drawing.page import style as styles
@@ -37,7 +38,7 @@ MARGIN = 0.02
 """Default white space around the ball on a page, in radii."""
 
 
-class Scene:
+class Scene(Shown):
     """A ball with items on it, inside it and around it.
 
     Coordinates are those of space, in one unit. Points and arcs *of the ball* are given on the unit sphere about the
@@ -67,6 +68,8 @@ class Scene:
     >>> [item.name for item in page.items], page.extent
     (['ball', 'delaunay', 'delaunay', 'limb'], (-1.02, 1.02, -1.02, 1.02))
     """
+
+    _mimes = drawn(lambda it: it.page(View(0.0, 20.0), width=340.0))
 
     def __init__(
         self,

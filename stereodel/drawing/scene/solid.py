@@ -12,13 +12,14 @@ import numpy as np
 
 from stereodel._arrays import FloatArray, Pixels
 from stereodel._extras import of_extra
+from stereodel._notebook import Shown, drawn
 from stereodel.drawing.page import Page
 from stereodel.drawing.page.page import output
 from stereodel.drawing.scene.scene_items import Layout, SceneItem
 
 
 @dataclass(frozen=True, eq=False)
-class PlacedScene:
+class PlacedScene(Shown):
     """A scene at its position on a page.
 
     Parameters
@@ -42,7 +43,7 @@ class PlacedScene:
 
 
 @dataclass(frozen=True, eq=False)
-class Solid:
+class Solid(Shown):
     """The content of a page in space: balls, lines as tubes, dots as small balls, regions and planes as surfaces.
 
     Widths are those on the page. The limb of a ball depends on the viewing direction and does not exist in space;
@@ -67,6 +68,7 @@ class Solid:
 
     page: Page
     scenes: Sequence[PlacedScene]
+    _mimes = drawn(lambda it: it.page)
 
     def to_trimesh(self) -> Any:
         """The bodies as a scene of trimesh.
