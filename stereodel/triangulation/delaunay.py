@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import copy
-from functools import cached_property
-from typing import TYPE_CHECKING, Any, ClassVar, Final, Self, cast
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, ClassVar, Final, Generic, Self, TypeVar, cast
 
 import numpy as np
 import numpy.typing as npt
@@ -31,6 +31,8 @@ from stereodel.triangulation.topology import adjacency_of, boundary_of, edges_of
 
 if TYPE_CHECKING:
     from stereodel._kernel.space import Mesh
+
+_T = TypeVar("_T")
 
 Made = tuple[IntArray, IntArray | None, IntArray, int, dict[str, int]]
 """Simplices, neighbors or None, duplicates, dimension and inconclusive tests, as the kernel gives them."""
@@ -60,6 +62,21 @@ FAMILY: Final = {
 """What the docstrings of both triangulations have in common."""
 
 
+class _kept(Generic[_T]):  # noqa: N801  # a decorator, like `property`
+    """What follows from a state. Of threads that compute it at the same time, the first decides what all have.
+
+    `functools.cached_property` promises the last, and up to Python 3.11 lets other states wait meanwhile.
+    """
+
+    def __init__(self, compute: Callable[[_State], _T]) -> None:
+        self._compute = compute
+        self._name = compute.__name__
+
+    def __get__(self, state: _State, _: type) -> _T:
+        # Found in the instance from then on: this has no __set__.
+        return cast("_T", state.__dict__.setdefault(self._name, self._compute(state)))
+
+
 class _State:
     """A triangulation between two changes: arrays that never change, and what follows from these alone."""
 
@@ -69,39 +86,39 @@ class _State:
         self.known_neighbors = None if neighbors is None else locked(neighbors)
         self._surface, self._workers = surface, workers
 
-    @cached_property
+    @_kept
     def neighbors(self) -> IntArray:
         return locked(neighbors_of(self.simplices)) if self.known_neighbors is None else self.known_neighbors
 
-    @cached_property
+    @_kept
     def edges(self) -> IntArray:
         return locked(edges_of(self.simplices))
 
-    @cached_property
+    @_kept
     def vertex_neighbor_vertices(self) -> tuple[IntArray, IntArray]:
         indptr, indices = adjacency_of(self.edges, len(self.points))
         return locked(indptr), locked(indices)
 
-    @cached_property
+    @_kept
     def convex_hull(self) -> IntArray:
         return locked(boundary_of(self.simplices, self.neighbors, self.open))
 
-    @cached_property
+    @_kept
     def circumcenters(self) -> FloatArray:
         threads = thread_count(self._workers, len(self.points))
         return locked(self._surface.kernel.circumcenters(self.points, self.simplices, None, threads, True))
 
-    @cached_property
+    @_kept
     def closing(self) -> BoolArray | None:
         """Whether no query can lie in a triangle, (m,), as the kernel takes it; None in the plane, where any can."""
         return locked(SPHERE.kernel.closing(self.points, self.simplices)) if self._surface is SPHERE else None
 
-    @cached_property
+    @_kept
     def open(self) -> BoolArray:
         """Whether a query can lie in a triangle, (m,)."""
         return locked(np.ones(len(self.simplices), dtype=np.bool_) if self.closing is None else ~self.closing)
 
-    @cached_property
+    @_kept
     def flat_order(self) -> IntArray:
         """The distinct points in the order along their line or great circle, without triangles."""
         return locked(self._surface.kernel.flat_order(self.points, checked=True))
