@@ -9,22 +9,28 @@ import stereodel
 from stereodel._extras import MissingExtraError
 from stereodel._tasks.interrupts import leave
 
+WRONG_USAGE = 2
+
 
 def main() -> None:
-    """Run the command; what works on NumPy alone are the version and the doctor."""
+    """Run the command; what works on NumPy alone are the help, the version and the doctor."""
     if signal.getsignal(signal.SIGINT) is signal.default_int_handler:  # and not ignored, as in the background
         signal.signal(signal.SIGINT, leave)
     try:
         from stereodel.cli import app
     except MissingExtraError as error:
-        if sys.argv[1:] == ["--version"]:
-            print(f"stereodel {stereodel.__version__}")
-        elif sys.argv[1:] == ["doctor"]:
-            from stereodel._doctor import command
+        from stereodel import _doctor
 
-            command()
-        else:
-            raise SystemExit(f"error: {error}") from None
+        match sys.argv[1:]:
+            case ["--version"]:
+                print(f"stereodel {stereodel.__version__}")
+            case [] | ["-h" | "--help"]:
+                print(_doctor.usage())
+                raise SystemExit(0 if sys.argv[1:] else WRONG_USAGE) from None
+            case ["doctor"]:
+                _doctor.command()
+            case _:
+                raise SystemExit(f"error: {error}") from None
     else:
         app(prog_name="stereodel")
 

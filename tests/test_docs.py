@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 
+from stereodel._doctor import COMMANDS
 from stereodel._extras import EXTRAS
 from tests.tiers import by_day
 from tools.page_commands import sessions, write_tables, wrong_command
@@ -185,7 +186,9 @@ def test_the_page_shows_every_command():
     from stereodel.cli import app
 
     text = (ROOT / "docs" / "command_line.md").read_text(encoding="utf-8")
-    assert [command.name for command in app.registered_commands] == re.findall(r"^\| `(\w+)` \|", text, re.MULTILINE)
+    shown = re.findall(r"^\| `(\w+)` \| (.*) \|$", text, re.MULTILINE)
+    assert [*COMMANDS.items()] == shown
+    assert [command.name for command in app.registered_commands] == [*COMMANDS]
 
 
 # The bibliography: whatever the source cites is there, and nothing else; its rows of the ledger exist.

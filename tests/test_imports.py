@@ -46,7 +46,8 @@ MAY_IMPORT = {
     "graphs": KERNEL | {"sphere", "triangulation"},
     "relaxation": KERNEL | {"curves", "sphere", "triangulation"},
     "io": BASE
-    | {"_files", "_spaces", "_tasks", "conformal", "curves", "data", "interpolation", "sphere", "triangulation"},
+    | {"_files", "_spaces", "_tasks", "conformal", "curves", "data", "interpolation", "predicates", "sphere"}
+    | {"triangulation"},
     "partitioned": KERNEL
     | {"__init__", "_files", "curves", "interpolation", "io", "sphere", "_tasks", "triangulation"},
     "__init__": MATHEMATICS,

@@ -10,7 +10,7 @@ from enum import StrEnum
 from inspect import Parameter, signature
 from math import isfinite
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, get_type_hints
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, get_type_hints
 
 import typer
 
@@ -119,9 +119,27 @@ class Output(File):
 
 
 @dataclass(frozen=True)
+class Picture:
+    """How a picture looks, and what is written on it."""
+
+    heading: ClassVar[str] = "Picture"
+    title: Annotated[str, typer.Option(metavar="TEXT", help="Title above the picture.")] = ""
+    legend: Annotated[bool, typer.Option("--legend", help="Explain points and layers below the picture.")] = False
+    style: Annotated[
+        list[str] | None,
+        typer.Option("--style", metavar="STYLE", help="dark, or a .toml file of styles; repeatable."),
+    ] = None
+    size: Annotated[
+        int | None,
+        typer.Option(metavar="PIXELS", min=1, max=65_535, help="Width; by default 1600, and 720 for films."),
+    ] = None
+
+
+@dataclass(frozen=True)
 class Table:
     """How a table of places of the Earth is read."""
 
+    heading: ClassVar[str] = "Reading"
     lon: Annotated[
         str | None, typer.Option(metavar="COLUMN", help="Column of longitudes; recognised by its name by default.")
     ] = None
@@ -188,6 +206,7 @@ class AnyTable(Table):
 class SecondTable:
     """How the table that an option names, `of`, is read, where it differs from the first one."""
 
+    heading: ClassVar[str] = "Reading {of}"
     of: str
     lon: Annotated[str | None, typer.Option(metavar="COLUMN", help="Column of longitudes of {of}.")] = None
     lat: Annotated[str | None, typer.Option(metavar="COLUMN", help="Column of latitudes of {of}.")] = None
@@ -214,14 +233,15 @@ class SecondTable:
 def grouped(command: Callable[..., None]) -> Callable[..., None]:
     """A command as typer reads it: a parameter that is a dataclass of options stands for one option a field.
 
-    ``Annotated[SecondTable, "--of"]`` gives the fields options of its own, ``--of-lon`` and so on.
+    ``Annotated[SecondTable, "--of"]`` gives the fields options of its own, ``--of-lon`` and so on. In the help they
+    stand under the `heading` of the class, if it has one, below all others.
     """
     groups: dict[str, tuple[Any, dict[str, str], dict[str, str]]] = {}
     parameters: list[Parameter] = []
     for name, parameter in signature(command, eval_str=True).parameters.items():
         group = getattr(parameter.annotation, "__origin__", parameter.annotation)
         if not is_dataclass(group):
-            parameters.append(parameter.replace(kind=Parameter.KEYWORD_ONLY))
+            parameters.append(parameter.replace(kind=Parameter.KEYWORD_ONLY, annotation=named(parameter.annotation)))
             continue
         of = "".join(getattr(parameter.annotation, "__metadata__", ()))
         hints = get_type_hints(group, include_extras=True)
@@ -230,8 +250,9 @@ def grouped(command: Callable[..., None]) -> Callable[..., None]:
         for key, field in options.items():
             option = copy(hints[key].__metadata__[0])
             option.help = option.help.format(of=of)
+            option.rich_help_panel = getattr(group, "heading", "").format(of=of) or None
             default = Parameter.empty if field.default is MISSING else field.default
-            typed = Annotated[hints[key].__origin__, option]  # type: ignore[valid-type]
+            typed = named(Annotated[hints[key].__origin__, option])
             parameters.append(Parameter(names[key], Parameter.KEYWORD_ONLY, default=default, annotation=typed))
         groups[name] = (group, names, {"of": of} if of else {})
 
@@ -244,6 +265,14 @@ def grouped(command: Callable[..., None]) -> Callable[..., None]:
     called.__annotations__ = {parameter.name: parameter.annotation for parameter in parameters}
     called.__signature__ = signature(command).replace(parameters=parameters)  # type: ignore[attr-defined]
     return called
+
+
+def named(annotation: Any) -> Any:
+    """An option that lists the words that it takes, if it is a choice."""
+    kind, option = annotation.__origin__, copy(annotation.__metadata__[0])
+    if isinstance(kind, type) and issubclass(kind, StrEnum):
+        option.metavar = "|".join(kind)
+    return Annotated[kind, option]
 
 
 def refuse(given: Mapping[str, object], purpose: str) -> None:
