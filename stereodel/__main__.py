@@ -9,8 +9,6 @@ import stereodel
 from stereodel._extras import MissingExtraError
 from stereodel._tasks.interrupts import leave
 
-WRONG_USAGE = 2
-
 
 def main() -> None:
     """Run the command; what works on NumPy alone are the help, the version and the doctor."""
@@ -21,16 +19,16 @@ def main() -> None:
     except MissingExtraError as error:
         from stereodel import _doctor
 
-        match sys.argv[1:]:
-            case ["--version"]:
-                print(f"stereodel {stereodel.__version__}")
-            case [] | ["-h" | "--help"]:
-                print(_doctor.usage())
-                raise SystemExit(0 if sys.argv[1:] else WRONG_USAGE) from None
-            case ["doctor"]:
-                _doctor.command()
-            case _:
-                raise SystemExit(f"error: {error}") from None
+        given = sys.argv[1:]
+        if given == ["--version"]:
+            print(f"stereodel {stereodel.__version__}")
+        elif given == ["doctor"]:
+            _doctor.command()
+        elif given in ([], ["-h"], ["--help"]):
+            print(_doctor.usage())
+            raise SystemExit(0 if given else 2) from None
+        else:
+            raise SystemExit(f"error: {error}") from None
     else:
         app(prog_name="stereodel")
 

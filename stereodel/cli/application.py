@@ -58,16 +58,12 @@ class _Untyped:
         return found
 
     def collect_usage_pieces(self, ctx: Any) -> list[str]:
-        """What follows the command's name in the first line."""
-        pieces: list[str] = super().collect_usage_pieces(ctx)  # type: ignore[misc]
-        return [piece.replace("{", "").replace("}", "") for piece in pieces]
-
-    def format_help(self, ctx: Any, formatter: Any) -> None:
-        """The help."""
+        """What follows the command's name in the first line, which is made before the rest."""
         from typer import rich_utils
 
         rich_utils.RANGE_STRING = ""
-        super().format_help(ctx, formatter)  # type: ignore[misc]
+        pieces: list[str] = super().collect_usage_pieces(ctx)  # type: ignore[misc]
+        return [piece.replace("{", "").replace("}", "") for piece in pieces]
 
 
 class Command(_Untyped, TyperCommand):

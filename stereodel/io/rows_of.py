@@ -45,8 +45,6 @@ from stereodel.triangulation import PlanarVoronoi
 What = Literal["cells", "triangles", "edges", "ridges", "sites"]
 WHAT = ("cells", "triangles", "edges", "ridges", "sites")
 LARGEST_SEGMENT = 90.0
-WORLD = np.array([[180.0, -90.0], [180.0, 90.0], [-180.0, 90.0], [-180.0, -90.0]])
-"""The map of the whole sphere."""
 
 
 def to_geodataframe(
@@ -204,7 +202,9 @@ def _faces(
         cells = sphere_polygons(ridge_net(diagram), voronoi_sides(diagram), max_segment, latitude, progress)
         kept = np.flatnonzero(diagram.is_kept)
         if len(kept) == 1:
-            cells[kept] = wkb.polygons(Ragged.of([WORLD]))
+            cells[kept] = wkb.polygons(
+                Ragged.of([np.array([(180.0, -90.0), (180.0, 90.0), (-180.0, 90.0), (-180.0, -90.0)])])
+            )
         return columns, cells
     triangulation, number = triangles_of(mesh)
     simplices = triangulation.simplices[number]
