@@ -25,6 +25,7 @@ from stereodel import _extras
 from stereodel._doctor import COMMANDS
 from stereodel._extras import EXTRAS, MissingExtraError, installing, libraries, of_extra
 from tests.tiers import by_day
+from tools.page_commands import sessions, write_tables, wrong_command
 
 ROOT = Path(__file__).resolve().parent.parent
 PACKAGE = Path(stereodel.__file__).parent
@@ -344,6 +345,19 @@ def test_the_command_on_the_least(environment, tmp_path):
         code, found, error = command(python, line, tmp_path)
         assert (code, found) == (1, "")
         assert asked_for(error.strip().removeprefix("error: ")) == extra, line
+
+
+@pytest.mark.thorough
+def test_the_readme_runs_with_what_its_small_line_installs(environment, tmp_path, monkeypatch):
+    monkeypatch.delenv("PYTHONPATH", raising=False)
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    (extras,) = re.findall(r'^\$ pip install "\.\[([\w,]+)\]" .*; what the commands below need$', text, re.MULTILINE)
+    shell = f"stereodel() {{ '{environment(*extras.split(','))}' -m stereodel \"$@\"; }}\n"
+    write_tables(text, tmp_path)
+    shown = sessions(text)
+    assert len(shown) >= 5
+    for line, printed in shown:
+        assert wrong_command(line, printed, tmp_path, shell) == ""
 
 
 @pytest.mark.thorough

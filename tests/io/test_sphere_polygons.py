@@ -270,3 +270,14 @@ def test_of_parts_side_by_side_and_on_each_other():
     assert [cell is None for cell in polygons] == [False, False, False, True, True]
     # Parts that overlap, and parts that share a side, are no valid MultiPolygon; a hole alone is nothing.
     assert on_map.invalid(polygons, loops, owner).tolist() == [False, True, True, False, False]
+
+
+def test_rings_that_turn_twice_or_touch_themselves_are_not_simple():
+    turns = np.radians(90 + 72 * np.arange(5))
+    pentagon = np.column_stack([np.cos(turns), np.sin(turns)])
+    star = pentagon[[0, 2, 4, 1, 3]]  # each side has the middle on its left, twice around
+    touching = np.array([[0, 0], [4, 0], [4, 2], [2, 0], [0, 2]], dtype=np.float64)
+    notched = touching + np.array([[0, 0], [0, 0], [0, 0], [0, 0.5], [0, 0]])
+    still = np.repeat(pentagon, 2, axis=0)
+    rings = Ragged.of([pentagon, star, touching, notched, notched[::-1], still])
+    assert on_map.simple(rings).tolist() == [True, False, False, True, False, True]
