@@ -1,4 +1,4 @@
-"""`stereodel doctor`: what works here, which renderer would be used, and how to install what is missing."""
+"""What works on NumPy alone: the list of commands, and `stereodel doctor`, which says what is missing here."""
 
 from __future__ import annotations
 
@@ -19,6 +19,26 @@ if TYPE_CHECKING:
     from stereodel.render import gl
 
 EXAMPLE = "STEREODEL_GL=egl stereodel doctor"
+
+PURPOSE: Final = "Delaunay triangulations and Voronoi diagrams of points on the Earth and in the plane."
+
+COMMANDS: Final[Mapping[str, str]] = {
+    "triangulate": "the Delaunay triangles or edges of points",
+    "voronoi": "the Voronoi cell of each point, the part of the Earth nearest to it, and its area",
+    "partition": "areas and neighbours of the cells of more points than memory holds, in a folder",
+    "interpolate": "values at other points, or on a grid",
+    "contour": "isolines of values known at points",
+    "nearest": "the sites nearest to points, and how far away they are",
+    "globe": "a picture or a film of the Earth with points and files on it, magnified around a focus if wanted",
+    "panorama": "a 360° picture through a fisheye: a panorama again, the faces of a cube, or a little planet",
+    "web": "an interactive page with the sphere, the lift and the globe, with your points if you like",
+    "doctor": "which renderer would be used on this machine, tested with a small picture, and what is missing",
+}
+"""What each command writes, in the order of the help."""
+
+EXIT_CODES: Final = (
+    "Exit codes: 0 done, 1 nothing to do or a library is missing, 2 wrong usage or input, 130 interrupted."
+)
 
 TRIAL: Final = """
 import dataclasses, json
@@ -50,6 +70,12 @@ def command() -> None:
             print("Plane figures, SVG and PDF files and all computations work without OpenGL.")
         raise SystemExit(1)
     print("Ready: globes can be drawn.")
+
+
+def usage() -> str:
+    """The help of the command where the libraries of its other commands are missing."""
+    others = f"--version and doctor work as they are; the other commands need: {installing('cli')}"
+    return "\n\n".join(["Usage: stereodel COMMAND [OPTIONS]", PURPOSE, _table([*COMMANDS.items()]), others, EXIT_CODES])
 
 
 def tried() -> dict[str, gl.Description]:

@@ -56,7 +56,7 @@ EXTRAS: Final[Mapping[str, Extra]] = {
     "film": Extra("moving pictures", (Library("av", "15"), Library("imageio", "2.34"), RICH), ("render",)),
     "scipy": Extra("stereodel.spatial, sparse matrices", (Library("scipy", "1.15"),)),
     "geo": Extra(
-        "GeoJSON of shapes, Parquet, GDAL's formats, coordinate systems, GeoDataFrames",
+        "Parquet, GDAL's formats, coordinate systems, clipping, GeoDataFrames",
         (
             Library("shapely", "2.1"),
             Library("geopandas", "1.0"),

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 
+from stereodel._doctor import COMMANDS
 from stereodel._extras import EXTRAS
 from tests.tiers import by_day
 from tools.page_commands import sessions, write_tables, wrong_command
@@ -75,7 +76,7 @@ def test_readme_example_prints_what_it_says(capsys):
     assert capsys.readouterr().out.split() == printed.split()
 
 
-PAGES = ["start", "graphs", "tour", "files", "partitioned", "earth", "interpolation", "spatial"]
+PAGES = ["start", "graphs", "tour", "files", "partitioned", "earth", "interpolation", "spatial", "recipes"]
 
 
 @pytest.mark.parametrize("page", by_day(PAGES, "start", "graphs", "spatial"))
@@ -83,6 +84,7 @@ def test_a_page_runs_cell_by_cell(page, tmp_path, monkeypatch, capsys):
     """As a notebook does: one namespace, one folder, and after each cell what the page says that it prints."""
     monkeypatch.chdir(tmp_path)
     text = (ROOT / "docs" / f"{page}.md").read_text(encoding="utf-8")
+    write_tables(text, tmp_path)
     cells = re.findall(r"```python\n(.*?)```(?:\s+```text\n(.*?)```)?", text, re.DOTALL)
     assert cells
     names = {"__name__": "__main__"}
@@ -160,8 +162,13 @@ def test_the_gallery_runs_every_script():
 
 # Commands that pages show run, and print what is said.
 
-SHOWN = ["docs/command_line.md", "docs/start.md", "README.md"]
-BY_DAY = ["stereodel voronoi cities.csv -o -"]
+SHOWN = ["docs/command_line.md", "docs/recipes.md", "docs/start.md", "README.md"]
+BY_DAY = [
+    ("README.md", "stereodel voronoi cities.csv -o -"),
+    ("docs/recipes.md", "stereodel voronoi stations.csv -o - | cut -d, -f3,5 | head -4"),
+    ("docs/recipes.md", "stereodel nearest stations.csv --of places.csv --keep station -o -"),
+    ("docs/recipes.md", "stereodel interpolate stations.csv --value celsius --at places.csv -o -"),
+]
 """The others draw pictures, or ask of one command more what tests/cli asks of it."""
 
 SHELL = f"stereodel() {{ '{sys.executable}' -c 'from stereodel.cli import app; app()' \"$@\"; }}\n"
@@ -170,7 +177,7 @@ SHELL = f"stereodel() {{ '{sys.executable}' -c 'from stereodel.cli import app; a
 def pages():
     for page in SHOWN:
         for command, printed in sessions((ROOT / page).read_text(encoding="utf-8")):
-            day = command in BY_DAY and page == "README.md"
+            day = (page, command) in BY_DAY
             yield pytest.param(page, command, printed, id=command, marks=[] if day else pytest.mark.thorough)
 
 
@@ -181,11 +188,30 @@ def test_commands_print_what_the_page_says(tmp_path, monkeypatch, page, command,
     assert wrong_command(command, printed, tmp_path, SHELL) == ""
 
 
+def test_recipes_are_many_and_short_and_found_by_the_words_of_those_who_ask():
+    text = (ROOT / "docs" / "recipes.md").read_text(encoding="utf-8")
+    _, *recipes = re.split(r"^### ", re.sub(r"```text\n.*?```", "", text, flags=re.DOTALL), flags=re.MULTILINE)
+    assert len(recipes) >= 30
+    for recipe in recipes:
+        codes = re.findall(r"```(?:python|console)\n(.*?)```", recipe, re.DOTALL)
+        lines = [line for code in codes for line in code.splitlines() if line.startswith("$") or "$ " not in code]
+        assert 1 <= len(lines) <= 10, recipe
+    words = (
+        "Thiessen, proximity polygons, true km², equal-area, antimeridian, date line, nearest hub, k nearest, isotherms"
+    )
+    words += (
+        ", contour lines, regrid, TIN, raster, GeoTIFF, choropleth, fisheye, UTM, duplicates, spatial join, griddata"
+    )
+    assert [word for word in words.split(", ") if word.lower() not in text.lower()] == []
+
+
 def test_the_page_shows_every_command():
     from stereodel.cli import app
 
     text = (ROOT / "docs" / "command_line.md").read_text(encoding="utf-8")
-    assert [command.name for command in app.registered_commands] == re.findall(r"^\| `(\w+)` \|", text, re.MULTILINE)
+    shown = re.findall(r"^\| `(\w+)` \| (.*) \|$", text, re.MULTILINE)
+    assert [*COMMANDS.items()] == shown
+    assert [command.name for command in app.registered_commands] == [*COMMANDS]
 
 
 # The bibliography: whatever the source cites is there, and nothing else; its rows of the ledger exist.

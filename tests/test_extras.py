@@ -16,13 +16,16 @@ from importlib.metadata import PackageNotFoundError, distribution
 from pathlib import Path
 
 import pytest
+import shapely
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
 import stereodel
 from stereodel import _extras
+from stereodel._doctor import COMMANDS
 from stereodel._extras import EXTRAS, MissingExtraError, installing, libraries, of_extra
 from tests.tiers import by_day
+from tools.page_commands import sessions, write_tables, wrong_command
 
 ROOT = Path(__file__).resolve().parent.parent
 PACKAGE = Path(stereodel.__file__).parent
@@ -75,7 +78,8 @@ DOORS = {
     "from stereodel.film import Film; Film.of_pictures(PICTURES, seconds=0.5).save('a.mp4', progress=False)": ["film"],
     # Files and neighbours
     "from stereodel.io import to_geodataframe; to_geodataframe(MESH)": ["geo"],
-    "from stereodel.io import write; write('a.geojson', MESH)": ["geo"],
+    "from stereodel.io import write; write('a.gpkg', MESH)": ["geo"],
+    "from stereodel.io import write; write('a.geojson', SphericalVoronoi(MESH), clip='land')": ["geo"],
     "from stereodel.io import *; write('a.parquet', read_points(TABLE)); read_points('a.parquet')": ["geo"],
     "from stereodel.io import to_geodataframe, warp; warp(to_geodataframe(MESH), LENS)": ["geo"],
     "from stereodel.io import to_ugrid; to_ugrid(MESH)": ["grid"],
@@ -221,6 +225,28 @@ def test_an_extra_brings_enough(environment, tmp_path, extra):
             assert said(environment(extra, *rest), [statement], tmp_path) == {statement: ""}
 
 
+MAPS = """
+from stereodel.interpolation import contours
+from stereodel.io import Grid, read_points, write
+
+def maps():
+    yield SphericalVoronoi(MESH)
+    yield MESH
+    yield PlanarVoronoi(POINTS[:, :2])
+    yield PlanarDelaunay(POINTS[:, :2])
+    yield SphericalVoronoi(POINTS[:1])
+    # A table of the nodes of a grid: cells around poles and along the 180th meridian.
+    yield SphericalVoronoi.from_lonlat([(lon, lat) for lon in range(-180, 180, 30) for lat in range(-90, 91, 30)])
+    yield contours(MESH, POINTS[:, 0], [-0.2, 0.1])
+    yield contours(PlanarDelaunay(POINTS[:, :2]), POINTS[:, 2], 0.1)
+    yield read_points(TABLE)
+
+for number, thing in enumerate(maps()):
+    write(f"{number}.geojson", thing)
+write("edges.geojson", MESH, what="edges")
+write("ridges.geojson", PlanarDelaunay(POINTS[:, :2]), what="ridges")
+"""
+
 CORE = """
 from stereodel.graphs import gabriel_graph
 from stereodel.io import read_points
@@ -242,6 +268,21 @@ def test_numpy_alone_computes(environment, tmp_path):
     assert ran.returncode == 0, ran.stderr
 
 
+def test_maps_are_geojson_on_numpy_alone_byte_by_byte(environment, tmp_path):
+    """Shapely is asked about what is narrower than the rounding of the map, and about nothing else."""
+    for name, python in (("alone", environment()), ("all", sys.executable)):
+        (tmp_path / name).mkdir()
+        ran = run(python, "-c", f"import sys; sys.path.insert(0, {str(ROOT)!r})" + PRELUDE + MAPS, cwd=tmp_path / name)
+        assert ran.returncode == 0, ran.stderr
+    written = [{file.name: file.read_bytes() for file in (tmp_path / name).iterdir()} for name in ("alone", "all")]
+    assert written[0] == written[1]
+    assert len(written[0]) == 11
+    for name, content in written[0].items():
+        shapes = shapely.from_geojson(content)
+        assert shapely.is_valid(shapes), name
+        assert len(shapes.geoms) > (name != "4.geojson"), name
+
+
 def command(python, line, folder):
     ran = run(python, "-m", "stereodel", *line.split(), cwd=folder)
     return ran.returncode, ran.stdout, ran.stderr
@@ -256,23 +297,78 @@ def test_the_command_without_its_libraries(environment, tmp_path):
         assert row.split()[1] == "lacks"
         assert "pip install" in row
     assert command(python, "--version", tmp_path) == (0, f"stereodel {stereodel.__version__}\n", "")
-    for line in ("", "--help", "voronoi cities.csv", "voronoi --help", "--verse"):
+    for line in ("voronoi cities.csv", "voronoi --help", "--verse"):
         code, output, error = command(python, line, tmp_path)
         assert (code, output) == (1, "")
         assert asked_for(error.strip().removeprefix("error: ")) == "cli"
+    for line, expected in {"--help": 0, "-h": 0, "": 2}.items():
+        code, output, error = command(python, line, tmp_path)
+        assert (code, error) == (expected, "")
+        assert [row for row in COMMANDS if f"\n  {row} " in output] == [*COMMANDS]
+        assert f"pip install '{PACKAGE.resolve().parent}[cli]'" in output
+
+
+LEAST = {
+    "--help": "doctor",
+    "--version": stereodel.__version__,
+    "voronoi cities.csv -o -": "Ulm",
+    "voronoi cities.csv -o - --format geojson": "MultiPolygon",
+    "contour cities.csv --value v --interval 1 -o - --format geojson": "LineString",
+    "triangulate cities.csv -o - --format geojson": "Polygon",
+    "nearest cities.csv --of cities.csv -o - --format geojson": "Point",
+}
+MISSING = {
+    "voronoi cities.csv -o a.gpkg": "geo",
+    "voronoi cities.csv -o a.vtp": "vtk",
+    "voronoi cities.csv -o a.ply": "mesh",
+    "voronoi cities.csv -o a.nc": "grid",
+    "interpolate cities.csv --value v --grid 30 -o a.nc": "grid",
+    "interpolate cities.csv --value v --grid 30 -o a.tif": "raster",
+    "globe cities.csv -o a.svg": "draw",
+    "globe cities.csv -o a.png": "render",
+    "globe cities.csv -o a.gif": "film",
+    "voronoi nowhere.gpkg -o -": "geo",
+}
 
 
 @pytest.mark.thorough
 def test_the_command_on_the_least(environment, tmp_path):
+    """With its own libraries it writes tables and GeoJSON; for the rest it names one extra, by exit code 1."""
     python = environment("cli")
     (tmp_path / "cities.csv").write_text(
         "name,lon,lat,v\nQuito,-78.5,-0.2,1\nUlm,10,48.4,2\nKyoto,135.8,35,3\nPerth,115.9,-32,4\n"
     )
-    lines = {"--help": "doctor", "--version": stereodel.__version__, "voronoi cities.csv -o -": "Ulm"}
-    for line, output in lines.items():
+    (tmp_path / "nowhere.gpkg").write_text("no database")
+    for line, output in LEAST.items():
         code, found, error = command(python, line, tmp_path)
         assert code == 0, error
         assert output in found
+    for line, extra in MISSING.items():
+        code, found, error = command(python, line, tmp_path)
+        assert (code, found) == (1, "")
+        assert asked_for(error.strip().removeprefix("error: ")) == extra, line
+
+
+@pytest.mark.thorough
+def test_the_readme_runs_with_what_its_small_line_installs(environment, tmp_path, monkeypatch):
+    monkeypatch.delenv("PYTHONPATH", raising=False)
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    (extras,) = re.findall(r'^\$ pip install "\.\[([\w,]+)\]" .*; what the commands below need$', text, re.MULTILINE)
+    shell = f"stereodel() {{ '{environment(*extras.split(','))}' -m stereodel \"$@\"; }}\n"
+    write_tables(text, tmp_path)
+    shown = sessions(text)
+    assert len(shown) >= 5
+    for line, printed in shown:
+        assert wrong_command(line, printed, tmp_path, shell) == ""
+
+
+@pytest.mark.thorough
+def test_a_grid_in_netcdf_needs_its_extra_and_no_more(environment, tmp_path):
+    """`interpolate … -o q.nc` asked for SciPy once."""
+    (tmp_path / "cities.csv").write_text("lon,lat,v\n-78.5,-0.2,1\n10,48.4,2\n135.8,35,3\n115.9,-32,4\n")
+    python = environment("cli", "grid")
+    assert command(python, "interpolate cities.csv --value v --grid 30 -o q.nc", tmp_path) == (0, "", "")
+    assert command(python, "voronoi cities.csv -o cells.nc", tmp_path) == (0, "", "")
 
 
 def test_the_outer_door_speaks():

@@ -45,7 +45,8 @@ MAY_IMPORT = {
     "spatial": BASE | {"triangulation"},
     "graphs": KERNEL | {"sphere", "triangulation"},
     "relaxation": KERNEL | {"curves", "sphere", "triangulation"},
-    "io": BASE | {"_spaces", "_tasks", "conformal", "curves", "data", "interpolation", "sphere", "triangulation"},
+    "io": BASE
+    | {"_spaces", "_tasks", "conformal", "curves", "data", "interpolation", "predicates", "sphere", "triangulation"},
     "partitioned": KERNEL | {"__init__", "curves", "interpolation", "io", "sphere", "_tasks", "triangulation"},
     "__init__": MATHEMATICS,
     "_doctor": {"__init__", "_extras", "_tasks", "render"},

@@ -1,10 +1,14 @@
 """What people look for in a project, and the files of services that are not here: they agree with each other."""
 
+import json
 import os
 import re
+import shutil
 import subprocess
 import sys
+import sysconfig
 import tomllib
+import venv
 from pathlib import Path
 
 import pytest
@@ -270,3 +274,73 @@ def test_every_extra_can_be_installed_by_a_target():
     script = read("tools/install.sh")
     others = set(PROJECT["project"]["optional-dependencies"]) - of_the_library
     assert [name for name in others if name not in script] == []
+
+
+# What the page about installing shows
+
+
+def test_the_page_cites_as_the_file_does():
+    cited, page = yaml.safe_load(read("CITATION.cff")), read("docs/installing.md")
+    software, paper = re.findall(r"^@\w+\{.*?^\}", page, re.MULTILINE | re.DOTALL)
+    for text, work in ((software, cited), (paper, cited["references"][0])):
+        assert f"{{{work['title']}}}" in text
+        (author,) = work["authors"]
+        named = f"{{{author['name']}}}" if "name" in author else f"{author['family-names']}, {author['given-names']}"
+        assert f"author  = {{{named}}}" in text
+    assert f"version = {{{cited['version']}}}" in software
+
+
+DOCKERFILE = read("Dockerfile")
+
+
+def test_the_container_takes_what_the_wheel_is_made_of():
+    """Files that are there, official images, and no address of a registry or index."""
+    assert re.findall(r"^FROM (\S+)", DOCKERFILE, re.MULTILINE) == ["python:3.13", "python:3.13-slim"]
+    assert "://" not in DOCKERFILE
+    for sources in re.findall(r"^COPY (?!--)(.*) \S+$", DOCKERFILE, re.MULTILINE):
+        assert [path for path in sources.split() if not (ROOT / path).exists()] == []
+    assert f"EXTRAS={re.search(r'ARG EXTRAS=(.*)', DOCKERFILE)[1]}" in read("docs/installing.md")
+
+
+@pytest.mark.thorough
+def test_the_lines_of_the_container_make_the_command(tmp_path):
+    """Without Docker: an empty folder stands for its root, and a new environment for each image.
+
+    These see the libraries that are installed here, as no test asks a network, but not the package. The kernel is that
+    of the checkout, which lies in the folder that is copied: to compile it anew would take minutes.
+    """
+    environment = {"HOME": str(tmp_path), "LANG": "C.UTF-8", "PIP_NO_INDEX": "1", "PIP_NO_BUILD_ISOLATION": "0"}
+    environment |= {"SKBUILD_CMAKE_DEFINE": "STEREODEL_MODULE=OFF", "SKBUILD_BUILD_TARGETS": "clean"}
+    entry, images = [], 0
+    for line in DOCKERFILE.splitlines():
+        instruction, _, rest = line.partition(" ")
+        inside = re.sub(r'(?<=[\s"(\[])/(?=\w)', f"{tmp_path}/", f" {rest}").strip()
+        if instruction == "FROM":
+            images += 1
+            made = tmp_path / f"image{images}"
+            venv.create(made, symlinks=True, with_pip=True)
+            (site,) = made.glob("lib/python*/site-packages")
+            (site / "here.pth").write_text(sysconfig.get_path("purelib"))
+            environment["PATH"] = f"{made}/bin:{Path(sys.executable).parent}:/usr/bin:/bin"
+        elif instruction == "ARG":
+            environment |= dict([rest.split("=")])
+        elif instruction == "COPY" and not rest.startswith("--from"):
+            *sources, into = inside.split()
+            for source in sources:
+                if (ROOT / source).is_dir():
+                    shutil.copytree(ROOT / source, into, ignore=shutil.ignore_patterns("__pycache__", "node_modules"))
+                else:
+                    Path(into).mkdir(parents=True, exist_ok=True)
+                    shutil.copy(ROOT / source, into)
+        elif instruction == "WORKDIR":
+            Path(inside).mkdir()
+        elif instruction == "RUN":
+            ran = subprocess.run(["sh", "-c", inside], cwd=tmp_path, env=environment, capture_output=True, text=True)
+            assert ran.returncode == 0, ran.stdout + ran.stderr
+        elif instruction == "ENTRYPOINT":
+            entry = json.loads(rest)
+    (tmp_path / "data" / "cities.csv").write_text("lon,lat\n10,48.4\n-78.5,-0.2\n135.8,35\n115.9,-32\n")
+    asked = [*entry, "voronoi", "cities.csv", "-o", "cells.geojson"]
+    ran = subprocess.run(asked, cwd=tmp_path / "data", env=environment, capture_output=True, text=True)
+    assert (ran.returncode, ran.stderr) == (0, "")
+    assert len(json.loads((tmp_path / "data" / "cells.geojson").read_text())["features"]) == 4

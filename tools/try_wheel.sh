@@ -57,7 +57,7 @@ print(f"{len(names) - len(advice)} modules work on NumPy alone, {len(advice)} na
 PYTHON
 [[ $(advice cli) == 'pip install "typer>='*'" "rich>='*'"' ]] || die "$(advice cli): not for an environment without a checkout"
 bare stereodel --version
-refused stereodel --help
+bare stereodel --help >said
 expect said "$(advice cli)"
 refused stereodel voronoi cities.csv -o cells.csv
 expect said "$(advice cli)"
@@ -69,6 +69,8 @@ install 'stereodel[cli]'
 bare stereodel --version
 bare stereodel voronoi cities.csv -o cells.csv
 expect cells.csv Kyoto
+bare stereodel voronoi cities.csv -o cells.geojson
+expect cells.geojson MultiPolygon
 refused stereodel globe cities.csv -o globe.svg
 expect said "$(advice draw)"
 refused stereodel globe cities.csv -o globe.png

@@ -1,6 +1,6 @@
 """The command `stereodel`.
 
-Each command is a module with a function `command` and an `EXAMPLE`; the first line of its docstring says what it does.
+Each command is a module with a function `command` and an `EXAMPLE`; `_doctor.COMMANDS` says in a line what it writes.
 Heavy imports wait until a command runs, so that --help responds at once.
 """
 
@@ -26,4 +26,6 @@ __all__ = ["app"]
 
 for module in (inspect, triangulate, voronoi, partition, interpolate, contour, nearest, globe, panorama, web, _doctor):
     name = module.__name__.rpartition(".")[2].removeprefix("_")
-    app.command(name, cls=Command, epilog=f"Example: {module.EXAMPLE}")(module.command)
+    app.command(name, cls=Command, epilog=f"Example: {module.EXAMPLE}", short_help=_doctor.COMMANDS[name])(
+        module.command
+    )

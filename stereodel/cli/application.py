@@ -14,6 +14,7 @@ import typer
 from typer.core import TyperCommand, TyperGroup
 
 import stereodel
+from stereodel._doctor import EXIT_CODES, PURPOSE
 from stereodel._tasks.interrupts import INTERRUPTED, interrupt, leave, signals, stop_if_interrupted
 from stereodel._tasks.progress import Progress
 from stereodel._tasks.progress import reporting as on_terminal
@@ -53,15 +54,25 @@ class NothingToDoError(Exception):
 
 
 class _Untyped:
-    """A command or group whose flags have no type in its help, as they take no value."""
+    """A command or group whose help names what is given, and no types of Python, braces or ranges."""
 
     def get_params(self, ctx: Any) -> list[Any]:
-        """Arguments and options, with that for help."""
+        """Arguments and options, with that for help; flags take no value, and the name of an argument says its own."""
         found: list[Any] = super().get_params(ctx)  # type: ignore[misc]
         for parameter in found:
             if getattr(parameter, "is_flag", False):
                 parameter.metavar = ""
+            if parameter.param_type_name == "argument":
+                parameter.display_type_rich = lambda ctx: None
         return found
+
+    def collect_usage_pieces(self, ctx: Any) -> list[str]:
+        """What follows the command's name in the first line, which is made before the rest."""
+        from typer import rich_utils
+
+        rich_utils.RANGE_STRING = ""
+        pieces: list[str] = super().collect_usage_pieces(ctx)  # type: ignore[misc]
+        return [piece.replace("{", "").replace("}", "") for piece in pieces]
 
 
 class Command(_Untyped, TyperCommand):
@@ -93,15 +104,13 @@ def _print_version(wanted: bool) -> None:
         raise typer.Exit
 
 
-@app.callback(
-    epilog="Exit codes: 0 done, 1 nothing to do or a library is missing, 2 wrong usage or input, 130 interrupted."
-)
+@app.callback(help=PURPOSE, epilog=EXIT_CODES)
 def _options(
     version: Annotated[
         bool, typer.Option("--version", callback=_print_version, is_eager=True, help="Print the version.")
     ] = False,
 ) -> None:
-    """Delaunay triangulations and Voronoi diagrams of points on the Earth and in the plane."""
+    """Without a command."""
 
 
 @contextmanager

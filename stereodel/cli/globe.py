@@ -62,7 +62,7 @@ def command(
     output: options.File,
     points: Annotated[
         str | None,
-        typer.Argument(metavar="[POINTS]", help="Table of points: .csv, .geojson, .parquet, .gpkg; - for stdin."),
+        typer.Argument(metavar="POINTS", help="Table of points: .csv, .geojson, .parquet, .gpkg; - for stdin."),
     ] = None,
     show: Annotated[
         str | None,
@@ -101,19 +101,11 @@ def command(
         str | None,
         typer.Option(metavar="COLUMN", help="Labels of the points, as many as fit, in the order of the rows."),
     ] = None,
-    title: Annotated[str, typer.Option(metavar="TEXT", help="Title above the picture.")] = "",
-    legend: Annotated[bool, typer.Option("--legend", help="Explain points and layers below the picture.")] = False,
-    style: Annotated[
-        list[str] | None,
-        typer.Option("--style", metavar="STYLE", help="dark, or a .toml file of styles; repeatable."),
-    ] = None,
     fly: Annotated[
         list[str] | None,
         typer.Option(metavar="LON,LAT", help="For films: fly from the focus to this place; repeatable."),
     ] = None,
-    size: Annotated[
-        int | None, typer.Option(min=1, max=65_535, help="Width in pixels; by default 1600, and 720 for films.")
-    ] = None,
+    picture: options.Picture,
     columns: options.Table,
 ) -> None:
     """Draw a globe under a conformal fisheye, with maps, points and their cells, and layers from files.
@@ -124,17 +116,17 @@ def command(
     from stereodel.cli.application import reporting
     from stereodel.io.formats.names import naming
 
-    layers = [layer_of(text) for text in layer or ()]
-    read_from = (points, texture, *(str(path) for path, _ in layers), *(style or ()))
+    layers, styles = [layer_of(text) for text in layer or ()], picture.style or ()
+    read_from = (points, texture, *(str(path) for path, _ in layers), *styles)
     destination = output.of(PICTURES + FILMS, *read_from)
     filming = destination.kind in FILMS
     if points is None:
         options.refuse({"--labels": labels, **columns.given}, "POINTS; give a table")
-    for name in style or ():
+    for name in styles:
         if name != "dark" and not name.lower().endswith(".toml"):
             raise ValueError(f"--style is {name!r}; give dark or a file .toml")
     if filming:
-        options.refuse({"--legend": legend, "--style": style}, "pictures, not for films")
+        options.refuse({"--legend": picture.legend, "--style": styles}, "pictures, not for films")
     else:
         options.refuse({"--fly": fly}, f"films, but {output.out} is none; the endings are .{', .'.join(FILMS)}")
     at = None if focus is None else options.place(focus, "--focus")
@@ -146,7 +138,7 @@ def command(
     with reporting("reading maps"):
         resolution, spacing = ("50m", FILM_SPACING) if filming else (aim.resolution, None)
         drawing = new_globe(shown, resolution, spacing, texture)
-        drawing.title = title
+        drawing.title = picture.title
         for path, looks in layers:
             with naming(str(path)):
                 drawing.add_layer(path, **looks)
@@ -157,10 +149,11 @@ def command(
         motion = motion_of(aim, [options.place(text, "--fly") for text in fly or ()])
         fps = GIF_FPS if destination.kind == "gif" else FPS
         with destination.file() as target:
-            save_film(drawing, motion, target, size=size or 720, fps=fps)
+            save_film(drawing, motion, target, size=picture.size or 720, fps=fps)
         return
     with reporting("drawing"), destination.file() as target:
-        drawing.save(target, aim.lens, aim.views, style=style or (), legend=legend, width=WIDTH, size=size or 1600)
+        size = picture.size or 1600
+        drawing.save(target, aim.lens, aim.views, style=styles, legend=picture.legend, width=WIDTH, size=size)
 
 
 @dataclass(frozen=True)

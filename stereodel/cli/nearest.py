@@ -23,7 +23,7 @@ def command(
     ],
     queries: Annotated[str, typer.Option("--of", metavar="FILE", help="Table of the query points; - is stdin.")],
     output: options.Output,
-    count: Annotated[int, typer.Option("--count", "-k", min=1, help="Number of sites for each query point.")] = 1,
+    count: Annotated[int, typer.Option("--count", "-k", metavar="N", min=1, help="Sites for each query point.")] = 1,
     keep: Annotated[
         list[str] | None,
         typer.Option(

@@ -12,7 +12,7 @@ from dataclasses import MISSING, dataclass, fields, is_dataclass, replace
 from inspect import Parameter, signature
 from math import isfinite
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, get_type_hints
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, get_args, get_origin, get_type_hints
 
 import typer
 
@@ -140,9 +140,27 @@ class Output(File):
 
 
 @dataclass(frozen=True)
+class Picture:
+    """How a picture looks, and what is written on it."""
+
+    heading: ClassVar[str] = "Picture"
+    title: Annotated[str, typer.Option(metavar="TEXT", help="Title above the picture.")] = ""
+    legend: Annotated[bool, typer.Option("--legend", help="Explain points and layers below the picture.")] = False
+    style: Annotated[
+        list[str] | None,
+        typer.Option("--style", metavar="STYLE", help="dark, or a .toml file of styles; repeatable."),
+    ] = None
+    size: Annotated[
+        int | None,
+        typer.Option(metavar="PIXELS", min=1, max=65_535, help="Width; by default 1600, and 720 for films."),
+    ] = None
+
+
+@dataclass(frozen=True)
 class Where:
     """What says where a table has its places; `of` is the option that names the table, where there is a second one."""
 
+    heading: ClassVar[str] = "Reading {of}"
     lon: Annotated[
         str | None, typer.Option(metavar="COLUMN", help="Column of longitudes{of}; recognised by its name by default.")
     ] = None
@@ -241,14 +259,15 @@ class SecondTable(Where):
 def grouped(command: Callable[..., None]) -> Callable[..., None]:
     """A command as typer reads it: a parameter that is a dataclass of options stands for one option a field.
 
-    ``Annotated[SecondTable, "--of"]`` gives the fields options of its own, ``--of-lon`` and so on.
+    ``Annotated[SecondTable, "--of"]`` gives the fields options of its own, ``--of-lon`` and so on. In the help they
+    stand under the `heading` of the class, if it has one, below all others.
     """
     groups: dict[str, tuple[Any, dict[str, str], dict[str, str]]] = {}
     parameters: list[Parameter] = []
     for name, parameter in signature(command, eval_str=True).parameters.items():
         group = getattr(parameter.annotation, "__origin__", parameter.annotation)
         if not is_dataclass(group):
-            parameters.append(parameter.replace(kind=Parameter.KEYWORD_ONLY))
+            parameters.append(parameter.replace(kind=Parameter.KEYWORD_ONLY, annotation=named(parameter.annotation)))
             continue
         of = "".join(getattr(parameter.annotation, "__metadata__", ()))
         hints = get_type_hints(group, include_extras=True)
@@ -257,8 +276,9 @@ def grouped(command: Callable[..., None]) -> Callable[..., None]:
         for key, field in options.items():
             option = copy(hints[key].__metadata__[0])
             option.help = option.help.format(of=of and f" of {of}")
+            option.rich_help_panel = getattr(group, "heading", "").format(of=of).strip() or None
             default = Parameter.empty if field.default is MISSING else field.default
-            typed = Annotated[hints[key].__origin__, option]  # type: ignore[valid-type]
+            typed = named(Annotated[hints[key].__origin__, option])
             parameters.append(Parameter(names[key], Parameter.KEYWORD_ONLY, default=default, annotation=typed))
         groups[name] = (group, names, {"of": of} if of else {})
 
@@ -271,6 +291,14 @@ def grouped(command: Callable[..., None]) -> Callable[..., None]:
     called.__annotations__ = {parameter.name: parameter.annotation for parameter in parameters}
     called.__signature__ = signature(command).replace(parameters=parameters)  # type: ignore[attr-defined]
     return called
+
+
+def named(annotation: Any) -> Any:
+    """An option that lists the words that it takes, if it is a choice."""
+    kind, option = annotation.__origin__, copy(annotation.__metadata__[0])
+    if get_origin(kind) is Literal:
+        option.metavar = "|".join(get_args(kind))
+    return Annotated[kind, option]
 
 
 def refuse(given: Mapping[str, object], purpose: str) -> None:

@@ -16,10 +16,12 @@ EXAMPLE = "stereodel partition points/*.parquet -o cells"
 KEPT = "interrupted; what is done is kept, and the same command goes on from there"
 
 
+@options.grouped
 def command(
+    *,
     points: Annotated[
         list[str],
-        typer.Argument(metavar="POINTS...", help="Parquet files, folders or patterns of them, or a HATS catalogue."),
+        typer.Argument(metavar="POINTS", help="Parquet files, folders or patterns of them, or a HATS catalogue."),
     ],
     out: Annotated[str, typer.Option("--out", "-o", metavar="FOLDER", help="Folder of the results.")],
     lon: Annotated[str | None, typer.Option(metavar="COLUMN", help="Column of longitudes, given with --lat.")] = None,

@@ -16,9 +16,7 @@ def command(
     *,
     points: Annotated[
         str | None,
-        typer.Argument(
-            metavar="[POINTS]", help="Table of points to open with the page: .csv, .geojson …; - for stdin."
-        ),
+        typer.Argument(metavar="POINTS", help="Table of points to open with the page: .csv, .geojson …; - for stdin."),
     ] = None,
     out: Annotated[
         str | None,

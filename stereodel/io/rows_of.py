@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel import data
-from stereodel._arrays import FloatArray, Geometries, Indices, IntArray, Packed, as_choice, as_scalar
+from stereodel._arrays import FloatArray, Indices, IntArray, Packed, as_choice, as_scalar
 from stereodel._extras import optional
 from stereodel._spaces import SPHERE, surface_of
 from stereodel._tasks.progress import Progress
@@ -25,11 +25,11 @@ from stereodel.curves.ragged import Ragged
 from stereodel.curves.trace import Arcs, great
 from stereodel.interpolation import Contour
 from stereodel.io.formats import wkb
-from stereodel.io.formats.map_rows import MapRows, content_of, is_frame, packed, shapely
+from stereodel.io.formats.map_rows import MapRows, content_of, is_frame, packed, unpacked
 from stereodel.io.formats.names import beside, spelled
 from stereodel.io.maps.clipping import clipped
 from stereodel.io.maps.dissolving import codes_of, dissolved, dividing, grouped, merged
-from stereodel.io.maps.on_map import polygons_on_map, repaired, steps_of
+from stereodel.io.maps.on_map import invalid, polygons_on_map, repaired, steps_of
 from stereodel.io.maps.tiles import Net, sphere_lines, sphere_polygons
 from stereodel.io.reading import shapes_of
 from stereodel.sphere import xyz_to_lonlat
@@ -160,7 +160,6 @@ def rows_of(
         raise ValueError("clip is for cells and triangles of the sphere; what is in the plane is cut to bounds")
     given = point_columns(columns, len(mesh.points))
     by = None if dissolve is None else dividing(dissolve, given, wanted)
-    optional("shapely", "geo")
     found: Columns
     if wanted == "sites":
         found, binary = {"point": np.arange(len(mesh.points))}, wkb.points(places_of(mesh, mesh.points, chosen))
@@ -216,11 +215,13 @@ def _faces(
         diagram = diagram_of(mesh)
         columns: Columns = {"point": np.arange(len(diagram.points)), "area": diagram.areas()}
         if box is not None:
-            return columns, packed(plane_cells(diagram, box))
+            return columns, plane_cells(diagram, box)
         cells = sphere_polygons(ridge_net(diagram), voronoi_sides(diagram), max_segment, latitude, progress)
         kept = np.flatnonzero(diagram.is_kept)
         if len(kept) == 1:
-            cells[kept] = packed(np.array([shapely.box(-180.0, -90.0, 180.0, 90.0)]))
+            cells[kept] = wkb.polygons(
+                Ragged.of([np.array([(180.0, -90.0), (180.0, 90.0), (-180.0, 90.0), (-180.0, -90.0)])])
+            )
         return columns, cells
     triangulation, number = triangles_of(mesh)
     simplices = triangulation.simplices[number]
@@ -228,7 +229,7 @@ def _faces(
     columns = {"triangle": number} | {name: simplices[:, k] for k, name in enumerate("abc")}
     columns["area"] = mesh.surface.areas(*corners.transpose(1, 0, 2))
     if box is not None:
-        return columns, packed(shapely.polygons(corners))
+        return columns, wkb.polygons(Ragged(corners.reshape(-1, 2), 3 * np.arange(len(corners) + 1)))
     sides, pairs = triangle_sides(simplices)
     return columns, sphere_polygons(Net(units(mesh.points), pairs), sides, max_segment, latitude, progress)
 
@@ -243,7 +244,8 @@ def _lines(mesh: Mesh, what: str, max_segment: float, latitude: Latitude, box: B
             diagram = diagram_of(mesh)
             ends, ridge = diagram.segments((box.left, box.bottom, box.right, box.top))
             pairs = diagram.ridge_points[ridge]
-        length, lines = mesh.surface.distances(ends[:, 0], ends[:, 1]), shapely.linestrings(ends)
+        length = mesh.surface.distances(ends[:, 0], ends[:, 1])
+        lines = wkb.lines(Ragged(ends.reshape(-1, 2), 2 * np.arange(len(ends) + 1)))
     else:
         if what == "edges":
             triangulation, number = triangles_of(mesh)
@@ -253,7 +255,7 @@ def _lines(mesh: Mesh, what: str, max_segment: float, latitude: Latitude, box: B
             pairs, arcs = diagram_of(mesh).ridge_points, ridge_net(diagram_of(mesh)).arcs()
         length = np.radians(mesh.surface.distances(arcs.start, arcs.end))
         lines = sphere_lines(arcs, max_segment, latitude)
-    return {"a": pairs[:, 0], "b": pairs[:, 1], "length": length}, packed(lines)
+    return {"a": pairs[:, 0], "b": pairs[:, 1], "length": length}, lines
 
 
 def ridge_net(diagram: Any) -> Net:
@@ -275,16 +277,16 @@ def _of_contours(contours: Sequence[Contour], max_segment: float, latitude: Lati
     nothing = contours[0].points[:0] if contours else np.zeros((0, 3))
     points = Ragged.of([contour.points for contour in contours], nothing)
     if surface_of(points.values) is not SPHERE:
-        return MapRows(columns, packed(shapely.linestrings(points.values, indices=points.row)), crs)
+        return MapRows(columns, wkb.lines(points), crs)
     first = steps_of(points)
     arcs = great(points.values[first], points.values[first + 1])
     lines = Ragged(np.arange(len(first)), points.offsets - np.arange(len(points) + 1))
     kind = kind or next((contour.latitude for contour in contours if contour.latitude), None) or "spherical"
-    return MapRows(columns, packed(sphere_lines(arcs, max_segment, kind, lines)), "EPSG:4326")
+    return MapRows(columns, sphere_lines(arcs, max_segment, kind, lines), "EPSG:4326")
 
 
-def plane_cells(diagram: PlanarVoronoi, box: Box) -> Geometries:
-    """A Polygon for each point, empty where its cell is outside; neighbours share points, as ridges are cut once."""
+def plane_cells(diagram: PlanarVoronoi, box: Box) -> Packed:
+    """A Polygon for each point, None where its cell is outside; neighbours share points, as ridges are cut once."""
     count = len(diagram.points)
     segments, ridge = _segments(diagram, box)
     # The ridges are already cut: only the endpoints of these arcs are used.
@@ -305,7 +307,9 @@ def plane_cells(diagram: PlanarVoronoi, box: Box) -> Geometries:
         owner = np.argmin(np.sum((diagram.points - middle) ** 2, axis=1), keepdims=True)
     there = loops.sizes > 3
     cells, _ = polygons_on_map(loops.take(there), owner[there], count)
-    return repaired(cells, ~shapely.is_valid(cells))
+    if (wrong := invalid(cells, loops.take(there), owner[there])).any():
+        cells[wrong] = packed(repaired(unpacked(cells[wrong]), wrong[wrong]))
+    return cells
 
 
 def _segments(diagram: PlanarVoronoi, box: Box) -> tuple[FloatArray, Indices]:

@@ -1,14 +1,18 @@
 """How commands end: exit codes, one line on stderr, and silence where a reader has gone."""
 
 import codecs
+import inspect
+import re
 import signal
+from dataclasses import dataclass
+from typing import Annotated
 
 import pytest
 import typer
 from typer.testing import CliRunner
 
 from stereodel._tasks.interrupts import signals
-from stereodel.cli import app
+from stereodel.cli import app, options
 from stereodel.cli.application import Commands, reporting
 
 COMMANDS = [command.name for command in app.registered_commands]
@@ -99,14 +103,34 @@ def test_an_interruption_that_was_lost_stops_the_work_at_its_next_sign_of_progre
 
 
 @pytest.mark.parametrize("command", COMMANDS)
-def test_help_shows_an_example_and_flags_without_a_type(command):
+def test_help_shows_an_example_and_names_what_is_given(command):
+    """In capitals or as choices, never as types of Python; at most twenty options, and then those under headings."""
     ran = CliRunner().invoke(app, [command, "--help"], env={"COLUMNS": "100"})
     assert ran.exit_code == 0
     assert "Example: " in ran.stdout
     assert f"stereodel {command}" in ran.stdout
     assert "--help" in ran.stdout
     for said in (ran.output, CliRunner().invoke(app, ["--help"]).output):
-        assert "bool" not in said
+        assert re.findall(r"bool|list\[|TEXT,|[{}<>]|int range|x<=|x>=", said) == []
+    _, first, *below = re.split(r"─ (?:Options|Reading|Picture)[^─]* ─", ran.stdout)
+    assert 0 < len(re.findall(r"^│ .{3}--\w", first, re.MULTILINE) or re.findall(r"^│ --\w", first, re.MULTILINE)) <= 20
+    assert ("--skip-missing" in "".join(below)) == ("--skip-missing" in ran.stdout)
+    assert ("--legend" in "".join(below)) == ("--legend" in ran.stdout)
+
+
+def test_an_option_of_the_readers_falls_under_their_heading():
+    """Whoever adds a field to the dataclass need not think of the help."""
+
+    @dataclass(frozen=True)
+    class Wider(options.Table):
+        encoding: Annotated[str | None, typer.Option(metavar="NAME", help="Encoding of the text.")] = None
+
+    def command(*, columns: Wider) -> None:
+        """Read."""
+
+    (*_, option) = inspect.signature(options.grouped(command), eval_str=True).parameters.values()
+    assert option.name == "encoding"
+    assert option.annotation.__metadata__[0].rich_help_panel == "Reading"
 
 
 def test_wrong_usage():

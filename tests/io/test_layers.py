@@ -1,6 +1,7 @@
 """Rows of maps: what frames hold comes through Arrow into every file, names that are taken, progress, binary."""
 
 import io
+import json
 import warnings
 
 import geopandas
@@ -13,6 +14,7 @@ import shapely
 from stereodel import PlanarVoronoi, SphericalVoronoi
 from stereodel.io import PointTable, RenamedColumnWarning, read_points, to_geodataframe, write
 from stereodel.io.formats import map_rows as module
+from stereodel.io.formats import wkb
 from stereodel.io.rows_of import rows_of
 
 POINTS = geopandas.points_from_xy([10.0, -78.5, 135.8], [48.4, -0.2, 35.0])
@@ -183,3 +185,32 @@ def test_shapefiles_say_which_names_they_cut(tmp_path):
     with pytest.warns(RenamedColumnWarning, match="as long as the format allows"):
         write(tmp_path / "table.shp", table)
     assert kept(read_points(tmp_path / "table.shp").columns) == kept(table.columns)
+
+
+SHAPES = """
+POINT (1 2); POINT Z (1 2 3); POINT M (1 2 3); POINT ZM (1 2 3 4); LINESTRING (0 0, 1 2.5); LINESTRING Z (0 0 9, 1 2 8)
+MULTIPOINT (1 2, 3 4); MULTILINESTRING ((0 0, 1 1), (2 2, 3 3, 4 5)); POLYGON ((0 0, 0 1, 1 1, 0 0))
+POLYGON ((0 0, 9 0, 9 9, 0 0), (2 1, 3 1, 3 2, 2 1))
+POLYGON Z ((0 0 1, 0 5 2, 5 5 3, 0 0 1), (1 2 1, 2 3 1, 1 3 1, 1 2 1))
+MULTIPOLYGON (((0 0, 1 0, 1 1, 0 0)), ((5 5, 5 6, 6 6, 5 5), (5.1 5.5, 5.3 5.7, 5.1 5.7, 5.1 5.5)))
+GEOMETRYCOLLECTION (POINT (5 5), GEOMETRYCOLLECTION (LINESTRING (0 0, 1 1)), POLYGON ((0 0, 0 1, 1 1, 0 0)))
+"""
+
+
+@pytest.mark.parametrize("text", [line.strip() for line in SHAPES.replace("\n", ";").split(";") if line.strip()])
+@pytest.mark.parametrize("decimals", [None, 1])
+def test_shapes_in_geojson_are_those_of_shapely(text, decimals):
+    """Which turns rings, too, and leaves out measures."""
+    shape = shapely.orient_polygons(shapely.from_wkt(text))
+    expected = json.loads(shapely.to_geojson(shapely.force_2d(shape) if " M " in text else shape))
+    (cell,) = module.packed(np.array([shapely.from_wkt(text)]))
+    found, end = wkb.as_geojson(cell, decimals)
+    assert found == expected
+    assert end == len(cell)
+
+
+def test_numbers_in_geojson_are_read_back_as_they_were():
+    numbers = np.random.default_rng(1).normal(size=(500, 2)) * 10.0 ** np.arange(-250, 250)[:, None]
+    found = [wkb.as_geojson(cell)[0]["coordinates"] for cell in wkb.points(numbers)]
+    assert json.loads(json.dumps(found)) == numbers.tolist()
+    assert wkb.as_geojson(wkb.points(np.array([[1.26, -0.04]]))[0], 1)[0]["coordinates"] == [1.3, -0.0]

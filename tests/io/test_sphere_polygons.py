@@ -15,8 +15,9 @@ from stereodel import (
     lonlat_to_xyz,
     xyz_to_lonlat,
 )
+from stereodel.curves.ragged import Ragged
 from stereodel.io import to_geodataframe
-from stereodel.io.maps import tiles
+from stereodel.io.maps import on_map, tiles
 from stereodel.io.rows_of import rows_of
 from tests import sets
 from tests.examples import examples
@@ -234,3 +235,49 @@ def test_cells_are_those_of_antimeridian():
         ring = shapely.Polygon(xyz_to_lonlat(np.concatenate(steps)))
         theirs = antimeridian.fix_polygon(ring, fix_winding=False, great_circle=True)
         assert shapely.symmetric_difference(theirs, cell).area < 0.01 * cell.length
+
+
+# What is said of rings without Shapely.
+
+STEPS = st.tuples(st.integers(-3, 3), st.integers(-3, 3))
+
+
+@given(st.lists(st.lists(STEPS, min_size=3, max_size=9), min_size=1, max_size=6))
+def test_rings_that_are_simple_are_valid_and_counterclockwise(rings):
+    """Of any corners on a small grid, with points that repeat, sides that touch, and rings that turn twice."""
+    rows = Ragged.of([np.array(ring, dtype=np.float64) for ring in rings])
+    for ring, found in zip(rings, on_map.simple(rows).tolist(), strict=True):
+        outline = shapely.LinearRing(ring)
+        assert not found or (shapely.Polygon(outline).is_valid and outline.is_ccw), ring
+
+
+@given(st.lists(st.lists(STEPS, min_size=3, max_size=9), min_size=1, max_size=6), st.booleans())
+def test_convex_rings_are_simple_one_way_round(rings, turned):
+    hulls = [shapely.MultiPoint(ring).convex_hull for ring in rings]
+    corners = [shapely.get_coordinates(hull.exterior)[:0:-1] for hull in hulls if hull.geom_type == "Polygon"]
+    wanted = [shapely.LinearRing(ring).is_ccw for ring in corners]
+    rows = Ragged.of([ring[::-1] if turned else ring for ring in corners], np.zeros((0, 2)))
+    if len(rows):
+        assert on_map.simple(rows).tolist() == [each != turned for each in wanted]
+
+
+def test_of_parts_side_by_side_and_on_each_other():
+    square = np.array([[0, 0], [1, 0], [1, 1], [0, 1], [0, 0]], dtype=np.float64)
+    loops = Ragged.of([square, square + [2, 0], square, square + [0.5, 0], square, square + [1, 0], square[::-1]])
+    owner = np.array([0, 0, 1, 1, 2, 2, 3])
+    polygons, outer = on_map.polygons_on_map(loops, owner, 5)
+    assert outer.tolist() == [True] * 6 + [False]
+    assert [cell is None for cell in polygons] == [False, False, False, True, True]
+    # Parts that overlap, and parts that share a side, are no valid MultiPolygon; a hole alone is nothing.
+    assert on_map.invalid(polygons, loops, owner).tolist() == [False, True, True, False, False]
+
+
+def test_rings_that_turn_twice_or_touch_themselves_are_not_simple():
+    turns = np.radians(90 + 72 * np.arange(5))
+    pentagon = np.column_stack([np.cos(turns), np.sin(turns)])
+    star = pentagon[[0, 2, 4, 1, 3]]  # each side has the middle on its left, twice around
+    touching = np.array([[0, 0], [4, 0], [4, 2], [2, 0], [0, 2]], dtype=np.float64)
+    notched = touching + np.array([[0, 0], [0, 0], [0, 0], [0, 0.5], [0, 0]])
+    still = np.repeat(pentagon, 2, axis=0)
+    rings = Ragged.of([pentagon, star, touching, notched, notched[::-1], still])
+    assert on_map.simple(rings).tolist() == [True, False, False, True, False, True]

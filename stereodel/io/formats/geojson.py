@@ -17,10 +17,10 @@ import numpy as np
 from stereodel._arrays import Column, FloatArray, as_count
 from stereodel._tasks.progress import Progress
 from stereodel.constants import EMPTY_RATIO, FEW_CELLS
-from stereodel.io.formats import Content, FileFormat, Input, Wanted
+from stereodel.io.formats import Content, FileFormat, Input, Wanted, wkb
 from stereodel.io.formats.columns import check_held, column, decoded, objects, plain_cells
 from stereodel.io.formats.foreign import check_crs
-from stereodel.io.formats.map_rows import MapRows, no_point, shapely
+from stereodel.io.formats.map_rows import MapRows, no_point, packed
 from stereodel.io.formats.names import DataWarning, beside, listed
 
 HEAD: Final = '{"type":"FeatureCollection","features":['
@@ -253,7 +253,8 @@ def to_geojson(frame: Any, *, decimals: int | None = None, sequence: bool = Fals
     {"type":"Feature","properties":{"point":0},"geometry":{"type":"Point","coordinates":[10.0,48.4]}}
     ]}
     """
-    found = list(features(frame, decimals))
+    columns = {name: frame[name] for name in frame.columns if name != frame.geometry.name}
+    found = list(features(MapRows(columns, packed(np.asarray(frame.geometry)), frame.crs), decimals))
     return "\n".join(found) if sequence else "\n".join([HEAD, ",\n".join(found), TAIL])
 
 
@@ -266,21 +267,18 @@ def write_geojson(layer: MapRows, path: Path, *, decimals: int | None = None, pr
         file.write("" if sequence else HEAD)
         for number, block in enumerate(layer.blocks(progress)):
             file.write(between if number else "" if sequence else "\n")
-            file.write(between.join(features(block.frame(), decimals)))
+            file.write(between.join(features(block, decimals)))
         file.write("\n" if sequence else f"\n{TAIL}\n")
 
 
-def features(frame: Any, decimals: int | None) -> Iterator[str]:
-    """The rows of a frame as GeoJSON features, one line each."""
-    if frame.crs is not None:
-        frame = frame.to_crs("EPSG:4326")
-    geometry = shapely.orient_polygons(np.asarray(frame.geometry))
-    if decimals is not None:
-        digits = as_count(decimals, "decimals", low=0)
-        geometry = shapely.transform(geometry, lambda coordinates: np.round(coordinates, digits))
-    names = [name for name in frame.columns if name != frame.geometry.name]
-    rows = zip(*(plain_cells(frame[name]) for name in names), strict=True) if names else iter([()] * len(frame))
+def features(layer: MapRows, decimals: int | None) -> Iterator[str]:
+    """The rows of a map as GeoJSON features, one line each."""
+    if layer.crs is not None and layer.crs != "EPSG:4326":
+        layer = MapRows.of_frame(layer.frame().to_crs("EPSG:4326"))
+    digits = None if decimals is None else as_count(decimals, "decimals", low=0)
+    names, columns = list(layer.columns), [plain_cells(values) for values in layer.columns.values()]
+    rows = zip(*columns, strict=True) if names else iter([()] * len(layer))
     compact = json.JSONEncoder(ensure_ascii=False, allow_nan=False, separators=(",", ":")).encode
-    for row, text in zip(rows, shapely.to_geojson(geometry), strict=True):
-        properties = compact(dict(zip(names, row, strict=True)))
-        yield f'{{"type":"Feature","properties":{properties},"geometry":{text or "null"}}}'
+    for row, cell in zip(rows, layer.binary.tolist(), strict=True):
+        properties, geometry = dict(zip(names, row, strict=True)), cell and wkb.as_geojson(cell, digits)[0]
+        yield compact({"type": "Feature", "properties": properties, "geometry": geometry})

@@ -37,9 +37,11 @@ def packed(geometries: Geometries) -> Packed:
     return binary
 
 
-def unpacked(binary: Packed) -> Geometries:
-    """Well-known binary as Shapely's geometries."""
-    return np.asarray(shapely.from_wkb(binary), dtype=object)
+def unpacked(binary: Packed, empty: Any = None) -> Geometries:
+    """Well-known binary as Shapely's geometries; `empty` where there is none."""
+    geometries: Geometries = np.asarray(shapely.from_wkb(binary), dtype=object)
+    geometries[~wkb.is_there(binary)] = empty
+    return geometries
 
 
 @dataclass(frozen=True, eq=False)

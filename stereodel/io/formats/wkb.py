@@ -7,7 +7,7 @@ the numbers of geometries with heights and measures are those of ISO 13249-3.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 
@@ -23,8 +23,9 @@ POINT: Final = np.dtype([("order", "u1"), ("kind", "<u4"), ("xy", "<f8", 2)])
 POINTS: Final = (1, 1001, 2001, 3001)
 """Codes of points."""
 
-RING: Final = np.frombuffer(bytes([1, 3, 0, 0, 0, 1, 0, 0, 0]), dtype=np.uint8)
-"""Header of a polygon with one ring, before the number of its points."""
+LINE: Final = bytes([1, 2, 0, 0, 0])
+RING: Final = bytes([1, 3, 0, 0, 0, 1, 0, 0, 0])
+"""Headers of a line and of a polygon with one ring, before the number of their points."""
 
 ONE: Final = {kind: bytes([1, kind + 3, 0, 0, 0, 1, 0, 0, 0]) for kind in (1, 2, 3)}
 """Header that turns a single-part geometry into a multi-part one, by the code of its type."""
@@ -39,17 +40,67 @@ def points(places: FloatArray) -> Packed:
 
 def polygons(rings: Ragged) -> Packed:
     """Polygons of one ring each, given without its first point again at its end."""
-    result: Packed = np.full(len(rings), None, dtype=object)
-    sizes = rings.sizes
+    return _of_rows(RING, rings, closed=True)
+
+
+def lines(rows: Ragged) -> Packed:
+    """Lines."""
+    return _of_rows(LINE, rows, closed=False)
+
+
+def _of_rows(header: bytes, points: Ragged, *, closed: bool) -> Packed:
+    result: Packed = np.full(len(points), None, dtype=object)
+    sizes = points.sizes
     for size in np.unique(sizes).tolist():
         rows = np.flatnonzero(sizes == size)
-        place = rings.offsets[rows, None] + np.append(np.arange(size), 0)
-        cells = np.empty((len(rows), len(RING) + 4 + 16 * (size + 1)), dtype=np.uint8)
-        cells[:, : len(RING)] = RING
-        cells[:, len(RING) : len(RING) + 4] = np.array([size + 1], dtype="<u4").view(np.uint8)
-        cells[:, len(RING) + 4 :] = rings.values[place].astype("<f8", copy=False).reshape(len(rows), -1).view(np.uint8)
+        place = points.offsets[rows, None] + np.arange(size + closed) % size
+        head = header + (size + closed).to_bytes(4, "little")
+        cells = np.empty((len(rows), len(head) + 16 * (size + closed)), dtype=np.uint8)
+        cells[:, : len(head)] = np.frombuffer(head, dtype=np.uint8)
+        cells[:, len(head) :] = points.values[place].astype("<f8", copy=False).reshape(len(rows), -1).view(np.uint8)
         result[rows] = cells.view(f"V{cells.shape[1]}")[:, 0].astype(object)
     return result
+
+
+def with_holes(shell: bytes, holes: Sequence[bytes]) -> bytes:
+    """A polygon of one ring, and those of its holes, as one polygon."""
+    return b"".join([shell[:5], (1 + len(holes)).to_bytes(4, "little"), shell[9:], *(hole[9:] for hole in holes)])
+
+
+def grouped(parts: Packed, owner: LongArray, count: int) -> Packed:
+    """A geometry for each owner, (count,), multi-part where it has several parts; None where it has none."""
+    order = np.argsort(owner, kind="stable")
+    cells = Ragged.grouped(parts[order], owner[order], count)
+    result: Packed = np.full(count, None, dtype=object)
+    alone = cells.sizes == 1
+    result[alone] = cells.values[cells.offsets[:-1][alone]]
+    for row in np.flatnonzero(cells.sizes > 1).tolist():
+        some = cells.values[cells.offsets[row] : cells.offsets[row + 1]].tolist()
+        result[row] = b"".join([ONE[_kind(some[0])][:5], len(some).to_bytes(4, "little"), *some])
+    return result
+
+
+def as_geojson(cell: bytes, decimals: int | None = None, at: int = 0) -> tuple[dict[str, Any], int]:
+    """The geometry whose bytes begin at a place, as in RFC 7946, without measures; and where they end."""
+    above, kind = divmod(int.from_bytes(cell[at + 1 : at + 5], "little"), 1000)
+    numbers, kept = (2, 3, 3, 4)[above], 2 + above % 2
+    parts: list[Any] = []
+    count, at = (1, at + 5) if kind < 3 else (int.from_bytes(cell[at + 5 : at + 9], "little"), at + 9)
+    for number in range(count):
+        if kind > 3:
+            part, at = as_geojson(cell, decimals, at)
+            parts.append(part["coordinates"] if kind in KINDS else part)
+            continue
+        size, at = (1, at) if kind == 1 else (int.from_bytes(cell[at : at + 4], "little"), at + 4)
+        places = np.frombuffer(cell, "<f8", size * numbers, at).reshape(size, numbers)[:, :kept]
+        at += 8 * size * numbers
+        if kind == 3:  # shells run counterclockwise, holes clockwise
+            x, y = (places[:, :2] - places[0, :2]).T
+            places = places[:: 1 if (x[:-1] @ y[1:] >= x[1:] @ y[:-1]) == (number == 0) else -1]
+        parts.append((places if decimals is None else np.round(places, decimals)).tolist())
+    if kind not in KINDS:
+        return {"type": "GeometryCollection", "geometries": parts}, at
+    return {"type": KINDS[kind], "coordinates": parts if kind > 2 else parts[0] if kind == 2 else parts[0][0]}, at
 
 
 def xy(content: Bytes, offsets: LongArray, rows: Sequence[int]) -> FloatArray:

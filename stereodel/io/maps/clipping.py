@@ -9,7 +9,7 @@ import numpy as np
 
 from stereodel._arrays import FloatArray, Geometries, Indices, Packed
 from stereodel.curves.ragged import Ragged
-from stereodel.io.formats.map_rows import ROWS, packed, shapely, unpacked
+from stereodel.io.formats.map_rows import COLLECTION, ROWS, packed, shapely, unpacked
 from stereodel.io.formats.wkb import is_there
 from stereodel.io.maps.on_map import repaired
 from stereodel.sphere import lonlat_to_xyz
@@ -102,11 +102,8 @@ def _moved(geometry: Any, degrees: float) -> Any:
 
 def areal(geometries: Geometries) -> Geometries:
     """The polygons in results of overlays, counterclockwise; where borders touch, these also hold lines and points."""
-    mixed = shapely.get_type_id(geometries) == 7
-    for place in np.flatnonzero(mixed | (shapely.get_dimensions(geometries) < 2)).tolist():
-        parts = shapely.get_parts(geometries[place])
-        geometries[place] = shapely.union_all(parts[shapely.get_dimensions(parts) == 2])
-    return np.asarray(shapely.orient_polygons(geometries), dtype=object)
+    mixed = (shapely.get_type_id(geometries) == COLLECTION) | (shapely.get_dimensions(geometries) < 2)
+    return np.asarray(shapely.orient_polygons(repaired(geometries, mixed)), dtype=object)
 
 
 def areas_on_sphere(polygons: Geometries, latitude: Latitude) -> FloatArray:

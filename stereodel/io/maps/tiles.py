@@ -15,7 +15,7 @@ from itertools import count
 
 import numpy as np
 
-from stereodel._arrays import BoolArray, FloatArray, Geometries, Indices, Packed
+from stereodel._arrays import BoolArray, FloatArray, Indices, Packed
 from stereodel._tasks.progress import Progress
 from stereodel._threads import in_order, thread_count
 from stereodel.constants import AT_POLE, BORDER_STEPS, CHORD_CLEARANCE, DEGREE_ROUNDING, THIN_CELL
@@ -27,10 +27,12 @@ from stereodel.io.formats import wkb
 from stereodel.io.formats.map_rows import packed, shapely, unpacked
 from stereodel.io.maps.on_map import (
     close_in_longitude,
+    invalid,
     lines_on_map,
     polygons_on_map,
     refined,
     repaired,
+    simple,
     steps_of,
     unit,
 )
@@ -92,7 +94,7 @@ class Sides:
     """(e,): which arcs certainly do not meet the border; each has one piece."""
 
 
-def sphere_lines(arcs: Arcs, max_segment: float, latitude: Latitude, lines: Ragged | None = None) -> Geometries:
+def sphere_lines(arcs: Arcs, max_segment: float, latitude: Latitude, lines: Ragged | None = None) -> Packed:
     """A LineString for each arc or row of arcs, a MultiLineString for one that crosses the 180th meridian or a pole."""
     border = Antimeridian(latitude=latitude)
     pieces = border.cut(arcs)
@@ -133,7 +135,8 @@ def sphere_polygons(
     result[some[_Walk(faces.take(some), sides).widths < THIN_CELL]] = None
     bad = np.flatnonzero(wrong)
     bad = bad[wkb.is_there(result[bad])]
-    result[bad] = packed(repaired(unpacked(result[bad]), np.ones(len(bad), dtype=bool)))
+    if len(bad):
+        result[bad] = packed(repaired(unpacked(result[bad]), np.ones(len(bad), dtype=bool)))
     return result
 
 
@@ -301,16 +304,12 @@ def _drawn_block(faces: Ragged, sides: Sides) -> tuple[Packed, BoolArray, BoolAr
     rows = np.flatnonzero(inland & (faces.sizes > 0))
     if len(rows):
         rings = _rings(faces.take(rows), sides)
-        outlines = shapely.linearrings(rings.values, indices=rings.row)
-        polygons = shapely.polygons(outlines)
-        area = shapely.area(polygons)
+        area, length = clip.signed_areas(rings)
         # What is thinner than the border is blurred is clipped, as are rings that stand still, which lose such steps.
-        simple = shapely.is_valid(polygons) & shapely.is_ccw(outlines)
-        simple &= area > 2 * sides.border.slack * shapely.length(outlines)
-        still = (rings.values == rings.values[rings.following]).all(axis=1)
-        simple[rings.row[still]] = False
-        rows = rows[simple]
-        result[rows], large[rows] = wkb.polygons(rings.take(simple)), area[simple] > WORLD / 10
+        whole = simple(rings) & (area > 2 * sides.border.slack * length)
+        whole[rings.row[(rings.values == rings.values[rings.following]).all(axis=1)]] = False
+        rows = rows[whole]
+        result[rows], large[rows] = wkb.polygons(rings.take(whole)), area[whole] > WORLD / 10
         others[rows] = False
     result[others], wrong[others], large[others] = _clipped_block(faces.take(others), sides)
     return result, wrong, large
@@ -329,9 +328,10 @@ def _clipped_block(faces: Ragged, sides: Sides) -> tuple[Packed, BoolArray, Bool
     count = len(faces)
     loops, owner = clip.regions(faces, np.arange(count), count, sides.pieces, sides.samples, sides.border)
     polygons, outer = polygons_on_map(loops, owner, count)
-    wrong = ~shapely.is_valid(polygons)
+    wrong = invalid(polygons, loops, owner)
     wrong[owner[~outer]] = True  # convex faces have no holes
-    return packed(polygons), wrong, shapely.area(polygons) > WORLD / 10
+    area = clip.signed_areas(loops)[0] if len(loops) else np.zeros(0)
+    return polygons, wrong, np.bincount(owner, area, minlength=count) > WORLD / 10
 
 
 class _Walk:

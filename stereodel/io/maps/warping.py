@@ -26,6 +26,7 @@ from stereodel.io.formats.map_rows import (
     POLYGON,
     RING,
     shapely,
+    unpacked,
 )
 from stereodel.io.maps.on_map import close_in_longitude, lines_on_map, polygons_on_map, repaired
 from stereodel.sphere import lonlat_to_xyz, xyz_to_lonlat
@@ -126,7 +127,8 @@ def _lines(geometries: Geometries, lens: MoebiusMap, slack: float) -> Geometries
     first, sides = sides_of(lines)
     edges = Edges.straight(lines.values[first], lines.values[first + 1])
     pieces = BORDER.cut(edges.arcs_under(lens, slack / 4).through(lens))
-    return lines_on_map(sides, owner, len(geometries), pieces, _sampled(pieces, slack), BORDER)
+    images = lines_on_map(sides, owner, len(geometries), pieces, _sampled(pieces, slack), BORDER)
+    return unpacked(images, shapely.LineString())
 
 
 def _polygons(geometries: Geometries, lens: MoebiusMap, slack: float) -> Geometries:
@@ -156,7 +158,7 @@ def _filled(outlines: Ragged, owner: Indices, count: int, lens: MoebiusMap, slac
     edges, border = Edges.straight(start, end), Antimeridian(blur=slack)
     pieces = border.cut(edges.arcs_under(lens, slack / 4).through(lens))
     loops, region = clip.regions(rings, owner, count, pieces, _sampled(pieces, slack), border, left=edges.left(rings))
-    images, _ = polygons_on_map(loops, region, count)
+    images = unpacked(polygons_on_map(loops, region, count)[0], shapely.Polygon())
     # A polygon without a border on the sphere covers all of it.
     images[np.setdiff1d(np.arange(count), owner)] = shapely.box(-180.0, -90.0, 180.0, 90.0)
     return images
