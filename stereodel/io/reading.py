@@ -127,7 +127,7 @@ def read_points(
         Coordinate reference system of the columns `lon` and `lat` (easting first), such as "EPSG:25832"; by default
         they are in degrees. Files with geometries state their own. Coordinates of a `plane` stay as they are.
     encoding : str, optional
-        Encoding of text, such as "cp1252", which Excel writes. By default UTF-8, or UTF-16 with a byte order mark; what
+        Encoding of text, such as "cp1252", which Excel writes. By default UTF-8 or UTF-16; what
         is neither is guessed, with a `DataWarning`: cp1252, or what ``charset-normalizer`` finds if it is installed.
     decimal : {".", ","}, optional
         The decimal mark of text; the other one separates thousands. Recognised by default.
