@@ -68,15 +68,17 @@ class Delaunay(GrowingPoints, scipy.spatial.Delaunay):
     Parameters
     ----------
     points : (npoints, 2) array_like
-        Finite numbers. Copied.
+        Finite numbers. Copied. Points of more dimensions are handed over to SciPy, with an `InexactWarning`.
     furthest_site : bool, optional
-        Only False.
+        True is handed over to SciPy as well.
     incremental : bool, optional
         Whether `add_points` may be called.
     qhull_options : str, optional
-        "Qbb" (scaled paraboloid), "Qc" (`coplanar` is listed) and "Qz" (point at infinity, above the paraboloid) mean
-        have the same meaning as in Qhull; "QJ", "Qs", "Qt", "Qx", "Q11", "Q12", "Q14" and "Pp" are accepted and
+        "Qbb" (scaled paraboloid), "Qc" (`coplanar` is listed) and "Qz" (point at infinity, above the paraboloid) have
+        the same meaning as in Qhull; "QJ", "Qs", "Qt", "Qx", "Q11", "Q12", "Q14" and "Pp" are accepted and
         ignored. Default: "Qbb Qc Qz Q12", in incremental mode "Qc".
+    strict : bool, optional
+        Raise where SciPy does: `QhullError` for points on one line, two and one, ValueError for none.
 
     Attributes
     ----------
@@ -108,8 +110,9 @@ class Delaunay(GrowingPoints, scipy.spatial.Delaunay):
     Raises
     ------
     ValueError, TypeError
-        For points that are not finite real numbers of shape (npoints, 2), furthest sites and unknown options. Never
-        `QhullError`: collinear points, fewer than three and none have no triangles.
+        For points that are not finite real numbers of shape (npoints, 2), and unknown options.
+    QhullError
+        Only if `strict`; otherwise collinear points, fewer than three and none have no triangles.
 
     Notes
     -----

@@ -18,15 +18,17 @@ class Voronoi(GrowingPoints, scipy.spatial.Voronoi):
     Parameters
     ----------
     points : (npoints, 2) array_like
-        Finite numbers. Copied.
+        Finite numbers. Copied. Points of more dimensions are handed over to SciPy, with an `InexactWarning`.
     furthest_site : bool, optional
-        Only False.
+        True is handed over to SciPy as well.
     incremental : bool, optional
         Whether `add_points` may be called.
     qhull_options : str, optional
-        "Qc" (duplicates get the region of their point, else -1) and "Qz" (an empty region for a point at infinity) mean
-        have the same meaning as in Qhull; "Qbb", "QJ", "Qs", "Qt", "Qx", "Q11", "Q12", "Q14" and "Pp" are accepted and
+        "Qc" (duplicates get the region of their point, else -1) and "Qz" (an empty region for a point at infinity) have
+        the same meaning as in Qhull; "Qbb", "QJ", "Qs", "Qt", "Qx", "Q11", "Q12", "Q14" and "Pp" are accepted and
         ignored. Default: "Qbb Qc Qz", in incremental mode "Qc".
+    strict : bool, optional
+        Raise where SciPy does: `QhullError` for points on one line, two and one, ValueError for none.
 
     Attributes
     ----------
@@ -49,8 +51,9 @@ class Voronoi(GrowingPoints, scipy.spatial.Voronoi):
     Raises
     ------
     ValueError, TypeError
-        For points that are not finite real numbers of shape (npoints, 2), furthest sites and unknown options. Never
-        `QhullError`: collinear points have ridges [-1, -1] and no vertices.
+        For points that are not finite real numbers of shape (npoints, 2), and unknown options.
+    QhullError
+        Only if `strict`; otherwise collinear points have ridges [-1, -1] and no vertices.
 
     Notes
     -----
