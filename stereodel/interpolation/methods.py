@@ -1,19 +1,20 @@
-"""Interpolators by name, and interpolation in one call."""
+"""Interpolators by name, interpolation in one call, and the classes that SciPy has for both."""
 
 from __future__ import annotations
 
 from types import MappingProxyType
-from typing import Any, Final, Literal
+from typing import Any, ClassVar, Final, Literal
 
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import FloatArray, as_choice, as_floats
+from stereodel._arrays import FloatArray, as_choice, as_floats, as_points
+from stereodel._docs import shared
 from stereodel.interpolation.interpolator import Interpolator
 from stereodel.interpolation.smooth import SmoothInterpolator
 from stereodel.interpolation.weighted import LinearInterpolator, NaturalNeighborInterpolator, NearestInterpolator
 from stereodel.sphere.latitudes import Latitude
-from stereodel.triangulation.delaunay import as_triangulation
+from stereodel.triangulation.delaunay import Triangulation, as_triangulation
 
 Method = Literal["nearest", "linear", "natural", "smooth"]
 
@@ -40,6 +41,7 @@ def griddata(
     *,
     method: Method = "linear",
     fill_value: float = np.nan,
+    rescale: bool = False,
     latitude: Latitude | None = None,
 ) -> FloatArray:
     """Values between scattered points in one call, as `scipy.interpolate.griddata`.
@@ -58,6 +60,8 @@ def griddata(
         `LinearInterpolator`, `NearestInterpolator`, `NaturalNeighborInterpolator` or `SmoothInterpolator`.
     fill_value : float, optional
         Value outside all triangles; not used by "nearest".
+    rescale : bool, optional
+        Shift and scale the coordinates of the plane first, x and y apart, so that the points fill a unit square.
     latitude : {"spherical", "geodetic", "authalic"}, optional
         If given, `points` and `xi` are longitude and latitude, with this kind of latitude, as in `lonlat_to_xyz`.
 
@@ -85,17 +89,157 @@ def griddata(
     >>> print(griddata(stations, celsius, [(9.2, 45.5), (0.0, 0.0)], latitude="geodetic", fill_value=-99).round(2))
     [ 12.8 -99. ]
     """
-    kind = as_method(method)
-    sites, places = _joined(points, "points"), _joined(xi, "xi")
-    triangulation = (
-        as_triangulation(sites) if latitude is None else as_triangulation(None, lonlat=sites, latitude=latitude)
-    )
-    function = kind(triangulation, values)
-    found = function(places) if latitude is None else function(lonlat=places)
-    if kind is not NearestInterpolator and not np.isnan(fill := float(fill_value)):
-        inside = triangulation.find_simplex(places) if latitude is None else triangulation.find_simplex(lonlat=places)
-        found[np.asarray(inside) < 0] = fill
-    return found
+    return _Scattered(as_method(method), points, values, fill_value, rescale, latitude)(xi)
+
+
+class _Scattered:
+    """A function as SciPy's, called with places in one array, in a tuple of arrays or in several."""
+
+    def __init__(
+        self,
+        kind: type[Interpolator],
+        points: npt.ArrayLike | Triangulation,
+        values: npt.ArrayLike,
+        fill_value: float,
+        rescale: bool,
+        latitude: Latitude | None,
+    ) -> None:
+        # A triangulation of SciPy's, whose simplices are rounded, gives its points.
+        foreign = not isinstance(points, Triangulation) and hasattr(points, "simplices")
+        sites: Any = _joined(getattr(points, "points", None) if foreign else points, "points")
+        self._origin, self._size = np.zeros(2), np.ones(2)
+        if rescale and len(sites := as_points(sites, 2, hint="rescale=True is for points of the plane")):
+            extent = np.ptp(sites, axis=0)
+            self._origin, self._size = sites.mean(axis=0), np.where(extent > 0, extent, 1.0)
+            sites = (sites - self._origin) / self._size
+        self._rescale, self._latitude, self.fill_value = rescale, latitude, float(fill_value)
+        by_lonlat = latitude is not None and not isinstance(sites, Triangulation)
+        named: dict[str, Any] = {"lonlat": sites, "latitude": latitude} if by_lonlat else {}
+        self.tri = as_triangulation(None if by_lonlat else sites, **named)
+        self.function = kind(self.tri, values)
+
+    def __call__(self, *xi: Any) -> FloatArray:
+        """Values at places, given as `xi` of `griddata` or coordinate by coordinate."""
+        places: Any = _joined(xi[0] if len(xi) == 1 else xi, "xi")
+        if self._rescale:
+            places = (as_floats(places, "xi") - self._origin) / self._size
+        asked: dict[str, Any] = {"queries" if self._latitude is None else "lonlat": places}
+        found = self.function(**asked)
+        if not isinstance(self.function, NearestInterpolator) and not np.isnan(self.fill_value):
+            found[np.asarray(self.tri.find_simplex(**asked)) < 0] = self.fill_value
+        return found
+
+
+_ABOUT: Final = {
+    "scipy": """
+        Parameters
+        ----------
+        points, values, fill_value, rescale, latitude
+            As for `griddata`; `points` may also be a triangulation of this library or of SciPy, whose points count.
+        **without_effect
+            SciPy's `tol`, `maxiter` and `tree_options`: nothing here iterates, and there is no tree.
+
+        Attributes
+        ----------
+        tri : PlanarDelaunay or SphericalDelaunay
+        function : Interpolator
+            With `gradient`, `weights` where the values are weighted sums, and options that SciPy does not have.
+
+        Raises
+        ------
+        ValueError, TypeError
+            As `griddata`; for three columns of different lengths, which are directions here and space to SciPy.
+        """
+}
+_WITHOUT_EFFECT: Final = frozenset({"tol", "maxiter", "tree_options"})
+
+
+class _AsInSciPy(_Scattered):
+    kind: ClassVar[type[Interpolator]]
+
+    def __init__(
+        self,
+        points: npt.ArrayLike | Triangulation,
+        values: npt.ArrayLike,
+        fill_value: float = np.nan,
+        *,
+        rescale: bool = False,
+        latitude: Latitude | None = None,
+        **without_effect: Any,
+    ) -> None:
+        name = type(self).__name__
+        if unknown := sorted(without_effect.keys() - _WITHOUT_EFFECT):
+            raise TypeError(f"{name} has no option {unknown[0]!r}; known are fill_value, rescale and latitude")
+        super().__init__(self.kind, points, values, fill_value, rescale, latitude)
+        far = np.linalg.norm(self.tri.points, axis=1)
+        if self.tri.points.shape[1] == 3 and far.max(initial=0.0) > (1 + 1e-6) * far.min(initial=np.inf):
+            raise ValueError(
+                "points has three columns and rows of different lengths; here they are directions. For points in space "
+                f"use scipy.interpolate.{name}, for directions of any length griddata"
+            )
+
+
+@shared(**_ABOUT)
+class LinearNDInterpolator(_AsInSciPy):
+    """`scipy.interpolate.LinearNDInterpolator` of the plane and the sphere: a `LinearInterpolator`.
+
+    {scipy}
+
+    Notes
+    -----
+    SciPy's values, up to rounding, where the Delaunay triangulation is unique. Complex values are refused.
+
+    Examples
+    --------
+    >>> from stereodel.interpolation import LinearNDInterpolator
+    >>> plane = LinearNDInterpolator([[0, 0], [4, 0], [0, 4], [4, 4]], [0.0, 4.0, 8.0, 12.0], fill_value=-1)
+    >>> plane([1, 3, 9], [2, 3, 9]).tolist()
+    [5.0, 9.0, -1.0]
+    """
+
+    kind = LinearInterpolator
+
+
+@shared(**_ABOUT)
+class CloughTocher2DInterpolator(_AsInSciPy):
+    """In place of `scipy.interpolate.CloughTocher2DInterpolator`: a `SmoothInterpolator`.
+
+    {scipy}
+
+    Notes
+    -----
+    Once differentiable as well, but another function: gradients come from local quadratic fits where SciPy minimizes
+    curvature, and each triangle is blended from its sides where SciPy's is cut into three cubics.
+
+    Examples
+    --------
+    >>> from stereodel.interpolation import CloughTocher2DInterpolator
+    >>> x, y = np.mgrid[:3, :3].reshape(2, -1).astype(float)
+    >>> CloughTocher2DInterpolator((x, y), x * (2 - x))(0.5, 1.25).round(9).item()
+    0.75
+    """
+
+    kind = SmoothInterpolator
+
+
+@shared(**_ABOUT)
+class NearestNDInterpolator(_AsInSciPy):
+    """`scipy.interpolate.NearestNDInterpolator` of the plane and the sphere: a `NearestInterpolator`.
+
+    {scipy}
+
+    Notes
+    -----
+    Exactly the nearest point, of equally near ones the first; `fill_value` is not used.
+
+    Examples
+    --------
+    >>> from stereodel.interpolation import NearestNDInterpolator
+    >>> NearestNDInterpolator([[0, 0], [4, 0], [0, 4]], [1.0, 2.0, 3.0])([[1, 0], [3, 1], [-9, 9]]).tolist()
+    [1.0, 2.0, 3.0]
+    """
+
+    kind = NearestInterpolator
 
 
 def _joined(coordinates: Any, name: str) -> npt.ArrayLike:

@@ -46,7 +46,7 @@ def hand_over(one: Any, what: str, *arguments: Any) -> None:
         stacklevel=3,  # who constructs
     )
     one.__class__ = theirs
-    theirs.__init__(one, *arguments)
+    one.__init__(*arguments)
 
 
 def as_options(qhull_options: Any, incremental: bool) -> frozenset[str]:
