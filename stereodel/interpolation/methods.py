@@ -89,21 +89,31 @@ def griddata(
     >>> print(griddata(stations, celsius, [(9.2, 45.5), (0.0, 0.0)], latitude="geodetic", fill_value=-99).round(2))
     [ 12.8 -99. ]
     """
-    return _Scattered(as_method(method), points, values, fill_value, rescale, latitude)(xi)
+
+    class OfMethod(_Scattered):
+        _kind, _in_space = as_method(method), True
+
+    return OfMethod(points, values, fill_value, rescale=rescale, latitude=latitude)(xi)
 
 
 class _Scattered:
-    """A function as SciPy's, called with places in one array, in a tuple of arrays or in several."""
+    """The interpolator `_kind`, called as SciPy's."""
+
+    _kind: ClassVar[type[Interpolator]]
+    _in_space: ClassVar[bool] = False  # whether directions may have different lengths
 
     def __init__(
         self,
-        kind: type[Interpolator],
         points: npt.ArrayLike | Triangulation,
         values: npt.ArrayLike,
-        fill_value: float,
-        rescale: bool,
-        latitude: Latitude | None,
+        fill_value: float = np.nan,
+        *,
+        rescale: bool = False,
+        latitude: Latitude | None = None,
+        **without_effect: Any,
     ) -> None:
+        if unknown := sorted(without_effect.keys() - _WITHOUT_EFFECT):
+            raise TypeError(f"{unknown[0]} is not an option; known are fill_value, rescale, latitude")
         # A triangulation of SciPy's, whose simplices are rounded, gives its points.
         foreign = not isinstance(points, Triangulation) and hasattr(points, "simplices")
         sites: Any = _joined(getattr(points, "points", None) if foreign else points, "points")
@@ -116,7 +126,13 @@ class _Scattered:
         by_lonlat = latitude is not None and not isinstance(sites, Triangulation)
         named: dict[str, Any] = {"lonlat": sites, "latitude": latitude} if by_lonlat else {}
         self.tri = as_triangulation(None if by_lonlat else sites, **named)
-        self.function = kind(self.tri, values)
+        self.function = self._kind(self.tri, values)
+        far = np.linalg.norm(self.tri.points, axis=1) if self.tri.points.shape[1] == 3 else np.ones(1)
+        if not self._in_space and far.max(initial=0.0) > (1 + 1e-6) * far.min(initial=np.inf):
+            raise ValueError(
+                "points has three columns and rows of different lengths; here they are directions. For points in space "
+                f"use scipy.interpolate.{type(self).__name__}, for directions of any length griddata"
+            )
 
     def __call__(self, *xi: Any) -> FloatArray:
         """Values at places, given as `xi` of `griddata` or coordinate by coordinate."""
@@ -125,69 +141,38 @@ class _Scattered:
             places = (as_floats(places, "xi") - self._origin) / self._size
         asked: dict[str, Any] = {"queries" if self._latitude is None else "lonlat": places}
         found = self.function(**asked)
-        if not isinstance(self.function, NearestInterpolator) and not np.isnan(self.fill_value):
+        if self._kind is not NearestInterpolator and not np.isnan(self.fill_value):
             found[np.asarray(self.tri.find_simplex(**asked)) < 0] = self.fill_value
         return found
 
 
+_WITHOUT_EFFECT: Final = frozenset({"tol", "maxiter", "tree_options"})
 _ABOUT: Final = {
-    "scipy": """
-        Parameters
-        ----------
+    "about": """
         points, values, fill_value, rescale, latitude
-            As for `griddata`; `points` may also be a triangulation of this library or of SciPy, whose points count.
-        **without_effect
-            SciPy's `tol`, `maxiter` and `tree_options`: nothing here iterates, and there is no tree.
+            As for `griddata`; `points` may be a triangulation, too, also one of SciPy's, whose points count. SciPy's
+            `tol`, `maxiter` and `tree_options` have no effect: nothing iterates, and there is no tree.
 
         Attributes
         ----------
         tri : PlanarDelaunay or SphericalDelaunay
         function : Interpolator
-            With `gradient`, `weights` where the values are weighted sums, and options that SciPy does not have.
 
         Raises
         ------
         ValueError, TypeError
-            As `griddata`; for three columns of different lengths, which are directions here and space to SciPy.
+            As `griddata`, and for three columns of different lengths, which are directions here and space to SciPy.
         """
 }
-_WITHOUT_EFFECT: Final = frozenset({"tol", "maxiter", "tree_options"})
-
-
-class _AsInSciPy(_Scattered):
-    kind: ClassVar[type[Interpolator]]
-
-    def __init__(
-        self,
-        points: npt.ArrayLike | Triangulation,
-        values: npt.ArrayLike,
-        fill_value: float = np.nan,
-        *,
-        rescale: bool = False,
-        latitude: Latitude | None = None,
-        **without_effect: Any,
-    ) -> None:
-        name = type(self).__name__
-        if unknown := sorted(without_effect.keys() - _WITHOUT_EFFECT):
-            raise TypeError(f"{name} has no option {unknown[0]!r}; known are fill_value, rescale and latitude")
-        super().__init__(self.kind, points, values, fill_value, rescale, latitude)
-        far = np.linalg.norm(self.tri.points, axis=1)
-        if self.tri.points.shape[1] == 3 and far.max(initial=0.0) > (1 + 1e-6) * far.min(initial=np.inf):
-            raise ValueError(
-                "points has three columns and rows of different lengths; here they are directions. For points in space "
-                f"use scipy.interpolate.{name}, for directions of any length griddata"
-            )
 
 
 @shared(**_ABOUT)
-class LinearNDInterpolator(_AsInSciPy):
-    """`scipy.interpolate.LinearNDInterpolator` of the plane and the sphere: a `LinearInterpolator`.
+class LinearNDInterpolator(_Scattered):
+    """As SciPy's, in the plane and on the sphere: `LinearInterpolator`; the same values where triangles are unique.
 
-    {scipy}
-
-    Notes
-    -----
-    SciPy's values, up to rounding, where the Delaunay triangulation is unique. Complex values are refused.
+    Parameters
+    ----------
+    {about}
 
     Examples
     --------
@@ -197,19 +182,16 @@ class LinearNDInterpolator(_AsInSciPy):
     [5.0, 9.0, -1.0]
     """
 
-    kind = LinearInterpolator
+    _kind = LinearInterpolator
 
 
 @shared(**_ABOUT)
-class CloughTocher2DInterpolator(_AsInSciPy):
-    """In place of `scipy.interpolate.CloughTocher2DInterpolator`: a `SmoothInterpolator`.
+class CloughTocher2DInterpolator(_Scattered):
+    """In place of SciPy's: `SmoothInterpolator`, once differentiable as well but another function, by local fits.
 
-    {scipy}
-
-    Notes
-    -----
-    Once differentiable as well, but another function: gradients come from local quadratic fits where SciPy minimizes
-    curvature, and each triangle is blended from its sides where SciPy's is cut into three cubics.
+    Parameters
+    ----------
+    {about}
 
     Examples
     --------
@@ -219,18 +201,16 @@ class CloughTocher2DInterpolator(_AsInSciPy):
     0.75
     """
 
-    kind = SmoothInterpolator
+    _kind = SmoothInterpolator
 
 
 @shared(**_ABOUT)
-class NearestNDInterpolator(_AsInSciPy):
-    """`scipy.interpolate.NearestNDInterpolator` of the plane and the sphere: a `NearestInterpolator`.
+class NearestNDInterpolator(_Scattered):
+    """As SciPy's, in the plane and on the sphere: `NearestInterpolator`, of equally near points the first.
 
-    {scipy}
-
-    Notes
-    -----
-    Exactly the nearest point, of equally near ones the first; `fill_value` is not used.
+    Parameters
+    ----------
+    {about}
 
     Examples
     --------
@@ -239,7 +219,7 @@ class NearestNDInterpolator(_AsInSciPy):
     [1.0, 2.0, 3.0]
     """
 
-    kind = NearestInterpolator
+    _kind = NearestInterpolator
 
 
 def _joined(coordinates: Any, name: str) -> npt.ArrayLike:
