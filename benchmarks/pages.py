@@ -138,7 +138,7 @@ def kernel(results: Results) -> Blocks:
     plot_sizes(results["sizes"])
     plot_distributions(results["distributions"])
     whole = {"machine": machine, "opening": opening, "engines": taking_part, "missing": missing}
-    parts = {"changes": changes, "derived": derived, "voronoi": diagrams, "conformal maps": conformal_maps}
+    parts = {"changes": changes, "derived": derived, "voronoi": diagrams, "conformal maps": conformal_maps, "gmt": gmt}
     blocks = {name: block(results) for name, block in whole.items()}
     blocks |= {name: block(results[name]) for name, block in parts.items()}
     for space in CONTENDERS:
@@ -316,6 +316,20 @@ def conformal_maps(measured: Results) -> str:
             ratio = f"{digits(middle)} × as long" if part == "directions" else f"{digits(1 / middle)} × as fast"
             rows.append([f"{measured[part]['n']:,}", call, digits(own["seconds"]), "" if middle == 1 else ratio])
     return table(["points", "call", "s", "median of the rounds"], rows, "rlrr")
+
+
+def gmt(measured: Rows) -> str:
+    """Seconds of both, and errors of both where there are some."""
+    rows = []
+    for row in measured:
+        ratios = [f"{digits(row['theirs'] / row['ours'])}×"]
+        pairs = [(row.get(f"theirs {what}"), row.get(f"ours {what}")) for what in ("rms", "max")]
+        errors = [f"{a:.1e}, {b:.1e}" if a else "" for a, b in pairs]
+        rows.append(
+            [f"{row['n']:,}", f"`{row['command']}`", digits(row["theirs"]), digits(row["ours"]), *ratios, *errors]
+        )
+    head = ["points", "GMT's command", "GMT, s", "here, s", "times as fast", "rms errors of GMT, here", "largest"]
+    return table(head, rows, "rlrrrrr") if rows else "GMT is not installed."
 
 
 def taking_part(results: Results) -> str:

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from benchmarks import pages
+from benchmarks import gmt, pages
 from benchmarks.conformal_maps import coastline, conformal_maps
 from benchmarks.derived import derived, graphs, others, queries
 from benchmarks.map_files import measure
-from stereodel import PlanarDelaunay, SphericalDelaunay
+from stereodel import PlanarDelaunay, SphericalDelaunay, lonlat_to_xyz, xyz_to_lonlat
 from tests import sets
 
 UNIT = sets.sphere("unit").drawn(400)
@@ -47,6 +47,35 @@ def test_the_page_tells_it():
     lines = pages.derived(derived(300)).splitlines()
     assert len(lines) == 2 + 12
     assert all(line.count("|") == 6 for line in lines)
+
+
+def test_without_gmt_the_page_says_so(monkeypatch):
+    monkeypatch.setattr(gmt.shutil, "which", lambda name: None)
+    assert pages.gmt(gmt.gmt(10_000)) == "GMT is not installed."
+
+
+@pytest.mark.parametrize("command", gmt.COMMANDS)
+def test_what_is_compared_with_gmt_is_true(command):
+    """Without GMT: the function is interpolated, distances are those of all points, and the page tells it."""
+    lonlat = xyz_to_lonlat(UNIT)
+    found = gmt.ours(command, lonlat)
+    if command in gmt.KINDS:
+        assert np.abs(found - gmt.waves(gmt.GRID)).mean() < 0.1
+    elif command.startswith("sphdistance"):
+        places = gmt.GRID[::30, ::40]
+        cosines = lonlat_to_xyz(places) @ UNIT.T
+        assert np.allclose(found[::30, ::40], np.degrees(np.arccos(cosines.max(axis=-1))), atol=1e-5)
+    else:
+        assert found.shape == (2 * len(UNIT) - 4, 3)
+    row = {"command": command, "n": 400, "ours": 0.5, "theirs": 1.0, "ours rms": 1e-3, "theirs rms": 2e-3}
+    assert f"| 400 | `{command}` | 1 | 0.5 | 2× | 2.0e-03, 1.0e-03 |  |" in pages.gmt([row])
+
+
+@pytest.mark.skipif(not gmt.shutil.which("gmt"), reason="GMT is not installed")
+@pytest.mark.parametrize(("command", "near"), [("sphinterpolate -Qp", 1e-6), ("sphinterpolate -Ql", 0.5)])
+def test_gmt_computes_the_same(command, near):
+    lonlat = xyz_to_lonlat(UNIT)
+    assert np.abs(gmt.theirs(command, lonlat) - gmt.ours(command, lonlat)).max() < near
 
 
 @pytest.mark.thorough
