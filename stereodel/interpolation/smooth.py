@@ -171,14 +171,6 @@ def _lift(number: Number) -> Jet:
     return number if isinstance(number, Jet) else Jet(np.asarray(number), np.zeros(1))
 
 
-def sin_cos(angle: Number) -> tuple[Number, Number]:
-    """Sine and cosine."""
-    if not isinstance(angle, Jet):
-        return np.sin(angle), np.cos(angle)
-    sine, cosine = np.sin(angle.value), np.cos(angle.value)
-    return Jet(sine, cosine * angle.slope), Jet(cosine, -sine * angle.slope)
-
-
 def arctan2(y: Number, x: Number) -> Number:
     """Angle of the vector (x, y)."""
     if not isinstance(y, Jet) and not isinstance(x, Jet):
@@ -250,9 +242,11 @@ def _mix(
     total: Number = 0.0
     divisor: Number = 0.0
     # Each edge from its first corner on; seen from the other end its sign is turned, which rounds nothing.
-    edges = [located.corners[i - 2] - located.corners[i] for i in range(3)]
+    corners = located.corners
+    edges = [corners[i - 2] - corners[i] for i in range(3)]
+    normals = [crossed(corner.rounded, edge) for corner, edge in zip(corners, edges, strict=True) if corner.curved]
     for i in range(3):
-        corner = _Corner(located, i, edges, values, first, gradients)
+        corner = _Corner(located, i, edges, normals, values, first, gradients)
         weight = b[i - 2] * b[i - 1]
         total = total + weight * corner.surface(b[i], b[i - 2], b[i - 1])
         divisor = divisor + weight
@@ -298,10 +292,9 @@ class _Side:
         return cls(length, length, length, (tangent, tangent), np.stack([-tangent[1], tangent[0]]))
 
     @classmethod
-    def curved(cls, start: FloatArray, end: FloatArray, edge: FloatArray) -> _Side:
-        normal = crossed(start, edge)
+    def curved(cls, start: FloatArray, end: FloatArray, edge: FloatArray, normal: FloatArray) -> _Side:
         sine = np.asarray(norm(normal))
-        normal /= sine
+        normal = normal / sine
         cosine = 1.0 + dot(start, edge)
         return cls(np.arctan2(sine, cosine), sine, cosine, (crossed(normal, start), crossed(normal, end)), normal)
 
@@ -314,6 +307,7 @@ class _Corner:
         located: LocatedQueries,
         i: int,
         edges: list[FloatArray],
+        normals: list[FloatArray],
         values: FloatArray,
         first: FloatArray,
         gradients: FloatArray,
@@ -322,7 +316,8 @@ class _Corner:
         self.to_start, self.to_end, edge = edges[i], -edges[i - 1], edges[i - 2]
         if self.curved:
             self.origin, self.foot, end = (located.corners[k].rounded for k in (i, i - 2, i - 1))
-            self.side = _Side.curved(self.foot, end, edge)
+            self.side = _Side.curved(self.foot, end, edge, normals[i - 2])
+            self.turns = normals[i], -normals[i - 1]  # the corner times the vectors to both ends
         else:
             self.side = _Side.straight(edge)
         self.value, self.ends = values[i] - first, (values[i - 2] - first, values[i - 1] - first)
@@ -334,9 +329,8 @@ class _Corner:
         """Values (k, m) where the barycentric coordinates of the corner and of the side's two ends are given."""
         share = b_start + b_end
         rests = b_end / share, b_start / share  # parts of the chord jk before and behind the line
-        turn = self._angle(rests) if self.curved else 0.0
-        parts, length, divisor, (along, across) = self._line(b, share, rests, turn)
-        value, slope_along, slope_across = self._on_side(rests, turn)
+        parts, length, divisor, (along, across) = self._line(b, share, rests)
+        value, slope_along, slope_across = self._on_side(rests)
         start = self._from_corner(rests, [inner(self.gradient, d) for d in (self.to_start, self.to_end)]) / divisor
         end = (slope_along * along + slope_across * across) / divisor
         return hermite((self.value, value), (start, end), parts, length)
@@ -346,7 +340,7 @@ class _Corner:
         """What is linear in the vector from the corner to the chord, from what it is for the chord's two ends."""
         return of_ends[0] * rests[1] + of_ends[1] * rests[0]
 
-    def _line(self, b: Number, share: Number, rests: Pair, turn: Number) -> tuple[Pair, Number, Number, Pair]:
+    def _line(self, b: Number, share: Number, rests: Pair) -> tuple[Pair, Number, Number, Pair]:
         """The line from the corner to Q: the fractions of its length before and behind the query, its length, divisor.
 
         That is of slopes along the vector from the corner to the chord, at the corner, and of the components last
@@ -358,30 +352,30 @@ class _Corner:
             length = norm(self._from_corner(rests, [self.to_start, self.to_end]))
             along = dot(self.to_start, tangent) + rests[0] * self.side.length
             return (share, b), length, length, (along, across)
-        ends = self.to_start, self.to_end
-        sine = norm(self._from_corner(rests, [crossed(self.origin, d) for d in ends]))
-        cosine = 1.0 + self._from_corner(rests, [dot(self.origin, d) for d in ends])
+        sine = norm(self._from_corner(rests, list(self.turns)))
+        cosine = 1.0 + self._from_corner(rests, [dot(self.origin, d) for d in (self.to_start, self.to_end)])
         square = sine * sine + cosine * cosine
         length = arctan2(sine, cosine)
         before = arctan2(share * sine, b + share * cosine)
         behind = arctan2(b * sine, share * square + b * cosine)
-        turn_sine, turn_cosine = sin_cos(turn)
-        along = turn_cosine * (dot(self.to_start, tangent) + rests[0] * self.side.sine) - turn_sine * (
+        x, y = self._on_chord(rests)
+        along = x * (dot(self.to_start, tangent) + y) - y * (
             dot(self.to_start, self.foot) + rests[0] * (self.side.cosine - 1.0)
         )
-        stretch = sqrt(square)
-        return (before / length, behind / length), length, sine, (along * stretch, across * stretch)
+        return (before / length, behind / length), length, sine, (along, across * sqrt(square))
 
-    def _angle(self, rests: Pair) -> Number:
-        """Length along the curved side up to Q, or with the rests exchanged from Q on."""
-        return arctan2(rests[0] * self.side.sine, rests[1] + rests[0] * self.side.cosine)
+    def _on_chord(self, rests: Pair) -> Pair:
+        """Where the line meets the chord jk, along j and across it; with the rests exchanged along k."""
+        return rests[1] + rests[0] * self.side.cosine, rests[0] * self.side.sine
 
-    def _on_side(self, rests: Pair, turn: Number) -> tuple[Number, Number, Number]:
+    def _on_side(self, rests: Pair) -> tuple[Number, Number, Number]:
         """Value, slope along and slope across at Q."""
         side, (first, last) = self.side, self.end_gradients
         parts = rests
         if self.curved:
-            parts = turn / side.length, self._angle(rests[::-1]) / side.length
+            x, y = self._on_chord(rests)
+            u, v = self._on_chord(rests[::-1])
+            parts = arctan2(y, x) / side.length, arctan2(v, u) / side.length
         slopes = inner(first, side.tangents[0]), inner(last, side.tangents[1])
         across = inner(first, side.normal) * parts[1] + inner(last, side.normal) * parts[0]
         return (
