@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import FloatArray, as_choice, as_floats, as_points
-from stereodel._docs import shared
+from stereodel._spaces import SPHERE
 from stereodel.interpolation.interpolator import Interpolator
 from stereodel.interpolation.smooth import SmoothInterpolator
 from stereodel.interpolation.weighted import LinearInterpolator, NaturalNeighborInterpolator, NearestInterpolator
@@ -89,18 +89,15 @@ def griddata(
     >>> print(griddata(stations, celsius, [(9.2, 45.5), (0.0, 0.0)], latitude="geodetic", fill_value=-99).round(2))
     [ 12.8 -99. ]
     """
-
-    class OfMethod(_Scattered):
-        _kind, _in_space = as_method(method), True
-
-    return OfMethod(points, values, fill_value, rescale=rescale, latitude=latitude)(xi)
+    return _as_in_scipy("griddata", as_method(method))(points, values, fill_value, rescale=rescale, latitude=latitude)(
+        xi
+    )
 
 
 class _Scattered:
     """The interpolator `_kind`, called as SciPy's."""
 
     _kind: ClassVar[type[Interpolator]]
-    _in_space: ClassVar[bool] = False  # whether directions may have different lengths
 
     def __init__(
         self,
@@ -110,10 +107,7 @@ class _Scattered:
         *,
         rescale: bool = False,
         latitude: Latitude | None = None,
-        **without_effect: Any,
     ) -> None:
-        if unknown := sorted(without_effect.keys() - _WITHOUT_EFFECT):
-            raise TypeError(f"{unknown[0]} is not an option; known are fill_value, rescale, latitude")
         # A triangulation of SciPy's, whose simplices are rounded, gives its points.
         foreign = not isinstance(points, Triangulation) and hasattr(points, "simplices")
         sites: Any = _joined(getattr(points, "points", None) if foreign else points, "points")
@@ -127,11 +121,12 @@ class _Scattered:
         named: dict[str, Any] = {"lonlat": sites, "latitude": latitude} if by_lonlat else {}
         self.tri = as_triangulation(None if by_lonlat else sites, **named)
         self.function = self._kind(self.tri, values)
-        far = np.linalg.norm(self.tri.points, axis=1) if self.tri.points.shape[1] == 3 else np.ones(1)
-        if not self._in_space and far.max(initial=0.0) > (1 + 1e-6) * far.min(initial=np.inf):
+        name, far = type(self).__name__, np.linalg.norm(self.tri.points, axis=1)
+        curved = self.tri.surface is SPHERE
+        if curved and name != "griddata" and far.max(initial=0.0) > (1 + 1e-6) * far.min(initial=np.inf):
             raise ValueError(
                 "points has three columns and rows of different lengths; here they are directions. For points in space "
-                f"use scipy.interpolate.{type(self).__name__}, for directions of any length griddata"
+                f"use scipy.interpolate.{name}, for directions of any length griddata"
             )
 
     def __call__(self, *xi: Any) -> FloatArray:
@@ -146,80 +141,58 @@ class _Scattered:
         return found
 
 
-_WITHOUT_EFFECT: Final = frozenset({"tol", "maxiter", "tree_options"})
-_ABOUT: Final = {
-    "about": """
-        points, values, fill_value, rescale, latitude
-            As for `griddata`; `points` may be a triangulation, too, also one of SciPy's, whose points count. SciPy's
-            `tol`, `maxiter` and `tree_options` have no effect: nothing iterates, and there is no tree.
+_ABOUT: Final = """As `scipy.interpolate.{name}`, in the plane and on the sphere: a `{kind}`.
 
-        Attributes
-        ----------
-        tri : PlanarDelaunay or SphericalDelaunay
-        function : Interpolator
+Parameters
+----------
+points, values, fill_value, rescale, latitude
+    As for `griddata`; `points` may be a triangulation, too, also one of SciPy's, whose points count.
 
-        Raises
-        ------
-        ValueError, TypeError
-            As `griddata`, and for three columns of different lengths, which are directions here and space to SciPy.
-        """
-}
+Attributes
+----------
+tri : PlanarDelaunay or SphericalDelaunay
+function : Interpolator
 
+Raises
+------
+ValueError, TypeError
+    As `griddata`, and for three columns of different lengths, which are directions here and space to SciPy.
 
-@shared(**_ABOUT)
-class LinearNDInterpolator(_Scattered):
-    """As SciPy's, in the plane and on the sphere: `LinearInterpolator`; the same values where triangles are unique.
+Notes
+-----
+{notes}
 
-    Parameters
-    ----------
-    {about}
-
-    Examples
-    --------
-    >>> from stereodel.interpolation import LinearNDInterpolator
-    >>> plane = LinearNDInterpolator([[0, 0], [4, 0], [0, 4], [4, 4]], [0.0, 4.0, 8.0, 12.0], fill_value=-1)
-    >>> plane([1, 3, 9], [2, 3, 9]).tolist()
-    [5.0, 9.0, -1.0]
-    """
-
-    _kind = LinearInterpolator
+Examples
+--------
+>>> from stereodel.interpolation import {name}
+>>> {name}([[0, 0], [4, 0], [0, 4], [4, 4]], [0.0, 4.0, 8.0, 12.0])([1, 3], [0, 3]).round(9).tolist()
+{found}
+"""
 
 
-@shared(**_ABOUT)
-class CloughTocher2DInterpolator(_Scattered):
-    """In place of SciPy's: `SmoothInterpolator`, once differentiable as well but another function, by local fits.
-
-    Parameters
-    ----------
-    {about}
-
-    Examples
-    --------
-    >>> from stereodel.interpolation import CloughTocher2DInterpolator
-    >>> x, y = np.mgrid[:3, :3].reshape(2, -1).astype(float)
-    >>> CloughTocher2DInterpolator((x, y), x * (2 - x))(0.5, 1.25).round(9).item()
-    0.75
-    """
-
-    _kind = SmoothInterpolator
+def _as_in_scipy(name: str, kind: type[Interpolator], notes: str = "", found: str = "") -> type[_Scattered]:
+    text = _ABOUT.format(name=name, kind=kind.__name__, notes=notes, found=found)
+    return type(name, (_Scattered,), {"__doc__": text, "__module__": __name__, "_kind": kind})
 
 
-@shared(**_ABOUT)
-class NearestNDInterpolator(_Scattered):
-    """As SciPy's, in the plane and on the sphere: `NearestInterpolator`, of equally near points the first.
-
-    Parameters
-    ----------
-    {about}
-
-    Examples
-    --------
-    >>> from stereodel.interpolation import NearestNDInterpolator
-    >>> NearestNDInterpolator([[0, 0], [4, 0], [0, 4]], [1.0, 2.0, 3.0])([[1, 0], [3, 1], [-9, 9]]).tolist()
-    [1.0, 2.0, 3.0]
-    """
-
-    _kind = NearestInterpolator
+LinearNDInterpolator = _as_in_scipy(
+    "LinearNDInterpolator",
+    LinearInterpolator,
+    "SciPy's values, up to rounding, where the Delaunay triangulation is unique.",
+    "[1.0, 9.0]",
+)
+CloughTocher2DInterpolator = _as_in_scipy(
+    "CloughTocher2DInterpolator",
+    SmoothInterpolator,
+    "Once differentiable as well, but another function: gradients come from local fits, without `tol` and `maxiter`.",
+    "[1.0, 9.0]",
+)
+NearestNDInterpolator = _as_in_scipy(
+    "NearestNDInterpolator",
+    NearestInterpolator,
+    "Exactly the nearest point, of equally near ones the first; `fill_value` is not used.",
+    "[0.0, 12.0]",
+)
 
 
 def _joined(coordinates: Any, name: str) -> npt.ArrayLike:
