@@ -8,7 +8,7 @@ from typing import Any, ClassVar, Final, Literal
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import FloatArray, as_choice, as_floats, as_points
+from stereodel._arrays import FloatArray, as_choice, as_floats
 from stereodel._spaces import SPHERE
 from stereodel.interpolation.interpolator import Interpolator
 from stereodel.interpolation.smooth import SmoothInterpolator
@@ -41,7 +41,6 @@ def griddata(
     *,
     method: Method = "linear",
     fill_value: float = np.nan,
-    rescale: bool = False,
     latitude: Latitude | None = None,
 ) -> FloatArray:
     """Values between scattered points in one call, as `scipy.interpolate.griddata`.
@@ -60,8 +59,6 @@ def griddata(
         `LinearInterpolator`, `NearestInterpolator`, `NaturalNeighborInterpolator` or `SmoothInterpolator`.
     fill_value : float, optional
         Value outside all triangles; not used by "nearest".
-    rescale : bool, optional
-        Shift and scale the coordinates of the plane first, x and y apart, so that the points fill a unit square.
     latitude : {"spherical", "geodetic", "authalic"}, optional
         If given, `points` and `xi` are longitude and latitude, with this kind of latitude, as in `lonlat_to_xyz`.
 
@@ -89,9 +86,7 @@ def griddata(
     >>> print(griddata(stations, celsius, [(9.2, 45.5), (0.0, 0.0)], latitude="geodetic", fill_value=-99).round(2))
     [ 12.8 -99. ]
     """
-    return _as_in_scipy("griddata", as_method(method))(points, values, fill_value, rescale=rescale, latitude=latitude)(
-        xi
-    )
+    return _as_in_scipy("griddata", as_method(method))(points, values, fill_value, latitude=latitude)(xi)
 
 
 class _Scattered:
@@ -105,18 +100,12 @@ class _Scattered:
         values: npt.ArrayLike,
         fill_value: float = np.nan,
         *,
-        rescale: bool = False,
         latitude: Latitude | None = None,
     ) -> None:
         # A triangulation of SciPy's, whose simplices are rounded, gives its points.
         foreign = not isinstance(points, Triangulation) and hasattr(points, "simplices")
         sites: Any = _joined(getattr(points, "points", None) if foreign else points, "points")
-        self._origin, self._size = np.zeros(2), np.ones(2)
-        if rescale and len(sites := as_points(sites, 2, hint="rescale=True is for points of the plane")):
-            extent = np.ptp(sites, axis=0)
-            self._origin, self._size = sites.mean(axis=0), np.where(extent > 0, extent, 1.0)
-            sites = (sites - self._origin) / self._size
-        self._rescale, self._latitude, self.fill_value = rescale, latitude, float(fill_value)
+        self._latitude, self.fill_value = latitude, float(fill_value)
         by_lonlat = latitude is not None and not isinstance(sites, Triangulation)
         named: dict[str, Any] = {"lonlat": sites, "latitude": latitude} if by_lonlat else {}
         self.tri = as_triangulation(None if by_lonlat else sites, **named)
@@ -132,8 +121,6 @@ class _Scattered:
     def __call__(self, *xi: Any) -> FloatArray:
         """Values at places, given as `xi` of `griddata` or coordinate by coordinate."""
         places: Any = _joined(xi[0] if len(xi) == 1 else xi, "xi")
-        if self._rescale:
-            places = (as_floats(places, "xi") - self._origin) / self._size
         asked: dict[str, Any] = {"queries" if self._latitude is None else "lonlat": places}
         found = self.function(**asked)
         if self._kind is not NearestInterpolator and not np.isnan(self.fill_value):
@@ -145,7 +132,7 @@ _ABOUT: Final = """As `scipy.interpolate.{name}`, in the plane and on the sphere
 
 Parameters
 ----------
-points, values, fill_value, rescale, latitude
+points, values, fill_value, latitude
     As for `griddata`; `points` may be a triangulation, too, also one of SciPy's, whose points count.
 
 Attributes

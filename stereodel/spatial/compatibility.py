@@ -28,11 +28,9 @@ class InexactWarning(UserWarning):
     --------
     >>> import warnings
     >>> from stereodel.spatial import Delaunay, InexactWarning
-    >>> with warnings.catch_warnings(record=True) as said:
-    ...     warnings.simplefilter("always", InexactWarning)
-    ...     tetrahedra = Delaunay([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
-    >>> tetrahedra.simplices.shape, type(tetrahedra).__module__, [w.category.__name__ for w in said]
-    ((1, 4), 'scipy.spatial._qhull', ['InexactWarning'])
+    >>> with warnings.catch_warnings(action="ignore", category=InexactWarning):
+    ...     Delaunay([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]).simplices.shape
+    (1, 4)
     """
 
 

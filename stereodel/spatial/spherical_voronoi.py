@@ -26,8 +26,6 @@ class ExactOnSphere(scipy.spatial.SphericalVoronoi):
     threshold : float, optional
         How far points may be from the sphere, relative to the radius. There is no limit to how close points may be to
         one another.
-    strict : bool, optional
-        Raise where SciPy does: ValueError for points closer than `threshold`, and for points on one circle.
 
     Attributes
     ----------
@@ -69,8 +67,6 @@ class ExactOnSphere(scipy.spatial.SphericalVoronoi):
         radius: float = 1,
         center: npt.ArrayLike | None = None,
         threshold: float = 1e-06,
-        *,
-        strict: bool = False,
     ) -> None:
         if radius is None:
             raise ValueError("`radius` is `None`. Please provide a floating point number (i.e. `radius=1`).")
@@ -87,10 +83,6 @@ class ExactOnSphere(scipy.spatial.SphericalVoronoi):
         self._diagram = exact.SphericalVoronoi(triangles)
         self._simplices = np.array(triangles.simplices)
         self._set_cells(triangles)
-        if strict and scipy.spatial.KDTree(self.points).query_pairs(threshold * self.radius):
-            raise ValueError("points has rows that are closer than threshold; strict=False gives them cells")
-        if strict and len(self.vertices) < 3:
-            raise ValueError("points has no three rows that are not on one circle; strict=False takes them")
 
     def _refuse_off_sphere(self, directions: FloatArray, threshold: float) -> None:
         distances = np.linalg.norm(directions, axis=1)

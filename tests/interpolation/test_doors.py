@@ -201,20 +201,6 @@ def test_classes_by_scipys_names_are_griddata(name, field):
         assert np.array_equal(ours(triangulation, values)(places), found, equal_nan=True)
 
 
-@pytest.mark.parametrize("name", NAMED)
-def test_axes_of_different_units_are_rescaled(name, field):
-    """Thousands of metres across, hundredths down: other triangles, and those of SciPy."""
-    points, values, places = (each if each.ndim == 1 else each * [2e4, 1e-2] + [3e5, 7] for each in field)
-    plain, scaled = (griddata(points, values, places, method=NAMED[name], rescale=r) for r in (False, True))
-    theirs = getattr(scipy.interpolate, name)(points, values, rescale=True)(places)
-    near = {"CloughTocher2DInterpolator": 2e-2}.get(name, 1e-9)
-    assert np.allclose(scaled, theirs, rtol=0, atol=near, equal_nan=True)
-    assert not np.allclose(scaled, plain, rtol=0, atol=near, equal_nan=True)
-    flat = getattr(stereodel.interpolation, name)([[0, 5], [1, 5], [2, 5]], [1.0, 2.0, 3.0], rescale=True)
-    assert flat.tri.dimension == 1
-    assert np.isnan(getattr(stereodel.interpolation, name)([], [], rescale=True)(1.0, 2.0))
-
-
 def test_classes_by_scipys_names_on_the_sphere(lonlat):
     values = np.cos(np.radians(lonlat[:, 1]))
     function = stereodel.interpolation.LinearNDInterpolator(lonlat, values, latitude="geodetic")
@@ -227,11 +213,6 @@ def test_classes_by_scipys_names_on_the_sphere(lonlat):
     ("options", "error", "message"),
     [
         ({"points": [[1, 0, 0], [0, 2, 0], [0, 0, 3]]}, ValueError, "space.*scipy.interpolate.LinearNDInterpolator"),
-        (
-            {"points": np.eye(3), "rescale": True},
-            ValueError,
-            r"shape \(n, 2\).*rescale=True is for points of the plane",
-        ),
         ({"values": [1j, 0, 0]}, TypeError, "values must hold real numbers"),
     ],
 )

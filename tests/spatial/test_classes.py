@@ -66,8 +66,8 @@ def test_same_signatures(pair):
     names = {n for n in dir(theirs) if not n.startswith("_") and callable(getattr(theirs, n))}
     for name in names:
         assert parameters(getattr(ours, name)) == parameters(getattr(theirs, name)), name
-    *same, strict = parameters(ours.__init__)
-    assert (same, strict) == (parameters(theirs.__init__), ("strict", False, inspect.Parameter.KEYWORD_ONLY))
+    more = [] if ours is stereodel.spatial.SphericalVoronoi else [("strict", False, inspect.Parameter.KEYWORD_ONLY)]
+    assert parameters(ours.__init__) == parameters(theirs.__init__) + more
 
 
 @pytest.mark.parametrize("again", [copy.copy, copy.deepcopy, lambda one: pickle.loads(pickle.dumps(one))])
@@ -167,22 +167,6 @@ def test_what_has_no_triangle_raises_when_asked(name, points):
         getattr(stereodel.spatial, name)(points, strict=True)
     assert getattr(stereodel.spatial, name)(points).npoints == len(points)
     assert getattr(stereodel.spatial, name)([[0, 0], [1, 1], [1, 1.5]], strict=True).npoints == 3
-
-
-@pytest.mark.parametrize(
-    ("points", "message"),
-    [
-        ([[1, 0, 0], [0, 1, 0], [0, 0, 1], [0, 0, 1]], "closer than threshold"),
-        ([[1, 0, 0], [0, 1, 0], [0, 0, 1], [0, 1e-7, 1]], "closer than threshold"),
-        ([[1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0]], "not on one circle"),
-    ],
-)
-def test_what_scipy_refuses_of_a_sphere_raises_when_asked(points, message):
-    for refuses in (scipy.spatial.SphericalVoronoi, lambda p: stereodel.spatial.SphericalVoronoi(p, strict=True)):
-        with pytest.raises(ValueError, match=f"{message}|Duplicate|Rank"):
-            refuses(points)
-    assert len(stereodel.spatial.SphericalVoronoi(points).regions) == 4
-    assert len(stereodel.spatial.SphericalVoronoi(ROUND, strict=True).regions) == 60
 
 
 def test_options_are_a_string():
