@@ -319,17 +319,15 @@ def conformal_maps(measured: Results) -> str:
 
 
 def gmt(measured: Rows) -> str:
-    """Seconds of both, and errors of both where there are some."""
-    rows = []
-    for row in measured:
-        ratios = [f"{digits(row['theirs'] / row['ours'])}×"]
-        pairs = [(row.get(f"theirs {what}"), row.get(f"ours {what}")) for what in ("rms", "max")]
-        errors = [f"{a:.1e}, {b:.1e}" if a else "" for a, b in pairs]
-        rows.append(
-            [f"{row['n']:,}", f"`{row['command']}`", digits(row["theirs"]), digits(row["ours"]), *ratios, *errors]
-        )
-    head = ["points", "GMT's command", "GMT, s", "here, s", "times as fast", "rms errors of GMT, here", "largest"]
-    return table(head, rows, "rlrrrrr") if rows else "GMT is not installed."
+    """Seconds of both, and of interpolation the errors of both, in a table of their own."""
+    rows = [{**row, "ratio": row["theirs"] / row["ours"]} for row in measured]
+    known = [row for row in rows if "ours rms" in row]
+    columns = [("points", "{n:,}"), ("GMT's command", "`{command}`")]
+    times = [("GMT, s", "{theirs:.3g}"), ("here, s", "{ours:.3g}"), ("times as fast", "{ratio:.3g}")]
+    named = [("GMT", "theirs"), ("here", "ours")]
+    errors = [(f"{what} error, {who}", f"{{{whose} {what}:.1e}}") for what in ("rms", "max") for who, whose in named]
+    parts = listed(rows, "rlrrr", *columns, *times), listed(known, "rlrrrr", *columns, *errors)
+    return "\n\n".join(parts) if rows else "GMT is not installed."
 
 
 def taking_part(results: Results) -> str:
