@@ -15,6 +15,7 @@ from benchmarks.conformal_maps import conformal_maps
 from benchmarks.derived import derived
 from benchmarks.distributions import FOR_DIRECTIONS, PLANE, REAL, SPHERE, make
 from benchmarks.engines import HERE, Contender, contenders, stereodel
+from benchmarks.gmt import gmt
 from benchmarks.rounds import SLOW, Entry, Result, take_turns
 from stereodel._arrays import FloatArray
 
@@ -152,5 +153,6 @@ EXPERIMENTS: dict[str, Callable[[int], Records]] = {
     "voronoi": voronoi,
     "derived": derived,
     "conformal maps": conformal_maps,
+    "gmt": gmt,
 }
 RESULTS = HERE / "results.json"

@@ -53,6 +53,7 @@ node_packages() {
 
 echo "Installing the peers into benchmarks/$peers" >&2
 attempt cgal cgal
+attempt gmt ../tools/system_packages.sh gmt
 attempt scipy,triangle python_with python 11 13 scipy==1.17.1 triangle==20250106
 attempt triangular python_with python312 12 13 triangular==0.2.2 numpy
 attempt cartopy python_with cartopy 11 13 cartopy==0.26.0 scipy==1.17.1

@@ -138,7 +138,7 @@ def kernel(results: Results) -> Blocks:
     plot_sizes(results["sizes"])
     plot_distributions(results["distributions"])
     whole = {"machine": machine, "opening": opening, "engines": taking_part, "missing": missing}
-    parts = {"changes": changes, "derived": derived, "voronoi": diagrams, "conformal maps": conformal_maps}
+    parts = {"changes": changes, "derived": derived, "voronoi": diagrams, "conformal maps": conformal_maps, "gmt": gmt}
     blocks = {name: block(results) for name, block in whole.items()}
     blocks |= {name: block(results[name]) for name, block in parts.items()}
     for space in CONTENDERS:
@@ -316,6 +316,18 @@ def conformal_maps(measured: Results) -> str:
             ratio = f"{digits(middle)} × as long" if part == "directions" else f"{digits(1 / middle)} × as fast"
             rows.append([f"{measured[part]['n']:,}", call, digits(own["seconds"]), "" if middle == 1 else ratio])
     return table(["points", "call", "s", "median of the rounds"], rows, "rlrr")
+
+
+def gmt(measured: Rows) -> str:
+    """Seconds of both, and of interpolation the errors of both, in a table of their own."""
+    rows = [{**row, "ratio": row["theirs"] / row["ours"]} for row in measured]
+    known = [row for row in rows if "ours rms" in row]
+    columns = [("points", "{n:,}"), ("GMT's command", "`{command}`")]
+    times = [("GMT, s", "{theirs:.3g}"), ("here, s", "{ours:.3g}"), ("times as fast", "{ratio:.3g}")]
+    named = [("GMT", "theirs"), ("here", "ours")]
+    errors = [(f"{what} error, {who}", f"{{{whose} {what}:.1e}}") for what in ("rms", "max") for who, whose in named]
+    parts = listed(rows, "rlrrr", *columns, *times), listed(known, "rlrrrr", *columns, *errors)
+    return "\n\n".join(parts) if rows else "GMT is not installed."
 
 
 def taking_part(results: Results) -> str:

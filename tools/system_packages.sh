@@ -6,7 +6,7 @@
 #   opengl    libraries that draw without a display: plane figures and all computations work without them
 #   browser   Chromium, for the tests and pictures of the interactive page
 #   librsvg   rsvg-convert, for the tests of SVG files
-#   cgal      CGAL's headers, for the benchmarks
+#   cgal      CGAL's headers, for the benchmarks; gmt for them, too
 set -euo pipefail
 
 # Debian's packages of $1 that are missing here, a line each.
@@ -28,6 +28,7 @@ if sys.base_prefix == "/usr": print("python%d.%d-dev" % sys.version_info[:2])'; 
         browser) # by the names that tools/browser.py knows
             command -v chromium chromium-browser google-chrome-stable google-chrome >/dev/null || echo chromium ;;
         librsvg) command -v rsvg-convert >/dev/null || echo librsvg2-bin ;;
+        gmt) command -v gmt >/dev/null || echo gmt ;;
         cgal) [[ -f /usr/include/CGAL/version.h ]] || echo libcgal-dev ;;
         *) echo "tools/system_packages.sh: there is no $1" >&2; exit 2 ;;
     esac

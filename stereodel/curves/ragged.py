@@ -128,8 +128,8 @@ def offsets_of(sizes: npt.ArrayLike) -> Indices:
 
 def spans(starts: Indices, sizes: Indices, step: Indices | int = 1) -> Indices:
     """The integers start, start + step, … of several ranges, concatenated."""
-    within = np.arange(int(sizes.sum())) - np.repeat(np.cumsum(sizes) - sizes, sizes)
-    return np.repeat(starts, sizes) + within * (step if isinstance(step, int) else np.repeat(step, sizes))
+    origins = np.repeat(starts - (np.cumsum(sizes) - sizes) * step, sizes)
+    return origins + np.arange(len(origins)) * (step if isinstance(step, int) else np.repeat(step, sizes))
 
 
 def cycles(successor: Indices) -> Ragged:

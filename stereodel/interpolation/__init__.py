@@ -2,16 +2,24 @@
 
 from stereodel.interpolation.contours import Contour, contours
 from stereodel.interpolation.gradients import estimate_gradients
-from stereodel.interpolation.methods import griddata
+from stereodel.interpolation.methods import (
+    CloughTocher2DInterpolator,
+    LinearNDInterpolator,
+    NearestNDInterpolator,
+    griddata,
+)
 from stereodel.interpolation.smooth import SmoothInterpolator
 from stereodel.interpolation.weighted import LinearInterpolator, NaturalNeighborInterpolator, NearestInterpolator
 from stereodel.interpolation.weights import Weights
 
 __all__ = [
+    "CloughTocher2DInterpolator",
     "Contour",
     "LinearInterpolator",
+    "LinearNDInterpolator",
     "NaturalNeighborInterpolator",
     "NearestInterpolator",
+    "NearestNDInterpolator",
     "SmoothInterpolator",
     "Weights",
     "contours",

@@ -137,8 +137,9 @@ class _Network:
         # Halves: the difference of two large values of opposite sign may overflow.
         drop = self._values[high] / 2 - level / 2
         fraction = drop / (self._values[high] / 2 - self._values[low] / 2)
-        start = self._places.rounded[high]
-        points = start + fraction[:, None] * self._places.minus(low, self._places, high)
+        begin = self._places.take(high)
+        start = begin.rounded.T
+        points = start + fraction[:, None] * (self._places.take(low) - begin).T
         if self._places.curved:
             points = np.where(fraction[:, None] > 0, points / np.sqrt((points**2).sum(axis=1, keepdims=True)), start)
         return points

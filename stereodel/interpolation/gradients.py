@@ -11,9 +11,8 @@ from stereodel._arrays import AnyIndices, FloatArray
 from stereodel._docs import shared
 from stereodel.constants import UNDETERMINED
 from stereodel.curves.ragged import spans
-from stereodel.interpolation.interpolator import FAMILY, PrecisePoints, as_site_values
-from stereodel.interpolation.located import dot, lengths
-from stereodel.sphere.vectors import crossed
+from stereodel.interpolation.interpolator import FAMILY, PrecisePoints, as_site_values, keep_freed_memory
+from stereodel.interpolation.located import crossed, inner, lengths
 from stereodel.triangulation.delaunay import Triangulation, as_triangulation, state_of
 from stereodel.triangulation.topology import adjacency_of, edges_of
 
@@ -58,126 +57,125 @@ def estimate_gradients(points: npt.ArrayLike | Triangulation, values: npt.ArrayL
     """
     triangulation = as_triangulation(points)
     flat, shape = as_site_values(triangulation, values)
-    gradients = np.moveaxis(fit_gradients(triangulation, flat), 1, 2)
-    return gradients.reshape(len(flat), *shape, triangulation.points.shape[1])
+    gradients = fit_gradients(triangulation, flat, PrecisePoints(triangulation.points))
+    return np.ascontiguousarray(gradients.T).reshape(len(flat), *shape, triangulation.points.shape[1])
 
 
-def fit_gradients(triangulation: Triangulation, values: FloatArray) -> FloatArray:
-    """The same (n, d, k) for values (n, k), one a place."""
-    gradients = np.full((*triangulation.points.shape, values.shape[1]), np.nan)
-    sites = PrecisePoints(triangulation.points)
-    known = ~np.isnan(values)
-    # Columns without values at the same points share the work of the fit.
-    groups = [slice(None)] if known.all() else [slice(k, k + 1) for k in range(values.shape[1])]
+def fit_gradients(triangulation: Triangulation, values: FloatArray, sites: PrecisePoints) -> FloatArray:
+    """The same (d, k, n) for values (n, k), one a place."""
+    size, dimension = triangulation.points.shape
+    fields = np.ascontiguousarray(values.T)
+    gradients = np.full((dimension, len(fields), size), np.nan)
+    keep_freed_memory()
+    known = ~np.isnan(fields)
+    # Fields without values at the same points share the work of the fit.
+    groups = [slice(None)] if known.all() else [slice(k, k + 1) for k in range(len(fields))]
     for block, owners, others in rings_in_blocks(triangulation):
         for columns in groups:
-            usable = known[others, columns].all(axis=1)
-            fitted = _fit(sites, values[:, columns], block, owners[usable], others[usable])
-            gradients[block, :, columns] = fitted
+            usable = slice(None) if known[columns].all() else known[columns, others].all(axis=0)
+            fitted = _fit(sites, fields[columns], block, owners[usable], others[usable])
+            gradients[:, columns, block] = fitted
     dropped, kept = triangulation.duplicates.T
-    gradients[dropped] = gradients[kept]
+    gradients[:, :, dropped] = gradients[:, :, kept]
     return gradients
 
 
 def _fit(
     sites: PrecisePoints, values: FloatArray, block: AnyIndices, owners: AnyIndices, others: AnyIndices
 ) -> FloatArray:
-    """Gradients (b, d, k) at the points `block`; pairs of a place in it, sorted, and one of its neighbours."""
-    axes = _axes(sites, block)
-    gradients = np.full((len(block), axes.shape[2], values.shape[1]), np.nan)
+    """Gradients (d, k, b) at the points `block`; pairs of a place in it, sorted, and one of its neighbours."""
+    gradients = np.full((len(sites.rounded), len(values), len(block)), np.nan)
     if len(owners) == 0:
         return gradients
     # Pairs are sorted by owner: sums over an owner's neighbours run from its start to the next.
-    starts = np.flatnonzero(np.diff(owners, prepend=-1))
-    fitted = owners[starts]
-    columns, weights, unit = _columns(sites, block, owners, others, axes, starts)
-    rises = (values[others] - values[block[owners]]).T * weights
-    slopes = _solve(*_normal_equations(columns, np.ascontiguousarray(rises), starts))[:, :2]
+    starts = np.flatnonzero(np.concatenate([[True], owners[1:] != owners[:-1]]))
+    fitted, counts = owners[starts], np.diff(starts, append=len(owners))
+    here = sites.take(block[fitted])
+    axes = _axes(here)
+    differences = sites.take(others) - here.take(np.repeat(np.arange(len(fitted)), counts))
+    columns, weights, unit = _columns(differences, axes, starts, counts)
+    rises = (values.take(others, axis=1) - np.repeat(values.take(block[fitted], axis=1), counts, axis=1)) * weights
+    slopes = _solve(*_normal_equations(columns, rises, starts))[:2]
     # The first two unknowns are the slopes along the axes, per unit of length of each point.
     with np.errstate(over="ignore", invalid="ignore"):
-        gradients[fitted] = np.einsum("bij,bik->bjk", axes[fitted], slopes / unit[:, None, None])
+        one, other = slopes / unit
+        gradients[:, :, fitted] = axes[0][:, None] * one + axes[1][:, None] * other
     return gradients
 
 
 def _normal_equations(columns: FloatArray, rises: FloatArray, starts: AnyIndices) -> tuple[FloatArray, FloatArray]:
-    """Systems (b, 5, 5) and right sides (b, 5, k) of columns (5, p) and (k, p), summed from each start to the next."""
-    normal = np.empty((len(starts), _UNKNOWNS, _UNKNOWNS))
-    right = np.empty((len(starts), _UNKNOWNS, len(rises)))
+    """Systems (5, 5, b) and right sides (5, k, b) of columns (5, p) and (k, p), summed from each start to the next."""
+    normal = np.empty((_UNKNOWNS, _UNKNOWNS, len(starts)))
+    right = np.empty((_UNKNOWNS, len(rises), len(starts)))
     for i, column in enumerate(columns):
         for j in range(i + 1):
-            normal[:, i, j] = normal[:, j, i] = np.add.reduceat(column * columns[j], starts)
+            normal[i, j] = normal[j, i] = np.add.reduceat(column * columns[j], starts)
         for j, rise in enumerate(rises):
-            right[:, i, j] = np.add.reduceat(column * rise, starts)
+            right[i, j] = np.add.reduceat(column * rise, starts)
     return normal, right
 
 
 def _columns(
-    sites: PrecisePoints,
-    block: AnyIndices,
-    owners: AnyIndices,
-    others: AnyIndices,
-    axes: FloatArray,
-    starts: AnyIndices,
+    differences: FloatArray, axes: FloatArray, starts: AnyIndices, counts: AnyIndices
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Weighted ξ, η, |d|², ξ² − η², 2ξη of each pair (5, p), its weight, and the unit of length of each point."""
     # The unit u is the distance of the third neighbour. Weights are smaller by (u/r)² where r is longer; so columns are
     # made of d/max(u, r), which is one at most, however much longer the longest distance is.
-    differences = sites.minus(others, sites, block[owners])
-    size = lengths(differences)[:, 0]
-    counts = np.diff(starts, append=len(owners))
-    unit = _third_least(size, owners, starts)
+    size = lengths(differences)[0]
+    unit = _third_least(size, starts, counts)
     of_pair = np.repeat(unit, counts)
     longer = np.maximum(size, of_pair)
     # (1 − r/R)², R a tenth beyond the farthest: the weight without its 1/r², which (u/max(u, r))² replaces below.
     share = (1.0 - size / np.repeat(1.1 * np.maximum.reduceat(size, starts), counts)) ** 2
     # Coordinates along the axes of the owner, of d over max(u, r).
     nearer = of_pair / longer
-    xi, eta = np.einsum("pij,pj->ip", axes[owners], differences / longer[:, None])
+    differences /= longer
+    xi, eta = (inner(np.repeat(axis, counts, axis=1), differences) for axis in axes)
     r = size / longer
     columns = np.stack([xi * nearer, eta * nearer, r * r, xi * xi - eta * eta, 2.0 * xi * eta])
     return columns * share, share * nearer * nearer, unit
 
 
-def _third_least(size: FloatArray, owners: AnyIndices, starts: AnyIndices) -> FloatArray:
+def _third_least(size: FloatArray, starts: AnyIndices, counts: AnyIndices) -> FloatArray:
     """The third smallest length of each owner, equal lengths counted separately; the largest if fewer than three."""
     # Twice, one smallest of the remaining lengths is set aside; the smallest of the rest is the third.
-    rest, counts = size.copy(), np.diff(starts, append=len(owners))
+    rest, owners = size.copy(), np.repeat(np.arange(len(starts)), counts)
     for _ in range(2):
         least = np.flatnonzero(rest == np.repeat(np.minimum.reduceat(rest, starts), counts))
         rest[least[np.flatnonzero(np.diff(owners[least], prepend=-1))]] = np.inf
     return np.minimum(np.minimum.reduceat(rest, starts), np.maximum.reduceat(size, starts))
 
 
-def _axes(sites: PrecisePoints, block: AnyIndices) -> FloatArray:
-    """Two unit vectors of the tangent plane at each point, (b, 2, d)."""
-    if not sites.curved:
-        return np.broadcast_to(np.eye(2), (len(block), 2, 2))
-    up = sites.rounded[block]
-    first = crossed(np.eye(3)[np.abs(up).argmin(axis=1)], up)
-    first /= np.sqrt(dot(first, first))
-    return np.stack([first, crossed(up, first)], axis=1)
+def _axes(places: PrecisePoints) -> FloatArray:
+    """Two unit vectors of the tangent plane at each point, (2, d, b)."""
+    up = places.rounded
+    if not places.curved:
+        return np.broadcast_to(np.eye(2)[:, :, None], (2, *up.shape))
+    first = crossed(np.eye(3)[:, np.abs(up).argmin(axis=0)], up)
+    first /= np.sqrt(inner(first, first))
+    return np.stack([first, crossed(up, first)])
 
 
 def _solve(normal: FloatArray, right: FloatArray) -> FloatArray:
-    """Solve symmetric systems (b, 5, 5) by elimination in order; unknowns that are not determined are zero."""
+    """Solve symmetric systems (5, 5, b) by elimination in order; unknowns that are not determined are zero."""
     # A pivot is the part of a column's square that the columns before it do not explain.
-    squares = np.einsum("bii->bi", normal).copy()
-    matrix = np.concatenate([normal, right], axis=2)
-    inverse = np.zeros((len(normal), _UNKNOWNS))
+    squares = np.einsum("iib->ib", normal).copy()
+    matrix = np.concatenate([normal, right], axis=1)
+    inverse = np.zeros_like(squares)
     for i in range(_UNKNOWNS):
-        determined = matrix[:, i, i] > UNDETERMINED * squares[:, i]
-        np.divide(1.0, matrix[:, i, i], out=inverse[:, i], where=determined)
-        factors = matrix[:, i + 1 :, i] * inverse[:, i, None]
-        matrix[:, i + 1 :] -= factors[:, :, None] * matrix[:, None, i]
-    solution = matrix[:, :, _UNKNOWNS:]
+        determined = matrix[i, i] > UNDETERMINED * squares[i]
+        np.divide(1.0, matrix[i, i], out=inverse[i], where=determined)
+        factors = matrix[i + 1 :, i] * inverse[i]
+        matrix[i + 1 :] -= factors[:, None] * matrix[i]
+    solution = matrix[:, _UNKNOWNS:]
     for i in reversed(range(_UNKNOWNS)):
-        known = np.einsum("bj,bjk->bk", matrix[:, i, i + 1 : _UNKNOWNS], solution[:, i + 1 :])
-        solution[:, i] = (solution[:, i] - known) * inverse[:, i, None]
+        known = np.einsum("jb,jkb->kb", matrix[i, i + 1 : _UNKNOWNS], solution[i + 1 :])
+        solution[i] = (solution[i] - known) * inverse[i]
     return solution
 
 
-BLOCK = 4096
-"""Points in a block, with about 80 000 neighbours of neighbours."""
+BLOCK = 1024
+"""Points in a block: numbers of their 20 000 neighbours of neighbours stay in the second-level cache."""
 
 
 def rings_in_blocks(triangulation: Triangulation) -> Iterator[tuple[AnyIndices, AnyIndices, AnyIndices]]:
@@ -187,21 +185,28 @@ def rings_in_blocks(triangulation: Triangulation) -> Iterator[tuple[AnyIndices, 
     """
     simplices = triangulation.simplices[state_of(triangulation).open]
     size = len(triangulation.points)
-    used = np.unique(simplices)
     indptr, ends = adjacency_of(edges_of(simplices), size)
     starts, counts = indptr[:-1].astype(np.int64), np.diff(indptr)
-
-    def around(points: AnyIndices) -> tuple[AnyIndices, AnyIndices]:
-        """Pairs of a place in `points` and a point that an edge joins to the point there."""
-        number = counts[points]
-        return np.repeat(np.arange(len(points)), number), ends[spans(starts[points], number)].astype(np.int64)
+    # A pair is one number, place and neighbour, so that sorting finds what comes twice; a short one if that is enough.
+    bits = size.bit_length()
+    kind = np.int32 if BLOCK << bits < 2**31 else np.int64
+    ends = ends.astype(kind)
+    # In the order of their first triangles, which lie near one another: so do the neighbours, in memory as well.
+    earliest = np.empty(size, dtype=np.int32)
+    earliest[simplices.ravel()[::-1]] = np.arange(simplices.size, dtype=np.int32)[::-1]
+    used = np.flatnonzero(counts)
+    used = used[np.argsort(earliest[used])]
 
     for first in range(0, len(used), BLOCK):
         points = used[first : first + BLOCK]
-        owners, ring = around(points)
-        places, second = around(ring)
-        # A pair is one number, owner · size + neighbour, so that sorting finds what both rings have twice.
-        pairs = np.sort(np.concatenate([owners * size + ring, owners[places] * size + second]))
-        owners, others = np.divmod(pairs[np.diff(pairs, prepend=-1) > 0], size)
-        apart = others != points[owners]
-        yield points, owners[apart], others[apart]
+        number = counts[points]
+        ring = ends[spans(starts[points], number)]
+        further = counts[ring]
+        # The ring of the ring, which holds the ring, as each of its points is in a triangle with another.
+        own: AnyIndices = np.arange(len(points), dtype=kind)
+        places = np.repeat(np.repeat(own << bits, number), further)
+        pairs = np.sort(places | ends[spans(starts[ring], further)])
+        pairs = pairs.take(np.flatnonzero(np.concatenate([[True], pairs[1:] != pairs[:-1]])))
+        owners, others = pairs >> bits, pairs & ((1 << bits) - 1)
+        apart = np.flatnonzero(others != points.take(owners))
+        yield points, owners.take(apart), others.take(apart)

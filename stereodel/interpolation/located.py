@@ -10,77 +10,95 @@ import numpy as np
 
 from stereodel import _double_double as double_double
 from stereodel._arrays import AnyIndices, FloatArray
-from stereodel._double_double import DoubleDouble, scaled
+from stereodel._double_double import DoubleDouble
 from stereodel.constants import NEEDLE, PLAIN_SQUARES, THIN_TRIANGLE
 from stereodel.interpolation.interpolator import PrecisePoints
-from stereodel.sphere.vectors import crossed
 
 
 def cross2(a: FloatArray, b: FloatArray) -> FloatArray:
-    """Third component of the product a × b of vectors (..., 2)."""
-    return a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
+    """Third component of the product a × b of vectors (2, ...)."""
+    return a[0] * b[1] - a[1] * b[0]
+
+
+def crossed(a: FloatArray, b: FloatArray) -> FloatArray:
+    """Cross products of vectors (3, ...)."""
+    product = np.empty_like(a)
+    for row, (i, j) in zip(product, ((1, 2), (2, 0), (0, 1)), strict=True):
+        np.subtract(a[i] * b[j], a[j] * b[i], out=row)
+    return product
+
+
+def inner(a: FloatArray, b: FloatArray) -> FloatArray:
+    """Inner product along the first axis, of two or three components."""
+    first = a[0] * b[0] + a[2] * b[2] if len(a) == 3 else a[0] * b[0]
+    return np.asarray(first + a[1] * b[1])
 
 
 def dot(a: FloatArray, b: FloatArray) -> FloatArray:
-    """Inner product along the last axis, which is kept."""
-    return np.einsum("...i,...i->...", a, b)[..., None]
+    """The same, with the axis kept."""
+    return inner(a, b)[None]
 
 
 def lengths(vectors: FloatArray) -> FloatArray:
-    """Lengths along the last axis, which is kept, also where squares would overflow or underflow."""
+    """Lengths (1, m) of vectors (d, m), also where squares would overflow or underflow."""
     with np.errstate(over="ignore"):
-        plain = np.sqrt(np.sum(np.square(vectors), axis=-1, keepdims=True))
+        plain = np.sqrt(np.sum(np.square(vectors), axis=0, keepdims=True))
     least, largest = PLAIN_SQUARES
-    rows = np.nonzero(~((plain > least) & (plain < largest))[..., 0])
-    if len(rows[0]):
-        odd, exponent = scaled(vectors[rows])
-        root, half = np.sqrt(np.sum(np.square(odd), axis=-1)), exponent // 2
-        plain[rows] = np.ldexp(np.ldexp(root, half), exponent - half)[:, None]
+    odd_ones = np.flatnonzero(~((plain > least) & (plain < largest)))
+    if len(odd_ones):
+        odd = vectors[:, odd_ones]
+        exponent = np.frexp(np.abs(odd).max(axis=0))[1]
+        odd = np.ldexp(np.ldexp(odd, -(exponent // 2)), exponent // 2 - exponent)  # 2¹⁰⁷⁴ itself overflows
+        root = np.sqrt(np.sum(np.square(odd), axis=0))
+        plain[0, odd_ones] = np.ldexp(np.ldexp(root, exponent // 2), exponent - exponent // 2)
     return plain
 
 
 class LocatedQueries:
-    """Queries (m, 2), each with the corners (m, 3) of the triangle that contains it, counterclockwise."""
+    """Queries (m, d), each with the corners (m, 3) of the triangle that contains it, counterclockwise.
+
+    All that is computed has components first, and queries last.
+    """
 
     def __init__(self, sites: PrecisePoints, corners: AnyIndices, queries: FloatArray) -> None:
-        self.sites, self.corners = sites, corners
+        self.sites, self.numbers = sites, np.ascontiguousarray(corners.T, dtype=np.intp)
         self.given, self.queries = queries, PrecisePoints(queries)
-
-    def offsets(self) -> list[FloatArray]:
-        """Corners less queries, three arrays (m, d), one for each corner."""
-        rows = np.arange(len(self.corners))
-        return [self.sites.minus(self.corners[:, k], self.queries, rows) for k in range(3)]
+        self.corners = [sites.take(numbers) for numbers in self.numbers]
 
     def weights(self) -> FloatArray:
-        """Barycentric coordinates (m, 3): not negative, of sum one."""
+        """Barycentric coordinates (3, m): not negative, of sum one."""
         # From differences scaled by a power of two, so that the largest component is between 1/2 and 1. A sum below
         # THIN_TRIANGLE, twice the area of a thin triangle, is computed again in double-double; what cancels even there
         # leaves the nearest corner.
-        offsets = np.stack(self.offsets(), axis=1)
-        exponent = np.frexp(np.abs(offsets).max(axis=(1, 2), initial=0.0))[1]
-        weights = _areas([np.ldexp(offsets[:, k], -exponent[:, None]) for k in range(3)], self._up())
-        total = weights.sum(axis=1)
+        offsets = np.stack([corner - self.queries for corner in self.corners])
+        exponent = np.frexp(np.abs(offsets).max(axis=(0, 1), initial=0.0))[1]
+        weights = _areas(np.ldexp(offsets, -exponent), self._up())
+        total = weights[0] + weights[1] + weights[2]
         thin = np.flatnonzero(~(total > THIN_TRIANGLE))
         if len(thin):
-            weights[thin] = self._weights_of_thin(thin, exponent[thin], offsets[thin])
-            total = weights.sum(axis=1)
-        return weights / total[:, None]
+            weights[:, thin] = self._weights_of_thin(thin, exponent[thin], offsets[:, :, thin])
+            total = weights[0] + weights[1] + weights[2]
+        return weights / total
 
     def _up(self) -> FloatArray | None:
         return self.queries.rounded if self.queries.curved else None
 
-    def _weights_of_thin(self, rows: AnyIndices, exponent: AnyIndices, offsets: FloatArray) -> FloatArray:
-        queries, sites, shift = self.queries.exact[rows], self.sites.exact, -exponent[:, None]
-        exact = [sites[self.corners[rows, k]] - queries for k in range(3)]
+    def _weights_of_thin(self, columns: AnyIndices, exponent: AnyIndices, offsets: FloatArray) -> FloatArray:
+        def rows(points: PrecisePoints) -> DoubleDouble:
+            some = points.take(columns).exact
+            return DoubleDouble(some.hi.T, some.lo.T if points.curved else None)
+
+        queries, shift = rows(self.queries), -exponent[:, None]
+        exact = [rows(corner) - queries for corner in self.corners]
         scaled = [DoubleDouble(np.ldexp(d.hi, shift), np.ldexp(d.lo, shift)) for d in exact]
         weights = _areas_twice(scaled, queries if self.queries.curved else None)
-        lost = ~(weights.sum(axis=1) > 0)
-        nearest = np.abs(offsets[lost]).max(axis=2).argmin(axis=1)
-        weights[lost] = np.eye(3)[nearest]
+        lost = ~(weights.sum(axis=0) > 0)
+        nearest = np.abs(offsets[:, :, lost]).max(axis=1).argmin(axis=0)
+        weights[:, lost] = np.eye(3)[nearest].T
         return weights
 
     def slope(self, derivatives: list[FloatArray]) -> FloatArray:
-        """Gradient (m, d, k) of a function of the barycentric coordinates, from its derivatives by each, three (m, k).
+        """Gradient (d, k, m) of a function of the barycentric coordinates, from its derivatives by each, three (k, m).
 
         These are as if the coordinates were independent; only differences count, as their sum is one. With edges d, e
         from the first corner and N = d × e the function has the slope G = (f_d e×N + f_e N×d) / N² in the plane of the
@@ -88,32 +106,32 @@ class LocatedQueries:
         (G·q)/(q·N)), a tangent vector. Where the side opposite the first corner is by far the shortest, d and e are
         nearly the same; the corner opposite the longest side takes its part.
         """
-        a = self.corners[:, 0]
-        d, e = (self.sites.minus(self.corners[:, k], self.sites, a) for k in (1, 2))
+        a, *others = self.corners
+        d, e = (other - a for other in others)
         first, second = derivatives[1] - derivatives[0], derivatives[2] - derivatives[0]
-        size = np.frexp(np.maximum(np.abs(d).max(axis=1), np.abs(e).max(axis=1)))[1][:, None]
+        size = np.frexp(np.maximum(np.abs(d).max(axis=0), np.abs(e).max(axis=0)))[1]
         d, e = np.ldexp(d, -size), np.ldexp(e, -size)
-        needles = np.flatnonzero(np.abs(e - d).max(axis=1) < NEEDLE)
+        needles = np.flatnonzero(np.abs(e - d).max(axis=0) < NEEDLE)
         up = self._up()
         if up is None:
-            area = cross2(d, e)[:, None]
-            across = np.stack([e[:, 1], -e[:, 0]], axis=1) / area, np.stack([-d[:, 1], d[:, 0]], axis=1) / area
+            area = cross2(d, e)
+            across = np.stack([e[1], -e[0]]) / area, np.stack([-d[1], d[0]]) / area
         else:
             normal = crossed(d, e)
             normal /= lengths(normal)
             area = dot(normal, crossed(d, e))
             depth = dot(normal, up)
-            reach = dot(normal, self.sites.rounded[a]) / depth / area
+            reach = dot(normal, a.rounded) / depth / area
             one, other = crossed(e, normal), crossed(normal, d)
             across = reach * _tangent(one, normal, up, depth), reach * _tangent(other, normal, up, depth)
-        by_first, by_second = (np.ldexp(g, -size)[:, :, None] for g in across)
-        result = np.asarray(by_first * first[:, None, :] + by_second * second[:, None, :])
+        by_first, by_second = (np.ldexp(g, -size)[:, None] for g in across)
+        result = np.asarray(by_first * first + by_second * second)
         if len(needles):
-            longer = np.abs(d[needles]).max(axis=1) > np.abs(e[needles]).max(axis=1)
-            order = (np.where(longer, 2, 1)[:, None] + np.arange(3)) % 3
-            corners = np.take_along_axis(self.corners[needles], order, axis=1)
-            by = np.take_along_axis(np.stack(derivatives, axis=1)[needles], order[:, :, None], axis=1)
-            result[needles] = LocatedQueries(self.sites, corners, self.given[needles]).slope(list(by.swapaxes(0, 1)))
+            longer = np.abs(d[:, needles]).max(axis=0) > np.abs(e[:, needles]).max(axis=0)
+            order = (np.where(longer, 2, 1) + np.arange(3)[:, None]) % 3
+            corners = np.take_along_axis(self.numbers[:, needles], order, axis=0)
+            by = np.take_along_axis(np.stack(derivatives)[:, :, needles], order[:, None], axis=0)
+            result[:, :, needles] = LocatedQueries(self.sites, corners.T, self.given[needles]).slope(list(by))
         return result
 
 
@@ -121,18 +139,18 @@ def _tangent(slope: FloatArray, normal: FloatArray, up: FloatArray, depth: Float
     return slope - normal * (dot(slope, up) / depth)
 
 
-def _areas(offsets: list[FloatArray], up: FloatArray | None) -> FloatArray:
-    """Twice the areas of query and opposite edge, (m, 3), as seen along `up`; rounding below zero is cut off."""
+def _areas(offsets: FloatArray, up: FloatArray | None) -> FloatArray:
+    """Twice the areas of query and opposite edge, (3, m), as seen along `up`; rounding below zero is cut off."""
     pairs = [(offsets[k - 2], offsets[k - 1]) for k in range(3)]
-    areas = [cross2(b, c) if up is None else dot(up, crossed(b, c))[:, 0] for b, c in pairs]
-    return np.maximum(np.stack(areas, axis=1), 0.0)
+    areas = [cross2(b, c) if up is None else inner(up, crossed(b, c)) for b, c in pairs]
+    return np.maximum(np.stack(areas), 0.0)
 
 
 def _areas_twice(offsets: list[DoubleDouble], up: DoubleDouble | None) -> FloatArray:
-    """The same in double-double, rounded at the end."""
+    """The same in double-double, rounded at the end, of offsets (m, d)."""
     pairs = [(offsets[k - 2], offsets[k - 1]) for k in range(3)]
     if up is None:
         areas = [(b[:, 0] * c[:, 1] - b[:, 1] * c[:, 0]).hi for b, c in pairs]
     else:
         areas = [double_double.dot(double_double.cross(b, c), up).hi for b, c in pairs]
-    return np.maximum(np.stack(areas, axis=1), 0.0)
+    return np.maximum(np.stack(areas), 0.0)

@@ -1,19 +1,20 @@
-"""Interpolators by name, and interpolation in one call."""
+"""Interpolators by name, interpolation in one call, and the classes that SciPy has for both."""
 
 from __future__ import annotations
 
 from types import MappingProxyType
-from typing import Any, Final, Literal
+from typing import Any, ClassVar, Final, Literal
 
 import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import FloatArray, as_choice, as_floats
+from stereodel._spaces import SPHERE
 from stereodel.interpolation.interpolator import Interpolator
 from stereodel.interpolation.smooth import SmoothInterpolator
 from stereodel.interpolation.weighted import LinearInterpolator, NaturalNeighborInterpolator, NearestInterpolator
 from stereodel.sphere.latitudes import Latitude
-from stereodel.triangulation.delaunay import as_triangulation
+from stereodel.triangulation.delaunay import Triangulation, as_triangulation
 
 Method = Literal["nearest", "linear", "natural", "smooth"]
 
@@ -85,17 +86,100 @@ def griddata(
     >>> print(griddata(stations, celsius, [(9.2, 45.5), (0.0, 0.0)], latitude="geodetic", fill_value=-99).round(2))
     [ 12.8 -99. ]
     """
-    kind = as_method(method)
-    sites, places = _joined(points, "points"), _joined(xi, "xi")
-    triangulation = (
-        as_triangulation(sites) if latitude is None else as_triangulation(None, lonlat=sites, latitude=latitude)
-    )
-    function = kind(triangulation, values)
-    found = function(places) if latitude is None else function(lonlat=places)
-    if kind is not NearestInterpolator and not np.isnan(fill := float(fill_value)):
-        inside = triangulation.find_simplex(places) if latitude is None else triangulation.find_simplex(lonlat=places)
-        found[np.asarray(inside) < 0] = fill
-    return found
+    return _as_in_scipy("griddata", as_method(method))(points, values, fill_value, latitude=latitude)(xi)
+
+
+class _Scattered:
+    """The interpolator `_kind`, called as SciPy's."""
+
+    _kind: ClassVar[type[Interpolator]]
+
+    def __init__(
+        self,
+        points: npt.ArrayLike | Triangulation,
+        values: npt.ArrayLike,
+        fill_value: float = np.nan,
+        *,
+        latitude: Latitude | None = None,
+    ) -> None:
+        # A triangulation of SciPy's, whose simplices are rounded, gives its points.
+        foreign = not isinstance(points, Triangulation) and hasattr(points, "simplices")
+        sites: Any = _joined(getattr(points, "points", None) if foreign else points, "points")
+        self._latitude, self.fill_value = latitude, float(fill_value)
+        by_lonlat = latitude is not None and not isinstance(sites, Triangulation)
+        named: dict[str, Any] = {"lonlat": sites, "latitude": latitude} if by_lonlat else {}
+        self.tri = as_triangulation(None if by_lonlat else sites, **named)
+        self.function = self._kind(self.tri, values)
+        name, far = type(self).__name__, np.linalg.norm(self.tri.points, axis=1)
+        curved = self.tri.surface is SPHERE
+        if curved and name != "griddata" and far.max(initial=0.0) > (1 + 1e-6) * far.min(initial=np.inf):
+            raise ValueError(
+                "points has three columns and rows of different lengths; here they are directions. For points in space "
+                f"use scipy.interpolate.{name}, for directions of any length griddata"
+            )
+
+    def __call__(self, *xi: Any) -> FloatArray:
+        """Values at places, given as `xi` of `griddata` or coordinate by coordinate."""
+        places: Any = _joined(xi[0] if len(xi) == 1 else xi, "xi")
+        asked: dict[str, Any] = {"queries" if self._latitude is None else "lonlat": places}
+        found = self.function(**asked)
+        if self._kind is not NearestInterpolator and not np.isnan(self.fill_value):
+            found[np.asarray(self.tri.find_simplex(**asked)) < 0] = self.fill_value
+        return found
+
+
+_ABOUT: Final = """As `scipy.interpolate.{name}`, in the plane and on the sphere: a `{kind}`.
+
+Parameters
+----------
+points, values, fill_value, latitude
+    As for `griddata`; `points` may be a triangulation, too, also one of SciPy's, whose points count.
+
+Attributes
+----------
+tri : PlanarDelaunay or SphericalDelaunay
+function : Interpolator
+
+Raises
+------
+ValueError, TypeError
+    As `griddata`, and for three columns of different lengths, which are directions here and space to SciPy.
+
+Notes
+-----
+{notes}
+
+Examples
+--------
+>>> from stereodel.interpolation import {name}
+>>> {name}([[0, 0], [4, 0], [0, 4], [4, 4]], [0.0, 4.0, 8.0, 12.0])([1, 3], [0, 3]).round(9).tolist()
+{found}
+"""
+
+
+def _as_in_scipy(name: str, kind: type[Interpolator], notes: str = "", found: str = "") -> type[_Scattered]:
+    text = _ABOUT.format(name=name, kind=kind.__name__, notes=notes, found=found)
+    return type(name, (_Scattered,), {"__doc__": text, "__module__": __name__, "_kind": kind})
+
+
+LinearNDInterpolator = _as_in_scipy(
+    "LinearNDInterpolator",
+    LinearInterpolator,
+    "SciPy's values, up to rounding, where the Delaunay triangulation is unique.",
+    "[1.0, 9.0]",
+)
+CloughTocher2DInterpolator = _as_in_scipy(
+    "CloughTocher2DInterpolator",
+    SmoothInterpolator,
+    "Once differentiable as well, but another function: gradients come from local fits, without `tol` and `maxiter`.",
+    "[1.0, 9.0]",
+)
+NearestNDInterpolator = _as_in_scipy(
+    "NearestNDInterpolator",
+    NearestInterpolator,
+    "Exactly the nearest point, of equally near ones the first; `fill_value` is not used.",
+    "[0.0, 12.0]",
+)
 
 
 def _joined(coordinates: Any, name: str) -> npt.ArrayLike:

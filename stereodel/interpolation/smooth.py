@@ -25,8 +25,7 @@ from stereodel._docs import shared
 from stereodel.constants import LEAST_WEIGHT
 from stereodel.interpolation.gradients import fit_gradients
 from stereodel.interpolation.interpolator import FAMILY, TriangleInterpolator, one_value_a_place
-from stereodel.interpolation.located import LocatedQueries, dot, lengths
-from stereodel.sphere.vectors import crossed
+from stereodel.interpolation.located import LocatedQueries, crossed, dot, inner, lengths
 from stereodel.triangulation.delaunay import Triangulation
 
 
@@ -83,39 +82,44 @@ class SmoothInterpolator(TriangleInterpolator):
         extrapolate: str | None = None,
     ) -> None:
         super().__init__(points, values, extrapolate=extrapolate)
-        slopes = fit_gradients(self.triangulation, self._values) if gradients is None else self._given(gradients)
-        self._gradients = locked(slopes)
-        shaped = np.moveaxis(slopes, 1, 2).reshape(*self.values.shape, slopes.shape[1])
-        self.gradients = locked(np.ascontiguousarray(shaped))
+        self._fields = np.ascontiguousarray(self._values.T)
+        self._slopes = (
+            fit_gradients(self.triangulation, self._values, self._sites)
+            if gradients is None
+            else self._given(gradients)
+        )
+        rows = np.ascontiguousarray(self._slopes.T)
+        self.gradients = locked(rows.reshape(*self.values.shape, len(self._slopes)))
 
     def _given(self, gradients: npt.ArrayLike) -> FloatArray:
-        """Checked gradients (n, d, k), tangent, one a place."""
+        """Checked gradients (d, k, n), tangent, one a place."""
         size, dimension = self.triangulation.points.shape
         array = as_values(gradients, size, "gradients")
         expected = (*self.values.shape, dimension)
         if array.shape != expected:
             raise ValueError(f"gradients must have shape {expected}, a vector for each value, got {array.shape}")
         merged = one_value_a_place(self.triangulation, array.reshape(size, -1))
-        vectors = merged.reshape(size, self._values.shape[1], dimension)
+        vectors = np.ascontiguousarray(merged.reshape(size, self._values.shape[1], dimension).transpose(2, 1, 0))
         if self._sites.curved:
-            up = self._sites.rounded[:, None, :]
-            vectors = vectors - up * dot(vectors, np.broadcast_to(up, vectors.shape))
-        return np.array(np.moveaxis(vectors, 2, 1))
+            up = self._sites.rounded
+            vectors -= up[:, None] * inner(vectors, up)
+        return vectors
 
     def _within(self, corners: AnyIndices, queries: FloatArray) -> FloatArray:
-        located = LocatedQueries(self._sites, corners, queries)
-        return side_vertex(located, self._values[corners], self._gradients[corners])
+        return side_vertex(*self._located(corners, queries)).T
 
     def _slope_within(self, corners: AnyIndices, queries: FloatArray) -> FloatArray:
+        return np.moveaxis(side_vertex_slope(*self._located(corners, queries)), -1, 0)
+
+    def _located(self, corners: AnyIndices, queries: FloatArray) -> tuple[LocatedQueries, FloatArray, FloatArray]:
+        """Queries, and at their corners values (3, k, m) and gradients (3, d, k, m)."""
         located = LocatedQueries(self._sites, corners, queries)
-        return side_vertex_slope(located, self._values[corners], self._gradients[corners])
+        values, slopes = (of.take(located.numbers, axis=-1) for of in (self._fields, self._slopes))
+        return located, np.moveaxis(values, -2, 0), np.moveaxis(slopes, -2, 0)
 
 
 class Jet:
-    """Values with their derivatives by two parameters, `slope`: forward-mode automatic differentiation.
-
-    The rest of the shape of `slope` broadcasts against that of `value`.
-    """
+    """Values (x, m) with their derivatives by two parameters, `slope` (2, x, m): forward-mode differentiation."""
 
     __array_ufunc__ = None  # so that `ndarray * Jet` calls __rmul__
     __slots__ = ("slope", "value")
@@ -163,14 +167,6 @@ def _lift(number: Number) -> Jet:
     return number if isinstance(number, Jet) else Jet(np.asarray(number), np.zeros(1))
 
 
-def sin_cos(angle: Number) -> tuple[Number, Number]:
-    """Sine and cosine."""
-    if not isinstance(angle, Jet):
-        return np.sin(angle), np.cos(angle)
-    sine, cosine = np.sin(angle.value), np.cos(angle.value)
-    return Jet(sine, cosine * angle.slope), Jet(cosine, -sine * angle.slope)
-
-
 def arctan2(y: Number, x: Number) -> Number:
     """Angle of the vector (x, y)."""
     if not isinstance(y, Jet) and not isinstance(x, Jet):
@@ -189,42 +185,45 @@ def sqrt(number: Number) -> Number:
 
 
 def norm(vector: Number) -> Number:
-    """Length along the last axis, which is kept."""
+    """Length along the first axis of (d, m), which is kept."""
     if not isinstance(vector, Jet):
         return lengths(np.asarray(vector))
     length = lengths(vector.value)
-    return Jet(length, np.sum(vector.value / length * vector.slope, axis=-1, keepdims=True))
+    return Jet(length, np.sum(vector.value / length * vector.slope, axis=-2, keepdims=True))
 
 
 def side_vertex(located: LocatedQueries, values: FloatArray, gradients: FloatArray) -> FloatArray:
-    """Values (m, k) at the queries from values (m, 3, k) and tangent gradients (m, 3, d, k) at their corners."""
+    """Values (k, m) at the queries from values (3, k, m) and tangent gradients (3, d, k, m) at their corners."""
     weights = np.maximum(located.weights(), LEAST_WEIGHT)
-    first = np.take_along_axis(values, weights.argmax(axis=1)[:, None, None], axis=1)[:, 0]
-    b = [weights[:, k : k + 1] for k in range(3)]
-    found = np.asarray(first + _mix(located, b, values, first, gradients))
+    first = _heaviest(weights, values)
+    found = np.asarray(first + _mix(located, list(weights[:, None]), values, first, gradients))
     return _met(found, first, weights, values, gradients)
 
 
 def side_vertex_slope(located: LocatedQueries, values: FloatArray, gradients: FloatArray) -> FloatArray:
-    """Gradients (m, d, k) at the queries; parameters as for `side_vertex`."""
+    """Gradients (d, k, m) at the queries; parameters as for `side_vertex`."""
     weights = np.maximum(located.weights(), LEAST_WEIGHT)
-    first = np.take_along_axis(values, weights.argmax(axis=1)[:, None, None], axis=1)[:, 0]
     directions = np.array([[-1.0, 1.0, 0.0], [-1.0, 0.0, 1.0]])  # by the second and the third coordinate
-    b = [Jet(weights[:, k : k + 1], directions[:, k, None, None]) for k in range(3)]
-    mixed = _mix(located, b, values, first, gradients)
+    b = [Jet(weights[k : k + 1], directions[:, k, None, None]) for k in range(3)]
+    mixed = _mix(located, b, values, _heaviest(weights, values), gradients)
     assert isinstance(mixed, Jet)
-    at_corner = np.take_along_axis(gradients, weights.argmax(axis=1)[:, None, None, None], axis=1)[:, 0]
     slope = located.slope([np.zeros_like(mixed.slope[0]), *mixed.slope])
-    return _met(slope, at_corner, weights, values, gradients)
+    return _met(slope, _heaviest(weights, gradients), weights, values, gradients)
+
+
+def _heaviest(weights: FloatArray, of: FloatArray) -> FloatArray:
+    """Of arrays (3, ..., m), what belongs to the corner with the largest weight."""
+    largest = weights.argmax(axis=0)
+    return np.where(largest == 0, of[0], np.where(largest == 1, of[1], of[2]))
 
 
 def _met(
     found: FloatArray, at_corner: FloatArray, weights: FloatArray, values: FloatArray, gradients: FloatArray
 ) -> FloatArray:
     """Results, replaced at corners by the given values: even the smallest weight times a steep slope is not zero."""
-    rows = np.flatnonzero(weights.max(axis=1) == 1.0)
-    known = np.asarray(np.isfinite(values[rows]).all(axis=1) & np.isfinite(gradients[rows]).all(axis=(1, 2)))
-    found[rows] = np.where(known if found.ndim == 2 else known[:, None], at_corner[rows], found[rows])
+    met = np.flatnonzero(weights.max(axis=0) == 1.0)
+    known = np.isfinite(values[..., met]).all(axis=0) & np.isfinite(gradients[..., met]).all(axis=(0, 1))
+    found[..., met] = np.where(known, at_corner[..., met], found[..., met])
     return found
 
 
@@ -238,8 +237,12 @@ def _mix(
     """The difference from the value `first` of one corner."""
     total: Number = 0.0
     divisor: Number = 0.0
+    # Each edge from its first corner on; seen from the other end its sign is turned, which rounds nothing.
+    corners = located.corners
+    edges = [corners[i - 2] - corners[i] for i in range(3)]
+    normals = [crossed(corner.rounded, edge) for corner, edge in zip(corners, edges, strict=True) if corner.curved]
     for i in range(3):
-        corner = _Corner(located, i, values, first, gradients)
+        corner = _Corner(located, i, edges, normals, values, first, gradients)
         weight = b[i - 2] * b[i - 1]
         total = total + weight * corner.surface(b[i], b[i - 2], b[i - 1])
         divisor = divisor + weight
@@ -270,7 +273,7 @@ def hermite_slope(rise: Number, slopes: Pair, parts: Pair, length: Number) -> Nu
 
 @dataclass(frozen=True)
 class _Side:
-    """The side from j to k: length, unit tangents at both ends, unit normal, all (m, 1) or (m, d)."""
+    """The side from j to k: length, unit tangents at both ends, unit normal, all (1, m) or (d, m)."""
 
     length: FloatArray
     sine: FloatArray
@@ -282,49 +285,49 @@ class _Side:
     def straight(cls, edge: FloatArray) -> _Side:
         length = np.asarray(norm(edge))
         tangent = edge / length
-        return cls(length, length, length, (tangent, tangent), np.stack([-tangent[:, 1], tangent[:, 0]], axis=1))
+        return cls(length, length, length, (tangent, tangent), np.stack([-tangent[1], tangent[0]]))
 
     @classmethod
-    def curved(cls, start: FloatArray, end: FloatArray, edge: FloatArray) -> _Side:
-        normal = crossed(start, edge)
+    def curved(cls, start: FloatArray, end: FloatArray, edge: FloatArray, normal: FloatArray) -> _Side:
         sine = np.asarray(norm(normal))
-        normal /= sine
+        normal = normal / sine
         cosine = 1.0 + dot(start, edge)
         return cls(np.arctan2(sine, cosine), sine, cosine, (crossed(normal, start), crossed(normal, end)), normal)
-
-
-def _along(gradients: FloatArray, vectors: FloatArray) -> FloatArray:
-    return np.einsum("mdk,md->mk", gradients, vectors)
 
 
 class _Corner:
     """S_i of the module's description: corner i, the side jk opposite."""
 
     def __init__(
-        self, located: LocatedQueries, i: int, values: FloatArray, first: FloatArray, gradients: FloatArray
+        self,
+        located: LocatedQueries,
+        i: int,
+        edges: list[FloatArray],
+        normals: list[FloatArray],
+        values: FloatArray,
+        first: FloatArray,
+        gradients: FloatArray,
     ) -> None:
-        sites = located.sites
-        at, start, end = (located.corners[:, k] for k in (i, i - 2, i - 1))
-        self.curved = sites.curved
-        self.to_start, self.to_end = sites.minus(start, sites, at), sites.minus(end, sites, at)
-        edge = sites.minus(end, sites, start)
+        self.curved = located.sites.curved
+        self.to_start, self.to_end, edge = edges[i], -edges[i - 1], edges[i - 2]
         if self.curved:
-            self.origin, self.foot = sites.rounded[at], sites.rounded[start]
-            self.side = _Side.curved(self.foot, sites.rounded[end], edge)
+            self.origin, self.foot, end = (located.corners[k].rounded for k in (i, i - 2, i - 1))
+            self.side = _Side.curved(self.foot, end, edge, normals[i - 2])
+            self.turns = normals[i], -normals[i - 1]  # the corner times the vectors to both ends
         else:
             self.side = _Side.straight(edge)
-        self.value, self.ends = values[:, i] - first, (values[:, i - 2] - first, values[:, i - 1] - first)
+        self.value, self.ends = values[i] - first, (values[i - 2] - first, values[i - 1] - first)
         # Not of the ends: two values next to each other have lost their difference when a far one is taken off.
-        self.rise = values[:, i - 1] - values[:, i - 2]
-        self.gradient, self.end_gradients = gradients[:, i], (gradients[:, i - 2], gradients[:, i - 1])
+        self.rise = values[i - 1] - values[i - 2]
+        self.gradient, self.end_gradients = gradients[i], (gradients[i - 2], gradients[i - 1])
 
     def surface(self, b: Number, b_start: Number, b_end: Number) -> Number:
-        """Values (m, k) where the barycentric coordinates of the corner and of the side's two ends are given."""
+        """Values (k, m) where the barycentric coordinates of the corner and of the side's two ends are given."""
         share = b_start + b_end
         rests = b_end / share, b_start / share  # parts of the chord jk before and behind the line
         parts, length, divisor, (along, across) = self._line(b, share, rests)
         value, slope_along, slope_across = self._on_side(rests)
-        start = self._from_corner(rests, [_along(self.gradient, d) for d in (self.to_start, self.to_end)]) / divisor
+        start = self._from_corner(rests, [inner(self.gradient, d) for d in (self.to_start, self.to_end)]) / divisor
         end = (slope_along * along + slope_across * across) / divisor
         return hermite((self.value, value), (start, end), parts, length)
 
@@ -345,32 +348,32 @@ class _Corner:
             length = norm(self._from_corner(rests, [self.to_start, self.to_end]))
             along = dot(self.to_start, tangent) + rests[0] * self.side.length
             return (share, b), length, length, (along, across)
-        ends = self.to_start, self.to_end
-        sine = norm(self._from_corner(rests, [crossed(self.origin, d) for d in ends]))
-        cosine = 1.0 + self._from_corner(rests, [dot(self.origin, d) for d in ends])
+        sine = norm(self._from_corner(rests, list(self.turns)))
+        cosine = 1.0 + self._from_corner(rests, [dot(self.origin, d) for d in (self.to_start, self.to_end)])
         square = sine * sine + cosine * cosine
         length = arctan2(sine, cosine)
         before = arctan2(share * sine, b + share * cosine)
         behind = arctan2(b * sine, share * square + b * cosine)
-        turn_sine, turn_cosine = sin_cos(self._angle(rests))
-        along = turn_cosine * (dot(self.to_start, tangent) + rests[0] * self.side.sine) - turn_sine * (
+        x, y = self._on_chord(rests)
+        along = x * (dot(self.to_start, tangent) + y) - y * (
             dot(self.to_start, self.foot) + rests[0] * (self.side.cosine - 1.0)
         )
-        stretch = sqrt(square)
-        return (before / length, behind / length), length, sine, (along * stretch, across * stretch)
+        return (before / length, behind / length), length, sine, (along, across * sqrt(square))
 
-    def _angle(self, rests: Pair) -> Number:
-        """Length along the curved side up to Q, or with the rests exchanged from Q on."""
-        return arctan2(rests[0] * self.side.sine, rests[1] + rests[0] * self.side.cosine)
+    def _on_chord(self, rests: Pair) -> Pair:
+        """Where the line meets the chord jk, along j and across it; with the rests exchanged along k."""
+        return rests[1] + rests[0] * self.side.cosine, rests[0] * self.side.sine
 
     def _on_side(self, rests: Pair) -> tuple[Number, Number, Number]:
         """Value, slope along and slope across at Q."""
         side, (first, last) = self.side, self.end_gradients
         parts = rests
         if self.curved:
-            parts = self._angle(rests) / side.length, self._angle(rests[::-1]) / side.length
-        slopes = _along(first, side.tangents[0]), _along(last, side.tangents[1])
-        across = _along(first, side.normal) * parts[1] + _along(last, side.normal) * parts[0]
+            x, y = self._on_chord(rests)
+            u, v = self._on_chord(rests[::-1])
+            parts = arctan2(y, x) / side.length, arctan2(v, u) / side.length
+        slopes = inner(first, side.tangents[0]), inner(last, side.tangents[1])
+        across = inner(first, side.normal) * parts[1] + inner(last, side.normal) * parts[0]
         return (
             hermite(self.ends, slopes, parts, side.length),
             hermite_slope(self.rise, slopes, parts, side.length),

@@ -100,7 +100,7 @@ class LinearInterpolator(WeightedInterpolator, TriangleInterpolator):
     """
 
     def _within(self, corners: AnyIndices, queries: FloatArray) -> FloatArray:
-        weights = LocatedQueries(self._sites, corners, queries).weights()
+        weights = LocatedQueries(self._sites, corners, queries).weights().T
         values = self._values[corners]
         # From the heaviest corner, so that values at points are reproduced exactly.
         first = np.take_along_axis(values, weights.argmax(axis=1)[:, None, None], axis=1)
@@ -108,12 +108,13 @@ class LinearInterpolator(WeightedInterpolator, TriangleInterpolator):
         return first[:, 0] + (one + two + three)
 
     def _slope_within(self, corners: AnyIndices, queries: FloatArray) -> FloatArray:
-        return LocatedQueries(self._sites, corners, queries).slope([self._values[corners[:, k]] for k in range(3)])
+        found = LocatedQueries(self._sites, corners, queries).slope([self._values[corners[:, k]].T for k in range(3)])
+        return np.moveaxis(found, -1, 0)
 
     def _shares(self, queries: FloatArray, workers: int | None) -> Shares:
         weights = np.empty((len(queries), 3))
         found = self._in_blocks(
-            weights, queries, workers, lambda corners, at: LocatedQueries(self._sites, corners, at).weights()
+            weights, queries, workers, lambda corners, at: LocatedQueries(self._sites, corners, at).weights().T
         )
         inside = found >= 0
         corners = self.triangulation.simplices[found[inside]]
@@ -186,6 +187,6 @@ class NaturalNeighborInterpolator(WeightedInterpolator):
         threads = threads_of(mesh, workers, len(queries))
         if (closing := state_of(mesh).closing) is None:
             return space, (mesh.points, mesh.simplices, mesh.neighbors), (queries,), threads
-        sites, asked = self._sites.exact, PrecisePoints(queries).exact
-        triangles = mesh.points, sites.hi, sites.lo, mesh.simplices, mesh.neighbors
-        return space, triangles, (queries, asked.hi, asked.lo, closing), threads
+        exact = self._sites.exact, PrecisePoints(queries).exact
+        sites, asked = ((np.ascontiguousarray(e.hi.T), np.ascontiguousarray(e.lo.T)) for e in exact)
+        return space, (mesh.points, *sites, mesh.simplices, mesh.neighbors), (queries, *asked, closing), threads

@@ -2,8 +2,8 @@
 
 `Delaunay`, `Voronoi` and `SphericalVoronoi` have SciPy's signatures, attributes and methods over the exact
 triangulations of this library; they are subclasses of SciPy's classes, so that code which asks `isinstance` accepts
-them. `QhullError` and every other name of `scipy.spatial` are SciPy's own, submodules such as
-``stereodel.spatial.distance`` too.
+them. What is not exact here, as three dimensions, they hand over to SciPy with an `InexactWarning`. `QhullError` and
+every other name of `scipy.spatial` are SciPy's own, submodules such as ``stereodel.spatial.distance`` too.
 """
 
 import sys
@@ -16,11 +16,12 @@ with of_extra("scipy"):
     import scipy.spatial
     from scipy.spatial import QhullError
 
+    from stereodel.spatial.compatibility import InexactWarning
     from stereodel.spatial.delaunay import Delaunay
     from stereodel.spatial.spherical_voronoi import SphericalVoronoi
     from stereodel.spatial.voronoi import Voronoi
 
-__all__ = ["Delaunay", "QhullError", "SphericalVoronoi", "Voronoi"]
+__all__ = ["Delaunay", "InexactWarning", "QhullError", "SphericalVoronoi", "Voronoi"]
 
 for _name in ("distance", "transform"):
     sys.modules[f"{__name__}.{_name}"] = import_module(f"scipy.spatial.{_name}")

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import warnings
 from functools import cached_property
 from operator import attrgetter
 from typing import Any, Final
 
 import numpy as np
 import numpy.typing as npt
+from scipy.spatial import QhullError
 
-from stereodel._arrays import FloatArray, as_points
+from stereodel._arrays import FloatArray, as_floats, as_points
 from stereodel.triangulation import PlanarDelaunay
 
 KNOWN = frozenset({"Qbb", "Qc", "Qz", "QJ", "Qs", "Qt", "Qx", "Q11", "Q12", "Q14", "Pp"})
@@ -20,34 +22,63 @@ FAMILY: Final = {
         Parameters
         ----------
         points : (npoints, 2) array_like
-            Finite numbers. Copied.
+            Finite numbers. Copied. Points of more dimensions are handed over to SciPy, with an `InexactWarning`.
         furthest_site : bool, optional
-            Only False.
+            True is handed over to SciPy as well.
         incremental : bool, optional
             Whether `add_points` may be called.
         qhull_options : str, optional
             "Qbb" (scaled paraboloid), "Qc" (points that are not vertices are listed and have a region, else -1) and
             "Qz" (a point at infinity, with an empty region) have the same meaning as in Qhull; "QJ", "Qs", "Qt", "Qx",
             "Q11", "Q12", "Q14" and "Pp" are accepted and ignored. Default: "Qbb Qc Qz", in incremental mode "Qc".
+        strict : bool, optional
+            Raise where SciPy does: `QhullError` for points on one line, two and one, ValueError for none.
 
         Raises
         ------
         ValueError, TypeError
-            For points that are not finite real numbers of shape (npoints, 2), furthest sites and unknown options. Never
-            `QhullError`: without triangles there are none, and collinear points have ridges [-1, -1] and no vertices.
+            For points that are not finite real numbers of shape (npoints, 2), and unknown options.
+        QhullError
+            Only if `strict`; otherwise there are no triangles, and collinear points have ridges [-1, -1].
         """,
 }
 """What the docstrings of both classes have in common."""
 
 
-def as_options(qhull_options: Any, furthest_site: Any, incremental: bool) -> frozenset[str]:
+class InexactWarning(UserWarning):
+    """Exactness ends here: the object is SciPy's own, computed by Qhull, where this library has nothing exact.
+
+    That is with points of other dimensions, and with furthest sites.
+
+    Examples
+    --------
+    >>> import warnings
+    >>> from stereodel.spatial import Delaunay, InexactWarning
+    >>> with warnings.catch_warnings(action="ignore", category=InexactWarning):
+    ...     Delaunay([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]).simplices.shape
+    (1, 4)
+    """
+
+
+def hand_over(one: Any, what: str, *arguments: Any) -> None:
+    """Make an object under construction one of SciPy's class, which it is derived from, and say so."""
+    theirs = next(base for base in type(one).__mro__ if base.__module__.startswith("scipy."))
+    warnings.warn(
+        f"points has {what}: exactness ends here, scipy.spatial.{theirs.__name__} takes over and rounds. To accept "
+        'that: warnings.simplefilter("ignore", stereodel.spatial.InexactWarning)',
+        InexactWarning,
+        stacklevel=3,  # who constructs
+    )
+    one.__class__ = theirs
+    one.__init__(*arguments)
+
+
+def as_options(qhull_options: Any, incremental: bool) -> frozenset[str]:
     """Options to Qhull; TypeError or ValueError for what has no meaning here or that Qhull refuses.
 
     Left of them are "Qbb", the height of the paraboloid is scaled to the size of the coordinates; "Qz", there is a
     point at infinity, with an empty Voronoi region; "Qc", points that are not vertices are listed.
     """
-    if furthest_site:
-        raise ValueError("furthest_site=True is not supported; use the class of scipy.spatial for furthest sites")
     if not isinstance(qhull_options, str | None):
         raise TypeError(f"qhull_options must be a string or None, got {qhull_options!r}")
     if qhull_options is None:
@@ -61,11 +92,6 @@ def as_options(qhull_options: Any, furthest_site: Any, incremental: bool) -> fro
     if incremental and (refused := sorted(words & {"Qbb", "Qz"})):
         raise ValueError(f"qhull_options {', '.join(map(repr, refused))} cannot be used with incremental=True")
     return words
-
-
-def other_dimensions(kind: type) -> str:
-    """What helps who has points of other dimensions: to compute these inexactly in silence would break a promise."""
-    return f"for other dimensions: from scipy.spatial import {kind.__name__}"
 
 
 def copied(path: str, doc: str) -> Any:
@@ -87,10 +113,22 @@ class GrowingPoints:
         furthest_site: bool = False,
         incremental: bool = False,
         qhull_options: str | None = None,
+        *,
+        strict: bool = False,
     ) -> None:
-        self._options = as_options(qhull_options, furthest_site, bool(incremental))
+        array = as_floats(points, "points")
+        space = array.ndim == 2 and array.shape[1] > 2
+        if space or furthest_site:
+            what = f"{array.shape[1]} dimensions" if space else "furthest_site=True beside it"
+            hand_over(self, what, array, furthest_site, incremental, qhull_options)
+            return
+        self._options = as_options(qhull_options, bool(incremental))
         self._incremental = bool(incremental)
-        self._triangulation = PlanarDelaunay(as_points(points, 2, hint=other_dimensions(type(self))))
+        self._triangulation = PlanarDelaunay(as_points(array, 2, hint="columns are dimensions"))
+        if strict and self._triangulation.dimension < 2:
+            raise (QhullError if self.npoints else ValueError)(
+                f"points has {self.npoints} rows, all on one line: no triangle; strict=False takes them"
+            )
 
     points: FloatArray = copied("_triangulation.points", "Coordinates of the points, (npoints, 2).")
 
@@ -127,7 +165,7 @@ class GrowingPoints:
         """
         if not self._incremental:
             raise RuntimeError("incremental mode not enabled or already closed; construct with incremental=True")
-        added = as_points(points, 2, hint=other_dimensions(type(self)))
+        added = as_points(points, 2)
         self._triangulation.insert(added)
         kept = "_options", "_incremental", "_triangulation"  # all else is computed anew when it is asked for
         self.__dict__ = {name: value for name, value in vars(self).items() if name in kept}

@@ -8,7 +8,7 @@ import scipy.spatial
 
 from stereodel import triangulation as exact
 from stereodel._arrays import FloatArray, IntArray, as_floats, as_points, as_scalar
-from stereodel.spatial.compatibility import other_dimensions
+from stereodel.spatial.compatibility import hand_over
 
 
 class ExactOnSphere(scipy.spatial.SphericalVoronoi):
@@ -17,7 +17,8 @@ class ExactOnSphere(scipy.spatial.SphericalVoronoi):
     Parameters
     ----------
     points : (npoints, 3) array_like
-        Points of the sphere. Copied.
+        Points of the sphere. Copied. Points of other dimensions, as of a circle, are handed over to SciPy, with an
+        `InexactWarning`.
     radius : float, optional
         Radius of the sphere.
     center : (3,) array_like, optional
@@ -69,8 +70,12 @@ class ExactOnSphere(scipy.spatial.SphericalVoronoi):
     ) -> None:
         if radius is None:
             raise ValueError("`radius` is `None`. Please provide a floating point number (i.e. `radius=1`).")
+        array = as_floats(points, "points")
+        if array.ndim == 2 and array.shape[1] not in (1, 3):
+            hand_over(self, f"{array.shape[1]} dimensions", array, radius, center, threshold)
+            return
         self.radius = as_scalar(radius, "radius", low=0.0, open_low=True)
-        self.points = np.array(as_points(points, 3, hint=other_dimensions(type(self))))
+        self.points = np.array(as_points(array, 3))
         self.center = np.zeros(3) if center is None else _as_center(center)
         directions = self.points - self.center
         self._refuse_off_sphere(directions, as_scalar(threshold, "threshold", low=0.0))

@@ -98,5 +98,5 @@ def _directed_edges(simplices: AnyIndices) -> AnyIndices:
 
 def _packed(edges: AnyIndices) -> LongArray:
     """One number for both ends of each edge (e, 2), which is sorted a hundred times as fast as rows."""
-    ends = np.sort(edges, axis=1).astype(np.int64)
-    return ends[:, 0] << 32 | ends[:, 1]
+    one, other = edges.T.astype(np.int64)
+    return np.minimum(one, other) << 32 | np.maximum(one, other)

@@ -3,11 +3,12 @@
 import numpy as np
 import pytest
 
-from benchmarks import pages
+from benchmarks import gmt, pages
 from benchmarks.conformal_maps import coastline, conformal_maps
-from benchmarks.derived import derived, graphs, others, queries
+from benchmarks.derived import derived, graphs, others, queries, waves
+from benchmarks.distributions import make
 from benchmarks.map_files import measure
-from stereodel import PlanarDelaunay, SphericalDelaunay
+from stereodel import PlanarDelaunay, SphericalDelaunay, lonlat_to_xyz
 from tests import sets
 
 UNIT = sets.sphere("unit").drawn(400)
@@ -47,6 +48,36 @@ def test_the_page_tells_it():
     lines = pages.derived(derived(300)).splitlines()
     assert len(lines) == 2 + 12
     assert all(line.count("|") == 6 for line in lines)
+
+
+def test_without_gmt_the_page_says_so(monkeypatch):
+    monkeypatch.setattr(gmt.shutil, "which", lambda name: None)
+    assert pages.gmt(gmt.gmt(10_000)) == "GMT is not installed."
+
+
+@pytest.mark.parametrize("command", gmt.COMMANDS)
+def test_what_is_compared_with_gmt_is_true(command):
+    """Without GMT: the function is interpolated, distances are those of all points, and the page tells it."""
+    points = make("sphere", "uniform", 3000)
+    found = gmt.ours(command, points)
+    if command in gmt.KINDS:
+        assert np.abs(found - waves(lonlat_to_xyz(gmt.GRID))).mean() < 0.05
+    elif command.startswith("sphdistance"):
+        cosines = lonlat_to_xyz(gmt.GRID[::999]) @ points.T
+        assert np.allclose(found[::999], np.degrees(np.arccos(cosines.max(axis=-1))), atol=1e-5)
+    else:
+        assert found.shape == (2 * len(points) - 4, 3)
+    row = {"command": command, "n": 400, "ours": 0.5, "theirs": 1.0}
+    errors = {"ours rms": 1e-3, "theirs rms": 2e-3, "ours max": 3e-3, "theirs max": 4e-3}
+    table = pages.gmt([row | errors])
+    assert f"| 400 | `{command}` | 1 | 0.5 | 2 |" in table
+    assert f"| 400 | `{command}` | 2.0e-03 | 1.0e-03 | 4.0e-03 | 3.0e-03 |" in table
+
+
+@pytest.mark.skipif(not gmt.shutil.which("gmt"), reason="GMT is not installed")
+@pytest.mark.parametrize(("command", "near"), [("sphinterpolate -Qp", 1e-6), ("sphinterpolate -Ql", 1.0)])
+def test_gmt_computes_the_same(command, near):
+    assert np.abs(gmt.theirs(command, UNIT) - gmt.ours(command, UNIT)).max() < near
 
 
 @pytest.mark.thorough

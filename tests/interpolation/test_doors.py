@@ -7,7 +7,10 @@ import pytest
 import scipy.interpolate
 import xarray as xr
 
+import stereodel.interpolation
+import stereodel.spatial
 import stereodel.xarray
+from stereodel import SphericalDelaunay
 from stereodel.interpolation import LinearInterpolator, griddata
 from tests.interpolation.known import KINDS
 
@@ -170,3 +173,50 @@ def test_what_is_not_known_is_not_filled():
     values = np.ma.masked_equal([1.0, 2.0, 3.0, -9.0], -9)
     found = griddata([[0, 0], [4, 0], [0, 4], [4, 4]], values, [[1, 1], [3, 3], [9, 9]], fill_value=0)
     assert np.array_equal(found, [1.75, np.nan, 0], equal_nan=True)
+
+
+NAMED = {"LinearNDInterpolator": "linear", "CloughTocher2DInterpolator": "smooth", "NearestNDInterpolator": "nearest"}
+
+
+@pytest.fixture
+def field(rng):
+    points = rng.random((400, 2))
+    return points, np.sin(4 * points[:, 0]) + points[:, 1] ** 2, rng.uniform(-0.1, 1.1, (200, 2))
+
+
+@pytest.mark.parametrize("name", NAMED)
+def test_classes_by_scipys_names_are_griddata(name, field):
+    points, values, places = field
+    ours, theirs = (getattr(m, name) for m in (stereodel.interpolation, scipy.interpolate))
+    function = ours(points, values)
+    found = function(places)
+    assert np.array_equal(found, griddata(points, values, places, method=NAMED[name]), equal_nan=True)
+    near = {"CloughTocher2DInterpolator": 2e-2}.get(name, 1e-12)  # another function, of the same smoothness
+    assert np.allclose(found, theirs(points, values)(places), rtol=0, atol=near, equal_nan=True)
+    for call in (function(*places.T), function(tuple(places.T)), function(places.tolist())):
+        assert np.array_equal(call, found, equal_nan=True)
+    assert np.array_equal(function(0.5, 0.5), function([0.5, 0.5]))
+    assert np.array_equal(ours(tuple(points.T), values, -5.0)(places), np.where(np.isnan(found), -5.0, found))
+    for triangulation in (function.tri, scipy.spatial.Delaunay(points), stereodel.spatial.Delaunay(points)):
+        assert np.array_equal(ours(triangulation, values)(places), found, equal_nan=True)
+
+
+def test_classes_by_scipys_names_on_the_sphere(lonlat):
+    values = np.cos(np.radians(lonlat[:, 1]))
+    function = stereodel.interpolation.LinearNDInterpolator(lonlat, values, latitude="geodetic")
+    assert np.array_equal(function(LON[1:4], LAT), griddata(lonlat, values, (LON[1:4], LAT), latitude="geodetic"))
+    directions = SphericalDelaunay.from_lonlat(lonlat).points
+    assert stereodel.interpolation.NearestNDInterpolator(directions, values)(directions[3]) == values[3]
+
+
+@pytest.mark.parametrize(
+    ("options", "error", "message"),
+    [
+        ({"points": [[1, 0, 0], [0, 2, 0], [0, 0, 3]]}, ValueError, "space.*scipy.interpolate.LinearNDInterpolator"),
+        ({"values": [1j, 0, 0]}, TypeError, "values must hold real numbers"),
+    ],
+)
+def test_what_classes_by_scipys_names_refuse(options, error, message):
+    given = {"points": [[0, 0], [1, 0], [0, 1]], "values": [1.0, 2.0, 3.0]}
+    with pytest.raises(error, match=message):
+        stereodel.interpolation.LinearNDInterpolator(**(given | options))

@@ -123,7 +123,7 @@ def test_gradients_that_no_double_holds():
 
 @given(st.lists(st.tuples(*[st.floats(-1e300, 1e300)] * 3), min_size=1, max_size=20))
 def test_lengths_of_any_vectors(rows):
-    for row, found in zip(rows, lengths(np.array(rows))[:, 0], strict=True):
+    for row, found in zip(rows, lengths(np.array(rows).T)[0], strict=True):
         with mpmath.workdps(700):
             exact = mpmath.sqrt(sum(mpmath.mpf(x) ** 2 for x in row))
             assert abs(found - exact) <= 4 * 2.0**-53 * exact + 5e-324

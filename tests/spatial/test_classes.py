@@ -61,9 +61,11 @@ def test_same_signatures(pair):
         return [(p.name, p.default, p.kind) for p in inspect.signature(function).parameters.values()]
 
     ours, theirs = map(type, pair)
-    names = {"__init__"} | {n for n in dir(theirs) if not n.startswith("_") and callable(getattr(theirs, n))}
+    names = {n for n in dir(theirs) if not n.startswith("_") and callable(getattr(theirs, n))}
     for name in names:
         assert parameters(getattr(ours, name)) == parameters(getattr(theirs, name)), name
+    more = [] if ours is stereodel.spatial.SphericalVoronoi else [("strict", False, inspect.Parameter.KEYWORD_ONLY)]
+    assert parameters(ours.__init__) == parameters(theirs.__init__) + more
 
 
 @pytest.mark.parametrize("name", POINTS)
@@ -72,6 +74,59 @@ def test_input_is_copied(name):
     one = getattr(stereodel.spatial, name)(points)
     points[:] = 0
     np.testing.assert_array_equal(one.points, POINTS[name])
+
+
+SPACE = np.random.default_rng(3).normal(size=(30, 3))
+
+
+@pytest.mark.parametrize(
+    ("name", "points", "options", "what"),
+    [
+        ("Delaunay", SPACE, {}, "3 dimensions"),
+        ("Voronoi", np.random.default_rng(4).normal(size=(20, 4)), {"qhull_options": "Qbb Qc Qx"}, "4 dimensions"),
+        ("SphericalVoronoi", [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]], {}, "2 dimensions"),
+        ("Delaunay", FLAT, {"furthest_site": True}, "furthest_site=True"),
+        ("Voronoi", FLAT, {"furthest_site": True}, "furthest_site=True"),
+    ],
+)
+def test_what_is_not_exact_is_handed_over_with_a_warning(name, points, options, what):
+    """It is an object of SciPy's own class, and the warning points at who made it."""
+    theirs = getattr(scipy.spatial, name)
+    message = f"^points has {what}.*exactness ends here, scipy.spatial.{name} takes over"
+    with pytest.warns(stereodel.spatial.InexactWarning, match=message) as said:
+        found = getattr(stereodel.spatial, name)(points, **options)
+    assert said[0].filename == __file__
+    assert type(found) is theirs
+    expected = theirs(points, **options)
+    for attribute in ("simplices", "vertices", "neighbors", "points"):
+        if hasattr(expected, attribute):
+            np.testing.assert_array_equal(getattr(found, attribute), getattr(expected, attribute))
+
+
+def test_space_grows_and_is_searched_as_scipys():
+    with pytest.warns(stereodel.spatial.InexactWarning):
+        found = stereodel.spatial.Delaunay(SPACE[:20], incremental=True)
+    found.add_points(SPACE[20:])
+    inside = found.points[found.simplices].mean(axis=1)
+    assert found.npoints == 30
+    assert np.array_equal(found.find_simplex(inside), np.arange(found.nsimplex))
+
+
+@pytest.mark.parametrize("points", [[], [[1, 2]], [[0, 0], [1, 1]], [[0, 0], [1, 1], [3, 3]], [[1, 1]] * 4])
+@pytest.mark.parametrize("name", ["Delaunay", "Voronoi"])
+def test_what_has_no_triangle_raises_when_asked(name, points):
+    points = np.reshape(points, (-1, 2))
+    with pytest.raises((ValueError, scipy.spatial.QhullError)) as theirs:
+        getattr(scipy.spatial, name)(points)
+    with pytest.raises(theirs.type, match=f"points has {len(points)} rows, all on one line.*strict=False"):
+        getattr(stereodel.spatial, name)(points, strict=True)
+    assert getattr(stereodel.spatial, name)(points).npoints == len(points)
+    assert getattr(stereodel.spatial, name)([[0, 0], [1, 1], [1, 1.5]], strict=True).npoints == 3
+
+
+def test_options_are_a_string():
+    with pytest.raises(TypeError, match="qhull_options must be a string or None"):
+        stereodel.spatial.Delaunay(FLAT, qhull_options=b"Qc")
 
 
 def test_every_other_name_of_scipy_spatial():

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from stereodel._double_double import DoubleDouble, stack
+from stereodel._double_double import DoubleDouble, stack, unit
 from stereodel.sphere import as_direction, lonlat_to_xyz, xyz_to_lonlat
 from stereodel.sphere.degrees import angle_degrees, sin_cos_degrees
 from tests.exact import direction
@@ -134,3 +134,18 @@ def test_relative_error_below_2_to_minus_101(angle):
 def test_angle_is_the_inverse(angle, length):
     sine, cosine = sin_cos_degrees(np.array(angle))
     assert abs(angle_degrees(sine * length, cosine * length) - angle) <= np.spacing(abs(angle))
+
+
+@given(LON, LAT, st.one_of(st.just(1.0), st.floats(-8e-15, 8e-15).map(lambda x: 1 + x), st.floats(1e-290, 1e290)))
+def test_directions_have_an_error_below_2_to_minus_102(lon, lat, length):
+    """Of vectors of length 1 to rounding and of others: also beside one another, and with the same bits."""
+    vector = lonlat_to_xyz([lon, lat]) * length
+    found, among = unit(vector), unit(np.stack([[3.0, 4.0, 5.0], vector, [0.0, 0.6, 0.8]]))
+    with mpmath.workdps(80):
+        components = [mpmath.mpf(x) for x in vector.tolist()]
+        size = mpmath.sqrt(sum(x * x for x in components))
+        for k, x in enumerate(components):
+            assert abs(exact(found, k) - x / size) < mpmath.mpf(2) ** -102
+            assert abs(found.lo[k]) <= np.spacing(abs(found.hi[k])) / 2
+    assert np.array_equal(among.hi[1], found.hi)
+    assert np.array_equal(among.lo[1], found.lo)
