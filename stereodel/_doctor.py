@@ -23,6 +23,7 @@ EXAMPLE = "STEREODEL_GL=egl stereodel doctor"
 PURPOSE: Final = "Delaunay triangulations and Voronoi diagrams of points on the Earth and in the plane."
 
 COMMANDS: Final[Mapping[str, str]] = {
+    "inspect": "what is understood of a table, and which options would say the same",
     "triangulate": "the Delaunay triangles or edges of points",
     "voronoi": "the Voronoi cell of each point, the part of the Earth nearest to it, and its area",
     "partition": "areas and neighbours of the cells of more points than memory holds, in a folder",
