@@ -8,7 +8,7 @@ import tempfile
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from copy import copy
-from dataclasses import MISSING, dataclass, fields, is_dataclass, replace
+from dataclasses import MISSING, dataclass, field, fields, is_dataclass, replace
 from inspect import Parameter, signature
 from math import isfinite
 from pathlib import Path
@@ -64,6 +64,11 @@ Focus = Annotated[
     str | None, typer.Option(metavar="LON,LAT", help="Focus of the fisheye; by default the centre of the picture.")
 ]
 Magnify = Annotated[float, typer.Option(metavar="S", callback=_magnification, help="Magnification at the focus.")]
+
+
+def option(metavar: str | None, said: str, default: Any = None, **more: Any) -> Any:
+    """A field of a group of options: the name of its value, its help, and what else typer takes."""
+    return field(default=default, metadata={"option": typer.Option(metavar=metavar, help=said, **more)})
 
 
 @dataclass(frozen=True)
@@ -134,9 +139,7 @@ class File:
 class Output(File):
     """What a command writes, to stdout in one of several formats."""
 
-    format: Annotated[
-        str | None, typer.Option(metavar="NAME", help="Format of stdout, when --out is -; an extension, such as csv.")
-    ] = None
+    format: str | None = option("NAME", "Format of stdout, when --out is -; an extension, such as csv.")
 
 
 @dataclass(frozen=True)
@@ -144,16 +147,10 @@ class Picture:
     """How a picture looks, and what is written on it."""
 
     heading: ClassVar[str] = "Picture"
-    title: Annotated[str, typer.Option(metavar="TEXT", help="Title above the picture.")] = ""
-    legend: Annotated[bool, typer.Option("--legend", help="Explain points and layers below the picture.")] = False
-    style: Annotated[
-        list[str] | None,
-        typer.Option("--style", metavar="STYLE", help="dark, or a .toml file of styles; repeatable."),
-    ] = None
-    size: Annotated[
-        int | None,
-        typer.Option(metavar="PIXELS", min=1, max=65_535, help="Width; by default 1600, and 720 for films."),
-    ] = None
+    title: str = option("TEXT", "Title above the picture.", "")
+    legend: bool = option(None, "Explain points and layers below the picture.", False)
+    style: list[str] | None = option("STYLE", "dark, or a .toml file of styles; repeatable.")  # noqa: RUF009 - a field
+    size: int | None = option("PIXELS", "Width; by default 1600, and 720 for films.", min=1, max=65_535)
 
 
 @dataclass(frozen=True)
@@ -161,28 +158,18 @@ class Where:
     """What says where a table has its places; `of` is the option that names the table, where there is a second one."""
 
     heading: ClassVar[str] = "Reading {of}"
-    lon: Annotated[
-        str | None, typer.Option(metavar="COLUMN", help="Column of longitudes{of}; recognised by its name by default.")
-    ] = None
-    lat: Annotated[
-        str | None, typer.Option(metavar="COLUMN", help="Column of latitudes{of}; recognised by its name by default.")
-    ] = None
-    layer_name: Annotated[
-        str | None, typer.Option(metavar="NAME", help="Layer of the points{of}, if the file has several.")
-    ] = None
-    crs: Annotated[
-        str | None,
-        typer.Option(
-            metavar="NAME",
-            help="Coordinate system of the columns{of}, e.g. EPSG:25832; by default degrees, or in a plane none.",
-        ),
-    ] = None
+    lon: str | None = option("COLUMN", "Column of longitudes{of}; recognised by its name by default.")
+    lat: str | None = option("COLUMN", "Column of latitudes{of}; recognised by its name by default.")
+    layer_name: str | None = option("NAME", "Layer of the points{of}, if the file has several.")
+    crs: str | None = option(
+        "NAME", "Coordinate system of the columns{of}, e.g. EPSG:25832; by default degrees, or in a plane none."
+    )
     of: str = ""
 
     @property
     def given(self) -> dict[str, object]:
         """Values by option, to be refused where there is no table."""
-        named = {field.name: getattr(self, field.name) for field in fields(self) if field.name != "of"}
+        named = {each.name: getattr(self, each.name) for each in fields(self) if each.name != "of"}
         return {f"{self.of or '-'}-{name.replace('_', '-')}": value for name, value in named.items()}
 
 
@@ -190,30 +177,18 @@ class Where:
 class Table(Where):
     """How a table of places of the Earth is read."""
 
-    encoding: Annotated[
-        str | None, typer.Option(metavar="NAME", help="Encoding of text, e.g. cp1252; UTF-8 or a guess by default.")
-    ] = None
-    decimal: Annotated[
-        str | None, typer.Option(metavar="MARK", help="Decimal mark of text, . or ,; the other separates thousands.")
-    ] = None
-    skip_rows: Annotated[
-        int, typer.Option(metavar="N", min=0, help="Lines above the header; the header is found by default.")
-    ] = 0
-    missing: Annotated[
-        list[str] | None, typer.Option(metavar="VALUE", help="Value that stands for a missing one; repeatable.")
-    ] = None
-    skip_missing: Annotated[
-        bool, typer.Option("--skip-missing", help="Leave out rows without a position or a value, instead of stopping.")
-    ] = False
-    skip_invalid: Annotated[
-        bool, typer.Option("--skip-invalid", help="Leave out rows with a wrong position, too, and say how many.")
-    ] = False
-    wrap: Annotated[bool, typer.Option("--wrap", help="Accept longitudes beyond ±360.")] = False
+    encoding: str | None = option("NAME", "Encoding of text, e.g. cp1252; UTF-8 or a guess by default.")
+    decimal: str | None = option("MARK", "Decimal mark of text, . or ,; the other separates thousands.")
+    skip_rows: int = option("N", "Lines above the header; the header is found by default.", 0, min=0)
+    missing: list[str] | None = option("VALUE", "Value that stands for a missing one; repeatable.")  # noqa: RUF009 - a field
+    skip_missing: bool = option(None, "Leave out rows without a position or a value, instead of stopping.", False)
+    skip_invalid: bool = option(None, "Leave out rows with a wrong position, too, and say how many.", False)
+    wrap: bool = option(None, "Accept longitudes beyond ±360.", False)
 
     @property
     def arguments(self) -> dict[str, Any]:
         """The options as `read_points` takes them."""
-        named = {field.name: getattr(self, field.name) for field in fields(Table) if field.name != "of"}
+        named = {each.name: getattr(self, each.name) for each in fields(Table) if each.name != "of"}
         return named | {"layer": named.pop("layer_name"), "missing": named["missing"] or ()}
 
     def read(self, name: str, reader: Callable[..., PointTable] | None = None) -> PointTable:
@@ -235,10 +210,9 @@ class Table(Where):
 class AnyTable(Table):
     """How a table of points is read, which may be of a plane."""
 
-    plane: Annotated[
-        tuple[str, str] | None,
-        typer.Option(metavar="X Y", help="Columns of coordinates in a plane, instead of longitude and latitude."),
-    ] = None
+    plane: tuple[str, str] | None = option(
+        "X Y", "Columns of coordinates in a plane, instead of longitude and latitude."
+    )
 
 
 @dataclass(frozen=True)
@@ -271,14 +245,19 @@ def grouped(command: Callable[..., None]) -> Callable[..., None]:
             continue
         of = "".join(getattr(parameter.annotation, "__metadata__", ()))
         hints = get_type_hints(group, include_extras=True)
-        options = {field.name: field for field in fields(group) if field.name != "of"}
+        options = {each.name: each for each in fields(group) if each.name != "of"}
         names = {key: f"{of.removeprefix('--')}_{key}" if of else key for key in options}
-        for key, field in options.items():
-            option = copy(hints[key].__metadata__[0])
-            option.help = option.help.format(of=of and f" of {of}")
-            option.rich_help_panel = getattr(group, "heading", "").format(of=of).strip() or None
-            default = Parameter.empty if field.default is MISSING else field.default
-            typed = named(Annotated[hints[key].__origin__, option])
+        for key, each in options.items():
+            kind, told = (
+                get_args(hints[key]) if "option" not in each.metadata else (hints[key], each.metadata["option"])
+            )
+            told = copy(told)
+            if kind is bool:  # without an option that says no
+                told.param_decls = (f"--{key.replace('_', '-')}",)
+            told.help = told.help.format(of=of and f" of {of}")
+            told.rich_help_panel = getattr(group, "heading", "").format(of=of).strip() or None
+            default = Parameter.empty if each.default is MISSING else each.default
+            typed = named(Annotated[kind, told])
             parameters.append(Parameter(names[key], Parameter.KEYWORD_ONLY, default=default, annotation=typed))
         groups[name] = (group, names, {"of": of} if of else {})
 
