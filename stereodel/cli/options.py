@@ -29,15 +29,12 @@ if TYPE_CHECKING:
 
 
 TABLES = ("csv", "geojson", "geojsonl", "parquet", "gpkg", "fgb", "shp", "kml", "xlsx")
-FLAT = ("csv", "xlsx")
-"""Those without shapes."""
+FLAT = ("csv", "xlsx")  # those without shapes
 PICTURES = ("svg", "pdf")
-VALUED = ("nc", "vtp")
-"""Formats of meshes that hold the columns of points."""
+VALUED = ("nc", "vtp")  # formats of meshes that hold the columns of points
 MESHES = ("nc", "glb", "ply", "vtp", *PICTURES)
 
-Place = tuple[float, float]
-"""Longitude and latitude in degrees."""
+Place = tuple[float, float]  # longitude and latitude in degrees
 
 
 def _magnification(value: float) -> float:

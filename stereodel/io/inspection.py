@@ -15,8 +15,7 @@ from stereodel.io.formats.columns import MISSING, OTHER, doubles, far
 from stereodel.io.formats.names import listed, spelled
 from stereodel.io.table import located
 
-SHOWN: Final = 5
-"""Rows that are left out, and values, that a text shows."""
+SHOWN: Final = 5  # rows that are left out, and values, that a text shows
 
 
 @dataclass(frozen=True)
@@ -180,5 +179,4 @@ LINES: Final[dict[str, Callable[[Any], list[str]]]] = {
 ALWAYS: Final = ("header", "rows", "options")
 SHOWN_AS: Final = {"left_out": "left out", "swapped": "swapped?", "far": "far outside", "notes": "note"}
 
-NOT_SAID: Final = ("skip_invalid", "progress")
-"""What inspection gives reading itself."""
+NOT_SAID: Final = ("skip_invalid", "progress")  # what inspection gives reading itself

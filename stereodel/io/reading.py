@@ -32,8 +32,7 @@ FORMATS: Final[dict[FormatName, FileFormat]] = {
     "vector": gdal.FORMAT,
 }
 
-PACKED: Final = (".gz", ".bz2")
-"""Extensions of compressed files."""
+PACKED: Final = (".gz", ".bz2")  # extensions of compressed files
 
 
 class SourceFile:
@@ -247,8 +246,7 @@ def inspect(source: Source | Any, *, format: FormatName | None = None, **options
     return report
 
 
-Placed = list[tuple[int, FloatArray]]
-"""Numbers of features or polygons, and positions of each."""
+Placed = list[tuple[int, FloatArray]]  # numbers of features or polygons, and positions of each
 
 
 @dataclass(frozen=True, eq=False)

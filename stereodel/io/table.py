@@ -20,9 +20,7 @@ from stereodel.io.formats.names import DataWarning, beside, has_lonlat, left_out
 from stereodel.sphere import lonlat_to_xyz
 from stereodel.sphere.latitudes import Latitude
 
-DEGREES: Final = "EPSG:4326"
-"""Coordinate system of longitude and latitude."""
-
+DEGREES: Final = "EPSG:4326"  # coordinate system of longitude and latitude
 AXES: Final = {"sphere": ("lon", "lat"), "plane": ("x", "y")}
 """Names of the coordinates of a surface, unless a table has its own."""
 

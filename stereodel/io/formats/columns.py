@@ -38,15 +38,9 @@ LONG: Final = 24
 In NumPy's text arrays every row takes 4 bytes for each character of the longest value.
 """
 
-SAFE_DIGITS: Final = 15
-"""Number of decimal digits that a double always preserves."""
-
-TINY: Final = float(np.finfo(np.float64).tiny)
-"""Below it, doubles have fewer digits."""
-
-EXACT_INTEGERS: Final = 2.0**53
-"""Up to this number doubles represent every integer."""
-
+SAFE_DIGITS: Final = 15  # number of decimal digits that a double always preserves
+TINY: Final = float(np.finfo(np.float64).tiny)  # below it, doubles have fewer digits
+EXACT_INTEGERS: Final = 2.0**53  # up to this number doubles represent every integer
 LETTERS: Final = frozenset("0123456789+-.,eE\n")
 WRITTEN: Final = LETTERS | frozenset(" '’\xa0\u202f\u2009\N{MINUS SIGN}")
 """What finite numbers are written with, and also with separators of thousands and the minus sign of printers."""
@@ -69,27 +63,21 @@ SENTINELS: Final = frozenset(
 )
 """Sizes of numbers by which archives of measurements mark missing ones."""
 
-OTHER: Final = {".": ",", ",": "."}
-"""What separates thousands where this is the decimal mark."""
-
+OTHER: Final = {".": ",", ",": "."}  # what separates thousands where this is the decimal mark
 UNWRITABLE: Final = {
     **dict.fromkeys(("kml", "xlsx"), re.compile("[\x00-\x08\x0b-\x1f\ufffe\uffff\ud800-\udfff]")),
     **dict.fromkeys(("gpkg", "fgb", "shp", "nc"), re.compile("[\x00\ud800-\udfff]")),
 }
 """Characters that text of a format cannot have: those that XML lacks or changes, and the end of text in GDAL."""
 
-GUESSED_FROM: Final = 1 << 20
-"""Bytes from which an encoding is guessed."""
-
+GUESSED_FROM: Final = 1 << 20  # bytes from which an encoding is guessed
 GUESSES: Final = (*(f"cp125{k}" for k in range(7)), "koi8_r", "cp866", "cp932", "euc_jp", "gb18030", "big5", "cp949")
 """Encodings that tables without Unicode have."""
 
 WESTERN: Final = re.compile("[^\x00-\x7f\xb0\xba\xaaà-öø-ÿÀ-ÖØ-ß€‘’“”–—«»²³µ\xa0ŒœŠšŽžŸ]|[^\x00-\x7f]{3}")
 """What text in cp1252 hardly has: other signs than letters and quotes, and three of them in a row, as other scripts."""
 
-HALVES: Final = re.compile("[\ud800-\udfff]")
-"""Halves of characters, which UTF-8 lacks."""
-
+HALVES: Final = re.compile("[\ud800-\udfff]")  # halves of characters, which UTF-8 lacks
 LARGEST: Final = {"shp": 1e23, "kml": 1.797693134862315e308, "xlsx": 1e308}
 """From here on a number has more digits than a shapefile's field, GDAL's 15 digits of it are infinite, or Excel's."""
 

@@ -36,19 +36,13 @@ from stereodel.io.formats.names import DataWarning, has_lonlat, left_out, listed
 from stereodel.io.formats.notation import angle
 
 SEPARATORS = ",;\t|"
-LOOKED_AT = 50
-"""Number of lines from which the separator is detected."""
-BLOCK = 20_000
-"""Rows that are split in one block."""
+LOOKED_AT = 50  # number of lines from which the separator is detected
+BLOCK = 20_000  # rows that are split in one block
 COMMENTS = re.compile(r"(?:[ \t]*#[^\r\n]*(?:\r\n?|\n|\Z))+")
 """Comment lines at the top, which begin with a hash."""
 
-TITLES: Final = 20
-"""Rows among which the header is looked for."""
-
-UNIT: Final = 16
-"""Letters that the name of a unit has at most."""
-
+TITLES: Final = 20  # rows among which the header is looked for
+UNIT: Final = 16  # letters that the name of a unit has at most
 TOTALS: Final = frozenset(
     "total totals sum summe gesamt insgesamt somme suma soma totale итого всего 合计 合計 总计 المجموع".split()  # noqa: SIM905
 )

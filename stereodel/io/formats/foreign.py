@@ -34,15 +34,11 @@ ZIP: Final = b"PK\x03\x04"
 MARKS: Final[dict[bytes, Callable[..., Any]]] = {b"\x1f\x8b": gzip.open, b"BZh": bz2.open}
 """First bytes of packed files, and what unpacks them."""
 
-PIECE: Final = 1 << 20
-"""Bytes that are unpacked at a time."""
-
+PIECE: Final = 1 << 20  # bytes that are unpacked at a time
 DAMAGED: Final = (OSError, EOFError, zlib.error, BadZipFile, NotImplementedError, RuntimeError, struct.error)
 """What unpacking raises for damaged, encrypted and unknown contents."""
 
-HEAD: Final = 1 << 20
-"""Bytes from which a format is recognised; GDAL looks at fewer."""
-
+HEAD: Final = 1 << 20  # bytes from which a format is recognised; GDAL looks at fewer
 REFERRING: Final = re.compile(rb"<OGR\w*DataSource|gdal_streamed_alg", re.IGNORECASE)
 """Marks of formats of GDAL that are references, by which it knows them wherever they stand in the head."""
 
@@ -58,15 +54,9 @@ BINARY: Final = {b"SQLite format 3\0": "sqlite", b"fgb": "fgb", b"\x00\x00\x27\x
 MAIN: Final = (".shp", ".gpkg", ".sqlite", ".fgb", ".kml", ".gml", ".gpx")
 """Endings of the files in a zip archive that are read."""
 
-BESIDE: Final = (".shx", ".dbf", ".prj", ".cpg")
-"""Endings of the other files of a shapefile."""
-
-NAMED: Final = (".xlsx", ".ods", ".kmz")
-"""Endings of formats that are zip archives themselves."""
-
-CELL: Final = re.compile(rb"\br\s*=\s*[\"']([A-Za-z]{1,3})[0-9]")
-"""The column in the name of a cell of a spreadsheet."""
-
+BESIDE: Final = (".shx", ".dbf", ".prj", ".cpg")  # endings of the other files of a shapefile
+NAMED: Final = (".xlsx", ".ods", ".kmz")  # endings of formats that are zip archives themselves
+CELL: Final = re.compile(rb"\br\s*=\s*[\"']([A-Za-z]{1,3})[0-9]")  # the column in the name of a cell of a spreadsheet
 TEXT: Final = re.compile(rb"<si\b.*?</si>", re.DOTALL)
 OF_TEXT: Final = re.compile(rb"\bt\s*=\s*[\"']s[\"'][^<]*<v[^>]*>\s*([0-9]{1,9})")
 """The texts of a spreadsheet, and the number of its text in a cell."""
@@ -83,14 +73,11 @@ GRID: Final = re.compile(
 )
 """A file somewhere else, by its path, in the text of a coordinate system."""
 
-INCLUDED: Final = re.compile(rb"<[\w.:-]*(?:include|redefine)\b")
-"""What makes one schema of XML part of another."""
-
+INCLUDED: Final = re.compile(rb"<[\w.:-]*(?:include|redefine)\b")  # what makes one schema of XML part of another
 MADE: Final = "sql LIKE '%VIRTUAL%TABLE%USING%' OR type = 'view' AND (sql LIKE '%RECURSIVE%' OR name LIKE 'gpkg_%')"
 """Tables whose rows are not stored: virtual ones, and views that may have no end or that GDAL reads for the layers."""
 
-STORED: Final = "type = 'table' AND name IN ('gpkg_spatial_ref_sys', 'spatial_ref_sys')"
-"""Tables of coordinate systems."""
+STORED: Final = "type = 'table' AND name IN ('gpkg_spatial_ref_sys', 'spatial_ref_sys')"  # tables of coordinate systems
 
 _settings = Lock()
 

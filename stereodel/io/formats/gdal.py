@@ -31,9 +31,7 @@ RESERVED: Final = {"gpkg": ("fid", "geom"), "fgb": (), "shp": (), "kml": (), "xl
 
 DRIVERS: Final = {"gpkg": "GPKG", "fgb": "FlatGeobuf", "shp": "ESRI Shapefile", "kml": "LIBKML", "xlsx": "XLSX"}
 
-IN_MEMORY: Final = ("kml", "xlsx")
-"""Formats that are written in memory first, as GDAL does not report a full disk."""
-
+IN_MEMORY: Final = ("kml", "xlsx")  # formats that are written in memory first, as GDAL does not report a full disk
 SHEET: Final = {"rows": 1_048_575, "columns": 16_384, "characters of a text": 32_767}
 """What a sheet of a workbook holds at most, below its header."""
 
@@ -43,12 +41,8 @@ SEVERAL: Final = {kind: f"Multi{kind}" for kind in ("Point", "LineString", "Poly
 OPTIONS: Final = {"fgb": {"TEMPORARY_DIR": "/vsimem/"}}
 """Options of GDAL by format. FlatGeobuf sorts features for its index: in memory that takes two thirds of the time."""
 
-INDEXED: Final = (".gpkg", ".fgb")
-"""Formats with a spatial index, which GDAL writes last or first."""
-
-LETTERS: Final = 200
-"""Characters of GDAL's messages that an error message repeats."""
-
+INDEXED: Final = (".gpkg", ".fgb")  # formats with a spatial index, which GDAL writes last or first
+LETTERS: Final = 200  # characters of GDAL's messages that an error message repeats
 LOST: Final = re.compile(
     r"truncated|skipp(?:ed|ing)|discard|corrupt|damaged|\blost\b|ignored|cannot be (?:read|parsed)|invalid coord",
     re.IGNORECASE,
@@ -61,14 +55,9 @@ SHAPES: Final = b"\x00\x00\x27\x0a"
 HEADER: Final = 32
 """Bytes that every ``.dbf`` has; 4 to 11 are the number of its rows, where they begin, and the length of a row."""
 
-SHEETS: Final = (".xlsx", ".ods")
-"""Spreadsheets, whose headers GDAL takes for data where all cells are text."""
-
-GPX_FIELDS: Final = 100
-"""From so many columns on, GDAL reads no rows of GPX, in silence."""
-
-LAUNDERED: Final = re.compile(r"field name: '(.*)' to '(.*)'")
-"""GDAL's warning for a column name that it shortens."""
+SHEETS: Final = (".xlsx", ".ods")  # spreadsheets, whose headers GDAL takes for data where all cells are text
+GPX_FIELDS: Final = 100  # from so many columns on, GDAL reads no rows of GPX, in silence
+LAUNDERED: Final = re.compile(r"field name: '(.*)' to '(.*)'")  # GDAL's warning for a column name that it shortens
 
 
 def read(file: Input, wanted: Wanted) -> Content:

@@ -23,9 +23,7 @@ from stereodel.io.formats.names import NoPointError, beside, index_columns, left
 shapely: Any = OnUse(lambda: optional("shapely", "geo"))
 arrow: Any = OnUse(lambda: optional("pyarrow", "geo"))
 
-ROWS: Final = 65_536
-"""Rows in a block."""
-
+ROWS: Final = 65_536  # rows in a block
 POINT, LINE, RING, POLYGON, MULTIPOINT, MULTILINE, MULTIPOLYGON, COLLECTION = range(8)
 """Type codes of geometries in Shapely; those above POLYGON are multi-part."""
 

@@ -14,9 +14,7 @@ from typing import Any, Final, TypeVar
 
 T = TypeVar("T")
 
-NAMES_SHOWN, NAME_SHOWN = 30, 40
-"""Number of columns, and characters of a name, that a message shows."""
-
+NAMES_SHOWN, NAME_SHOWN = 30, 40  # number of columns, and characters of a name, that a message shows
 NAMES: Final = {
     "lon": (
         *("longitude", "lon", "lng", "long", "longitud", "longitudine", "längengrad", "laengengrad"),
@@ -40,9 +38,7 @@ BESIDE: Final = {
 }
 """What may stand beside a word that is unsure."""
 
-IDEOGRAPHS: Final = "\u3040"
-"""From here on a name is not written in words."""
-
+IDEOGRAPHS: Final = "\u3040"  # from here on a name is not written in words
 SPELLING: Final[ContextVar[Mapping[str, str]]] = ContextVar("SPELLING", default=MappingProxyType({}))
 
 

@@ -34,13 +34,10 @@ WKT: Final = re.compile(
 BETWEEN: Final = tuple(re.compile(each) for each in (r"[;/|]", r",\s", r",", r"(?<=[NSEW])\s*(?=[-+0-9])", r"\s+"))
 """What stands between both coordinates of a cell, the surest first."""
 
-COMMA: Final = re.compile(r"[-+]?[0-9]+,[0-9]+")
-"""A number with a decimal comma, or two whole ones."""
-
+COMMA: Final = re.compile(r"[-+]?[0-9]+,[0-9]+")  # a number with a decimal comma, or two whole ones
 WELL_KNOWN: Final = "well-known text"
 
-LOOKED_AT: Final = 20
-"""Cells from which it is known whether a column has both coordinates."""
+LOOKED_AT: Final = 20  # cells from which it is known whether a column has both coordinates
 
 
 class Angle(NamedTuple):

@@ -20,9 +20,7 @@ KINDS: Final = {1: "Point", 2: "LineString", 3: "Polygon", 4: "MultiPoint", 5: "
 POINT: Final = np.dtype([("order", "u1"), ("kind", "<u4"), ("xy", "<f8", 2)])
 """A point: 21 bytes, and more where it has a height or measure."""
 
-POINTS: Final = (1, 1001, 2001, 3001)
-"""Codes of points."""
-
+POINTS: Final = (1, 1001, 2001, 3001)  # codes of points
 LINE: Final = bytes([1, 2, 0, 0, 0])
 RING: Final = bytes([1, 3, 0, 0, 0, 1, 0, 0, 0])
 """Headers of a line and of a polygon with one ring, before the number of their points."""
