@@ -53,14 +53,12 @@ class Inspection:
     found: dict[str, Any]
 
     def __str__(self) -> str:
-        lines = []
-        for name, said in LINES.items():
-            value = self.found.get(name)
-            if value or (name in ALWAYS and name in self.found):
-                shown = said(value)
-                labels = [SHOWN_AS.get(name, name)] + [""] * len(shown)
-                lines += [f"{label:12}{line}".rstrip() for label, line in zip(labels, shown, strict=False)]
-        return "\n".join(lines)
+        said = {
+            SHOWN_AS.get(name, name): LINES.get(name, _text)(value)
+            for name, value in self.found.items()
+            if value or name in ALWAYS
+        }
+        return "\n".join(f"{name:12}{text}".replace("\n", "\n" + " " * 12) for name, text in said.items())
 
 
 def summary(name: str, content: Content, wanted: Wanted, kind: str) -> Inspection:
@@ -127,7 +125,7 @@ def _options(found: Mapping[str, Any], wanted: Wanted) -> dict[str, Any]:
     return result | ({"plane": list(wanted.plane)} if wanted.plane else {})
 
 
-def _typed(options: Mapping[str, Any]) -> list[str]:
+def _typed(options: Mapping[str, Any]) -> str:
     """Arguments with their values, as they are typed in Python or on the command line."""
     parts: list[str] = []
     for name, value in options.items():
@@ -139,42 +137,40 @@ def _typed(options: Mapping[str, Any]) -> list[str]:
             parts += [option, *(map(quote, several) if name == "plane" else [])]
         else:
             parts += [quote(f"{option}={each}") for each in several]
-    return [" ".join(parts) or "none are needed"]
+    return " ".join(parts) or "none are needed"
 
 
-def _of_columns(columns: Mapping[str, Mapping[str, Any]]) -> list[str]:
+def _text(value: Any) -> str:
+    """A value as text, lists with commas."""
+    if isinstance(value, list):
+        return ", ".join(map(_text, value))
+    return f"{value:.9g}" if isinstance(value, float) else str(value)
+
+
+def _of_columns(columns: Mapping[str, Mapping[str, Any]]) -> str:
     lines = []
     for name, each in columns.items():
-        values = listed(each["examples"]) if "examples" in each else _ends(each["range"], " to ")
+        values = listed(each["examples"]) if "examples" in each else " to ".join(map(_text, each["range"]))
         lines.append(f"{name}: {each['type']}, {values}" + (f", {each['missing']} missing" if each["missing"] else ""))
-    return lines
+    return "\n".join(lines)
 
 
-def _of_rows(rows: Mapping[int, str]) -> list[str]:
+def _of_rows(rows: Mapping[int, str]) -> str:
     more = [f"and {len(rows) - SHOWN} more"] if len(rows) > SHOWN else []
-    return [f"row {row}: {why}" for row, why in [*rows.items()][:SHOWN]] + more
+    return "\n".join([f"row {row}: {why}" for row, why in [*rows.items()][:SHOWN]] + more)
 
 
-def _ends(numbers: Sequence[float], between: str = ", ") -> str:
-    return between.join(f"{number:.9g}" for number in numbers)
-
-
-LINES: Final[dict[str, Callable[[Any], list[str]]]] = {
-    **dict.fromkeys(("file", "format", "encoding", "separator"), lambda value: [value]),
-    "header": lambda row: [f"row {row}" if row else "none"],
-    "thousands": lambda marks: [f"{name}: {mark!r}" for name, mark in marks.items()],
-    "place": lambda names: [", ".join(names)],
-    **dict.fromkeys(("notation", "crs", "rows", "duplicates"), lambda value: [str(value)]),
+LINES: Final[dict[str, Callable[[Any], str]]] = {
+    "header": lambda row: f"row {row}" if row else "none",
+    "thousands": lambda marks: "\n".join(f"{name}: {mark!r}" for name, mark in marks.items()),
     "left_out": _of_rows,
-    "extent": lambda ends: [_ends(ends)],
-    "swapped": lambda _: ["the longitudes look like latitudes, and the other way round"],
+    "swapped": lambda _: "the longitudes look like latitudes, and the other way round",
     "columns": _of_columns,
-    "far": lambda far: [f"{name}: {_ends([end])} ({n})" for name, ends in far.items() for end, n in ends.items()],
-    "notes": list,
+    "far": lambda far: "\n".join(f"{k}: {_text(end)} ({n})" for k, ends in far.items() for end, n in ends.items()),
+    "notes": "\n".join,
     "options": _typed,
-    "problem": lambda value: [value],
 }
-"""The lines of the text for what was found, which are left out where there is nothing to say."""
+"""Texts of what was found, `_text` for the rest; nothing is said where there is nothing, but `ALWAYS`."""
 
 ALWAYS: Final = ("header", "rows", "options")
 SHOWN_AS: Final = {"left_out": "left out", "swapped": "swapped?", "far": "far outside", "notes": "note"}

@@ -83,7 +83,6 @@ class PointTable(Shown):
             places = as_lonlat(places, "places")
             if self.crs not in (None, DEGREES):
                 raise ValueError(f"crs is {self.crs!r}, but points of the sphere are in degrees, {DEGREES}")
-            object.__setattr__(self, "crs", DEGREES)
         given = np.asarray(self.rows, dtype=np.intp)
         rows = given if given.size else np.arange(1, len(places) + 1)
         named = content_of(self.columns).columns() if is_frame(self.columns) else self.columns
@@ -91,10 +90,8 @@ class PointTable(Shown):
         for name, values in {**columns, "rows": rows}.items():
             if values.ndim < 1 or len(values) != len(places):
                 raise ValueError(f"column {name!r} has shape {values.shape}, but there are {len(places)} points")
-        object.__setattr__(self, "axes", tuple(axes))
-        object.__setattr__(self, "places", read_only(places))
-        object.__setattr__(self, "columns", MappingProxyType(columns))
-        object.__setattr__(self, "rows", read_only(rows))
+        held = {"places": read_only(places), "columns": MappingProxyType(columns), "rows": read_only(rows)}
+        vars(self).update(held, axes=tuple(axes), crs=DEGREES if self.surface == "sphere" else self.crs)
 
     def __len__(self) -> int:
         return len(self.places)
@@ -159,8 +156,8 @@ class PointTable(Shown):
         `RenamedColumnWarning`.
         """
         before = dict(first or {})
-        columns = before | beside([*self.axes, *before, *results], self.columns) | dict(results)
-        return replace(self, columns=columns)
+        others = beside([*self.axes, *before, *results], self.columns)
+        return replace(self, columns=before | others | dict(results))
 
     def taken(self, which: BoolArray | Indices) -> PointTable:
         """Some of the points, by index or mask."""
@@ -175,20 +172,15 @@ def located(found: Content, wanted: Wanted, name: str = "") -> PointTable:
     `skip_invalid` both, with a warning. What is left out is in `found.invalid`.
     """
     gaps = wanted.skip_missing or wanted.skip_invalid
-    pair = None if wanted.plane else found.places(skip_missing=gaps)
-    columns, crs = (
-        {key: blanked(np.asarray(each), wanted.sentinels) for key, each in found.columns().items()},
-        found.crs,
-    )
+    pair, crs = None if wanted.plane else found.places(skip_missing=gaps), found.crs
+    columns = {key: blanked(np.asarray(each), wanted.sentinels) for key, each in found.columns().items()}
     if pair is None:
         pair, columns, crs = _place_columns(columns, wanted, found.understood)
     named = wanted.plane or (("longitude", "latitude") if crs is None else ("easting", "northing"))
     rows = np.arange(1, len(pair[0]) + 1) if found.rows is None else found.rows
     decimal, wrong = wanted.plane is None and crs is None, found.invalid if wanted.skip_invalid else None
-    both = zip(named, pair, strict=True)
-    places = np.column_stack(
-        [numbers(each, axis, rows, gaps=gaps, decimal=decimal, wrong=wrong) for axis, each in both]
-    )
+    said: dict[str, Any] = {"gaps": gaps, "decimal": decimal, "wrong": wrong}
+    places = np.column_stack([numbers(each, axis, rows, **said) for axis, each in zip(named, pair, strict=True)])
 
     def there() -> tuple[FloatArray, Indices, dict[str, Column]]:
         kept = ~np.isnan(places).any(axis=1)
@@ -200,8 +192,8 @@ def located(found: Content, wanted: Wanted, name: str = "") -> PointTable:
         places, rows, columns = there()
     if found.invalid:
         first, many = min(found.invalid), len(found.invalid)
-        said = f"{many} {'rows are' if many > 1 else 'row is'} left out: row {first}: {found.invalid[first]}"
-        warnings.warn(said + (f" (and {many - 1} more)" if many > 1 else ""), DataWarning, stacklevel=2)
+        told = f"{many} {'rows are' if many > 1 else 'row is'} left out: row {first}: {found.invalid[first]}"
+        warnings.warn(told + (f" (and {many - 1} more)" if many > 1 else ""), DataWarning, stacklevel=2)
     if wanted.plane is not None:
         return PointTable(places, columns, rows, "plane", wanted.plane, crs and known_crs(crs).to_string(), name)
     return PointTable(places, columns, rows, name=name)
@@ -243,12 +235,17 @@ def degrees(
     wrap: bool = True,
     wrong: dict[int, str] | None = None,
 ) -> FloatArray:
-    """Places in degrees, transformed if `crs` is given; ValueError names the first row with a wrong one.
+    """Places in degrees, transformed if `crs` is given, easting first; ValueError names the first row with a wrong one.
 
     With `wrong`, those are NaN, and it takes their rows. Without `wrap`, longitudes beyond ±360° are wrong.
     """
-    lonlat = places if crs is None else transformed(places, crs, rows, wrong=wrong)
-    skip = left_out("skip_invalid")
+    lonlat, skip = places, left_out("skip_invalid")
+    if crs is not None and len(places):
+        transformer = optional("pyproj", "geo").Transformer.from_crs(known_crs(crs), DEGREES, always_xy=True)
+        lonlat = np.column_stack(transformer.transform(*places.T))
+        lost, what = ~np.isfinite(lonlat).all(axis=1), f"has no longitude and latitude in {crs}"
+        _refuse(lost, rows, lambda k: f"({places[k, 0]}, {places[k, 1]}) {what}", wrong=wrong)
+        lonlat[lost] = np.nan
     if wrong is None:
         _refuse(~np.isfinite(lonlat).all(axis=1), rows, lambda k: "a coordinate is not finite")
     advice = f"is it the longitude, or not in degrees? {skip}"
@@ -269,19 +266,6 @@ def known_crs(crs: str) -> Any:
         raise ValueError(
             f"{spelled('crs')} is {crs!r}, which PROJ does not know; give one such as EPSG:25832"
         ) from error
-
-
-def transformed(
-    places: FloatArray, crs: str, rows: Sequence[int] | Indices, *, wrong: dict[int, str] | None = None
-) -> FloatArray:
-    """Coordinates in another system, easting first, as longitude and latitude; NaN where there are none, if `wrong`."""
-    transformer = optional("pyproj", "geo").Transformer.from_crs(known_crs(crs), "EPSG:4326", always_xy=True)
-    lonlat = np.column_stack(transformer.transform(*places.T)) if len(places) else places
-    lost = ~np.isfinite(lonlat).all(axis=1)
-    said = f"has no longitude and latitude in {crs}"
-    _refuse(lost, rows, lambda k: f"({places[k, 0]}, {places[k, 1]}) {said}", wrong=wrong)
-    lonlat[lost] = np.nan
-    return lonlat
 
 
 def numbers(
