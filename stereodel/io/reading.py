@@ -4,22 +4,18 @@ from __future__ import annotations
 
 import os
 import warnings
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
 from itertools import pairwise
-from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any, Final, Literal
 
 import numpy as np
 
-from stereodel._arrays import FloatArray, Geometries, Indices, as_choice
+from stereodel._arrays import FloatArray, Geometries, Indices
 from stereodel._tasks.progress import Progress
 from stereodel.curves.ragged import Ragged
 from stereodel.io.formats import Content, FileFormat, FormatName, Source, Wanted, delimited, gdal, geojson, parquet
-from stereodel.io.formats.foreign import unpacked
+from stereodel.io.formats.foreign import SourceFile
 from stereodel.io.formats.map_rows import POINT, POLYGON, Frame, content_of, is_frame, shapely
 from stereodel.io.formats.names import DataWarning, NoPointError, naming, spelled
 from stereodel.io.inspection import Inspection, summary
@@ -31,57 +27,6 @@ FORMATS: Final[dict[FormatName, FileFormat]] = {
     "parquet": parquet.FORMAT,
     "vector": gdal.FORMAT,
 }
-
-PACKED: Final = (".gz", ".bz2")  # extensions of compressed files
-
-
-class SourceFile:
-    """A source of rows: its format, and its bytes, read on demand."""
-
-    def __init__(self, source: Source, kind: FormatName | None = None) -> None:
-        self._source = source
-        self.path = Path(source) if isinstance(source, str | os.PathLike) else None
-        self.kind: FormatName = as_choice(kind or self._found(), tuple(FORMATS), "format")
-
-    def _found(self) -> FormatName:
-        """The format from the extension of the path, ignoring that of compression, else from the first bytes."""
-        kinds = {ending: kind for kind, known in FORMATS.items() for ending in known.endings}
-        endings = [ending.lower() for ending in self.path.suffixes[-2:]] if self.path is not None else []
-        if endings[-1:] and endings[-1] in PACKED:
-            endings.pop()
-        return kinds.get(endings[-1] if endings else "") or kinds[self._ending]
-
-    @cached_property
-    def content(self) -> bytes:
-        """The decompressed bytes."""
-        content = self._source.read() if self.path is None else self.path.read_bytes()  # type: ignore[union-attr]
-        return content.encode() if isinstance(content, str) else unpacked(content)
-
-    @contextmanager
-    def on_disk(self) -> Iterator[Path]:
-        """Where GDAL finds the file, as it needs the extension and any companion files."""
-        if self.path is not None and self.path.suffix.lower() not in PACKED:
-            if not self.path.is_dir():  # as some formats are
-                self.path.open("rb").close()  # the system's own message says best why it cannot be read
-            yield self.path
-            return
-        with TemporaryDirectory() as folder:
-            within = Path(self.path.stem).suffix if self.path is not None else ""
-            named = Path(folder, f"points{within or self._ending}")
-            named.write_bytes(self.content)
-            yield named
-
-    @property
-    def _ending(self) -> str:
-        """The extension that matches the first bytes; XML may be KML or GPX, a zip archive a spreadsheet."""
-        start = self.content[:64].lstrip(b"\xef\xbb\xbf \t\r\n")
-        marks = {mark: ending for known in FORMATS.values() for mark, ending in known.marks.items()}
-        found = next((ending for mark, ending in marks.items() if start.startswith(mark)), ".csv")
-        if found == ".zip" and b"xl/workbook.xml" in self.content:
-            return ".xlsx"
-        if found == ".zip" and b"opendocument.spreadsheet" in self.content[:100]:
-            return ".ods"
-        return ".gpx" if found == ".kml" and b"<gpx" in self.content[:1000] else found
 
 
 def read_points(
@@ -203,7 +148,7 @@ def _content(source: Any, wanted: Wanted, kind: FormatName | None) -> tuple[Cont
     """What a source holds, its name for messages, and its format."""
     if is_frame(source):
         return content_of(source), "", "frame"
-    file = SourceFile(source, kind)
+    file = SourceFile(source, FORMATS, kind)
     return _rows_of(file, wanted), os.fspath(source) if isinstance(source, str | os.PathLike) else "", file.kind
 
 
@@ -317,7 +262,7 @@ def read_sites(source: Source, **options: Any) -> PointTable:
     """What `read_points` reads; of a source in which others than points are, a `ShapeTable`."""
     wanted = Wanted(**options)
     with naming(source):
-        found = _rows_of(SourceFile(source), wanted)
+        found = _rows_of(SourceFile(source, FORMATS), wanted)
         try:
             return located(found, wanted)
         except NoPointError:
@@ -333,7 +278,8 @@ def shapes_of(source: Any) -> Shapes:
     by a member ``crs``) are transformed; without one they are in degrees. Null and empty geometries have no shapes.
     """
     if isinstance(source, str | os.PathLike):
-        return _shapes_of_file(Path(source))
+        with naming(source):
+            return _shapes_in(_rows_of(SourceFile(source, FORMATS), Wanted()))
     if hasattr(source, "to_crs"):
         frame = source if source.crs is None else source.to_crs("EPSG:4326")
         others = frame.drop(columns=frame.geometry.name).to_dict("records") if hasattr(frame, "columns") else None
@@ -344,14 +290,6 @@ def shapes_of(source: Any) -> Shapes:
     if isinstance(source, Iterable) and not isinstance(source, bytes):
         return of_items(list(source))
     raise TypeError(f"source must be a file, GeoJSON, a GeoDataFrame or geometries, got {type(source).__name__}")
-
-
-def _shapes_of_file(path: Path) -> Shapes:
-    path.stat()  # the system's own message says best that there is none
-    with naming(path):
-        known = {*PACKED, *(ending for each in FORMATS.values() for ending in each.endings)}
-        file = SourceFile(path, None if path.suffix.lower() in known else "vector")
-        return _shapes_in(_rows_of(file, Wanted()))
 
 
 def _shapes_in(found: Content) -> Shapes:

@@ -4,11 +4,9 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Mapping, Sequence
-from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from functools import cached_property
-from pathlib import Path
-from typing import Any, BinaryIO, Literal, NamedTuple, Protocol, TextIO
+from typing import Any, BinaryIO, Literal, NamedTuple, TextIO
 
 from stereodel._arrays import Column, Indices, as_choice, as_count
 from stereodel._tasks.progress import Progress
@@ -58,17 +56,6 @@ class Wanted:
         return self.plane
 
 
-class Input(Protocol):
-    """A source of rows: its bytes, decompressed, and where it is on the disk, for what has to read it there."""
-
-    @property
-    def content(self) -> bytes:
-        """The bytes, read on demand."""
-
-    def on_disk(self) -> AbstractContextManager[Path]:
-        """A file with the extension of its format, and with any companion files."""
-
-
 class Content:
     """What a file holds: here, columns alone."""
 
@@ -101,4 +88,5 @@ class FileFormat(NamedTuple):
 
     endings: tuple[str, ...]
     marks: Mapping[bytes, str]
-    read: Callable[[Input, Wanted], Content]
+    read: Callable[[Any, Wanted], Content]
+    """Takes a `foreign.SourceFile`."""

@@ -17,7 +17,7 @@ import numpy as np
 from stereodel._arrays import Column
 from stereodel._tasks.progress import Progress
 from stereodel.constants import MOST_COLUMNS, MOST_LINE
-from stereodel.io.formats import Content, FileFormat, Input, Wanted
+from stereodel.io.formats import Content, FileFormat, Wanted
 from stereodel.io.formats.columns import (
     EXACT_INTEGERS,
     NUMBER,
@@ -32,6 +32,7 @@ from stereodel.io.formats.columns import (
     texts,
     why_not,
 )
+from stereodel.io.formats.foreign import SourceFile
 from stereodel.io.formats.names import DataWarning, has_lonlat, left_out, listed, spelled
 from stereodel.io.formats.notation import angle
 
@@ -54,7 +55,7 @@ SEPARATED: Final = re.compile(r"sep=([^\r\n])\r?\n", re.IGNORECASE)
 Lines = list[list[str]]
 
 
-def read(file: Input, wanted: Wanted) -> Content:
+def read(file: SourceFile, wanted: Wanted) -> Content:
     """A table of text; columns whose values are all numbers become numeric, but for degrees."""
     text, encoding = decoded(file.content, wanted.encoding)
     start = sum(map(len, text.splitlines(keepends=True)[: wanted.skip_rows])) if wanted.skip_rows else 0

@@ -16,9 +16,9 @@ import sqlite3
 import struct
 import zlib
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import closing, contextmanager, nullcontext
-from functools import reduce
+from functools import cached_property, reduce
 from pathlib import Path
 from shutil import copyfileobj
 from tempfile import TemporaryDirectory
@@ -26,8 +26,10 @@ from threading import Lock
 from typing import Any, Final
 from zipfile import BadZipFile, ZipFile
 
+from stereodel._arrays import as_choice
 from stereodel._extras import optional
 from stereodel.constants import MOST_COLUMNS, MOST_MEMBERS, UNPACKED_RATIO, UNPACKED_SIZE
+from stereodel.io.formats import FileFormat, FormatName, Source
 from stereodel.io.formats.names import listed
 
 ZIP: Final = b"PK\x03\x04"
@@ -38,6 +40,7 @@ PIECE: Final = 1 << 20  # bytes that are unpacked at a time
 DAMAGED: Final = (OSError, EOFError, zlib.error, BadZipFile, NotImplementedError, RuntimeError, struct.error)
 """What unpacking raises for damaged, encrypted and unknown contents."""
 
+PACKED: Final = (".gz", ".bz2")  # extensions of compressed files
 HEAD: Final = 1 << 20  # bytes from which a format is recognised; GDAL looks at fewer
 REFERRING: Final = re.compile(rb"<OGR\w*DataSource|gdal_streamed_alg", re.IGNORECASE)
 """Marks of formats of GDAL that are references, by which it knows them wherever they stand in the head."""
@@ -97,6 +100,58 @@ def unpacked(content: bytes) -> bytes:
     except DAMAGED as error:
         raise ValueError(f"the compressed file is damaged: {error}") from error
     return b"".join(pieces)
+
+
+class SourceFile:
+    """A source of rows: its format, and its bytes, read on demand."""
+
+    def __init__(
+        self, source: Source, formats: Mapping[FormatName, FileFormat], kind: FormatName | None = None
+    ) -> None:
+        self._source, self._formats = source, formats
+        self.path = Path(source) if isinstance(source, str | os.PathLike) else None
+        self.kind: FormatName = as_choice(kind or self._found(), tuple(formats), "format")
+
+    def _found(self) -> FormatName:
+        """The format from the extension of the path, ignoring that of compression, else from the first bytes."""
+        kinds = {ending: kind for kind, known in self._formats.items() for ending in known.endings}
+        endings = [ending.lower() for ending in self.path.suffixes] if self.path is not None else []
+        known = [ending for ending in endings[-2:] if ending not in PACKED]
+        if self.path is not None and self.path.is_dir():
+            return "vector"
+        return kinds.get(known[-1] if known else "") or kinds[self._ending]
+
+    @cached_property
+    def content(self) -> bytes:
+        """The decompressed bytes."""
+        content = self._source.read() if self.path is None else self.path.read_bytes()  # type: ignore[union-attr]
+        return content.encode() if isinstance(content, str) else unpacked(content)
+
+    @contextmanager
+    def on_disk(self) -> Iterator[Path]:
+        """Where GDAL finds the file, as it needs the extension of its format and any companion files."""
+        if self.path is not None and self.path.suffix.lower() not in PACKED:
+            if not self.path.is_dir():  # as some formats are
+                self.path.open("rb").close()  # the system's own message says best why it cannot be read
+            yield self.path
+            return
+        with TemporaryDirectory() as folder:
+            within = Path(self.path.stem).suffix if self.path is not None else ""
+            named = Path(folder, f"points{within or self._ending}")
+            named.write_bytes(self.content)
+            yield named
+
+    @property
+    def _ending(self) -> str:
+        """The extension that matches the first bytes; XML may be KML or GPX, a zip archive a spreadsheet."""
+        start = self.content[:64].lstrip(b"\xef\xbb\xbf \t\r\n")
+        marks = {mark: ending for known in self._formats.values() for mark, ending in known.marks.items()}
+        found = next((ending for mark, ending in marks.items() if start.startswith(mark)), ".csv")
+        if found == ".zip" and b"xl/workbook.xml" in self.content:
+            return ".xlsx"
+        if found == ".zip" and b"opendocument.spreadsheet" in self.content[:100]:
+            return ".ods"
+        return ".gpx" if found == ".kml" and b"<gpx" in self.content[:1000] else found
 
 
 @contextmanager

@@ -17,9 +17,9 @@ from xml.parsers import expat
 
 from stereodel._extras import OnUse, optional
 from stereodel._tasks.progress import Progress
-from stereodel.io.formats import Content, FileFormat, Input, Wanted, delimited
+from stereodel.io.formats import Content, FileFormat, Wanted, delimited
 from stereodel.io.formats.columns import as_text, check_held, plain
-from stereodel.io.formats.foreign import check_crs, check_stored, self_contained
+from stereodel.io.formats.foreign import SourceFile, check_crs, check_stored, self_contained
 from stereodel.io.formats.map_rows import Frame, MapRows, arrow, arrow_column
 from stereodel.io.formats.names import DataWarning, RenamedColumnWarning, beside, has_lonlat, listed, spelled
 from stereodel.io.formats.wkb import is_there
@@ -60,7 +60,7 @@ GPX_FIELDS: Final = 100  # from so many columns on, GDAL reads no rows of GPX, i
 LAUNDERED: Final = re.compile(r"field name: '(.*)' to '(.*)'")  # GDAL's warning for a column name that it shortens
 
 
-def read(file: Input, wanted: Wanted) -> Content:
+def read(file: SourceFile, wanted: Wanted) -> Content:
     """A layer of a file, with or without geometries; `wanted` selects one of several.
 
     The header of a sheet is found as that of a table of text, where GDAL does not find it.

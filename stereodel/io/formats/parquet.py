@@ -10,16 +10,16 @@ from typing import Any, Final
 
 from stereodel._extras import optional
 from stereodel._tasks.progress import Progress
-from stereodel.io.formats import Content, FileFormat, Input, Wanted
+from stereodel.io.formats import Content, FileFormat, Wanted
 from stereodel.io.formats.columns import check_held
-from stereodel.io.formats.foreign import check_size
+from stereodel.io.formats.foreign import SourceFile, check_size
 from stereodel.io.formats.gdal import in_degrees, told
 from stereodel.io.formats.map_rows import Frame, MapRows, of_arrow
 
 VERSION: Final = "1.0.0"
 
 
-def read(file: Input, _: Wanted) -> Content:
+def read(file: SourceFile, _: Wanted) -> Content:
     """A frame with geometries, or columns alone if the file has no metadata of geometries."""
     content = file.content
     parquet = optional("pyarrow.parquet", "geo")
