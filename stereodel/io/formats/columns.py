@@ -14,6 +14,7 @@ import json
 import re
 import warnings
 from collections.abc import Iterable, Mapping
+from datetime import timedelta
 from decimal import Decimal
 from itertools import compress
 from typing import Any, Final
@@ -97,12 +98,8 @@ def decoded(content: bytes, encoding: str | None = None) -> tuple[str, str]:
     except UnicodeError as error:
         line = content[: getattr(error, "start", 0)].count(b"\n") + 1
         if encoding is None and not marked and (guess := _guessed(content)):
-            warnings.warn(
-                f"line {line} is not text in UTF-8; the file is read in the encoding {guess}, which is a guess; "
-                f"{spelled('encoding', '=')} says which it is",
-                DataWarning,
-                stacklevel=2,
-            )
+            said = f"line {line} is not text in UTF-8; the file is read in the encoding {guess}, which is a guess"
+            warnings.warn(f"{said}; {spelled('encoding', '=')} says which it is", DataWarning, stacklevel=2)
             return content.decode(guess), guess
         advice = f"say which encoding the file has with {spelled('encoding', '=')}, such as cp1252"
         raise ValueError(f"line {line} is not text in {'UTF-8' if encoding is None else encoding}; {advice}") from error
@@ -148,10 +145,12 @@ def column(values: Iterable[Any]) -> Column:
     kinds = {type(cell) for cell in known}
     if kinds == {str} and len(known) == len(cells):
         return texts(cells)
-    if not kinds or not kinds <= {int, float}:
-        return np.array(cells) if kinds == {bool} and len(known) == len(cells) else objects(cells)
+    if kinds == {bool} and len(known) == len(cells):
+        return np.array(cells)
     if kinds == {int} and len(known) == len(cells) and all(-(2**63) <= cell < 2**63 for cell in cells):
         return np.array(cells, dtype=np.int64)
+    if not kinds or not kinds <= {int, float}:
+        return objects(cells)
     if any(isinstance(cell, int) and abs(cell) > EXACT_INTEGERS for cell in known):
         return objects(cells)
     return np.array([np.nan if cell is None else cell for cell in cells], dtype=np.float64)
@@ -219,14 +218,12 @@ def _held(text: list[str], whole: bool) -> Column | None:
 def blanked(values: Column, missing: Iterable[str]) -> Column:
     """A column without the values that stand for missing ones: as text or, of numbers, by what they are."""
     said = [each.strip() for each in missing]
-    if not said:
+    if not said or values.dtype.kind not in "iufUO":
         return values
     amounts = {float(each.replace(",", ".")) for each in said if NUMBER.fullmatch(each)}
     if values.dtype.kind in "iuf":
         gone = np.isin(values, list(amounts))
         return np.where(gone, np.nan, values) if gone.any() else values
-    if values.dtype.kind not in "UO":
-        return values
     cells = values.tolist()
     for row, cell in enumerate(cells):
         text = str(cell).strip()
@@ -241,15 +238,12 @@ def far(values: FloatArray) -> dict[float, int]:
     Far is ten times as far from the next one as the others are from each other; of numbers that stand for missing
     ones, once.
     """
-    known = values[np.isfinite(values)]
-    result = {}
-    for end, sign in ((known.min(), 1.0), (known.max(), -1.0)) if len(known) else ():
+    known, result = values[np.isfinite(values)], {}
+    for end in (float(known.min()), float(known.max())) if len(known) else ():
         others = known[known != end]
-        if len(others) > 1 and (spread := float(np.ptp(others))) > 0.0:
-            gap = float(np.min(sign * (others - end)))
-            times = 1.0 if abs(float(end)) in SENTINELS else 10.0
-            if gap > times * spread:
-                result[float(end)] = int((known == end).sum())
+        times = 1.0 if abs(end) in SENTINELS else 10.0
+        if len(others) > 1 and np.abs(others - end).min() > times * np.ptp(others) > 0.0:
+            result[end] = int((known == end).sum())
     return result
 
 
@@ -310,7 +304,7 @@ def plain(cell: Any) -> Any:
         return [plain(part) for part in cell]
     if type(cell).__name__ == "NAType" or cell != cell:  # missing values of pandas and NumPy
         return None
-    return cell.isoformat() if hasattr(cell, "isoformat") else str(cell)
+    return cell.isoformat() if hasattr(cell, "isoformat") and not isinstance(cell, timedelta) else str(cell)
 
 
 def as_text(cell: Any) -> Any:
@@ -323,23 +317,19 @@ def as_text(cell: Any) -> Any:
 def check_held(columns: Mapping[str, Any], kind: str) -> None:
     """Raise ValueError that names the column for text or numbers that a format cannot hold."""
     pattern = UNWRITABLE.get(kind, HALVES)
-    wrong = [name for name in columns if pattern.search(name)]
-    if wrong:
-        raise ValueError(f"the column name {listed(wrong[:1])} has a character that .{kind} cannot hold")
+    for name in filter(pattern.search, columns):
+        raise ValueError(f"the column name {listed([name])} has a character that .{kind} cannot hold")
     for name, values in columns.items():
         array = np.asarray(values)
-        if array.dtype.kind in "UO":
-            said = next((cell for cell in array.ravel().tolist() if type(cell) is str and pattern.search(cell)), None)
-            if said is not None:
+        for cell in array.ravel().tolist() if array.dtype.kind in "UO" else ():
+            if type(cell) is str and pattern.search(cell):
                 raise ValueError(
-                    f"column {name!r} has the text {listed([said])}, with a character that .{kind} cannot hold; "
+                    f"column {name!r} has the text {listed([cell])}, with a character that .{kind} cannot hold; "
                     "replace it, or choose another format"
                 )
         if kind in LARGEST and array.dtype.kind == "f":
             sizes = np.abs(array.astype(np.float64))
             beyond = np.isfinite(sizes) & (sizes >= LARGEST[kind])
             if beyond.any():
-                raise ValueError(
-                    f"column {name!r} has the number {array[beyond][0]}, which .{kind} cannot hold; "
-                    "choose another format"
-                )
+                said = f"column {name!r} has the number {array[beyond][0]}, which .{kind} cannot hold"
+                raise ValueError(f"{said}; choose another format")

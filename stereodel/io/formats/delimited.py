@@ -70,8 +70,8 @@ def read(file: SourceFile, wanted: Wanted) -> Content:
     separator = said[1] if said else _separator(text)
     rows = _rows(text, separator, above, wanted.progress)
     found = tabulated(rows, wanted, comma=separator != ",", above=above)
-    shown = {None: "blanks", "\t": "tab"}.get(separator, separator)
-    found.understood = {"encoding": encoding, "separator": shown, **found.understood}
+    named = {None: "blanks", "\t": "tab"}.get(separator, separator)
+    found.understood = {"encoding": encoding, "separator": named, **found.understood}
     return found
 
 
@@ -84,10 +84,8 @@ def tabulated(rows: Iterable[list[str]], wanted: Wanted, *, comma: bool = True, 
     `comma` says whether a comma may be a decimal mark.
     """
     columns, invalid, header = _split(iter(rows), wanted)
-    degrees: tuple[str, ...] = ()
     named = wanted.lon != wanted.lat or (wanted.lon is None and has_lonlat(list(columns)))
-    if named and wanted.crs is None and wanted.plane is None:
-        degrees = wanted.axes(list(columns))
+    degrees = wanted.axes(list(columns)) if named and wanted.crs is None and wanted.plane is None else ()
     columns = {name: blanked(values, wanted.sentinels) for name, values in columns.items()}
     count = len(next(iter(columns.values()), ()))
     words = _rows_of_words(columns, wanted.plane or degrees, count)

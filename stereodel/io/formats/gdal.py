@@ -19,7 +19,7 @@ from stereodel._extras import OnUse, optional
 from stereodel._tasks.progress import Progress
 from stereodel.io.formats import Content, FileFormat, Wanted, delimited
 from stereodel.io.formats.columns import as_text, check_held, plain
-from stereodel.io.formats.foreign import SourceFile, check_crs, check_stored, self_contained
+from stereodel.io.formats.foreign import BINARY, SourceFile, check_crs, check_stored, self_contained
 from stereodel.io.formats.map_rows import Frame, MapRows, arrow, arrow_column
 from stereodel.io.formats.names import DataWarning, RenamedColumnWarning, beside, has_lonlat, listed, spelled
 from stereodel.io.formats.wkb import is_there
@@ -49,9 +49,6 @@ LOST: Final = re.compile(
 )
 """Words in GDAL's warnings for data that are in the file and that it does not read unchanged."""
 
-SHAPES: Final = b"\x00\x00\x27\x0a"
-"""First bytes of the ``.shp`` of a shapefile; its length in words of 16 bits is in bytes 24 to 27."""
-
 HEADER: Final = 32
 """Bytes that every ``.dbf`` has; 4 to 11 are the number of its rows, where they begin, and the length of a row."""
 
@@ -67,7 +64,6 @@ def read(file: SourceFile, wanted: Wanted) -> Content:
 
     ValueError if the file is damaged, its format is not read or refers to other files, or the layer does not exist.
     """
-    optional("pyogrio", "geo")
     optional("geopandas", "geo")
     with file.on_disk() as path, self_contained(path) as source:
         _check_whole(source)
@@ -104,26 +100,22 @@ def in_degrees(frame: Any) -> Any:
 
 
 def _read_frame(path: Path, layer: str | None, **options: str) -> Any:
+    # Integers with missing values stay integers, which doubles may not represent.
+    given = {"use_arrow": True, "arrow_to_pandas_kwargs": {"integer_object_nulls": True}, **options}
     with warnings.catch_warnings(record=True) as said:
         warnings.simplefilter("always", RuntimeWarning)
         chosen = _chosen(path, layer)
-        # Integers with missing values stay integers, which doubles may not represent.
-        objects = {"integer_object_nulls": True}
         with told():
             info = pyogrio.read_info(path, layer=chosen)
             if info["driver"] == DRIVERS["fgb"]:  # of damaged ones GDAL makes tables on which Arrow crashes
                 pyogrio.read_arrow(path, layer=chosen)[1].validate(full=True)
-            frame = pyogrio.read_dataframe(
-                path, layer=chosen, use_arrow=True, arrow_to_pandas_kwargs=objects, **options
-            )
+            frame = pyogrio.read_dataframe(path, layer=chosen, **given)
     if info["driver"] == "GPX" and len(info["fields"]) >= GPX_FIELDS:
         raise ValueError(f"GDAL reads no rows of GPX with {GPX_FIELDS} columns; leave out some extensions")
     if not options and len(frame) < info["features"]:  # -1 where GDAL has to read all to know
         raise ValueError(f"the file is damaged: {len(frame)} of its {info['features']} rows can be read")
-    own = [
-        str(each.message).replace(str(path), path.name) for each in said if issubclass(each.category, RuntimeWarning)
-    ]
-    for words in dict.fromkeys(shorten(each, LETTERS, placeholder=" …") for each in own):
+    own = [str(each.message) for each in said if issubclass(each.category, RuntimeWarning)]
+    for words in dict.fromkeys(shorten(each.replace(str(path), path.name), LETTERS, placeholder=" …") for each in own):
         if LOST.search(words):
             raise ValueError(f"the file cannot be read without loss; GDAL says: {words}")
         warnings.warn(f"GDAL says of the file: {words}", DataWarning, stacklevel=2)
@@ -170,8 +162,8 @@ def _check_whole(path: Path) -> None:
 
 def _stated_size(head: bytes, path: Path) -> int:
     """The least length in bytes of a part of a shapefile by its header; 0 for other files."""
-    if head.startswith(SHAPES):
-        return 2 * int.from_bytes(head[24:28], "big")
+    if BINARY.get(head[:4]) == "shp":
+        return 2 * int.from_bytes(head[24:28], "big")  # in words of 16 bits
     if path.suffix.lower() != ".dbf":
         return 0
     rows, start, row = (int.from_bytes(head[a:b], "little") for a, b in ((4, 8), (8, 10), (10, 12)))
@@ -246,24 +238,22 @@ def plain_column(values: Any, kind: str) -> Any:
     column = arrow_column(values)
     if arrow.types.is_dictionary(column.type):
         column = column.dictionary_decode()
-    if arrow.types.is_nested(column.type):
+    types, xlsx = arrow.types, kind == "xlsx"
+    odd = types.is_nested(column.type) or types.is_duration(column.type) or hasattr(column.type, "extension_name")
+    if odd or (xlsx and types.is_timestamp(column.type) and column.type.tz):
         return arrow.array([as_text(plain(cell)) for cell in column.to_pylist()], arrow.string())
-    doubles = kind in ("shp", "xlsx")  # a shapefile's numbers of 19 digits are doubles, and all of a workbook
-    if arrow.types.is_uint64(column.type) or (doubles and arrow.types.is_int64(column.type)):
+    doubles = xlsx or kind == "shp"  # a shapefile's numbers of 19 digits are doubles, and all of a workbook
+    if types.is_uint64(column.type) or (doubles and types.is_int64(column.type)):
         ends = arrow.compute.min_max(column).as_py().values()
         bound = 2**53 if doubles else 2**63
         fits = all(end is None or -bound <= end < bound for end in ends)
         return column.cast(arrow.int64() if fits else arrow.string())
-    if arrow.types.is_duration(column.type) or isinstance(column.type, arrow.BaseExtensionType):
-        return arrow.array([None if cell is None else str(cell) for cell in column.to_pylist()], arrow.string())
-    if kind == "xlsx" and arrow.types.is_timestamp(column.type) and column.type.tz:
-        return arrow.array([cell and cell.isoformat() for cell in column.to_pylist()], arrow.string())
-    if kind == "xlsx" and arrow.types.is_floating(column.type):  # which knows no infinity
+    if xlsx and types.is_floating(column.type):  # which knows no infinity
         column = column.cast(arrow.float64())
         return arrow.compute.if_else(arrow.compute.is_finite(column), column, None)
-    if kind == "kml" and arrow.types.is_float32(column.type):
+    if kind == "kml" and types.is_float32(column.type):
         return column.cast(arrow.float64())  # GDAL writes too few digits of a float
-    return column.cast(arrow.float32()) if arrow.types.is_float16(column.type) else column
+    return column.cast(arrow.float32()) if types.is_float16(column.type) else column
 
 
 @contextmanager

@@ -114,13 +114,10 @@ def _kind_of(content: Any) -> Any:
 def _rows_of(content: Any) -> Sequence[Any]:
     """The features of a GeoJSON object: a collection, a feature or a geometry."""
     kind = _kind_of(content)
-    if kind in KINDS or kind == "GeometryCollection":
-        rows: Any = [{"geometry": content}]
-    elif kind == "Feature":
-        rows = [content]
-    elif isinstance(content, Mapping) and (kind == "FeatureCollection" or (kind is None and "features" in content)):
+    rows: Any = [content if kind == "Feature" else {"geometry": content}]
+    if isinstance(content, Mapping) and (kind == "FeatureCollection" or (kind is None and "features" in content)):
         rows = content.get("features")
-    else:
+    elif kind not in (*KINDS, "GeometryCollection", "Feature"):
         raise ValueError(f"this is not GeoJSON: its type is {kind!r}, neither feature nor geometry; see RFC 7946")
     if not isinstance(rows, list | tuple):
         raise ValueError("this is a FeatureCollection without a list of features")
@@ -135,8 +132,8 @@ def _systems_of(thing: Mapping[str, Any], around: str | None = None) -> set[str 
     """Coordinate systems in an object: what is inside has that of the object, unless it names its own."""
     system = _system(thing, around)
     inside = next((thing[name] for name in ("features", "geometries") if name in thing), (thing.get("geometry"),))
-    parts = [part for part in inside if isinstance(part, Mapping)] if isinstance(inside, list | tuple) else []
-    return set().union(*(_systems_of(part, system) for part in parts)) or {system}
+    parts = inside if isinstance(inside, list | tuple) else ()
+    return set().union(*(_systems_of(part, system) for part in parts if isinstance(part, Mapping))) or {system}
 
 
 def _system(thing: Mapping[str, Any], around: str | None) -> str | None:
@@ -152,17 +149,16 @@ def _system(thing: Mapping[str, Any], around: str | None) -> str | None:
 
 
 def _place(geometry: Any, row: int, skip_missing: bool) -> tuple[Any, Any]:
-    nothing = (None, None)
     if geometry is None and skip_missing:
-        return nothing
-    kind = geometry.get("type") if isinstance(geometry, dict) else "no geometry"
-    coordinates = geometry.get("coordinates") if isinstance(geometry, dict) else None
+        return None, None
+    given = geometry if isinstance(geometry, dict) else {"type": "no geometry"}
+    kind, coordinates = given.get("type"), given.get("coordinates")
     if kind == "MultiPoint" and isinstance(coordinates, list) and len(coordinates) == 1:
         kind, coordinates = "Point", coordinates[0]
     if kind != "Point":
         raise no_point(row, kind)
     if not coordinates:
-        return nothing
+        return None, None
     if not isinstance(coordinates, list) or len(coordinates) < 2 or str in map(type, coordinates[:2]):
         raise ValueError(f"row {row}: a Point has two or three coordinates, not {coordinates!r}")
     return coordinates[0], coordinates[1]

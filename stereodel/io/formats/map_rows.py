@@ -86,10 +86,8 @@ class MapRows:
 
     def frame(self) -> Any:
         """The rows as a GeoDataFrame."""
-        geopandas = optional("geopandas", "geo")
-        return geopandas.GeoDataFrame(
-            {**self.columns, self.name: unpacked(self.binary)}, geometry=self.name, crs=self.crs
-        )
+        cells = {**self.columns, self.name: unpacked(self.binary)}
+        return optional("geopandas", "geo").GeoDataFrame(cells, geometry=self.name, crs=self.crs)
 
     @cached_property
     def kinds(self) -> list[str]:
@@ -105,16 +103,12 @@ class MapRows:
         fields = [arrow.field(name, values.type) for name, values in whole.columns.items()]
         known = {"ARROW:extension:name": "geoarrow.wkb", "ARROW:extension:metadata": "{}"}
         schema = arrow.schema([*fields, arrow.field(self.name, arrow.binary(), metadata=known)])
-        return schema, (
-            arrow.record_batch(
-                [
-                    *block.columns.values(),
-                    arrow.array(wkb.several(block.binary) if several else block.binary, arrow.binary()),
-                ],
-                schema=schema,
-            )
-            for block in whole.blocks(progress)
-        )
+
+        def batch(block: MapRows) -> Any:
+            cells = arrow.array(wkb.several(block.binary) if several else block.binary, arrow.binary())
+            return arrow.record_batch([*block.columns.values(), cells], schema=schema)
+
+        return schema, map(batch, whole.blocks(progress))
 
 
 def arrow_column(values: Any) -> Any:

@@ -87,9 +87,8 @@ def find_lonlat(names: Sequence[str], lon: str | None = None, lat: str | None = 
     """
     found = [_find(names, kind, given) for kind, given in (("lon", lon), ("lat", lat))]
     if found[0] == found[1]:
-        raise ValueError(
-            f"{spelled('lon')} and {spelled('lat')} are both the column {found[0]!r}; the columns are {listed(names)}"
-        )
+        both = f"{spelled('lon')} and {spelled('lat')} are both the column {found[0]!r}"
+        raise ValueError(f"{both}; the columns are {listed(names)}")
     return found[0], found[1]
 
 
@@ -125,18 +124,15 @@ def beside(taken: Iterable[str], columns: Mapping[str, T], *, any_case: bool = F
     result: dict[str, T] = {}
     renamed: list[str] = []
 
-    def key(name: str) -> str:
-        return name.casefold() if any_case else name
-
     def is_free(name: str) -> bool:
-        return name.casefold() not in reserved and key(name) not in used
+        return name.casefold() not in reserved and (name.casefold() if any_case else name) not in used
 
     for name, values in columns.items():
         free = name
         if not is_free(name):
             free = next(new for k in count(1) if is_free(new := f"{name}_{k}") and new not in columns)
             renamed.append(f"{name!r} {'is written ' if not renamed else ''}as {free!r}")
-        used.add(key(free))
+        used.add(free.casefold() if any_case else free)
         result[free] = values
     if renamed:
         said = " and ".join(renamed)
