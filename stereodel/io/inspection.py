@@ -160,6 +160,7 @@ def _of_rows(rows: Mapping[int, str]) -> str:
     return "\n".join([f"row {row}: {why}" for row, why in [*rows.items()][:SHOWN]] + more)
 
 
+# Texts of what was found, `_text` for the rest; nothing is said where there is nothing, but `ALWAYS`.
 LINES: Final[dict[str, Callable[[Any], str]]] = {
     "header": lambda row: f"row {row}" if row else "none",
     "thousands": lambda marks: "\n".join(f"{name}: {mark!r}" for name, mark in marks.items()),
@@ -170,8 +171,6 @@ LINES: Final[dict[str, Callable[[Any], str]]] = {
     "notes": "\n".join,
     "options": _typed,
 }
-"""Texts of what was found, `_text` for the rest; nothing is said where there is nothing, but `ALWAYS`."""
-
 ALWAYS: Final = ("header", "rows", "options")
 SHOWN_AS: Final = {"left_out": "left out", "swapped": "swapped?", "far": "far outside", "notes": "note"}
 

@@ -21,8 +21,7 @@ from stereodel.sphere import lonlat_to_xyz
 from stereodel.sphere.latitudes import Latitude
 
 DEGREES: Final = "EPSG:4326"  # coordinate system of longitude and latitude
-AXES: Final = {"sphere": ("lon", "lat"), "plane": ("x", "y")}
-"""Names of the coordinates of a surface, unless a table has its own."""
+AXES: Final = {"sphere": ("lon", "lat"), "plane": ("x", "y")}  # unless a table has its own
 
 
 @dataclass(frozen=True, eq=False)

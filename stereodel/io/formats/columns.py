@@ -25,14 +25,10 @@ from stereodel._arrays import BoolArray, Column, FloatArray
 from stereodel._extras import MissingExtraError, optional
 from stereodel.io.formats.names import DataWarning, listed, spelled
 
-MISSING: Final = ("", "na", "n/a", "#n/a", "nan", "null", "none", "<na>", "-", "–")
-"""Spellings of a missing value, in any case."""
-
+MISSING: Final = ("", "na", "n/a", "#n/a", "nan", "null", "none", "<na>", "-", "–")  # spellings of a missing value
 NUMBER: Final = re.compile(r"[-+]?(?:(?:[0-9]+[.,]?[0-9]*|[.,][0-9]+)(?:[eE][-+]?[0-9]+)?|inf|infinity)", re.IGNORECASE)
 
-GROUPED: Final = re.compile(r"[-+]?[1-9][0-9]{0,2}[.,][0-9]{3}")
-"""A number whose mark may be decimal or separate thousands."""
-
+GROUPED: Final = re.compile(r"[-+]?[1-9][0-9]{0,2}[.,][0-9]{3}")  # its mark is decimal, or between thousands
 LONG: Final = 24
 """Length in characters above which text is stored as objects if few values are so long; doubles print no longer.
 
@@ -43,44 +39,34 @@ SAFE_DIGITS: Final = 15  # number of decimal digits that a double always preserv
 TINY: Final = float(np.finfo(np.float64).tiny)  # below it, doubles have fewer digits
 EXACT_INTEGERS: Final = 2.0**53  # up to this number doubles represent every integer
 LETTERS: Final = frozenset("0123456789+-.,eE\n")
+# What finite numbers are written with, and also with separators of thousands and the minus sign of printers.
 WRITTEN: Final = LETTERS | frozenset(" '’\xa0\u202f\u2009\N{MINUS SIGN}")
-"""What finite numbers are written with, and also with separators of thousands and the minus sign of printers."""
-
-CODE: Final = re.compile(r"^[-+]?0[0-9]", re.MULTILINE)
-"""A value that starts, after an optional sign, with a zero and another digit."""
-
-LIKE_POWER: Final = re.compile(r"[0-9]+E[0-9]+")
-"""A code such as 1E3, if all values with an exponent are so and there is no point or sign in the column."""
-
+CODE: Final = re.compile(r"^[-+]?0[0-9]", re.MULTILINE)  # a sign, if any, zero and a digit
+LIKE_POWER: Final = re.compile(r"[0-9]+E[0-9]+")  # a code, if all of a column are so, with no point or sign
 SPACED: Final = re.compile(r"(?<=[0-9])[ '’\xa0\u202f\u2009](?=[0-9]{3}(?![0-9]))")
+# Numbers whose thousands are separated by blanks or apostrophes, points, or commas.
 THOUSANDS: Final = {
     mark: re.compile(rf"[-+]?[1-9][0-9]{{0,2}}(?:[{between}][0-9]{{3}})+(?:[{decimal}][0-9]+)?")
     for mark, between, decimal in (("", " '’\xa0\u202f\u2009", ".,"), (".", ".", ","), (",", ",", "."))
 }
-"""Numbers whose thousands are separated by blanks or apostrophes, points, or commas."""
-
+# Sizes of numbers by which archives of measurements mark missing ones.
 SENTINELS: Final = frozenset(
     (99.0, 999.0, 9999.0, 99999.0, 999.9, 9999.9, 32767.0, 32768.0, 1e20, 9.969209968386869e36)
 )
-"""Sizes of numbers by which archives of measurements mark missing ones."""
-
 OTHER: Final = {".": ",", ",": "."}  # what separates thousands where this is the decimal mark
+# Characters that text of a format cannot have: those that XML lacks or changes, and the end of text in GDAL.
 UNWRITABLE: Final = {
     **dict.fromkeys(("kml", "xlsx"), re.compile("[\x00-\x08\x0b-\x1f\ufffe\uffff\ud800-\udfff]")),
     **dict.fromkeys(("gpkg", "fgb", "shp", "nc"), re.compile("[\x00\ud800-\udfff]")),
 }
-"""Characters that text of a format cannot have: those that XML lacks or changes, and the end of text in GDAL."""
-
 GUESSED_FROM: Final = 1 << 20  # bytes from which an encoding is guessed
+# Encodings that tables without Unicode have.
 GUESSES: Final = (*(f"cp125{k}" for k in range(7)), "koi8_r", "cp866", "cp932", "euc_jp", "gb18030", "big5", "cp949")
-"""Encodings that tables without Unicode have."""
-
+# What text in cp1252 hardly has: other signs than letters and quotes, and three of them in a row, as other scripts.
 WESTERN: Final = re.compile("[^\x00-\x7f\xb0\xba\xaaà-öø-ÿÀ-ÖØ-ß€‘’“”–—«»²³µ\xa0ŒœŠšŽžŸ]|[^\x00-\x7f]{3}")
-"""What text in cp1252 hardly has: other signs than letters and quotes, and three of them in a row, as other scripts."""
-
 HALVES: Final = re.compile("[\ud800-\udfff]")  # halves of characters, which UTF-8 lacks
+# From here on a number has more digits than a shapefile's field, GDAL's 15 digits of it are infinite, or Excel's.
 LARGEST: Final = {"shp": 1e23, "kml": 1.797693134862315e308, "xlsx": 1e308}
-"""From here on a number has more digits than a shapefile's field, GDAL's 15 digits of it are infinite, or Excel's."""
 
 
 def decoded(content: bytes, encoding: str | None = None) -> tuple[str, str]:

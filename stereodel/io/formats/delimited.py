@@ -39,18 +39,15 @@ from stereodel.io.formats.notation import angle
 SEPARATORS = ",;\t|"
 LOOKED_AT = 50  # number of lines from which the separator is detected
 BLOCK = 20_000  # rows that are split in one block
+# Comment lines at the top, which begin with a hash.
 COMMENTS = re.compile(r"(?:[ \t]*#[^\r\n]*(?:\r\n?|\n|\Z))+")
-"""Comment lines at the top, which begin with a hash."""
-
 TITLES: Final = 20  # rows among which the header is looked for
 UNIT: Final = 16  # letters that the name of a unit has at most
+# Words that begin a row of totals.
 TOTALS: Final = frozenset(
     "total totals sum summe gesamt insgesamt somme suma soma totale итого всего 合计 合計 总计 المجموع".split()  # noqa: SIM905
 )
-"""Words that begin a row of totals."""
-
-SEPARATED: Final = re.compile(r"sep=([^\r\n])\r?\n", re.IGNORECASE)
-"""The line by which spreadsheets say what separates the fields."""
+SEPARATED: Final = re.compile(r"sep=([^\r\n])\r?\n", re.IGNORECASE)  # by which spreadsheets say what separates fields
 
 Lines = list[list[str]]
 

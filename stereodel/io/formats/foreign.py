@@ -33,53 +33,41 @@ from stereodel.io.formats import FileFormat, FormatName, Source
 from stereodel.io.formats.names import listed
 
 ZIP: Final = b"PK\x03\x04"
-MARKS: Final[dict[bytes, Callable[..., Any]]] = {b"\x1f\x8b": gzip.open, b"BZh": bz2.open}
-"""First bytes of packed files, and what unpacks them."""
-
+MARKS: Final[dict[bytes, Callable[..., Any]]] = {b"\x1f\x8b": gzip.open, b"BZh": bz2.open}  # what unpacks them
 PIECE: Final = 1 << 20  # bytes that are unpacked at a time
+# What unpacking raises for damaged, encrypted and unknown contents.
 DAMAGED: Final = (OSError, EOFError, zlib.error, BadZipFile, NotImplementedError, RuntimeError, struct.error)
-"""What unpacking raises for damaged, encrypted and unknown contents."""
-
 PACKED: Final = (".gz", ".bz2")  # extensions of compressed files
 HEAD: Final = 1 << 20  # bytes from which a format is recognised; GDAL looks at fewer
+# Marks of formats of GDAL that are references, by which it knows them wherever they stand in the head.
 REFERRING: Final = re.compile(rb"<OGR\w*DataSource|gdal_streamed_alg", re.IGNORECASE)
-"""Marks of formats of GDAL that are references, by which it knows them wherever they stand in the head."""
-
+# The name of the first element of an XML file, without its prefix.
 ROOT: Final = re.compile(
     rb"(?>\s+|<\?.*?\?>|<!--.*?-->|<!DOCTYPE[^\[>]*+(?:\[.*?\])?\s*>)*+<(?:[\w.-]+:)?([\w.-]+)", re.DOTALL
 )
-"""The name of the first element of an XML file, without its prefix."""
-
 ROOTS: Final = {b"kml": "kml", b"gpx": "gpx", b"FeatureCollection": "gml"}
+# First bytes of the binary formats, and before them names of first elements of XML.
 BINARY: Final = {b"SQLite format 3\0": "sqlite", b"fgb": "fgb", b"\x00\x00\x27\x0a": "shp", ZIP: "zip"}
-"""Names of first elements, and first bytes of the binary formats."""
-
-MAIN: Final = (".shp", ".gpkg", ".sqlite", ".fgb", ".kml", ".gml", ".gpx")
-"""Endings of the files in a zip archive that are read."""
-
+MAIN: Final = (".shp", ".gpkg", ".sqlite", ".fgb", ".kml", ".gml", ".gpx")  # files in archives that are read
 BESIDE: Final = (".shx", ".dbf", ".prj", ".cpg")  # endings of the other files of a shapefile
 NAMED: Final = (".xlsx", ".ods", ".kmz")  # endings of formats that are zip archives themselves
 CELL: Final = re.compile(rb"\br\s*=\s*[\"']([A-Za-z]{1,3})[0-9]")  # the column in the name of a cell of a spreadsheet
 TEXT: Final = re.compile(rb"<si\b.*?</si>", re.DOTALL)
+# The texts of a spreadsheet, and the number of its text in a cell.
 OF_TEXT: Final = re.compile(rb"\bt\s*=\s*[\"']s[\"'][^<]*<v[^>]*>\s*([0-9]{1,9})")
-"""The texts of a spreadsheet, and the number of its text in a cell."""
-
 SCHEMAS: Final = "GML_DOWNLOAD_SCHEMA"
 
+# Virtual tables of SQLite that are indices. Others of GDAL and SpatiaLite are files and hosts.
 INDEX: Final = re.compile(
     r'CREATE VIRTUAL TABLE (?:"[^"]*"|\w+) USING "?(?:rtree|fts\d)"?\s*\(.*', re.DOTALL | re.IGNORECASE
 )
-"""Virtual tables of SQLite that are indices. Others of GDAL and SpatiaLite are files and hosts."""
-
+# A file somewhere else, by its path, in the text of a coordinate system.
 GRID: Final = re.compile(
     rb'(?:PARAMETERFILE\["[^"]{0,255}",\s*"|PROJ4_GRIDS",\s*"|grids=|\+init=)[^"\s]{0,255}[/\\~]', re.IGNORECASE
 )
-"""A file somewhere else, by its path, in the text of a coordinate system."""
-
 INCLUDED: Final = re.compile(rb"<[\w.:-]*(?:include|redefine)\b")  # what makes one schema of XML part of another
+# Tables whose rows are not stored: virtual ones, and views that may have no end or that GDAL reads for the layers.
 MADE: Final = "sql LIKE '%VIRTUAL%TABLE%USING%' OR type = 'view' AND (sql LIKE '%RECURSIVE%' OR name LIKE 'gpkg_%')"
-"""Tables whose rows are not stored: virtual ones, and views that may have no end or that GDAL reads for the layers."""
-
 STORED: Final = "type = 'table' AND name IN ('gpkg_spatial_ref_sys', 'spatial_ref_sys')"  # tables of coordinate systems
 
 _settings = Lock()

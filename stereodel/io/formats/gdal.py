@@ -26,32 +26,23 @@ from stereodel.io.formats.wkb import is_there
 
 pyogrio: Any = OnUse(lambda: optional("pyogrio", "geo"))
 
-RESERVED: Final = {"gpkg": ("fid", "geom"), "fgb": (), "shp": (), "kml": (), "xlsx": ()}
-"""Column names that a format reserves."""
-
+RESERVED: Final = {"gpkg": ("fid", "geom"), "fgb": (), "shp": (), "kml": (), "xlsx": ()}  # names of columns
 DRIVERS: Final = {"gpkg": "GPKG", "fgb": "FlatGeobuf", "shp": "ESRI Shapefile", "kml": "LIBKML", "xlsx": "XLSX"}
 
 IN_MEMORY: Final = ("kml", "xlsx")  # formats that are written in memory first, as GDAL does not report a full disk
-SHEET: Final = {"rows": 1_048_575, "columns": 16_384, "characters of a text": 32_767}
-"""What a sheet of a workbook holds at most, below its header."""
-
-SEVERAL: Final = {kind: f"Multi{kind}" for kind in ("Point", "LineString", "Polygon")}
-"""The multi-part kind of each single-part kind of geometry."""
-
+SHEET: Final = {"rows": 1_048_575, "columns": 16_384, "characters of a text": 32_767}  # at most, below the header
+SEVERAL: Final = {kind: f"Multi{kind}" for kind in ("Point", "LineString", "Polygon")}  # of several parts
+# Options of GDAL by format. FlatGeobuf sorts features for its index: in memory that takes two thirds of the time.
 OPTIONS: Final = {"fgb": {"TEMPORARY_DIR": "/vsimem/"}}
-"""Options of GDAL by format. FlatGeobuf sorts features for its index: in memory that takes two thirds of the time."""
-
 INDEXED: Final = (".gpkg", ".fgb")  # formats with a spatial index, which GDAL writes last or first
 LETTERS: Final = 200  # characters of GDAL's messages that an error message repeats
+# Words in GDAL's warnings for data that are in the file and that it does not read unchanged.
 LOST: Final = re.compile(
     r"truncated|skipp(?:ed|ing)|discard|corrupt|damaged|\blost\b|ignored|cannot be (?:read|parsed)|invalid coord",
     re.IGNORECASE,
 )
-"""Words in GDAL's warnings for data that are in the file and that it does not read unchanged."""
-
+# Bytes that every `.dbf` has; 4 to 11 are the number of its rows, where they begin, and the length of a row.
 HEADER: Final = 32
-"""Bytes that every ``.dbf`` has; 4 to 11 are the number of its rows, where they begin, and the length of a row."""
-
 SHEETS: Final = (".xlsx", ".ods")  # spreadsheets, whose headers GDAL takes for data where all cells are text
 GPX_FIELDS: Final = 100  # from so many columns on, GDAL reads no rows of GPX, in silence
 LAUNDERED: Final = re.compile(r"field name: '(.*)' to '(.*)'")  # GDAL's warning for a column name that it shortens

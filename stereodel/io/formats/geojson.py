@@ -26,8 +26,8 @@ from stereodel.io.formats.names import DataWarning, beside, listed
 HEAD: Final = '{"type":"FeatureCollection","features":['
 TAIL: Final = "]}"
 
+# Types of geometries with coordinates; a LinearRing is a closed line of Shapely.
 KINDS: Final = ("Point", "MultiPoint", "LineString", "LinearRing", "MultiLineString", "Polygon", "MultiPolygon")
-"""Types of geometries with coordinates; a LinearRing is a closed line of Shapely."""
 
 
 @dataclass(frozen=True, eq=False)

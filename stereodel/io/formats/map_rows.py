@@ -24,8 +24,8 @@ shapely: Any = OnUse(lambda: optional("shapely", "geo"))
 arrow: Any = OnUse(lambda: optional("pyarrow", "geo"))
 
 ROWS: Final = 65_536  # rows in a block
+# Type codes of geometries in Shapely; those above POLYGON are multi-part.
 POINT, LINE, RING, POLYGON, MULTIPOINT, MULTILINE, MULTIPOLYGON, COLLECTION = range(8)
-"""Type codes of geometries in Shapely; those above POLYGON are multi-part."""
 
 
 def packed(geometries: Geometries) -> Packed:

@@ -15,6 +15,7 @@ from typing import Any, Final, TypeVar
 T = TypeVar("T")
 
 NAMES_SHOWN, NAME_SHOWN = 30, 40  # number of columns, and characters of a name, that a message shows
+# Words for each in English, German, French, Spanish, Portuguese, Italian, Russian, Chinese, Japanese and Arabic.
 NAMES: Final = {
     "lon": (
         *("longitude", "lon", "lng", "long", "longitud", "longitudine", "längengrad", "laengengrad"),
@@ -25,19 +26,15 @@ NAMES: Final = {
         *("широта", "纬度", "緯度", "خط العرض"),
     ),
 }
-"""Words for each in English, German, French, Spanish, Portuguese, Italian, Russian, Chinese, Japanese and Arabic."""
-
+# Words that are both coordinates where there are no others: *Länge* and *Breite* are also length and width.
 UNSURE: Final = {
     "lon": {"x", "xcoord", "länge", "laenge", "الطول"},
     "lat": {"y", "ycoord", "breite", "العرض"},
 }
-"""Words that are both coordinates where there are no others: *Länge* and *Breite* are also length and width."""
-
+# What may stand beside a word that is unsure.
 BESIDE: Final = {
     *("coord", "coords", "coordinate", "coordinates", "point", "geogr", "geographische", "deg", "degrees", "grad")
 }
-"""What may stand beside a word that is unsure."""
-
 IDEOGRAPHS: Final = "\u3040"  # from here on a name is not written in words
 SPELLING: Final[ContextVar[Mapping[str, str]]] = ContextVar("SPELLING", default=MappingProxyType({}))
 

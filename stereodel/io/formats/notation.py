@@ -9,31 +9,27 @@ from typing import Final, NamedTuple
 from stereodel._arrays import Column
 from stereodel.io.formats.columns import texts
 
+# Characters of word processors in place of those of the keyboard.
 PLAIN: Final = str.maketrans({"\N{MINUS SIGN}": "-", "\xa0": " ", "\u202f": " ", "\u2009": " "})
-"""Characters of word processors in place of those of the keyboard."""
-
 PART: Final = r"[0-9]+(?:[.,][0-9]*)?"
+# An angle, such as `10°59'07"E`, `170 41.4 W`, `-12:30`, `N 48.5` and `10d30m`.
 ANGLE: Final = re.compile(
     rf"(?P<before>[NSEW])?\s*(?P<sign>[-+])?\s*(?P<degrees>{PART})"
     rf"(?:\s*(?:[°º˚d:]|deg|\s)\s*(?:(?P<minutes>{PART})(?:\s*(?:['′’‘´m:]|min|\s)\s*"
     rf"(?:(?P<seconds>{PART})\s*(?:\"|″|”|“|''|’’|′′|s|sec)?)?)?)?)?\s*(?P<after>[NSEW])?"
 )
-"""An angle, such as ``10°59'07"E``, ``170 41.4 W``, ``-12:30``, ``N 48.5`` and ``10d30m``."""
-
 LETTERS: Final = {"longitude": "EW", "latitude": "NS"}
 NEGATIVE: Final = "SW"
 
 NUMBER: Final = r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?"
+# A point of well-known text, also extended by the number of its coordinate system.
 WKT: Final = re.compile(
     rf"(?:SRID\s*=\s*(?P<srid>[0-9]+)\s*;)?\s*POINT\s*(?:ZM|Z|M)?\s*"
     rf"\(\s*(?P<x>{NUMBER})\s+(?P<y>{NUMBER})(?:\s+{NUMBER})*\s*\)",
     re.IGNORECASE,
 )
-"""A point of well-known text, also extended by the number of its coordinate system."""
-
+# What stands between both coordinates of a cell, the surest first.
 BETWEEN: Final = tuple(re.compile(each) for each in (r"[;/|]", r",\s", r",", r"(?<=[NSEW])\s*(?=[-+0-9])", r"\s+"))
-"""What stands between both coordinates of a cell, the surest first."""
-
 COMMA: Final = re.compile(r"[-+]?[0-9]+,[0-9]+")  # a number with a decimal comma, or two whole ones
 WELL_KNOWN: Final = "well-known text"
 

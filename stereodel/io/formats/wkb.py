@@ -14,19 +14,14 @@ import numpy as np
 from stereodel._arrays import BoolArray, Bytes, FloatArray, LongArray, Packed
 from stereodel.curves.ragged import Ragged
 
+# Geometry types by their codes; 1000 is added for geometries with heights, 2000 with measures, 3000 with both.
 KINDS: Final = {1: "Point", 2: "LineString", 3: "Polygon", 4: "MultiPoint", 5: "MultiLineString", 6: "MultiPolygon"}
-"""Geometry types by their codes; 1000 is added for geometries with heights, 2000 with measures, 3000 with both."""
-
-POINT: Final = np.dtype([("order", "u1"), ("kind", "<u4"), ("xy", "<f8", 2)])
-"""A point: 21 bytes, and more where it has a height or measure."""
-
+POINT: Final = np.dtype([("order", "u1"), ("kind", "<u4"), ("xy", "<f8", 2)])  # 21 bytes, more with heights or measures
 POINTS: Final = (1, 1001, 2001, 3001)  # codes of points
 LINE: Final = bytes([1, 2, 0, 0, 0])
-RING: Final = bytes([1, 3, 0, 0, 0, 1, 0, 0, 0])
-"""Headers of a line and of a polygon with one ring, before the number of their points."""
-
+RING: Final = bytes([1, 3, 0, 0, 0, 1, 0, 0, 0])  # headers, before the number of their points
+# Header that turns a single-part geometry into a multi-part one, by the code of its type.
 ONE: Final = {kind: bytes([1, kind + 3, 0, 0, 0, 1, 0, 0, 0]) for kind in (1, 2, 3)}
-"""Header that turns a single-part geometry into a multi-part one, by the code of its type."""
 
 
 def points(places: FloatArray) -> Packed:
