@@ -30,8 +30,7 @@ def command(
     from stereodel.io.formats.names import spelling
 
     source = sys.stdin.buffer if points == "-" else points
-    arguments = {name: value for name, value in columns.arguments.items() if name != "skip_invalid"}
-    report = inspect(source, plane=columns.plane, **arguments)
+    report = inspect(source, plane=columns.plane, **columns.arguments)
     if as_json:
         typer.echo(json.dumps(report.found, ensure_ascii=False, indent=1))
         return

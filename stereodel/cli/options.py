@@ -45,17 +45,9 @@ Points = Annotated[
     str, typer.Argument(metavar="POINTS", help="Table of points: .csv, .geojson, .gpkg, .shp, .xlsx …; - is stdin.")
 ]
 Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace the file if it exists.")]
-MaxSegment = Annotated[
-    float,
-    typer.Option("--max-segment", metavar="DEGREES", help="Longest straight piece of an arc, in map formats."),
-]
+MaxSegment = Annotated[float, typer.Option(metavar="DEGREES", help="Longest straight piece of an arc, in map formats.")]
 LatitudeKind = Annotated[
-    Latitude,
-    typer.Option(
-        "--latitude",
-        help="Model of the Earth: an ellipsoid, by directions from its centre (geodetic) or with true areas "
-        "(authalic), or a sphere.",
-    ),
+    Latitude, typer.Option(help="Model of the Earth: an ellipsoid (authalic keeps its areas), or a sphere.")
 ]
 Focus = Annotated[
     str | None, typer.Option(metavar="LON,LAT", help="Focus of the fisheye; by default the centre of the picture.")
@@ -97,10 +89,7 @@ class Destination:
 class File:
     """What a command writes: a file, or stdout."""
 
-    out: Annotated[
-        str,
-        typer.Option("--out", "-o", metavar="FILE", help="File to write; its extension gives the format; - is stdout."),
-    ]
+    out: Annotated[str, typer.Option("--out", "-o", metavar="FILE", help="File whose ending says the format, or -.")]
     overwrite: Overwrite = False
 
     def of(self, allowed: tuple[str, ...], *inputs: str | None) -> Destination:

@@ -71,8 +71,8 @@ def read_points(
         Coordinate reference system of the columns `lon` and `lat` (easting first), such as "EPSG:25832"; by default
         they are in degrees. Files with geometries state their own. Coordinates of a `plane` stay as they are.
     encoding : str, optional
-        Encoding of text, such as "cp1252", which Excel writes. By default UTF-8 or UTF-16; what
-        is neither is guessed, with a `DataWarning`: cp1252, or what ``charset-normalizer`` finds if it is installed.
+        Encoding of text, such as "cp1252". By default UTF-8 or UTF-16; what is neither is guessed, with a
+        `DataWarning`: cp1252, or what ``charset-normalizer`` finds if it is installed.
     decimal : {".", ","}, optional
         The decimal mark of text; the other one separates thousands. Recognised by default.
     skip_rows : int
@@ -96,14 +96,10 @@ def read_points(
     Raises
     ------
     ValueError
-        If the file is damaged; if a coordinate is missing or not a number, a latitude is outside [−90, 90] or a
-        longitude outside [−360, 360] (the message gives the row, counted from 1 for the first row of data); if no
-        column or several may be longitude or latitude (the message lists the columns); or if a geometry is not a point.
+        If the file is damaged; if a coordinate is missing, not a number or out of range, or a geometry is not a point
+        (the message gives the row, 1 for the first row of data); if no column or several may be longitude or latitude.
     ImportError
-        If libraries for formats other than CSV and GeoJSON, or for coordinate systems, are missing (the extra
-        ``geo``).
-    OSError
-        If the file cannot be read.
+        Without the extra ``geo``, for formats other than CSV and GeoJSON and for coordinate systems.
 
     Notes
     -----
@@ -154,9 +150,8 @@ def _content(source: Any, wanted: Wanted, kind: FormatName | None) -> tuple[Cont
 
 def _rows_of(file: SourceFile, wanted: Wanted) -> Content:
     if wanted.layer is not None and file.kind != "vector":
-        raise ValueError(
-            f"{spelled('layer')} is {wanted.layer!r}, but a file of the kind {file.kind} has no layers; leave it out"
-        )
+        said = f"{spelled('layer')} is {wanted.layer!r}, but a file of the kind {file.kind} has no layers"
+        raise ValueError(f"{said}; leave it out")
     return FORMATS[file.kind].read(file, wanted)
 
 
@@ -165,9 +160,7 @@ def inspect(source: Source | Any, *, format: FormatName | None = None, **options
 
     Parameters
     ----------
-    source : path-like, stream or frame
-        As for `read_points`.
-    format, **options
+    source, format, **options
         As for `read_points`; rows that are wrong are left out and named.
 
     Returns
@@ -231,24 +224,19 @@ class Shapes:
         """A property of each feature as a number, NaN if lacking; ValueError if none has it, or for other values."""
         if not any(name in entry for entry in self.properties):
             known = sorted({str(key) for entry in self.properties for key in entry})
-            raise ValueError(
-                f"column {name!r} is not a property of the features; they have {', '.join(known) or 'none'}"
-            )
+            said = ", ".join(known) or "none"
+            raise ValueError(f"column {name!r} is not a property of the features; they have {said}")
         values = [entry.get(name) for entry in self.properties]
         try:
             return np.array([np.nan if value is None else float(value) for value in values])
         except (TypeError, ValueError):
-            raise ValueError(
-                f"column {name!r} holds something that is not a number; name a column of numbers"
-            ) from None
+            raise ValueError(f"column {name!r} holds what is no number; name a column of numbers") from None
 
     def words(self, name: str) -> list[str | None] | None:
         """A property of each feature as text, None for features that lack it; None if any value is not text."""
         values = [entry.get(name) for entry in self.properties]
-        given = [value for value in values if value is not None]
-        if not given or not all(isinstance(value, str) for value in given):
-            return None
-        return values
+        kinds = {type(value) for value in values} - {type(None)}
+        return values if kinds and all(issubclass(kind, str) for kind in kinds) else None
 
 
 @dataclass(frozen=True, eq=False)

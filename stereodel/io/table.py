@@ -47,10 +47,8 @@ class PointTable(Shown):
 
     Attributes
     ----------
-    places, columns, rows
-        Read-only arrays; `columns` is a read-only mapping.
-    surface, axes, crs, name
-        As given.
+    places, columns, rows, surface, axes, crs, name
+        As given; arrays and the mapping are read-only.
 
     Raises
     ------
@@ -107,17 +105,7 @@ class PointTable(Shown):
         return self.places
 
     def points(self, latitude: Latitude = "spherical") -> FloatArray:
-        """Unit vectors (n, 3), or points of the plane (n, 2), as triangulations and diagrams take them.
-
-        Parameters
-        ----------
-        latitude : {"spherical", "geodetic", "authalic"}
-            Kind of latitude on the sphere, see `lonlat_to_xyz`.
-
-        Returns
-        -------
-        (n, 3) or (n, 2) array
-        """
+        """Unit vectors (n, 3), see `lonlat_to_xyz`, or points of the plane (n, 2), as triangulations take them."""
         return self.places if self.surface == "plane" else lonlat_to_xyz(self.places, latitude=latitude)
 
     def located(self) -> dict[str, Column]:
@@ -218,9 +206,8 @@ def _place_columns(
                 warnings.warn(f"column {name!r} is read as {each.how}", DataWarning, stacklevel=2)
             return (each.x, each.y), {key: columns[key] for key in names if key != name}, each.crs or crs
         if same and names.count(str(wanted.lon)):
-            raise ValueError(
-                f"column {wanted.lon!r} is to have both coordinates, as POINT (10 48.4) or '48.4, 10', but has not"
-            )
+            both = "both coordinates, as POINT (10 48.4) or '48.4, 10'"
+            raise ValueError(f"column {wanted.lon!r} is to have {both}, but has not")
     axes = wanted.axes(names)
     understood["place"] = [*axes]
     return (columns[axes[0]], columns[axes[1]]), {key: columns[key] for key in names if key not in axes}, crs
@@ -262,9 +249,8 @@ def known_crs(crs: str) -> Any:
     try:
         return pyproj.CRS(crs)
     except pyproj.exceptions.CRSError as error:
-        raise ValueError(
-            f"{spelled('crs')} is {crs!r}, which PROJ does not know; give one such as EPSG:25832"
-        ) from error
+        said = f"{spelled('crs')} is {crs!r}, which PROJ does not know"
+        raise ValueError(f"{said}; give one such as EPSG:25832") from error
 
 
 def numbers(

@@ -3,9 +3,6 @@
 A number is what people and programs write in tables: digits, a sign, a decimal point or comma, an exponent, and blanks
 or apostrophes between thousands. Other notations that Python accepts, such as 1_000 or digits of other scripts, are
 text.
-
-Where a mark may be either, as in 128.928 and 1,234, other numbers decide: a mark is certainly decimal where it cannot
-separate thousands, as in 9,9934 or 0.125.
 """
 
 from __future__ import annotations
@@ -309,10 +306,8 @@ def check_held(columns: Mapping[str, Any], kind: str) -> None:
         array = np.asarray(values)
         for cell in array.ravel().tolist() if array.dtype.kind in "UO" else ():
             if type(cell) is str and pattern.search(cell):
-                raise ValueError(
-                    f"column {name!r} has the text {listed([cell])}, with a character that .{kind} cannot hold; "
-                    "replace it, or choose another format"
-                )
+                said = f"column {name!r} has the text {listed([cell])}, with a character that .{kind} cannot hold"
+                raise ValueError(f"{said}; replace it, or choose another format")
         if kind in LARGEST and array.dtype.kind == "f":
             sizes = np.abs(array.astype(np.float64))
             beyond = np.isfinite(sizes) & (sizes >= LARGEST[kind])

@@ -264,10 +264,8 @@ def _rows(text: str, mark: str | None, above: int, progress: Progress | None) ->
         if progress is not None:
             progress("reading", len(text), len(text))
     except csv.Error as error:
-        raise ValueError(
-            f"line {above + begun + 1}: a field begins with a quotation mark but does not end with one ({error}); "
-            "inside such a field write it twice"
-        ) from error
+        said = f"line {above + begun + 1}: a field begins with a quotation mark but does not end with one ({error})"
+        raise ValueError(f"{said}; inside such a field write it twice") from error
 
 
 def write_csv(columns: Mapping[str, Column], stream: TextIO) -> None:

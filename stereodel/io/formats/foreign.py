@@ -47,7 +47,7 @@ ROOT: Final = re.compile(
 )
 ROOTS: Final = {b"kml": "kml", b"gpx": "gpx", b"FeatureCollection": "gml"}
 # First bytes of the binary formats, and before them names of first elements of XML.
-BINARY: Final = {b"SQLite format 3\0": "sqlite", b"fgb": "fgb", b"\x00\x00\x27\x0a": "shp", ZIP: "zip"}
+BINARY: Final = {b"SQLite format 3\0": "gpkg", b"fgb": "fgb", b"\x00\x00\x27\x0a": "shp", ZIP: "zip"}
 MAIN: Final = (".shp", ".gpkg", ".sqlite", ".fgb", ".kml", ".gml", ".gpx")  # files in archives that are read
 BESIDE: Final = (".shx", ".dbf", ".prj", ".cpg")  # endings of the other files of a shapefile
 NAMED: Final = (".xlsx", ".ods", ".kmz")  # endings of formats that are zip archives themselves
@@ -78,16 +78,15 @@ def unpacked(content: bytes) -> bytes:
     opened = next((opened for mark, opened in MARKS.items() if content.startswith(mark)), None)
     if opened is None:
         return content
-    pieces, size = [], 0
+    result = bytearray()
     try:
         with opened(io.BytesIO(content)) as stream:
             while piece := stream.read(PIECE):
-                pieces.append(piece)
-                size += len(piece)
-                check_size(size, len(content))
+                result += piece
+                check_size(len(result), len(content))
     except DAMAGED as error:
         raise ValueError(f"the compressed file is damaged: {error}") from error
-    return b"".join(pieces)
+    return bytes(result)
 
 
 class SourceFile:
@@ -160,10 +159,8 @@ def check_size(size: int, packed: int) -> None:
     """A ValueError for a file of `packed` bytes that holds far more, `size`."""
     most = max(UNPACKED_SIZE, UNPACKED_RATIO * packed)
     if size > most:
-        raise ValueError(
-            f"the file would unpack to more than {most} bytes, {UNPACKED_RATIO} times its size; "
-            "if you trust it, unpack it first, or save it in another format"
-        )
+        said = f"the file would unpack to more than {most} bytes, {UNPACKED_RATIO} times its size"
+        raise ValueError(f"{said}; if you trust it, unpack it first, or save it in another format")
 
 
 @contextmanager
@@ -215,7 +212,7 @@ def _kind_of(path: Path) -> str:
         kind = ROOTS.get(root[1], "gml" if b"opengis.net/gml" in head else None)
     if kind is None or REFERRING.search(head):
         raise ValueError("the file is damaged, or of a format that is not read; write it as GeoPackage, say")
-    if kind == "sqlite":
+    if kind == "gpkg":
         _check_tables(path)
     elif kind in ("shp", "fgb", "gml"):
         beside = path.with_suffix(".prj")
@@ -257,7 +254,7 @@ def _base(path: Path) -> closing[sqlite3.Connection]:
 def check_stored(path: Path, layers: Iterable[str]) -> None:
     """A ValueError for a layer of a database that is computed, and may be of any size."""
     with path.open("rb") if path.is_file() else nullcontext() as file:
-        if file is None or BINARY.get(file.read(16)) != "sqlite":
+        if file is None or BINARY.get(file.read(16)) != "gpkg":
             return
     with _base(path) as base:
         every = "SELECT lower(name), type, sql FROM sqlite_master WHERE type IN ('table', 'view')"
@@ -287,9 +284,8 @@ def _of_archive(path: Path, folder: Path) -> tuple[Path, str]:
     if not found:
         raise ValueError(f"the archive holds no file that is read; such files end in {', '.join(MAIN)}")
     if len(found) > 1 and (kinds != {"shp"} or len({file.parent for file in found}) > 1):
-        raise ValueError(
-            f"the archive holds several files, {listed([file.name for file in found])}; unpack one of them"
-        )
+        several = listed([file.name for file in found])
+        raise ValueError(f"the archive holds several files, {several}; unpack one of them")
     if "zip" in kinds:
         raise ValueError("the archive holds another archive; unpack it first")
     return (found[0] if len(found) == 1 else found[0].parent), kinds.pop()
@@ -302,12 +298,8 @@ def _check_cells(path: Path, packed: int) -> None:
     """
     with ZipFile(path) as archive:
         names, letters = archive.namelist(), 0
-        shared = [
-            len(each)
-            for name in names
-            if name.endswith("sharedStrings.xml")
-            for each in TEXT.findall(archive.read(name))
-        ]
+        texts = (archive.read(name) for name in names if name.endswith("sharedStrings.xml"))
+        shared = [len(each) for text in texts for each in TEXT.findall(text)]
         for name in names:
             if "worksheets/" in name:
                 sheet = archive.read(name)

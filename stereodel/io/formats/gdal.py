@@ -69,13 +69,7 @@ def read(file: SourceFile, wanted: Wanted) -> Content:
 
 FORMAT = FileFormat(
     (".gpkg", ".shp", ".fgb", ".kml", ".kmz", ".gml", ".gpx", ".zip", ".xlsx", ".ods"),
-    {
-        b"SQLite format 3": ".gpkg",
-        b"fgb": ".fgb",
-        b"PK\x03\x04": ".zip",
-        b"\x00\x00\x27\x0a": ".shp",
-        b"<": ".kml",
-    },
+    {mark: f".{kind}" for mark, kind in BINARY.items()} | {b"<": ".kml"},
     read,
 )
 

@@ -6,6 +6,7 @@ import json
 import warnings
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from itertools import chain
 from numbers import Real
@@ -90,12 +91,10 @@ def parsed(text: str) -> Any:
         raise ValueError("the file is not a table: its JSON is nested too deeply") from None
     except json.JSONDecodeError as error:
         lines = [line.strip("\x1e \t\r") for line in text.split("\n")]
-        if not lines[0].endswith("}"):
-            raise ValueError(f"the file is not JSON: {error}") from error
-        try:
-            return {"features": [json.loads(line) for line in lines if line]}
-        except (json.JSONDecodeError, RecursionError):
-            raise ValueError(f"the file is not JSON: {error}") from error
+        with suppress(json.JSONDecodeError, RecursionError):
+            if lines[0].endswith("}"):
+                return {"features": [json.loads(line) for line in lines if line]}
+        raise ValueError(f"the file is not JSON: {error}") from error
 
 
 def read(file: SourceFile, wanted: Wanted) -> Features:

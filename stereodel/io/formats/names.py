@@ -32,9 +32,9 @@ UNSURE: Final = {
     "lat": {"y", "ycoord", "breite", "العرض"},
 }
 # What may stand beside a word that is unsure.
-BESIDE: Final = {
-    *("coord", "coords", "coordinate", "coordinates", "point", "geogr", "geographische", "deg", "degrees", "grad")
-}
+BESIDE: Final = frozenset(
+    ["coord", "coords", "coordinate", "coordinates", "point", "geogr", "geographische", "deg", "degrees", "grad"]
+)
 IDEOGRAPHS: Final = "\u3040"  # from here on a name is not written in words
 SPELLING: Final[ContextVar[Mapping[str, str]]] = ContextVar("SPELLING", default=MappingProxyType({}))
 

@@ -17,7 +17,6 @@ from stereodel.curves.ragged import Ragged
 # Geometry types by their codes; 1000 is added for geometries with heights, 2000 with measures, 3000 with both.
 KINDS: Final = {1: "Point", 2: "LineString", 3: "Polygon", 4: "MultiPoint", 5: "MultiLineString", 6: "MultiPolygon"}
 POINT: Final = np.dtype([("order", "u1"), ("kind", "<u4"), ("xy", "<f8", 2)])  # 21 bytes, more with heights or measures
-POINTS: Final = (1, 1001, 2001, 3001)  # codes of points
 LINE: Final = bytes([1, 2, 0, 0, 0])
 RING: Final = bytes([1, 3, 0, 0, 0, 1, 0, 0, 0])  # headers, before the number of their points
 # Header that turns a single-part geometry into a multi-part one, by the code of its type.
@@ -106,7 +105,7 @@ def xy(content: Bytes, offsets: LongArray, rows: Sequence[int]) -> FloatArray:
     wrong = np.diff(offsets) < POINT.itemsize
     if not wrong.any():
         cells = content[offsets[:-1, None] + np.arange(POINT.itemsize)].view(POINT).ravel()
-        wrong = (cells["order"] != 1) | ~np.isin(cells["kind"], POINTS)
+        wrong = (cells["order"] != 1) | ~np.isin(cells["kind"], (1, 1001, 2001, 3001))
     if wrong.any():
         raise ValueError(f"row {rows[np.flatnonzero(wrong)[0]]}: a Point is needed, not another geometry")
     return np.ascontiguousarray(cells["xy"])
