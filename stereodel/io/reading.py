@@ -140,19 +140,16 @@ def read_points(
         return located(content, options, named)
 
 
-def _content(source: Any, wanted: Wanted, kind: FormatName | None) -> tuple[Content, str, str]:
+def _content(source: Any, wanted: Wanted, kind: FormatName | None = None) -> tuple[Content, str, str]:
     """What a source holds, its name for messages, and its format."""
     if is_frame(source):
         return content_of(source), "", "frame"
     file = SourceFile(source, FORMATS, kind)
-    return _rows_of(file, wanted), os.fspath(source) if isinstance(source, str | os.PathLike) else "", file.kind
-
-
-def _rows_of(file: SourceFile, wanted: Wanted) -> Content:
     if wanted.layer is not None and file.kind != "vector":
         said = f"{spelled('layer')} is {wanted.layer!r}, but a file of the kind {file.kind} has no layers"
         raise ValueError(f"{said}; leave it out")
-    return FORMATS[file.kind].read(file, wanted)
+    named = os.fspath(source) if isinstance(source, str | os.PathLike) else ""
+    return FORMATS[file.kind].read(file, wanted), named, file.kind
 
 
 def inspect(source: Source | Any, *, format: FormatName | None = None, **options: Any) -> Inspection:
@@ -182,9 +179,6 @@ def inspect(source: Source | Any, *, format: FormatName | None = None, **options
         report = summary(named, content, wanted, kind)
     report.found["notes"] = [str(each.message) for each in said]
     return report
-
-
-Placed = list[tuple[int, FloatArray]]  # numbers of features or polygons, and positions of each
 
 
 @dataclass(frozen=True, eq=False)
@@ -250,7 +244,7 @@ def read_sites(source: Source, **options: Any) -> PointTable:
     """What `read_points` reads; of a source in which others than points are, a `ShapeTable`."""
     wanted = Wanted(**options)
     with naming(source):
-        found = _rows_of(SourceFile(source, FORMATS), wanted)
+        found, *_ = _content(source, wanted)
         try:
             return located(found, wanted)
         except NoPointError:
@@ -267,7 +261,7 @@ def shapes_of(source: Any) -> Shapes:
     """
     if isinstance(source, str | os.PathLike):
         with naming(source):
-            return _shapes_in(_rows_of(SourceFile(source, FORMATS), Wanted()))
+            return _shapes_in(_content(source, Wanted())[0])
     if hasattr(source, "to_crs"):
         frame = source if source.crs is None else source.to_crs("EPSG:4326")
         others = frame.drop(columns=frame.geometry.name).to_dict("records") if hasattr(frame, "columns") else None
@@ -283,9 +277,9 @@ def shapes_of(source: Any) -> Shapes:
 def _shapes_in(found: Content) -> Shapes:
     if isinstance(found, geojson.Features):
         return of_features(found)
-    if not (isinstance(found, Frame) and hasattr(found.frame, "to_crs")):
-        raise ValueError("the file is a table without geometries")
-    return shapes_of(found.frame)
+    if isinstance(found, Frame) and hasattr(found.frame, "to_crs"):
+        return shapes_of(found.frame)
+    raise ValueError("the file is a table without geometries")
 
 
 def of_items(items: list[Any]) -> Shapes:
@@ -303,15 +297,13 @@ def of_items(items: list[Any]) -> Shapes:
 
 def of_features(features: geojson.Features) -> Shapes:
     """Shapes of what was read from GeoJSON."""
-    points, lines, rings, polygons = Placed(), Placed(), Placed(), list[int]()
-    for number, kind, part in features.parts():
-        if kind.endswith("Polygon"):
-            rings += [(len(polygons), ring) for ring in part]
-            polygons.append(number)
-        else:
-            (points if kind.endswith("Point") else lines).append((number, part[0]))
+    parts = list(features.parts())
+    polygons = [(number, part) for number, kind, part in parts if kind.endswith("Polygon")]
+    points = [(number, part[0]) for number, kind, part in parts if kind.endswith("Point")]
+    lines = [(number, part[0]) for number, kind, part in parts if not kind.endswith(("Polygon", "Point"))]
+    rings = [(k, ring) for k, (_, part) in enumerate(polygons) for ring in part]
     (of, at), (line_feature, along), (ring_polygon, around) = map(_unzipped, (points, lines, rings))
-    polygon_feature = np.array(polygons, dtype=np.intp)
+    polygon_feature = np.array([number for number, _ in polygons], dtype=np.intp)
     point_feature = np.repeat(of, at.sizes)
     shapes = (at.values, point_feature, along, line_feature, around, ring_polygon, polygon_feature)
     return Shapes(features.properties, *shapes).in_degrees(features.crs)
@@ -340,6 +332,6 @@ def of_geometries(geometries: Geometries, properties: list[Mapping[str, Any]] | 
     return found.in_degrees(None)
 
 
-def _unzipped(rows: Placed) -> tuple[Indices, Ragged]:
+def _unzipped(rows: list[tuple[int, FloatArray]]) -> tuple[Indices, Ragged]:
     numbers, places = [number for number, _ in rows], [positions for _, positions in rows]
     return np.array(numbers, dtype=np.intp), Ragged.of(places, np.zeros((0, 2)))

@@ -18,9 +18,9 @@ import numpy as np
 from stereodel._arrays import Column, FloatArray, as_count
 from stereodel._tasks.progress import Progress
 from stereodel.constants import EMPTY_RATIO, FEW_CELLS
-from stereodel.io.formats import Content, FileFormat, Wanted, wkb
+from stereodel.io.formats import Content, FileFormat, wkb
 from stereodel.io.formats.columns import check_held, column, decoded, objects, plain_cells
-from stereodel.io.formats.foreign import SourceFile, check_crs
+from stereodel.io.formats.foreign import check_crs
 from stereodel.io.formats.map_rows import MapRows, no_point, packed
 from stereodel.io.formats.names import DataWarning, beside, listed
 
@@ -97,12 +97,11 @@ def parsed(text: str) -> Any:
         raise ValueError(f"the file is not JSON: {error}") from error
 
 
-def read(file: SourceFile, wanted: Wanted) -> Features:
-    """The features of a file."""
-    return Features.of(parsed(decoded(file.content, wanted.encoding)[0]))
-
-
-FORMAT = FileFormat((".geojson", ".json", ".geojsonl", ".geojsons"), {b"{": ".geojson", b"\x1e{": ".geojson"}, read)
+FORMAT = FileFormat(
+    (".geojson", ".json", ".geojsonl", ".geojsons"),
+    {b"{": ".geojson", b"\x1e{": ".geojson"},
+    lambda file, wanted: Features.of(parsed(decoded(file.content, wanted.encoding)[0])),
+)
 
 
 def _kind_of(content: Any) -> Any:

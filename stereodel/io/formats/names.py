@@ -6,7 +6,7 @@ import os
 import re
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from contextvars import ContextVar
 from itertools import count
 from types import MappingProxyType
@@ -91,11 +91,9 @@ def find_lonlat(names: Sequence[str], lon: str | None = None, lat: str | None = 
 
 def has_lonlat(names: Sequence[str]) -> bool:
     """Whether columns of longitude and latitude can be found by their names."""
-    try:
-        find_lonlat(names)
-    except ValueError:
-        return False
-    return True
+    with suppress(ValueError):
+        return bool(find_lonlat(names))
+    return False
 
 
 class NoPointError(ValueError):

@@ -6,7 +6,7 @@ import io
 import json
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, Final
+from typing import Any
 
 from stereodel._extras import optional
 from stereodel._tasks.progress import Progress
@@ -15,8 +15,6 @@ from stereodel.io.formats.columns import check_held
 from stereodel.io.formats.foreign import SourceFile, check_size
 from stereodel.io.formats.gdal import in_degrees, told
 from stereodel.io.formats.map_rows import Frame, MapRows, of_arrow
-
-VERSION: Final = "1.0.0"
 
 
 def read(file: SourceFile, _: Wanted) -> Content:
@@ -56,7 +54,7 @@ def write_parquet(
     schema, batches = layer.batches(progress)
     crs = None if layer.crs is None else optional("pyproj", "geo").CRS(layer.crs).to_json_dict()
     column = {"encoding": "WKB", "geometry_types": layer.kinds, "crs": crs}
-    geo = {"version": VERSION, "primary_column": layer.name, "columns": {layer.name: column}}
+    geo = {"version": "1.0.0", "primary_column": layer.name, "columns": {layer.name: column}}
     schema = schema.with_metadata({"geo": json.dumps(geo), **(metadata or {})})
     with optional("pyarrow.parquet", "geo").ParquetWriter(path, schema) as file:
         for batch in batches:

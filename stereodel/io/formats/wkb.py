@@ -7,6 +7,7 @@ the numbers of geometries with heights and measures are those of ISO 13249-3.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from typing import Any, Final
 
 import numpy as np
@@ -30,16 +31,6 @@ def points(places: FloatArray) -> Packed:
     return cells.view(f"V{POINT.itemsize}").astype(object)
 
 
-def polygons(rings: Ragged) -> Packed:
-    """Polygons of one ring each, given without its first point again at its end."""
-    return _of_rows(RING, rings, closed=True)
-
-
-def lines(rows: Ragged) -> Packed:
-    """Lines."""
-    return _of_rows(LINE, rows, closed=False)
-
-
 def _of_rows(header: bytes, points: Ragged, *, closed: bool) -> Packed:
     result: Packed = np.full(len(points), None, dtype=object)
     sizes = points.sizes
@@ -52,6 +43,10 @@ def _of_rows(header: bytes, points: Ragged, *, closed: bool) -> Packed:
         cells[:, len(head) :] = points.values[place].astype("<f8", copy=False).reshape(len(rows), -1).view(np.uint8)
         result[rows] = cells.view(f"V{cells.shape[1]}")[:, 0].astype(object)
     return result
+
+
+polygons = partial(_of_rows, RING, closed=True)  # of one ring each, given without its first point again at its end
+lines = partial(_of_rows, LINE, closed=False)
 
 
 def with_holes(shell: bytes, holes: Sequence[bytes]) -> bytes:
