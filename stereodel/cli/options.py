@@ -46,12 +46,8 @@ Points = Annotated[
 ]
 Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace the file if it exists.")]
 MaxSegment = Annotated[float, typer.Option(metavar="DEGREES", help="Longest straight piece of an arc, in map formats.")]
-LatitudeKind = Annotated[
-    Latitude, typer.Option(help="Model of the Earth: an ellipsoid (authalic keeps its areas), or a sphere.")
-]
-Focus = Annotated[
-    str | None, typer.Option(metavar="LON,LAT", help="Focus of the fisheye; by default the centre of the picture.")
-]
+LatitudeKind = Annotated[Latitude, typer.Option(help="Model of the Earth: ellipsoid (authalic: true areas) or sphere.")]
+Focus = Annotated[str | None, typer.Option(metavar="LON,LAT", help="Focus of the fisheye; by default the centre.")]
 Magnify = Annotated[float, typer.Option(metavar="S", callback=_magnification, help="Magnification at the focus.")]
 
 
@@ -147,9 +143,7 @@ class Where:
     lon: str | None = option("COLUMN", "Column of longitudes{of}; recognised by its name by default.")
     lat: str | None = option("COLUMN", "Column of latitudes{of}; recognised by its name by default.")
     layer_name: str | None = option("NAME", "Layer of the points{of}, if the file has several.")
-    crs: str | None = option(
-        "NAME", "Coordinate system of the columns{of}, e.g. EPSG:25832; by default degrees, or in a plane none."
-    )
+    crs: str | None = option("NAME", "Coordinate system of the columns{of}, e.g. EPSG:25832; else degrees or a plane.")
     of: str = ""
 
     @property
@@ -196,9 +190,7 @@ class Table(Where):
 class AnyTable(Table):
     """How a table of points is read, which may be of a plane."""
 
-    plane: tuple[str, str] | None = option(
-        "X Y", "Columns of coordinates in a plane, instead of longitude and latitude."
-    )
+    plane: tuple[str, str] | None = option("X Y", "Columns of coordinates in a plane, instead of degrees.")
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from shlex import quote
 from typing import Any, Final
 
@@ -106,8 +106,7 @@ def _of_column(values: Column) -> dict[str, Any]:
 
 def _options(found: Mapping[str, Any], wanted: Wanted) -> dict[str, Any]:
     """Arguments that say what was understood, and those that were given."""
-    given = {each.name: getattr(wanted, each.name) for each in fields(wanted) if each.name not in NOT_SAID}
-    result = {name: value for name, value in given.items() if value}
+    result = {name: value for name, value in vars(wanted).items() if value and name not in NOT_SAID}
     if found.get("encoding") not in (None, "utf-8-sig", "utf-16"):
         result["encoding"] = found["encoding"]
     if "place" in found and wanted.plane is None:

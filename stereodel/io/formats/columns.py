@@ -26,12 +26,9 @@ MISSING: Final = ("", "na", "n/a", "#n/a", "nan", "null", "none", "<na>", "-", "
 NUMBER: Final = re.compile(r"[-+]?(?:(?:[0-9]+[.,]?[0-9]*|[.,][0-9]+)(?:[eE][-+]?[0-9]+)?|inf|infinity)", re.IGNORECASE)
 
 GROUPED: Final = re.compile(r"[-+]?[1-9][0-9]{0,2}[.,][0-9]{3}")  # its mark is decimal, or between thousands
+# Length of text above which it is stored as objects if few values are so long, as every row of NumPy's text arrays
+# takes 4 bytes for each character of the longest value. Doubles print no longer.
 LONG: Final = 24
-"""Length in characters above which text is stored as objects if few values are so long; doubles print no longer.
-
-In NumPy's text arrays every row takes 4 bytes for each character of the longest value.
-"""
-
 SAFE_DIGITS: Final = 15  # number of decimal digits that a double always preserves
 TINY: Final = float(np.finfo(np.float64).tiny)  # below it, doubles have fewer digits
 EXACT_INTEGERS: Final = 2.0**53  # up to this number doubles represent every integer
@@ -47,9 +44,7 @@ THOUSANDS: Final = {
     for mark, between, decimal in (("", " '’\xa0\u202f\u2009", ".,"), (".", ".", ","), (",", ",", "."))
 }
 # Sizes of numbers by which archives of measurements mark missing ones.
-SENTINELS: Final = frozenset(
-    (99.0, 999.0, 9999.0, 99999.0, 999.9, 9999.9, 32767.0, 32768.0, 1e20, 9.969209968386869e36)
-)
+SENTINELS: Final = {99.0, 999.0, 9999.0, 99999.0, 999.9, 9999.9, 32767.0, 32768.0, 1e20, 9.969209968386869e36}
 OTHER: Final = {".": ",", ",": "."}  # what separates thousands where this is the decimal mark
 # Characters that text of a format cannot have: those that XML lacks or changes, and the end of text in GDAL.
 UNWRITABLE: Final = {
@@ -103,11 +98,9 @@ def _guessed(content: bytes) -> str | None:
 def texts(values: Iterable[str]) -> Column:
     """Strings as an array of text, or of objects if a few long strings would make the text array large."""
     cells = list(values)
-    lengths = [len(cell) for cell in cells]
-    longest = max(lengths, default=0)
-    if longest <= LONG or longest * len(cells) <= 4 * sum(lengths):
-        return np.array(cells, dtype=np.str_)
-    return objects(cells)
+    longest, total = max(map(len, cells), default=0), sum(map(len, cells))
+    alike = longest <= LONG or longest * len(cells) <= 4 * total
+    return np.array(cells, dtype=np.str_) if alike else objects(cells)
 
 
 def objects(values: Iterable[Any]) -> Column:
@@ -128,10 +121,9 @@ def column(values: Iterable[Any]) -> Column:
     kinds = {type(cell) for cell in known}
     if kinds == {str} and len(known) == len(cells):
         return texts(cells)
-    if kinds == {bool} and len(known) == len(cells):
-        return np.array(cells)
-    if kinds == {int} and len(known) == len(cells) and all(-(2**63) <= cell < 2**63 for cell in cells):
-        return np.array(cells, dtype=np.int64)
+    fits = kinds == {bool} or (kinds == {int} and all(-(2**63) <= cell < 2**63 for cell in known))
+    if fits and len(known) == len(cells):
+        return np.array(cells, dtype=np.bool_ if kinds == {bool} else np.int64)
     if not kinds or not kinds <= {int, float}:
         return objects(cells)
     if any(isinstance(cell, int) and abs(cell) > EXACT_INTEGERS for cell in known):
@@ -295,6 +287,19 @@ def as_text(cell: Any) -> Any:
     if isinstance(cell, list | dict):
         return json.dumps(cell, ensure_ascii=False, allow_nan=False)
     return cell if cell is None else str(cell)
+
+
+def fields(values: Column) -> list[Any]:
+    """What stands in the fields of a column of text tables; doubles that are all integers are written as these."""
+    if values.dtype.kind != "f":
+        return [as_text(cell) for cell in plain_cells(values)] if values.dtype.kind not in "biu" else values.tolist()
+    known = np.isfinite(values.astype(np.float64))
+    numbers = values[known].astype(np.float64)
+    whole = (np.abs(numbers) < EXACT_INTEGERS).all() and (numbers == np.round(numbers)).all()
+    signed = (np.signbit(numbers) & (numbers == 0)).any()  # the integer 0 has no sign
+    cells = objects([None] * len(values))
+    cells[known] = list(map(int, numbers.tolist())) if whole and not signed else numbers.tolist()
+    return cells.tolist()
 
 
 def check_held(columns: Mapping[str, Any], kind: str) -> None:

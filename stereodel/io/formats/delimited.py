@@ -10,7 +10,7 @@ from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from itertools import islice
 from types import SimpleNamespace
-from typing import Any, Final, TextIO
+from typing import Final, TextIO
 
 import numpy as np
 
@@ -18,20 +18,7 @@ from stereodel._arrays import Column
 from stereodel._tasks.progress import Progress
 from stereodel.constants import MOST_COLUMNS, MOST_LINE
 from stereodel.io.formats import Content, FileFormat, Wanted
-from stereodel.io.formats.columns import (
-    EXACT_INTEGERS,
-    NUMBER,
-    OTHER,
-    as_text,
-    blanked,
-    check_held,
-    decoded,
-    objects,
-    plain_cells,
-    readings,
-    texts,
-    why_not,
-)
+from stereodel.io.formats.columns import NUMBER, OTHER, blanked, check_held, decoded, fields, readings, texts, why_not
 from stereodel.io.formats.foreign import SourceFile
 from stereodel.io.formats.names import DataWarning, has_lonlat, left_out, listed, spelled
 from stereodel.io.formats.notation import angle
@@ -277,17 +264,4 @@ def write_csv(columns: Mapping[str, Column], stream: TextIO) -> None:
     # The module's own lines end with a carriage return, so that it quotes fields with one; they are written without.
     writer = csv.writer(SimpleNamespace(write=lambda line: stream.write(f"{line[:-2]}\n")))
     writer.writerow(columns)
-    writer.writerows(zip(*(_fields(np.asarray(values)) for values in columns.values()), strict=True))
-
-
-def _fields(values: Column) -> list[Any]:
-    """What stands in a column's fields."""
-    if values.dtype.kind != "f":
-        return [as_text(cell) for cell in plain_cells(values)] if values.dtype.kind not in "biu" else values.tolist()
-    known = np.isfinite(values.astype(np.float64))
-    numbers = values[known].astype(np.float64)
-    whole = (np.abs(numbers) < EXACT_INTEGERS).all() and (numbers == np.round(numbers)).all()
-    signed = (np.signbit(numbers) & (numbers == 0)).any()  # the integer 0 has no sign
-    cells = objects([None] * len(values))
-    cells[known] = list(map(int, numbers.tolist())) if whole and not signed else numbers.tolist()
-    return cells.tolist()
+    writer.writerows(zip(*(fields(np.asarray(values)) for values in columns.values()), strict=True))

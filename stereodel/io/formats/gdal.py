@@ -32,8 +32,6 @@ DRIVERS: Final = {"gpkg": "GPKG", "fgb": "FlatGeobuf", "shp": "ESRI Shapefile", 
 IN_MEMORY: Final = ("kml", "xlsx")  # formats that are written in memory first, as GDAL does not report a full disk
 SHEET: Final = {"rows": 1_048_575, "columns": 16_384, "characters of a text": 32_767}  # at most, below the header
 SEVERAL: Final = {kind: f"Multi{kind}" for kind in ("Point", "LineString", "Polygon")}  # of several parts
-# Options of GDAL by format. FlatGeobuf sorts features for its index: in memory that takes two thirds of the time.
-OPTIONS: Final = {"fgb": {"TEMPORARY_DIR": "/vsimem/"}}
 INDEXED: Final = (".gpkg", ".fgb")  # formats with a spatial index, which GDAL writes last or first
 LETTERS: Final = 200  # characters of GDAL's messages that an error message repeats
 # Words in GDAL's warnings for data that are in the file and that it does not read unchanged.
@@ -49,9 +47,7 @@ LAUNDERED: Final = re.compile(r"field name: '(.*)' to '(.*)'")  # GDAL's warning
 
 
 def read(file: SourceFile, wanted: Wanted) -> Content:
-    """A layer of a file, with or without geometries; `wanted` selects one of several.
-
-    The header of a sheet is found as that of a table of text, where GDAL does not find it.
+    """A layer of a file, with or without geometries; the header of a sheet as of text, where GDAL does not find it.
 
     ValueError if the file is damaged, its format is not read or refers to other files, or the layer does not exist.
     """
@@ -179,7 +175,8 @@ def write_layer(layer: MapRows, path: Path, *, progress: Progress | None = None)
             geometry_name=None if flat else layer.name,
             geometry_type=None if flat else kinds[0] if len(kinds) == 1 else "Unknown",
             crs=None if layer.crs is None else optional("pyproj", "geo").CRS(layer.crs).to_wkt("WKT1_GDAL"),
-            **OPTIONS.get(kind, {}),
+            # FlatGeobuf sorts features for its index: in memory that takes two thirds of the time.
+            **({"TEMPORARY_DIR": "/vsimem/"} if kind == "fgb" else {}),
         )
         if kind in IN_MEMORY:
             path.write_bytes(memory.getbuffer())

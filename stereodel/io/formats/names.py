@@ -27,10 +27,7 @@ NAMES: Final = {
     ),
 }
 # Words that are both coordinates where there are no others: *Länge* and *Breite* are also length and width.
-UNSURE: Final = {
-    "lon": {"x", "xcoord", "länge", "laenge", "الطول"},
-    "lat": {"y", "ycoord", "breite", "العرض"},
-}
+UNSURE: Final = {"lon": {"x", "xcoord", "länge", "laenge", "الطول"}, "lat": {"y", "ycoord", "breite", "العرض"}}
 # What may stand beside a word that is unsure.
 BESIDE: Final = frozenset(
     ["coord", "coords", "coordinate", "coordinates", "point", "geogr", "geographische", "deg", "degrees", "grad"]

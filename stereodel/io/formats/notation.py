@@ -89,8 +89,8 @@ def both(values: Column, name: str) -> Both | None:
     if not known or not all(_pair(cell) for cell in known[:LOOKED_AT]):
         return None
     pairs = [_pair(cell) for cell in cells]
-    lon_first = re.search("(lon|lng).*lat", name, re.IGNORECASE | re.DOTALL) is not None
-    lon_first = lon_first or any(abs(pair[0].degrees) > 90 and not pair[0].axis for pair in pairs if pair)
+    beyond = any(abs(pair[0].degrees) > 90 and not pair[0].axis for pair in pairs if pair)
+    lon_first = beyond or re.search("(lon|lng).*lat", name, re.IGNORECASE | re.DOTALL) is not None
     x, y = list(cells), list(cells)
     for row, pair in enumerate(pairs):
         if pair is not None:
