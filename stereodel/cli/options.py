@@ -200,9 +200,7 @@ class SecondTable(Where):
     def read(self, name: str, first: AnyTable) -> PointTable:
         """The table; in a plane both have the columns of --plane, and by default the coordinate system of the first."""
         crs = self.crs or (first.crs if first.plane else None)
-        table = replace(
-            first, lon=self.lon, lat=self.lat, layer_name=self.layer_name, crs=crs, encoding=None, skip_rows=0
-        )
+        table = replace(first, **vars(self) | {"crs": crs, "encoding": None, "skip_rows": 0})
         own = {key: f"{self.of}{ARGUMENTS[key][1:]}" for key in ("lon", "lat", "layer", "crs")}
         with spelling({**ARGUMENTS, **own}):
             return table.read(name)
@@ -226,10 +224,8 @@ def grouped(command: Callable[..., None]) -> Callable[..., None]:
         options = {each.name: each for each in fields(group) if each.name != "of"}
         names = {key: f"{of.removeprefix('--')}_{key}" if of else key for key in options}
         for key, each in options.items():
-            kind, told = (
-                get_args(hints[key]) if "option" not in each.metadata else (hints[key], each.metadata["option"])
-            )
-            told = copy(told)
+            kind, said = (hints[key], each.metadata["option"]) if each.metadata else get_args(hints[key])
+            told = copy(said)
             if kind is bool:  # without an option that says no
                 told.param_decls = (f"--{key.replace('_', '-')}",)
             told.help = told.help.format(of=of and f" of {of}")

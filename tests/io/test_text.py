@@ -3,11 +3,12 @@
 from fractions import Fraction
 
 import numpy as np
+import pandas as pd
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from stereodel.io.formats.columns import LONG, column, doubles, readings, texts
+from stereodel.io.formats.columns import LONG, column, doubles, objects, plain_cells, readings, texts
 
 
 @pytest.mark.parametrize(
@@ -121,3 +122,7 @@ def test_doubles_of_what_is_asked_for_as_numbers(dtype):
     assert wrong.tolist() == [False, False, False, False, True, True, False]
     assert values[[0, 1, 3, 6]].tolist() == [1.5, 2.25, 0.12345678901234568, np.inf]
     assert np.isnan(values[2])
+
+
+def test_durations_of_pandas_are_as_others():
+    assert plain_cells(objects([pd.Timedelta("1h"), None])) == ["0 days 01:00:00", None]

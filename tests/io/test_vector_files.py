@@ -123,6 +123,14 @@ def test_gpx_with_more_columns_than_gdal_reads(tmp_path, kinds, read):
             read_points(tmp_path / "a.gpx")
 
 
+def test_a_folder_is_read_as_maps_are_and_no_other(tmp_path):
+    written(tmp_path / "a.shp", ".shp")
+    assert len(read_points(tmp_path)) == len(shapes_of(tmp_path).points) == ROWS
+    (tmp_path / "none.csv").mkdir()
+    with pytest.raises(ValueError, match="neither a file geodatabase nor shapefiles"):
+        read_points(tmp_path / "none.csv")
+
+
 def test_nothing_is_written_beside_a_file(tmp_path):
     """GDAL would write a.gfs, and go by it when a.gml is another file."""
     for ending in DRIVERS:

@@ -50,9 +50,9 @@ class Wanted:
         """The columns of the coordinates; ValueError lists the columns if they are not among them."""
         if self.plane is None:
             return find_lonlat(names, self.lon, self.lat)
-        missing = [name for name in self.plane if name not in names]
-        if missing:
-            raise ValueError(f"there is no column {missing[0]!r}; the columns are {listed(names)}")
+        for name in self.plane:
+            if name not in names:
+                raise ValueError(f"there is no column {name!r}; the columns are {listed(names)}")
         return self.plane
 
 

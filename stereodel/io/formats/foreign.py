@@ -102,10 +102,10 @@ class SourceFile:
     def _found(self) -> FormatName:
         """The format from the extension of the path, ignoring that of compression, else from the first bytes."""
         kinds = {ending: kind for kind, known in self._formats.items() for ending in known.endings}
-        endings = [ending.lower() for ending in self.path.suffixes] if self.path is not None else []
-        known = [ending for ending in endings[-2:] if ending not in PACKED]
         if self.path is not None and self.path.is_dir():
             return "vector"
+        endings = [ending.lower() for ending in self.path.suffixes[-2:]] if self.path is not None else []
+        known = [ending for ending in endings if ending not in PACKED]
         return kinds.get(known[-1] if known else "") or kinds[self._ending]
 
     @cached_property
