@@ -224,7 +224,7 @@ class Shapes:
         try:
             return np.array([np.nan if value is None else float(value) for value in values])
         except (TypeError, ValueError):
-            raise ValueError(f"column {name!r} holds what is no number; name a column of numbers") from None
+            raise ValueError(f"column {name!r} holds something that is not a number; name another") from None
 
     def words(self, name: str) -> list[str | None] | None:
         """A property of each feature as text, None for features that lack it; None if any value is not text."""
