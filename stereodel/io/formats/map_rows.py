@@ -150,8 +150,6 @@ class Frame(Content):
     """Rows of a frame of pandas or GeoPandas, with or without geometries."""
 
     def __init__(self, frame: Any) -> None:
-        if not hasattr(frame, "geometry") and not hasattr(frame, "columns"):
-            raise TypeError(f"frame must be a GeoDataFrame or GeoSeries, not {type(frame).__name__}")
         self.frame, self.rows = frame, None
 
     def columns(self) -> dict[str, Column]:
