@@ -55,8 +55,9 @@ READ = [
     ("half", ".geojsonl"),
     ("noise within", ""),
     ("another kind", ".zip"),
+    ("another kind", ".csv"),
 ]
-"""What leaves enough: tables in lines, damage in what is not read, archives, which may have anything before them."""
+"""What leaves enough: tables in lines, with titles, damage in what is not read, archives, which may begin anyhow."""
 
 
 @pytest.mark.parametrize("harm", HARMS)
