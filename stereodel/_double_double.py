@@ -58,24 +58,9 @@ class DoubleDouble:
         self.hi: FloatArray = np.asarray(hi, dtype=np.float64)
         self.lo: FloatArray = np.zeros_like(self.hi) if lo is None else np.asarray(lo, dtype=np.float64)
 
-    @classmethod
-    def product(cls, a: npt.ArrayLike, b: npt.ArrayLike) -> DoubleDouble:
-        """The exact product of two doubles."""
-        return cls(*two_prod(np.asarray(a, dtype=np.float64), np.asarray(b, dtype=np.float64)))
-
-    @classmethod
-    def difference(cls, a: npt.ArrayLike, b: npt.ArrayLike) -> DoubleDouble:
-        """The exact difference of two doubles."""
-        return cls(*two_sum(np.asarray(a, dtype=np.float64), -np.asarray(b, dtype=np.float64)))
-
     def round(self) -> FloatArray:
         """The nearest doubles."""
         return self.hi + self.lo
-
-    @property
-    def shape(self) -> tuple[int, ...]:
-        """Shape of the array."""
-        return self.hi.shape
 
     def __getitem__(self, key: Any) -> DoubleDouble:
         return DoubleDouble(self.hi[key], self.lo[key])
@@ -106,14 +91,10 @@ class DoubleDouble:
         rest = rest - b * second
         return DoubleDouble(*fast_two_sum(first, second)) + rest.hi / b.hi
 
-    def __radd__(self, other: npt.ArrayLike) -> DoubleDouble:
-        return self + other
+    __radd__, __rmul__ = __add__, __mul__
 
     def __rsub__(self, other: npt.ArrayLike) -> DoubleDouble:
         return _lift(other) - self
-
-    def __rmul__(self, other: npt.ArrayLike) -> DoubleDouble:
-        return self * other
 
     def __rtruediv__(self, other: npt.ArrayLike) -> DoubleDouble:
         return _lift(other) / self
@@ -121,7 +102,7 @@ class DoubleDouble:
     def sqrt(self) -> DoubleDouble:
         """Square root; 0 at 0, NaN below."""
         root = np.sqrt(self.hi)
-        rest = self - DoubleDouble.product(root, root)
+        rest = self - DoubleDouble(*two_prod(root, root))
         correction = np.divide(rest.hi, 2 * root, out=np.zeros_like(root), where=root != 0)
         return DoubleDouble(*fast_two_sum(root, correction))
 
@@ -143,7 +124,7 @@ def dot(a: DoubleDouble, b: DoubleDouble) -> DoubleDouble:
     """Inner product along the last axis."""
     terms = a * b
     total = terms[..., 0]
-    for k in range(1, terms.shape[-1]):
+    for k in range(1, terms.hi.shape[-1]):
         total = total + terms[..., k]
     return total
 
@@ -172,7 +153,7 @@ def unit(vectors: FloatArray) -> DoubleDouble:
     _, exponent = np.frexp(np.abs(columns).max(axis=0))
     # Two half steps: 2**1074 alone is not a double.
     scaled = columns * np.ldexp(1.0, -(exponent // 2)) * np.ldexp(1.0, -(exponent - exponent // 2))
-    terms = DoubleDouble.product(scaled, scaled)
+    terms = DoubleDouble(*two_prod(scaled, scaled))
     square = terms[0] + terms[1] + terms[2]
     # Most have length 1 to rounding: 1/√(1 + δ) = 1 − δ/2 + 3δ²/8 − …, what follows below 2⁻¹⁵⁰.
     excess = (square - 1.0).hi

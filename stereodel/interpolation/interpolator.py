@@ -124,15 +124,6 @@ BLOCK = 8192
 """Queries in a block, of one field: vectors take 200 KB, so that a few stay in the second-level cache."""
 
 
-def keep_freed_memory() -> None:
-    """See to it that glibc keeps what a block frees for the next, up to 32 MB.
-
-    It gives back to the system what exceeds twice the largest array freed so far, after each block; to be given pages
-    again costs a third of the time. An array that nothing is written to takes no memory and no time.
-    """
-    np.empty(1 << 21)
-
-
 class Interpolator(ABC):
     """A function on the plane or the sphere that takes given values at given points."""
 
@@ -293,7 +284,6 @@ class TriangleInterpolator(Interpolator):
         """Fill the rows of `result` for queries inside triangles, and return the triangle of each, -1 outside."""
         found = np.asarray(self.triangulation.find_simplex(queries, workers=workers))
         inside = np.flatnonzero(found >= 0)
-        keep_freed_memory()
         size = BLOCK // max(1, min(result.shape[-1], BLOCK // 256))
         for first in range(0, len(inside), size):
             rows = inside[first : first + size]

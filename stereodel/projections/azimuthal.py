@@ -320,7 +320,7 @@ class Stereographic(TangentPlane):
         """Unit vectors of plane points (m, 2) in double-double."""
         d = self.unit_distance
         # Homogeneous coordinates over a power of two: no plane point is too far away or too near.
-        with_distance = np.concatenate([plane.hi, np.full((*plane.shape[:-1], 1), d)], axis=-1)
+        with_distance = np.concatenate([plane.hi, np.full((*plane.hi.shape[:-1], 1), d)], axis=-1)
         exponent = -scaled(with_distance)[1]
         half = exponent // 2
         x, y = (shift_exponent(shift_exponent(plane[..., k], half), exponent - half) for k in range(2))

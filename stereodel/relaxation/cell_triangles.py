@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from stereodel import _kernel
 from stereodel._arrays import AnyIndices, BoolArray, FloatArray, SignArray, as_bounds, as_floats
-from stereodel.constants import CLOSE_SITES, QUADRATURE_CHORD
+from stereodel.constants import QUADRATURE_CHORD
 from stereodel.curves.ragged import Ragged, spans
 from stereodel.triangulation import PlanarVoronoi, SphericalVoronoi
 
@@ -111,7 +111,7 @@ class RoundCells:
         self.sites = sites
         self.ridges = self.diagram.ridge_points
         self._start, end = np.moveaxis(self.diagram.vertices[self.diagram.ridge_vertices], 1, 0)
-        self._normals = _normals(sites[self.ridges[:, 0]], sites[self.ridges[:, 1]])
+        self._normals = self.diagram.ridge_normals()
         # The angle from start to end about the normal: at most half a turn, as the whole ridge of two sites is in two
         # parts. A tiny one, or one of half a turn, may be rounded to the other side.
         side = np.einsum("ri,ri->r", self._normals, np.cross(self._start, end))
@@ -149,17 +149,6 @@ class RoundCells:
     def _along(self, ridge: AnyIndices, angle: FloatArray) -> FloatArray:
         start, normal = self._start[ridge], self._normals[ridge]
         return start * np.cos(angle)[:, None] + np.cross(normal, start) * np.sin(angle)[:, None]
-
-
-def _normals(left: FloatArray, right: FloatArray) -> FloatArray:
-    """Unit vectors (r, 3) from right to left, in twice the precision for close ones alone."""
-    differences = left - right
-    lengths = np.linalg.norm(differences, axis=1, keepdims=True)
-    close = lengths[:, 0] < CLOSE_SITES
-    lengths[close] = 1.0
-    normals = differences / lengths
-    normals[close] = _kernel.sphere.bisector_normals(left[close], right[close])
-    return normals
 
 
 class Rule(NamedTuple):

@@ -7,7 +7,8 @@ import numpy.typing as npt
 import scipy.spatial
 
 from stereodel import triangulation as exact
-from stereodel._arrays import FloatArray, IntArray, as_floats, as_points, as_scalar
+from stereodel._arrays import FloatArray, as_floats, as_points, as_scalar
+from stereodel.curves.ragged import cycles
 from stereodel.spatial.compatibility import hand_over
 
 
@@ -123,17 +124,10 @@ def _fans(triangles: exact.SphericalDelaunay) -> list[list[int]]:
     A corner of a triangle has the number 3·triangle + place. After corner k the fan goes on in the triangle opposite
     corner k + 1.
     """
-    simplices: IntArray = triangles.simplices
+    corners = triangles.simplices.ravel()
     around = np.roll(triangles.neighbors, -1, axis=1).ravel()
-    place = (simplices[around] == simplices.reshape(-1, 1)).argmax(axis=1)
-    following = (3 * around + place).tolist()
-    points, first = np.unique(simplices.ravel(), return_index=True)
+    place = (triangles.simplices[around] == corners[:, None]).argmax(axis=1)
     result: list[list[int]] = [[] for _ in triangles.points]
-    for point, start in zip(points.tolist(), first.tolist(), strict=True):
-        corner = start
-        while True:
-            result[point].append(corner // 3)
-            corner = following[corner]
-            if corner == start:
-                break
+    for fan in cycles(3 * around.astype(np.intp) + place):
+        result[corners[fan[0]]] = (fan // 3).tolist()
     return result

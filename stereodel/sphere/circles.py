@@ -161,9 +161,8 @@ class SphereCircle(Keyed):
 
 def _complete(offset: float) -> float:
     """√(1 − offset²), 1 − offset and 1 + offset being exact in double-double."""
-    one = np.float64(1.0)
-    product = DoubleDouble.difference(one, offset) * (1.0 + DoubleDouble(offset))
-    return float(product.sqrt().round())
+    cosine = DoubleDouble(offset)
+    return float(((1.0 - cosine) * (1.0 + cosine)).sqrt().round())
 
 
 def stored_unit(direction: FloatArray) -> FloatArray:
