@@ -6,37 +6,41 @@ a, b, c and q the barycentric coordinates are det[q b c], det[a q c] and det[a b
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
-from stereodel import _double_double as double_double
 from stereodel._arrays import AnyIndices, FloatArray
 from stereodel._double_double import DoubleDouble
 from stereodel.constants import NEEDLE, PLAIN_SQUARES, THIN_TRIANGLE
 from stereodel.interpolation.interpolator import PrecisePoints
+from stereodel.sphere.circles import shift_exponent
 
 
-def cross2(a: FloatArray, b: FloatArray) -> FloatArray:
+def cross2(a: Any, b: Any) -> Any:
     """Third component of the product a × b of vectors (2, ...)."""
     return a[0] * b[1] - a[1] * b[0]
 
 
+def cross3(a: Any, b: Any) -> list[Any]:
+    """Components of the products a × b of vectors (3, ...)."""
+    return [a[i] * b[j] - a[j] * b[i] for i, j in ((1, 2), (2, 0), (0, 1))]
+
+
 def crossed(a: FloatArray, b: FloatArray) -> FloatArray:
-    """Cross products of vectors (3, ...)."""
-    product = np.empty_like(a)
-    for row, (i, j) in zip(product, ((1, 2), (2, 0), (0, 1)), strict=True):
-        np.subtract(a[i] * b[j], a[j] * b[i], out=row)
-    return product
+    """The same as an array."""
+    return np.stack(cross3(a, b))
 
 
-def inner(a: FloatArray, b: FloatArray) -> FloatArray:
+def inner(a: Any, b: Any) -> Any:
     """Inner product along the first axis, of two or three components."""
-    first = a[0] * b[0] + a[2] * b[2] if len(a) == 3 else a[0] * b[0]
-    return np.asarray(first + a[1] * b[1])
+    first = a[0] * b[0] + a[2] * b[2] if len(b) == 3 else a[0] * b[0]
+    return first + a[1] * b[1]
 
 
 def dot(a: FloatArray, b: FloatArray) -> FloatArray:
     """The same, with the axis kept."""
-    return inner(a, b)[None]
+    return np.asarray(inner(a, b))[None]
 
 
 def lengths(vectors: FloatArray) -> FloatArray:
@@ -84,14 +88,13 @@ class LocatedQueries:
         return self.queries.rounded if self.queries.curved else None
 
     def _weights_of_thin(self, columns: AnyIndices, exponent: AnyIndices, offsets: FloatArray) -> FloatArray:
-        def rows(points: PrecisePoints) -> DoubleDouble:
-            some = points.take(columns).exact
-            return DoubleDouble(some.hi.T, some.lo.T if points.curved else None)
+        def some(points: PrecisePoints) -> DoubleDouble:
+            found = points.take(columns).exact
+            return found if points.curved else DoubleDouble(found.hi)
 
-        queries, shift = rows(self.queries), -exponent[:, None]
-        exact = [rows(corner) - queries for corner in self.corners]
-        scaled = [DoubleDouble(np.ldexp(d.hi, shift), np.ldexp(d.lo, shift)) for d in exact]
-        weights = _areas_twice(scaled, queries if self.queries.curved else None)
+        queries = some(self.queries)
+        exact = [shift_exponent(some(corner) - queries, -exponent) for corner in self.corners]
+        weights = _areas(exact, queries if self.queries.curved else None)
         lost = ~(weights.sum(axis=0) > 0)
         nearest = np.abs(offsets[:, :, lost]).max(axis=1).argmin(axis=0)
         weights[:, lost] = np.eye(3)[nearest].T
@@ -139,18 +142,8 @@ def _tangent(slope: FloatArray, normal: FloatArray, up: FloatArray, depth: Float
     return slope - normal * (dot(slope, up) / depth)
 
 
-def _areas(offsets: FloatArray, up: FloatArray | None) -> FloatArray:
+def _areas(offsets: Any, up: Any) -> FloatArray:
     """Twice the areas of query and opposite edge, (3, m), as seen along `up`; rounding below zero is cut off."""
     pairs = [(offsets[k - 2], offsets[k - 1]) for k in range(3)]
-    areas = [cross2(b, c) if up is None else inner(up, crossed(b, c)) for b, c in pairs]
-    return np.maximum(np.stack(areas), 0.0)
-
-
-def _areas_twice(offsets: list[DoubleDouble], up: DoubleDouble | None) -> FloatArray:
-    """The same in double-double, rounded at the end, of offsets (m, d)."""
-    pairs = [(offsets[k - 2], offsets[k - 1]) for k in range(3)]
-    if up is None:
-        areas = [(b[:, 0] * c[:, 1] - b[:, 1] * c[:, 0]).hi for b, c in pairs]
-    else:
-        areas = [double_double.dot(double_double.cross(b, c), up).hi for b, c in pairs]
-    return np.maximum(np.stack(areas), 0.0)
+    areas = [cross2(b, c) if up is None else inner(up, cross3(b, c)) for b, c in pairs]
+    return np.maximum(np.stack([area.hi if isinstance(area, DoubleDouble) else area for area in areas]), 0.0)

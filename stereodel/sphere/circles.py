@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import BoolArray, FloatArray, Keyed, as_count, as_directions, as_scalar, read_only
+from stereodel._arrays import AnyIndices, BoolArray, FloatArray, Keyed, as_count, as_directions, as_scalar, read_only
 from stereodel._double_double import DoubleDouble, by_blocks, cross, dot, unit, where
 from stereodel.constants import STORED_ERROR, UNDECIDED
 from stereodel.sphere.coordinates import as_direction, tangent_frame
@@ -198,6 +198,6 @@ def light_cone(normal: DoubleDouble, cosine: DoubleDouble, sine: DoubleDouble) -
     return plus, minus
 
 
-def shift_exponent(value: DoubleDouble, exponent: np.ndarray[tuple[int, ...], np.dtype[np.int32]]) -> DoubleDouble:
+def shift_exponent(value: DoubleDouble, exponent: AnyIndices) -> DoubleDouble:
     """Times a power of two, exactly unless it underflows."""
     return DoubleDouble(np.ldexp(value.hi, exponent), np.ldexp(value.lo, exponent))
