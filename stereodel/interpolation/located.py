@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from stereodel._arrays import AnyIndices, FloatArray
-from stereodel._double_double import DoubleDouble
+from stereodel._double_double import DoubleDouble, scaled
 from stereodel.constants import NEEDLE, PLAIN_SQUARES, THIN_TRIANGLE
 from stereodel.interpolation.interpolator import PrecisePoints
 from stereodel.sphere.circles import shift_exponent
@@ -50,10 +50,8 @@ def lengths(vectors: FloatArray) -> FloatArray:
     least, largest = PLAIN_SQUARES
     odd_ones = np.flatnonzero(~((plain > least) & (plain < largest)))
     if len(odd_ones):
-        odd = vectors[:, odd_ones]
-        exponent = np.frexp(np.abs(odd).max(axis=0))[1]
-        odd = np.ldexp(np.ldexp(odd, -(exponent // 2)), exponent // 2 - exponent)  # 2¹⁰⁷⁴ itself overflows
-        root = np.sqrt(np.sum(np.square(odd), axis=0))
+        near, exponent = scaled(vectors[:, odd_ones].T)
+        root = np.sqrt(np.sum(np.square(near), axis=1))
         plain[0, odd_ones] = np.ldexp(np.ldexp(root, exponent // 2), exponent - exponent // 2)
     return plain
 

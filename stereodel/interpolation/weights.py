@@ -127,22 +127,16 @@ class Weights(Shown):
         fields = np.moveaxis(array, axis, -1)
         before = axis % array.ndim
         found = np.full((*fields.shape[:-1], len(self.indptr) - 1), np.nan)
+        held, base = self.rows[self._heaviest], np.zeros(len(self.indptr) - 1)
         for index in np.ndindex(fields.shape[:-1]):
-            self._fill(found[index], np.ascontiguousarray(fields[index]))
+            field = np.ascontiguousarray(fields[index])
+            base[held] = field[self.columns[self._heaviest]]
+            with np.errstate(all="ignore"):
+                rises = self.data * (field[self.columns] - base[self.rows])
+                # Entry by entry, as in the interpolators.
+                found[index][held] = (base + np.bincount(self.rows, rises, len(base)))[held]
         result = np.moveaxis(found, -1, before)
         return np.ascontiguousarray(result).reshape(result.shape[:before] + self.shape + result.shape[before + 1 :])
-
-    def _fill(self, found: FloatArray, field: FloatArray) -> None:
-        """Evaluate one field (n,) at the queries (m,) whose rows have entries."""
-        leads = self._heaviest
-        held = self.rows[leads]
-        base = np.zeros(len(found))
-        base[held] = field[self.columns[leads]]
-        with np.errstate(all="ignore"):
-            rises = self.data * (field[self.columns] - base[self.rows])
-            # Entry by entry, as in the interpolators.
-            above = np.bincount(self.rows, rises, len(found))
-            found[held] = (base + above)[held]
 
     def to_scipy(self) -> Any:
         """As a sparse array of SciPy, (m, n), in CSR format, with the same entries, including zeros.

@@ -258,7 +258,8 @@ def lloyd(
     share = as_scalar(factor, "factor", low=0.0, high=2.0, open_low=True, open_high=True)
     limit, last = as_scalar(tolerance, "tolerance", low=0.0), as_count(steps, "steps", low=0)
     ground: _Polygon | _WholeSphere
-    if surface_of(given) is SPHERE:
+    surface = surface_of(given)
+    if surface is SPHERE:
         if bounds is not None:
             raise ValueError("bounds are for points of the plane; on the sphere leave them out")
         ground, here = _WholeSphere(density, as_workers(workers)), unit(given).hi
@@ -271,7 +272,7 @@ def lloyd(
     energies, moves, converged = [energy], [], False
     for number in range(1, last + 1):
         before, here = here, centroids if share == 1.0 else ground.advanced(here, centroids, share)
-        moves.append(float(ground.ways(before, here).max(initial=0.0)))
+        moves.append(float(surface.distances(before, here).max(initial=0.0)))
         energy, centroids = ground.step(here)
         energies.append(energy)
         if callback is not None:
@@ -293,18 +294,12 @@ class _Polygon:
     def step(self, points: FloatArray) -> Step:
         triangles, site = flat_cells(points, self.bounds, self.workers)
         nodes, weights = flat_nodes(triangles, MIDPOINTS if self.density is None else RADON)
-        values, scale = _values(self.density, nodes + points[site][:, None], site, len(points))
-        weights = weights * values
-        mass, moments = _sums(nodes, weights, site, len(points))
-        energy = _total(weights * (nodes**2).sum(axis=-1), scale)
+        energy, mass, moments = _integrals(self.density, points, site, nodes, weights)
         return energy, points + moments / np.where(mass > 0, mass, 1.0)[:, None]
 
     def advanced(self, points: FloatArray, centroids: FloatArray, factor: float) -> FloatArray:
         reached = points + factor * (centroids - points)
         return np.where(outside(reached, self.bounds)[:, None], centroids, reached)
-
-    def ways(self, one: FloatArray, other: FloatArray) -> FloatArray:
-        return PLANE.distances(one, other)
 
 
 @dataclass(frozen=True, eq=False)
@@ -324,10 +319,8 @@ class _WholeSphere:
         else:
             triangles, site = cells.triangles()
             nodes, weights = spherical_nodes(triangles, RADON)
-            values, scale = _values(self.density, nodes, site, len(points))
-            weights = weights * values
-            mass, moments = _sums(nodes, weights, site, len(points))
-            energy = _total(weights * ((nodes - points[site][:, None]) ** 2).sum(axis=-1), scale)
+            energy, mass, moments = _integrals(self.density, points, site, nodes - points[site][:, None], weights)
+            moments += points * mass[:, None]
             lengths = np.linalg.norm(moments, axis=1, keepdims=True)
             centroids = moments / np.where(lengths > 0, lengths, 1.0)
         # A cell without mass, or whose mean has no direction, leaves its point where it is.
@@ -344,39 +337,30 @@ class _WholeSphere:
         reached = points * np.cos(angle) + tangent / np.where(still, 1.0, length) * np.sin(angle)
         return np.where(still, points, unit(reached).hi)
 
-    def ways(self, one: FloatArray, other: FloatArray) -> FloatArray:
-        return np.degrees(2 * np.arcsin(np.minimum(np.linalg.norm(other - one, axis=1) / 2, 1.0)))
 
+def _integrals(
+    density: Density | None, points: FloatArray, site: AnyIndices, nodes: FloatArray, weights: FloatArray
+) -> tuple[float, FloatArray, FloatArray]:
+    """Energy, and the mass (n,) and first moment (n, d) of each cell, from nodes (t, k, d) relative to their sites.
 
-def _sums(nodes: FloatArray, weights: FloatArray, site: AnyIndices, count: int) -> tuple[FloatArray, FloatArray]:
-    """Mass (n,) and first moments (n, d) of each site's triangles."""
-    mass: FloatArray = np.bincount(site, weights.sum(axis=1), count).astype(np.float64)
-    first = np.einsum("tk,tkd->td", weights, nodes)
-    return mass, np.column_stack([np.bincount(site, column, count) for column in first.T])
-
-
-def _total(energies: FloatArray, scale: FloatArray) -> float:
-    """The sum of energies (t, k) of triangles times their scales (t,); 0 or infinite beyond the ends of doubles."""
-    largest = scale.max(initial=0.0)
-    with np.errstate(over="ignore", under="ignore"):
-        return float((energies * (scale / (largest or 1.0))[:, None]).sum() * largest)
-
-
-def _values(density: Density | None, nodes: FloatArray, site: AnyIndices, count: int) -> tuple[FloatArray, FloatArray]:
-    """Densities (t, k) over the scale of their cell, a power of two near its largest; and the scales (t,).
-
-    A centroid does not depend on the scale, but products of densities near the ends of doubles would be 0 or infinite.
+    Mass and moment are over a scale of their cell, a power of two near its largest density. A centroid does not depend
+    on it, but products of densities near the ends of doubles would be 0 or infinite.
     """
-    if density is None:
-        return np.ones(nodes.shape[:2]), np.ones(len(nodes))
-    flat = nodes.reshape(-1, nodes.shape[-1])
-    values = as_amounts(density(flat), "density(points)", "weight")
-    if values.shape != (len(flat),):
-        raise ValueError(
-            f"density(points) must return a number for each point, shape {(len(flat),)}, got {values.shape}"
-        )
-    values = values.reshape(nodes.shape[:2])
-    largest = np.zeros(count)
-    np.maximum.at(largest, site, values.max(axis=1))
-    scale = np.ldexp(0.5, np.frexp(largest)[1])[site]
-    return values / scale[:, None], scale
+    scale, largest = np.ones(len(points)), 1.0
+    if density is not None:
+        flat = (nodes + points[site][:, None]).reshape(-1, points.shape[1])
+        values = as_amounts(density(flat), "density(points)", "weight")
+        if values.shape != (len(flat),):
+            raise ValueError(
+                f"density(points) must return a number for each point, shape {(len(flat),)}, got {values.shape}"
+            )
+        values, highest = values.reshape(weights.shape), np.zeros(len(points))
+        np.maximum.at(highest, site, values.max(axis=1))
+        scale = np.ldexp(0.5, np.frexp(highest)[1])
+        weights, largest = weights * (values / scale[site][:, None]), scale.max(initial=0.0) or 1.0
+    mass: FloatArray = np.bincount(site, weights.sum(axis=1), len(points)).astype(np.float64)
+    first = np.einsum("tk,tkd->td", weights, nodes)
+    moments = np.column_stack([np.bincount(site, column, len(points)) for column in first.T]).astype(np.float64)
+    with np.errstate(over="ignore", under="ignore"):  # 0 or infinite beyond the ends of doubles
+        energies = weights * (nodes**2).sum(axis=-1) * (scale / largest)[site][:, None]
+        return float(energies.sum() * largest), mass, moments
