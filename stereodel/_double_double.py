@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import BoolArray, FloatArray, IntArray
+from stereodel._arrays import AnyIndices, BoolArray, FloatArray, IntArray
 
 _SPLITTER = 2.0**27 + 1.0  # Veltkamp: cuts a 53-bit significand into two halves of at most 26 bits
 
@@ -113,6 +113,11 @@ class DoubleDouble:
 def where(condition: BoolArray, a: DoubleDouble, b: DoubleDouble) -> DoubleDouble:
     """Entries of `a` where `condition` holds, else those of `b`."""
     return DoubleDouble(np.where(condition, a.hi, b.hi), np.where(condition, a.lo, b.lo))
+
+
+def shift_exponent(value: DoubleDouble, exponent: AnyIndices) -> DoubleDouble:
+    """Times a power of two, exactly unless it underflows."""
+    return DoubleDouble(np.ldexp(value.hi, exponent), np.ldexp(value.lo, exponent))
 
 
 def stack(components: list[DoubleDouble]) -> DoubleDouble:

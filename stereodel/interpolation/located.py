@@ -11,10 +11,9 @@ from typing import Any
 import numpy as np
 
 from stereodel._arrays import AnyIndices, FloatArray
-from stereodel._double_double import DoubleDouble, scaled
+from stereodel._double_double import DoubleDouble, scaled, shift_exponent
 from stereodel.constants import NEEDLE, PLAIN_SQUARES, THIN_TRIANGLE
 from stereodel.interpolation.interpolator import PrecisePoints
-from stereodel.sphere.circles import shift_exponent
 
 
 def cross2(a: Any, b: Any) -> Any:

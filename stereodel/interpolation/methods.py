@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from types import MappingProxyType
 from typing import Any, ClassVar, Final, Literal
 
 import numpy as np
@@ -18,14 +17,12 @@ from stereodel.triangulation.delaunay import Triangulation, as_triangulation
 
 Method = Literal["nearest", "linear", "natural", "smooth"]
 
-METHODS: Final[MappingProxyType[Method, type[Interpolator]]] = MappingProxyType(
-    {
-        "nearest": NearestInterpolator,
-        "linear": LinearInterpolator,
-        "natural": NaturalNeighborInterpolator,
-        "smooth": SmoothInterpolator,
-    }
-)
+METHODS: Final[dict[Method, type[Interpolator]]] = {
+    "nearest": NearestInterpolator,
+    "linear": LinearInterpolator,
+    "natural": NaturalNeighborInterpolator,
+    "smooth": SmoothInterpolator,
+}
 """Interpolators by name."""
 
 

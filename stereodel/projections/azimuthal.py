@@ -23,11 +23,11 @@ from stereodel._arrays import (
     as_scalar,
     as_vectors,
 )
-from stereodel._double_double import DoubleDouble, by_blocks, dot, scaled, stack, unit, where
+from stereodel._double_double import DoubleDouble, by_blocks, dot, scaled, shift_exponent, stack, unit, where
 from stereodel.constants import SEEN_FACE_ON, STORED_ERROR
 from stereodel.projections.plane_curves import Conic, ConicKind, PlaneCircle, PlaneLine
 from stereodel.sphere import SphereCircle
-from stereodel.sphere.circles import light_cone, shift_exponent
+from stereodel.sphere.circles import light_cone
 from stereodel.sphere.coordinates import tangent_frame
 from stereodel.sphere.rotations import transform
 

@@ -95,12 +95,15 @@ def _clipped(triangles: FloatArray, site: AnyIndices, heights: FloatArray) -> tu
 
 def _cut(triangles: FloatArray, heights: FloatArray, alone: AnyIndices) -> list[FloatArray]:
     """Triangles (t, 3, 2) cut at height zero between one corner a and the others, b and c: a, ab, ac, b, c."""
-    # Corners and heights in the same order, turned so that the lone one comes first: the orientation stays.
-    turn = (alone[:, None] + np.arange(3)) % 3
-    a, b, c = np.moveaxis(np.take_along_axis(triangles, turn[:, :, None], axis=1), 1, 0)
-    at_a, at_b, at_c = np.take_along_axis(heights, turn, axis=1).T[:, :, None]
+    a, b, c = _turned(triangles, alone)
+    at_a, at_b, at_c = _turned(heights[:, :, None], alone)
     # Heights of different sign, of which one may be zero: their difference is not.
     return [a, a + (b - a) * (at_a / (at_a - at_b)), a + (c - a) * (at_a / (at_a - at_c)), b, c]
+
+
+def _turned(corners: FloatArray, first: AnyIndices) -> FloatArray:
+    """What belongs to corners (t, 3, d), as (3, t, d), so that this one comes first: the orientation stays."""
+    return np.moveaxis(np.take_along_axis(corners, ((first[:, None] + np.arange(3)) % 3)[:, :, None], axis=1), 1, 0)
 
 
 class RoundCells:
@@ -208,9 +211,8 @@ def split_long(triangles: FloatArray, number: AnyIndices) -> tuple[FloatArray, A
 
 def _halves(triangles: FloatArray, sides: FloatArray) -> FloatArray:
     """Both halves (2t, 3, 3) of triangles cut from the middle of the longest side, which is opposite its corner."""
-    # Corners turned so that the longest side is bc; its middle on the sphere is the direction of b + c.
-    turn = (np.argmax(sides, axis=1)[:, None] + np.arange(3)) % 3
-    a, b, c = np.moveaxis(np.take_along_axis(triangles, turn[:, :, None], axis=1), 1, 0)
+    # The longest side is bc; its middle on the sphere is the direction of b + c.
+    a, b, c = _turned(triangles, np.argmax(sides, axis=1))
     middle = b + c
     length = np.linalg.norm(middle, axis=1, keepdims=True)
     middle = np.where(length > 0, middle / np.where(length > 0, length, 1.0), a)

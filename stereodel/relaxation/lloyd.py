@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -256,86 +257,79 @@ def lloyd(
             'LinearInterpolator(points, values, extrapolate="nearest") is one'
         )
     share = as_scalar(factor, "factor", low=0.0, high=2.0, open_low=True, open_high=True)
-    limit, last = as_scalar(tolerance, "tolerance", low=0.0), as_count(steps, "steps", low=0)
-    ground: _Polygon | _WholeSphere
-    surface = surface_of(given)
+    limit, last, threads = (
+        as_scalar(tolerance, "tolerance", low=0.0),
+        as_count(steps, "steps", low=0),
+        as_workers(workers),
+    )
+    surface, polygon = surface_of(given), None
+    step: Callable[[FloatArray], Step]
     if surface is SPHERE:
         if bounds is not None:
             raise ValueError("bounds are for points of the plane; on the sphere leave them out")
-        ground, here = _WholeSphere(density, as_workers(workers)), unit(given).hi
+        here, advance = unit(given).hi, partial(_round_advance, factor=share)
+        step = partial(_round_step, density=density, workers=threads)
     else:
-        ground, here = _Polygon(density, as_workers(workers), read_only(as_polygon(bounds))), given
-        if (wrong := outside(given, ground.bounds)).any():
+        here, polygon = given, read_only(as_polygon(bounds))
+        advance = partial(_flat_advance, factor=share, bounds=polygon)
+        step = partial(_flat_step, bounds=polygon, density=density, workers=threads)
+        if (wrong := outside(given, polygon)).any():
             k = int(np.argmax(wrong))
             raise ValueError(f"points[{k}] is {given[k].tolist()}, outside bounds")
-    energy, centroids = ground.step(here)
+    energy, centroids = step(here)
     energies, moves, converged = [energy], [], False
     for number in range(1, last + 1):
-        before, here = here, centroids if share == 1.0 else ground.advanced(here, centroids, share)
+        before, here = here, centroids if share == 1.0 else advance(here, centroids)
         moves.append(float(surface.distances(before, here).max(initial=0.0)))
-        energy, centroids = ground.step(here)
+        energy, centroids = step(here)
         energies.append(energy)
         if callback is not None:
             callback(Progress(number, energy, moves[-1]))
         if converged := moves[-1] <= limit:
             break
     found = locked(here.copy()), locked(np.array(energies)), locked(np.array(moves))
-    return Relaxation(*found, converged, kind, ground.bounds)
+    return Relaxation(*found, converged, kind, polygon)
 
 
-@dataclass(frozen=True, eq=False)
-class _Polygon:
-    """What Lloyd's method asks of a convex polygon of the plane."""
-
-    density: Density | None
-    workers: int | None
-    bounds: FloatArray
-
-    def step(self, points: FloatArray) -> Step:
-        triangles, site = flat_cells(points, self.bounds, self.workers)
-        nodes, weights = flat_nodes(triangles, MIDPOINTS if self.density is None else RADON)
-        energy, mass, moments = _integrals(self.density, points, site, nodes, weights)
-        return energy, points + moments / np.where(mass > 0, mass, 1.0)[:, None]
-
-    def advanced(self, points: FloatArray, centroids: FloatArray, factor: float) -> FloatArray:
-        reached = points + factor * (centroids - points)
-        return np.where(outside(reached, self.bounds)[:, None], centroids, reached)
+def _flat_step(points: FloatArray, bounds: FloatArray, density: Density | None, workers: int | None) -> Step:
+    triangles, site = flat_cells(points, bounds, workers)
+    nodes, weights = flat_nodes(triangles, MIDPOINTS if density is None else RADON)
+    energy, mass, moments = _integrals(density, points, site, nodes, weights)
+    return energy, points + moments / np.where(mass > 0, mass, 1.0)[:, None]
 
 
-@dataclass(frozen=True, eq=False)
-class _WholeSphere:
-    """The same of the sphere."""
+def _round_step(points: FloatArray, density: Density | None, workers: int | None) -> Step:
+    cells = RoundCells(points, workers)
+    if density is None:
+        mass, moments, centroids = cells.diagram.areas(), cells.moments(), cells.diagram.centroids()
+        # |x − p|² = 2 (1 − x·p) for unit vectors
+        energy = 2 * float((mass - np.einsum("ni,ni->n", moments, points)).sum())
+    else:
+        triangles, site = cells.triangles()
+        nodes, weights = spherical_nodes(triangles, RADON)
+        energy, mass, moments = _integrals(density, points, site, nodes - points[site][:, None], weights)
+        moments += points * mass[:, None]
+        lengths = np.linalg.norm(moments, axis=1, keepdims=True)
+        centroids = moments / np.where(lengths > 0, lengths, 1.0)
+    # A cell without mass, or whose mean has no direction, leaves its point where it is.
+    pulled = (np.linalg.norm(moments, axis=1) > BALANCED * mass) & (mass > 0)
+    return energy, np.where(pulled[:, None], centroids, points)
 
-    density: Density | None
-    workers: int | None
-    bounds: None = None
 
-    def step(self, points: FloatArray) -> Step:
-        cells = RoundCells(points, self.workers)
-        if self.density is None:
-            mass, moments, centroids = cells.diagram.areas(), cells.moments(), cells.diagram.centroids()
-            # |x − p|² = 2 (1 − x·p) for unit vectors
-            energy = 2 * float((mass - np.einsum("ni,ni->n", moments, points)).sum())
-        else:
-            triangles, site = cells.triangles()
-            nodes, weights = spherical_nodes(triangles, RADON)
-            energy, mass, moments = _integrals(self.density, points, site, nodes - points[site][:, None], weights)
-            moments += points * mass[:, None]
-            lengths = np.linalg.norm(moments, axis=1, keepdims=True)
-            centroids = moments / np.where(lengths > 0, lengths, 1.0)
-        # A cell without mass, or whose mean has no direction, leaves its point where it is.
-        pulled = (np.linalg.norm(moments, axis=1) > BALANCED * mass) & (mass > 0)
-        return energy, np.where(pulled[:, None], centroids, points)
+def _flat_advance(points: FloatArray, centroids: FloatArray, factor: float, bounds: FloatArray) -> FloatArray:
+    reached = points + factor * (centroids - points)
+    return np.where(outside(reached, bounds)[:, None], centroids, reached)
 
-    def advanced(self, points: FloatArray, centroids: FloatArray, factor: float) -> FloatArray:
-        """Along great circles."""
-        step = centroids - points
-        tangent = step - points * np.einsum("ni,ni->n", points, step)[:, None]
-        length = np.linalg.norm(tangent, axis=1, keepdims=True)
-        angle = factor * np.arctan2(length, np.einsum("ni,ni->n", points, centroids)[:, None])
-        still = length == 0
-        reached = points * np.cos(angle) + tangent / np.where(still, 1.0, length) * np.sin(angle)
-        return np.where(still, points, unit(reached).hi)
+
+def _round_advance(points: FloatArray, centroids: FloatArray, factor: float) -> FloatArray:
+    """Along great circles."""
+    step = centroids - points
+    tangent = step - points * np.einsum("ni,ni->n", points, step)[:, None]
+    length = np.linalg.norm(tangent, axis=1, keepdims=True)
+    angle = factor * np.arctan2(length, np.einsum("ni,ni->n", points, centroids)[:, None])
+    still = length == 0
+    reached = points * np.cos(angle) + tangent / np.where(still, 1.0, length) * np.sin(angle)
+    return np.where(still, points, unit(reached).hi)
 
 
 def _integrals(

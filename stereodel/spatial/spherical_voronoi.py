@@ -7,7 +7,7 @@ import numpy.typing as npt
 import scipy.spatial
 
 from stereodel import triangulation as exact
-from stereodel._arrays import FloatArray, as_floats, as_points, as_scalar
+from stereodel._arrays import FloatArray, as_floats, as_points, as_scalar, as_shaped
 from stereodel.curves.ragged import cycles
 from stereodel.spatial.compatibility import hand_over
 
@@ -30,9 +30,8 @@ class ExactOnSphere(scipy.spatial.SphericalVoronoi):
 
     Attributes
     ----------
-    points : (npoints, 3) array
-    radius : float
-    center : (3,) array
+    points, radius, center
+        As given.
     vertices : (nvertices, 3) array
         Centers of the empty circles: one for each of the 2·npoints − 4 triangles, bitwise equal ones for cocircular
         triangles; two if all points lie on one circle, its poles; none for a single point.
@@ -77,7 +76,7 @@ class ExactOnSphere(scipy.spatial.SphericalVoronoi):
             return
         self.radius = as_scalar(radius, "radius", low=0.0, open_low=True)
         self.points = np.array(as_points(array, 3))
-        self.center = np.zeros(3) if center is None else _as_center(center)
+        self.center = np.zeros(3) if center is None else np.array(as_shaped(center, (3,), "center"))
         directions = self.points - self.center
         self._refuse_off_sphere(directions, as_scalar(threshold, "threshold", low=0.0))
         triangles = exact.SphericalDelaunay(directions)
@@ -109,13 +108,6 @@ class ExactOnSphere(scipy.spatial.SphericalVoronoi):
 
 SphericalVoronoi = ExactOnSphere  # under the name that SciPy has, for pickles and help as well
 SphericalVoronoi.__name__ = SphericalVoronoi.__qualname__ = "SphericalVoronoi"
-
-
-def _as_center(center: npt.ArrayLike) -> FloatArray:
-    array = as_floats(center, "center")
-    if array.shape != (3,):
-        raise ValueError(f"center must have shape (3,), got {array.shape}")
-    return np.array(array)
 
 
 def _fans(triangles: exact.SphericalDelaunay) -> list[list[int]]:

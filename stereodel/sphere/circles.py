@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import AnyIndices, BoolArray, FloatArray, Keyed, as_count, as_directions, as_scalar, read_only
+from stereodel._arrays import BoolArray, FloatArray, Keyed, as_count, as_directions, as_scalar, read_only
 from stereodel._double_double import DoubleDouble, by_blocks, cross, dot, unit, where
 from stereodel.constants import STORED_ERROR, UNDECIDED
 from stereodel.sphere.coordinates import as_direction, tangent_frame
@@ -196,8 +196,3 @@ def light_cone(normal: DoubleDouble, cosine: DoubleDouble, sine: DoubleDouble) -
     plus = n_plus - d_minus if float(n_plus.hi + d_minus.hi) < 2 else d_plus - n_minus
     minus = d_minus - n_minus if float(d_minus.hi + n_minus.hi) < 2 else n_plus - d_plus
     return plus, minus
-
-
-def shift_exponent(value: DoubleDouble, exponent: AnyIndices) -> DoubleDouble:
-    """Times a power of two, exactly unless it underflows."""
-    return DoubleDouble(np.ldexp(value.hi, exponent), np.ldexp(value.lo, exponent))
