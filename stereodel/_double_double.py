@@ -155,6 +155,13 @@ def unit(vectors: FloatArray) -> DoubleDouble:
     """
     # Component by component: a length that is the same along the last axis costs a loop for each three numbers.
     columns = np.ascontiguousarray(np.moveaxis(vectors, -1, 0)).reshape(3, -1)
+    found = np.empty((2, *columns.shape))
+    for i in range(0, columns.shape[1], ROWS):
+        found[..., i : i + ROWS] = _unit(columns[:, i : i + ROWS])
+    return DoubleDouble(*(np.moveaxis(part.reshape(3, *vectors.shape[:-1]), 0, -1) for part in found))
+
+
+def _unit(columns: FloatArray) -> tuple[FloatArray, FloatArray]:
     _, exponent = np.frexp(np.abs(columns).max(axis=0))
     # Two half steps: 2**1074 alone is not a double.
     scaled = columns * np.ldexp(1.0, -(exponent // 2)) * np.ldexp(1.0, -(exponent - exponent // 2))
@@ -167,7 +174,7 @@ def unit(vectors: FloatArray) -> DoubleDouble:
     if len(rest):
         others = DoubleDouble(scaled[:, rest]) / square[rest].sqrt()
         found[0][:, rest], found[1][:, rest] = others.hi, others.lo
-    return DoubleDouble(*(np.moveaxis(part.reshape(3, *vectors.shape[:-1]), 0, -1) for part in found))
+    return found
 
 
 def _lift(value: DoubleDouble | npt.ArrayLike) -> DoubleDouble:

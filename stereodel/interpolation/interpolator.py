@@ -97,9 +97,8 @@ class PrecisePoints:
         # is several times as fast along many points as along two or three components.
         self.exact = DoubleDouble(np.ascontiguousarray(points.T), np.zeros((2, 0)))
         if self.curved:
-            blocks = [unit(points[i : i + BLOCK]) for i in range(0, len(points), BLOCK)] or [DoubleDouble(points)]
-            hi, lo = ([part.T for part in parts] for parts in zip(*((b.hi, b.lo) for b in blocks), strict=True))
-            self.exact = DoubleDouble(np.concatenate(hi, axis=1), np.concatenate(lo, axis=1))
+            exact = unit(points)
+            self.exact = DoubleDouble(exact.hi.T, exact.lo.T)
 
     @property
     def rounded(self) -> FloatArray:

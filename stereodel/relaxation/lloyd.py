@@ -64,17 +64,11 @@ class Quality:
         Number of points that do not have six neighbours.
     area_ratio : float
         Area of the largest cell, within the bounds, over that of the smallest.
-    energy : float
-        Energy at the end.
-    converged : bool
-        As for `Relaxation`.
     """
 
     neighbors: dict[int, int]
     defects: int
     area_ratio: float
-    energy: float
-    converged: bool
 
 
 Step = tuple[float, FloatArray]
@@ -147,13 +141,8 @@ class Relaxation(Shown):
         counts = np.unique_counts(degrees[degrees > 0])
         neighbors = dict(zip(counts.values.tolist(), counts.counts.tolist(), strict=True))
         held = areas[areas > 0]
-        return Quality(
-            neighbors,
-            sum(count for number, count in neighbors.items() if number != 6),
-            float(held.max() / held.min()) if len(held) else 1.0,
-            float(self.energies[-1]),
-            self.converged,
-        )
+        defects = sum(count for number, count in neighbors.items() if number != 6)
+        return Quality(neighbors, defects, float(held.max() / held.min()) if len(held) else 1.0)
 
 
 @shared(**LONLAT)
