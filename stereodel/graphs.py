@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel import _kernel
-from stereodel._arrays import AnyIndices, BoolArray, FloatArray, IntArray, locked
+from stereodel._arrays import AnyIndices, FloatArray, IntArray, locked
 from stereodel._docs import shared
 from stereodel._spaces import PLANE
 from stereodel.sphere.coordinates import LONLAT
@@ -344,12 +344,9 @@ def _has_empty_lune(points: FloatArray, circle: AnyIndices, step: AnyIndices) ->
     if chord @ chord < 2.99:
         return True
     others = circle[(circle != a) & (circle != b)]
-
-    def nearer(end: int) -> BoolArray:
-        rows = [np.broadcast_to(k, others.shape) for k in (end, others, a, b)]
-        return _kernel.sphere.compare_lengths(points, np.column_stack(rows).astype(np.int32)) < 0
-
-    return not (nearer(a) & nearer(b)).any()
+    rows = np.array([(end, other, a, b) for end in (a, b) for other in others], dtype=np.int32)
+    nearer = _kernel.sphere.compare_lengths(points, rows).reshape(2, -1) < 0
+    return not nearer.all(axis=0).any()
 
 
 def _corners(triangulation: Triangulation) -> AnyIndices:
@@ -375,12 +372,11 @@ def _ends(triangulation: Triangulation) -> AnyIndices:
     order, points = state_of(triangulation).flat_order, triangulation.points
     if len(order) < 2:
         return order
+    ends = np.sort(order[[0, -1]])
     if triangulation.surface is PLANE:
-        return np.sort(order[[0, -1]])
+        return ends
     # On a great circle the ends of the one step of more than a half-turn, if there is one.
-    if len(order) == 2:
-        ends = np.sort(order)
-    else:
+    if len(order) > 2:
         steps = _short_steps(points, order)
         if len(steps) != len(order) - 1:
             return np.zeros(0, dtype=np.int32)

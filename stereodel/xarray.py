@@ -131,10 +131,7 @@ class StereodelAccessor:
             keep_attrs=True,
             dask="parallelized",
             output_dtypes=[np.float64],
-            dask_gufunc_kwargs={
-                "output_sizes": dict(zip(wanted, places.shape[:-1], strict=True)),
-                "allow_rechunk": True,
-            },
+            dask_gufunc_kwargs={"output_sizes": dict(zip(wanted, places.shape, strict=False)), "allow_rechunk": True},
         )
         found = found.assign_coords(coords)
         return found.assign(kept) if kept else found

@@ -149,11 +149,10 @@ def _pieces(
 def chains(following: AnyIndices) -> list[tuple[list[int], bool]]:
     """Chains of indices of a one-to-one map, -1 where it ends, open ones first, and which of them are rings."""
     after = following.tolist()
-    begins = np.ones(len(after), dtype=np.bool_)
-    begins[following[following >= 0]] = False
+    begins = np.setdiff1d(np.arange(len(after)), following)
     seen = [False] * len(after)
     found = []
-    for start in [*np.flatnonzero(begins).tolist(), *range(len(after))]:
+    for start in [*begins.tolist(), *range(len(after))]:
         if seen[start]:
             continue
         chain, at = [], start

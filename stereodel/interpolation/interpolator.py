@@ -136,7 +136,6 @@ class Interpolator(ABC):
         flat, shape = as_site_values(self.triangulation, values)
         self._values = locked(flat.copy())
         self.values = self._values.reshape(len(flat), *shape)
-        self._value_shape = shape
         self._sites = PrecisePoints(self.triangulation.points)
         self._nearest_outside = extrapolate is not None and bool(as_choice(extrapolate, ("nearest",), "extrapolate"))
 
@@ -197,7 +196,7 @@ class Interpolator(ABC):
         array, flat = self._as_queries(queries, lonlat)
         with np.errstate(all="ignore"):
             result = self._evaluate(flat, workers)
-        return result.reshape(array.shape[:-1] + self._value_shape)
+        return result.reshape(array.shape[:-1] + self.values.shape[1:])
 
     @shared(**LONLAT)
     def gradient(
@@ -222,7 +221,7 @@ class Interpolator(ABC):
         array, flat = self._as_queries(queries, lonlat)
         with np.errstate(all="ignore"):
             result = np.moveaxis(self._evaluate_gradient(flat, workers), 1, 2)
-        return result.reshape(array.shape[:-1] + self._value_shape + array.shape[-1:])
+        return result.reshape(array.shape[:-1] + self.values.shape[1:] + array.shape[-1:])
 
     def _as_queries(self, queries: npt.ArrayLike | None, lonlat: npt.ArrayLike | None) -> tuple[FloatArray, FloatArray]:
         array = self.triangulation.surface.as_queries(as_asked(queries, lonlat, self.latitude))

@@ -64,6 +64,7 @@ class LocatedQueries:
     def __init__(self, sites: PrecisePoints, corners: AnyIndices, queries: FloatArray) -> None:
         self.sites, self.numbers = sites, np.ascontiguousarray(corners.T, dtype=np.intp)
         self.given, self.queries = queries, PrecisePoints(queries)
+        self.up = self.queries.rounded if self.queries.curved else None
         self.corners = [sites.take(numbers) for numbers in self.numbers]
 
     def weights(self) -> FloatArray:
@@ -73,16 +74,13 @@ class LocatedQueries:
         # leaves the nearest corner.
         offsets = np.stack([corner - self.queries for corner in self.corners])
         exponent = np.frexp(np.abs(offsets).max(axis=(0, 1), initial=0.0))[1]
-        weights = _areas(np.ldexp(offsets, -exponent), self._up())
+        weights = _areas(np.ldexp(offsets, -exponent), self.up)
         total = weights[0] + weights[1] + weights[2]
         thin = np.flatnonzero(~(total > THIN_TRIANGLE))
         if len(thin):
             weights[:, thin] = self._weights_of_thin(thin, exponent[thin], offsets[:, :, thin])
             total = weights[0] + weights[1] + weights[2]
         return weights / total
-
-    def _up(self) -> FloatArray | None:
-        return self.queries.rounded if self.queries.curved else None
 
     def _weights_of_thin(self, columns: AnyIndices, exponent: AnyIndices, offsets: FloatArray) -> FloatArray:
         def some(points: PrecisePoints) -> DoubleDouble:
@@ -112,8 +110,7 @@ class LocatedQueries:
         size = np.frexp(np.maximum(np.abs(d).max(axis=0), np.abs(e).max(axis=0)))[1]
         d, e = np.ldexp(d, -size), np.ldexp(e, -size)
         needles = np.flatnonzero(np.abs(e - d).max(axis=0) < NEEDLE)
-        up = self._up()
-        if up is None:
+        if (up := self.up) is None:
             area = cross2(d, e)
             across = np.stack([e[1], -e[0]]) / area, np.stack([-d[1], d[0]]) / area
         else:

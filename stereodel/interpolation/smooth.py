@@ -1,8 +1,7 @@
 """Once differentiable interpolation from values and gradients at the points.
 
-In each triangle by the side-vertex method of G. M. Nielson, "The side-vertex method for interpolation in triangles", J.
-Approx. Theory 25 (1979), carried to the sphere by C. L. Lawson (1984) and by R. J. Renka, "Interpolation of data on the
-surface of a sphere", ACM TOMS 10 (1984), with arcs of great circles for segments. For each corner i:
+In each triangle by the side-vertex method of G. M. Nielson (1979), carried to the sphere by C. L. Lawson (1984) and by
+R. J. Renka (1984), with arcs of great circles for segments. For each corner i:
 
 1. The line from i through the query meets the opposite side jk in Q. Along the side the function is the cubic of the
    values and slopes at j and k; its slope across the side is linear between those at j and k.
@@ -54,9 +53,7 @@ class SmoothInterpolator(TriangleInterpolator):
     and constants on the sphere; the error for smooth functions is of order h³ for edges of length h, that of the
     gradient of order h², with estimated gradients too. The function may leave the range of the values, and in
     thin triangles, as between two points that nearly meet and a far one, its gradient may be large. NaN values and
-    gradients that are not finite propagate only to the triangles at their point. Coordinates may be as small
-    and as large as doubles are. Outside means in no triangle, as in
-    `LinearInterpolator`.
+    gradients that are not finite propagate only to the triangles at their point. Outside means in no triangle.
 
     References
     ----------
@@ -86,8 +83,7 @@ class SmoothInterpolator(TriangleInterpolator):
             if gradients is None
             else self._given(gradients)
         )
-        rows = np.ascontiguousarray(self._slopes.T)
-        self.gradients = locked(rows.reshape(*self.values.shape, len(self._slopes)))
+        self.gradients = locked(np.ascontiguousarray(self._slopes.T).reshape(*self.values.shape, len(self._slopes)))
 
     def _given(self, gradients: npt.ArrayLike) -> FloatArray:
         """Checked gradients (d, k, n), tangent, one a place."""

@@ -32,6 +32,8 @@ from stereodel.triangulation import SphericalVoronoi
 from stereodel.triangulation.delaunay import Triangulation, as_triangulation
 
 Density = Callable[[FloatArray], npt.ArrayLike]
+Step = tuple[float, FloatArray]
+"""The energy of a set of points and the centroids of their cells."""
 
 
 class Progress(NamedTuple):
@@ -69,10 +71,6 @@ class Quality:
     neighbors: dict[int, int]
     defects: int
     area_ratio: float
-
-
-Step = tuple[float, FloatArray]
-"""The energy of a set of points and the centroids of their cells."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -189,8 +187,7 @@ def lloyd(
     Returns
     -------
     Relaxation
-        `points`, `energies`, `moves`, `converged` and `quality()`; `lonlat` if the points were given by longitude and
-        latitude.
+        With `lonlat` if the points were given by longitude and latitude.
 
     Raises
     ------

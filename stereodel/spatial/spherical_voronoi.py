@@ -78,7 +78,14 @@ class ExactOnSphere(scipy.spatial.SphericalVoronoi):
         self.points = np.array(as_points(array, 3))
         self.center = np.zeros(3) if center is None else np.array(as_shaped(center, (3,), "center"))
         directions = self.points - self.center
-        self._refuse_off_sphere(directions, as_scalar(threshold, "threshold", low=0.0))
+        distances = np.linalg.norm(directions, axis=1)
+        off = np.abs(distances - self.radius)
+        if off.max(initial=0.0) >= as_scalar(threshold, "threshold", low=0.0) * self.radius:
+            worst = int(off.argmax())
+            raise ValueError(
+                f"Radius inconsistent with generators: points[{worst}] is {float(distances[worst])} from the center, "
+                f"but radius is {self.radius}; scale the points, or allow more by threshold"
+            )
         triangles = exact.SphericalDelaunay(directions)
         self._diagram = exact.SphericalVoronoi(triangles)
         self._simplices = np.array(triangles.simplices)
@@ -87,16 +94,6 @@ class ExactOnSphere(scipy.spatial.SphericalVoronoi):
         several = len(units) > 2
         self.regions: list[list[int]] = _fans(triangles) if several else self._diagram.regions
         self.vertices = self.radius * (units[self._diagram.simplex_vertex] if several else units) + self.center
-
-    def _refuse_off_sphere(self, directions: FloatArray, threshold: float) -> None:
-        distances = np.linalg.norm(directions, axis=1)
-        off = np.abs(distances - self.radius)
-        if off.max(initial=0.0) >= threshold * self.radius:
-            worst = int(off.argmax())
-            raise ValueError(
-                f"Radius inconsistent with generators: points[{worst}] is {float(distances[worst])} from the center, "
-                f"but radius is {self.radius}; scale the points, or allow more by threshold"
-            )
 
     def sort_vertices_of_regions(self) -> None:
         """Nothing to do: regions are counterclockwise from the start."""

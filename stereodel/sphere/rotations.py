@@ -50,8 +50,7 @@ def rotation_matrix(q: DoubleDouble) -> DoubleDouble:
 
 def transform(matrix: DoubleDouble, vectors: DoubleDouble) -> DoubleDouble:
     """Matrix (3, 3) times vectors (..., 3)."""
-    columns = [vectors[..., k] for k in range(3)]
-    return stack([sum((matrix[i, k] * columns[k] for k in (1, 2)), matrix[i, 0] * columns[0]) for i in range(3)])
+    return stack([dot(matrix[i], vectors) for i in range(3)])
 
 
 def between(a: DoubleDouble, b: DoubleDouble) -> DoubleDouble:
