@@ -48,8 +48,12 @@ def outside(points: FloatArray, polygon: FloatArray) -> BoolArray:
 
 def flat_cells(points: FloatArray, polygon: FloatArray, workers: int | None) -> tuple[FloatArray, AnyIndices]:
     """Triangles (t, 3, 2) relative to their sites, counterclockwise, that make up the cells, and the sites (t,)."""
-    # Four more sites bound every cell, so that all are fans of triangles around their sites.
-    diagram = PlanarVoronoi(np.concatenate([points, _far_points(polygon)]), workers=workers)
+    # Four more sites bound every cell, so that all are fans of triangles around their sites, without reaching into the
+    # polygon: within it every site is at most 2r away, r the radius of a circle around it; these are at least 7r away.
+    low, high = polygon.min(axis=0), polygon.max(axis=0)
+    reach = 4 * float(np.hypot(*(high - low)))
+    far = low + (high - low) / 2 + reach * np.array([[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]])
+    diagram = PlanarVoronoi(np.concatenate([points, far]), workers=workers)
     cells = Ragged(diagram.region_indices, diagram.region_offsets)
     # A triangle for each side of a cell: its site at the origin, then both ends of the side. The four have none.
     own = cells.row < len(points)
@@ -59,26 +63,10 @@ def flat_cells(points: FloatArray, polygon: FloatArray, workers: int | None) -> 
     triangles = np.stack([np.zeros_like(here), here, there], axis=1)
     # Cells are convex and so is the polygon: cutting the triangles at one side after the other leaves what is in both.
     for start, end in zip(polygon, np.roll(polygon, -1, axis=0), strict=True):
-        triangles, site = _clipped(triangles, site, _heights(triangles, points[site], start, end))
+        # Heights of the corners above the side, times its length.
+        (x, y), (along, over) = end - start, np.moveaxis(triangles + (points[site] - start)[:, None], -1, 0)
+        triangles, site = _clipped(triangles, site, x * over - y * along)
     return triangles, site
-
-
-def _far_points(polygon: FloatArray) -> FloatArray:
-    """Four points so far around a polygon that they bound all cells without reaching into it.
-
-    Within the polygon every site is at most 2r away, r the radius of a circle around it; these are at least 7r away.
-    """
-    low, high = polygon.min(axis=0), polygon.max(axis=0)
-    middle, radius = low + (high - low) / 2, float(np.hypot(*(high - low))) / 2
-    return middle + 8 * radius * np.array([[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]])
-
-
-def _heights(triangles: FloatArray, sites: FloatArray, start: FloatArray, end: FloatArray) -> FloatArray:
-    """Heights (t, 3) of corners relative to sites (t, 2) above the line from start to end, times its length."""
-    x, y = end - start
-    inside = sites - start
-    over, along = triangles[..., 1] + inside[:, None, 1], triangles[..., 0] + inside[:, None, 0]
-    return x * over - y * along
 
 
 def _clipped(triangles: FloatArray, site: AnyIndices, heights: FloatArray) -> tuple[FloatArray, AnyIndices]:
