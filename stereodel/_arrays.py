@@ -181,11 +181,11 @@ def as_quaternion(value: npt.ArrayLike, name: str) -> FloatArray:
     return array
 
 
-def as_matrix(value: npt.ArrayLike, size: int, name: str) -> FloatArray:
-    """A square matrix, shape (size, size)."""
+def as_shaped(value: npt.ArrayLike, shape: tuple[int, ...], name: str) -> FloatArray:
+    """A vector or a matrix of this shape."""
     array = as_floats(value, name)
-    if array.shape != (size, size):
-        raise ValueError(f"{name} must have shape ({size}, {size}), got {array.shape}")
+    if array.shape != shape:
+        raise ValueError(f"{name} must have shape {shape}, got {array.shape}")
     return array
 
 
@@ -269,8 +269,8 @@ def as_complex_matrix(value: npt.ArrayLike, name: str) -> npt.NDArray[np.complex
     """A 2×2 matrix of finite complex numbers."""
     array = np.asarray(value)
     if array.dtype.kind != "c":
-        return as_matrix(value, 2, name).astype(np.complex128)
-    parts = as_matrix(array.real, 2, f"{name}.real"), as_matrix(array.imag, 2, f"{name}.imag")
+        return as_shaped(value, (2, 2), name).astype(np.complex128)
+    parts = as_shaped(array.real, (2, 2), f"{name}.real"), as_shaped(array.imag, (2, 2), f"{name}.imag")
     return np.stack(parts, axis=-1).view(np.complex128)[..., 0]
 
 

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import BoolArray, FloatArray, IntArray
+from stereodel._arrays import AnyIndices, BoolArray, FloatArray, IntArray
 
 _SPLITTER = 2.0**27 + 1.0  # Veltkamp: cuts a 53-bit significand into two halves of at most 26 bits
 
@@ -58,24 +58,9 @@ class DoubleDouble:
         self.hi: FloatArray = np.asarray(hi, dtype=np.float64)
         self.lo: FloatArray = np.zeros_like(self.hi) if lo is None else np.asarray(lo, dtype=np.float64)
 
-    @classmethod
-    def product(cls, a: npt.ArrayLike, b: npt.ArrayLike) -> DoubleDouble:
-        """The exact product of two doubles."""
-        return cls(*two_prod(np.asarray(a, dtype=np.float64), np.asarray(b, dtype=np.float64)))
-
-    @classmethod
-    def difference(cls, a: npt.ArrayLike, b: npt.ArrayLike) -> DoubleDouble:
-        """The exact difference of two doubles."""
-        return cls(*two_sum(np.asarray(a, dtype=np.float64), -np.asarray(b, dtype=np.float64)))
-
     def round(self) -> FloatArray:
         """The nearest doubles."""
         return self.hi + self.lo
-
-    @property
-    def shape(self) -> tuple[int, ...]:
-        """Shape of the array."""
-        return self.hi.shape
 
     def __getitem__(self, key: Any) -> DoubleDouble:
         return DoubleDouble(self.hi[key], self.lo[key])
@@ -106,14 +91,10 @@ class DoubleDouble:
         rest = rest - b * second
         return DoubleDouble(*fast_two_sum(first, second)) + rest.hi / b.hi
 
-    def __radd__(self, other: npt.ArrayLike) -> DoubleDouble:
-        return self + other
+    __radd__, __rmul__ = __add__, __mul__
 
     def __rsub__(self, other: npt.ArrayLike) -> DoubleDouble:
         return _lift(other) - self
-
-    def __rmul__(self, other: npt.ArrayLike) -> DoubleDouble:
-        return self * other
 
     def __rtruediv__(self, other: npt.ArrayLike) -> DoubleDouble:
         return _lift(other) / self
@@ -121,7 +102,7 @@ class DoubleDouble:
     def sqrt(self) -> DoubleDouble:
         """Square root; 0 at 0, NaN below."""
         root = np.sqrt(self.hi)
-        rest = self - DoubleDouble.product(root, root)
+        rest = self - DoubleDouble(*two_prod(root, root))
         correction = np.divide(rest.hi, 2 * root, out=np.zeros_like(root), where=root != 0)
         return DoubleDouble(*fast_two_sum(root, correction))
 
@@ -134,6 +115,11 @@ def where(condition: BoolArray, a: DoubleDouble, b: DoubleDouble) -> DoubleDoubl
     return DoubleDouble(np.where(condition, a.hi, b.hi), np.where(condition, a.lo, b.lo))
 
 
+def shift_exponent(value: DoubleDouble, exponent: AnyIndices) -> DoubleDouble:
+    """Times a power of two, exactly unless it underflows."""
+    return DoubleDouble(np.ldexp(value.hi, exponent), np.ldexp(value.lo, exponent))
+
+
 def stack(components: list[DoubleDouble]) -> DoubleDouble:
     """Join along a new last axis."""
     return DoubleDouble(np.stack([c.hi for c in components], axis=-1), np.stack([c.lo for c in components], axis=-1))
@@ -143,7 +129,7 @@ def dot(a: DoubleDouble, b: DoubleDouble) -> DoubleDouble:
     """Inner product along the last axis."""
     terms = a * b
     total = terms[..., 0]
-    for k in range(1, terms.shape[-1]):
+    for k in range(1, terms.hi.shape[-1]):
         total = total + terms[..., k]
     return total
 
@@ -169,10 +155,17 @@ def unit(vectors: FloatArray) -> DoubleDouble:
     """
     # Component by component: a length that is the same along the last axis costs a loop for each three numbers.
     columns = np.ascontiguousarray(np.moveaxis(vectors, -1, 0)).reshape(3, -1)
+    found = np.empty((2, *columns.shape))
+    for i in range(0, columns.shape[1], ROWS):
+        found[..., i : i + ROWS] = _unit(columns[:, i : i + ROWS])
+    return DoubleDouble(*(np.moveaxis(part.reshape(3, *vectors.shape[:-1]), 0, -1) for part in found))
+
+
+def _unit(columns: FloatArray) -> tuple[FloatArray, FloatArray]:
     _, exponent = np.frexp(np.abs(columns).max(axis=0))
     # Two half steps: 2**1074 alone is not a double.
     scaled = columns * np.ldexp(1.0, -(exponent // 2)) * np.ldexp(1.0, -(exponent - exponent // 2))
-    terms = DoubleDouble.product(scaled, scaled)
+    terms = DoubleDouble(*two_prod(scaled, scaled))
     square = terms[0] + terms[1] + terms[2]
     # Most have length 1 to rounding: 1/√(1 + δ) = 1 − δ/2 + 3δ²/8 − …, what follows below 2⁻¹⁵⁰.
     excess = (square - 1.0).hi
@@ -181,7 +174,7 @@ def unit(vectors: FloatArray) -> DoubleDouble:
     if len(rest):
         others = DoubleDouble(scaled[:, rest]) / square[rest].sqrt()
         found[0][:, rest], found[1][:, rest] = others.hi, others.lo
-    return DoubleDouble(*(np.moveaxis(part.reshape(3, *vectors.shape[:-1]), 0, -1) for part in found))
+    return found
 
 
 def _lift(value: DoubleDouble | npt.ArrayLike) -> DoubleDouble:

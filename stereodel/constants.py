@@ -168,12 +168,6 @@ QUADRATURE_CHORD: Final = 0.2
 SEEN_FACE_ON: Final = 2.0**-240
 """Sine of the angle between a circle's axis and the view's below which its orthographic image is a circle."""
 
-CLOSE_SITES: Final = 1e-4
-"""Distance of two unit vectors below which their difference is formed in twice the precision.
-
-Lengths differ from one by 2⁻⁵²: above it a bisecting plane is turned by less than 1e-11 rad.
-"""
-
 BALANCED: Final = 1e-6
 """Length of the mean of unit vectors over a cell below which it has no direction to move its site to.
 

@@ -7,24 +7,19 @@ Delaunay triangulation.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Literal, Protocol
+from typing import Literal, Protocol, TypeVar
 
 import numpy as np
 import numpy.typing as npt
 
 from stereodel import _kernel
-from stereodel._arrays import AnyIndices, BoolArray, FloatArray, IntArray, locked
+from stereodel._arrays import AnyIndices, FloatArray, IntArray, locked
 from stereodel._docs import shared
 from stereodel._spaces import PLANE
 from stereodel.sphere.coordinates import LONLAT
 from stereodel.sphere.latitudes import Latitude
 from stereodel.sphere.vectors import units
-from stereodel.triangulation.delaunay import (
-    Triangulation,
-    as_triangulation,
-    state_of,
-    threads_of,
-)
+from stereodel.triangulation.delaunay import Triangulation, as_triangulation, state_of, threads_of
 from stereodel.triangulation.topology import as_edges
 
 __all__ = [
@@ -44,6 +39,8 @@ _SHARED = LONLAT | {
         points : array_like (n, 2) or (n, 3), PlanarDelaunay or SphericalDelaunay
             Points of the plane, directions, or a triangulation of them.
         {instead}
+        workers : int, optional
+            Threads; -1 for all processors. By default those of the triangulation. Does not affect the result.
         """,
     "raises": """
         Raises
@@ -54,8 +51,6 @@ _SHARED = LONLAT | {
         """,
     "graph": """
         {points}
-        workers : int, optional
-            Threads; -1 for all processors. By default those of the triangulation. Does not affect the result.
 
         Returns
         -------
@@ -74,7 +69,10 @@ _SHARED = LONLAT | {
 }
 
 
-class _Graph(Protocol):
+_T = TypeVar("_T", covariant=True)
+
+
+class _OfPoints(Protocol[_T]):
     def __call__(
         self,
         points: npt.ArrayLike | Triangulation | None = None,
@@ -82,28 +80,31 @@ class _Graph(Protocol):
         lonlat: npt.ArrayLike | None = None,
         latitude: Latitude | None = None,
         workers: int | None = None,
-    ) -> IntArray: ...
+    ) -> _T: ...
 
 
-def _graph(edges: Callable[[Triangulation, int], IntArray]) -> _Graph:
-    """The function of points, by name and docstring that of the edges of a triangulation, found by so many threads."""
+def _of_points(function: Callable[[Triangulation], _T]) -> _OfPoints[_T]:
+    """The function of points that has the name and the docstring of this one of their triangulation."""
 
-    def graph(
+    def of_points(
         points: npt.ArrayLike | Triangulation | None = None,
         *,
         lonlat: npt.ArrayLike | None = None,
         latitude: Latitude | None = None,
         workers: int | None = None,
-    ) -> IntArray:
-        triangulation = as_triangulation(points, lonlat=lonlat, latitude=latitude)
-        return locked(edges(triangulation, threads_of(triangulation, workers)))
+    ) -> _T:
+        found = function(as_triangulation(points, lonlat=lonlat, latitude=latitude, workers=workers))
+        if isinstance(found, np.ndarray):
+            locked(found)
+        return found
 
-    graph.__name__, graph.__qualname__, graph.__doc__ = edges.__name__, edges.__qualname__, edges.__doc__
-    return shared(**_SHARED)(graph)
+    for name in ("__name__", "__qualname__", "__doc__"):
+        setattr(of_points, name, getattr(function, name))
+    return shared(**_SHARED)(of_points)
 
 
-@_graph
-def gabriel_graph(triangulation: Triangulation, threads: int) -> IntArray:
+@_of_points
+def gabriel_graph(triangulation: Triangulation) -> IntArray:
     """Edges whose diametral circle contains no other point, neither inside nor on it.
 
     {graph}
@@ -128,11 +129,11 @@ def gabriel_graph(triangulation: Triangulation, threads: int) -> IntArray:
     >>> gabriel_graph([[0, 0], [3, 0], [0, 4]]).tolist()
     [[0, 1], [0, 2]]
     """
-    return _proximity_edges(triangulation, "gabriel", threads)
+    return _proximity_edges(triangulation, "gabriel")
 
 
-@_graph
-def urquhart_graph(triangulation: Triangulation, threads: int) -> IntArray:
+@_of_points
+def urquhart_graph(triangulation: Triangulation) -> IntArray:
     """Delaunay edges that are not strictly the longest edge of a triangle.
 
     {graph}
@@ -153,11 +154,11 @@ def urquhart_graph(triangulation: Triangulation, threads: int) -> IntArray:
     >>> urquhart_graph([[0, 0], [4, 0], [1, 2], [4, 3]]).tolist()
     [[0, 2], [1, 3], [2, 3]]
     """
-    return _proximity_edges(triangulation, "urquhart", threads)
+    return _proximity_edges(triangulation, "urquhart")
 
 
-@_graph
-def relative_neighborhood_graph(triangulation: Triangulation, threads: int) -> IntArray:
+@_of_points
+def relative_neighborhood_graph(triangulation: Triangulation) -> IntArray:
     """Pairs of points without a third that is strictly nearer to both than they are to each other.
 
     {graph}
@@ -177,11 +178,11 @@ def relative_neighborhood_graph(triangulation: Triangulation, threads: int) -> I
     >>> relative_neighborhood_graph([[0, 0], [4, 0], [1, 2], [4, 3]]).tolist()
     [[0, 2], [1, 3], [2, 3]]
     """
-    return _proximity_edges(triangulation, "relative", threads)
+    return _proximity_edges(triangulation, "relative")
 
 
-@_graph
-def minimum_spanning_tree(triangulation: Triangulation, threads: int) -> IntArray:
+@_of_points
+def minimum_spanning_tree(triangulation: Triangulation) -> IntArray:
     """The spanning tree of least total length.
 
     {graph}
@@ -204,17 +205,12 @@ def minimum_spanning_tree(triangulation: Triangulation, threads: int) -> IntArra
     >>> minimum_spanning_tree([[0, 0], [2, 0], [2, 1], [0, 1]]).tolist()
     [[0, 1], [0, 3], [1, 2]]
     """
-    edges = _proximity_edges(triangulation, "urquhart", threads)
+    edges = _proximity_edges(triangulation, "urquhart")
     return triangulation.surface.kernel.spanning_tree(triangulation.points, edges)
 
 
-@shared(**_SHARED)
-def hull(
-    points: npt.ArrayLike | Triangulation | None = None,
-    *,
-    lonlat: npt.ArrayLike | None = None,
-    latitude: Latitude | None = None,
-) -> IntArray:
+@_of_points
+def hull(triangulation: Triangulation) -> IntArray:
     """Corners of the convex hull, counterclockwise.
 
     {points}
@@ -244,18 +240,12 @@ def hull(
     >>> hull([[1, 0, 0], [0, 1, 0], [0, 0, 1], [-1, -1, -1]]).tolist()
     []
     """
-    triangulation = as_triangulation(points, lonlat=lonlat, latitude=latitude)
     corners = _corners(triangulation) if triangulation.dimension == 2 else _ends(triangulation)
-    return locked(corners.astype(np.int32))
+    return corners.astype(np.int32)
 
 
-@shared(**_SHARED)
-def hull_area(
-    points: npt.ArrayLike | Triangulation | None = None,
-    *,
-    lonlat: npt.ArrayLike | None = None,
-    latitude: Latitude | None = None,
-) -> float:
+@_of_points
+def hull_area(triangulation: Triangulation) -> float:
     """Area of the convex hull.
 
     {points}
@@ -281,19 +271,13 @@ def hull_area(
     >>> round(hull_area(lonlat=[[0, 0], [90, 0], [0, 90]]) / np.pi, 15)
     0.5
     """
-    triangulation = as_triangulation(points, lonlat=lonlat, latitude=latitude)
     corners = _hull_points(triangulation)
     first = np.broadcast_to(corners[:1], corners[2:].shape)
     return float(triangulation.surface.areas(first, corners[1:-1], corners[2:]).sum())
 
 
-@shared(**_SHARED)
-def hull_perimeter(
-    points: npt.ArrayLike | Triangulation | None = None,
-    *,
-    lonlat: npt.ArrayLike | None = None,
-    latitude: Latitude | None = None,
-) -> float:
+@_of_points
+def hull_perimeter(triangulation: Triangulation) -> float:
     """Length of the boundary of the convex hull.
 
     {points}
@@ -313,7 +297,6 @@ def hull_perimeter(
     >>> hull_perimeter(lonlat=[[0, 0], [90, 0], [0, 90]])
     270.0
     """
-    triangulation = as_triangulation(points, lonlat=lonlat, latitude=latitude)
     corners = _hull_points(triangulation)
     return float(triangulation.surface.distances(corners, np.roll(corners, -1, axis=0)).sum())
 
@@ -326,14 +309,12 @@ def _hull_points(triangulation: Triangulation) -> FloatArray:
     return corners
 
 
-def _proximity_edges(
-    triangulation: Triangulation, kind: Literal["gabriel", "urquhart", "relative"], threads: int
-) -> IntArray:
+def _proximity_edges(triangulation: Triangulation, kind: Literal["gabriel", "urquhart", "relative"]) -> IntArray:
     """Edges (e, 2) with i < j, in lexicographic order."""
     points, space = triangulation.points, triangulation.surface.kernel
     if triangulation.dimension == 2:
         mesh = points, triangulation.simplices, triangulation.neighbors
-        return space.proximity(*mesh, kind, threads, True)
+        return space.proximity(*mesh, kind, threads_of(triangulation, None), True)
     order = state_of(triangulation).flat_order
     if triangulation.surface is PLANE or len(order) < 3:
         return as_edges(order[:-1], order[1:])
@@ -363,12 +344,9 @@ def _has_empty_lune(points: FloatArray, circle: AnyIndices, step: AnyIndices) ->
     if chord @ chord < 2.99:
         return True
     others = circle[(circle != a) & (circle != b)]
-
-    def nearer(end: int) -> BoolArray:
-        rows = [np.broadcast_to(k, others.shape) for k in (end, others, a, b)]
-        return _kernel.sphere.compare_lengths(points, np.column_stack(rows).astype(np.int32)) < 0
-
-    return not (nearer(a) & nearer(b)).any()
+    rows = np.array([(end, other, a, b) for end in (a, b) for other in others], dtype=np.int32)
+    nearer = _kernel.sphere.compare_lengths(points, rows).reshape(2, -1) < 0
+    return not nearer.all(axis=0).any()
 
 
 def _corners(triangulation: Triangulation) -> AnyIndices:
@@ -394,12 +372,11 @@ def _ends(triangulation: Triangulation) -> AnyIndices:
     order, points = state_of(triangulation).flat_order, triangulation.points
     if len(order) < 2:
         return order
+    ends = np.sort(order[[0, -1]])
     if triangulation.surface is PLANE:
-        return np.sort(order[[0, -1]])
+        return ends
     # On a great circle the ends of the one step of more than a half-turn, if there is one.
-    if len(order) == 2:
-        ends = np.sort(order)
-    else:
+    if len(order) > 2:
         steps = _short_steps(points, order)
         if len(steps) != len(order) - 1:
             return np.zeros(0, dtype=np.int32)

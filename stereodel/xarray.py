@@ -8,7 +8,8 @@ from __future__ import annotations
 import re
 import warnings
 from collections.abc import Callable, Hashable
-from typing import Any, Final, NamedTuple
+from functools import partial
+from typing import Any, Final
 
 import numpy as np
 import numpy.typing as npt
@@ -112,15 +113,15 @@ class StereodelAccessor:
         (('month', 'lat', 'lon'), 12.8)
         """
         lon_lat = self._source(source)
-        sites, places = _places(*lon_lat), _places(_as_axis(lon, "lon"), _as_axis(lat, "lat"))
-        points, wanted = sites.dims, places.dims
+        sites, points, _ = _places(*lon_lat)
+        places, wanted, coords = _places(_as_axis(lon, "lon"), _as_axis(lat, "lat"))
         common = set(wanted) & (set(self._values.dims) - set(points))
         if common:
             raise ValueError(f"lon and lat have the dimension {common.pop()!r}, which the values also have; rename it")
         values, kept = self._parted(points, [each.name for each in lon_lat])
-        triangulation = SphericalDelaunay.from_lonlat(sites.pairs.reshape(-1, 2), latitude=latitude, workers=workers)
+        triangulation = SphericalDelaunay.from_lonlat(sites.reshape(-1, 2), latitude=latitude, workers=workers)
         options = {} if extrapolate is None else {"extrapolate": extrapolate}
-        function = _fields(as_method(method), triangulation, places.pairs, options, workers)
+        function = _fields(as_method(method), triangulation, places, options, workers)
         found = xarray.apply_ufunc(
             lambda block: function(block.reshape(*block.shape[: block.ndim - len(points)], -1)),
             values,
@@ -130,12 +131,10 @@ class StereodelAccessor:
             keep_attrs=True,
             dask="parallelized",
             output_dtypes=[np.float64],
-            dask_gufunc_kwargs={
-                "output_sizes": dict(zip(wanted, places.pairs.shape[:-1], strict=True)),
-                "allow_rechunk": True,
-            },
+            dask_gufunc_kwargs={"output_sizes": dict(zip(wanted, places.shape, strict=False)), "allow_rechunk": True},
         )
-        return found.assign_coords(places.coords).assign(kept) if kept else found.assign_coords(places.coords)
+        found = found.assign_coords(coords)
+        return found.assign(kept) if kept else found
 
     def _parted(self, points: tuple[Hashable, ...], source: list[Hashable]) -> tuple[Any, dict[Hashable, Any]]:
         """What is interpolated, and what stays as it is."""
@@ -241,21 +240,18 @@ def _listed(names: Any) -> str:
     return ", ".join(map(str, names))
 
 
-class _Places(NamedTuple):
-    """Longitudes and latitudes (..., 2), dimensions and coordinates of the leading shape."""
+def _places(
+    lon: xarray.DataArray, lat: xarray.DataArray
+) -> tuple[FloatArray, tuple[Hashable, ...], dict[Hashable, Any]]:
+    """Longitudes and latitudes (..., 2), dimensions and coordinates of the leading shape.
 
-    pairs: FloatArray
-    dims: tuple[Hashable, ...]
-    coords: dict[Hashable, Any]
-
-
-def _places(lon: xarray.DataArray, lat: xarray.DataArray) -> _Places:
-    """A grid, with the latitude first, if both have different dimensions."""
+    A grid, with the latitude first, if both have different dimensions.
+    """
     two, one = xarray.broadcast(*xarray.align(lat, lon, join="exact"))
     coords: dict[Hashable, Any] = dict(two.coords)
     for given, name in ((lon, "lon"), (lat, "lat")):
         coords[name if given.name is None else given.name] = (given.dims, given.values, given.attrs)
-    return _Places(np.stack([_in_degrees(one), _in_degrees(two)], axis=-1), two.dims, coords)
+    return np.stack([_in_degrees(one), _in_degrees(two)], axis=-1), two.dims, coords
 
 
 def _in_degrees(angles: xarray.DataArray) -> npt.NDArray[Any]:
@@ -279,9 +275,8 @@ def _fields(
 ) -> Callable[[FloatArray], FloatArray]:
     """What makes fields (..., n) at the points fields (..., *shape) at the places."""
     if issubclass(kind, WeightedInterpolator):
-        unknown = np.zeros(len(triangulation.points))
-        weights = kind(triangulation, unknown, **options).weights(lonlat=lonlat, workers=workers)
-        return lambda fields: weights.apply(fields, axis=-1)
+        unknown = kind(triangulation, np.zeros(len(triangulation.points)), **options)
+        return partial(unknown.weights(lonlat=lonlat, workers=workers).apply, axis=-1)
 
     def asked(fields: FloatArray) -> FloatArray:
         found = kind(triangulation, np.moveaxis(fields, -1, 0), **options)(lonlat=lonlat, workers=workers)

@@ -46,7 +46,7 @@ def reference(module):
 # Described where they are used: what triangulations and spheres share, an error of SciPy's.
 DESCRIBED_ELSEWHERE = {
     "stereodel.triangulation": set(PUBLIC),
-    "stereodel.sphere": {*PUBLIC, "as_direction"},
+    "stereodel.sphere": set(PUBLIC),
     "stereodel.conformal": set(PUBLIC),
     "stereodel.projections": set(PUBLIC),
     "stereodel.predicates": set(PUBLIC),

@@ -42,7 +42,7 @@ MAY_IMPORT = {
     "triangulation": KERNEL | {"sphere", "projections", "predicates"},
     "interpolation": KERNEL | {"_tasks", "curves", "sphere", "triangulation"},
     "xarray": BASE | {"interpolation", "sphere", "triangulation"},
-    "spatial": BASE | {"triangulation"},
+    "spatial": BASE | {"curves", "triangulation"},
     "graphs": KERNEL | {"sphere", "triangulation"},
     "relaxation": KERNEL | {"curves", "sphere", "triangulation"},
     "io": BASE

@@ -14,8 +14,8 @@ from stereodel._double_double import DoubleDouble, dot, stack, unit
 from stereodel.conformal.group import Z_AXIS, Biquaternion, Complex, Spinors, boost, from_spinors, rotation
 from stereodel.conformal.moebius import MoebiusMap, boost_points
 from stereodel.constants import STORED_ERROR, UNDECIDED
-from stereodel.sphere import Rotation, SphereCircle, as_direction
-from stereodel.sphere.coordinates import as_sphere_points
+from stereodel.sphere import Rotation, SphereCircle
+from stereodel.sphere.coordinates import as_direction, as_sphere_points
 from stereodel.sphere.degrees import sin_cos_degrees
 from stereodel.sphere.rotations import between, multiply, rotation_matrix, transform
 

@@ -17,7 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel import _kernel
-from stereodel._arrays import FloatArray, as_complex_matrix, as_directions, as_lonlat, as_matrix, as_scalar, as_vectors
+from stereodel._arrays import FloatArray, as_complex_matrix, as_directions, as_lonlat, as_scalar, as_shaped, as_vectors
 from stereodel._double_double import DoubleDouble, dot, stack, unit
 from stereodel._threads import thread_count
 from stereodel.conformal.forms import from_lorentz, from_moebius, lorentz_matrix, stereographic_pipeline
@@ -128,7 +128,7 @@ class MoebiusMap:
         """
         if np.shape(matrix) == (2, 2):
             return cls(*from_moebius(as_complex_matrix(matrix, "matrix")))
-        return cls(*from_lorentz(as_matrix(matrix, 4, "matrix")))
+        return cls(*from_lorentz(as_shaped(matrix, (4, 4), "matrix")))
 
     @property
     def focus(self) -> FloatArray:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -98,66 +99,60 @@ def contours(points: npt.ArrayLike | Triangulation, values: npt.ArrayLike, level
     if array.ndim != 1:
         raise ValueError(f"values must be one number for each point, got shape {array.shape}")
     merged = one_value_a_place(triangulation, array[:, None])[:, 0]
-    network = _Network(triangulation, merged)
-    return [contour for level in as_levels(levels).tolist() for contour in network.contours(level)]
+    places = PrecisePoints(triangulation.points)
+    inside: BoolArray = state_of(triangulation).open & ~np.isnan(merged[triangulation.simplices]).any(axis=1)
+    return [
+        Contour(level, piece, closed, triangulation.latitude)
+        for level in as_levels(levels).tolist()
+        for piece, closed in _pieces(triangulation, places, merged, inside, level)
+    ]
 
 
-class _Network:
-    """Triangles whose corners have values, joined across their edges."""
+def _pieces(
+    triangulation: Triangulation, places: PrecisePoints, values: FloatArray, inside: BoolArray, level: float
+) -> Iterator[tuple[FloatArray, bool]]:
+    """All pieces of one level in the triangles inside, and which of them are rings."""
+    simplices = triangulation.simplices
+    corners_above = (values >= level)[simplices]
+    count = corners_above.sum(axis=1)
+    crossed = np.flatnonzero(inside & (count > 0) & (count < 3))
+    # The corner that differs from the two others; the contour keeps it on the left if it is above.
+    lone_above = count[crossed] == 1
+    lone = (corners_above[crossed] == lone_above[:, None]).argmax(axis=1)
+    entry, exit_ = (lone + np.where(lone_above, 2, 1)) % 3, (lone + np.where(lone_above, 1, 2)) % 3
+    number = np.full(len(simplices) + 1, -1)
+    number[crossed] = np.arange(len(crossed))
 
-    def __init__(self, triangulation: Triangulation, values: FloatArray) -> None:
-        self._places = PrecisePoints(triangulation.points)
-        self._latitude = triangulation.latitude
-        self._values = values
-        self._simplices, self._neighbors = triangulation.simplices, triangulation.neighbors
-        self._inside: BoolArray = state_of(triangulation).open & ~np.isnan(values[self._simplices]).any(axis=1)
-
-    def contours(self, level: float) -> list[Contour]:
-        """All pieces of one level."""
-        above = self._values >= level
-        corners_above = above[self._simplices]
-        count = corners_above.sum(axis=1)
-        crossed = np.flatnonzero(self._inside & (count > 0) & (count < 3))
-        # The corner that differs from the two others; the contour keeps it on the left if it is above.
-        lone_above = count[crossed] == 1
-        lone = (corners_above[crossed] == lone_above[:, None]).argmax(axis=1)
-        entry, exit_ = (lone + np.where(lone_above, 2, 1)) % 3, (lone + np.where(lone_above, 1, 2)) % 3
-        number = np.full(len(self._simplices) + 1, -1)
-        number[crossed] = np.arange(len(crossed))
-        following = number[self._neighbors[crossed, exit_]]
-        ins, outs = self._crossings(level, crossed, entry), self._crossings(level, crossed, exit_)
-        pieces = (self._piece(level, chain, closed, ins, outs) for chain, closed in chains(following))
-        return [piece for piece in pieces if piece is not None]
-
-    def _crossings(self, level: float, triangles: AnyIndices, opposite: AnyIndices) -> FloatArray:
+    def crossings(opposite: AnyIndices) -> FloatArray:
         """Where the contour crosses the edges opposite these corners, alike from both sides."""
-        ends = [self._simplices[triangles, (opposite + k) % 3] for k in (1, 2)]
-        swap = self._values[ends[0]] < level
-        high, low = np.where(swap, ends[1], ends[0]), np.where(swap, ends[0], ends[1])
+        one, other = (simplices[crossed, (opposite + k) % 3] for k in (1, 2))
+        swap = values[one] < level
+        high, low = np.where(swap, other, one), np.where(swap, one, other)
         # Halves: the difference of two large values of opposite sign may overflow.
-        drop = self._values[high] / 2 - level / 2
-        fraction = drop / (self._values[high] / 2 - self._values[low] / 2)
-        begin = self._places.take(high)
+        drop = values[high] / 2 - level / 2
+        fraction = (drop / (values[high] / 2 - values[low] / 2))[:, None]
+        begin = places.take(high)
         start = begin.rounded.T
-        points = start + fraction[:, None] * (self._places.take(low) - begin).T
-        if self._places.curved:
-            points = np.where(fraction[:, None] > 0, points / np.sqrt((points**2).sum(axis=1, keepdims=True)), start)
+        points = start + fraction * (places.take(low) - begin).T
+        if places.curved:
+            points = np.where(fraction > 0, points / np.sqrt((points**2).sum(axis=1, keepdims=True)), start)
         return points
 
-    def _piece(self, level: float, chain: list[int], closed: bool, ins: FloatArray, outs: FloatArray) -> Contour | None:
+    ins, outs = crossings(entry), crossings(exit_)
+    for chain, closed in chains(number[triangulation.neighbors[crossed, exit_]]):
         points = np.concatenate([ins[chain], outs[chain[-1:]]])
         points = points[np.concatenate([[True], (points[1:] != points[:-1]).any(axis=1)])]
-        return Contour(level, points, closed, self._latitude) if len(points) > 1 else None
+        if len(points) > 1:
+            yield points, closed
 
 
 def chains(following: AnyIndices) -> list[tuple[list[int], bool]]:
     """Chains of indices of a one-to-one map, -1 where it ends, open ones first, and which of them are rings."""
     after = following.tolist()
-    begins = np.ones(len(after), dtype=np.bool_)
-    begins[following[following >= 0]] = False
+    begins = np.setdiff1d(np.arange(len(after)), following)
     seen = [False] * len(after)
     found = []
-    for start in [*np.flatnonzero(begins).tolist(), *range(len(after))]:
+    for start in [*begins.tolist(), *range(len(after))]:
         if seen[start]:
             continue
         chain, at = [], start

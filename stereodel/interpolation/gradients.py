@@ -11,7 +11,7 @@ from stereodel._arrays import AnyIndices, FloatArray
 from stereodel._docs import shared
 from stereodel.constants import UNDETERMINED
 from stereodel.curves.ragged import spans
-from stereodel.interpolation.interpolator import FAMILY, PrecisePoints, as_site_values, keep_freed_memory
+from stereodel.interpolation.interpolator import FAMILY, PrecisePoints, as_site_values
 from stereodel.interpolation.located import crossed, inner, lengths
 from stereodel.triangulation.delaunay import Triangulation, as_triangulation, state_of
 from stereodel.triangulation.topology import adjacency_of, edges_of
@@ -66,7 +66,6 @@ def fit_gradients(triangulation: Triangulation, values: FloatArray, sites: Preci
     size, dimension = triangulation.points.shape
     fields = np.ascontiguousarray(values.T)
     gradients = np.full((dimension, len(fields), size), np.nan)
-    keep_freed_memory()
     known = ~np.isnan(fields)
     # Fields without values at the same points share the work of the fit.
     groups = [slice(None)] if known.all() else [slice(k, k + 1) for k in range(len(fields))]

@@ -97,9 +97,8 @@ class PrecisePoints:
         # is several times as fast along many points as along two or three components.
         self.exact = DoubleDouble(np.ascontiguousarray(points.T), np.zeros((2, 0)))
         if self.curved:
-            blocks = [unit(points[i : i + BLOCK]) for i in range(0, len(points), BLOCK)] or [DoubleDouble(points)]
-            hi, lo = ([part.T for part in parts] for parts in zip(*((b.hi, b.lo) for b in blocks), strict=True))
-            self.exact = DoubleDouble(np.concatenate(hi, axis=1), np.concatenate(lo, axis=1))
+            exact = unit(points)
+            self.exact = DoubleDouble(exact.hi.T, exact.lo.T)
 
     @property
     def rounded(self) -> FloatArray:
@@ -124,15 +123,6 @@ BLOCK = 8192
 """Queries in a block, of one field: vectors take 200 KB, so that a few stay in the second-level cache."""
 
 
-def keep_freed_memory() -> None:
-    """See to it that glibc keeps what a block frees for the next, up to 32 MB.
-
-    It gives back to the system what exceeds twice the largest array freed so far, after each block; to be given pages
-    again costs a third of the time. An array that nothing is written to takes no memory and no time.
-    """
-    np.empty(1 << 21)
-
-
 class Interpolator(ABC):
     """A function on the plane or the sphere that takes given values at given points."""
 
@@ -146,7 +136,6 @@ class Interpolator(ABC):
         flat, shape = as_site_values(self.triangulation, values)
         self._values = locked(flat.copy())
         self.values = self._values.reshape(len(flat), *shape)
-        self._value_shape = shape
         self._sites = PrecisePoints(self.triangulation.points)
         self._nearest_outside = extrapolate is not None and bool(as_choice(extrapolate, ("nearest",), "extrapolate"))
 
@@ -207,7 +196,7 @@ class Interpolator(ABC):
         array, flat = self._as_queries(queries, lonlat)
         with np.errstate(all="ignore"):
             result = self._evaluate(flat, workers)
-        return result.reshape(array.shape[:-1] + self._value_shape)
+        return result.reshape(array.shape[:-1] + self.values.shape[1:])
 
     @shared(**LONLAT)
     def gradient(
@@ -232,7 +221,7 @@ class Interpolator(ABC):
         array, flat = self._as_queries(queries, lonlat)
         with np.errstate(all="ignore"):
             result = np.moveaxis(self._evaluate_gradient(flat, workers), 1, 2)
-        return result.reshape(array.shape[:-1] + self._value_shape + array.shape[-1:])
+        return result.reshape(array.shape[:-1] + self.values.shape[1:] + array.shape[-1:])
 
     def _as_queries(self, queries: npt.ArrayLike | None, lonlat: npt.ArrayLike | None) -> tuple[FloatArray, FloatArray]:
         array = self.triangulation.surface.as_queries(as_asked(queries, lonlat, self.latitude))
@@ -293,7 +282,6 @@ class TriangleInterpolator(Interpolator):
         """Fill the rows of `result` for queries inside triangles, and return the triangle of each, -1 outside."""
         found = np.asarray(self.triangulation.find_simplex(queries, workers=workers))
         inside = np.flatnonzero(found >= 0)
-        keep_freed_memory()
         size = BLOCK // max(1, min(result.shape[-1], BLOCK // 256))
         for first in range(0, len(inside), size):
             rows = inside[first : first + size]

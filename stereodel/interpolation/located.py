@@ -6,37 +6,40 @@ a, b, c and q the barycentric coordinates are det[q b c], det[a q c] and det[a b
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
-from stereodel import _double_double as double_double
 from stereodel._arrays import AnyIndices, FloatArray
-from stereodel._double_double import DoubleDouble
+from stereodel._double_double import DoubleDouble, scaled, shift_exponent
 from stereodel.constants import NEEDLE, PLAIN_SQUARES, THIN_TRIANGLE
 from stereodel.interpolation.interpolator import PrecisePoints
 
 
-def cross2(a: FloatArray, b: FloatArray) -> FloatArray:
+def cross2(a: Any, b: Any) -> Any:
     """Third component of the product a × b of vectors (2, ...)."""
     return a[0] * b[1] - a[1] * b[0]
 
 
+def cross3(a: Any, b: Any) -> list[Any]:
+    """Components of the products a × b of vectors (3, ...)."""
+    return [a[i] * b[j] - a[j] * b[i] for i, j in ((1, 2), (2, 0), (0, 1))]
+
+
 def crossed(a: FloatArray, b: FloatArray) -> FloatArray:
-    """Cross products of vectors (3, ...)."""
-    product = np.empty_like(a)
-    for row, (i, j) in zip(product, ((1, 2), (2, 0), (0, 1)), strict=True):
-        np.subtract(a[i] * b[j], a[j] * b[i], out=row)
-    return product
+    """The same as an array."""
+    return np.stack(cross3(a, b))
 
 
-def inner(a: FloatArray, b: FloatArray) -> FloatArray:
+def inner(a: Any, b: Any) -> Any:
     """Inner product along the first axis, of two or three components."""
-    first = a[0] * b[0] + a[2] * b[2] if len(a) == 3 else a[0] * b[0]
-    return np.asarray(first + a[1] * b[1])
+    first = a[0] * b[0] + a[2] * b[2] if len(b) == 3 else a[0] * b[0]
+    return first + a[1] * b[1]
 
 
 def dot(a: FloatArray, b: FloatArray) -> FloatArray:
     """The same, with the axis kept."""
-    return inner(a, b)[None]
+    return np.asarray(inner(a, b))[None]
 
 
 def lengths(vectors: FloatArray) -> FloatArray:
@@ -46,10 +49,8 @@ def lengths(vectors: FloatArray) -> FloatArray:
     least, largest = PLAIN_SQUARES
     odd_ones = np.flatnonzero(~((plain > least) & (plain < largest)))
     if len(odd_ones):
-        odd = vectors[:, odd_ones]
-        exponent = np.frexp(np.abs(odd).max(axis=0))[1]
-        odd = np.ldexp(np.ldexp(odd, -(exponent // 2)), exponent // 2 - exponent)  # 2¹⁰⁷⁴ itself overflows
-        root = np.sqrt(np.sum(np.square(odd), axis=0))
+        near, exponent = scaled(vectors[:, odd_ones].T)
+        root = np.sqrt(np.sum(np.square(near), axis=1))
         plain[0, odd_ones] = np.ldexp(np.ldexp(root, exponent // 2), exponent - exponent // 2)
     return plain
 
@@ -63,6 +64,7 @@ class LocatedQueries:
     def __init__(self, sites: PrecisePoints, corners: AnyIndices, queries: FloatArray) -> None:
         self.sites, self.numbers = sites, np.ascontiguousarray(corners.T, dtype=np.intp)
         self.given, self.queries = queries, PrecisePoints(queries)
+        self.up = self.queries.rounded if self.queries.curved else None
         self.corners = [sites.take(numbers) for numbers in self.numbers]
 
     def weights(self) -> FloatArray:
@@ -72,7 +74,7 @@ class LocatedQueries:
         # leaves the nearest corner.
         offsets = np.stack([corner - self.queries for corner in self.corners])
         exponent = np.frexp(np.abs(offsets).max(axis=(0, 1), initial=0.0))[1]
-        weights = _areas(np.ldexp(offsets, -exponent), self._up())
+        weights = _areas(np.ldexp(offsets, -exponent), self.up)
         total = weights[0] + weights[1] + weights[2]
         thin = np.flatnonzero(~(total > THIN_TRIANGLE))
         if len(thin):
@@ -80,18 +82,14 @@ class LocatedQueries:
             total = weights[0] + weights[1] + weights[2]
         return weights / total
 
-    def _up(self) -> FloatArray | None:
-        return self.queries.rounded if self.queries.curved else None
-
     def _weights_of_thin(self, columns: AnyIndices, exponent: AnyIndices, offsets: FloatArray) -> FloatArray:
-        def rows(points: PrecisePoints) -> DoubleDouble:
-            some = points.take(columns).exact
-            return DoubleDouble(some.hi.T, some.lo.T if points.curved else None)
+        def some(points: PrecisePoints) -> DoubleDouble:
+            found = points.take(columns).exact
+            return found if points.curved else DoubleDouble(found.hi)
 
-        queries, shift = rows(self.queries), -exponent[:, None]
-        exact = [rows(corner) - queries for corner in self.corners]
-        scaled = [DoubleDouble(np.ldexp(d.hi, shift), np.ldexp(d.lo, shift)) for d in exact]
-        weights = _areas_twice(scaled, queries if self.queries.curved else None)
+        queries = some(self.queries)
+        exact = [shift_exponent(some(corner) - queries, -exponent) for corner in self.corners]
+        weights = _areas(exact, queries if self.queries.curved else None)
         lost = ~(weights.sum(axis=0) > 0)
         nearest = np.abs(offsets[:, :, lost]).max(axis=1).argmin(axis=0)
         weights[:, lost] = np.eye(3)[nearest].T
@@ -112,8 +110,7 @@ class LocatedQueries:
         size = np.frexp(np.maximum(np.abs(d).max(axis=0), np.abs(e).max(axis=0)))[1]
         d, e = np.ldexp(d, -size), np.ldexp(e, -size)
         needles = np.flatnonzero(np.abs(e - d).max(axis=0) < NEEDLE)
-        up = self._up()
-        if up is None:
+        if (up := self.up) is None:
             area = cross2(d, e)
             across = np.stack([e[1], -e[0]]) / area, np.stack([-d[1], d[0]]) / area
         else:
@@ -139,18 +136,8 @@ def _tangent(slope: FloatArray, normal: FloatArray, up: FloatArray, depth: Float
     return slope - normal * (dot(slope, up) / depth)
 
 
-def _areas(offsets: FloatArray, up: FloatArray | None) -> FloatArray:
+def _areas(offsets: Any, up: Any) -> FloatArray:
     """Twice the areas of query and opposite edge, (3, m), as seen along `up`; rounding below zero is cut off."""
     pairs = [(offsets[k - 2], offsets[k - 1]) for k in range(3)]
-    areas = [cross2(b, c) if up is None else inner(up, crossed(b, c)) for b, c in pairs]
-    return np.maximum(np.stack(areas), 0.0)
-
-
-def _areas_twice(offsets: list[DoubleDouble], up: DoubleDouble | None) -> FloatArray:
-    """The same in double-double, rounded at the end, of offsets (m, d)."""
-    pairs = [(offsets[k - 2], offsets[k - 1]) for k in range(3)]
-    if up is None:
-        areas = [(b[:, 0] * c[:, 1] - b[:, 1] * c[:, 0]).hi for b, c in pairs]
-    else:
-        areas = [double_double.dot(double_double.cross(b, c), up).hi for b, c in pairs]
-    return np.maximum(np.stack(areas), 0.0)
+    areas = [cross2(b, c) if up is None else inner(up, cross3(b, c)) for b, c in pairs]
+    return np.maximum(np.stack([area.hi if isinstance(area, DoubleDouble) else area for area in areas]), 0.0)

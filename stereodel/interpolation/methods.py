@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from types import MappingProxyType
 from typing import Any, ClassVar, Final, Literal
 
 import numpy as np
@@ -18,14 +17,12 @@ from stereodel.triangulation.delaunay import Triangulation, as_triangulation
 
 Method = Literal["nearest", "linear", "natural", "smooth"]
 
-METHODS: Final[MappingProxyType[Method, type[Interpolator]]] = MappingProxyType(
-    {
-        "nearest": NearestInterpolator,
-        "linear": LinearInterpolator,
-        "natural": NaturalNeighborInterpolator,
-        "smooth": SmoothInterpolator,
-    }
-)
+METHODS: Final[dict[Method, type[Interpolator]]] = {
+    "nearest": NearestInterpolator,
+    "linear": LinearInterpolator,
+    "natural": NaturalNeighborInterpolator,
+    "smooth": SmoothInterpolator,
+}
 """Interpolators by name."""
 
 
@@ -89,45 +86,6 @@ def griddata(
     return _as_in_scipy("griddata", as_method(method))(points, values, fill_value, latitude=latitude)(xi)
 
 
-class _Scattered:
-    """The interpolator `_kind`, called as SciPy's."""
-
-    _kind: ClassVar[type[Interpolator]]
-
-    def __init__(
-        self,
-        points: npt.ArrayLike | Triangulation,
-        values: npt.ArrayLike,
-        fill_value: float = np.nan,
-        *,
-        latitude: Latitude | None = None,
-    ) -> None:
-        # A triangulation of SciPy's, whose simplices are rounded, gives its points.
-        foreign = not isinstance(points, Triangulation) and hasattr(points, "simplices")
-        sites: Any = _joined(getattr(points, "points", None) if foreign else points, "points")
-        self._latitude, self.fill_value = latitude, float(fill_value)
-        by_lonlat = latitude is not None and not isinstance(sites, Triangulation)
-        named: dict[str, Any] = {"lonlat": sites, "latitude": latitude} if by_lonlat else {}
-        self.tri = as_triangulation(None if by_lonlat else sites, **named)
-        self.function = self._kind(self.tri, values)
-        name, far = type(self).__name__, np.linalg.norm(self.tri.points, axis=1)
-        curved = self.tri.surface is SPHERE
-        if curved and name != "griddata" and far.max(initial=0.0) > (1 + 1e-6) * far.min(initial=np.inf):
-            raise ValueError(
-                "points has three columns and rows of different lengths; here they are directions. For points in space "
-                f"use scipy.interpolate.{name}, for directions of any length griddata"
-            )
-
-    def __call__(self, *xi: Any) -> FloatArray:
-        """Values at places, given as `xi` of `griddata` or coordinate by coordinate."""
-        places: Any = _joined(xi[0] if len(xi) == 1 else xi, "xi")
-        asked: dict[str, Any] = {"queries" if self._latitude is None else "lonlat": places}
-        found = self.function(**asked)
-        if self._kind is not NearestInterpolator and not np.isnan(self.fill_value):
-            found[np.asarray(self.tri.find_simplex(**asked)) < 0] = self.fill_value
-        return found
-
-
 _ABOUT: Final = """As `scipy.interpolate.{name}`, in the plane and on the sphere: a `{kind}`.
 
 Parameters
@@ -157,28 +115,57 @@ Examples
 """
 
 
-def _as_in_scipy(name: str, kind: type[Interpolator], notes: str = "", found: str = "") -> type[_Scattered]:
+class _Scattered:
+    """The interpolator `_kind`, called as SciPy's."""
+
+    _kind: ClassVar[type[Interpolator]]
+
+    def __init__(
+        self,
+        points: npt.ArrayLike | Triangulation,
+        values: npt.ArrayLike,
+        fill_value: float = np.nan,
+        *,
+        latitude: Latitude | None = None,
+    ) -> None:
+        if not isinstance(points, Triangulation):
+            # A triangulation of SciPy's, whose simplices are rounded, gives its points.
+            given = _joined(getattr(points, "points", None) if hasattr(points, "simplices") else points, "points")
+            by_lonlat: dict[str, Any] = {} if latitude is None else {"lonlat": given, "latitude": latitude}
+            points = as_triangulation(None if by_lonlat else given, **by_lonlat)
+        self._latitude, self.fill_value = latitude, float(fill_value)
+        self.function = self._kind(points, values)
+        self.tri = self.function.triangulation
+        name, far = type(self).__name__, np.linalg.norm(self.tri.points, axis=1)
+        curved = self.tri.surface is SPHERE
+        if curved and name != "griddata" and far.max(initial=0.0) > (1 + 1e-6) * far.min(initial=np.inf):
+            raise ValueError(
+                "points has three columns and rows of different lengths; here they are directions. For points in space "
+                f"use scipy.interpolate.{name}, for directions of any length griddata"
+            )
+
+    def __call__(self, *xi: Any) -> FloatArray:
+        """Values at places, given as `xi` of `griddata` or coordinate by coordinate."""
+        places: Any = _joined(xi[0] if len(xi) == 1 else xi, "xi")
+        asked: dict[str, Any] = {"queries" if self._latitude is None else "lonlat": places}
+        found = self.function(**asked)
+        if self._kind is not NearestInterpolator and not np.isnan(self.fill_value):
+            found[np.asarray(self.tri.find_simplex(**asked)) < 0] = self.fill_value
+        return found
+
+
+def _as_in_scipy(name: str, kind: type[Interpolator], found: str = "", notes: str = "") -> type[_Scattered]:
     text = _ABOUT.format(name=name, kind=kind.__name__, notes=notes, found=found)
     return type(name, (_Scattered,), {"__doc__": text, "__module__": __name__, "_kind": kind})
 
 
-LinearNDInterpolator = _as_in_scipy(
-    "LinearNDInterpolator",
-    LinearInterpolator,
-    "SciPy's values, up to rounding, where the Delaunay triangulation is unique.",
-    "[1.0, 9.0]",
+_NAMES: Final[tuple[tuple[str, type[Interpolator], str, str], ...]] = (
+    ("LinearND", LinearInterpolator, "[1.0, 9.0]", "SciPy's values, up to rounding, where triangles are unique."),
+    ("CloughTocher2D", SmoothInterpolator, "[1.0, 9.0]", "Another smooth function, by local fits, without `tol`."),
+    ("NearestND", NearestInterpolator, "[0.0, 12.0]", "Exactly the nearest; `fill_value` is not used."),
 )
-CloughTocher2DInterpolator = _as_in_scipy(
-    "CloughTocher2DInterpolator",
-    SmoothInterpolator,
-    "Once differentiable as well, but another function: gradients come from local fits, without `tol` and `maxiter`.",
-    "[1.0, 9.0]",
-)
-NearestNDInterpolator = _as_in_scipy(
-    "NearestNDInterpolator",
-    NearestInterpolator,
-    "Exactly the nearest point, of equally near ones the first; `fill_value` is not used.",
-    "[0.0, 12.0]",
+LinearNDInterpolator, CloughTocher2DInterpolator, NearestNDInterpolator = (
+    _as_in_scipy(f"{name}Interpolator", kind, found, notes) for name, kind, found, notes in _NAMES
 )
 
 

@@ -1,8 +1,7 @@
 """Once differentiable interpolation from values and gradients at the points.
 
-In each triangle by the side-vertex method of G. M. Nielson, "The side-vertex method for interpolation in triangles", J.
-Approx. Theory 25 (1979), carried to the sphere by C. L. Lawson (1984) and by R. J. Renka, "Interpolation of data on the
-surface of a sphere", ACM TOMS 10 (1984), with arcs of great circles for segments. For each corner i:
+In each triangle by the side-vertex method of G. M. Nielson (1979), carried to the sphere by C. L. Lawson (1984) and by
+R. J. Renka (1984), with arcs of great circles for segments. For each corner i:
 
 1. The line from i through the query meets the opposite side jk in Q. Along the side the function is the cubic of the
    values and slopes at j and k; its slope across the side is linear between those at j and k.
@@ -14,8 +13,6 @@ Neighbouring triangles agree in value and slope along their common side, as both
 """
 
 from __future__ import annotations
-
-from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
@@ -56,9 +53,7 @@ class SmoothInterpolator(TriangleInterpolator):
     and constants on the sphere; the error for smooth functions is of order h³ for edges of length h, that of the
     gradient of order h², with estimated gradients too. The function may leave the range of the values, and in
     thin triangles, as between two points that nearly meet and a far one, its gradient may be large. NaN values and
-    gradients that are not finite propagate only to the triangles at their point. Coordinates may be as small
-    and as large as doubles are. Outside means in no triangle, as in
-    `LinearInterpolator`.
+    gradients that are not finite propagate only to the triangles at their point. Outside means in no triangle.
 
     References
     ----------
@@ -88,8 +83,7 @@ class SmoothInterpolator(TriangleInterpolator):
             if gradients is None
             else self._given(gradients)
         )
-        rows = np.ascontiguousarray(self._slopes.T)
-        self.gradients = locked(rows.reshape(*self.values.shape, len(self._slopes)))
+        self.gradients = locked(np.ascontiguousarray(self._slopes.T).reshape(*self.values.shape, len(self._slopes)))
 
     def _given(self, gradients: npt.ArrayLike) -> FloatArray:
         """Checked gradients (d, k, n), tangent, one a place."""
@@ -106,16 +100,27 @@ class SmoothInterpolator(TriangleInterpolator):
         return vectors
 
     def _within(self, corners: AnyIndices, queries: FloatArray) -> FloatArray:
-        return side_vertex(*self._located(corners, queries)).T
+        located, weights, values, gradients = self._located(corners, queries)
+        first = _heaviest(weights, values)
+        found = np.asarray(first + _mix(located, list(weights[:, None]), values, first, gradients))
+        return _met(found, first, weights, values, gradients).T
 
     def _slope_within(self, corners: AnyIndices, queries: FloatArray) -> FloatArray:
-        return np.moveaxis(side_vertex_slope(*self._located(corners, queries)), -1, 0)
+        located, weights, values, gradients = self._located(corners, queries)
+        directions = np.array([[-1.0, 1.0, 0.0], [-1.0, 0.0, 1.0]])  # by the second and the third coordinate
+        b = [Jet(weights[k : k + 1], directions[:, k, None, None]) for k in range(3)]
+        mixed = _mix(located, b, values, _heaviest(weights, values), gradients)
+        assert isinstance(mixed, Jet)
+        slope = located.slope([np.zeros_like(mixed.slope[0]), *mixed.slope])
+        return np.moveaxis(_met(slope, _heaviest(weights, gradients), weights, values, gradients), -1, 0)
 
-    def _located(self, corners: AnyIndices, queries: FloatArray) -> tuple[LocatedQueries, FloatArray, FloatArray]:
-        """Queries, and at their corners values (3, k, m) and gradients (3, d, k, m)."""
+    def _located(
+        self, corners: AnyIndices, queries: FloatArray
+    ) -> tuple[LocatedQueries, FloatArray, FloatArray, FloatArray]:
+        """Queries, their weights (3, m), and at their corners values (3, k, m) and tangent gradients (3, d, k, m)."""
         located = LocatedQueries(self._sites, corners, queries)
-        values, slopes = (of.take(located.numbers, axis=-1) for of in (self._fields, self._slopes))
-        return located, np.moveaxis(values, -2, 0), np.moveaxis(slopes, -2, 0)
+        values, slopes = (np.moveaxis(of.take(located.numbers, axis=-1), -2, 0) for of in (self._fields, self._slopes))
+        return located, np.maximum(located.weights(), LEAST_WEIGHT), values, slopes
 
 
 class Jet:
@@ -147,14 +152,10 @@ class Jet:
         quotient = self.value / other.value
         return Jet(quotient, (self.slope - quotient * other.slope) / other.value)
 
-    def __radd__(self, other: FloatArray | float) -> Jet:
-        return self + other
+    __radd__, __rmul__ = __add__, __mul__
 
     def __rsub__(self, other: FloatArray | float) -> Jet:
         return Jet(other - self.value, -self.slope)
-
-    def __rmul__(self, other: FloatArray | float) -> Jet:
-        return self * other
 
     def __rtruediv__(self, other: FloatArray | float) -> Jet:
         return _lift(other) / self
@@ -192,29 +193,9 @@ def norm(vector: Number) -> Number:
     return Jet(length, np.sum(vector.value / length * vector.slope, axis=-2, keepdims=True))
 
 
-def side_vertex(located: LocatedQueries, values: FloatArray, gradients: FloatArray) -> FloatArray:
-    """Values (k, m) at the queries from values (3, k, m) and tangent gradients (3, d, k, m) at their corners."""
-    weights = np.maximum(located.weights(), LEAST_WEIGHT)
-    first = _heaviest(weights, values)
-    found = np.asarray(first + _mix(located, list(weights[:, None]), values, first, gradients))
-    return _met(found, first, weights, values, gradients)
-
-
-def side_vertex_slope(located: LocatedQueries, values: FloatArray, gradients: FloatArray) -> FloatArray:
-    """Gradients (d, k, m) at the queries; parameters as for `side_vertex`."""
-    weights = np.maximum(located.weights(), LEAST_WEIGHT)
-    directions = np.array([[-1.0, 1.0, 0.0], [-1.0, 0.0, 1.0]])  # by the second and the third coordinate
-    b = [Jet(weights[k : k + 1], directions[:, k, None, None]) for k in range(3)]
-    mixed = _mix(located, b, values, _heaviest(weights, values), gradients)
-    assert isinstance(mixed, Jet)
-    slope = located.slope([np.zeros_like(mixed.slope[0]), *mixed.slope])
-    return _met(slope, _heaviest(weights, gradients), weights, values, gradients)
-
-
 def _heaviest(weights: FloatArray, of: FloatArray) -> FloatArray:
     """Of arrays (3, ..., m), what belongs to the corner with the largest weight."""
-    largest = weights.argmax(axis=0)
-    return np.where(largest == 0, of[0], np.where(largest == 1, of[1], of[2]))
+    return np.choose(weights.argmax(axis=0), of)
 
 
 def _met(
@@ -271,32 +252,8 @@ def hermite_slope(rise: Number, slopes: Pair, parts: Pair, length: Number) -> Nu
     return 6.0 * s * t * (rise / length) + t * (t - 2.0 * s) * slopes[0] + s * (s - 2.0 * t) * slopes[1]
 
 
-@dataclass(frozen=True)
-class _Side:
-    """The side from j to k: length, unit tangents at both ends, unit normal, all (1, m) or (d, m)."""
-
-    length: FloatArray
-    sine: FloatArray
-    cosine: FloatArray
-    tangents: tuple[FloatArray, FloatArray]
-    normal: FloatArray
-
-    @classmethod
-    def straight(cls, edge: FloatArray) -> _Side:
-        length = np.asarray(norm(edge))
-        tangent = edge / length
-        return cls(length, length, length, (tangent, tangent), np.stack([-tangent[1], tangent[0]]))
-
-    @classmethod
-    def curved(cls, start: FloatArray, end: FloatArray, edge: FloatArray, normal: FloatArray) -> _Side:
-        sine = np.asarray(norm(normal))
-        normal = normal / sine
-        cosine = 1.0 + dot(start, edge)
-        return cls(np.arctan2(sine, cosine), sine, cosine, (crossed(normal, start), crossed(normal, end)), normal)
-
-
 class _Corner:
-    """S_i of the module's description: corner i, the side jk opposite."""
+    """S_i of the module's description: corner i; the side jk opposite, unit tangents at its ends, its unit normal."""
 
     def __init__(
         self,
@@ -312,10 +269,14 @@ class _Corner:
         self.to_start, self.to_end, edge = edges[i], -edges[i - 1], edges[i - 2]
         if self.curved:
             self.origin, self.foot, end = (located.corners[k].rounded for k in (i, i - 2, i - 1))
-            self.side = _Side.curved(self.foot, end, edge, normals[i - 2])
             self.turns = normals[i], -normals[i - 1]  # the corner times the vectors to both ends
+            self.sine, self.cosine = lengths(normals[i - 2]), 1.0 + dot(self.foot, edge)
+            self.length, self.normal = np.arctan2(self.sine, self.cosine), normals[i - 2] / self.sine
+            self.tangents = crossed(self.normal, self.foot), crossed(self.normal, end)
         else:
-            self.side = _Side.straight(edge)
+            self.length = lengths(edge)
+            tangent = edge / self.length
+            self.tangents, self.normal = (tangent, tangent), np.stack([-tangent[1], tangent[0]])
         self.value, self.ends = values[i] - first, (values[i - 2] - first, values[i - 1] - first)
         # Not of the ends: two values next to each other have lost their difference when a far one is taken off.
         self.rise = values[i - 1] - values[i - 2]
@@ -342,11 +303,11 @@ class _Corner:
         That is of slopes along the vector from the corner to the chord, at the corner, and of the components last
         returned: those of the line's direction at Q, along the side and across.
         """
-        tangent = self.side.tangents[0]
-        across = dot(self.to_start, self.side.normal)
+        tangent = self.tangents[0]
+        across = dot(self.to_start, self.normal)
         if not self.curved:
             length = norm(self._from_corner(rests, [self.to_start, self.to_end]))
-            along = dot(self.to_start, tangent) + rests[0] * self.side.length
+            along = dot(self.to_start, tangent) + rests[0] * self.length
             return (share, b), length, length, (along, across)
         sine = norm(self._from_corner(rests, list(self.turns)))
         cosine = 1.0 + self._from_corner(rests, [dot(self.origin, d) for d in (self.to_start, self.to_end)])
@@ -356,26 +317,23 @@ class _Corner:
         behind = arctan2(b * sine, share * square + b * cosine)
         x, y = self._on_chord(rests)
         along = x * (dot(self.to_start, tangent) + y) - y * (
-            dot(self.to_start, self.foot) + rests[0] * (self.side.cosine - 1.0)
+            dot(self.to_start, self.foot) + rests[0] * (self.cosine - 1.0)
         )
         return (before / length, behind / length), length, sine, (along, across * sqrt(square))
 
     def _on_chord(self, rests: Pair) -> Pair:
         """Where the line meets the chord jk, along j and across it; with the rests exchanged along k."""
-        return rests[1] + rests[0] * self.side.cosine, rests[0] * self.side.sine
+        return rests[1] + rests[0] * self.cosine, rests[0] * self.sine
 
     def _on_side(self, rests: Pair) -> tuple[Number, Number, Number]:
         """Value, slope along and slope across at Q."""
-        side, (first, last) = self.side, self.end_gradients
         parts = rests
         if self.curved:
             x, y = self._on_chord(rests)
             u, v = self._on_chord(rests[::-1])
-            parts = arctan2(y, x) / side.length, arctan2(v, u) / side.length
-        slopes = inner(first, side.tangents[0]), inner(last, side.tangents[1])
-        across = inner(first, side.normal) * parts[1] + inner(last, side.normal) * parts[0]
-        return (
-            hermite(self.ends, slopes, parts, side.length),
-            hermite_slope(self.rise, slopes, parts, side.length),
-            across,
-        )
+            parts = arctan2(y, x) / self.length, arctan2(v, u) / self.length
+        first, last = self.end_gradients
+        slopes = inner(first, self.tangents[0]), inner(last, self.tangents[1])
+        across = inner(first, self.normal) * parts[1] + inner(last, self.normal) * parts[0]
+        along = hermite_slope(self.rise, slopes, parts, self.length)
+        return hermite(self.ends, slopes, parts, self.length), along, across

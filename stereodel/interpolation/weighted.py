@@ -52,8 +52,7 @@ class NearestInterpolator(WeightedInterpolator):
         return self._values[self.triangulation.nearest(queries, workers=workers)]
 
     def _evaluate_gradient(self, queries: FloatArray, workers: int | None) -> FloatArray:
-        size = 1 if len(self._values) else np.nan
-        return np.zeros((*queries.shape, self._values.shape[1])) * size
+        return np.full((*queries.shape, self._values.shape[1]), 0.0 if len(self._values) else np.nan)
 
     def _shares(self, queries: FloatArray, workers: int | None) -> Shares:
         if len(self._values) == 0:

@@ -127,22 +127,16 @@ class Weights(Shown):
         fields = np.moveaxis(array, axis, -1)
         before = axis % array.ndim
         found = np.full((*fields.shape[:-1], len(self.indptr) - 1), np.nan)
+        held, base = self.rows[self._heaviest], np.zeros(len(self.indptr) - 1)
         for index in np.ndindex(fields.shape[:-1]):
-            self._fill(found[index], np.ascontiguousarray(fields[index]))
+            field = np.ascontiguousarray(fields[index])
+            base[held] = field[self.columns[self._heaviest]]
+            with np.errstate(all="ignore"):
+                rises = self.data * (field[self.columns] - base[self.rows])
+                # Entry by entry, as in the interpolators.
+                found[index][held] = (base + np.bincount(self.rows, rises, len(base)))[held]
         result = np.moveaxis(found, -1, before)
         return np.ascontiguousarray(result).reshape(result.shape[:before] + self.shape + result.shape[before + 1 :])
-
-    def _fill(self, found: FloatArray, field: FloatArray) -> None:
-        """Evaluate one field (n,) at the queries (m,) whose rows have entries."""
-        leads = self._heaviest
-        held = self.rows[leads]
-        base = np.zeros(len(found))
-        base[held] = field[self.columns[leads]]
-        with np.errstate(all="ignore"):
-            rises = self.data * (field[self.columns] - base[self.rows])
-            # Entry by entry, as in the interpolators.
-            above = np.bincount(self.rows, rises, len(found))
-            found[held] = (base + above)[held]
 
     def to_scipy(self) -> Any:
         """As a sparse array of SciPy, (m, n), in CSR format, with the same entries, including zeros.
@@ -152,6 +146,20 @@ class Weights(Shown):
         sparse = optional("scipy.sparse", "scipy")
         parts = (self.data.copy(), self.columns.copy(), self.indptr.copy())
         return sparse.csr_array(parts, shape=(len(self.indptr) - 1, self.size))
+
+    def _layout(self) -> dict[str, tuple[str, Any]]:
+        """Arrays of the layout, each with the name of its dimension."""
+        held = np.diff(self.indptr) > 0
+        kind: Any = np.int32 if max(len(held), self.size) < 2**31 else np.int64
+        return {
+            "row": ("n_s", (self.rows + 1).astype(kind)),
+            "col": ("n_s", self.columns.astype(kind) + 1),
+            "S": ("n_s", self.data.copy()),
+            "frac_a": ("n_a", np.zeros(self.size)),
+            "frac_b": ("n_b", held.astype(np.float64)),
+            "src_grid_dims": ("src_grid_rank", np.array([self.size], kind)),
+            "dst_grid_dims": ("dst_grid_rank", np.array(self.shape[::-1], kind)),
+        }
 
     def to_xarray(self) -> Any:
         """As a dataset in the layout of the weight files of ESMF and xESMF.
@@ -163,18 +171,7 @@ class Weights(Shown):
             (n_b) is 1 for queries that have entries, else 0, `frac_a` (n_a) 0, as no areas are conserved;
             `src_grid_dims` is n, `dst_grid_dims` the shape of the queries, the axis that varies fastest first.
         """
-        held = np.diff(self.indptr) > 0
-        kind: Any = np.int32 if max(len(held), self.size) < 2**31 else np.int64
-        variables = {
-            "row": ("n_s", (self.rows + 1).astype(kind)),
-            "col": ("n_s", self.columns.astype(kind) + 1),
-            "S": ("n_s", self.data.copy()),
-            "frac_a": ("n_a", np.zeros(self.size)),
-            "frac_b": ("n_b", held.astype(np.float64)),
-            "src_grid_dims": ("src_grid_rank", np.array([self.size], kind)),
-            "dst_grid_dims": ("dst_grid_rank", np.array(self.shape[::-1], kind)),
-        }
-        return optional("xarray", "grid").Dataset(variables, attrs={"title": "weights of stereodel, as of ESMF"})
+        return optional("xarray", "grid").Dataset(self._layout(), attrs={"title": "weights of stereodel, as of ESMF"})
 
     @classmethod
     def from_xarray(cls, dataset: Any) -> Weights:
@@ -186,70 +183,50 @@ class Weights(Shown):
             If something is missing or does not fit together; if the weights of a row do not sum to one, as in
             conservative remapping, which `apply` cannot do.
         """
-        where = dataset.encoding.get("source", "the dataset")
-        names = ("row", "col", "S", "src_grid_dims", "dst_grid_dims")
-        row, column, data, source, target = _parts(dataset.variables, where, names)
-        order = np.argsort(row.values, kind="stable")
-        counts = np.bincount(np.maximum(row, 0), minlength=int(target.values.prod()) + 1)[1:]  # none for rows below 1
-        parts = offsets_of(counts), (column.values - 1)[order], data.values[order].astype(np.float64)
-        return cls._checked(where, *parts, tuple(target.values[::-1].tolist()), int(source.values.prod()))
+        return cls._read(dataset.variables, dataset.encoding.get("source", "the dataset"))
 
     @classmethod
-    def _checked(cls, where: str, *parts: Any) -> Weights:
-        """Weights whose parts come from elsewhere."""
-        indptr, columns, data, shape, size = parts
-        agree = (
-            len(indptr) == np.prod(shape, dtype=np.intp) + 1
-            and indptr[0] == 0
-            and indptr[-1] == len(columns) == len(data)
-            and not (np.diff(indptr) < 0).any()
-            and not ((columns < 0) | (columns >= size)).any()
-        )
-        if not agree:
-            raise ValueError(f"{where} is not a file of weights: its arrays do not fit together")
-        found = cls(*parts)
-        sums = np.bincount(found.rows, data, len(indptr) - 1)
-        wrong = np.flatnonzero((np.diff(indptr) > 0) & ~(np.abs(sums - 1.0) <= WEIGHT_ROUNDING))
+    def _read(cls, held: Any, where: str | os.PathLike[str]) -> Weights:
+        """From the arrays of the layout that are used, by name."""
+        refused = f"{os.fspath(where)} is not a file of weights"
+        names = ("row", "col", "S", "src_grid_dims", "dst_grid_dims")
+        if missing := [name for name in names if name not in held]:
+            raise ValueError(f"{refused}: {', '.join(missing)} is missing")
+        row, column, data, source, target = (np.asarray(held[name]) for name in names)
+        size, count = int(source.prod()), int(target.prod())
+        agree = row.shape == column.shape == data.shape == (row.size,)
+        if not agree or any(((of < 1) | (of > most)).any() for of, most in ((row, count), (column, size))):
+            raise ValueError(f"{refused}: its arrays do not fit together")
+        sums, entries = np.bincount(row, data, count + 1), np.bincount(row, minlength=count + 1)
+        wrong = np.flatnonzero((entries > 0) & ~(np.abs(sums - 1.0) <= WEIGHT_ROUNDING))
         if len(wrong):
-            said = f"the weights of row {wrong[0] + 1} sum to {sums[wrong[0]]:g}, not to one as for interpolation"
-            raise ValueError(f"{where}: {said}; scipy.sparse.coo_array takes any")
-        return found
+            said = f"the weights of row {wrong[0]} sum to {sums[wrong[0]]:g}, not to one as for interpolation"
+            raise ValueError(f"{os.fspath(where)}: {said}; scipy.sparse.coo_array takes any")
+        order = np.argsort(row, kind="stable")
+        parts = column[order] - 1, data[order].astype(np.float64), tuple(target[::-1].tolist())
+        return cls(offsets_of(entries[1:]), *parts, size)
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write to a file, by its name .npz, or .nc: NetCDF as of `to_xarray`; an existing one is replaced."""
-        form = _form(path)
+        """Write to a file, by its name .npz or .nc (NetCDF), in the layout of `to_xarray`; an old one is replaced."""
+        form = as_choice(Path(path).suffix.lower(), (".npz", ".nc"), "the ending of path")
         with replacing(path) as temporary:
             if form == ".nc":
                 write_netcdf(self.to_xarray(), temporary)
-                return
-            with temporary.open("wb") as file:
-                np.savez_compressed(
-                    file, indptr=self.indptr, columns=self.columns, data=self.data, shape=self.shape, size=self.size
-                )
+            else:
+                with temporary.open("wb") as file:
+                    np.savez_compressed(file, **{name: array for name, (_, array) in self._layout().items()})
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> Weights:
         """Read from a file written by `save`, or by ESMF; ValueError if it does not contain weights."""
-        if _form(path) == ".nc":
+        if as_choice(Path(path).suffix.lower(), (".npz", ".nc"), "the ending of path") == ".nc":
             with optional("xarray", "grid").open_dataset(path, engine="netcdf4") as dataset:
                 return cls.from_xarray(dataset)
         with np.load(path, allow_pickle=False) as archive:
-            *arrays, shape, size = _parts(archive, os.fspath(path), ("indptr", "columns", "data", "shape", "size"))
-            return cls._checked(os.fspath(path), *arrays, tuple(shape.tolist()), int(size))
+            return cls._read(archive, path)
 
     def __repr__(self) -> str:
         return f"Weights({self.size} points at {self.shape} places, {len(self.data)} entries)"
-
-
-def _parts(held: Any, where: str, names: tuple[str, ...]) -> list[Any]:
-    missing = [name for name in names if name not in getattr(held, "files", held)]
-    if missing:
-        raise ValueError(f"{where} is not a file of weights: {', '.join(missing)} is missing")
-    return [held[name] for name in names]
-
-
-def _form(path: str | os.PathLike[str]) -> str:
-    return as_choice(Path(path).suffix.lower(), (".npz", ".nc"), "the ending of path")
 
 
 class WeightedInterpolator(Interpolator):

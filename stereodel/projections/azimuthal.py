@@ -23,11 +23,11 @@ from stereodel._arrays import (
     as_scalar,
     as_vectors,
 )
-from stereodel._double_double import DoubleDouble, by_blocks, dot, scaled, stack, unit, where
+from stereodel._double_double import DoubleDouble, by_blocks, dot, scaled, shift_exponent, stack, unit, where
 from stereodel.constants import SEEN_FACE_ON, STORED_ERROR
 from stereodel.projections.plane_curves import Conic, ConicKind, PlaneCircle, PlaneLine
 from stereodel.sphere import SphereCircle
-from stereodel.sphere.circles import light_cone, shift_exponent
+from stereodel.sphere.circles import light_cone
 from stereodel.sphere.coordinates import tangent_frame
 from stereodel.sphere.rotations import transform
 
@@ -320,7 +320,7 @@ class Stereographic(TangentPlane):
         """Unit vectors of plane points (m, 2) in double-double."""
         d = self.unit_distance
         # Homogeneous coordinates over a power of two: no plane point is too far away or too near.
-        with_distance = np.concatenate([plane.hi, np.full((*plane.shape[:-1], 1), d)], axis=-1)
+        with_distance = np.concatenate([plane.hi, np.full((*plane.hi.shape[:-1], 1), d)], axis=-1)
         exponent = -scaled(with_distance)[1]
         half = exponent // 2
         x, y = (shift_exponent(shift_exponent(plane[..., k], half), exponent - half) for k in range(2))

@@ -89,7 +89,7 @@ class RectangleLift:
         return by_blocks(lambda rows: self.sphere.lift(self._centered(rows)), as_vectors(xy, 2, "xy"))
 
     def _centered(self, rows: FloatArray) -> DoubleDouble:
-        return DoubleDouble.difference(rows, np.array(self.center))
+        return DoubleDouble(rows) - np.array(self.center)
 
     def inverse(self, xyz: npt.ArrayLike) -> FloatArray:
         """Plane points (..., 2) of directions (..., 3); NaN at the north pole."""

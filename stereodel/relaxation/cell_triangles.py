@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from stereodel import _kernel
 from stereodel._arrays import AnyIndices, BoolArray, FloatArray, SignArray, as_bounds, as_floats
-from stereodel.constants import CLOSE_SITES, QUADRATURE_CHORD
+from stereodel.constants import QUADRATURE_CHORD
 from stereodel.curves.ragged import Ragged, spans
 from stereodel.triangulation import PlanarVoronoi, SphericalVoronoi
 
@@ -48,8 +48,12 @@ def outside(points: FloatArray, polygon: FloatArray) -> BoolArray:
 
 def flat_cells(points: FloatArray, polygon: FloatArray, workers: int | None) -> tuple[FloatArray, AnyIndices]:
     """Triangles (t, 3, 2) relative to their sites, counterclockwise, that make up the cells, and the sites (t,)."""
-    # Four more sites bound every cell, so that all are fans of triangles around their sites.
-    diagram = PlanarVoronoi(np.concatenate([points, _far_points(polygon)]), workers=workers)
+    # Four more sites bound every cell, so that all are fans of triangles around their sites, without reaching into the
+    # polygon: within it every site is at most 2r away, r the radius of a circle around it; these are at least 7r away.
+    low, high = polygon.min(axis=0), polygon.max(axis=0)
+    reach = 4 * float(np.hypot(*(high - low)))
+    far = low + (high - low) / 2 + reach * np.array([[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]])
+    diagram = PlanarVoronoi(np.concatenate([points, far]), workers=workers)
     cells = Ragged(diagram.region_indices, diagram.region_offsets)
     # A triangle for each side of a cell: its site at the origin, then both ends of the side. The four have none.
     own = cells.row < len(points)
@@ -59,26 +63,10 @@ def flat_cells(points: FloatArray, polygon: FloatArray, workers: int | None) -> 
     triangles = np.stack([np.zeros_like(here), here, there], axis=1)
     # Cells are convex and so is the polygon: cutting the triangles at one side after the other leaves what is in both.
     for start, end in zip(polygon, np.roll(polygon, -1, axis=0), strict=True):
-        triangles, site = _clipped(triangles, site, _heights(triangles, points[site], start, end))
+        # Heights of the corners above the side, times its length.
+        (x, y), (along, over) = end - start, np.moveaxis(triangles + (points[site] - start)[:, None], -1, 0)
+        triangles, site = _clipped(triangles, site, x * over - y * along)
     return triangles, site
-
-
-def _far_points(polygon: FloatArray) -> FloatArray:
-    """Four points so far around a polygon that they bound all cells without reaching into it.
-
-    Within the polygon every site is at most 2r away, r the radius of a circle around it; these are at least 7r away.
-    """
-    low, high = polygon.min(axis=0), polygon.max(axis=0)
-    middle, radius = low + (high - low) / 2, float(np.hypot(*(high - low))) / 2
-    return middle + 8 * radius * np.array([[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]])
-
-
-def _heights(triangles: FloatArray, sites: FloatArray, start: FloatArray, end: FloatArray) -> FloatArray:
-    """Heights (t, 3) of corners relative to sites (t, 2) above the line from start to end, times its length."""
-    x, y = end - start
-    inside = sites - start
-    over, along = triangles[..., 1] + inside[:, None, 1], triangles[..., 0] + inside[:, None, 0]
-    return x * over - y * along
 
 
 def _clipped(triangles: FloatArray, site: AnyIndices, heights: FloatArray) -> tuple[FloatArray, AnyIndices]:
@@ -95,12 +83,15 @@ def _clipped(triangles: FloatArray, site: AnyIndices, heights: FloatArray) -> tu
 
 def _cut(triangles: FloatArray, heights: FloatArray, alone: AnyIndices) -> list[FloatArray]:
     """Triangles (t, 3, 2) cut at height zero between one corner a and the others, b and c: a, ab, ac, b, c."""
-    # Corners and heights in the same order, turned so that the lone one comes first: the orientation stays.
-    turn = (alone[:, None] + np.arange(3)) % 3
-    a, b, c = np.moveaxis(np.take_along_axis(triangles, turn[:, :, None], axis=1), 1, 0)
-    at_a, at_b, at_c = np.take_along_axis(heights, turn, axis=1).T[:, :, None]
+    a, b, c = _turned(triangles, alone)
+    at_a, at_b, at_c = _turned(heights[:, :, None], alone)
     # Heights of different sign, of which one may be zero: their difference is not.
     return [a, a + (b - a) * (at_a / (at_a - at_b)), a + (c - a) * (at_a / (at_a - at_c)), b, c]
+
+
+def _turned(corners: FloatArray, first: AnyIndices) -> FloatArray:
+    """What belongs to corners (t, 3, d), as (3, t, d), so that this one comes first: the orientation stays."""
+    return np.moveaxis(np.take_along_axis(corners, ((first[:, None] + np.arange(3)) % 3)[:, :, None], axis=1), 1, 0)
 
 
 class RoundCells:
@@ -111,7 +102,7 @@ class RoundCells:
         self.sites = sites
         self.ridges = self.diagram.ridge_points
         self._start, end = np.moveaxis(self.diagram.vertices[self.diagram.ridge_vertices], 1, 0)
-        self._normals = _normals(sites[self.ridges[:, 0]], sites[self.ridges[:, 1]])
+        self._normals = self.diagram.ridge_normals()
         # The angle from start to end about the normal: at most half a turn, as the whole ridge of two sites is in two
         # parts. A tiny one, or one of half a turn, may be rounded to the other side.
         side = np.einsum("ri,ri->r", self._normals, np.cross(self._start, end))
@@ -149,17 +140,6 @@ class RoundCells:
     def _along(self, ridge: AnyIndices, angle: FloatArray) -> FloatArray:
         start, normal = self._start[ridge], self._normals[ridge]
         return start * np.cos(angle)[:, None] + np.cross(normal, start) * np.sin(angle)[:, None]
-
-
-def _normals(left: FloatArray, right: FloatArray) -> FloatArray:
-    """Unit vectors (r, 3) from right to left, in twice the precision for close ones alone."""
-    differences = left - right
-    lengths = np.linalg.norm(differences, axis=1, keepdims=True)
-    close = lengths[:, 0] < CLOSE_SITES
-    lengths[close] = 1.0
-    normals = differences / lengths
-    normals[close] = _kernel.sphere.bisector_normals(left[close], right[close])
-    return normals
 
 
 class Rule(NamedTuple):
@@ -219,9 +199,8 @@ def split_long(triangles: FloatArray, number: AnyIndices) -> tuple[FloatArray, A
 
 def _halves(triangles: FloatArray, sides: FloatArray) -> FloatArray:
     """Both halves (2t, 3, 3) of triangles cut from the middle of the longest side, which is opposite its corner."""
-    # Corners turned so that the longest side is bc; its middle on the sphere is the direction of b + c.
-    turn = (np.argmax(sides, axis=1)[:, None] + np.arange(3)) % 3
-    a, b, c = np.moveaxis(np.take_along_axis(triangles, turn[:, :, None], axis=1), 1, 0)
+    # The longest side is bc; its middle on the sphere is the direction of b + c.
+    a, b, c = _turned(triangles, np.argmax(sides, axis=1))
     middle = b + c
     length = np.linalg.norm(middle, axis=1, keepdims=True)
     middle = np.where(length > 0, middle / np.where(length > 0, length, 1.0), a)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -31,6 +32,8 @@ from stereodel.triangulation import SphericalVoronoi
 from stereodel.triangulation.delaunay import Triangulation, as_triangulation
 
 Density = Callable[[FloatArray], npt.ArrayLike]
+Step = tuple[float, FloatArray]
+"""The energy of a set of points and the centroids of their cells."""
 
 
 class Progress(NamedTuple):
@@ -63,21 +66,11 @@ class Quality:
         Number of points that do not have six neighbours.
     area_ratio : float
         Area of the largest cell, within the bounds, over that of the smallest.
-    energy : float
-        Energy at the end.
-    converged : bool
-        As for `Relaxation`.
     """
 
     neighbors: dict[int, int]
     defects: int
     area_ratio: float
-    energy: float
-    converged: bool
-
-
-Step = tuple[float, FloatArray]
-"""The energy of a set of points and the centroids of their cells."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -146,13 +139,8 @@ class Relaxation(Shown):
         counts = np.unique_counts(degrees[degrees > 0])
         neighbors = dict(zip(counts.values.tolist(), counts.counts.tolist(), strict=True))
         held = areas[areas > 0]
-        return Quality(
-            neighbors,
-            sum(count for number, count in neighbors.items() if number != 6),
-            float(held.max() / held.min()) if len(held) else 1.0,
-            float(self.energies[-1]),
-            self.converged,
-        )
+        defects = sum(count for number, count in neighbors.items() if number != 6)
+        return Quality(neighbors, defects, float(held.max() / held.min()) if len(held) else 1.0)
 
 
 @shared(**LONLAT)
@@ -199,8 +187,7 @@ def lloyd(
     Returns
     -------
     Relaxation
-        `points`, `energies`, `moves`, `converged` and `quality()`; `lonlat` if the points were given by longitude and
-        latitude.
+        With `lonlat` if the points were given by longitude and latitude.
 
     Raises
     ------
@@ -256,127 +243,104 @@ def lloyd(
             'LinearInterpolator(points, values, extrapolate="nearest") is one'
         )
     share = as_scalar(factor, "factor", low=0.0, high=2.0, open_low=True, open_high=True)
-    limit, last = as_scalar(tolerance, "tolerance", low=0.0), as_count(steps, "steps", low=0)
-    ground: _Polygon | _WholeSphere
-    if surface_of(given) is SPHERE:
+    limit, last, threads = (
+        as_scalar(tolerance, "tolerance", low=0.0),
+        as_count(steps, "steps", low=0),
+        as_workers(workers),
+    )
+    surface, polygon = surface_of(given), None
+    step: Callable[[FloatArray], Step]
+    if surface is SPHERE:
         if bounds is not None:
             raise ValueError("bounds are for points of the plane; on the sphere leave them out")
-        ground, here = _WholeSphere(density, as_workers(workers)), unit(given).hi
+        here, advance = unit(given).hi, partial(_round_advance, factor=share)
+        step = partial(_round_step, density=density, workers=threads)
     else:
-        ground, here = _Polygon(density, as_workers(workers), read_only(as_polygon(bounds))), given
-        if (wrong := outside(given, ground.bounds)).any():
+        here, polygon = given, read_only(as_polygon(bounds))
+        advance = partial(_flat_advance, factor=share, bounds=polygon)
+        step = partial(_flat_step, bounds=polygon, density=density, workers=threads)
+        if (wrong := outside(given, polygon)).any():
             k = int(np.argmax(wrong))
             raise ValueError(f"points[{k}] is {given[k].tolist()}, outside bounds")
-    energy, centroids = ground.step(here)
+    energy, centroids = step(here)
     energies, moves, converged = [energy], [], False
     for number in range(1, last + 1):
-        before, here = here, centroids if share == 1.0 else ground.advanced(here, centroids, share)
-        moves.append(float(ground.ways(before, here).max(initial=0.0)))
-        energy, centroids = ground.step(here)
+        before, here = here, centroids if share == 1.0 else advance(here, centroids)
+        moves.append(float(surface.distances(before, here).max(initial=0.0)))
+        energy, centroids = step(here)
         energies.append(energy)
         if callback is not None:
             callback(Progress(number, energy, moves[-1]))
         if converged := moves[-1] <= limit:
             break
     found = locked(here.copy()), locked(np.array(energies)), locked(np.array(moves))
-    return Relaxation(*found, converged, kind, ground.bounds)
+    return Relaxation(*found, converged, kind, polygon)
 
 
-@dataclass(frozen=True, eq=False)
-class _Polygon:
-    """What Lloyd's method asks of a convex polygon of the plane."""
-
-    density: Density | None
-    workers: int | None
-    bounds: FloatArray
-
-    def step(self, points: FloatArray) -> Step:
-        triangles, site = flat_cells(points, self.bounds, self.workers)
-        nodes, weights = flat_nodes(triangles, MIDPOINTS if self.density is None else RADON)
-        values, scale = _values(self.density, nodes + points[site][:, None], site, len(points))
-        weights = weights * values
-        mass, moments = _sums(nodes, weights, site, len(points))
-        energy = _total(weights * (nodes**2).sum(axis=-1), scale)
-        return energy, points + moments / np.where(mass > 0, mass, 1.0)[:, None]
-
-    def advanced(self, points: FloatArray, centroids: FloatArray, factor: float) -> FloatArray:
-        reached = points + factor * (centroids - points)
-        return np.where(outside(reached, self.bounds)[:, None], centroids, reached)
-
-    def ways(self, one: FloatArray, other: FloatArray) -> FloatArray:
-        return PLANE.distances(one, other)
+def _flat_step(points: FloatArray, bounds: FloatArray, density: Density | None, workers: int | None) -> Step:
+    triangles, site = flat_cells(points, bounds, workers)
+    nodes, weights = flat_nodes(triangles, MIDPOINTS if density is None else RADON)
+    energy, mass, moments = _integrals(density, points, site, nodes, weights)
+    return energy, points + moments / np.where(mass > 0, mass, 1.0)[:, None]
 
 
-@dataclass(frozen=True, eq=False)
-class _WholeSphere:
-    """The same of the sphere."""
-
-    density: Density | None
-    workers: int | None
-    bounds: None = None
-
-    def step(self, points: FloatArray) -> Step:
-        cells = RoundCells(points, self.workers)
-        if self.density is None:
-            mass, moments, centroids = cells.diagram.areas(), cells.moments(), cells.diagram.centroids()
-            # |x − p|² = 2 (1 − x·p) for unit vectors
-            energy = 2 * float((mass - np.einsum("ni,ni->n", moments, points)).sum())
-        else:
-            triangles, site = cells.triangles()
-            nodes, weights = spherical_nodes(triangles, RADON)
-            values, scale = _values(self.density, nodes, site, len(points))
-            weights = weights * values
-            mass, moments = _sums(nodes, weights, site, len(points))
-            energy = _total(weights * ((nodes - points[site][:, None]) ** 2).sum(axis=-1), scale)
-            lengths = np.linalg.norm(moments, axis=1, keepdims=True)
-            centroids = moments / np.where(lengths > 0, lengths, 1.0)
-        # A cell without mass, or whose mean has no direction, leaves its point where it is.
-        pulled = (np.linalg.norm(moments, axis=1) > BALANCED * mass) & (mass > 0)
-        return energy, np.where(pulled[:, None], centroids, points)
-
-    def advanced(self, points: FloatArray, centroids: FloatArray, factor: float) -> FloatArray:
-        """Along great circles."""
-        step = centroids - points
-        tangent = step - points * np.einsum("ni,ni->n", points, step)[:, None]
-        length = np.linalg.norm(tangent, axis=1, keepdims=True)
-        angle = factor * np.arctan2(length, np.einsum("ni,ni->n", points, centroids)[:, None])
-        still = length == 0
-        reached = points * np.cos(angle) + tangent / np.where(still, 1.0, length) * np.sin(angle)
-        return np.where(still, points, unit(reached).hi)
-
-    def ways(self, one: FloatArray, other: FloatArray) -> FloatArray:
-        return np.degrees(2 * np.arcsin(np.minimum(np.linalg.norm(other - one, axis=1) / 2, 1.0)))
-
-
-def _sums(nodes: FloatArray, weights: FloatArray, site: AnyIndices, count: int) -> tuple[FloatArray, FloatArray]:
-    """Mass (n,) and first moments (n, d) of each site's triangles."""
-    mass: FloatArray = np.bincount(site, weights.sum(axis=1), count).astype(np.float64)
-    first = np.einsum("tk,tkd->td", weights, nodes)
-    return mass, np.column_stack([np.bincount(site, column, count) for column in first.T])
-
-
-def _total(energies: FloatArray, scale: FloatArray) -> float:
-    """The sum of energies (t, k) of triangles times their scales (t,); 0 or infinite beyond the ends of doubles."""
-    largest = scale.max(initial=0.0)
-    with np.errstate(over="ignore", under="ignore"):
-        return float((energies * (scale / (largest or 1.0))[:, None]).sum() * largest)
-
-
-def _values(density: Density | None, nodes: FloatArray, site: AnyIndices, count: int) -> tuple[FloatArray, FloatArray]:
-    """Densities (t, k) over the scale of their cell, a power of two near its largest; and the scales (t,).
-
-    A centroid does not depend on the scale, but products of densities near the ends of doubles would be 0 or infinite.
-    """
+def _round_step(points: FloatArray, density: Density | None, workers: int | None) -> Step:
+    cells = RoundCells(points, workers)
     if density is None:
-        return np.ones(nodes.shape[:2]), np.ones(len(nodes))
-    flat = nodes.reshape(-1, nodes.shape[-1])
-    values = as_amounts(density(flat), "density(points)", "weight")
-    if values.shape != (len(flat),):
-        raise ValueError(
-            f"density(points) must return a number for each point, shape {(len(flat),)}, got {values.shape}"
-        )
-    values = values.reshape(nodes.shape[:2])
-    largest = np.zeros(count)
-    np.maximum.at(largest, site, values.max(axis=1))
-    scale = np.ldexp(0.5, np.frexp(largest)[1])[site]
-    return values / scale[:, None], scale
+        mass, moments, centroids = cells.diagram.areas(), cells.moments(), cells.diagram.centroids()
+        # |x − p|² = 2 (1 − x·p) for unit vectors
+        energy = 2 * float((mass - np.einsum("ni,ni->n", moments, points)).sum())
+    else:
+        triangles, site = cells.triangles()
+        nodes, weights = spherical_nodes(triangles, RADON)
+        energy, mass, moments = _integrals(density, points, site, nodes - points[site][:, None], weights)
+        moments += points * mass[:, None]
+        lengths = np.linalg.norm(moments, axis=1, keepdims=True)
+        centroids = moments / np.where(lengths > 0, lengths, 1.0)
+    # A cell without mass, or whose mean has no direction, leaves its point where it is.
+    pulled = (np.linalg.norm(moments, axis=1) > BALANCED * mass) & (mass > 0)
+    return energy, np.where(pulled[:, None], centroids, points)
+
+
+def _flat_advance(points: FloatArray, centroids: FloatArray, factor: float, bounds: FloatArray) -> FloatArray:
+    reached = points + factor * (centroids - points)
+    return np.where(outside(reached, bounds)[:, None], centroids, reached)
+
+
+def _round_advance(points: FloatArray, centroids: FloatArray, factor: float) -> FloatArray:
+    """Along great circles."""
+    step = centroids - points
+    tangent = step - points * np.einsum("ni,ni->n", points, step)[:, None]
+    length = np.linalg.norm(tangent, axis=1, keepdims=True)
+    angle = factor * np.arctan2(length, np.einsum("ni,ni->n", points, centroids)[:, None])
+    still = length == 0
+    reached = points * np.cos(angle) + tangent / np.where(still, 1.0, length) * np.sin(angle)
+    return np.where(still, points, unit(reached).hi)
+
+
+def _integrals(
+    density: Density | None, points: FloatArray, site: AnyIndices, nodes: FloatArray, weights: FloatArray
+) -> tuple[float, FloatArray, FloatArray]:
+    """Energy, and the mass (n,) and first moment (n, d) of each cell, from nodes (t, k, d) relative to their sites.
+
+    Mass and moment are over a scale of their cell, a power of two near its largest density. A centroid does not depend
+    on it, but products of densities near the ends of doubles would be 0 or infinite.
+    """
+    scale, largest = np.ones(len(points)), 1.0
+    if density is not None:
+        flat = (nodes + points[site][:, None]).reshape(-1, points.shape[1])
+        values = as_amounts(density(flat), "density(points)", "weight")
+        if values.shape != (len(flat),):
+            raise ValueError(
+                f"density(points) must return a number for each point, shape {(len(flat),)}, got {values.shape}"
+            )
+        values, highest = values.reshape(weights.shape), np.zeros(len(points))
+        np.maximum.at(highest, site, values.max(axis=1))
+        scale = np.ldexp(0.5, np.frexp(highest)[1])
+        weights, largest = weights * (values / scale[site][:, None]), scale.max(initial=0.0) or 1.0
+    mass: FloatArray = np.bincount(site, weights.sum(axis=1), len(points)).astype(np.float64)
+    first = np.einsum("tk,tkd->td", weights, nodes)
+    moments = np.column_stack([np.bincount(site, column, len(points)) for column in first.T]).astype(np.float64)
+    with np.errstate(over="ignore", under="ignore"):  # 0 or infinite beyond the ends of doubles
+        energies = weights * (nodes**2).sum(axis=-1) * (scale / largest)[site][:, None]
+        return float(energies.sum() * largest), mass, moments

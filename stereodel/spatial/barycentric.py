@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from functools import cached_property
-
 import numpy as np
 
-from stereodel._arrays import BoolArray, FloatArray, Indices, IntArray
+from stereodel._arrays import FloatArray, IntArray
 from stereodel.constants import INSIDE_TOLERANCE, TRANSFORM_CONDITION
 from stereodel.triangulation import PlanarDelaunay
 
@@ -45,10 +43,18 @@ class NearMisses:
     hull when moved can be in a triangle.
     """
 
-    def __init__(self, triangulation: PlanarDelaunay, transform: FloatArray) -> None:
+    def __init__(self, triangulation: PlanarDelaunay) -> None:
+        points, simplices, neighbors = triangulation.points, triangulation.simplices, triangulation.neighbors
         self._triangulation = triangulation
-        self._transform = transform
-        self._degenerate = np.isnan(transform[:, 0, 0])
+        self._transform = transforms(points[simplices])
+        self._degenerate = np.isnan(self._transform[:, 0, 0])
+        if len(simplices):
+            self._beside_degenerate = self._degenerate[neighbors] & (neighbors >= 0)
+            size = np.frexp(np.abs(points).max())[1] + 1
+            corners = np.ldexp(points, -size)[simplices]
+            d, e = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+            areas = np.abs(d[:, 0] * e[:, 1] - d[:, 1] * e[:, 0])
+            self._centroid = np.ldexp(areas / areas.sum() @ corners.mean(axis=1), size)
 
     def improve(self, queries: FloatArray, found: IntArray, tol: float) -> IntArray:
         """Replace exact answers (k,), -1 outside, by triangles that hold the queries (k, 2) within `tol`.
@@ -58,62 +64,30 @@ class NearMisses:
         loses nothing, and by 8·√tol, which is beyond degenerate triangles, and their neighbors. Where none does the
         exact answer stays.
         """
-        doubtful = self._doubtful(queries, found, tol)
-        if len(doubtful) == 0:
+        if not len(self._transform):
             return found
-        shares = 0.0, 8.0 * min(tol, INSIDE_TOLERANCE), 8.0 * tol, 8.0 * np.sqrt(tol)
-        near = [self._moved(queries[doubtful], share) for share in shares]
-        result = found.copy()
-        result[doubtful] = self._first_holding(queries[doubtful], self._with_neighbors(near), found[doubtful], tol)
-        return result
-
-    def _doubtful(self, queries: FloatArray, found: IntArray, tol: float) -> Indices:
-        """Queries whose exact answer can be bettered: in degenerate triangles, and outside but coming inside."""
-        if len(self._transform) == 0:
-            return np.zeros(0, dtype=np.intp)
+        doubtful = self._degenerate[found] & (found >= 0)
         outside = np.flatnonzero(found < 0)
-        inside = np.flatnonzero((found >= 0) & self._degenerate[found])
-        if len(outside) == 0:
-            return inside
-        return np.concatenate([inside, outside[self._moved(queries[outside], 8.0 * tol) >= 0]])
+        doubtful[outside] = self._moved(queries[outside], 8.0 * tol) >= 0
+        asked = queries[doubtful]
+        shares = 0.0, 8.0 * min(tol, INSIDE_TOLERANCE), 8.0 * tol, 8.0 * np.sqrt(tol)
+        near = np.column_stack([self._moved(asked, share) for share in shares])
+        beside = np.where(near[:, :, None] < 0, -1, self._triangulation.neighbors[near])
+        candidates = np.concatenate([near, beside.reshape(-1, 12)], axis=1)
+        # Where there is no triangle its place is taken by another candidate of the row.
+        candidates = np.where(candidates < 0, candidates.max(axis=1, keepdims=True), candidates)
+        lowest = np.where(self._beside_degenerate[candidates], -np.sqrt(tol), -tol)
+        holds = np.all(coordinates(self._transform[candidates], asked[:, None]) >= lowest, axis=-1)
+        # argmax finds the first that holds, and any tells whether there is one.
+        first = np.take_along_axis(candidates, holds.argmax(axis=1)[:, None], axis=1)[:, 0]
+        result = found.copy()
+        result[doubtful] = np.where(holds.any(axis=1), first, found[doubtful])
+        return result
 
     def _moved(self, queries: FloatArray, share: float) -> IntArray:
         """Triangles of queries that are moved a share of their way to the centroid, all of it at most."""
         moved = (1.0 - min(share, 1.0)) * queries + min(share, 1.0) * self._centroid
         return np.asarray(self._triangulation.find_simplex(moved))
-
-    def _with_neighbors(self, near: list[IntArray]) -> IntArray:
-        """Columns of triangles, -1 for none, and of their neighbors, (k, 4c), filled up with what there is."""
-        # Where there is no triangle there are no neighbours; its places are taken by some other candidate of the row.
-        columns = np.column_stack(near)
-        beside = np.where(columns[:, :, None] < 0, -1, self._triangulation.neighbors[columns])
-        around = np.concatenate([columns, beside.reshape(len(columns), -1)], axis=1)
-        return np.where(around < 0, around.max(axis=1, keepdims=True), around)
-
-    def _first_holding(self, queries: FloatArray, candidates: IntArray, otherwise: IntArray, tol: float) -> IntArray:
-        """The first of the candidates (k, c) or (1, c) that holds each query (k, 2)."""
-        # The first column that holds: argmax finds the first True, and any tells whether there is one.
-        lowest = np.where(self._beside_degenerate[candidates], -np.sqrt(tol), -tol)
-        holds = np.all(coordinates(self._transform[candidates], queries[:, None]) >= lowest, axis=-1)
-        first = holds.argmax(axis=1)
-        chosen = np.take_along_axis(np.broadcast_to(candidates, holds.shape), first[:, None], axis=1)[:, 0]
-        return np.where(holds.any(axis=1), chosen, otherwise)
-
-    @cached_property
-    def _centroid(self) -> FloatArray:
-        """Centroid of the hull's area, (2,)."""
-        points = self._triangulation.points
-        size = np.frexp(np.abs(points).max())[1] + 1
-        corners = np.ldexp(points, -size)[self._triangulation.simplices]
-        d, e = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-        areas = np.abs(d[:, 0] * e[:, 1] - d[:, 1] * e[:, 0])
-        return np.ldexp(areas / areas.sum() @ corners.mean(axis=1), size)
-
-    @cached_property
-    def _beside_degenerate(self) -> BoolArray:
-        """Whether there is a degenerate triangle opposite each corner, (m, 3)."""
-        neighbors = self._triangulation.neighbors
-        return self._degenerate[neighbors] & (neighbors >= 0)
 
 
 def coordinates(transform: FloatArray, points: FloatArray) -> FloatArray:

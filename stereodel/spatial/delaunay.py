@@ -159,32 +159,16 @@ class Delaunay(GrowingPoints, scipy.spatial.Delaunay):
 
     @cached_property
     def _near_misses(self) -> NearMisses:
-        return NearMisses(self._triangulation, transforms(self._corners))
+        return NearMisses(self._triangulation)
 
     def lift_points(self, x: npt.ArrayLike) -> FloatArray:
-        """Points on the paraboloid.
-
-        Parameters
-        ----------
-        x : (..., 2) array_like
-
-        Returns
-        -------
-        (..., 3) array
-        """
+        """Points (..., 2) on the paraboloid, (..., 3)."""
         return self._paraboloid.lift(as_vectors(x, 2, "x"))
 
     def plane_distance(self, xi: npt.ArrayLike) -> FloatArray:
-        """Signed distances of lifted points from the planes of all triangles.
+        """Signed distances (..., nsimplex) of lifted points from the planes of all triangles.
 
-        Parameters
-        ----------
-        xi : (..., 2) array_like
-
-        Returns
-        -------
-        (..., nsimplex) array
-            Positive where the triangle's circle holds the point.
+        They are positive where the triangle's circle holds the point (..., 2).
         """
         return self._paraboloid.lift(as_vectors(xi, 2, "xi")) @ self.equations[:, :3].T + self.equations[:, 3]
 

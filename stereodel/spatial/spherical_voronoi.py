@@ -7,7 +7,8 @@ import numpy.typing as npt
 import scipy.spatial
 
 from stereodel import triangulation as exact
-from stereodel._arrays import FloatArray, IntArray, as_floats, as_points, as_scalar
+from stereodel._arrays import FloatArray, as_floats, as_points, as_scalar, as_shaped
+from stereodel.curves.ragged import cycles
 from stereodel.spatial.compatibility import hand_over
 
 
@@ -29,9 +30,8 @@ class ExactOnSphere(scipy.spatial.SphericalVoronoi):
 
     Attributes
     ----------
-    points : (npoints, 3) array
-    radius : float
-    center : (3,) array
+    points, radius, center
+        As given.
     vertices : (nvertices, 3) array
         Centers of the empty circles: one for each of the 2·npoints − 4 triangles, bitwise equal ones for cocircular
         triangles; two if all points lie on one circle, its poles; none for a single point.
@@ -76,9 +76,16 @@ class ExactOnSphere(scipy.spatial.SphericalVoronoi):
             return
         self.radius = as_scalar(radius, "radius", low=0.0, open_low=True)
         self.points = np.array(as_points(array, 3))
-        self.center = np.zeros(3) if center is None else _as_center(center)
+        self.center = np.zeros(3) if center is None else np.array(as_shaped(center, (3,), "center"))
         directions = self.points - self.center
-        self._refuse_off_sphere(directions, as_scalar(threshold, "threshold", low=0.0))
+        distances = np.linalg.norm(directions, axis=1)
+        off = np.abs(distances - self.radius)
+        if off.max(initial=0.0) >= as_scalar(threshold, "threshold", low=0.0) * self.radius:
+            worst = int(off.argmax())
+            raise ValueError(
+                f"Radius inconsistent with generators: points[{worst}] is {float(distances[worst])} from the center, "
+                f"but radius is {self.radius}; scale the points, or allow more by threshold"
+            )
         triangles = exact.SphericalDelaunay(directions)
         self._diagram = exact.SphericalVoronoi(triangles)
         self._simplices = np.array(triangles.simplices)
@@ -87,16 +94,6 @@ class ExactOnSphere(scipy.spatial.SphericalVoronoi):
         several = len(units) > 2
         self.regions: list[list[int]] = _fans(triangles) if several else self._diagram.regions
         self.vertices = self.radius * (units[self._diagram.simplex_vertex] if several else units) + self.center
-
-    def _refuse_off_sphere(self, directions: FloatArray, threshold: float) -> None:
-        distances = np.linalg.norm(directions, axis=1)
-        off = np.abs(distances - self.radius)
-        if off.max(initial=0.0) >= threshold * self.radius:
-            worst = int(off.argmax())
-            raise ValueError(
-                f"Radius inconsistent with generators: points[{worst}] is {float(distances[worst])} from the center, "
-                f"but radius is {self.radius}; scale the points, or allow more by threshold"
-            )
 
     def sort_vertices_of_regions(self) -> None:
         """Nothing to do: regions are counterclockwise from the start."""
@@ -110,30 +107,16 @@ SphericalVoronoi = ExactOnSphere  # under the name that SciPy has, for pickles a
 SphericalVoronoi.__name__ = SphericalVoronoi.__qualname__ = "SphericalVoronoi"
 
 
-def _as_center(center: npt.ArrayLike) -> FloatArray:
-    array = as_floats(center, "center")
-    if array.shape != (3,):
-        raise ValueError(f"center must have shape (3,), got {array.shape}")
-    return np.array(array)
-
-
 def _fans(triangles: exact.SphericalDelaunay) -> list[list[int]]:
     """Triangles around each point, counterclockwise from the lowest one.
 
     A corner of a triangle has the number 3·triangle + place. After corner k the fan goes on in the triangle opposite
     corner k + 1.
     """
-    simplices: IntArray = triangles.simplices
+    corners = triangles.simplices.ravel()
     around = np.roll(triangles.neighbors, -1, axis=1).ravel()
-    place = (simplices[around] == simplices.reshape(-1, 1)).argmax(axis=1)
-    following = (3 * around + place).tolist()
-    points, first = np.unique(simplices.ravel(), return_index=True)
+    place = (triangles.simplices[around] == corners[:, None]).argmax(axis=1)
     result: list[list[int]] = [[] for _ in triangles.points]
-    for point, start in zip(points.tolist(), first.tolist(), strict=True):
-        corner = start
-        while True:
-            result[point].append(corner // 3)
-            corner = following[corner]
-            if corner == start:
-                break
+    for fan in cycles(3 * around.astype(np.intp) + place):
+        result[corners[fan[0]]] = (fan // 3).tolist()
     return result

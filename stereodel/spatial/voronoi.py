@@ -51,15 +51,14 @@ class Voronoi(GrowingPoints, scipy.spatial.Voronoi):
     def regions(self) -> list[list[int]]:
         """Vertices of each region, counterclockwise; -1 once where it is unbounded. With "Qz" the first one is []."""
         cells = self._diagram.regions
-        return [[] for _ in range(self._empty)] + [
-            cells[site] for site in np.flatnonzero(self._diagram.is_kept).tolist()
-        ]
+        at_infinity: list[list[int]] = [[]] if "Qz" in self._options else []
+        return at_infinity + [cells[site] for site in np.flatnonzero(self._diagram.is_kept).tolist()]
 
     @cached_property
     def point_region(self) -> Indices:
         """Region of each point, (npoints,); that of the equal point for a duplicate."""
         kept = self._diagram.is_kept
-        number = np.cumsum(kept) - 1 + self._empty
+        number = np.cumsum(kept) - 1 + ("Qz" in self._options)
         result: Indices = number[self._diagram.point_region].astype(np.intp)
         if "Qc" not in self._options:
             result[~kept] = -1
@@ -69,8 +68,3 @@ class Voronoi(GrowingPoints, scipy.spatial.Voronoi):
     def ridge_dict(self) -> dict[tuple[int, int], list[int]]:
         """Row of `ridge_vertices` by the pair of points, as in `ridge_points`."""
         return dict(zip(map(tuple, self.ridge_points.tolist()), self.ridge_vertices, strict=True))
-
-    @property
-    def _empty(self) -> int:
-        """Number of regions of points at infinity."""
-        return int("Qz" in self._options)

@@ -11,7 +11,7 @@ from stereodel.sphere.arcs import (
     solid_angle,
 )
 from stereodel.sphere.circles import SphereCircle
-from stereodel.sphere.coordinates import as_direction, lonlat_to_xyz, xyz_to_lonlat
+from stereodel.sphere.coordinates import lonlat_to_xyz, xyz_to_lonlat
 from stereodel.sphere.rotations import Rotation
 
 __all__ = [
@@ -19,7 +19,6 @@ __all__ = [
     "SphereArc",
     "SphereCircle",
     "angular_distance",
-    "as_direction",
     "graticule",
     "graticule_patch",
     "great_circle_points",

@@ -161,9 +161,8 @@ class SphereCircle(Keyed):
 
 def _complete(offset: float) -> float:
     """√(1 − offset²), 1 − offset and 1 + offset being exact in double-double."""
-    one = np.float64(1.0)
-    product = DoubleDouble.difference(one, offset) * (1.0 + DoubleDouble(offset))
-    return float(product.sqrt().round())
+    cosine = DoubleDouble(offset)
+    return float(((1.0 - cosine) * (1.0 + cosine)).sqrt().round())
 
 
 def stored_unit(direction: FloatArray) -> FloatArray:
@@ -197,8 +196,3 @@ def light_cone(normal: DoubleDouble, cosine: DoubleDouble, sine: DoubleDouble) -
     plus = n_plus - d_minus if float(n_plus.hi + d_minus.hi) < 2 else d_plus - n_minus
     minus = d_minus - n_minus if float(d_minus.hi + n_minus.hi) < 2 else n_plus - d_plus
     return plus, minus
-
-
-def shift_exponent(value: DoubleDouble, exponent: np.ndarray[tuple[int, ...], np.dtype[np.int32]]) -> DoubleDouble:
-    """Times a power of two, exactly unless it underflows."""
-    return DoubleDouble(np.ldexp(value.hi, exponent), np.ldexp(value.lo, exponent))

@@ -18,6 +18,7 @@ import numpy.typing as npt
 from stereodel import _kernel
 from stereodel._arrays import (
     FloatArray,
+    IntArray,
     as_choice,
     as_direction_or_lonlat,
     as_directions,
@@ -26,7 +27,7 @@ from stereodel._arrays import (
     as_points,
 )
 from stereodel._docs import by_name
-from stereodel._double_double import DoubleDouble, by_blocks, scaled, stack, unit
+from stereodel._double_double import DoubleDouble, by_blocks, scaled, shift_exponent, stack, unit
 from stereodel._threads import thread_count
 from stereodel.sphere.degrees import angle_degrees, sin_cos_degrees
 from stereodel.sphere.latitudes import KINDS, Latitude, latitude_of, sin_cos_on_sphere
@@ -120,41 +121,22 @@ def xyz_to_lonlat(xyz: npt.ArrayLike, *, latitude: Latitude = "spherical", worke
 
 def _on_ellipsoid(rows: FloatArray, kind: Latitude) -> FloatArray:
     vectors, whole = scaled(rows)
-    # The horizontal part is scaled on its own, so that a longitude survives one subnormal step away from the pole.
-    horizontal, own = scaled(rows[:, :2])
-    exponent = own - whole
-    x, y = DoubleDouble(horizontal[:, 0]), DoubleDouble(horizontal[:, 1])
+    x, y, rho, own = _horizontal(rows)
     lon = angle_degrees(y, x)
-    root = (x * x + y * y).sqrt()
-    rho = DoubleDouble(np.ldexp(root.hi, exponent), np.ldexp(root.lo, exponent))
-    lat = latitude_of(DoubleDouble(vectors[:, 2]), rho, kind)
+    lat = latitude_of(DoubleDouble(vectors[:, 2]), shift_exponent(rho, own - whole), kind)
     return np.stack([np.where(lon == 180.0, -180.0, lon), lat], axis=-1) + 0.0
 
 
+def _horizontal(rows: FloatArray) -> tuple[DoubleDouble, DoubleDouble, DoubleDouble, IntArray]:
+    """x, y and distance from the axis of vectors (..., 3), over a power of two, and its exponent."""
+    # Scaled on its own, so that a longitude survives one subnormal step away from the pole.
+    horizontal, exponent = scaled(rows[..., :2])
+    x, y = DoubleDouble(horizontal[..., 0]), DoubleDouble(horizontal[..., 1])
+    return x, y, (x * x + y * y).sqrt(), exponent
+
+
 def as_direction(point: npt.ArrayLike, name: str = "point") -> FloatArray:
-    """One point of the sphere: (lon, lat) in degrees when of length 2, a direction when of length 3.
-
-    Parameters
-    ----------
-    point : array_like, shape (2,) or (3,)
-    name : str
-        What error messages call it.
-
-    Returns
-    -------
-    ndarray, shape (3,)
-        The unit vector of (lon, lat), or the direction as it was given.
-
-    Raises
-    ------
-    ValueError
-        For another shape, a zero vector, a latitude outside [−90, 90], NaN or infinities.
-
-    Examples
-    --------
-    >>> print(as_direction((90.0, 0.0), "focus"), as_direction((0.0, 0.0, 1.0)))
-    [0. 1. 0.] [0. 0. 1.]
-    """
+    """The direction (3,) of one point: as given, or of (lon, lat) in degrees; messages call it `name`."""
     values = as_direction_or_lonlat(point, name)
     return lonlat_to_xyz(values) if values.shape == (2,) else values
 
@@ -175,25 +157,18 @@ def tangent_frame(point: npt.ArrayLike, name: str = "point") -> DoubleDouble:
         sines, cosines = sin_cos_degrees(values)
         return _frame(sines[0], cosines[0], sines[1], cosines[1])
     up = unit(values)
-    horizontal = scaled(values[:2])[0]
-    if not horizontal.any():
-        horizontal = np.array([1.0, 0.0])
-    x, y = DoubleDouble(horizontal[0]), DoubleDouble(horizontal[1])
-    rho = (x * x + y * y).sqrt()
+    x, y, rho, _ = _horizontal(values if values[:2].any() else np.array([1.0, 0.0, 0.0]))
     sin_lon, cos_lon = y / rho, x / rho
     return _frame(sin_lon, cos_lon, up[2], up[0] * cos_lon + up[1] * sin_lon)
 
 
 def _frame(sin_lon: DoubleDouble, cos_lon: DoubleDouble, sin_lat: DoubleDouble, cos_lat: DoubleDouble) -> DoubleDouble:
-    zero = DoubleDouble(0.0)
-    rows = [
-        [-sin_lon, cos_lon, zero],
-        [-sin_lat * cos_lon, -sin_lat * sin_lon, cos_lat],
-        [cos_lat * cos_lon, cos_lat * sin_lon, sin_lat],
+    columns = [
+        [-sin_lon, -sin_lat * cos_lon, cos_lat * cos_lon],
+        [cos_lon, -sin_lat * sin_lon, cos_lat * sin_lon],
+        [DoubleDouble(0.0), cos_lat, sin_lat],
     ]
-    return DoubleDouble(
-        np.array([[float(c.hi) for c in row] for row in rows]), np.array([[float(c.lo) for c in row] for row in rows])
-    )
+    return stack([stack(column) for column in columns])
 
 
 LONLAT: Final = {

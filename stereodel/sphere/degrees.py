@@ -17,9 +17,12 @@ def sin_cos_degrees(angle: FloatArray) -> tuple[DoubleDouble, DoubleDouble]:
 
     They are exact at multiples of 90°, one of the two at odd multiples of 45°.
     """
-    parts = _kernel.sin_cos_degrees(np.ascontiguousarray(angle).ravel()).reshape(*angle.shape, 4)
-    sine, sine_low, cosine, cosine_low = (parts[..., k] for k in range(4))
-    return DoubleDouble(sine, sine_low), DoubleDouble(cosine, cosine_low)
+    return pair(_kernel.sin_cos_degrees(np.ascontiguousarray(angle).ravel()).reshape(*angle.shape, 4))
+
+
+def pair(parts: FloatArray) -> tuple[DoubleDouble, DoubleDouble]:
+    """Two numbers as the kernel gives them, (..., 4)."""
+    return DoubleDouble(parts[..., 0], parts[..., 1]), DoubleDouble(parts[..., 2], parts[..., 3])
 
 
 def angle_degrees(y: DoubleDouble, x: DoubleDouble) -> FloatArray:

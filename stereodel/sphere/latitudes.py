@@ -25,7 +25,7 @@ from stereodel import _kernel
 from stereodel._arrays import FloatArray
 from stereodel._double_double import DoubleDouble
 from stereodel.earth import FLATTENING
-from stereodel.sphere.degrees import angle_degrees, sin_cos_degrees
+from stereodel.sphere.degrees import angle_degrees, pair, sin_cos_degrees
 
 Latitude = Literal["spherical", "geodetic", "authalic"]
 
@@ -41,9 +41,7 @@ _POLAR = _ONE_LESS_F * _ONE_LESS_F  # 1 − e²
 def _authalic_factors(t: DoubleDouble) -> tuple[DoubleDouble, DoubleDouble]:
     """P and R of sin² φ: the series is the kernel's, `stereodel/kernel/coordinates/latitudes.cpp`."""
     squares = np.stack([t.hi, t.lo], axis=-1)
-    parts = _kernel.authalic_factors(squares.reshape(-1, 2)).reshape(*squares.shape[:-1], 4)
-    p, p_low, r, r_low = (parts[..., k] for k in range(4))
-    return DoubleDouble(p, p_low), DoubleDouble(r, r_low)
+    return pair(_kernel.authalic_factors(squares.reshape(-1, 2)).reshape(*squares.shape[:-1], 4))
 
 
 _P_AT_POLE, _ = _authalic_factors(DoubleDouble(np.float64(1.0)))

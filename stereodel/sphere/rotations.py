@@ -14,14 +14,12 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel import _kernel
-from stereodel._arrays import FloatArray, Keyed, as_matrix, as_quaternion, as_scalar, as_vectors
+from stereodel._arrays import FloatArray, Keyed, as_quaternion, as_scalar, as_shaped, as_vectors
 from stereodel._double_double import DoubleDouble, dot, scaled, stack, unit
 from stereodel.constants import MATRIX_ERROR
 from stereodel.sphere.coordinates import as_direction
 from stereodel.sphere.degrees import sin_cos_degrees
 from stereodel.sphere.vectors import determinant
-
-_CONJUGATE = np.array([1.0, -1.0, -1.0, -1.0])
 
 
 def multiply(p: DoubleDouble, q: DoubleDouble) -> DoubleDouble:
@@ -36,7 +34,7 @@ def _rows(vector: DoubleDouble) -> FloatArray:
 
 def conjugate(q: DoubleDouble) -> DoubleDouble:
     """The inverse rotation, exactly."""
-    return DoubleDouble(q.hi * _CONJUGATE, q.lo * _CONJUGATE)
+    return q * np.array([1.0, -1.0, -1.0, -1.0])
 
 
 def normalized(q: DoubleDouble) -> DoubleDouble:
@@ -52,8 +50,7 @@ def rotation_matrix(q: DoubleDouble) -> DoubleDouble:
 
 def transform(matrix: DoubleDouble, vectors: DoubleDouble) -> DoubleDouble:
     """Matrix (3, 3) times vectors (..., 3)."""
-    columns = [vectors[..., k] for k in range(3)]
-    return stack([sum((matrix[i, k] * columns[k] for k in (1, 2)), matrix[i, 0] * columns[0]) for i in range(3)])
+    return stack([dot(matrix[i], vectors) for i in range(3)])
 
 
 def between(a: DoubleDouble, b: DoubleDouble) -> DoubleDouble:
@@ -127,7 +124,7 @@ class Rotation(Keyed):
     @classmethod
     def from_matrix(cls, matrix: npt.ArrayLike) -> Rotation:
         """The rotation of a (3, 3) matrix, which must be orthogonal up to `MATRIX_ERROR` and of determinant +1."""
-        m = as_matrix(matrix, 3, "matrix")
+        m = as_shaped(matrix, (3, 3), "matrix")
         if np.abs(m @ m.T - np.eye(3)).max() > MATRIX_ERROR or determinant(m) < 0:
             raise ValueError("matrix is not a rotation: its columns must be orthonormal with determinant +1")
         return cls.nearest(m)

@@ -417,13 +417,16 @@ def as_triangulation(
     *,
     lonlat: npt.ArrayLike | None = None,
     latitude: Latitude | None = None,
+    workers: int | None = None,
 ) -> Triangulation:
     """The triangulation given, as it is now, or that of points of the plane, of directions, or of `lonlat`."""
     if isinstance(points, Triangulation):
         refuse_lonlat(lonlat, latitude)
-        return copy.copy(points)
+        given = copy.copy(points)
+        given._workers = points._workers if workers is None else as_workers(workers)
+        return given
     array, kind = as_sites(points, lonlat, latitude)
-    triangulation: Triangulation = surface_of(array).delaunay(array)
+    triangulation: Triangulation = surface_of(array).delaunay(array, workers=workers)
     triangulation._latitude = kind
     return triangulation
 

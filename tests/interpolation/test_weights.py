@@ -91,10 +91,10 @@ def test_a_file_gives_back_what_was_saved(tmp_path, rng):
     assert np.array_equal(again @ values, weights @ values, equal_nan=True)
     assert repr(again) == repr(weights)
     np.savez(tmp_path / "other.npz", a=1)
-    with pytest.raises(ValueError, match=r"other\.npz is not a file of weights: indptr, columns, data"):
+    with pytest.raises(ValueError, match=r"other\.npz is not a file of weights: row, col, S"):
         Weights.load(tmp_path / "other.npz")
-    parts = {name: getattr(weights, name) for name in ("indptr", "columns", "data", "shape", "size")}
-    for wrong in ({"size": 3}, {"columns": weights.columns[1:]}, {"shape": (7,)}, {"indptr": weights.indptr[::-1]}):
+    parts = dict(np.load(tmp_path / "weights.npz"))
+    for wrong in ({"src_grid_dims": [3]}, {"col": parts["col"][1:]}, {"dst_grid_dims": [7]}, {"row": parts["row"][1:]}):
         np.savez(tmp_path / "wrong.npz", **parts | wrong)
         with pytest.raises(ValueError, match="do not fit together"):
             Weights.load(tmp_path / "wrong.npz")

@@ -7,7 +7,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from stereodel._double_double import DoubleDouble, stack, unit
-from stereodel.sphere import as_direction, lonlat_to_xyz, xyz_to_lonlat
+from stereodel.sphere import lonlat_to_xyz, xyz_to_lonlat
+from stereodel.sphere.coordinates import as_direction
 from stereodel.sphere.degrees import angle_degrees, sin_cos_degrees
 from tests.exact import direction
 
