@@ -17,9 +17,9 @@ from stereodel._extras import optional
 from stereodel._spaces import SPHERE
 from stereodel.curves.clip import points_along
 from stereodel.curves.ragged import Ragged, spans
+from stereodel.curves.trace import sides_of
 from stereodel.io.formats.columns import as_text, of_objects, plain_cells
 from stereodel.io.formats.names import DataWarning, beside
-from stereodel.io.maps.on_map import steps_of
 from stereodel.io.rows_of import (
     LARGEST_SEGMENT,
     Columns,
@@ -27,7 +27,7 @@ from stereodel.io.rows_of import (
     diagram_of,
     places_of,
     point_columns,
-    ridge_arcs,
+    ridge_net,
     triangles_of,
     triangulation_of,
     usual_kind,
@@ -323,11 +323,11 @@ def _fans(mesh: Mesh, max_segment: float) -> tuple[FloatArray, Indices, Indices]
         faces = Faces.of(mesh, "cells")
         return _rings(faces.nodes[faces.polygons.values], faces.number[faces.polygons.row], center, levels)
     diagram = diagram_of(mesh)
-    arcs = ridge_arcs(diagram)
+    arcs = ridge_net(diagram).arcs()
     pieces = np.maximum(np.ceil(np.degrees(arcs.stop) / max_segment), 1).astype(np.intp)
     # Around each cell; its first point is repeated at the end and left out.
     around = points_along(voronoi_sides(diagram), arcs.spread(pieces))
-    inner = steps_of(around)
+    inner, _ = sides_of(around)
     border, owner = around.values[inner], around.row[inner]
     reach = np.zeros(len(center))
     np.maximum.at(reach, owner, np.degrees(np.arccos(np.clip(np.sum(border * center[owner], axis=1), -1, 1))))

@@ -22,14 +22,14 @@ from stereodel.constants import UNIT_ROUNDOFF
 from stereodel.curves.borders import Box, Pieces, frame_of
 from stereodel.curves.clip import chains_of, closed_along, points_along, together
 from stereodel.curves.ragged import Ragged
-from stereodel.curves.trace import Arcs, great
+from stereodel.curves.trace import Arcs, great, sides_of
 from stereodel.interpolation import Contour
 from stereodel.io.formats import wkb
 from stereodel.io.formats.map_rows import MapRows, content_of, is_frame, packed, unpacked
 from stereodel.io.formats.names import beside, spelled
 from stereodel.io.maps.clipping import clipped
 from stereodel.io.maps.dissolving import codes_of, dissolved, dividing, grouped, merged
-from stereodel.io.maps.on_map import invalid, polygons_on_map, repaired, steps_of
+from stereodel.io.maps.on_map import invalid, polygons_on_map, repaired
 from stereodel.io.maps.tiles import Net, sphere_lines, sphere_polygons
 from stereodel.io.reading import shapes_of
 from stereodel.sphere import xyz_to_lonlat
@@ -38,6 +38,7 @@ from stereodel.sphere.vectors import units
 from stereodel.triangulation import PlanarVoronoi, SphericalVoronoi
 from stereodel.triangulation.delaunay import Triangulation, state_of
 from stereodel.triangulation.diagram import Diagram
+from stereodel.triangulation.topology import edges_of
 
 Mesh = Triangulation | Diagram[Any]
 MESHES = (Triangulation, Diagram)
@@ -236,25 +237,19 @@ def _faces(
 
 def _lines(mesh: Mesh, what: str, max_segment: float, latitude: Latitude, box: Box | None) -> tuple[Columns, Packed]:
     """Edges or ridges: columns, lengths among them, and lines."""
-    if box is not None:
-        if what == "edges":
-            pairs = triangulation_of(mesh).edges
-            ends = mesh.points[pairs]
-        else:
-            diagram = diagram_of(mesh)
-            ends, ridge = diagram.segments((box.left, box.bottom, box.right, box.top))
-            pairs = diagram.ridge_points[ridge]
-        length = mesh.surface.distances(ends[:, 0], ends[:, 1])
-        lines = wkb.lines(Ragged(ends.reshape(-1, 2), 2 * np.arange(len(ends) + 1)))
-    else:
-        if what == "edges":
-            triangulation, number = triangles_of(mesh)
-            _, pairs = triangle_sides(triangulation.simplices[number])
-            arcs = Net(units(mesh.points), pairs).arcs()
-        else:
-            pairs, arcs = diagram_of(mesh).ridge_points, ridge_net(diagram_of(mesh)).arcs()
+    diagram = None if what == "edges" else diagram_of(mesh)
+    pairs = corners_of(mesh, what) if diagram is None else diagram.ridge_points
+    if box is None:
+        arcs = (Net(units(mesh.points), pairs) if diagram is None else ridge_net(diagram)).arcs()
         length = np.radians(mesh.surface.distances(arcs.start, arcs.end))
         lines = sphere_lines(arcs, max_segment, latitude)
+    else:
+        ends = mesh.points[pairs]
+        if diagram is not None:
+            ends, ridge = diagram.segments((box.left, box.bottom, box.right, box.top))
+            pairs = pairs[ridge]
+        length = mesh.surface.distances(ends[:, 0], ends[:, 1])
+        lines = wkb.lines(Ragged(ends.reshape(-1, 2), 2 * np.arange(len(ends) + 1)))
     return {"a": pairs[:, 0], "b": pairs[:, 1], "length": length}, lines
 
 
@@ -278,9 +273,8 @@ def _of_contours(contours: Sequence[Contour], max_segment: float, latitude: Lati
     points = Ragged.of([contour.points for contour in contours], nothing)
     if surface_of(points.values) is not SPHERE:
         return MapRows(columns, wkb.lines(points), crs)
-    first = steps_of(points)
+    first, lines = sides_of(points)
     arcs = great(points.values[first], points.values[first + 1])
-    lines = Ragged(np.arange(len(first)), points.offsets - np.arange(len(points) + 1))
     kind = kind or next((contour.latitude for contour in contours if contour.latitude), None) or "spherical"
     return MapRows(columns, sphere_lines(arcs, max_segment, kind, lines), "EPSG:4326")
 
@@ -373,12 +367,11 @@ def triangles_of(mesh: Mesh) -> tuple[Any, Indices]:
     return triangulation, np.flatnonzero(state_of(triangulation).open)
 
 
-def ridge_arcs(diagram: SphericalVoronoi) -> Arcs:
-    """The ridges as arcs; half great circles take their normals from the diagram."""
-    if not len(diagram.ridge_vertices):
-        return great(np.zeros((0, 3)), np.zeros((0, 3)))
-    start, end = diagram.vertices[diagram.ridge_vertices].transpose(1, 0, 2)
-    return great(start, end, diagram.ridge_normals())
+def corners_of(mesh: Mesh, what: str) -> IntArray:
+    """Indices of the corners of these triangles, or of the ends of their edges."""
+    triangulation, number = triangles_of(mesh)
+    simplices: IntArray = triangulation.simplices[number]
+    return edges_of(simplices) if what == "edges" else simplices
 
 
 def voronoi_sides(diagram: PlanarVoronoi | SphericalVoronoi) -> Ragged:

@@ -34,11 +34,11 @@ from stereodel.io.rows_of import (
     MESHES,
     Columns,
     Mesh,
+    corners_of,
     diagram_of,
     places_of,
     point_columns,
     rows_of,
-    triangulation_of,
     usual_kind,
 )
 from stereodel.io.table import AXES, PointTable
@@ -106,7 +106,8 @@ def write(
         ending = Path(path).suffix.lower().removeprefix(".")
         kind, stem = format or SAME.get(ending, ending), Path(path).stem
     writer = WRITERS[as_choice(kind, tuple(WRITERS), "format")]
-    if not isinstance(thing, (*MESHES, list)) and (unknown := [name for name in options if name != "decimals"]):
+    own = {"decimals"} if kind in ("geojson", "geojsonl") else set()
+    if not isinstance(thing, (*MESHES, list)) and (unknown := sorted(options.keys() - own)):
         raise TypeError(f"{', '.join(unknown)} is not an option where tables are written")
     with TemporaryDirectory() as folder:
         made = Path(folder, f"{stem}.{kind}")  # libraries go by the extension, and name the layer after the stem
@@ -126,8 +127,6 @@ def _layer(thing: Any, options: dict[str, Any]) -> MapRows:
     """The rows of a map for any supported `thing`."""
     if isinstance(thing, (*MESHES, list)):
         return rows_of(thing, **options)
-    if options:
-        raise TypeError(f"{', '.join(options)} is not an option of this format")
     if isinstance(thing, MapRows):
         return thing
     if isinstance(thing, PointTable):
@@ -164,9 +163,7 @@ def _mesh_columns(
 ) -> Columns:
     kind = as_choice(what or usual_kind(mesh), ("cells", "sites", "triangles", "edges"), "what")
     if kind in ("triangles", "edges"):
-        triangulation = triangulation_of(mesh)
-        rows = triangulation.edges if kind == "edges" else triangulation.simplices
-        return dict(zip("abc", rows.T, strict=False))
+        return dict(zip("abc", corners_of(mesh, kind).T, strict=False))
     places = places_of(mesh, mesh.points, latitude or mesh.latitude or "spherical")
     found = dict(zip(AXES[mesh.surface.name], places.T, strict=True))
     given = point_columns(columns, len(places))

@@ -22,7 +22,7 @@ from stereodel.constants import AT_POLE, BORDER_STEPS, CHORD_CLEARANCE, DEGREE_R
 from stereodel.curves import clip
 from stereodel.curves.borders import Antimeridian, Pieces
 from stereodel.curves.ragged import Ragged, offsets_of, spans
-from stereodel.curves.trace import Arcs, great
+from stereodel.curves.trace import Arcs, great, sides_of
 from stereodel.io.formats import wkb
 from stereodel.io.formats.map_rows import packed, shapely, unpacked
 from stereodel.io.maps.on_map import (
@@ -33,11 +33,10 @@ from stereodel.io.maps.on_map import (
     refined,
     repaired,
     simple,
-    steps_of,
-    unit,
 )
 from stereodel.sphere import xyz_to_lonlat
 from stereodel.sphere.latitudes import Latitude
+from stereodel.sphere.vectors import units
 
 Step = Callable[[], None]
 """Reports progress."""
@@ -126,7 +125,7 @@ def sphere_polygons(
         samples = sides.samples
         finer = np.zeros(len(net), dtype=bool)
         finer[sides.pieces.arcs.edge[np.searchsorted(samples.offsets, places, side="right") - 1]] = True
-        middles = unit(samples.values[places, :3] + samples.values[places + 1, :3])
+        middles = units(samples.values[places, :3] + samples.values[places + 1, :3])
         sides = replace(sides, samples=samples.inserted(places + 1, _with_lonlat(middles, latitude)))
         changed = np.unique(faces.row[finer[np.maximum(faces.values, ~faces.values)]])
         result[changed], wrong[changed], large[changed] = _drawn(faces, changed, sides, threads)
@@ -224,10 +223,10 @@ def _clear_of_sites(samples: Ragged, pieces: Pieces, border: Antimeridian, sites
     foot = np.abs(np.sum(sites[pieces.arcs.edge] * pieces.arcs.axis, axis=1))
 
     def rule(some: Ragged, rows: Indices) -> tuple[Indices, FloatArray]:
-        step = steps_of(some)
+        step, _ = sides_of(some)
         piece = rows[some.row[step]]
         p, q = some.values[step], some.values[step + 1]
-        middle, half = unit(p + q), _lengths(q - p) / 2
+        middle, half = units(p + q), _lengths(q - p) / 2
         allowed = _allowed(sites[pieces.arcs.edge[piece]], middle, half, foot[piece])
         # Few chords come close to the limit; the others need no latitudes.
         unsure = np.flatnonzero(_most_straying(middle, half) > allowed)
@@ -382,7 +381,7 @@ def _crossing(faces: Ragged, sides: Sides) -> Indices:
         return step
     flat = sides.border.flat(walk.samples)
     ends = np.stack([flat[step], flat[step + 1]], axis=1)
-    middle = unit(walk.samples.values[step, :3] + walk.samples.values[step + 1, :3])
+    middle = units(walk.samples.values[step, :3] + walk.samples.values[step + 1, :3])
     along = sides.pieces.along[walk.pieces[walk.samples.row[step]]]
     off = _straying(walk.samples, step, middle, along, sides.border).max(axis=1)
     lines = shapely.linestrings(ends)
