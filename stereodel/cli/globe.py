@@ -60,10 +60,7 @@ Projection = Literal["globe", "stereographic", "hemispheres"]
 def command(
     *,
     output: options.File,
-    points: Annotated[
-        str | None,
-        typer.Argument(metavar="POINTS", help="Table of points: .csv, .geojson, .parquet, .gpkg; - for stdin."),
-    ] = None,
+    points: Annotated[str | None, typer.Argument(metavar="POINTS", help="Table of points; - is stdin.")] = None,
     show: Annotated[
         str | None,
         typer.Option(
@@ -74,37 +71,18 @@ def command(
     focus: options.Focus = None,
     magnify: options.Magnify = 1.0,
     view: Annotated[
-        str | None,
-        typer.Option(
-            metavar="LON,LAT", help="Centre of the picture; by default the focus, else the centre of the points."
-        ),
+        str | None, typer.Option(metavar="LON,LAT", help="Centre; else the focus, or the middle of the points.")
     ] = None,
-    projection: Annotated[
-        Projection, typer.Option("--projection", help="A globe, or flat stereographic maps of half or all of it.")
-    ] = "globe",
-    texture: Annotated[
-        str | None,
-        typer.Option(
-            metavar="IMAGE", help="Image of the Earth in longitude and latitude, or the built-in blue-marble."
-        ),
-    ] = None,
+    projection: Annotated[Projection, typer.Option(help="A globe, or flat maps of half or all of it.")] = "globe",
+    texture: Annotated[str | None, typer.Option(metavar="IMAGE", help="Image of the Earth; or blue-marble.")] = None,
     layer: Annotated[
         list[str] | None,
         typer.Option(
-            "--layer",
-            metavar="FILE[,color=…,width=…]",
-            help="Points, lines or polygons to draw: .geojson, .gpkg …, with color, width, outline, size or column; "
-            "repeatable.",
+            metavar="FILE[,color=…,width=…]", help=f"Shapes to draw, with {', '.join(LAYER_KEYS)}; repeatable."
         ),
     ] = None,
-    labels: Annotated[
-        str | None,
-        typer.Option(metavar="COLUMN", help="Labels of the points, as many as fit, in the order of the rows."),
-    ] = None,
-    fly: Annotated[
-        list[str] | None,
-        typer.Option(metavar="LON,LAT", help="For films: fly from the focus to this place; repeatable."),
-    ] = None,
+    labels: Annotated[str | None, typer.Option(metavar="COLUMN", help="Labels of points, as many as fit.")] = None,
+    fly: Annotated[list[str] | None, typer.Option(metavar="LON,LAT", help="For films: fly there; repeatable.")] = None,
     picture: options.Picture,
     columns: options.Table,
 ) -> None:

@@ -16,9 +16,7 @@ PICTURES = ("jpg", "jpeg", "png", "webp")
 @options.grouped
 def command(
     *,
-    picture: Annotated[
-        str, typer.Argument(metavar="PICTURE", help="Panorama, twice as wide as high: .jpg, .png, .webp, .tif …")
-    ],
+    picture: Annotated[str, typer.Argument(metavar="PICTURE", help="Twice as wide as high: .jpg, .png, .webp, .tif …")],
     output: options.Output,
     focus: options.Focus = None,
     magnify: options.Magnify = 1.0,
@@ -26,18 +24,10 @@ def command(
         Literal["equirectangular", "cubemap", "planet"],
         typer.Option("--to", help="Another panorama, the six faces of a cube, or a little planet."),
     ] = "equirectangular",
-    view: Annotated[
-        str | None,
-        typer.Option(metavar="LON,LAT", help="Centre of the result; by default 0,0; for planets 0,-90."),
-    ] = None,
-    size: Annotated[
-        int | None,
-        typer.Option(min=1, metavar="PIXELS", help="Width of the result or of a face; by default as fine as PICTURE."),
-    ] = None,
+    view: Annotated[str | None, typer.Option(metavar="LON,LAT", help="Centre; else 0,0, of planets 0,-90.")] = None,
+    size: Annotated[int | None, typer.Option(min=1, metavar="PIXELS", help="Width, or that of a face.")] = None,
     angular_radius: Annotated[float, typer.Option(metavar="DEGREES", help="Angular radius of a planet.")] = 140.0,
-    faces: Annotated[
-        bool, typer.Option("--faces", help="For cubemaps: a file for each face, NAME_right.jpg …")
-    ] = False,
+    faces: Annotated[bool, typer.Option("--faces", help="A file for each face of a cubemap: NAME_right.jpg …")] = False,
 ) -> None:
     """Write a 360° picture as seen through a conformal fisheye: places near the focus grow, circles stay round.
 

@@ -19,21 +19,9 @@ def command(
     output: options.Output,
     area_unit: Annotated[Literal["km2", "sr"], typer.Option(help="Unit of the areas, not in a plane.")] = "km2",
     max_segment: options.MaxSegment = 1.0,
-    clip: Annotated[
-        str | None,
-        typer.Option(
-            metavar="land|FILE", help="Clip the cells to land, or to the polygons of a file; areas are those inside."
-        ),
-    ] = None,
-    dissolve: Annotated[
-        str | None,
-        typer.Option(
-            metavar="COLUMN", help="One feature for all cells of equal value in this column, in place of one a point."
-        ),
-    ] = None,
-    of: Annotated[
-        str | None, typer.Option(metavar="FILE", help="Points to gather by cells, in place of a spatial join.")
-    ] = None,
+    clip: Annotated[str | None, typer.Option(metavar="land|FILE", help="Clip to land or a file's polygons.")] = None,
+    dissolve: Annotated[str | None, typer.Option(metavar="COLUMN", help="One feature for equal values.")] = None,
+    of: Annotated[str | None, typer.Option(metavar="FILE", help="Points to gather by cells.")] = None,
     sums: Annotated[list[str] | None, typer.Option("--sum", metavar="COLUMN", help="Column of --of to add up.")] = None,
     means: Annotated[list[str] | None, typer.Option("--mean", metavar="COLUMN", help="The same to average.")] = None,
     rows: Annotated[bool, typer.Option("--rows", help="Count the rows of --of.")] = False,

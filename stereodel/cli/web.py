@@ -14,16 +14,8 @@ EXAMPLE = "stereodel web cities.csv -o cities.html --open"
 @options.grouped
 def command(
     *,
-    points: Annotated[
-        str | None,
-        typer.Argument(metavar="POINTS", help="Table of points to open with the page: .csv, .geojson …; - for stdin."),
-    ] = None,
-    out: Annotated[
-        str | None,
-        typer.Option(
-            "--out", "-o", metavar="FILE", help="File to write, .html, named after the table by default; - for stdout."
-        ),
-    ] = None,
+    points: Annotated[str | None, typer.Argument(metavar="POINTS", help="Table to open with; - is stdin.")] = None,
+    out: Annotated[str | None, typer.Option("--out", "-o", metavar="FILE", help="File, .html; - is stdout.")] = None,
     open_it: Annotated[bool, typer.Option("--open", help="Open the page in the browser.")] = False,
     resolution: Annotated[
         Literal["50m", "110m"], typer.Option(help="Land at 1 : 50 or 1 : 110 million; the latter makes a smaller page.")

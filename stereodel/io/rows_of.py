@@ -240,7 +240,7 @@ def _lines(mesh: Mesh, what: str, max_segment: float, latitude: Latitude, box: B
     diagram = None if what == "edges" else diagram_of(mesh)
     pairs = corners_of(mesh, what) if diagram is None else diagram.ridge_points
     if box is None:
-        arcs = (Net(units(mesh.points), pairs) if diagram is None else ridge_net(diagram)).arcs()
+        arcs = (Net(units(mesh.points), pairs.astype(np.intp)) if diagram is None else ridge_net(diagram)).arcs()
         length = np.radians(mesh.surface.distances(arcs.start, arcs.end))
         lines = sphere_lines(arcs, max_segment, latitude)
     else:

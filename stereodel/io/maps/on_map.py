@@ -38,7 +38,7 @@ def close_in_longitude(samples: Ragged, step_rad: float) -> Ragged:
     """Points of arcs, with more inserted between those too far apart in longitude, as near a pole."""
 
     def rule(some: Ragged, _: Indices) -> tuple[Indices, FloatArray]:
-        step, _ = sides_of(some)
+        step = sides_of(some)[0]
         reach = np.hypot(some.values[:, 0], some.values[:, 1])
         # Projected onto the cylinder through the equator; a pole has no longitude.
         level = some.values / np.where(reach > AT_POLE, reach, 1.0)[:, None]
