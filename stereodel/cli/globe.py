@@ -52,7 +52,6 @@ USUAL = "land,graticule,coastlines,cells,points"
 LAYER_KEYS = ("color", "width", "outline", "size", "column")
 """Of `--layer FILE,key=…`."""
 
-
 Projection = Literal["globe", "stereographic", "hemispheres"]
 
 
@@ -65,7 +64,7 @@ def command(
         str | None,
         typer.Option(
             metavar="NAMES",
-            help=f"Of {', '.join(MAPS + OF_POINTS)}; or none. By default {USUAL}, without land over a texture.",
+            help=f"Of {', '.join(MAPS + OF_POINTS)}; or none. By default {USUAL}, no land over a texture.",
         ),
     ] = None,
     focus: options.Focus = None,
@@ -77,9 +76,7 @@ def command(
     texture: Annotated[str | None, typer.Option(metavar="IMAGE", help="Image of the Earth; or blue-marble.")] = None,
     layer: Annotated[
         list[str] | None,
-        typer.Option(
-            metavar="FILE[,color=…,width=…]", help=f"Shapes to draw, with {', '.join(LAYER_KEYS)}; repeatable."
-        ),
+        typer.Option(metavar="FILE[,color=…,width=…]", help=f"Shapes; with {', '.join(LAYER_KEYS)}; repeatable."),
     ] = None,
     labels: Annotated[str | None, typer.Option(metavar="COLUMN", help="Labels of points, as many as fit.")] = None,
     fly: Annotated[list[str] | None, typer.Option(metavar="LON,LAT", help="For films: fly there; repeatable.")] = None,
@@ -110,12 +107,9 @@ def command(
     at = None if focus is None else options.place(focus, "--focus")
     middle = None if view is None else options.place(view, "--view")
     aim = Aim(at, magnify, middle, projection)
-    shown, table = shown_of(show, texture), None
-    if points is not None:
-        table = columns.read(points)
+    shown, table = shown_of(show, texture), None if points is None else columns.read(points)
     with reporting("reading maps"):
-        resolution, spacing = ("50m", FILM_SPACING) if filming else (aim.resolution, None)
-        drawing = new_globe(shown, resolution, spacing, texture)
+        drawing = new_globe(shown, "50m" if filming else aim.resolution, FILM_SPACING if filming else None, texture)
         drawing.title = picture.title
         for path, looks in layers:
             with naming(str(path)):
@@ -228,21 +222,13 @@ def layer_of(text: str) -> tuple[Path, dict[str, Any]]:
 
     path, *given = [text] if Path(text).exists() else re.split(r",(?=\w+=)", text)
     looks = dict(part.split("=", 1) for part in given)
-    for key in looks:
-        if key not in LAYER_KEYS:
-            raise ValueError(f"--layer {text}: {key} is unknown; the keys are {', '.join(LAYER_KEYS)}")
-
-    column, bare = looks.pop("column", None), looks.get("outline") == "none"
+    if unknown := [key for key in looks if key not in LAYER_KEYS]:
+        raise ValueError(f"--layer {text}: {unknown[0]} is unknown; the keys are {', '.join(LAYER_KEYS)}")
+    column, bare = looks.pop("column", None), looks.get("outline") == "none" and bool(looks.pop("outline"))
     readers: dict[str, Any] = {"color": as_color, "outline": as_color, "width": as_length, "size": as_length}
-    read = {
-        key: readers[key](value, f"--layer: {key}")
-        for key, value in looks.items()
-        if (key, value) != ("outline", "none")
-    }
-    color, width, edge = (
-        {key: read[of]} if of in read else {}
-        for key, of in (("color", "color"), ("width", "width"), ("color", "outline"))
-    )
+    read = {key: readers[key](value, f"--layer: {key}") for key, value in looks.items()}
+    color, width = ({of: read[of] for of in read if of == key} for key in ("color", "width"))
+    edge = {"color": read["outline"]} if "outline" in read else {}
     radius = read.get("size", 2 * MAP_DOT.radius) / 2
     return Path(path), {
         **color,
@@ -287,14 +273,15 @@ def motion_of(aim: Aim, stops: Sequence[options.Place]) -> Motion:
     from stereodel.conformal import GroupPath
     from stereodel.film import Flight, Morph, Spin, Stop
 
-    if aim.projection == "hemispheres" or (aim.projection != "globe" and stops):
+    grows = aim.magnification != 1 and not stops
+    if aim.projection == "hemispheres" or (aim.projection != "globe" and not grows):
         raise ValueError(f"--projection {aim.projection} cannot move; films are of the globe")
+    if grows:
+        return Morph(GroupPath(MoebiusMap.identity(), aim.lens), aim.views[0], seconds=SECONDS, back=True)
     if stops:
         return Flight([Stop(place, aim.magnification) for place in (aim.place, *stops)])
-    if aim.magnification == 1:
-        lon, lat = aim.middle or aim.place
-        return Spin(aim.lens, seconds=SECONDS, lon=lon, lat=lat)
-    return Morph(GroupPath(MoebiusMap.identity(), aim.lens), aim.views[0], seconds=SECONDS, back=True)
+    lon, lat = aim.middle or aim.place
+    return Spin(aim.lens, seconds=SECONDS, lon=lon, lat=lat)
 
 
 def save_film(globe: Globe, motion: Motion, path: Path, *, size: int, fps: float) -> None:
