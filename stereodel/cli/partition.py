@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -40,6 +40,7 @@ def command(
     if (lon is None) != (lat is None):
         raise ValueError("--lon and --lat are given together")
     names = {**ARGUMENTS, "columns": "--plane" if plane else "--lon"}
+    written: dict[str, Any] = {"keep": keep or [], "triangles": False, "cells": shapes}
     with reporting() as progress, spelling(names):
         try:
             run = triangulate(
@@ -48,9 +49,7 @@ def command(
                 columns=plane or (None if lon is None or lat is None else (lon, lat)),
                 surface="plane" if plane else "sphere",
                 latitude=latitude,
-                keep=keep or [],
-                triangles=False,
-                cells=shapes,
+                **written,
                 execution=Execution(partition or Execution.partition, resume=not overwrite, progress=progress),
             )
         except KeyboardInterrupt:

@@ -17,9 +17,7 @@ def command(
     points: Annotated[str | None, typer.Argument(metavar="POINTS", help="Table to open with; - is stdin.")] = None,
     out: Annotated[str | None, typer.Option("--out", "-o", metavar="FILE", help="File, .html; - is stdout.")] = None,
     open_it: Annotated[bool, typer.Option("--open", help="Open the page in the browser.")] = False,
-    resolution: Annotated[
-        Literal["50m", "110m"], typer.Option(help="Land at 1 : 50 or 1 : 110 million; the latter makes a smaller page.")
-    ] = "50m",
+    resolution: Annotated[Literal["50m", "110m"], typer.Option(help="Of the land; 110m is a smaller page.")] = "50m",
     columns: options.Table,
     latitude: options.LatitudeKind = "authalic",
     overwrite: options.Overwrite = False,

@@ -110,25 +110,25 @@ class Grid(Shown):
 
     def __post_init__(self) -> None:
         axes = tuple(self.axes) or AXES[as_choice(self.surface, tuple(AXES), "surface")]
-        lon, lat = (read_only(as_floats(axis, name)) for axis, name in ((self.lon, "lon"), (self.lat, "lat")))
-        for axis, name in ((lon, "lon"), (lat, "lat")):
+        for name in ("lon", "lat"):
+            axis = read_only(as_floats(getattr(self, name), name))
+            object.__setattr__(self, name, axis)
             if axis.ndim != 1 or not len(axis):
                 raise ValueError(f"{name} must have shape (n,) with at least one entry, got {axis.shape}")
             steps = np.diff(axis)
             if len(steps) and (steps.min() <= 0 or np.ptp(steps) > GRID_ROUNDING * steps.max()):
                 raise ValueError(f"{name} must grow by equal steps, which go from {steps.min()} to {steps.max()}")
         if self.surface == "sphere":
-            as_lonlat(np.column_stack([np.zeros(len(lat)), lat]), "lat")
+            as_lonlat(np.column_stack([np.zeros(len(self.lat)), self.lat]), "lat")
             object.__setattr__(self, "crs", DEGREES)
         values = {str(name): read_only(np.asarray(array, dtype=np.float64)) for name, array in self.values.items()}
         for name, array in values.items():
-            if array.shape != (len(lat), len(lon)):
-                raise ValueError(f"values[{name!r}] must have shape {(len(lat), len(lon))}, got {array.shape}")
+            if array.shape != (shape := (len(self.lat), len(self.lon))):
+                raise ValueError(f"values[{name!r}] must have shape {shape}, got {array.shape}")
         unknown = sorted(set(self.units) - set(values))
         if values and unknown:
             raise ValueError(f"units are given for {', '.join(map(repr, unknown))}, which are not among the values")
-        for name, value in (("lon", lon), ("lat", lat), ("axes", axes)):
-            object.__setattr__(self, name, value)
+        object.__setattr__(self, "axes", axes)
         object.__setattr__(self, "values", MappingProxyType(values))
 
     def __reduce__(self) -> tuple[Any, ...]:  # a read-only mapping cannot be pickled or copied
@@ -151,9 +151,9 @@ class Grid(Shown):
         spacing : float
             Degrees between neighbouring nodes, for the whole Earth a divisor of 180; or units of the plane.
         bounds : (4,) array_like or "world", optional
-            (west, south, east, north) in degrees; east is less than west if the grid crosses the 180th meridian. In the
-            plane (xmin, ymin, xmax, ymax). The grid starts at the southwest corner and extends as far as it fits. By
-            default the extent of `of`, up to the next multiples of `spacing`; without `of`, "world", the whole Earth.
+            (west, south, east, north) in degrees, east below west across the 180th meridian; in the plane (xmin, ymin,
+            xmax, ymax). The grid starts at the southwest corner and extends as far as it fits. By default the extent
+            of `of`, up to the next multiples of `spacing`; without `of`, "world", the whole Earth.
         of : PointTable, optional
             Points whose plane or sphere, names of coordinates and coordinate system the grid takes.
         centers : bool
@@ -182,9 +182,8 @@ class Grid(Shown):
                 raise ValueError(f"{name} is {(west, south, east, north)}, but south must be below north")
             east = east if east > west else east + 360.0
         sides = ((west, east), (south, north))
-        step = as_scalar(
-            spacing, spelled("spacing"), low=0.0, high=min(high - low for low, high in sides), open_low=True
-        )
+        shorter = min(high - low for low, high in sides)
+        step = as_scalar(spacing, spelled("spacing"), low=0.0, high=shorter, open_low=True)
         most = 2.0 * MOST_PLACES
         counts = [int(min((high - low) / step + GRID_ROUNDING, most)) + (0 if centers else 1) for low, high in sides]
         _check_places(step, *counts)
@@ -215,9 +214,7 @@ class Grid(Shown):
     @property
     def steps(self) -> tuple[float, float]:
         """Distances of neighbours along both axes; along an axis with one node, the size of its cell."""
-        lon, lat = (
-            float(axis[-1] - axis[0]) / (len(axis) - 1) if len(axis) > 1 else 0.0 for axis in (self.lon, self.lat)
-        )
+        lon, lat = (float(axis[-1] - axis[0]) / max(len(axis) - 1, 1) for axis in (self.lon, self.lat))
         return lon or lat or 1.0, lat or lon or 1.0
 
     def to_xarray(self) -> Any:
@@ -246,9 +243,8 @@ class Grid(Shown):
             coordinates[name] = (name, places, attributes)
         named = beside([*variables, *coordinates, "crs", "bnds"], self.values)
         for (given, values), name in zip(self.values.items(), named, strict=True):
-            own = {"units": self.units[given]} if given in self.units else {}
-            own = {"long_name": given} | ({"grid_mapping": "crs"} if system else {}) | own
-            variables[name] = (self.axes[::-1], values, own)
+            own = {"long_name": given, "grid_mapping": "crs" if system else None, "units": self.units.get(given)}
+            variables[name] = (self.axes[::-1], values, {key: each for key, each in own.items() if each is not None})
         dataset = optional("xarray", "grid").Dataset(variables, coordinates, {"Conventions": "CF-1.8"})
         for name, variable in dataset.variables.items():  # in files, values can be missing, and nothing else
             variable.encoding["_FillValue"] = np.nan if name in named else None

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import shutil
 from collections.abc import Callable, Mapping
-from contextlib import nullcontext
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any, BinaryIO, Final
@@ -63,8 +62,8 @@ def write(
     path : path-like or binary stream
         Files are written completely or not at all; an existing file is replaced.
     thing : Mesh, PointTable, Grid, list of Contour, or geopandas.GeoDataFrame
-        A triangulation or diagram of the plane or sphere; a table or frame for formats that hold tables; a grid for
-        csv, nc or tif; contours for formats that hold lines.
+        A triangulation or diagram; a table or frame for formats of tables; a grid for csv, nc or tif; contours for
+        formats of lines.
     format : str, optional
         By default the extension of the path. Required for a stream.
     progress : callable, optional
@@ -79,17 +78,14 @@ def write(
     ------
     ValueError, TypeError
         If the extension or format is unknown, the format cannot hold `thing`, or an option does not apply.
-    ImportError
-        If the library for the format is missing; the message names the extra that installs it.
-    OSError
-        If the file cannot be written.
+    ImportError, OSError
+        If the library for the format is missing, or the file cannot be written.
 
     Notes
     -----
-    CSV, which needs no other library, and XLSX: for cells and sites, one row for each point, duplicates included, with
-    lon and lat (x and y in the plane), the area of its cell and `columns`, or with `dissolve` one row for each value;
-    for triangles and edges, the indices of their corners, from 0. Their options are `what`, `columns`, `latitude`,
-    `radius` and `dissolve`.
+    CSV, which needs no other library, and XLSX have for cells and sites one row for each point, duplicates included,
+    with its coordinates, the area of its cell and `columns`, or with `dissolve` one for each value; for triangles and
+    edges, the indices of their corners. Their options are `what`, `columns`, `latitude`, `radius` and `dissolve`.
 
     Examples
     --------
@@ -111,12 +107,13 @@ def write(
         raise TypeError(f"{', '.join(unknown)} is not an option where tables are written")
     with TemporaryDirectory() as folder:
         made = Path(folder, f"{stem}.{kind}")  # libraries go by the extension, and name the layer after the stem
-        with said_of(path, folder) if isinstance(path, str | os.PathLike) else nullcontext():
-            writer(thing, made, options, progress)
         if not isinstance(path, str | os.PathLike):
+            writer(thing, made, options, progress)
             with made.open("rb") as stream:
                 shutil.copyfileobj(stream, path)
             return
+        with said_of(path, folder):
+            writer(thing, made, options, progress)
         # A shapefile consists of several files; the named one is written last, as the others mean nothing without it.
         for part in sorted(Path(folder).iterdir(), key=lambda part: part == made):
             with replacing(path if part == made else Path(path).with_suffix(part.suffix)) as temporary:
@@ -140,10 +137,11 @@ def _layer(thing: Any, options: dict[str, Any]) -> MapRows:
 def _write_table(thing: Any, path: Path, options: dict[str, Any], progress: Progress | None) -> None:
     if isinstance(thing, MESHES):
         columns = _mesh_columns(thing, **options)
-    elif isinstance(thing, Grid | PointTable | dict):
-        columns = thing if isinstance(thing, dict) else thing.located()
+    elif isinstance(thing, dict):
+        columns = thing
     else:
-        columns = read_points(_layer(thing, options).frame()).located()
+        table = thing if isinstance(thing, Grid | PointTable) else read_points(_layer(thing, options).frame())
+        columns = table.located()
     if path.suffix == ".xlsx":
         count = max((len(values) for values in columns.values()), default=0)
         write_layer(MapRows(columns, np.full(count, None, dtype=object)), path, progress=progress)

@@ -57,7 +57,8 @@ class Mask:
         world = shapely.box(-180.0, -90.0, 180.0, 90.0)
         if not shapely.covers(world, whole):
             west, _, east, _ = np.floor((shapely.bounds(whole) + 180.0) / 360.0).astype(int).tolist()
-            turned = [_moved(whole, -360.0 * turns) for turns in range(west, east + 1)]
+            around = (np.array([-360.0 * turns, 0.0]) for turns in range(west, east + 1))
+            turned = [shapely.transform(whole, step.__add__) for step in around]
             whole = shapely.intersection(shapely.union_all(turned), world)
         self._tile = cache(self._made)
         self._whole = whole
@@ -93,11 +94,6 @@ class Mask:
             waiting = waiting[~fits]
         result[waiting] = areal(shapely.intersection(polygons[waiting], self._whole))
         return result
-
-
-def _moved(geometry: Any, degrees: float) -> Any:
-    """A geometry shifted eastward."""
-    return shapely.transform(geometry, lambda lonlat: lonlat + np.array([degrees, 0.0]))
 
 
 def areal(geometries: Geometries) -> Geometries:

@@ -40,9 +40,8 @@ def warp(shapes: Any, lens: MoebiusMap, *, tolerance: float = 0.01) -> Any:
     Parameters
     ----------
     shapes : geometry, array_like of geometries, GeoSeries or GeoDataFrame
-        In degrees. Polygons are as in GeoJSON and shapefiles: valid, cut at ±180°, with edges straight in longitude and
-        latitude. Lines that jump by more than 180° continue across ±180°. Frames in another coordinate system are
-        transformed to EPSG:4326 first. Heights are dropped.
+        In degrees; frames in another coordinate system are transformed. Polygons are valid, cut at ±180°, with edges
+        straight in longitude and latitude; lines that jump by more than 180° continue across ±180°. Heights are lost.
     lens : MoebiusMap
     tolerance : float
         Largest deviation of the straight segments of the result from the exact image, in degrees on the sphere.
@@ -50,10 +49,9 @@ def warp(shapes: Any, lens: MoebiusMap, *, tolerance: float = 0.01) -> Any:
     Returns
     -------
     geometry, ndarray of geometries, GeoSeries or GeoDataFrame
-        Same type and order as the input, None and empty geometries unchanged. Coordinates are in [−180, 180] × [−90,
-        90], with new vertices where edges bend. Polygons are valid, cut at ±180° and closed along ±90° around poles
-        that they contain; parts that met at ±180° are merged if they no longer lie there. A polygon may become a
-        MultiPolygon, a line a MultiLineString.
+        Same type and order as the input, None and empty geometries unchanged, with new vertices where edges bend.
+        Polygons are valid, cut at ±180° and closed along ±90° around poles that they contain; parts that met at ±180°
+        are merged if they no longer lie there. A polygon may become a MultiPolygon, a line a MultiLineString.
 
     Raises
     ------
@@ -64,9 +62,8 @@ def warp(shapes: Any, lens: MoebiusMap, *, tolerance: float = 0.01) -> Any:
 
     Notes
     -----
-    The image of a great-circle arc is a circular arc, which is computed in closed form rather than by bisection, so an
-    edge near the focus is as exact as any other. The interior of a polygon is on the left of its boundary, and a
-    conformal map keeps it there, however large it becomes.
+    The image of a great-circle arc is a circular arc, which is computed in closed form: an edge near the focus is as
+    exact as any other. The interior of a polygon stays on the left of its boundary, however large it becomes.
 
     The chords of a polygon narrower than 2⁻⁸ of the tolerance may cross: it becomes a row of slivers that deviate by no
     more than the tolerance. Below 1e-8 degrees, and at a pole, its sides may have the same chords: it is then empty.
