@@ -6,6 +6,7 @@ What people rarely type is in style files (`--style`), in the table itself, or i
 from __future__ import annotations
 
 import re
+import sys
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -61,11 +62,7 @@ def command(
     output: options.File,
     points: Annotated[str | None, typer.Argument(metavar="POINTS", help="Table of points; - is stdin.")] = None,
     show: Annotated[
-        str | None,
-        typer.Option(
-            metavar="NAMES",
-            help=f"Of {', '.join(MAPS + OF_POINTS)}; or none. By default {USUAL}, no land over a texture.",
-        ),
+        str | None, typer.Option(metavar="NAMES", help=f"Of {', '.join(MAPS + OF_POINTS)}; or none. Else {USUAL}.")
     ] = None,
     focus: options.Focus = None,
     magnify: options.Magnify = 1.0,
@@ -75,8 +72,7 @@ def command(
     projection: Annotated[Projection, typer.Option(help="A globe, or flat maps of half or all of it.")] = "globe",
     texture: Annotated[str | None, typer.Option(metavar="IMAGE", help="Image of the Earth; or blue-marble.")] = None,
     layer: Annotated[
-        list[str] | None,
-        typer.Option(metavar="FILE[,color=…,width=…]", help=f"Shapes; with {', '.join(LAYER_KEYS)}; repeatable."),
+        list[str] | None, typer.Option(metavar="FILE[,KEY=…]", help=f"Shapes; {', '.join(LAYER_KEYS)}; repeatable.")
     ] = None,
     labels: Annotated[str | None, typer.Option(metavar="COLUMN", help="Labels of points, as many as fit.")] = None,
     fly: Annotated[list[str] | None, typer.Option(metavar="LON,LAT", help="For films: fly there; repeatable.")] = None,
@@ -118,10 +114,17 @@ def command(
             aim = aim.with_middle_of(table.points("authalic"))
             add_points(drawing, table, shown, labels)
     if filming:
-        motion = motion_of(aim, [options.place(text, "--fly") for text in fly or ()])
-        fps = GIF_FPS if destination.kind == "gif" else FPS
-        with destination.file() as target:
-            save_film(drawing, motion, target, size=picture.size or 720, fps=fps)
+        from stereodel.film import Film, FrameError
+
+        motion, size = motion_of(aim, [options.place(text, "--fly") for text in fly or ()]), picture.size or 720
+        film = Film.of_globe(drawing, motion, size=(size, size), fps=GIF_FPS if destination.kind == "gif" else FPS)
+        try:
+            with destination.file() as target:
+                film.save(target, progress=sys.stderr.isatty())
+        except FrameError as error:
+            raise OSError(str(error)) from error
+        except KeyboardInterrupt:  # what is drawn is kept next to the file
+            raise KeyboardInterrupt(KEPT) from None
         return
     with reporting("drawing"), destination.file() as target:
         size = picture.size or 1600
@@ -282,17 +285,3 @@ def motion_of(aim: Aim, stops: Sequence[options.Place]) -> Motion:
         return Flight([Stop(place, aim.magnification) for place in (aim.place, *stops)])
     lon, lat = aim.middle or aim.place
     return Spin(aim.lens, seconds=SECONDS, lon=lon, lat=lat)
-
-
-def save_film(globe: Globe, motion: Motion, path: Path, *, size: int, fps: float) -> None:
-    """Draw the frames and write the file; after an interruption, finished frames are kept next to it."""
-    import sys
-
-    from stereodel.film import Film, FrameError
-
-    try:
-        Film.of_globe(globe, motion, size=(size, size), fps=fps).save(path, progress=sys.stderr.isatty())
-    except FrameError as error:
-        raise OSError(str(error)) from error
-    except KeyboardInterrupt:
-        raise KeyboardInterrupt(KEPT) from None

@@ -8,6 +8,7 @@ from typing import Annotated, Any, Literal
 import typer
 
 from stereodel.cli import options
+from stereodel.sphere.latitudes import Latitude
 
 EXAMPLE = "stereodel triangulate stations.csv -o triangles.geojson"
 
@@ -28,7 +29,6 @@ def command(
     shape. If all points lie in one hemisphere, the triangles that close the far side are left out.
     """
     from stereodel.cli.application import NothingToDoError, reporting, say
-    from stereodel.io import write
     from stereodel.io.rows_of import corners_of, rows_of
     from stereodel.triangulation.delaunay import as_triangulation
 
@@ -53,12 +53,21 @@ def command(
             layer = rows_of(triangulation, progress=shown, **said)
         rows = {name: table.rows[layer.columns[name]] for name in "abc" if name in layer.columns}
         found = replace(layer, columns=rows)
-    with reporting(f"writing {output.out}") as told, destination.file() as path:
-        if kind in options.PICTURES:
+    written(destination, triangulation, found, table.columns, latitude)
+    say(f"{output.out}: {count} triangles of {len(table)} points")
+
+
+def written(place: options.Destination, mesh: Any, found: Any, columns: Any, latitude: Latitude) -> None:
+    """Write what was found, or draw the triangulation or diagram that it is of."""
+    from stereodel.cli.application import reporting
+    from stereodel.io import write
+
+    own: dict[str, Any] = {"columns": columns} if place.kind in options.VALUED else {}
+    own |= {"latitude": latitude} if place.kind == "nc" else {}
+    with reporting(f"writing {place.name}") as told, place.file() as path:
+        if place.kind in options.PICTURES:
             from stereodel.drawing import diagram_page
 
-            diagram_page(triangulation).save(path)
+            diagram_page(mesh).save(path)
         else:
-            own: dict[str, Any] = {"columns": table.columns} if kind in options.VALUED else {}
-            write(path, found, progress=told, **own, **({"latitude": latitude} if kind == "nc" else {}))
-    say(f"{output.out}: {count} triangles of {len(table)} points")
+            write(path, found, progress=told, **own)

@@ -63,14 +63,11 @@ class Grid(Shown):
 
     Parameters
     ----------
-    lon : (w,) array_like
-        Degrees, from west to east in equal steps; above 180 where the grid crosses the 180th meridian. In the plane x.
-    lat : (h,) array_like
-        Degrees in [−90, 90], from south to north in equal steps. In the plane y.
-    values : mapping of str to (h, w) array_like
-        Values by name, rows from south to north; NaN marks a missing value.
-    units : mapping of str to str, optional
-        Units by name, for some or all of the values.
+    lon, lat : (w,), (h,) array_like
+        Degrees in equal steps from west to east, above 180 where the grid crosses the 180th meridian, and from south to
+        north, in [−90, 90]; in the plane x and y.
+    values, units : mapping of str to (h, w) array_like, and of str to str, optional
+        Values by name, rows from south to north, NaN where one is missing; and the units of some or all.
     centers : bool
         Whether values belong to cells, with the nodes at their centres.
     surface, axes, crs
@@ -149,7 +146,7 @@ class Grid(Shown):
         Parameters
         ----------
         spacing : float
-            Degrees between neighbouring nodes, for the whole Earth a divisor of 180; or units of the plane.
+            Degrees between neighbours, for the whole Earth a divisor of 180; or units of the plane.
         bounds : (4,) array_like or "world", optional
             (west, south, east, north) in degrees, east below west across the 180th meridian; in the plane (xmin, ymin,
             xmax, ymax). The grid starts at the southwest corner and extends as far as it fits. By default the extent
@@ -280,9 +277,9 @@ def _extent(points: PointTable, spacing: float, *, centers: bool) -> list[float]
     bounds = [float(west), float(south), float(east), float(north)]
     if across and east > 180:
         bounds[2] -= 360.0
-        said = f"{spelled('bounds')}={','.join(f'{end:.15g}' for end in bounds)} says the same"
-        text = f"the points lie on both sides of the 180th meridian, and so does the grid; {said}"
-        warnings.warn(text, DataWarning, stacklevel=3)
+        same = f"{spelled('bounds')}={','.join(f'{end:.15g}' for end in bounds)} says the same"
+        said = f"the points lie on both sides of the 180th meridian, and so does the grid; {same}"
+        warnings.warn(said, DataWarning, stacklevel=3)
     return bounds
 
 
@@ -293,8 +290,10 @@ def _check_places(spacing: float, columns: int, rows: int) -> None:
         raise ValueError(f"{spelled('spacing')} is {spacing:g}, which makes {made}")
 
 
-def write_geotiff(grid: Grid, path: Path) -> None:
+def write_geotiff(grid: Any, path: Path) -> None:
     """Write a grid as a GeoTIFF, one band for each name; rows from north to south, as in images."""
+    if not isinstance(grid, Grid):
+        raise TypeError(f"thing must be a Grid for a GeoTIFF, not {type(grid).__name__}")
     rasterio = optional("rasterio", "raster")
     (dx, dy), bands = grid.steps, list(grid.values.items())
     if not bands:

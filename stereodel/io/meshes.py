@@ -176,11 +176,9 @@ def to_ugrid(
     xarray.Dataset
         ``mesh`` holds the topology; ``node_lon`` and ``node_lat`` are in degrees, ``node_x``, ``node_y``, ``node_z``
         unit vectors (in the plane, ``node_x`` and ``node_y`` alone); ``face_node_connectivity`` is counterclockwise,
-        counts from 0 and pads short rows with -1; then ``edge_node_connectivity``. Faces have ``face_point`` or
-        ``face_triangle``, the index of the point or triangle, and on the sphere ``face_area`` in steradians.
-        ``face_lon`` and ``face_lat`` are the sites of cells or the directions of the mean of a triangle's corners,
-        ``edge_lon`` and ``edge_lat`` the midpoints of edges (in the plane, ``face_x``, ``face_y``, ``edge_x``,
-        ``edge_y``).
+        counts from 0 and pads short rows with -1; then ``edge_node_connectivity``. ``face_point`` or ``face_triangle``
+        is the index of the point or triangle, on the sphere ``face_area`` in steradians. ``face_lon``, ``face_lat`` (in
+        the plane ``face_x``, ``face_y``) are sites or means of corners, ``edge_lon``, ``edge_lat`` midpoints of edges.
 
     Raises
     ------

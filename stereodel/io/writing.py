@@ -184,14 +184,10 @@ def _write_rows(thing: Any, path: Path, options: dict[str, Any], progress: Progr
     LAYERS[kind](_layer(thing, options), path, progress=progress, **own)
 
 
-def _write_tif(thing: Any, path: Path, options: dict[str, Any], progress: Progress | None) -> None:
-    if not isinstance(thing, Grid):
-        raise TypeError(f"thing must be a Grid for a GeoTIFF, not {type(thing).__name__}")
-    write_geotiff(thing, path)
-
-
-def _write_nc(thing: Any, path: Path, options: dict[str, Any], progress: Progress | None) -> None:
-    if isinstance(thing, Grid):
+def _write_grid(thing: Any, path: Path, options: dict[str, Any], progress: Progress | None) -> None:
+    if path.suffix == ".tif":
+        write_geotiff(thing, path)
+    elif isinstance(thing, Grid):
         write_netcdf(thing.to_xarray(), path, form="NETCDF3_64BIT")  # the classic format, which every reader supports
     else:
         check_held(options.get("columns") or {}, "nc")
@@ -225,9 +221,7 @@ WRITERS: Final[dict[str, Callable[[Any, Path, dict[str, Any], Progress | None], 
     "csv": _write_table,
     **dict.fromkeys(LAYERS, _write_rows),
     "xlsx": _write_table,
-    "nc": _write_nc,
-    "tif": _write_tif,
-    "glb": _write_trimesh,
-    "ply": _write_trimesh,
+    **dict.fromkeys(("nc", "tif"), _write_grid),
+    **dict.fromkeys(("glb", "ply"), _write_trimesh),
     "vtp": _write_polydata,
 }

@@ -18,8 +18,6 @@ from stereodel.sphere.latitudes import Latitude
 TILES: Final = (1.40625, 5.625, 22.5, 90.0)
 """Sides, in degrees, of the squares into which the mask is divided; each is a quarter of the next."""
 
-FOURTHS: Final = 4
-
 CORNER: Final = np.array([-180.0, -90.0])
 """Corner of the map from which squares are counted."""
 
@@ -69,7 +67,7 @@ class Mask:
             return self._whole
         side = TILES[level]
         west, south = np.array([x, y]) * side + CORNER
-        outer = self._tile(level + 1, x // FOURTHS, y // FOURTHS)
+        outer = self._tile(level + 1, x // 4, y // 4)
         reach = MARGIN * side
         return shapely.intersection(
             outer, shapely.box(west - reach, south - reach, west + side + reach, south + side + reach)
