@@ -123,13 +123,13 @@ def test_an_option_of_the_readers_falls_under_their_heading():
 
     @dataclass(frozen=True)
     class Wider(options.Table):
-        encoding: Annotated[str | None, typer.Option(metavar="NAME", help="Encoding of the text.")] = None
+        separator: Annotated[str | None, typer.Option(metavar="MARK", help="Between the columns.")] = None
 
     def command(*, columns: Wider) -> None:
         """Read."""
 
     (*_, option) = inspect.signature(options.grouped(command), eval_str=True).parameters.values()
-    assert option.name == "encoding"
+    assert option.name == "separator"
     assert option.annotation.__metadata__[0].rich_help_panel == "Reading"
 
 
