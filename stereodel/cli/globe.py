@@ -192,10 +192,9 @@ def middle_of(points: FloatArray) -> options.Place:
 def shown_of(text: str | None, texture: str | None) -> frozenset[str]:
     """What `--show` names."""
     names = (USUAL if text is None else text).split(",") if text != "none" else []
-    for name in names:
-        if name not in MAPS + OF_POINTS:
-            known = ", ".join(MAPS + OF_POINTS)
-            raise ValueError(f"--show has {name!r}; the names are {known}, separated by commas, or none")
+    known = MAPS + OF_POINTS
+    if unknown := [name for name in names if name not in known]:
+        raise ValueError(f"--show has {unknown[0]!r}; the names are {', '.join(known)}, separated by commas, or none")
     return frozenset(names) - ({"land"} if text is None and texture else set())
 
 
@@ -207,11 +206,9 @@ def new_globe(shown: frozenset[str], resolution: str, spacing: float | None, tex
     globe = Globe(latitude="authalic")
     if texture is not None:
         globe.add_raster(blue_marble() if texture == OWN_TEXTURE else texture)
-    for name in MAPS:
-        if name == "graticule" and name in shown:
-            globe.add_graticule(spacing)
-        elif name in shown:
-            getattr(globe, f"add_{name}")(resolution=resolution)
+    for name in (name for name in MAPS if name in shown):
+        given: dict[str, Any] = {"spacing": spacing} if name == "graticule" else {"resolution": resolution}
+        getattr(globe, f"add_{name}")(**given)
     return globe
 
 

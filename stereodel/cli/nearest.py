@@ -109,9 +109,5 @@ def _pairs(sites: FloatArray, queries: FloatArray, count: int, limit: float, exc
     taken = np.clip(count - before, 0, sizes)
     some = np.nonzero(taken)
     times = taken[some]
-    return Pairs(
-        np.repeat(some[0], times),
-        groups.values[spans(groups.offsets[found[some]], times)],
-        spans(before[some] + 1, times),
-        np.repeat(distance[some], times),
-    )
+    site = groups.values[spans(groups.offsets[found[some]], times)]
+    return Pairs(np.repeat(some[0], times), site, spans(before[some] + 1, times), np.repeat(distance[some], times))

@@ -35,8 +35,7 @@ def command(
     destination = output.of(options.TABLES + options.MESHES, points)
     kind = destination.kind
     if edges and kind in options.MESHES:
-        tables = ", ".join(options.TABLES)
-        raise ValueError(f"{output.out}: holds faces, not edges; leave out --edges or choose {tables}")
+        raise ValueError(f"{output.out}: holds faces, not edges; drop --edges or choose {', '.join(options.TABLES)}")
     table = columns.read(points)
     with reporting(f"triangulating {len(table)} points"):
         triangulation = as_triangulation(table.points(latitude))

@@ -105,7 +105,7 @@ def to_trimesh(
 
 
 def to_polydata(mesh: Mesh, *, what: str | None = None, columns: Mapping[str, npt.ArrayLike] | None = None) -> Any:
-    """Triangles or cells as a pyvista.PolyData.
+    """Triangles or cells as a pyvista.PolyData (the extra ``vtk``).
 
     Parameters
     ----------
@@ -121,11 +121,6 @@ def to_polydata(mesh: Mesh, *, what: str | None = None, columns: Mapping[str, np
         Flat polygons between unit vectors, or in the plane z = 0, with their ``point`` or ``triangle``, the index of
         it, and for cells their ``area``, as ``cell_data``. Points of a triangulation are in input order. What
         `to_ugrid` leaves out is left out.
-
-    Raises
-    ------
-    ImportError
-        Without PyVista (the extra ``vtk``).
 
     Examples
     --------
@@ -158,7 +153,7 @@ def to_ugrid(
     columns: Mapping[str, npt.ArrayLike] | None = None,
     latitude: Latitude | None = None,
 ) -> Any:
-    """Triangles or cells as an xarray Dataset with a UGRID mesh topology.
+    """Triangles or cells as an xarray Dataset with a UGRID mesh topology (the extra ``grid``).
 
     Parameters
     ----------
@@ -179,11 +174,6 @@ def to_ugrid(
         counts from 0 and pads short rows with -1; then ``edge_node_connectivity``. ``face_point`` or ``face_triangle``
         is the index of the point or triangle, on the sphere ``face_area`` in steradians. ``face_lon``, ``face_lat`` (in
         the plane ``face_x``, ``face_y``) are sites or means of corners, ``edge_lon``, ``edge_lat`` midpoints of edges.
-
-    Raises
-    ------
-    ImportError
-        If xarray is missing (the extra ``grid``).
 
     Notes
     -----

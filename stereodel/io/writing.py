@@ -67,12 +67,10 @@ def write(
     format : str, optional
         By default the extension of the path. Required for a stream.
     progress : callable, optional
-        Called repeatedly with the name of the stage, how much of it is done, and how much there is: rows, where they
-        are written.
+        Called repeatedly with the name of the stage, how much of it is done, and how much there is, as of rows.
     **options
-        Options of the function that makes the contents: `to_geodataframe` for csv, xlsx, geojson and geojsonl (and
-        ``decimals`` of `to_geojson`), parquet, gpkg, fgb, shp and kml; `to_ugrid` for nc; `to_trimesh` for glb and ply;
-        `to_polydata` for vtp.
+        Of what makes the contents: `to_ugrid` for nc, `to_trimesh` for glb and ply, `to_polydata` for vtp, else
+        `to_geodataframe`; for geojson and geojsonl also ``decimals`` of `to_geojson`.
 
     Raises
     ------

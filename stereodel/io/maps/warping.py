@@ -31,8 +31,6 @@ from stereodel.io.formats.map_rows import (
 from stereodel.io.maps.on_map import close_in_longitude, lines_on_map, polygons_on_map, repaired
 from stereodel.sphere import lonlat_to_xyz, xyz_to_lonlat
 
-BORDER = Antimeridian()
-
 
 def warp(shapes: Any, lens: MoebiusMap, *, tolerance: float = 0.01) -> Any:
     """The images of geometries under a conformal map, as geometries of longitude and latitude.
@@ -62,9 +60,7 @@ def warp(shapes: Any, lens: MoebiusMap, *, tolerance: float = 0.01) -> Any:
 
     Notes
     -----
-    The image of a great-circle arc is a circular arc, which is computed in closed form: an edge near the focus is as
-    exact as any other. The interior of a polygon stays on the left of its boundary, however large it becomes.
-
+    The image of a great-circle arc is a circular arc in closed form: an edge near the focus is as exact as any other.
     The chords of a polygon narrower than 2⁻⁸ of the tolerance may cross: it becomes a row of slivers that deviate by no
     more than the tolerance. Below 1e-8 degrees, and at a pole, its sides may have the same chords: it is then empty.
 
@@ -123,8 +119,9 @@ def _lines(geometries: Geometries, lens: MoebiusMap, slack: float) -> Geometries
     lines = unwrapped(Ragged.grouped(lonlat, part, len(parts)))
     first, sides = sides_of(lines)
     edges = Edges.straight(lines.values[first], lines.values[first + 1])
-    pieces = BORDER.cut(edges.arcs_under(lens, slack / 4).through(lens))
-    images = lines_on_map(sides, owner, len(geometries), pieces, _sampled(pieces, slack), BORDER)
+    border = Antimeridian()
+    pieces = border.cut(edges.arcs_under(lens, slack / 4).through(lens))
+    images = lines_on_map(sides, owner, len(geometries), pieces, _sampled(pieces, slack), border)
     return unpacked(images, shapely.LineString())
 
 
