@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
 from stereodel.cli import options
-
-if TYPE_CHECKING:
-    from stereodel._arrays import FloatArray
 
 EXAMPLE = "stereodel contour stations.csv --value temperature --interval 5 -o isotherms.geojson"
 
@@ -23,12 +20,8 @@ def command(
     points: options.Points,
     value: Annotated[str, typer.Option(metavar="COLUMN", help="Column of the values.")],
     output: options.Output,
-    levels: Annotated[
-        str | None, typer.Option(metavar="VALUE,…", help="Levels of the isolines, separated by commas.")
-    ] = None,
-    interval: Annotated[
-        float | None, typer.Option(metavar="STEP", help="Isolines at all multiples of this step, instead of --levels.")
-    ] = None,
+    levels: Annotated[str | None, typer.Option(metavar="VALUE,…", help="Levels, separated by commas.")] = None,
+    interval: Annotated[float | None, typer.Option(metavar="STEP", help="Levels at all multiples of this.")] = None,
     max_segment: options.MaxSegment = 1.0,
     columns: options.AnyTable,
     latitude: options.LatitudeKind = "authalic",
@@ -37,6 +30,9 @@ def command(
 
     Give either --levels or --interval. Higher values lie to the left of a line; lines are cut at ±180°.
     """
+    import numpy as np
+
+    from stereodel._arrays import as_scalar
     from stereodel.cli.application import NothingToDoError, reporting, say
     from stereodel.interpolation import contours
     from stereodel.io import write
@@ -47,7 +43,11 @@ def command(
     wanted = [] if levels is None else options.numbers(levels, "--levels", "numbers", "-10,0,10")
     values, table = columns.read(points).values([value], skip_missing=columns.skip_missing)
     if interval is not None:
-        wanted = _multiples(values[:, 0], interval)
+        step = as_scalar(interval, "--interval", low=0.0, open_low=True)
+        low, high = (np.ceil(values.min() / step), np.floor(values.max() / step)) if len(table) else (1.0, 0.0)
+        if (count := high - low + 1) > MOST_LEVELS:
+            raise ValueError(f"--interval is {step:g}, which makes {count:.0f} levels; {MOST_LEVELS} are allowed")
+        wanted = (np.arange(low, high + 1) * step).tolist()
     with reporting(f"lines between {len(table)} points"):
         found = contours(table.points(latitude), values[:, 0], wanted)
     if not found:
@@ -55,16 +55,3 @@ def command(
     with reporting(f"writing {output.out}") as told, destination.file() as path:
         write(path, found, progress=told, max_segment=max_segment, latitude=latitude, crs=table.crs)
     say(f"{output.out}: {len(found)} lines of {len(wanted)} levels")
-
-
-def _multiples(values: FloatArray, interval: float) -> list[float]:
-    """The multiples of an interval between the smallest value and the largest."""
-    import numpy as np
-
-    from stereodel._arrays import as_scalar
-
-    step = as_scalar(interval, "--interval", low=0.0, open_low=True)
-    low, high = np.ceil(np.min(values, initial=np.inf) / step), np.floor(np.max(values, initial=-np.inf) / step)
-    if high - low >= MOST_LEVELS:
-        raise ValueError(f"--interval is {step:g}, which makes {high - low + 1:.0f} levels; {MOST_LEVELS} are allowed")
-    return [float(k) * step for k in np.arange(low, high + 1)]

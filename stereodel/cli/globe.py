@@ -6,6 +6,7 @@ What people rarely type is in style files (`--style`), in the table itself, or i
 from __future__ import annotations
 
 import re
+import sys
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -52,7 +53,6 @@ USUAL = "land,graticule,coastlines,cells,points"
 LAYER_KEYS = ("color", "width", "outline", "size", "column")
 """Of `--layer FILE,key=…`."""
 
-
 Projection = Literal["globe", "stereographic", "hemispheres"]
 
 
@@ -60,51 +60,22 @@ Projection = Literal["globe", "stereographic", "hemispheres"]
 def command(
     *,
     output: options.File,
-    points: Annotated[
-        str | None,
-        typer.Argument(metavar="POINTS", help="Table of points: .csv, .geojson, .parquet, .gpkg; - for stdin."),
-    ] = None,
+    points: Annotated[str | None, typer.Argument(metavar="POINTS", help="Table of points; - is stdin.")] = None,
     show: Annotated[
-        str | None,
-        typer.Option(
-            metavar="NAMES",
-            help=f"Of {', '.join(MAPS + OF_POINTS)}; or none. By default {USUAL}, without land over a texture.",
-        ),
+        str | None, typer.Option(metavar="NAMES", help=f"Of {', '.join(MAPS + OF_POINTS)}; or none. Else {USUAL}.")
     ] = None,
     focus: options.Focus = None,
     magnify: options.Magnify = 1.0,
     view: Annotated[
-        str | None,
-        typer.Option(
-            metavar="LON,LAT", help="Centre of the picture; by default the focus, else the centre of the points."
-        ),
+        str | None, typer.Option(metavar="LON,LAT", help="Centre; else the focus, or the middle of the points.")
     ] = None,
-    projection: Annotated[
-        Projection, typer.Option("--projection", help="A globe, or flat stereographic maps of half or all of it.")
-    ] = "globe",
-    texture: Annotated[
-        str | None,
-        typer.Option(
-            metavar="IMAGE", help="Image of the Earth in longitude and latitude, or the built-in blue-marble."
-        ),
-    ] = None,
+    projection: Annotated[Projection, typer.Option(help="A globe, or flat maps of half or all of it.")] = "globe",
+    texture: Annotated[str | None, typer.Option(metavar="IMAGE", help="Image of the Earth; or blue-marble.")] = None,
     layer: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--layer",
-            metavar="FILE[,color=…,width=…]",
-            help="Points, lines or polygons to draw: .geojson, .gpkg …, with color, width, outline, size or column; "
-            "repeatable.",
-        ),
+        list[str] | None, typer.Option(metavar="FILE[,KEY=…]", help=f"Shapes; {', '.join(LAYER_KEYS)}; repeatable.")
     ] = None,
-    labels: Annotated[
-        str | None,
-        typer.Option(metavar="COLUMN", help="Labels of the points, as many as fit, in the order of the rows."),
-    ] = None,
-    fly: Annotated[
-        list[str] | None,
-        typer.Option(metavar="LON,LAT", help="For films: fly from the focus to this place; repeatable."),
-    ] = None,
+    labels: Annotated[str | None, typer.Option(metavar="COLUMN", help="Labels of points, as many as fit.")] = None,
+    fly: Annotated[list[str] | None, typer.Option(metavar="LON,LAT", help="For films: fly there; repeatable.")] = None,
     picture: options.Picture,
     columns: options.Table,
 ) -> None:
@@ -132,12 +103,9 @@ def command(
     at = None if focus is None else options.place(focus, "--focus")
     middle = None if view is None else options.place(view, "--view")
     aim = Aim(at, magnify, middle, projection)
-    shown, table = shown_of(show, texture), None
-    if points is not None:
-        table = columns.read(points)
+    shown, table = shown_of(show, texture), None if points is None else columns.read(points)
     with reporting("reading maps"):
-        resolution, spacing = ("50m", FILM_SPACING) if filming else (aim.resolution, None)
-        drawing = new_globe(shown, resolution, spacing, texture)
+        drawing = new_globe(shown, "50m" if filming else aim.resolution, FILM_SPACING if filming else None, texture)
         drawing.title = picture.title
         for path, looks in layers:
             with naming(str(path)):
@@ -146,10 +114,17 @@ def command(
             aim = aim.with_middle_of(table.points("authalic"))
             add_points(drawing, table, shown, labels)
     if filming:
-        motion = motion_of(aim, [options.place(text, "--fly") for text in fly or ()])
-        fps = GIF_FPS if destination.kind == "gif" else FPS
-        with destination.file() as target:
-            save_film(drawing, motion, target, size=picture.size or 720, fps=fps)
+        from stereodel.film import Film, FrameError
+
+        motion, size = motion_of(aim, [options.place(text, "--fly") for text in fly or ()]), picture.size or 720
+        film = Film.of_globe(drawing, motion, size=(size, size), fps=GIF_FPS if destination.kind == "gif" else FPS)
+        try:
+            with destination.file() as target:
+                film.save(target, progress=sys.stderr.isatty())
+        except FrameError as error:
+            raise OSError(str(error)) from error
+        except KeyboardInterrupt:  # what is drawn is kept next to the file
+            raise KeyboardInterrupt(KEPT) from None
         return
     with reporting("drawing"), destination.file() as target:
         size = picture.size or 1600
@@ -217,10 +192,9 @@ def middle_of(points: FloatArray) -> options.Place:
 def shown_of(text: str | None, texture: str | None) -> frozenset[str]:
     """What `--show` names."""
     names = (USUAL if text is None else text).split(",") if text != "none" else []
-    for name in names:
-        if name not in MAPS + OF_POINTS:
-            known = ", ".join(MAPS + OF_POINTS)
-            raise ValueError(f"--show has {name!r}; the names are {known}, separated by commas, or none")
+    known = MAPS + OF_POINTS
+    if unknown := [name for name in names if name not in known]:
+        raise ValueError(f"--show has {unknown[0]!r}; the names are {', '.join(known)}, separated by commas, or none")
     return frozenset(names) - ({"land"} if text is None and texture else set())
 
 
@@ -232,11 +206,9 @@ def new_globe(shown: frozenset[str], resolution: str, spacing: float | None, tex
     globe = Globe(latitude="authalic")
     if texture is not None:
         globe.add_raster(blue_marble() if texture == OWN_TEXTURE else texture)
-    for name in MAPS:
-        if name == "graticule" and name in shown:
-            globe.add_graticule(spacing)
-        elif name in shown:
-            getattr(globe, f"add_{name}")(resolution=resolution)
+    for name in (name for name in MAPS if name in shown):
+        given: dict[str, Any] = {"spacing": spacing} if name == "graticule" else {"resolution": resolution}
+        getattr(globe, f"add_{name}")(**given)
     return globe
 
 
@@ -250,21 +222,13 @@ def layer_of(text: str) -> tuple[Path, dict[str, Any]]:
 
     path, *given = [text] if Path(text).exists() else re.split(r",(?=\w+=)", text)
     looks = dict(part.split("=", 1) for part in given)
-    for key in looks:
-        if key not in LAYER_KEYS:
-            raise ValueError(f"--layer {text}: {key} is unknown; the keys are {', '.join(LAYER_KEYS)}")
-
-    column, bare = looks.pop("column", None), looks.get("outline") == "none"
+    if unknown := [key for key in looks if key not in LAYER_KEYS]:
+        raise ValueError(f"--layer {text}: {unknown[0]} is unknown; the keys are {', '.join(LAYER_KEYS)}")
+    column, bare = looks.pop("column", None), looks.get("outline") == "none" and bool(looks.pop("outline"))
     readers: dict[str, Any] = {"color": as_color, "outline": as_color, "width": as_length, "size": as_length}
-    read = {
-        key: readers[key](value, f"--layer: {key}")
-        for key, value in looks.items()
-        if (key, value) != ("outline", "none")
-    }
-    color, width, edge = (
-        {key: read[of]} if of in read else {}
-        for key, of in (("color", "color"), ("width", "width"), ("color", "outline"))
-    )
+    read = {key: readers[key](value, f"--layer: {key}") for key, value in looks.items()}
+    color, width = ({of: read[of] for of in read if of == key} for key in ("color", "width"))
+    edge = {"color": read["outline"]} if "outline" in read else {}
     radius = read.get("size", 2 * MAP_DOT.radius) / 2
     return Path(path), {
         **color,
@@ -309,25 +273,12 @@ def motion_of(aim: Aim, stops: Sequence[options.Place]) -> Motion:
     from stereodel.conformal import GroupPath
     from stereodel.film import Flight, Morph, Spin, Stop
 
-    if aim.projection == "hemispheres" or (aim.projection != "globe" and stops):
+    grows = aim.magnification != 1 and not stops
+    if aim.projection == "hemispheres" or (aim.projection != "globe" and not grows):
         raise ValueError(f"--projection {aim.projection} cannot move; films are of the globe")
+    if grows:
+        return Morph(GroupPath(MoebiusMap.identity(), aim.lens), aim.views[0], seconds=SECONDS, back=True)
     if stops:
         return Flight([Stop(place, aim.magnification) for place in (aim.place, *stops)])
-    if aim.magnification == 1:
-        lon, lat = aim.middle or aim.place
-        return Spin(aim.lens, seconds=SECONDS, lon=lon, lat=lat)
-    return Morph(GroupPath(MoebiusMap.identity(), aim.lens), aim.views[0], seconds=SECONDS, back=True)
-
-
-def save_film(globe: Globe, motion: Motion, path: Path, *, size: int, fps: float) -> None:
-    """Draw the frames and write the file; after an interruption, finished frames are kept next to it."""
-    import sys
-
-    from stereodel.film import Film, FrameError
-
-    try:
-        Film.of_globe(globe, motion, size=(size, size), fps=fps).save(path, progress=sys.stderr.isatty())
-    except FrameError as error:
-        raise OSError(str(error)) from error
-    except KeyboardInterrupt:
-        raise KeyboardInterrupt(KEPT) from None
+    lon, lat = aim.middle or aim.place
+    return Spin(aim.lens, seconds=SECONDS, lon=lon, lat=lat)

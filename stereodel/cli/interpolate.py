@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import Annotated, Literal
 
 import typer
 
 from stereodel.cli import options
-
-if TYPE_CHECKING:
-    from stereodel._arrays import FloatArray
 
 GRIDS = ("csv", "nc", "tif")
 PLANE = ("xmin,ymin,xmax,ymax", "0,0,5000,9000")
@@ -24,26 +21,15 @@ EXAMPLE = "stereodel interpolate stations.csv --value temperature --grid 5 -o te
 def command(
     *,
     points: options.Points,
-    value: Annotated[
-        list[str], typer.Option(metavar="COLUMN", help="Column of the values; repeatable for several at once.")
-    ],
+    value: Annotated[list[str], typer.Option(metavar="COLUMN", help="Column of the values; repeatable.")],
     output: options.Output,
-    at: Annotated[
-        str | None, typer.Option(metavar="FILE", help="Table of the points where values are wanted; - is stdin.")
-    ] = None,
-    grid: Annotated[
-        float | None, typer.Option(metavar="STEP", help="Spacing of a grid, instead of --at: degrees, or of the plane.")
-    ] = None,
+    at: Annotated[str | None, typer.Option(metavar="FILE", help="Table of the points wanted; - is stdin.")] = None,
+    grid: Annotated[float | None, typer.Option(metavar="STEP", help="Spacing of a grid, instead of --at.")] = None,
     bounds: Annotated[
-        str | None,
-        typer.Option(metavar="W,S,E,N", help="Bounds of the grid, formerly --box, or world; else those of points."),
+        str | None, typer.Option(metavar="W,S,E,N", help="Bounds of the grid, or world; else those of the points.")
     ] = None,
-    centers: Annotated[
-        bool, typer.Option("--centers", help="Values at the centres of the cells of the grid, instead of at its nodes.")
-    ] = False,
-    unit: Annotated[
-        list[str] | None, typer.Option(metavar="NAME", help="Unit of the values, for grids; one for each --value.")
-    ] = None,
+    centers: Annotated[bool, typer.Option("--centers", help="Values at the centres of a grid's cells.")] = False,
+    unit: Annotated[list[str] | None, typer.Option(metavar="NAME", help="Unit of each --value, for grids.")] = None,
     method: Annotated[Method, typer.Option(help="Method of interpolation.")] = "linear",
     columns: options.AnyTable,
     at_columns: Annotated[options.SecondTable, "--at"],
@@ -53,7 +39,10 @@ def command(
 
     Give either --at or --grid. Outside the convex hull of the points, linear, smooth and natural leave values empty.
     """
+    import numpy as np
+
     from stereodel.cli.application import reporting
+    from stereodel.interpolation.methods import METHODS
     from stereodel.io import Grid, PointTable, write
 
     if (at is None) == (grid is None):
@@ -70,34 +59,25 @@ def command(
     meant = ("W,S,E,N in degrees", "-25,34,45,72") if columns.plane is None else PLANE
     sides = bounds if bounds in (None, "world") else options.numbers(bounds, "--bounds", *meant, 4)
     values, table = columns.read(points).values(value, skip_missing=columns.skip_missing)
-    sites = table.points(latitude)
-    if grid is not None:
-        empty = Grid.regular(grid, sides, of=table, centers=centers)
-        nodes = PointTable(empty.places.reshape(-1, 2), surface=table.surface).points(latitude)
-        found = _interpolated(sites, values, method, nodes)
-        shaped = {name: column.reshape(empty.places.shape[:2]) for name, column in zip(value, found.T, strict=True)}
-        result: Grid | PointTable = replace(empty, values=shaped, units=dict(zip(value, unit or (), strict=False)))
+    empty = None if grid is None else Grid.regular(grid, sides, of=table, centers=centers)
+    if empty is not None:
+        asking = PointTable(empty.places.reshape(-1, 2), surface=table.surface)
     elif at is not None:
         asking = at_columns.read(at, columns)
-        found = _interpolated(sites, values, method, asking.points(latitude))
-        result = asking.beside(dict(zip(value, found.T, strict=True)))
-    with reporting(f"writing {output.out}") as told, destination.file() as path:
-        write(path, result, progress=told)
-
-
-def _interpolated(points: FloatArray, values: FloatArray, method: Method, queries: FloatArray) -> FloatArray:
-    """Values at queries, (n, number of columns)."""
-    import numpy as np
-
-    from stereodel.cli.application import reporting
-    from stereodel.interpolation.methods import METHODS
-
+    queries = asking.points(latitude)
     with reporting("triangulating"):
-        interpolator = METHODS[method](points, values)
-    found = np.empty((len(queries), values.shape[1]))
+        interpolator = METHODS[method](table.points(latitude), values)
+    found = np.empty((len(queries), len(value)))
     with reporting("interpolating") as shown:
         for start in range(0, len(queries), PIECE):
             piece = slice(start, min(start + PIECE, len(queries)))
             found[piece] = interpolator(queries[piece])
             shown("interpolating", piece.stop, len(queries))
-    return found
+    result: Grid | PointTable = asking
+    if empty is None:
+        result = asking.beside(dict(zip(value, found.T, strict=True)))
+    else:
+        shaped = zip(value, found.T.reshape(-1, *empty.places.shape[:2]), strict=True)
+        result = replace(empty, values=dict(shaped), units=dict(zip(value, unit or (), strict=False)))
+    with reporting(f"writing {output.out}") as told, destination.file() as path:
+        write(path, result, progress=told)

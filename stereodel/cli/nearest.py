@@ -10,7 +10,6 @@ from stereodel.cli import options
 
 if TYPE_CHECKING:
     from stereodel._arrays import Column, FloatArray, Indices
-    from stereodel.io import PointTable
 
 EXAMPLE = "stereodel nearest airports.csv --of cities.csv -o nearest.csv"
 
@@ -18,24 +17,17 @@ EXAMPLE = "stereodel nearest airports.csv --of cities.csv -o nearest.csv"
 @options.grouped
 def command(
     *,
-    sites: Annotated[
-        str, typer.Argument(metavar="SITES", help="Table of the sites, or file of lines and polygons; - is stdin.")
-    ],
+    sites: Annotated[str, typer.Argument(metavar="SITES", help="Table of sites, or lines and polygons; - is stdin.")],
     queries: Annotated[str, typer.Option("--of", metavar="FILE", help="Table of the query points; - is stdin.")],
     output: options.Output,
     count: Annotated[int, typer.Option("--count", "-k", metavar="N", min=1, help="Sites for each query point.")] = 1,
     keep: Annotated[
-        list[str] | None,
-        typer.Option(
-            metavar="COLUMN", help="Column of the sites to write, repeatable; by default 'name', if it exists."
-        ),
+        list[str] | None, typer.Option(metavar="COLUMN", help="Column of the sites to write, repeatable; else 'name'.")
     ] = None,
     max_distance: Annotated[
         float | None, typer.Option(metavar="KM", min=0, help="Leave out sites farther away; in a plane, in its unit.")
     ] = None,
-    exclude_self: Annotated[
-        bool, typer.Option("--exclude-self", help="Leave out sites at exactly the position of the query point.")
-    ] = False,
+    exclude_self: Annotated[bool, typer.Option("--exclude-self", help="Leave out sites at the query point.")] = False,
     columns: options.AnyTable,
     of_columns: Annotated[options.SecondTable, "--of"],
     latitude: options.LatitudeKind = "authalic",
@@ -49,13 +41,13 @@ def command(
 
     from stereodel.cli.application import reporting, say
     from stereodel.io import nearest_shapes, write
-    from stereodel.io.formats.names import NoPointError
+    from stereodel.io.formats.names import NoPointError, beside
     from stereodel.io.reading import ShapeTable, read_sites
 
     destination = output.of(options.TABLES, sites, queries)
     if sites == queries == "-":
         raise ValueError("SITES and --of cannot both be stdin")
-    chosen = columns.read(sites, read_sites)
+    chosen, limit = columns.read(sites, read_sites), np.inf if max_distance is None else max_distance
     try:
         asking = of_columns.read(queries, columns)
     except NoPointError as error:
@@ -64,11 +56,16 @@ def command(
         if count > 1 or exclude_self:
             raise ValueError(f"{sites}: has not only points; leave out --count and --exclude-self, which are for these")
         site, distance = nearest_shapes(asking.lonlat, chosen.shapes, latitude=latitude)
-        query = np.flatnonzero(distance <= (np.inf if max_distance is None else max_distance))
+        query = np.flatnonzero(distance <= limit)
         pairs = Pairs(query, site[query], np.ones_like(query), distance[query])
     else:
-        pairs = _pairs(chosen.points(latitude), asking.points(latitude), count, max_distance, exclude_self)
-    table = _with_sites(asking.taken(pairs.query), chosen, pairs, keep, ranked=count > 1)
+        pairs = _pairs(chosen.points(latitude), asking.points(latitude), count, limit, exclude_self)
+    kept = [name for name in chosen.columns if name.lower() == "name"] if keep is None else keep
+    results: dict[str, Column] = {"rank": pairs.rank} if count > 1 else {}
+    results["site_row"] = chosen.rows[pairs.site]
+    distances: dict[str, Column] = {"distance" if chosen.surface == "plane" else "distance_km": pairs.distance}
+    of_sites = {f"site_{name}": chosen.column(name)[pairs.site] for name in kept}
+    table = asking.taken(pairs.query).beside(results | beside([*results, *distances], of_sites) | distances)
     with reporting(f"writing {output.out}") as told, destination.file() as path:
         write(path, table, progress=told)
     say(f"{output.out}: nearest of {len(chosen)} sites for {len(asking)} points")
@@ -83,11 +80,10 @@ class Pairs(NamedTuple):
     distance: FloatArray
 
 
-def _pairs(sites: FloatArray, queries: FloatArray, count: int, max_distance: float | None, exclude_self: bool) -> Pairs:
+def _pairs(sites: FloatArray, queries: FloatArray, count: int, limit: float, exclude_self: bool) -> Pairs:
     """The nearest sites of each query point, up to `count`; distances on the sphere are in kilometres."""
     import numpy as np
 
-    from stereodel import angular_distance
     from stereodel.curves.ragged import Ragged, spans
     from stereodel.earth import MEAN_RADIUS_KM
     from stereodel.triangulation.delaunay import as_triangulation
@@ -100,39 +96,18 @@ def _pairs(sites: FloatArray, queries: FloatArray, count: int, max_distance: flo
     groups = Ragged.grouped(np.argsort(number, kind="stable"), number, int(number.max(initial=-1)) + 1)
     places = sites[groups.values[groups.offsets[:-1]]]
     asked = min(count + exclude_self, len(places))
-    found = np.reshape(as_triangulation(places).nearest(queries, k=asked), (len(queries), asked))
-    if sites.shape[1] == 2:
-        distance = np.hypot(*np.moveaxis(places[found] - queries[:, None], -1, 0))
-    else:
-        distance = np.radians(angular_distance(queries[:, None], places[found])) * MEAN_RADIUS_KM
-    kept = np.ones(found.shape, dtype=np.bool_)
+    searched = as_triangulation(places)
+    found = np.reshape(searched.nearest(queries, k=asked), (len(queries), asked))
+    distance = searched.surface.distances(queries[:, None], places[found])
+    if searched.surface.name == "sphere":
+        distance = np.radians(distance) * MEAN_RADIUS_KM
+    kept = distance <= limit
     if exclude_self:
         kept &= (places[found] != queries[:, None]).any(axis=-1)
-    if max_distance is not None:
-        kept &= distance <= max_distance
     sizes = np.where(kept, groups.sizes[found], 0)
     before = np.cumsum(sizes, axis=1) - sizes
     taken = np.clip(count - before, 0, sizes)
     some = np.nonzero(taken)
     times = taken[some]
-    return Pairs(
-        np.repeat(some[0], times),
-        groups.values[spans(groups.offsets[found[some]], times)],
-        spans(before[some] + 1, times),
-        np.repeat(distance[some], times),
-    )
-
-
-def _with_sites(
-    found: PointTable, sites: PointTable, pairs: Pairs, keep: list[str] | None, *, ranked: bool
-) -> PointTable:
-    """One row for each pair of a query point and a site, with the columns of the sites to keep."""
-    from stereodel.io.formats.names import beside
-
-    kept = [name for name in sites.columns if name.lower() == "name"] if keep is None else keep
-    results: dict[str, Column] = {"rank": pairs.rank} if ranked else {}
-    results["site_row"] = sites.rows[pairs.site]
-    distance: dict[str, Column] = {"distance" if sites.surface == "plane" else "distance_km": pairs.distance}
-    of_sites = {f"site_{name}": sites.column(name)[pairs.site] for name in kept}
-    results |= beside([*results, *distance], of_sites) | distance
-    return found.beside(results)
+    site = groups.values[spans(groups.offsets[found[some]], times)]
+    return Pairs(np.repeat(some[0], times), site, spans(before[some] + 1, times), np.repeat(distance[some], times))

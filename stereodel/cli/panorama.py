@@ -11,33 +11,21 @@ from stereodel.cli import options
 EXAMPLE = "stereodel panorama room.jpg --focus=90,-10 --magnify 3 -o desk.jpg"
 
 PICTURES = ("jpg", "jpeg", "png", "webp")
+Form = Literal["equirectangular", "cubemap", "planet"]
 
 
 @options.grouped
 def command(
     *,
-    picture: Annotated[
-        str, typer.Argument(metavar="PICTURE", help="Panorama, twice as wide as high: .jpg, .png, .webp, .tif …")
-    ],
+    picture: Annotated[str, typer.Argument(metavar="PICTURE", help="Twice as wide as high: .jpg, .png, .webp, .tif …")],
     output: options.Output,
     focus: options.Focus = None,
     magnify: options.Magnify = 1.0,
-    to: Annotated[
-        Literal["equirectangular", "cubemap", "planet"],
-        typer.Option("--to", help="Another panorama, the six faces of a cube, or a little planet."),
-    ] = "equirectangular",
-    view: Annotated[
-        str | None,
-        typer.Option(metavar="LON,LAT", help="Centre of the result; by default 0,0; for planets 0,-90."),
-    ] = None,
-    size: Annotated[
-        int | None,
-        typer.Option(min=1, metavar="PIXELS", help="Width of the result or of a face; by default as fine as PICTURE."),
-    ] = None,
+    to: Annotated[Form, typer.Option(help="Another panorama, six faces of a cube, or a planet.")] = "equirectangular",
+    view: Annotated[str | None, typer.Option(metavar="LON,LAT", help="Centre; else 0,0, of planets 0,-90.")] = None,
+    size: Annotated[int | None, typer.Option(min=1, metavar="PIXELS", help="Width, or that of a face.")] = None,
     angular_radius: Annotated[float, typer.Option(metavar="DEGREES", help="Angular radius of a planet.")] = 140.0,
-    faces: Annotated[
-        bool, typer.Option("--faces", help="For cubemaps: a file for each face, NAME_right.jpg …")
-    ] = False,
+    faces: Annotated[bool, typer.Option("--faces", help="A file for each face of a cubemap: NAME_right.jpg …")] = False,
 ) -> None:
     """Write a 360° picture as seen through a conformal fisheye: places near the focus grow, circles stay round.
 
@@ -64,13 +52,5 @@ def command(
         at = seen or (0.0, -90.0 if to == "planet" else 0.0)
     lens = fisheye(at, magnification=magnify) if at else None
     with reporting("drawing"), destination.file() as path:
-        save_panorama(
-            picture,
-            path,
-            lens,
-            to,
-            view=View(*seen) if seen else None,
-            size=size,
-            angular_radius=angular_radius,
-            faces=faces,
-        )
+        middle = View(*seen) if seen else None
+        save_panorama(picture, path, lens, to, view=middle, size=size, angular_radius=angular_radius, faces=faces)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -19,25 +19,15 @@ KEPT = "interrupted; what is done is kept, and the same command goes on from the
 @options.grouped
 def command(
     *,
-    points: Annotated[
-        list[str],
-        typer.Argument(metavar="POINTS", help="Parquet files, folders or patterns of them, or a HATS catalogue."),
-    ],
+    points: Annotated[list[str], typer.Argument(metavar="POINTS", help="Parquet files, folders, or a HATS catalogue.")],
     out: Annotated[str, typer.Option("--out", "-o", metavar="FOLDER", help="Folder of the results.")],
     lon: Annotated[str | None, typer.Option(metavar="COLUMN", help="Column of longitudes, given with --lat.")] = None,
     lat: Annotated[str | None, typer.Option(metavar="COLUMN", help="Column of latitudes, given with --lon.")] = None,
-    plane: Annotated[
-        tuple[str, str] | None,
-        typer.Option(metavar="X Y", help="Columns of coordinates in a plane, instead of longitude and latitude."),
-    ] = None,
+    plane: Annotated[tuple[str, str] | None, typer.Option(metavar="X Y", help="Columns of a plane instead.")] = None,
     latitude: options.LatitudeKind = "authalic",
-    partition: Annotated[
-        int | None, typer.Option(metavar="COUNT", min=1, help="Points of a partition; 650000 by default.")
-    ] = None,
+    partition: Annotated[int | None, typer.Option(metavar="COUNT", min=1, help="Points of each; else 650000.")] = None,
     shapes: Annotated[bool, typer.Option("--shapes", help="Write the shapes of the cells too.")] = False,
-    keep: Annotated[
-        list[str] | None, typer.Option(metavar="COLUMN", help="Column to write beside the results, repeatable.")
-    ] = None,
+    keep: Annotated[list[str] | None, typer.Option(metavar="COLUMN", help="Column to keep; repeatable.")] = None,
     overwrite: Annotated[bool, typer.Option("--overwrite", help="Begin anew, replacing the results.")] = False,
 ) -> None:
     """Write the areas and neighbours of Voronoi cells, as Parquet files in a folder.
@@ -50,6 +40,7 @@ def command(
     if (lon is None) != (lat is None):
         raise ValueError("--lon and --lat are given together")
     names = {**ARGUMENTS, "columns": "--plane" if plane else "--lon"}
+    written: dict[str, Any] = {"keep": keep or [], "triangles": False, "cells": shapes}
     with reporting() as progress, spelling(names):
         try:
             run = triangulate(
@@ -58,9 +49,7 @@ def command(
                 columns=plane or (None if lon is None or lat is None else (lon, lat)),
                 surface="plane" if plane else "sphere",
                 latitude=latitude,
-                keep=keep or [],
-                triangles=False,
-                cells=shapes,
+                **written,
                 execution=Execution(partition or Execution.partition, resume=not overwrite, progress=progress),
             )
         except KeyboardInterrupt:

@@ -3,16 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import Annotated, Any, Literal
 
 import typer
 
 from stereodel.cli import options
-
-if TYPE_CHECKING:
-    from stereodel._arrays import Column
-    from stereodel.io import PointTable
-    from stereodel.triangulation.delaunay import Triangulation
+from stereodel.sphere.latitudes import Latitude
 
 EXAMPLE = "stereodel triangulate stations.csv -o triangles.geojson"
 
@@ -33,53 +29,44 @@ def command(
     shape. If all points lie in one hemisphere, the triangles that close the far side are left out.
     """
     from stereodel.cli.application import NothingToDoError, reporting, say
-    from stereodel.io import write
-    from stereodel.io.rows_of import rows_of
+    from stereodel.io.rows_of import corners_of, rows_of
     from stereodel.triangulation.delaunay import as_triangulation
 
     destination = output.of(options.TABLES + options.MESHES, points)
     kind = destination.kind
     if edges and kind in options.MESHES:
-        tables = ", ".join(options.TABLES)
-        raise ValueError(f"{output.out}: holds faces, not edges; leave out --edges or choose {tables}")
+        raise ValueError(f"{output.out}: holds faces, not edges; drop --edges or choose {', '.join(options.TABLES)}")
     table = columns.read(points)
     with reporting(f"triangulating {len(table)} points"):
         triangulation = as_triangulation(table.points(latitude))
-    count = len(_corner_rows(triangulation, "triangles", table)["a"])
+    count = len(corners_of(triangulation, "triangles"))
     if count == 0:
         raise NothingToDoError(f"{table.name}: no triangles: too few points, or all on one line or great circle")
     what: Literal["triangles", "edges"] = "edges" if edges else "triangles"
     found: Any = triangulation
     if kind in options.FLAT:
-        found = _corner_rows(triangulation, what, table)
+        found = dict(zip("abc", table.rows[corners_of(triangulation, what)].T, strict=False))
     elif kind not in options.MESHES:
         with reporting(f"drawing {what}") as shown:
-            layer = rows_of(
-                triangulation,
-                what=what,
-                latitude=latitude,
-                max_segment=max_segment,
-                crs=table.crs,
-                progress=shown,
-            )
+            said: dict[str, Any] = {"what": what, "latitude": latitude, "max_segment": max_segment, "crs": table.crs}
+            layer = rows_of(triangulation, progress=shown, **said)
         rows = {name: table.rows[layer.columns[name]] for name in "abc" if name in layer.columns}
         found = replace(layer, columns=rows)
-    with reporting(f"writing {output.out}") as told, destination.file() as path:
-        if kind in options.PICTURES:
-            from stereodel.drawing import diagram_page
-
-            diagram_page(triangulation).save(path)
-        else:
-            own: dict[str, Any] = {"columns": table.columns} if kind in options.VALUED else {}
-            write(path, found, progress=told, **own, **({"latitude": latitude} if kind == "nc" else {}))
+    written(destination, triangulation, found, table.columns, latitude)
     say(f"{output.out}: {count} triangles of {len(table)} points")
 
 
-def _corner_rows(triangulation: Triangulation, what: str, table: PointTable) -> dict[str, Column]:
-    """Row numbers of the corners of all triangles except those that close the far side, or of their edges."""
-    from stereodel.triangulation.delaunay import state_of
-    from stereodel.triangulation.topology import edges_of
+def written(place: options.Destination, mesh: Any, found: Any, columns: Any, latitude: Latitude) -> None:
+    """Write what was found, or draw the triangulation or diagram that it is of."""
+    from stereodel.cli.application import reporting
+    from stereodel.io import write
 
-    simplices = triangulation.simplices[state_of(triangulation).open]
-    corners = simplices if what == "triangles" else edges_of(simplices)
-    return dict(zip("abc", table.rows[corners].T, strict=False))
+    own: dict[str, Any] = {"columns": columns} if place.kind in options.VALUED else {}
+    own |= {"latitude": latitude} if place.kind == "nc" else {}
+    with reporting(f"writing {place.name}") as told, place.file() as path:
+        if place.kind in options.PICTURES:
+            from stereodel.drawing import diagram_page
+
+            diagram_page(mesh).save(path)
+        else:
+            write(path, found, progress=told, **own)

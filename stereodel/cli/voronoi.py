@@ -8,6 +8,7 @@ from typing import Annotated, Any, Literal
 import typer
 
 from stereodel.cli import options
+from stereodel.cli.triangulate import written
 
 EXAMPLE = "stereodel voronoi cities.csv -o cells.gpkg"
 
@@ -19,21 +20,9 @@ def command(
     output: options.Output,
     area_unit: Annotated[Literal["km2", "sr"], typer.Option(help="Unit of the areas, not in a plane.")] = "km2",
     max_segment: options.MaxSegment = 1.0,
-    clip: Annotated[
-        str | None,
-        typer.Option(
-            metavar="land|FILE", help="Clip the cells to land, or to the polygons of a file; areas are those inside."
-        ),
-    ] = None,
-    dissolve: Annotated[
-        str | None,
-        typer.Option(
-            metavar="COLUMN", help="One feature for all cells of equal value in this column, in place of one a point."
-        ),
-    ] = None,
-    of: Annotated[
-        str | None, typer.Option(metavar="FILE", help="Points to gather by cells, in place of a spatial join.")
-    ] = None,
+    clip: Annotated[str | None, typer.Option(metavar="land|FILE", help="Clip to land or a file's polygons.")] = None,
+    dissolve: Annotated[str | None, typer.Option(metavar="COLUMN", help="One feature for equal values.")] = None,
+    of: Annotated[str | None, typer.Option(metavar="FILE", help="Points to gather by cells.")] = None,
     sums: Annotated[list[str] | None, typer.Option("--sum", metavar="COLUMN", help="Column of --of to add up.")] = None,
     means: Annotated[list[str] | None, typer.Option("--mean", metavar="COLUMN", help="The same to average.")] = None,
     rows: Annotated[bool, typer.Option("--rows", help="Count the rows of --of.")] = False,
@@ -52,7 +41,6 @@ def command(
     from stereodel import PlanarVoronoi, SphericalVoronoi
     from stereodel.cli.application import reporting, say
     from stereodel.earth import AUTHALIC_RADIUS_KM
-    from stereodel.io import write
     from stereodel.io.formats.names import beside, naming
     from stereodel.io.maps.dissolving import added, averaged, cell_columns, codes_of, grouped
     from stereodel.io.rows_of import rows_of
@@ -75,17 +63,17 @@ def command(
     by = np.arange(len(table)) if dissolve is None else table.column(dissolve)
     with reporting(f"cells of {len(table)} points"):
         diagram = (PlanarVoronoi if columns.plane else SphericalVoronoi)(table.points(latitude))
-    name = "area" if columns.plane else f"area_{area_unit}"
-    radius = 1.0 if columns.plane or area_unit == "sr" else AUTHALIC_RADIUS_KM
+    unit, ending = ("", "") if columns.plane else (f"_{area_unit}", f", with {latitude} latitudes")
+    radius = AUTHALIC_RADIUS_KM if unit == "_km2" else 1.0
     found: Any = diagram
     if kind not in options.MESHES:
         if kind in options.FLAT and clip is None:
             drawn: dict[str, Any] = cell_columns(diagram, radius, None if dissolve is None else by)
         else:
-            said: dict[str, Any] = {"latitude": latitude, "radius": radius, "max_segment": max_segment, "clip": clip}
-            said |= {} if dissolve is None else {"columns": {"by": by}, "dissolve": "by"}
+            said: dict[str, Any] = {} if dissolve is None else {"columns": {"by": by}, "dissolve": "by"}
+            said |= {"latitude": latitude, "radius": radius, "max_segment": max_segment, "crs": table.crs}
             with reporting(f"drawing {len(table)} cells") as told, naming(clip):
-                cells = rows_of(diagram, crs=table.crs, progress=told, **said)
+                cells = rows_of(diagram, clip=clip, progress=told, **said)
             drawn = dict(cells.columns)
         point, area = drawn["point"], drawn["area"]
         if kind in options.FLAT and dissolve is None:  # all points have a row
@@ -94,7 +82,7 @@ def command(
         codes = by if dissolve is None else codes_of(by)
         row = np.full(len(table), -1)
         row[codes[point]] = np.arange(len(point))
-        results: dict[str, Any] = {name: area}
+        results: dict[str, Any] = {f"area{unit}": area}
         if of is not None:
             others = of_columns.read(of, columns)
             with reporting(f"cells of {len(others)} points"):
@@ -113,13 +101,5 @@ def command(
             found = beside(results, {dissolve: by[point]}) | results
         if kind not in options.FLAT:
             found = replace(cells, columns=beside(["geometry"], found))
-    with reporting(f"writing {output.out}") as told, destination.file() as path:
-        if kind in options.PICTURES:
-            from stereodel.drawing import diagram_page
-
-            diagram_page(diagram).save(path)
-        else:
-            own: dict[str, Any] = {"columns": table.columns} if kind in options.VALUED else {}
-            write(path, found, progress=told, **own, **({"latitude": latitude} if kind == "nc" else {}))
-    ending = "" if columns.plane else f", with {latitude} latitudes"
+    written(destination, diagram, found, table.columns, latitude)
     say(f"{output.out}: cells of {len(table)} points{ending}")

@@ -14,20 +14,10 @@ EXAMPLE = "stereodel web cities.csv -o cities.html --open"
 @options.grouped
 def command(
     *,
-    points: Annotated[
-        str | None,
-        typer.Argument(metavar="POINTS", help="Table of points to open with the page: .csv, .geojson …; - for stdin."),
-    ] = None,
-    out: Annotated[
-        str | None,
-        typer.Option(
-            "--out", "-o", metavar="FILE", help="File to write, .html, named after the table by default; - for stdout."
-        ),
-    ] = None,
+    points: Annotated[str | None, typer.Argument(metavar="POINTS", help="Table to open with; - is stdin.")] = None,
+    out: Annotated[str | None, typer.Option("--out", "-o", metavar="FILE", help="File, .html; - is stdout.")] = None,
     open_it: Annotated[bool, typer.Option("--open", help="Open the page in the browser.")] = False,
-    resolution: Annotated[
-        Literal["50m", "110m"], typer.Option(help="Land at 1 : 50 or 1 : 110 million; the latter makes a smaller page.")
-    ] = "50m",
+    resolution: Annotated[Literal["50m", "110m"], typer.Option(help="Of the land; 110m is a smaller page.")] = "50m",
     columns: options.Table,
     latitude: options.LatitudeKind = "authalic",
     overwrite: options.Overwrite = False,
@@ -47,14 +37,13 @@ def command(
     if open_it and target == "-":
         raise ValueError("--open needs a file; name one with --out")
     destination = options.File(target, overwrite).of(("html",), points)
-    lonlat, names, name = None, None, ""
+    given: dict[str, Any] = {}
     if points is not None:
         table = columns.read(points)
-        lonlat, name = table.places, Path(table.name).name
         names = next((column.tolist() for key, column in table.columns.items() if key.strip().lower() == "name"), None)
-    given: dict[str, Any] = {"lonlat": lonlat, "names": names, "name": name}
+        given = {"lonlat": table.places, "names": names, "name": Path(table.name).name}
     with reporting(f"writing {target}"), destination.file() as path:
         web(path, **given, resolution=resolution, latitude=latitude)
-    say(f"{target}: the page" + ("" if lonlat is None else f" with {len(lonlat)} points, {latitude} latitudes"))
+    say(f"{target}: the page" + (f" with {len(table)} points, {latitude} latitudes" if given else ""))
     if open_it and not webbrowser.open(Path(target).resolve().as_uri()):
         raise OSError(f"{target}: is written, but there is no browser to open it")

@@ -54,7 +54,7 @@ from stereodel.globe.outlines_on_sphere import Rings, SphereLines, SphereRegions
 from stereodel.globe.pages import Panel, default_view, panels
 from stereodel.globe.raster import Raster
 from stereodel.io.reading import Shapes, shapes_of
-from stereodel.io.rows_of import ridge_arcs
+from stereodel.io.rows_of import ridge_net
 from stereodel.sphere import SphereCircle, lonlat_to_xyz
 from stereodel.sphere.latitudes import KINDS, Latitude
 from stereodel.sphere.vectors import units
@@ -307,7 +307,7 @@ class Globe(Shown):
             cells = SphereRegions.cells(voronoi)
             self.add(Areas(cells, as_colors(colors, len(voronoi.points)), name))
         if style is not None:
-            self.add(LineLayer(SphereLines.alone(ridge_arcs(voronoi)), style, name))
+            self.add(LineLayer(SphereLines.alone(ridge_net(voronoi).arcs()), style, name))
 
     def add_triangulation(
         self,

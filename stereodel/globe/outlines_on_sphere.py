@@ -16,7 +16,7 @@ from stereodel.curves.chart import Chart
 from stereodel.curves.insides import oriented
 from stereodel.curves.ragged import Ragged, thinned
 from stereodel.curves.seams import stitched
-from stereodel.io.rows_of import ridge_arcs, triangle_sides, voronoi_sides
+from stereodel.io.rows_of import ridge_net, triangle_sides, voronoi_sides
 from stereodel.sphere import SphereArc, SphereCircle
 from stereodel.sphere.latitudes import Latitude
 from stereodel.sphere.vectors import units
@@ -120,7 +120,7 @@ class SphereRegions:
                 "a cell has fewer than three vertices, as where all sites are on one circle; draw its ridges"
             )
         count = len(voronoi.points)
-        return cls._of(ridge_arcs(voronoi), voronoi_sides(voronoi), np.arange(count), count)
+        return cls._of(ridge_net(voronoi).arcs(), voronoi_sides(voronoi), np.arange(count), count)
 
     @classmethod
     def triangles(cls, triangulation: SphericalDelaunay) -> SphereRegions:

@@ -63,14 +63,11 @@ class Grid(Shown):
 
     Parameters
     ----------
-    lon : (w,) array_like
-        Degrees, from west to east in equal steps; above 180 where the grid crosses the 180th meridian. In the plane x.
-    lat : (h,) array_like
-        Degrees in [−90, 90], from south to north in equal steps. In the plane y.
-    values : mapping of str to (h, w) array_like
-        Values by name, rows from south to north; NaN marks a missing value.
-    units : mapping of str to str, optional
-        Units by name, for some or all of the values.
+    lon, lat : (w,), (h,) array_like
+        Degrees in equal steps from west to east, above 180 where the grid crosses the 180th meridian, and from south to
+        north, in [−90, 90]; in the plane x and y.
+    values, units : mapping of str to (h, w) array_like, and of str to str, optional
+        Values by name, rows from south to north, NaN where one is missing; and the units of some or all.
     centers : bool
         Whether values belong to cells, with the nodes at their centres.
     surface, axes, crs
@@ -110,25 +107,25 @@ class Grid(Shown):
 
     def __post_init__(self) -> None:
         axes = tuple(self.axes) or AXES[as_choice(self.surface, tuple(AXES), "surface")]
-        lon, lat = (read_only(as_floats(axis, name)) for axis, name in ((self.lon, "lon"), (self.lat, "lat")))
-        for axis, name in ((lon, "lon"), (lat, "lat")):
+        for name in ("lon", "lat"):
+            axis = read_only(as_floats(getattr(self, name), name))
+            object.__setattr__(self, name, axis)
             if axis.ndim != 1 or not len(axis):
                 raise ValueError(f"{name} must have shape (n,) with at least one entry, got {axis.shape}")
             steps = np.diff(axis)
             if len(steps) and (steps.min() <= 0 or np.ptp(steps) > GRID_ROUNDING * steps.max()):
                 raise ValueError(f"{name} must grow by equal steps, which go from {steps.min()} to {steps.max()}")
         if self.surface == "sphere":
-            as_lonlat(np.column_stack([np.zeros(len(lat)), lat]), "lat")
+            as_lonlat(np.column_stack([np.zeros(len(self.lat)), self.lat]), "lat")
             object.__setattr__(self, "crs", DEGREES)
         values = {str(name): read_only(np.asarray(array, dtype=np.float64)) for name, array in self.values.items()}
         for name, array in values.items():
-            if array.shape != (len(lat), len(lon)):
-                raise ValueError(f"values[{name!r}] must have shape {(len(lat), len(lon))}, got {array.shape}")
+            if array.shape != (shape := (len(self.lat), len(self.lon))):
+                raise ValueError(f"values[{name!r}] must have shape {shape}, got {array.shape}")
         unknown = sorted(set(self.units) - set(values))
         if values and unknown:
             raise ValueError(f"units are given for {', '.join(map(repr, unknown))}, which are not among the values")
-        for name, value in (("lon", lon), ("lat", lat), ("axes", axes)):
-            object.__setattr__(self, name, value)
+        object.__setattr__(self, "axes", axes)
         object.__setattr__(self, "values", MappingProxyType(values))
 
     def __reduce__(self) -> tuple[Any, ...]:  # a read-only mapping cannot be pickled or copied
@@ -149,11 +146,11 @@ class Grid(Shown):
         Parameters
         ----------
         spacing : float
-            Degrees between neighbouring nodes, for the whole Earth a divisor of 180; or units of the plane.
+            Degrees between neighbours, for the whole Earth a divisor of 180; or units of the plane.
         bounds : (4,) array_like or "world", optional
-            (west, south, east, north) in degrees; east is less than west if the grid crosses the 180th meridian. In the
-            plane (xmin, ymin, xmax, ymax). The grid starts at the southwest corner and extends as far as it fits. By
-            default the extent of `of`, up to the next multiples of `spacing`; without `of`, "world", the whole Earth.
+            (west, south, east, north) in degrees, east below west across the 180th meridian; in the plane (xmin, ymin,
+            xmax, ymax). The grid starts at the southwest corner and extends as far as it fits. By default the extent
+            of `of`, up to the next multiples of `spacing`; without `of`, "world", the whole Earth.
         of : PointTable, optional
             Points whose plane or sphere, names of coordinates and coordinate system the grid takes.
         centers : bool
@@ -182,9 +179,8 @@ class Grid(Shown):
                 raise ValueError(f"{name} is {(west, south, east, north)}, but south must be below north")
             east = east if east > west else east + 360.0
         sides = ((west, east), (south, north))
-        step = as_scalar(
-            spacing, spelled("spacing"), low=0.0, high=min(high - low for low, high in sides), open_low=True
-        )
+        shorter = min(high - low for low, high in sides)
+        step = as_scalar(spacing, spelled("spacing"), low=0.0, high=shorter, open_low=True)
         most = 2.0 * MOST_PLACES
         counts = [int(min((high - low) / step + GRID_ROUNDING, most)) + (0 if centers else 1) for low, high in sides]
         _check_places(step, *counts)
@@ -215,9 +211,7 @@ class Grid(Shown):
     @property
     def steps(self) -> tuple[float, float]:
         """Distances of neighbours along both axes; along an axis with one node, the size of its cell."""
-        lon, lat = (
-            float(axis[-1] - axis[0]) / (len(axis) - 1) if len(axis) > 1 else 0.0 for axis in (self.lon, self.lat)
-        )
+        lon, lat = (float(axis[-1] - axis[0]) / max(len(axis) - 1, 1) for axis in (self.lon, self.lat))
         return lon or lat or 1.0, lat or lon or 1.0
 
     def to_xarray(self) -> Any:
@@ -246,9 +240,8 @@ class Grid(Shown):
             coordinates[name] = (name, places, attributes)
         named = beside([*variables, *coordinates, "crs", "bnds"], self.values)
         for (given, values), name in zip(self.values.items(), named, strict=True):
-            own = {"units": self.units[given]} if given in self.units else {}
-            own = {"long_name": given} | ({"grid_mapping": "crs"} if system else {}) | own
-            variables[name] = (self.axes[::-1], values, own)
+            own = {"long_name": given, "grid_mapping": "crs" if system else None, "units": self.units.get(given)}
+            variables[name] = (self.axes[::-1], values, {key: each for key, each in own.items() if each is not None})
         dataset = optional("xarray", "grid").Dataset(variables, coordinates, {"Conventions": "CF-1.8"})
         for name, variable in dataset.variables.items():  # in files, values can be missing, and nothing else
             variable.encoding["_FillValue"] = np.nan if name in named else None
@@ -284,9 +277,9 @@ def _extent(points: PointTable, spacing: float, *, centers: bool) -> list[float]
     bounds = [float(west), float(south), float(east), float(north)]
     if across and east > 180:
         bounds[2] -= 360.0
-        said = f"{spelled('bounds')}={','.join(f'{end:.15g}' for end in bounds)} says the same"
-        text = f"the points lie on both sides of the 180th meridian, and so does the grid; {said}"
-        warnings.warn(text, DataWarning, stacklevel=3)
+        same = f"{spelled('bounds')}={','.join(f'{end:.15g}' for end in bounds)} says the same"
+        said = f"the points lie on both sides of the 180th meridian, and so does the grid; {same}"
+        warnings.warn(said, DataWarning, stacklevel=3)
     return bounds
 
 
@@ -297,8 +290,10 @@ def _check_places(spacing: float, columns: int, rows: int) -> None:
         raise ValueError(f"{spelled('spacing')} is {spacing:g}, which makes {made}")
 
 
-def write_geotiff(grid: Grid, path: Path) -> None:
+def write_geotiff(grid: Any, path: Path) -> None:
     """Write a grid as a GeoTIFF, one band for each name; rows from north to south, as in images."""
+    if not isinstance(grid, Grid):
+        raise TypeError(f"thing must be a Grid for a GeoTIFF, not {type(grid).__name__}")
     rasterio = optional("rasterio", "raster")
     (dx, dy), bands = grid.steps, list(grid.values.items())
     if not bands:

@@ -17,9 +17,9 @@ from stereodel._extras import optional
 from stereodel._spaces import SPHERE
 from stereodel.curves.clip import points_along
 from stereodel.curves.ragged import Ragged, spans
+from stereodel.curves.trace import sides_of
 from stereodel.io.formats.columns import as_text, of_objects, plain_cells
 from stereodel.io.formats.names import DataWarning, beside
-from stereodel.io.maps.on_map import steps_of
 from stereodel.io.rows_of import (
     LARGEST_SEGMENT,
     Columns,
@@ -27,7 +27,7 @@ from stereodel.io.rows_of import (
     diagram_of,
     places_of,
     point_columns,
-    ridge_arcs,
+    ridge_net,
     triangles_of,
     triangulation_of,
     usual_kind,
@@ -36,6 +36,7 @@ from stereodel.io.rows_of import (
 from stereodel.sphere import lonlat_to_xyz
 from stereodel.sphere.latitudes import Latitude
 from stereodel.sphere.vectors import units
+from stereodel.triangulation.topology import as_edges
 
 GOLDEN: Final = (np.sqrt(5.0) - 1) / 2
 LOOKS: Final = ((0.20, 0.97), (0.38, 0.93), (0.52, 0.84))
@@ -63,23 +64,22 @@ def to_trimesh(
     what : {"triangles", "cells"}, optional
         By default the triangles of a triangulation and the cells of a diagram.
     colors : (n, 3) or (n, 4) array_like, optional
-        Colour of each triangle, or of each point's cell: integers from 0 to 255, or floats from 0 to 1. By default
-        cells have pale colours that vary with their index, and triangles have none.
+        Of each triangle, or each point's cell: integers from 0 to 255, or floats from 0 to 1. By default cells have
+        pale colours, and triangles none.
     max_segment : float, optional
         Longest side, in degrees, of the triangles that make up a cell, in (0, 90]. Sphere only.
 
     Returns
     -------
     trimesh.Trimesh
-        Made with ``process=False``: vertices are unchanged. Triangles are flat; on the sphere they are the facets of
-        the convex hull. They share the points as vertices unless they have colours. Cells do not share vertices, so
-        that colours end at their boundaries; ``vertex_attributes["point"]`` is the index of each vertex's point.
-        Unbounded cells are left out. The plane is z = 0.
+        Flat triangles, on the sphere the facets of the convex hull, which share the points as vertices unless they have
+        colours. Cells do not share vertices; ``vertex_attributes["point"]`` is the index of each one's point. Unbounded
+        cells are left out. The plane is z = 0.
 
     Raises
     ------
     ValueError, TypeError
-        If `colors` has the wrong shape, an option is out of range, or `mesh` is of another type.
+        If an argument has the wrong shape, range or type.
 
     Examples
     --------
@@ -105,7 +105,7 @@ def to_trimesh(
 
 
 def to_polydata(mesh: Mesh, *, what: str | None = None, columns: Mapping[str, npt.ArrayLike] | None = None) -> Any:
-    """Triangles or cells as a pyvista.PolyData.
+    """Triangles or cells as a pyvista.PolyData (the extra ``vtk``).
 
     Parameters
     ----------
@@ -118,15 +118,9 @@ def to_polydata(mesh: Mesh, *, what: str | None = None, columns: Mapping[str, np
     Returns
     -------
     pyvista.PolyData
-        Flat polygons between unit vectors, or in the plane z = 0, with ``cell_data["point"]`` or
-        ``cell_data["triangle"]``, the index of each polygon's point or triangle, and for cells ``cell_data["area"]``,
-        in steradians on the sphere. Points of a triangulation are in input order, so values can be assigned to
-        ``point_data`` directly. What `to_ugrid` leaves out is left out.
-
-    Raises
-    ------
-    ImportError
-        Without PyVista (the extra ``vtk``).
+        Flat polygons between unit vectors, or in the plane z = 0, with their ``point`` or ``triangle``, the index of
+        it, and for cells their ``area``, as ``cell_data``. Points of a triangulation are in input order. What
+        `to_ugrid` leaves out is left out.
 
     Examples
     --------
@@ -159,7 +153,7 @@ def to_ugrid(
     columns: Mapping[str, npt.ArrayLike] | None = None,
     latitude: Latitude | None = None,
 ) -> Any:
-    """Triangles or cells as an xarray Dataset with a UGRID mesh topology.
+    """Triangles or cells as an xarray Dataset with a UGRID mesh topology (the extra ``grid``).
 
     Parameters
     ----------
@@ -177,16 +171,9 @@ def to_ugrid(
     xarray.Dataset
         ``mesh`` holds the topology; ``node_lon`` and ``node_lat`` are in degrees, ``node_x``, ``node_y``, ``node_z``
         unit vectors (in the plane, ``node_x`` and ``node_y`` alone); ``face_node_connectivity`` is counterclockwise,
-        counts from 0 and pads short rows with -1; then ``edge_node_connectivity``. Faces have ``face_point`` or
-        ``face_triangle``, the index of the point or triangle, and on the sphere ``face_area`` in steradians.
-        ``face_lon`` and ``face_lat`` are the sites of cells or the directions of the mean of a triangle's corners,
-        ``edge_lon`` and ``edge_lat`` the midpoints of edges (in the plane, ``face_x``, ``face_y``, ``edge_x``,
-        ``edge_y``).
-
-    Raises
-    ------
-    ImportError
-        If xarray is missing (the extra ``grid``).
+        counts from 0 and pads short rows with -1; then ``edge_node_connectivity``. ``face_point`` or ``face_triangle``
+        is the index of the point or triangle, on the sphere ``face_area`` in steradians. ``face_lon``, ``face_lat`` (in
+        the plane ``face_x``, ``face_y``) are sites or means of corners, ``edge_lon``, ``edge_lat`` midpoints of edges.
 
     Notes
     -----
@@ -254,8 +241,7 @@ def from_ugrid(dataset: Any) -> tuple[FloatArray, IntArray]:
     Raises
     ------
     ValueError
-        If there is no such mesh, its variables are missing, or a face has fewer than three nodes or one that is not
-        there.
+        If there is no such mesh, its variables are missing, or a face has too few nodes or one that is not there.
 
     Examples
     --------
@@ -323,11 +309,11 @@ def _fans(mesh: Mesh, max_segment: float) -> tuple[FloatArray, Indices, Indices]
         faces = Faces.of(mesh, "cells")
         return _rings(faces.nodes[faces.polygons.values], faces.number[faces.polygons.row], center, levels)
     diagram = diagram_of(mesh)
-    arcs = ridge_arcs(diagram)
+    arcs = ridge_net(diagram).arcs()
     pieces = np.maximum(np.ceil(np.degrees(arcs.stop) / max_segment), 1).astype(np.intp)
     # Around each cell; its first point is repeated at the end and left out.
     around = points_along(voronoi_sides(diagram), arcs.spread(pieces))
-    inner = steps_of(around)
+    inner, _ = sides_of(around)
     border, owner = around.values[inner], around.row[inner]
     reach = np.zeros(len(center))
     np.maximum.at(reach, owner, np.degrees(np.arccos(np.clip(np.sum(border * center[owner], axis=1), -1, 1))))
@@ -351,16 +337,9 @@ def _rings(
     after = Ragged.grouped(owner, owner, len(center)).following
     here, there = first[source] + level, first[after[source]] + level
     outer, inner = level > 0, level > 1
-    return (
-        vertices,
-        np.concatenate(
-            [
-                np.column_stack([here[outer] - 1, here[outer], there[outer]]),
-                np.column_stack([here[inner] - 1, there[inner], there[inner] - 1]),
-            ]
-        ),
-        owner[source],
-    )
+    out = np.column_stack([here[outer] - 1, here[outer], there[outer]])
+    back = np.column_stack([here[inner] - 1, there[inner], there[inner] - 1])
+    return vertices, np.concatenate([out, back]), owner[source]
 
 
 def _as_colors(colors: npt.ArrayLike, count: int) -> Bytes:
@@ -425,8 +404,7 @@ class Faces:
     def edges(self) -> IntArray:
         """Edges as pairs of nodes, (e, 2), each once."""
         here = self.polygons.values
-        sides = np.column_stack([here, here[self.polygons.following]])
-        return np.unique(np.sort(sides, axis=1), axis=0).astype(np.int32)
+        return as_edges(here, here[self.polygons.following])
 
     def centers(self, mesh: Mesh) -> FloatArray:
         """The sites of cells, or the means of triangles' corners."""
@@ -434,15 +412,13 @@ class Faces:
 
     def valued(self, mesh: Mesh, columns: Mapping[str, Any] | None, taken: list[str]) -> Columns:
         """Columns of the points as the data of cells or of the nodes of triangles, under names that are not taken."""
-        given = point_columns(columns, len(mesh.points))
-        lost = len(mesh.points) - len(self.number)
-        if self.what == "point" and given and lost:
-            said = f"{lost} of {len(mesh.points)} points have no bounded cell of their own: their values are left out"
+        given, count = point_columns(columns, len(mesh.points)), len(mesh.points)
+        some = self.number if self.what == "point" else np.arange(count)
+        if given and len(some) < count:
+            said = f"{count - len(some)} of {count} points have no bounded cell of their own: their values are left out"
             warnings.warn(said, DataWarning, stacklevel=4)
-        some = self.number if self.what == "point" else slice(None)
-        return beside(
-            taken, {re.sub(r"^(?=\W)|(?<=\s)$|/", "_", name): _held(values[some]) for name, values in given.items()}
-        )
+        held = {re.sub(r"^(?=\W)|(?<=\s)$|/", "_", name): _held(values[some]) for name, values in given.items()}
+        return beside(taken, held)
 
     def areas(self, mesh: Mesh) -> FloatArray:
         """The areas of cells or triangles, on the sphere in steradians."""

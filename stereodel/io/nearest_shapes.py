@@ -56,10 +56,10 @@ def nearest_shapes(
 
     Notes
     -----
-    Lines and sides of polygons are straight on the map of longitude and latitude, as in GIS and GeoJSON. Distances are
-    those of the sphere to arcs that follow them within 1e-8 radians, 6 cm on the Earth. So no other shape is nearer by
-    more than twice that; of shapes as near, those that contain the place come first, then the first of all. With
-    authalic latitudes and the mean radius, distances are within 0.12 % of those on the ellipsoid.
+    Lines and sides of polygons are straight on the map of longitude and latitude, as in GIS and GeoJSON; distances are
+    those of the sphere to arcs that follow them within 1e-8 radians, 6 cm on the Earth. Of shapes as near within twice
+    that, those that contain the place come first, then the first of all. With authalic latitudes and the mean radius,
+    distances are within 0.12 % of those on the ellipsoid.
 
     Examples
     --------

@@ -22,14 +22,14 @@ from stereodel.constants import UNIT_ROUNDOFF
 from stereodel.curves.borders import Box, Pieces, frame_of
 from stereodel.curves.clip import chains_of, closed_along, points_along, together
 from stereodel.curves.ragged import Ragged
-from stereodel.curves.trace import Arcs, great
+from stereodel.curves.trace import Arcs, great, sides_of
 from stereodel.interpolation import Contour
 from stereodel.io.formats import wkb
 from stereodel.io.formats.map_rows import MapRows, content_of, is_frame, packed, unpacked
 from stereodel.io.formats.names import beside, spelled
 from stereodel.io.maps.clipping import clipped
 from stereodel.io.maps.dissolving import codes_of, dissolved, dividing, grouped, merged
-from stereodel.io.maps.on_map import invalid, polygons_on_map, repaired, steps_of
+from stereodel.io.maps.on_map import invalid, polygons_on_map, repaired
 from stereodel.io.maps.tiles import Net, sphere_lines, sphere_polygons
 from stereodel.io.reading import shapes_of
 from stereodel.sphere import xyz_to_lonlat
@@ -38,6 +38,7 @@ from stereodel.sphere.vectors import units
 from stereodel.triangulation import PlanarVoronoi, SphericalVoronoi
 from stereodel.triangulation.delaunay import Triangulation, state_of
 from stereodel.triangulation.diagram import Diagram
+from stereodel.triangulation.topology import edges_of
 
 Mesh = Triangulation | Diagram[Any]
 MESHES = (Triangulation, Diagram)
@@ -72,27 +73,25 @@ def rows_of(
         Diagram and triangulation are computed from each other where `what` requires it. Contours come from `contours`;
         of the options only `latitude`, `max_segment` and `crs` apply to them.
     what : {"cells", "triangles", "edges", "ridges", "sites"}, optional
-        Voronoi cells, Delaunay triangles, Delaunay edges, Voronoi ridges or the points themselves. By default the cells
-        of a diagram and the triangles of a triangulation.
+        Voronoi cells or ridges, Delaunay triangles or edges, or the points; by default the cells of a diagram and the
+        triangles of a triangulation.
     columns : mapping of str to (n,) array_like, optional
         Further columns for cells and sites, one value for each point, such as ``read_points(path).columns``.
     latitude : {"spherical", "geodetic", "authalic"}, optional
-        Kind of latitude of the results, as in `xyz_to_lonlat`; by default that of the input points. Sphere only.
+        Of the results, as in `xyz_to_lonlat`; by default that of the input points. Sphere only.
     radius : float, optional
-        Radius of the sphere. Areas are steradians times its square, lengths radians times it; with
-        `stereodel.earth.AUTHALIC_RADIUS_KM`, they are in km² and km. In the plane, the length of one coordinate unit.
+        Of the sphere, for areas and lengths: `stereodel.earth.AUTHALIC_RADIUS_KM` gives km² and km. In the plane, the
+        length of one coordinate unit.
     max_segment : float, optional
         Longest chord in degrees, in (0, 90], measured along the great circle and in longitude. Sphere only.
     bounds : (4,) array_like, optional
-        (xmin, ymin, xmax, ymax) to which cells and ridges of the plane are cut; by default the rectangle of the points
-        extended on all sides by a tenth of its longer side.
+        (xmin, ymin, xmax, ymax) to which cells and ridges of the plane are cut; by default those of the points and a
+        tenth of the longer side around them.
     crs : optional
-        Coordinate reference system of plane coordinates, in any form that GeoPandas accepts. On the sphere it is
-        EPSG:4326.
+        Coordinate reference system of the plane, in any form that GeoPandas accepts; on the sphere EPSG:4326.
     clip : "land", path-like, GeoDataFrame, geometry or GeoJSON, optional
-        Polygons to which cells or triangles of the sphere are clipped, in degrees or with a coordinate system of their
-        own; "land" is the land of Natural Earth, 1:50 000 000. What lies outside has no row; ``area`` is the area
-        inside.
+        Polygons to which cells or triangles of the sphere are clipped, in degrees or their own coordinate system, or
+        the land of Natural Earth, 1:50 000 000. What lies outside has no row; ``area`` is the area inside.
     dissolve : str, optional
         One of `columns`: the cells of points with the same value in it, missing values among them, are one feature.
     progress : callable, optional
@@ -103,11 +102,10 @@ def rows_of(
     geopandas.GeoDataFrame
         ``point`` (index of the point) and ``area`` for cells; ``triangle``, ``a``, ``b``, ``c`` (indices of its
         corners) and ``area`` for triangles; ``a``, ``b`` and ``length`` for edges and ridges; ``point`` for sites;
-        ``level`` and ``closed`` for contours, whose lines have higher values on their left; then `columns`, then
-        ``geometry``, longitude before latitude. Duplicates and cells outside the bounds have no row. With `dissolve`
-        ``point`` is the first of the points, ``cells`` the number of cells, ``area`` that of all, rounded once, and of
-        `columns` there is that one alone. A column of `columns` whose name is taken gets a number appended, with a
-        warning.
+        ``level`` and ``closed`` for contours, whose lines have higher values on their left; then `columns`, with a
+        number and a warning where their names are taken, then ``geometry``. Duplicates and cells outside the bounds
+        have no row. With `dissolve` ``point`` is the first of the points, ``cells`` the number of cells, ``area`` that
+        of all, rounded once, and of `columns` there is that one alone.
 
     Raises
     ------
@@ -119,16 +117,14 @@ def rows_of(
     Notes
     -----
     Polygons are valid, counterclockwise, cut at ±180° and closed along ±90° around the poles. Those of the sphere tile
-    [−180, 180] × [−90, 90] without gaps or overlaps, since every arc is sampled once for the two faces that share it
-    and chords are halved where straight lines on the map would cross. Cells and triangles narrower than a micrometre
-    are the exception: they are valid or empty, and may overlap others by the distance between chords and arcs.
-    `closing` triangles are not part of the sphere's surface and have no row; nor do edges that belong to them alone.
+    [−180, 180] × [−90, 90] without gaps or overlaps, since neighbours share every point of their sides. Cells and
+    triangles narrower than a micrometre are the exception: they are valid or empty, and may overlap others by the
+    distance between chords and arcs. `closing` triangles have no row; nor do edges that belong to them alone.
 
-    Polygons are clipped on the map, where the lines of `clip` are straight, as in a GIS, and arcs are chords no longer
-    than `max_segment`. Crossings are rounded to doubles separately for each of two neighbours. The area of a clipped
-    polygon is the share of the polygon on the map that remains, measured on the sphere, times the area of the whole
-    cell or triangle, which comes from its arcs. Cells are dissolved before they are clipped, by the sides that they
-    share point for point; their area is the sum of their clipped areas.
+    Polygons are clipped on the map, where the lines of `clip` are straight, as in a GIS. Crossings are rounded to
+    doubles separately for each of two neighbours. The area of a clipped polygon is the share that remains, measured on
+    the sphere, times the area of the whole cell or triangle, which comes from its arcs. Cells are dissolved before they
+    are clipped; their area is the sum of their clipped areas.
 
     Examples
     --------
@@ -147,10 +143,8 @@ def rows_of(
     """
     as_scalar(max_segment, spelled("max_segment"), low=0.0, high=LARGEST_SEGMENT, open_low=True)
     if isinstance(mesh, list):
-        if what is not None or columns or bounds is not None or clip is not None or dissolve is not None:
-            raise ValueError(
-                "what, columns, bounds, clip and dissolve are options of triangulations and diagrams, not of contours"
-            )
+        if columns or any(each is not None for each in (what, bounds, clip, dissolve)):
+            raise ValueError("what, columns, bounds, clip and dissolve are options of meshes, not of contours")
         return _of_contours(mesh, max_segment, latitude, crs)
     wanted = as_choice(what or usual_kind(mesh), WHAT, "what")
     chosen: Latitude = as_choice(latitude or mesh.latitude or "spherical", KINDS, "latitude")
@@ -219,9 +213,8 @@ def _faces(
         cells = sphere_polygons(ridge_net(diagram), voronoi_sides(diagram), max_segment, latitude, progress)
         kept = np.flatnonzero(diagram.is_kept)
         if len(kept) == 1:
-            cells[kept] = wkb.polygons(
-                Ragged.of([np.array([(180.0, -90.0), (180.0, 90.0), (-180.0, 90.0), (-180.0, -90.0)])])
-            )
+            world = np.array([(180.0, -90.0), (180.0, 90.0), (-180.0, 90.0), (-180.0, -90.0)])
+            cells[kept] = wkb.polygons(Ragged.of([world]))
         return columns, cells
     triangulation, number = triangles_of(mesh)
     simplices = triangulation.simplices[number]
@@ -236,25 +229,19 @@ def _faces(
 
 def _lines(mesh: Mesh, what: str, max_segment: float, latitude: Latitude, box: Box | None) -> tuple[Columns, Packed]:
     """Edges or ridges: columns, lengths among them, and lines."""
-    if box is not None:
-        if what == "edges":
-            pairs = triangulation_of(mesh).edges
-            ends = mesh.points[pairs]
-        else:
-            diagram = diagram_of(mesh)
-            ends, ridge = diagram.segments((box.left, box.bottom, box.right, box.top))
-            pairs = diagram.ridge_points[ridge]
-        length = mesh.surface.distances(ends[:, 0], ends[:, 1])
-        lines = wkb.lines(Ragged(ends.reshape(-1, 2), 2 * np.arange(len(ends) + 1)))
-    else:
-        if what == "edges":
-            triangulation, number = triangles_of(mesh)
-            _, pairs = triangle_sides(triangulation.simplices[number])
-            arcs = Net(units(mesh.points), pairs).arcs()
-        else:
-            pairs, arcs = diagram_of(mesh).ridge_points, ridge_net(diagram_of(mesh)).arcs()
+    diagram = None if what == "edges" else diagram_of(mesh)
+    pairs = corners_of(mesh, what) if diagram is None else diagram.ridge_points
+    if box is None:
+        arcs = (Net(units(mesh.points), pairs.astype(np.intp)) if diagram is None else ridge_net(diagram)).arcs()
         length = np.radians(mesh.surface.distances(arcs.start, arcs.end))
         lines = sphere_lines(arcs, max_segment, latitude)
+    else:
+        ends = mesh.points[pairs]
+        if diagram is not None:
+            ends, ridge = diagram.segments((box.left, box.bottom, box.right, box.top))
+            pairs = pairs[ridge]
+        length = mesh.surface.distances(ends[:, 0], ends[:, 1])
+        lines = wkb.lines(Ragged(ends.reshape(-1, 2), 2 * np.arange(len(ends) + 1)))
     return {"a": pairs[:, 0], "b": pairs[:, 1], "length": length}, lines
 
 
@@ -269,7 +256,8 @@ def _of_contours(contours: Sequence[Contour], max_segment: float, latitude: Lati
     for number, contour in enumerate(contours):
         if not isinstance(contour, Contour):
             raise TypeError(f"mesh[{number}] must be a Contour, not {type(contour).__name__}")
-    kind = None if latitude is None else as_choice(latitude, KINDS, "latitude")
+    known = latitude or next((contour.latitude for contour in contours if contour.latitude), "spherical")
+    kind: Latitude = as_choice(known, KINDS, "latitude")
     columns: Columns = {
         "level": np.array([contour.level for contour in contours], dtype=np.float64),
         "closed": np.array([contour.closed for contour in contours], dtype=np.bool_),
@@ -278,10 +266,8 @@ def _of_contours(contours: Sequence[Contour], max_segment: float, latitude: Lati
     points = Ragged.of([contour.points for contour in contours], nothing)
     if surface_of(points.values) is not SPHERE:
         return MapRows(columns, wkb.lines(points), crs)
-    first = steps_of(points)
+    first, lines = sides_of(points)
     arcs = great(points.values[first], points.values[first + 1])
-    lines = Ragged(np.arange(len(first)), points.offsets - np.arange(len(points) + 1))
-    kind = kind or next((contour.latitude for contour in contours if contour.latitude), None) or "spherical"
     return MapRows(columns, sphere_lines(arcs, max_segment, kind, lines), "EPSG:4326")
 
 
@@ -373,12 +359,11 @@ def triangles_of(mesh: Mesh) -> tuple[Any, Indices]:
     return triangulation, np.flatnonzero(state_of(triangulation).open)
 
 
-def ridge_arcs(diagram: SphericalVoronoi) -> Arcs:
-    """The ridges as arcs; half great circles take their normals from the diagram."""
-    if not len(diagram.ridge_vertices):
-        return great(np.zeros((0, 3)), np.zeros((0, 3)))
-    start, end = diagram.vertices[diagram.ridge_vertices].transpose(1, 0, 2)
-    return great(start, end, diagram.ridge_normals())
+def corners_of(mesh: Mesh, what: str) -> IntArray:
+    """Indices of the corners of these triangles, or of the ends of their edges."""
+    triangulation, number = triangles_of(mesh)
+    simplices: IntArray = triangulation.simplices[number]
+    return edges_of(simplices) if what == "edges" else simplices
 
 
 def voronoi_sides(diagram: PlanarVoronoi | SphericalVoronoi) -> Ragged:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import shutil
 from collections.abc import Callable, Mapping
-from contextlib import nullcontext
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any, BinaryIO, Final
@@ -34,11 +33,11 @@ from stereodel.io.rows_of import (
     MESHES,
     Columns,
     Mesh,
+    corners_of,
     diagram_of,
     places_of,
     point_columns,
     rows_of,
-    triangulation_of,
     usual_kind,
 )
 from stereodel.io.table import AXES, PointTable
@@ -63,33 +62,28 @@ def write(
     path : path-like or binary stream
         Files are written completely or not at all; an existing file is replaced.
     thing : Mesh, PointTable, Grid, list of Contour, or geopandas.GeoDataFrame
-        A triangulation or diagram of the plane or sphere; a table or frame for formats that hold tables; a grid for
-        csv, nc or tif; contours for formats that hold lines.
+        A triangulation or diagram; a table or frame for formats of tables; a grid for csv, nc or tif; contours for
+        formats of lines.
     format : str, optional
         By default the extension of the path. Required for a stream.
     progress : callable, optional
-        Called repeatedly with the name of the stage, how much of it is done, and how much there is: rows, where they
-        are written.
+        Called repeatedly with the name of the stage, how much of it is done, and how much there is, as of rows.
     **options
-        Options of the function that makes the contents: `to_geodataframe` for csv, xlsx, geojson and geojsonl (and
-        ``decimals`` of `to_geojson`), parquet, gpkg, fgb, shp and kml; `to_ugrid` for nc; `to_trimesh` for glb and ply;
-        `to_polydata` for vtp.
+        Of what makes the contents: `to_ugrid` for nc, `to_trimesh` for glb and ply, `to_polydata` for vtp, else
+        `to_geodataframe`; for geojson and geojsonl also ``decimals`` of `to_geojson`.
 
     Raises
     ------
     ValueError, TypeError
         If the extension or format is unknown, the format cannot hold `thing`, or an option does not apply.
-    ImportError
-        If the library for the format is missing; the message names the extra that installs it.
-    OSError
-        If the file cannot be written.
+    ImportError, OSError
+        If the library for the format is missing, or the file cannot be written.
 
     Notes
     -----
-    CSV, which needs no other library, and XLSX: for cells and sites, one row for each point, duplicates included, with
-    lon and lat (x and y in the plane), the area of its cell and `columns`, or with `dissolve` one row for each value;
-    for triangles and edges, the indices of their corners, from 0. Their options are `what`, `columns`, `latitude`,
-    `radius` and `dissolve`.
+    CSV, which needs no other library, and XLSX have for cells and sites one row for each point, duplicates included,
+    with its coordinates, the area of its cell and `columns`, or with `dissolve` one for each value; for triangles and
+    edges, the indices of their corners. Their options are `what`, `columns`, `latitude`, `radius` and `dissolve`.
 
     Examples
     --------
@@ -106,16 +100,18 @@ def write(
         ending = Path(path).suffix.lower().removeprefix(".")
         kind, stem = format or SAME.get(ending, ending), Path(path).stem
     writer = WRITERS[as_choice(kind, tuple(WRITERS), "format")]
-    if not isinstance(thing, (*MESHES, list)) and (unknown := [name for name in options if name != "decimals"]):
+    own = {"decimals"} if kind in ("geojson", "geojsonl") else set()
+    if not isinstance(thing, (*MESHES, list)) and (unknown := sorted(options.keys() - own)):
         raise TypeError(f"{', '.join(unknown)} is not an option where tables are written")
     with TemporaryDirectory() as folder:
         made = Path(folder, f"{stem}.{kind}")  # libraries go by the extension, and name the layer after the stem
-        with said_of(path, folder) if isinstance(path, str | os.PathLike) else nullcontext():
-            writer(thing, made, options, progress)
         if not isinstance(path, str | os.PathLike):
+            writer(thing, made, options, progress)
             with made.open("rb") as stream:
                 shutil.copyfileobj(stream, path)
             return
+        with said_of(path, folder):
+            writer(thing, made, options, progress)
         # A shapefile consists of several files; the named one is written last, as the others mean nothing without it.
         for part in sorted(Path(folder).iterdir(), key=lambda part: part == made):
             with replacing(path if part == made else Path(path).with_suffix(part.suffix)) as temporary:
@@ -126,8 +122,6 @@ def _layer(thing: Any, options: dict[str, Any]) -> MapRows:
     """The rows of a map for any supported `thing`."""
     if isinstance(thing, (*MESHES, list)):
         return rows_of(thing, **options)
-    if options:
-        raise TypeError(f"{', '.join(options)} is not an option of this format")
     if isinstance(thing, MapRows):
         return thing
     if isinstance(thing, PointTable):
@@ -141,10 +135,11 @@ def _layer(thing: Any, options: dict[str, Any]) -> MapRows:
 def _write_table(thing: Any, path: Path, options: dict[str, Any], progress: Progress | None) -> None:
     if isinstance(thing, MESHES):
         columns = _mesh_columns(thing, **options)
-    elif isinstance(thing, Grid | PointTable | dict):
-        columns = thing if isinstance(thing, dict) else thing.located()
+    elif isinstance(thing, dict):
+        columns = thing
     else:
-        columns = read_points(_layer(thing, options).frame()).located()
+        table = thing if isinstance(thing, Grid | PointTable) else read_points(_layer(thing, options).frame())
+        columns = table.located()
     if path.suffix == ".xlsx":
         count = max((len(values) for values in columns.values()), default=0)
         write_layer(MapRows(columns, np.full(count, None, dtype=object)), path, progress=progress)
@@ -164,9 +159,7 @@ def _mesh_columns(
 ) -> Columns:
     kind = as_choice(what or usual_kind(mesh), ("cells", "sites", "triangles", "edges"), "what")
     if kind in ("triangles", "edges"):
-        triangulation = triangulation_of(mesh)
-        rows = triangulation.edges if kind == "edges" else triangulation.simplices
-        return dict(zip("abc", rows.T, strict=False))
+        return dict(zip("abc", corners_of(mesh, kind).T, strict=False))
     places = places_of(mesh, mesh.points, latitude or mesh.latitude or "spherical")
     found = dict(zip(AXES[mesh.surface.name], places.T, strict=True))
     given = point_columns(columns, len(places))
@@ -189,14 +182,10 @@ def _write_rows(thing: Any, path: Path, options: dict[str, Any], progress: Progr
     LAYERS[kind](_layer(thing, options), path, progress=progress, **own)
 
 
-def _write_tif(thing: Any, path: Path, options: dict[str, Any], progress: Progress | None) -> None:
-    if not isinstance(thing, Grid):
-        raise TypeError(f"thing must be a Grid for a GeoTIFF, not {type(thing).__name__}")
-    write_geotiff(thing, path)
-
-
-def _write_nc(thing: Any, path: Path, options: dict[str, Any], progress: Progress | None) -> None:
-    if isinstance(thing, Grid):
+def _write_grid(thing: Any, path: Path, options: dict[str, Any], progress: Progress | None) -> None:
+    if path.suffix == ".tif":
+        write_geotiff(thing, path)
+    elif isinstance(thing, Grid):
         write_netcdf(thing.to_xarray(), path, form="NETCDF3_64BIT")  # the classic format, which every reader supports
     else:
         check_held(options.get("columns") or {}, "nc")
@@ -230,9 +219,7 @@ WRITERS: Final[dict[str, Callable[[Any, Path, dict[str, Any], Progress | None], 
     "csv": _write_table,
     **dict.fromkeys(LAYERS, _write_rows),
     "xlsx": _write_table,
-    "nc": _write_nc,
-    "tif": _write_tif,
-    "glb": _write_trimesh,
-    "ply": _write_trimesh,
+    **dict.fromkeys(("nc", "tif"), _write_grid),
+    **dict.fromkeys(("glb", "ply"), _write_trimesh),
     "vtp": _write_polydata,
 }

@@ -128,6 +128,10 @@ def test_levels_and_multiples(folder, run):
     run("contour", "cities.csv", "--value", "people", "--interval", 2_000_000, "-o", "lines.geojson")
     levels = geopandas.read_file(folder / "lines.geojson")["level"]
     assert set(levels) == {2e6 * k for k in range(1, 8)}
+    (folder / "none.csv").write_text("lon,lat,t\n0,0,\n1,1,\n", encoding="utf-8")
+    for levels in (("--levels", 1), ("--interval", 1)):
+        said = run("contour", "none.csv", "--value", "t", *levels, "--skip-missing", "-o", "none.geojson", code=1)
+        assert said == "none.csv: no lines: no level lies between the values\n"
 
 
 def test_the_plane(folder, run):

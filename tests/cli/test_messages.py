@@ -115,6 +115,7 @@ globe --magnify=-1 → --magnify is -1.0, outside [
 globe --fly=1 -o out.gif → --fly is '1', but must be LON,LAT
 globe --focus=0,0 --fly=180,0 -o out.gif → opposite
 globe --projection hemispheres -o out.gif → --projection hemispheres cannot move
+globe --projection stereographic -o out.gif → --projection stereographic cannot move
 globe --show none --magnify 1e200 → --magnify is 1e+200, outside [
 globe --texture missing.png → missing.png: No such file or directory
 globe --texture broken.gpkg → broken.gpkg is not a picture

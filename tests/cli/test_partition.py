@@ -1,6 +1,7 @@
 """`stereodel partition`: points in files, results in a folder; and signs of progress, on a terminal alone."""
 
 import io
+from pathlib import Path
 
 import numpy as np
 import pyarrow as pa
@@ -8,7 +9,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from stereodel import SphericalVoronoi
-from stereodel.cli import interpolate
+from stereodel.cli import app, interpolate
 from stereodel.cli.application import reporting, say
 from stereodel.partitioned import Run
 
@@ -108,14 +109,18 @@ def test_a_bar_tells_the_share_and_passes_are_counted(monkeypatch, stages, done,
 
 
 @pytest.mark.parametrize("piece", [2, 5, 7])
-def test_values_come_in_pieces(monkeypatch, piece):
+def test_values_come_in_pieces(monkeypatch, tmp_path, piece):
     """Of the same values as all at once, the last piece shorter than the others."""
     monkeypatch.setattr(interpolate, "PIECE", piece)
     stream = terminal(monkeypatch)
-    points, given = np.array([[0.0, 0], [1, 0], [0, 1]]), np.array([[0.0], [1], [2]])
+    names = [str(tmp_path / name) for name in ("three.csv", "at.csv", "out.csv")]
+    Path(names[0]).write_text("x,y,t\n0,0,0\n1,0,1\n0,1,2\n", encoding="utf-8")
     queries = np.linspace(0.0, 0.4, 10).reshape(5, 2)
-    values = interpolate._interpolated(points, given, "linear", queries)
-    assert values[:, 0] == pytest.approx(queries @ [1, 2])
+    np.savetxt(names[1], queries, delimiter=",", header="x,y", comments="")
+    table = ["--plane", "x", "y", "--value", "t"]
+    app(["interpolate", names[0], *table, "--at", names[1], "-o", names[2]], standalone_mode=False)
+    assert np.loadtxt(names[2], delimiter=",", skiprows=1)[:, 2] == pytest.approx(queries @ [1, 2])
+    assert "interpolating" in stream.getvalue()
     assert "100%" in stream.getvalue()
 
 

@@ -234,6 +234,7 @@ def test_values(case):
         ("a.csv", [[1, 2]], {}, TypeError, r"mesh\[0\] must be a Contour, not list"),
         ("a.csv", 5, {}, TypeError, "thing must be a mesh, a PointTable or a GeoDataFrame, not int"),
         ("a.csv", TABLE, {"what": "cells"}, TypeError, "what is not an option"),
+        ("a.csv", TABLE, {"decimals": 3}, TypeError, "decimals is not an option"),
         ("a.csv", PointTable([[1, 2]], {"\udfff": [1]}), {}, ValueError, "the column name .* has a char.* that .csv"),
         ("a.glb", TABLE, {}, TypeError, "mesh must be a triangulation"),
         ("a.geojson", CELLS, {"radius": -1}, ValueError, "radius"),

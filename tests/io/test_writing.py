@@ -92,6 +92,10 @@ def test_triangles_as_csv(tmp_path):
     write(tmp_path / "triangles.csv", triangulation)
     rows = np.loadtxt(tmp_path / "triangles.csv", delimiter=",", skiprows=1, dtype=int)
     check_delaunay(PLANE, rows)
+    north = SphericalDelaunay(SPHERE[SPHERE[:, 2] > 0])  # what closes the far side has no row
+    write(tmp_path / "north.csv", north)
+    rows = np.loadtxt(tmp_path / "north.csv", delimiter=",", skiprows=1, dtype=int)
+    assert rows.tolist() == to_geodataframe(north)[["a", "b", "c"]].to_numpy().tolist()
     write(tmp_path / "cells.csv", PlanarVoronoi(triangulation))
     assert (tmp_path / "cells.csv").read_text().startswith("x,y,area\n")
 

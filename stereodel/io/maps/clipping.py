@@ -18,8 +18,6 @@ from stereodel.sphere.latitudes import Latitude
 TILES: Final = (1.40625, 5.625, 22.5, 90.0)
 """Sides, in degrees, of the squares into which the mask is divided; each is a quarter of the next."""
 
-FOURTHS: Final = 4
-
 CORNER: Final = np.array([-180.0, -90.0])
 """Corner of the map from which squares are counted."""
 
@@ -57,7 +55,8 @@ class Mask:
         world = shapely.box(-180.0, -90.0, 180.0, 90.0)
         if not shapely.covers(world, whole):
             west, _, east, _ = np.floor((shapely.bounds(whole) + 180.0) / 360.0).astype(int).tolist()
-            turned = [_moved(whole, -360.0 * turns) for turns in range(west, east + 1)]
+            around = (np.array([-360.0 * turns, 0.0]) for turns in range(west, east + 1))
+            turned = [shapely.transform(whole, step.__add__) for step in around]
             whole = shapely.intersection(shapely.union_all(turned), world)
         self._tile = cache(self._made)
         self._whole = whole
@@ -68,7 +67,7 @@ class Mask:
             return self._whole
         side = TILES[level]
         west, south = np.array([x, y]) * side + CORNER
-        outer = self._tile(level + 1, x // FOURTHS, y // FOURTHS)
+        outer = self._tile(level + 1, x // 4, y // 4)
         reach = MARGIN * side
         return shapely.intersection(
             outer, shapely.box(west - reach, south - reach, west + side + reach, south + side + reach)
@@ -93,11 +92,6 @@ class Mask:
             waiting = waiting[~fits]
         result[waiting] = areal(shapely.intersection(polygons[waiting], self._whole))
         return result
-
-
-def _moved(geometry: Any, degrees: float) -> Any:
-    """A geometry shifted eastward."""
-    return shapely.transform(geometry, lambda lonlat: lonlat + np.array([degrees, 0.0]))
 
 
 def areal(geometries: Geometries) -> Geometries:

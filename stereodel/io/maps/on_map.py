@@ -12,9 +12,11 @@ from stereodel.curves import clip
 from stereodel.curves.borders import Antimeridian, Pieces
 from stereodel.curves.fill import holders
 from stereodel.curves.ragged import Ragged, spans
+from stereodel.curves.trace import sides_of
 from stereodel.io.formats import wkb
 from stereodel.io.formats.map_rows import shapely, unpacked
 from stereodel.predicates import orient2d
+from stereodel.sphere.vectors import units
 
 Rule = Callable[[Ragged, Indices], tuple[Indices, FloatArray]]
 """Given some rows of points and their indices, returns after which points to insert new ones, and the new points."""
@@ -32,18 +34,11 @@ def refined(samples: Ragged, rule: Rule) -> Ragged:
         rows = rows[np.unique(some.row[places])]
 
 
-def steps_of(samples: Ragged) -> Indices:
-    """The points that are followed by another in their row."""
-    inner = np.ones(len(samples.values), dtype=bool)
-    inner[samples.offsets[1:] - 1] = False
-    return np.flatnonzero(inner)
-
-
 def close_in_longitude(samples: Ragged, step_rad: float) -> Ragged:
     """Points of arcs, with more inserted between those too far apart in longitude, as near a pole."""
 
     def rule(some: Ragged, _: Indices) -> tuple[Indices, FloatArray]:
-        step = steps_of(some)
+        step = sides_of(some)[0]
         reach = np.hypot(some.values[:, 0], some.values[:, 1])
         # Projected onto the cylinder through the equator; a pole has no longitude.
         level = some.values / np.where(reach > AT_POLE, reach, 1.0)[:, None]
@@ -51,14 +46,9 @@ def close_in_longitude(samples: Ragged, step_rad: float) -> Ragged:
         turn = np.abs(np.arctan2(p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0], p[:, 0] * q[:, 0] + p[:, 1] * q[:, 1]))
         apart = (turn > step_rad) & (reach[step] > AT_POLE) & (reach[step + 1] > AT_POLE)
         # Halfway in longitude, in the plane of the chord and therefore on its great circle.
-        return step[apart], unit(p[apart] + q[apart])
+        return step[apart], units(p[apart] + q[apart])
 
     return refined(samples, rule)
-
-
-def unit(vectors: FloatArray) -> FloatArray:
-    """Non-zero vectors (n, 3) scaled to length 1."""
-    return vectors / np.sqrt(np.sum(vectors**2, axis=1, keepdims=True))
 
 
 def lines_on_map(
@@ -90,7 +80,8 @@ def polygons_on_map(loops: Ragged, owner: Indices, count: int) -> tuple[Packed, 
 
 def opened(loops: Ragged) -> Ragged:
     """Closed loops without their last points, which are their first."""
-    return Ragged(loops.values[steps_of(loops)], loops.offsets - np.arange(len(loops) + 1))
+    first, sides = sides_of(loops)
+    return Ragged(loops.values[first], sides.offsets)
 
 
 def simple(rings: Ragged) -> BoolArray:

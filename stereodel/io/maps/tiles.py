@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from itertools import count
+from typing import Any
 
 import numpy as np
 
@@ -22,7 +23,7 @@ from stereodel.constants import AT_POLE, BORDER_STEPS, CHORD_CLEARANCE, DEGREE_R
 from stereodel.curves import clip
 from stereodel.curves.borders import Antimeridian, Pieces
 from stereodel.curves.ragged import Ragged, offsets_of, spans
-from stereodel.curves.trace import Arcs, great
+from stereodel.curves.trace import Arcs, great, sides_of
 from stereodel.io.formats import wkb
 from stereodel.io.formats.map_rows import packed, shapely, unpacked
 from stereodel.io.maps.on_map import (
@@ -33,11 +34,10 @@ from stereodel.io.maps.on_map import (
     refined,
     repaired,
     simple,
-    steps_of,
-    unit,
 )
 from stereodel.sphere import xyz_to_lonlat
 from stereodel.sphere.latitudes import Latitude
+from stereodel.sphere.vectors import units
 
 Step = Callable[[], None]
 """Reports progress."""
@@ -126,7 +126,7 @@ def sphere_polygons(
         samples = sides.samples
         finer = np.zeros(len(net), dtype=bool)
         finer[sides.pieces.arcs.edge[np.searchsorted(samples.offsets, places, side="right") - 1]] = True
-        middles = unit(samples.values[places, :3] + samples.values[places + 1, :3])
+        middles = units(samples.values[places, :3] + samples.values[places + 1, :3])
         sides = replace(sides, samples=samples.inserted(places + 1, _with_lonlat(middles, latitude)))
         changed = np.unique(faces.row[finer[np.maximum(faces.values, ~faces.values)]])
         result[changed], wrong[changed], large[changed] = _drawn(faces, changed, sides, threads)
@@ -152,21 +152,14 @@ def _prepared(net: Net, max_segment: float, border: Antimeridian, threads: int, 
         lonlat[block] = xyz_to_lonlat(net.vertices[block], latitude=border.latitude)
 
     deque(in_order(located, _blocks(len(net.vertices)), threads), maxlen=0)
-    # Room for both endpoints of each arc and some more points; pages that are never written to take no memory.
-    values, filled = np.empty((3 * len(net), 5)), 0
     inland = np.zeros(len(net), dtype=bool)
-    parts: list[tuple[Indices, BoolArray, BoolArray, BoolArray, Indices]] = []
+    parts: list[tuple[Any, ...]] = []
     prepared = partial(_prepared_block, net, lonlat, max_segment, border, inland)
-    for part, points in in_order(prepared, _blocks(len(net)), threads):
+    for part in in_order(prepared, _blocks(len(net)), threads):
         parts.append(part)
-        if filled + len(points) > len(values):
-            values = np.concatenate([values[:filled], np.empty((len(values) + len(points), 5))])
-        values[filled : filled + len(points)] = points
-        filled += len(points)
         step()
-    if not parts:
-        parts.append(prepared(slice(0, 0))[0])
-    edge, opens, shuts, along, sizes = (np.concatenate([part[k] for part in parts]) for k in range(5))
+    parts = parts or [prepared(slice(0, 0))]
+    edge, opens, shuts, along, sizes, values = (np.concatenate(each) for each in zip(*parts, strict=True))
     # Vertex indices say which points coincide; cuts are not endpoints of arcs.
     first = np.append(True, edge[1:] != edge[:-1])[: len(edge)]
     last = np.append(first[1:], True)[: len(edge)]
@@ -174,12 +167,12 @@ def _prepared(net: Net, max_segment: float, border: Antimeridian, threads: int, 
     nothing = np.zeros((len(edge), 0))
     arcs = Arcs(start, end, nothing, nothing, nothing, nothing, nothing, edge)
     pieces = Pieces(arcs, opens, shuts, np.ones(len(edge), dtype=bool), along)
-    return Sides(border, pieces, Ragged(values[:filled], offsets_of(sizes)), inland)
+    return Sides(border, pieces, Ragged(values, offsets_of(sizes)), inland)
 
 
 def _prepared_block(
     net: Net, lonlat: FloatArray, max_segment: float, border: Antimeridian, inland: BoolArray, block: slice
-) -> tuple[tuple[Indices, BoolArray, BoolArray, BoolArray, Indices], FloatArray]:
+) -> tuple[Indices, BoolArray, BoolArray, BoolArray, Indices, FloatArray]:
     """The pieces of a block of arcs: edge, whether each opens, shuts and follows the border, size; and the points.
 
     Which of the arcs do not meet the border is written to `inland`.
@@ -197,7 +190,7 @@ def _prepared_block(
         values[place[same], 3:] = lonlat[vertex[same]]
         unknown[place[same]] = False
     values[unknown] = _with_lonlat(samples.values[unknown], border.latitude)
-    return (pieces.arcs.edge + block.start, pieces.opens, pieces.shuts, pieces.along, samples.sizes), values
+    return pieces.arcs.edge + block.start, pieces.opens, pieces.shuts, pieces.along, samples.sizes, values
 
 
 def _inland(net: Net, block: slice) -> BoolArray:
@@ -224,11 +217,13 @@ def _clear_of_sites(samples: Ragged, pieces: Pieces, border: Antimeridian, sites
     foot = np.abs(np.sum(sites[pieces.arcs.edge] * pieces.arcs.axis, axis=1))
 
     def rule(some: Ragged, rows: Indices) -> tuple[Indices, FloatArray]:
-        step = steps_of(some)
+        step, _ = sides_of(some)
         piece = rows[some.row[step]]
         p, q = some.values[step], some.values[step + 1]
-        middle, half = unit(p + q), _lengths(q - p) / 2
-        allowed = _allowed(sites[pieces.arcs.edge[piece]], middle, half, foot[piece])
+        middle, half = units(p + q), _lengths(q - p) / 2
+        # A site is at least as far from an arc as from its plane, and as from its midpoint less half the chord.
+        away = np.maximum(foot[piece], _lengths(sites[pieces.arcs.edge[piece]] - middle) - half)
+        allowed = np.maximum(CHORD_CLEARANCE * np.degrees(away), DEGREE_ROUNDING)
         # Few chords come close to the limit; the others need no latitudes.
         unsure = np.flatnonzero(_most_straying(middle, half) > allowed)
         off = _straying(some, step[unsure], middle[unsure], pieces.along[piece[unsure]], border)
@@ -237,15 +232,6 @@ def _clear_of_sites(samples: Ragged, pieces: Pieces, border: Antimeridian, sites
         return step[near], middle[near]
 
     return refined(samples, rule)
-
-
-def _allowed(sites: FloatArray, middle: FloatArray, half: FloatArray, foot: FloatArray) -> FloatArray:
-    """Largest deviation of chords in degrees; `foot` is the distance of the site from the arc's plane.
-
-    A site is at least as far from an arc as from its plane, and as from its midpoint less half the chord.
-    """
-    away = np.maximum(foot, _lengths(sites - middle) - half)
-    return np.maximum(CHORD_CLEARANCE * np.degrees(away), DEGREE_ROUNDING)
 
 
 def _lengths(vectors: FloatArray) -> FloatArray:
@@ -382,7 +368,7 @@ def _crossing(faces: Ragged, sides: Sides) -> Indices:
         return step
     flat = sides.border.flat(walk.samples)
     ends = np.stack([flat[step], flat[step + 1]], axis=1)
-    middle = unit(walk.samples.values[step, :3] + walk.samples.values[step + 1, :3])
+    middle = units(walk.samples.values[step, :3] + walk.samples.values[step + 1, :3])
     along = sides.pieces.along[walk.pieces[walk.samples.row[step]]]
     off = _straying(walk.samples, step, middle, along, sides.border).max(axis=1)
     lines = shapely.linestrings(ends)

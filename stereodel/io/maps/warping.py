@@ -31,8 +31,6 @@ from stereodel.io.formats.map_rows import (
 from stereodel.io.maps.on_map import close_in_longitude, lines_on_map, polygons_on_map, repaired
 from stereodel.sphere import lonlat_to_xyz, xyz_to_lonlat
 
-BORDER = Antimeridian()
-
 
 def warp(shapes: Any, lens: MoebiusMap, *, tolerance: float = 0.01) -> Any:
     """The images of geometries under a conformal map, as geometries of longitude and latitude.
@@ -40,9 +38,8 @@ def warp(shapes: Any, lens: MoebiusMap, *, tolerance: float = 0.01) -> Any:
     Parameters
     ----------
     shapes : geometry, array_like of geometries, GeoSeries or GeoDataFrame
-        In degrees. Polygons are as in GeoJSON and shapefiles: valid, cut at ±180°, with edges straight in longitude and
-        latitude. Lines that jump by more than 180° continue across ±180°. Frames in another coordinate system are
-        transformed to EPSG:4326 first. Heights are dropped.
+        In degrees; frames in another coordinate system are transformed. Polygons are valid, cut at ±180°, with edges
+        straight in longitude and latitude; lines that jump by more than 180° continue across ±180°. Heights are lost.
     lens : MoebiusMap
     tolerance : float
         Largest deviation of the straight segments of the result from the exact image, in degrees on the sphere.
@@ -50,10 +47,9 @@ def warp(shapes: Any, lens: MoebiusMap, *, tolerance: float = 0.01) -> Any:
     Returns
     -------
     geometry, ndarray of geometries, GeoSeries or GeoDataFrame
-        Same type and order as the input, None and empty geometries unchanged. Coordinates are in [−180, 180] × [−90,
-        90], with new vertices where edges bend. Polygons are valid, cut at ±180° and closed along ±90° around poles
-        that they contain; parts that met at ±180° are merged if they no longer lie there. A polygon may become a
-        MultiPolygon, a line a MultiLineString.
+        Same type and order as the input, None and empty geometries unchanged, with new vertices where edges bend.
+        Polygons are valid, cut at ±180° and closed along ±90° around poles that they contain; parts that met at ±180°
+        are merged if they no longer lie there. A polygon may become a MultiPolygon, a line a MultiLineString.
 
     Raises
     ------
@@ -64,10 +60,7 @@ def warp(shapes: Any, lens: MoebiusMap, *, tolerance: float = 0.01) -> Any:
 
     Notes
     -----
-    The image of a great-circle arc is a circular arc, which is computed in closed form rather than by bisection, so an
-    edge near the focus is as exact as any other. The interior of a polygon is on the left of its boundary, and a
-    conformal map keeps it there, however large it becomes.
-
+    The image of a great-circle arc is a circular arc in closed form: an edge near the focus is as exact as any other.
     The chords of a polygon narrower than 2⁻⁸ of the tolerance may cross: it becomes a row of slivers that deviate by no
     more than the tolerance. Below 1e-8 degrees, and at a pole, its sides may have the same chords: it is then empty.
 
@@ -126,8 +119,9 @@ def _lines(geometries: Geometries, lens: MoebiusMap, slack: float) -> Geometries
     lines = unwrapped(Ragged.grouped(lonlat, part, len(parts)))
     first, sides = sides_of(lines)
     edges = Edges.straight(lines.values[first], lines.values[first + 1])
-    pieces = BORDER.cut(edges.arcs_under(lens, slack / 4).through(lens))
-    images = lines_on_map(sides, owner, len(geometries), pieces, _sampled(pieces, slack), BORDER)
+    border = Antimeridian()
+    pieces = border.cut(edges.arcs_under(lens, slack / 4).through(lens))
+    images = lines_on_map(sides, owner, len(geometries), pieces, _sampled(pieces, slack), border)
     return unpacked(images, shapely.LineString())
 
 
