@@ -207,16 +207,3 @@ def test_classes_by_scipys_names_on_the_sphere(lonlat):
     assert np.array_equal(function(LON[1:4], LAT), griddata(lonlat, values, (LON[1:4], LAT), latitude="geodetic"))
     directions = SphericalDelaunay.from_lonlat(lonlat).points
     assert stereodel.interpolation.NearestNDInterpolator(directions, values)(directions[3]) == values[3]
-
-
-@pytest.mark.parametrize(
-    ("options", "error", "message"),
-    [
-        ({"points": [[1, 0, 0], [0, 2, 0], [0, 0, 3]]}, ValueError, "space.*scipy.interpolate.LinearNDInterpolator"),
-        ({"values": [1j, 0, 0]}, TypeError, "values must hold real numbers"),
-    ],
-)
-def test_what_classes_by_scipys_names_refuse(options, error, message):
-    given = {"points": [[0, 0], [1, 0], [0, 1]], "values": [1.0, 2.0, 3.0]}
-    with pytest.raises(error, match=message):
-        stereodel.interpolation.LinearNDInterpolator(**(given | options))
