@@ -5,22 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from stereodel.drawing import (
-    Dots,
-    DotStyle,
-    Fill,
-    Label,
-    LineStyle,
-    Page,
-    Polygons,
-    Polylines,
-    Scene,
-    Sketch,
-    Stroke,
-    View,
-    styled,
-    with_legend,
-)
+from stereodel.drawing import DotStyle, LineStyle, Scene, Sketch, View, styled, with_legend
+from stereodel.drawing.page import Dots, Fill, Label, Page, Polygons, Polylines, Stroke
 from stereodel.drawing.page.style import LABEL_SIZE, line
 from stereodel.drawing.scene.legend import GAP as SPACE
 from stereodel.drawing.scene.legend import ROW, SAMPLE

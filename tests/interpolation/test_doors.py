@@ -77,15 +77,11 @@ def refused(*_, **__):
 
 def test_points_and_curvilinear_grids(stations, lonlat):
     linear = LinearInterpolator.from_lonlat(lonlat, np.moveaxis(stations.values, 1, 0))
-    way = (
-        xr.DataArray(LON[:3], dims="place"),
-        xr.DataArray(LAT, dims="place", name="phi", attrs={"units": "degrees_north"}),
-    )
-    found = stations.stereodel.interpolate(lon=way[0], lat=way[1])
+    phi = xr.DataArray(LAT, dims="place", name="phi", attrs={"units": "degrees_north"})
+    found = stations.stereodel.interpolate(lon=xr.DataArray(LON[:3], dims="place"), lat=phi)
     assert found.dims == ("time", "level", "place")
-    assert np.array_equal(
-        found.transpose("place", "time", "level"), linear(lonlat=np.column_stack([LON[:3], LAT])), equal_nan=True
-    )
+    expected = np.moveaxis(linear(lonlat=np.column_stack([LON[:3], LAT])), 0, -1)
+    assert np.array_equal(found, expected, equal_nan=True)
     assert np.array_equal(found.lon, LON[:3])
     assert found.phi.attrs == {"units": "degrees_north"}
     bent = [xr.DataArray(GRID[..., k] + GRID[..., 1 - k] / 9, dims=("y", "x")) for k in (0, 1)]
@@ -121,23 +117,20 @@ def test_one_place_and_extrapolation(stations, lonlat):
 
 
 def test_what_cannot_be_found_is_said(stations):
-    with pytest.raises(ValueError, match="one coordinate of longitude, but there is none; name two by source="):
-        stations.drop_vars("lon").stereodel.interpolate(lon=LON, lat=LAT)
     twice = stations.assign_coords(longitude=("station", np.zeros(50)))
-    with pytest.raises(ValueError, match="there are several: lon, longitude"):
-        twice.stereodel.interpolate(lon=LON, lat=LAT)
     named = twice.stereodel.interpolate(lon=LON, lat=LAT, source=("lon", "lat"))
     assert np.array_equal(named, stations.stereodel.interpolate(lon=LON, lat=LAT), equal_nan=True)
-    with pytest.raises(ValueError, match=r"source names 'l', but the coordinates are \['code', 'lat', 'lon'"):
-        stations.stereodel.interpolate(lon=LON, lat=LAT, source=("l", "lat"))
-    with pytest.raises(ValueError, match="lon and lat have the dimension 'time', which the values also have"):
-        stations.stereodel.interpolate(lon=xr.DataArray(LON, dims="time"), lat=1.0)
-    with pytest.raises(ValueError, match=r"lon has shape \(3, 5\); give a DataArray"):
-        stations.stereodel.interpolate(lon=GRID[..., 0], lat=LAT)
-    with pytest.raises(ValueError, match=r"cannot align|conflict|join"):
-        stations.stereodel.interpolate(
-            lon=xr.DataArray(LON, {"p": LON}, "p"), lat=xr.DataArray(LON, {"p": LON + 1}, "p")
-        )
+    apart = {name: xr.DataArray(LON, {"p": LON + k}, "p") for k, name in enumerate(("lon", "lat"))}
+    for given, options, message in (
+        (stations.drop_vars("lon"), {}, "one coordinate of longitude, but there is none; name two by source="),
+        (twice, {}, "there are several: lon, longitude"),
+        (stations, {"source": ("l", "lat")}, r"source names 'l', but the coordinates are \['code', 'lat', 'lon'"),
+        (stations, {"lon": xr.DataArray(LON, dims="time")}, "have the dimension 'time', which the values also have"),
+        (stations, {"lon": GRID[..., 0]}, r"lon has shape \(3, 5\); give a DataArray"),
+        (stations, apart, r"cannot align|conflict|join"),
+    ):
+        with pytest.raises(ValueError, match=message):
+            given.stereodel.interpolate(**{"lon": LON, "lat": LAT} | options)
 
 
 def test_the_accessor_is_there_by_one_import():

@@ -1,5 +1,6 @@
 """Tables as people have them: what is read, what is said of it, and what is refused with the option that helps."""
 
+import gzip
 import io
 import json
 import warnings
@@ -78,6 +79,11 @@ READ = [
             *("X_COORD;Y_COORD", "POINT_X;POINT_Y"),
         )
     ],
+    case("10 48.4|2 51", [(10, 48.4), (2, 51)]),
+    case("a,10,48.4|b,2,51", [(10, 48.4), (2, 51)], {"column_1": ["a", "b"]}, lon="column_2", lat="column_3"),
+    case('n;lon;lat|"Ulm; Donau, B";9,99;48,4|"a\nb";10,1;54,3', TWO, {"n": ["Ulm; Donau, B", "a\nb"]}),
+    case("\ufefflon,lat|9.99,48.4||10.1,54.3"),
+    case("lon,lat,name|", [], {"name": []}),
     # refused, with the option that helps
     case("lon,lat|9,48|99999,3", r"row 2: longitude 99999.0 is outside .* skip_invalid=True, or .* wrap=True"),
     case("lon,lat|9,48|181,91", "row 2: latitude 91.0 is outside .* leave such rows out with skip_invalid=True"),
@@ -107,6 +113,7 @@ def test_a_dirty_table(content, options, places, columns, note):
         return
     table, told = heard(read_points, io.StringIO(content), **options)
     assert table.places.tolist() == [list(place) for place in places]
+    assert table.rows.tolist() == [*range(1, len(places) + 1)] or "left out" in str(told) or "skip_missing" in options
     got = {name: [None if each != each else each for each in values.tolist()] for name, values in table.columns.items()}
     assert got == columns
     assert len(told) == int(note if isinstance(note, int) else bool(note))
@@ -133,6 +140,8 @@ def test_encodings(text, encoding, guess):
         assert [values.tolist() for values in table.columns.values()] == [c.tolist() for c in expected.columns.values()]
     for name in ("utf-16", *(["utf-16-le"] if text[0] < "\x80" else [])):
         assert [*read_points(io.BytesIO(text.encode(name))).columns] == [*expected.columns]
+    packed = read_points(io.BytesIO(gzip.compress(text.encode())))
+    assert packed.lonlat.tolist() == expected.lonlat.tolist()
     with pytest.raises(ValueError, match="line 2 is not text in ascii; say which encoding the file has with encoding="):
         read_points(io.BytesIO(text.replace("都市", "a").replace("город", "a").encode()), encoding="ascii")
 
@@ -201,7 +210,8 @@ def test_an_index_and_geometries_of_frames():
     named = pd.DataFrame(COLUMNS).set_index("name")
     assert read_points(named).columns["name"].tolist() == COLUMNS["name"]
     points = geopandas.points_from_xy(*np.transpose(TWO))
-    assert read_points(geopandas.GeoSeries(points, crs=4326)).lonlat.tolist() == [list(place) for place in TWO]
+    for crs in (4326, None):  # those without a coordinate system are degrees
+        assert read_points(geopandas.GeoSeries(points, crs=crs)).lonlat.tolist() == [list(place) for place in TWO]
 
 
 DIRTY = """Bericht

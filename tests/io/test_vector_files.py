@@ -20,15 +20,8 @@ from tests.tiers import by_day
 ROWS = 60
 CUTS = (0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 0.99, 0.999)
 DRIVERS = dict.fromkeys((".shp", ".shp.zip"), "ESRI Shapefile") | dict.fromkeys((".kml", ".kmz"), "LIBKML")
-DRIVERS |= {
-    ".gml": "GML",
-    ".fgb": "FlatGeobuf",
-    ".gpkg": "GPKG",
-    ".gpx": "GPX",
-    ".geojson": "GeoJSON",
-    ".parquet": None,
-}
-DRIVERS |= {".xlsx": "XLSX", ".ods": "ODS"}
+DRIVERS |= {".fgb": "FlatGeobuf", ".geojson": "GeoJSON", ".parquet": None}
+DRIVERS |= {f".{name.lower()}": name for name in ("GML", "GPKG", "GPX", "XLSX", "ODS")}
 TABLES_ALONE = (".xlsx", ".ods")
 TABLE = pd.DataFrame(
     {"name": [f"näme {k}" for k in range(ROWS)], "lon": np.arange(ROWS) * 3.0, "lat": np.linspace(-80, 80, ROWS)}

@@ -9,17 +9,9 @@ from hypothesis import strategies as st
 from pyproj import Transformer
 from scipy.spatial import KDTree
 
-from stereodel import (
-    MoebiusMap,
-    SphereCircle,
-    angular_distance,
-    bubble_to_bubble,
-    data,
-    fisheye,
-    lonlat_to_xyz,
-    xyz_to_lonlat,
-)
+from stereodel import MoebiusMap, bubble_to_bubble, data, fisheye
 from stereodel.io import warp
+from stereodel.sphere import SphereCircle, angular_distance, lonlat_to_xyz, xyz_to_lonlat
 from tests.examples import examples
 from tests.globe import truth
 
