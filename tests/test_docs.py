@@ -261,11 +261,7 @@ def test_rows_exist():
 
 
 def test_every_citation_of_the_source_has_its_entry():
-    missing = {
-        (file, what, year)
-        for file, what, year in cited()
-        if not any(what in entry and year in entry for entry in ENTRIES)
-    }
+    missing = {each for each in cited() if not any(each[1] in entry and each[2] in entry for entry in ENTRIES)}
     assert missing == set(), "add them to docs/references.md, with what they are used for and the rows of the ledger"
 
 

@@ -48,14 +48,8 @@ HARMS = {
     "another kind": lambda content: b"%PDF-1.7\n" + content,
     "a line without end": lambda content: b'"' + b"a," * 5000,
 }
-READ = [
-    ("a beginning", ".csv"),
-    ("half", ".csv"),
-    ("half", ".bz2"),
-    ("half", ".geojsonl"),
-    ("noise within", ""),
-    ("another kind", ".zip"),
-]
+READ = [("a beginning", ".csv"), *(("half", ending) for ending in (".csv", ".bz2", ".geojsonl"))]
+READ += [("noise within", ""), ("another kind", ".zip")]
 """What leaves enough: tables in lines, damage in what is not read, archives, which may have anything before them."""
 
 

@@ -72,12 +72,8 @@ def test_panoramas_without_aliasing(kind, form, size, window):
     assert (found[..., 3] == 255).all()
     part = found[top : top + rows, left : left + columns, 0].astype(float)
     # Of 16 × 16 samples of each pixel: means of the raster where they look.
-    x, y = np.meshgrid(
-        *(
-            (start + (np.arange(SAMPLES * count) + 0.5) / SAMPLES) / side
-            for start, count, side in ((left, columns, size), (top, rows, height))
-        )
-    )
+    sides = (left, columns, size), (top, rows, height)
+    x, y = np.meshgrid(*((k + (np.arange(SAMPLES * n) + 0.5) / SAMPLES) / side for k, n, side in sides))
     lonlat = xyz_to_lonlat(LENS.inverse()(where(x, y) @ view.matrix))
     expected = means(interpolated(raster, *lonlat.reshape(-1, 2).T).reshape(x.shape))
     assert psnr(expected, part) > least

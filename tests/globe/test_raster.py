@@ -235,9 +235,7 @@ test_bad_rasters_are_refused = refused(
     call=lambda pixels, bounds, *latitude: Raster(pixels, bounds, **({"latitude": latitude[0]} if latitude else {})),
 )
 test_bad_sizes_are_refused = refused(
-    (0, "size is 0"),
-    (2.5, "size must be one integer", TypeError),
-    (2**21, "size is 2097152"),
+    *((0, "size is 0"), (2.5, "size must be one integer", TypeError), (2**21, "size is 2097152")),
     call=lambda size: Raster(noise(4)).warp(PLAIN, View(0, 0), size),
 )
 

@@ -26,13 +26,8 @@ def lonlat():
 @pytest.fixture
 def stations(lonlat):
     """Four times, fifty stations, three levels."""
-    coords = {
-        "lon": ("station", lonlat[:, 0]),
-        "lat": ("station", lonlat[:, 1]),
-        "time": np.arange(4),
-        "code": ("station", np.arange(50)),
-        "source": "made up",
-    }
+    coords = {name: ("station", lonlat[:, k]) for k, name in enumerate(("lon", "lat"))}
+    coords |= {"time": np.arange(4), "code": ("station", np.arange(50)), "source": "made up"}
     values = np.random.default_rng(2).normal(size=(4, 50, 3))
     values[1, 7, 1] = np.nan
     return xr.DataArray(values, coords, ("time", "station", "level"), "t", {"units": "K"})

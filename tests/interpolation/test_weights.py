@@ -13,13 +13,8 @@ from stereodel import PlanarDelaunay, SphericalDelaunay, SphericalVoronoi
 from stereodel.interpolation import LinearInterpolator, NaturalNeighborInterpolator, NearestInterpolator, Weights
 from tests.exact import area, fractions, nearer
 
-FUNCTIONS = [
-    (LinearInterpolator, {}),
-    (LinearInterpolator, {"extrapolate": "nearest"}),
-    (NearestInterpolator, {}),
-    (NaturalNeighborInterpolator, {}),
-    (NaturalNeighborInterpolator, {"extrapolate": "nearest"}),
-]
+FUNCTIONS = [(kind, {}) for kind in (LinearInterpolator, NearestInterpolator, NaturalNeighborInterpolator)]
+FUNCTIONS += [(kind, {"extrapolate": "nearest"}) for kind in (LinearInterpolator, NaturalNeighborInterpolator)]
 every_function = pytest.mark.parametrize(("function", "options"), FUNCTIONS)
 
 

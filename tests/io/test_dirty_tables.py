@@ -29,6 +29,10 @@ def case(content, places=TWO, columns=None, note="", **options):
     return content.replace("|", "\n"), options, places, columns or {}, note
 
 
+HEADERS = """
+Länge;Breite|Längengrad;Breitengrad|geogr. Länge;geogr. Breite|longitud;latitud|Longitudine;Latitudine|долгота;широта|\
+经度;纬度|経度;緯度|خط الطول;خط العرض|X_COORD;Y_COORD|POINT_X;POINT_Y
+"""
 READ = [
     case("sep=;|name;lon;lat|Ulm;9,99;48,4|Kiel;10,1;54,3", TWO, NAMES),
     case("Report 2024|by us||name,lon,lat|Ulm,9.99,48.4|Kiel,10.1,54.3", TWO, NAMES, "2 rows above"),
@@ -71,14 +75,7 @@ READ = [
     case("lonlat,v|9.99 48.4,1|10.1 54.3,2", TWO, {"v": [1, 2]}, "'lonlat' is read as longitude, latitude"),
     case("at;v|48°24'N 9°59'24″E;1", [(9.99, 48.4)], {"v": [1]}, "'at' is read as latitude, longitude"),
     case('at,v|"48.4, 9.99",1', [ULM], {"v": [1]}, lon="at", lat="at"),
-    *[
-        case(f"{names}|9,99;48,4|10,1;54,3")
-        for names in (
-            *("Länge;Breite", "Längengrad;Breitengrad", "geogr. Länge;geogr. Breite", "longitud;latitud"),
-            *("Longitudine;Latitudine", "долгота;широта", "经度;纬度", "経度;緯度", "خط الطول;خط العرض"),
-            *("X_COORD;Y_COORD", "POINT_X;POINT_Y"),
-        )
-    ],
+    *(case(f"{names}|9,99;48,4|10,1;54,3") for names in HEADERS.strip().split("|")),
     case("10 48.4|2 51", [(10, 48.4), (2, 51)]),
     case("a,10,48.4|b,2,51", [(10, 48.4), (2, 51)], {"column_1": ["a", "b"]}, lon="column_2", lat="column_3"),
     case('n;lon;lat|"Ulm; Donau, B";9,99;48,4|"a\nb";10,1;54,3', TWO, {"n": ["Ulm; Donau, B", "a\nb"]}),

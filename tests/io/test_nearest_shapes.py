@@ -35,11 +35,8 @@ def brute(place, geometry, latitude):
         return 0.0
     rings = shapely.get_rings(geometry) if geometry.geom_type == "Polygon" else [geometry]
     lines = [shapely.get_coordinates(ring) for ring in rings]
-    return min(
-        least_along(place, a, b, latitude)
-        for line in lines
-        for a, b in zip(line, line[1:] if len(line) > 1 else line, strict=False)
-    )
+    sides = (side for line in lines for side in zip(line, line[1:] if len(line) > 1 else line, strict=False))
+    return min(least_along(place, *side, latitude) for side in sides)
 
 
 def random_shapes(rng, count):

@@ -203,13 +203,8 @@ SLIVERS = {
     "from a corner": [(-180, -90), (-175, -49), (-175, -48.999999)],
 }
 """Each covered the map, or was lost, under one of `THINNING` or another."""
-THINNING = [
-    MoebiusMap.identity(),
-    fisheye((20.0, 30.0), magnification=2.0),
-    fisheye((-170.0, -80.0), magnification=7.0),
-    fisheye((60.0, -20.0), magnification=50.0),
-    fisheye((60.0, -20.0), magnification=0.2),
-]
+THINNING = [((20.0, 30.0), 2.0), ((-170.0, -80.0), 7.0), ((60.0, -20.0), 50.0), ((60.0, -20.0), 0.2)]
+THINNING = [MoebiusMap.identity(), *(fisheye(focus, magnification=size) for focus, size in THINNING)]
 
 
 def on_sphere(polygon):

@@ -55,14 +55,9 @@ def test_the_class_is_a_projection():
 
 def test_the_name_is_known_once_it_is_registered():
     """And not before: an import changes nothing."""
-    code = (
-        "from matplotlib.projections import get_projection_names as names\n"
-        "import stereodel.mpl\n"
-        "print('stereodel.fisheye' in names())\n"
-        "stereodel.mpl.register()\n"
-        "stereodel.mpl.register()\n"
-        "print(names().count('stereodel.fisheye'))"
-    )
+    code = "from matplotlib.projections import get_projection_names as names; import stereodel.mpl\n"
+    code += "print('stereodel.fisheye' in names()); stereodel.mpl.register(); stereodel.mpl.register()\n"
+    code += "print(names().count('stereodel.fisheye'))"
     ran = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert ran.stdout.split() == ["False", "1"]
     stereodel.mpl.register()
@@ -184,17 +179,11 @@ def test_pictures_of_the_page_alone():
 
 def test_geometries_of_every_kind():
     axes = axes_of(focus=(170, 0), magnification=2)
-    shapes = [
-        shapely.box(160, -10, 200, 10),
-        shapely.MultiPolygon(
-            [shapely.box(0, 0, 5, 5), shapely.box(150, 20, 155, 25).difference(shapely.box(151, 21, 154, 24))]
-        ),
-        shapely.LineString([(150, -20), (190, -30)]),
-        shapely.GeometryCollection(
-            [shapely.Point(170, 5), shapely.MultiLineString([[(160, 1), (165, 2)], [(1, 1), (2, 2)]])]
-        ),
-        shapely.Polygon(),
-    ]
+    ring = shapely.box(150, 20, 155, 25).difference(shapely.box(151, 21, 154, 24))
+    lines = shapely.MultiLineString([[(160, 1), (165, 2)], [(1, 1), (2, 2)]])
+    shapes = [shapely.box(160, -10, 200, 10), shapely.MultiPolygon([shapely.box(0, 0, 5, 5), ring])]
+    shapes += [shapely.LineString([(150, -20), (190, -30)]), shapely.GeometryCollection([shapely.Point(170, 5), lines])]
+    shapes += [shapely.Polygon()]
     drawn = axes.add_geometries(shapes, facecolor="tab:blue")
     assert len(drawn.get_paths()) == 6
     assert len(axes.collections) == 2  # and the point

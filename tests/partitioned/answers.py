@@ -67,13 +67,8 @@ def in_memory(columns, rows):
         nearest = np.where(found[:, 0] == own, found[:, 1], found[:, 0])
         a, b = mesh.points, mesh.points[nearest]
         distance = np.hypot(*(a - b).T) if a.shape[1] == 2 else np.radians(sd.angular_distance(a, b))
-    told = {
-        "area": diagram.areas(),
-        "degree": np.diff(diagram.region_offsets),
-        "nearest": nearest,
-        "kept": kept,
-        "distance": distance,
-    }
+    told = {"area": diagram.areas(), "degree": np.diff(diagram.region_offsets), "nearest": nearest}
+    told |= {"kept": kept, "distance": distance}
     return ordered(np.column_stack([mesh.simplices, closing])), told
 
 
@@ -116,12 +111,8 @@ def differences(run, truth):
     wrong = [] if np.array_equal(faces, right) else ["triangles"]
     wrong += [name for name in values if name != "distance" and not np.array_equal(told[name], values[name])]
     # Angles of points in double-double are right to 2^-98; those of the same direction are 0 exactly in partitions.
-    near = np.allclose(
-        told["distance"],
-        values["distance"],
-        rtol=1e-13,
-        atol=2.0**-98 if run.statistics["surface"] == "sphere" else 0.0,
-    )
+    least = 2.0**-98 if run.statistics["surface"] == "sphere" else 0.0
+    near = np.allclose(told["distance"], values["distance"], rtol=1e-13, atol=least)
     return wrong if near else [*wrong, "distance"]
 
 

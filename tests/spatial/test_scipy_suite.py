@@ -45,13 +45,8 @@ def ran(folder, *files):
     paths = os.pathsep.join([str(HERE), str(HERE.parent.parent), os.environ.get("PYTHONPATH", "")])
     environment = {"PYTHONPATH": paths, "STEREODEL_SCIPY_SUITE": str(report), "MPLBACKEND": "Agg", "PYTEST_ADDOPTS": ""}
     options = ["-p", "scipy_suite", "-p", "no:cacheprovider", "-c", "pytest.ini", "--noconftest", "--tb=no", "-q"]
-    done = subprocess.run(
-        [sys.executable, "-m", "pytest", *options, "--pyargs", *(f"scipy.spatial.tests.{name}" for name in files)],
-        cwd=folder,
-        env=os.environ | environment,
-        capture_output=True,
-        text=True,
-    )
+    command = [sys.executable, "-m", "pytest", *options, "--pyargs", *(f"scipy.spatial.tests.{name}" for name in files)]
+    done = subprocess.run(command, cwd=folder, env=os.environ | environment, capture_output=True, text=True)
     assert report.is_file(), done.stdout + done.stderr
     return json.loads(report.read_text(encoding="utf-8"))
 

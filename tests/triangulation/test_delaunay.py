@@ -296,13 +296,8 @@ def test_neighbours_of_points_are_the_ends_of_edges(space):
     assert len(triangulation.vertex_neighbor_vertices[0]) == 80
 
 
-LARGER = {
-    "plane": sets.plane("random"),
-    "plane grid": sets.plane("lattice"),
-    "sphere": sets.sphere("random"),
-    "sphere clusters": sets.sphere("clusters"),
-    "graticule": sets.sphere("graticule"),
-}
+LARGER = {"plane": sets.plane("random"), "plane grid": sets.plane("lattice"), "sphere": sets.sphere("random")}
+LARGER |= {"sphere clusters": sets.sphere("clusters"), "graticule": sets.sphere("graticule")}
 THOROUGH = {"plane", "sphere clusters", "graticule"}
 
 
