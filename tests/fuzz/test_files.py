@@ -49,8 +49,9 @@ HARMS = {
     "a line without end": lambda content: b'"' + b"a," * 5000,
 }
 READ = [("a beginning", ".csv"), *(("half", ending) for ending in (".csv", ".bz2", ".geojsonl"))]
-READ += [("noise within", ""), ("another kind", ".zip")]
-"""What leaves enough: tables in lines, damage in what is not read, archives, which may have anything before them."""
+READ += [("noise within", ""), ("another kind", ".zip"), ("another kind", ".csv")]
+"""What leaves enough: tables in lines, damage in what is not read, archives, which may have anything before them, and
+tables, which may have titles."""
 
 
 @pytest.mark.parametrize("harm", HARMS)
