@@ -63,6 +63,8 @@ def examples():
     yield from (interpolation.Contour(0.5, np.array(PLANE), False), linear, linear.weights([(1, 1)]))
     others = ("NearestInterpolator", "SmoothInterpolator", "NaturalNeighborInterpolator")
     yield from (getattr(interpolation, name)(plane, range(5)) for name in others)
+    of_scipy = ("LinearNDInterpolator", "CloughTocher2DInterpolator", "NearestNDInterpolator")
+    yield from (getattr(interpolation, name)(PLANE, range(5), -1.0) for name in of_scipy)
     yield io.Grid(grid.lon, grid.lat, {"v": np.ones((3, 4))}, {"v": "m"})
     yield io.inspect(StringIO("lon,lat\n1,2"))
     yield io.PointTable(LONLAT[:2], {"name": ["a", "b"], "v": np.array([1, None], dtype=object)}, rows=[4, 7])

@@ -185,10 +185,8 @@ def asked_for(message):
 
 
 def test_every_module_is_there_or_names_its_extra(environment, tmp_path):
-    modules = [
-        ".".join(path.relative_to(PACKAGE.parent).with_suffix("").parts).removesuffix(".__init__")
-        for path in PACKAGE.rglob("*.py")
-    ]
+    files = [path.relative_to(PACKAGE.parent).with_suffix("") for path in PACKAGE.rglob("*.py")]
+    modules = [".".join(path.parts).removesuffix(".__init__") for path in files]
     assert len(modules) > 150
     answers = said(environment(), [f"import {module}" for module in modules], tmp_path)
     closed = {module: asked_for(answers[f"import {module}"]) for module in modules if answers[f"import {module}"]}
