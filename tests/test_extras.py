@@ -348,6 +348,7 @@ def test_the_command_on_the_least(environment, tmp_path):
     for line in MISSING:  # NetCDF needs its extra and no more
         if MISSING[line] == "grid":
             assert command(environment("cli", "grid"), line, tmp_path) == (0, "", "")
+            (tmp_path / "a.nc").unlink()
 
 
 @pytest.mark.thorough
