@@ -96,14 +96,9 @@ def long_description(folder, *, address="", publication=""):
     project = (ROOT / "pyproject.toml").read_text(encoding="utf-8").partition("[project.scripts]")
     (folder / "pyproject.toml").write_text(address.join([project[0], project[1] + project[2]]), encoding="utf-8")
     build = "from scikit_build_core.build import prepare_metadata_for_build_wheel as prepare; prepare('made')"
-    ran = subprocess.run(
-        [sys.executable, "-c", build],
-        cwd=folder,
-        env=os.environ | {"STEREODEL_PUBLICATION": publication},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    environment = os.environ | {"STEREODEL_PUBLICATION": publication}
+    command = [sys.executable, "-c", build]
+    ran = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, check=False)
     made = list(folder.glob("made/*.dist-info/METADATA"))
     return made[0].read_text(encoding="utf-8").partition("\n\n")[2] if ran.returncode == 0 else ran.stderr
 

@@ -196,12 +196,9 @@ def test_recipes_are_many_and_short_and_found_by_the_words_of_those_who_ask():
         codes = re.findall(r"```(?:python|console)\n(.*?)```", recipe, re.DOTALL)
         lines = [line for code in codes for line in code.splitlines() if line.startswith("$") or "$ " not in code]
         assert 1 <= len(lines) <= 10, recipe
-    words = (
-        "Thiessen, proximity polygons, true km², equal-area, antimeridian, date line, nearest hub, k nearest, isotherms"
-    )
-    words += (
-        ", contour lines, regrid, TIN, raster, GeoTIFF, choropleth, fisheye, UTM, duplicates, spatial join, griddata"
-    )
+    words = "Thiessen, proximity polygons, true km², equal-area, antimeridian, date line, nearest hub, k nearest, "
+    words += "isotherms, contour lines, regrid, TIN, raster, GeoTIFF, choropleth, fisheye, UTM, duplicates, "
+    words += "spatial join, griddata"
     assert [word for word in words.split(", ") if word.lower() not in text.lower()] == []
 
 
@@ -264,11 +261,7 @@ def test_rows_exist():
 
 
 def test_every_citation_of_the_source_has_its_entry():
-    missing = {
-        (file, what, year)
-        for file, what, year in cited()
-        if not any(what in entry and year in entry for entry in ENTRIES)
-    }
+    missing = {each for each in cited() if not any(each[1] in entry and each[2] in entry for entry in ENTRIES)}
     assert missing == set(), "add them to docs/references.md, with what they are used for and the rows of the ledger"
 
 

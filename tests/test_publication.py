@@ -311,13 +311,12 @@ def test_the_lines_of_the_container_make_the_command(tmp_path):
     """
     environment = {"HOME": str(tmp_path), "LANG": "C.UTF-8", "PIP_NO_INDEX": "1", "PIP_NO_BUILD_ISOLATION": "0"}
     environment |= {"SKBUILD_CMAKE_DEFINE": "STEREODEL_MODULE=OFF", "SKBUILD_BUILD_TARGETS": "clean"}
-    entry, images = [], 0
+    entry, images = [], iter(("builder", "runner"))
     for line in DOCKERFILE.splitlines():
         instruction, _, rest = line.partition(" ")
         inside = re.sub(r'(?<=[\s"(\[])/(?=\w)', f"{tmp_path}/", f" {rest}").strip()
         if instruction == "FROM":
-            images += 1
-            made = tmp_path / f"image{images}"
+            made = tmp_path / next(images)
             venv.create(made, symlinks=True, with_pip=True)
             (site,) = made.glob("lib/python*/site-packages")
             (site / "here.pth").write_text(sysconfig.get_path("purelib"))

@@ -3,7 +3,6 @@
 from itertools import chain
 
 import numpy as np
-import pytest
 
 from stereodel import graphs, interpolation, spatial, sphere
 from stereodel.conformal import MoebiusMap, bubble_to_bubble, fisheye, flight, three_points
@@ -14,6 +13,7 @@ from stereodel.sphere import Rotation, SphereArc, SphereCircle, lonlat_to_xyz, x
 from stereodel.triangulation import HullInsertion, PlanarDelaunay, PlanarVoronoi, SphericalDelaunay, SphericalVoronoi
 from tests import sets
 from tests.interpolation.known import KINDS
+from tests.refused import refused
 
 XYZ, INF, NAN = np.eye(3), np.inf, np.nan
 THREE, VALUES = [[0, 0], [1, 0], [0, 1]], [1.0, 2.0, 3.0]
@@ -209,6 +209,7 @@ OF_INTERPOLATORS = [
     (lambda: contours(THREE, np.zeros((3, 2)), 0.0), r"values must be one number for each point, got shape \(3, 2\)"),
     (lambda: contours(THREE, VALUES, [0.0, NAN]), r"levels\[1\] is nan"),
     (lambda: contours(THREE, VALUES, [[0.0]]), r"levels must be a number or a list of numbers, got shape \(1, 1"),
+    (lambda: interpolation.LinearNDInterpolator(XYZ * [1, 2, 3], VALUES), "space.*scipy.interpolate.LinearNDInterpol"),
     (lambda: interpolation.griddata(THREE, VALUES, THREE, method="best"), "method is 'best', but must be one of 'nea"),
 ]
 SQUARE = (0, 0, 8, 8)
@@ -256,10 +257,7 @@ AS_SCIPY = [
 ]
 
 OF_ANOTHER_TYPE = [
-    (
-        lambda: lloyd([[0, 0]], bounds=SQUARE, density=np.ones(1)),
-        r"a function of points, not ndarray; .*Interpolator\(",
-    ),
+    (lambda: lloyd([[0, 0]], bounds=SQUARE, density=np.ones(1)), "a function of points, not ndarray; .*Interpolator."),
     (lambda: Rotation.identity() @ 3.0, "unsupported operand"),
     (lambda: IDENTITY @ 3, "unsupported operand"),
     (lambda: NAMED.nearest(10, 50), rf"nearest\(\) takes 1 argument by position, got 2; {BY_NAME}"),
@@ -286,17 +284,10 @@ OF_ANOTHER_TYPE = [
     (lambda: spatial.Delaunay(FLAT, qhull_options=b"Qc"), "qhull_options must be a string or None"),
     (lambda: TRIANGULATION.find_simplex([["a", "b"]]), "xi must hold real numbers"),
     (lambda: fisheye((0, 0), magnification="two"), "magnification"),
+    (lambda: interpolation.LinearNDInterpolator(THREE, [1j, 0, 0]), "values must hold real numbers"),
     *((lambda k=k: k(THREE, [1.0, "a", 2.0]), "values must hold real numbers") for k in KINDS.values()),
 ]
 
 
-def calls():
-    tables = ON_THE_SPHERE, OF_MAPS, OF_PLACES, OF_TRIANGULATIONS, OF_INTERPOLATORS, OF_RELAXATION, AS_SCIPY
-    for error, rows in ((ValueError, chain(*tables)), (TypeError, OF_ANOTHER_TYPE)):
-        yield from (pytest.param(error, *row, id=row[1]) for row in rows)
-
-
-@pytest.mark.parametrize(("error", "call", "message"), list(calls()))
-def test_refusals(error, call, message):
-    with pytest.raises(error, match=message):
-        call()
+VALUE_ERRORS = ON_THE_SPHERE, OF_MAPS, OF_PLACES, OF_TRIANGULATIONS, OF_INTERPOLATORS, OF_RELAXATION, AS_SCIPY
+test_refusals = refused(*chain(*VALUE_ERRORS), *((*row, TypeError) for row in OF_ANOTHER_TYPE))

@@ -75,11 +75,8 @@ def test_stereodel_takes_part(tmp_path, space, dimension):
 
 
 def test_ratios_pair_the_rounds():
-    record = {
-        "cgal": {"rounds": [2.0, 6.0, 1.5]},
-        "ours 1": {"rounds": [1.0, 2.0, 1.5, 9.0]},
-        "scipy": {"rounds": [35.0]},
-    }
+    rounds = {"cgal": [2.0, 6.0, 1.5], "ours 1": [1.0, 2.0, 1.5, 9.0], "scipy": [35.0]}
+    record = {name: {"rounds": seconds} for name, seconds in rounds.items()}
     assert pages.faster(record, "cgal", "ours 1") == "2×"
     assert pages.faster(record, "scipy", "ours 1") == "20×"
     assert pages.faster(record | {"cgal": {"stopped": "over 60 s"}}, "cgal", "ours 1") == "–"

@@ -30,11 +30,8 @@ TEXTS = {
     "far.geojson": '{"type": "Point", "coordinates": [0, 100]}',
     "broken.gpkg": "no database",
 }
-SHORT = {
-    "PEOPLE": "cities.csv --value people",
-    "FILES": "points/0.parquet points/1.parquet",
-    "FILE": "points/0.parquet",
-}
+SHORT = {"PEOPLE": "cities.csv --value people", "FILE": "points/0.parquet"}
+SHORT["FILES"] = "points/0.parquet points/1.parquet"
 ENDINGS = {"contour": "geojson", "globe": "svg", "panorama": "png", "web": "html"}
 
 SAID = """

@@ -30,10 +30,8 @@ def test_names_rows_and_kilometres(queries, run, rows):
     assert [row["site_name"] for row in ranked[::2]] == [row["site_name"] for row in table]
     # Munich's centre is some 120 km east of Ulm; the pole 41.6 degrees of 111.2 km away.
     assert float(table[0]["distance_km"]) == pytest.approx(123, abs=5)
-    assert float(table[3]["distance_km"]) == pytest.approx(
-        np.radians(angular_distance(*lonlat_to_xyz([[0, 90], [10, 48.4]], latitude="authalic"))) * MEAN_RADIUS_KM,
-        rel=1e-12,
-    )
+    away = np.radians(angular_distance(*lonlat_to_xyz([[0, 90], [10, 48.4]], latitude="authalic"))) * MEAN_RADIUS_KM
+    assert float(table[3]["distance_km"]) == pytest.approx(away, rel=1e-12)
 
 
 def test_columns_kept(queries, run, rows):
@@ -125,19 +123,14 @@ def shapes(folder):
 @pytest.mark.parametrize("name", ["shapes.geojson", "shapes.gpkg", "-"])
 def test_lines_and_polygons(shapes, run, rows, name):
     table = rows(run("nearest", name, *shapes, "--keep", "name", "--keep", "size", stdin=SQUARES))
-    assert [(row["name"], row["site_row"], row["site_name"]) for row in table] == [
-        ("in", "1", "west"),
-        ("near", "3", "road"),
-        ("north", "2", "mark"),
-    ]
+    expected = [("in", "1", "west"), ("near", "3", "road"), ("north", "2", "mark")]
+    assert [(row["name"], row["site_row"], row["site_name"]) for row in table] == expected
     assert [row["site_size"] for row in table] == ["4", "1", ""]
     degree = np.radians(1) * MEAN_RADIUS_KM
     across = np.degrees(np.arcsin(np.sin(np.radians(0.1)) * np.cos(np.radians(1))))
     assert [float(row["distance_km"]) / degree for row in table] == pytest.approx([0, across, 1], abs=1e-9)
-    assert [row["name"] for row in rows(run("nearest", name, *shapes, "--max-distance", 50, stdin=SQUARES))] == [
-        "in",
-        "near",
-    ]
+    near = rows(run("nearest", name, *shapes, "--max-distance", 50, stdin=SQUARES))
+    assert [row["name"] for row in near] == ["in", "near"]
 
 
 def test_what_is_said_of_shapes(shapes, run):

@@ -15,6 +15,10 @@ from stereodel.earth import AUTHALIC_RADIUS_KM
 from stereodel.io import read_points
 
 
+def frame_of(path):
+    return (geopandas.read_parquet if path.suffix == ".parquet" else geopandas.read_file)(path)
+
+
 @pytest.mark.parametrize(("unit", "whole"), [("km2", 4 * np.pi * AUTHALIC_RADIUS_KM**2), ("sr", 4 * np.pi)])
 def test_areas_add_up_to_the_sphere(run, rows, unit, whole):
     table = rows(run("voronoi", "cities.csv", "-o", "-", "--area-unit", unit))
@@ -41,8 +45,7 @@ def test_plane(folder, run, rows):
 @pytest.mark.parametrize("kind", ["geojson", "geojsonl", "parquet", "gpkg", "shp"])
 def test_shapes_tile_the_map(folder, run, kind):
     run("voronoi", "cities.csv", "-o", f"cells.{kind}", "--max-segment", 10)
-    read = geopandas.read_parquet if kind == "parquet" else geopandas.read_file
-    cells = read(folder / f"cells.{kind}")
+    cells = frame_of(folder / f"cells.{kind}")
     assert list(cells.columns) == ["lon", "lat", "row", "name", "people", "area_km2", "geometry"]
     assert cells["name"].tolist() == ["Quito", "Lagos", "Ulm", "Kyoto", "Perth"]
     assert cells.is_valid.all()
@@ -103,10 +106,9 @@ def regions(folder):
 )
 def test_dissolved_cells_are_those_of_geopandas(regions, run, rows, kind, options):
     """The same regions as one line of GeoPandas makes of the cells, valid, with areas added and cells counted."""
-    read = geopandas.read_parquet if kind == "parquet" else geopandas.read_file
     run("voronoi", "regions.csv", *options, "-o", "cells.parquet")
     run("voronoi", "regions.csv", *options, "--dissolve", "region", "-o", f"regions.{kind}")
-    cells, found = geopandas.read_parquet(regions / "cells.parquet"), read(regions / f"regions.{kind}")
+    cells, found = (frame_of(regions / name) for name in ("cells.parquet", f"regions.{kind}"))
     area = "area" if "--plane" in options else "area_km2"
     if kind != "kml":  # which has columns of its own
         assert list(found.columns) == ["region", "cells", area, "geometry"]
@@ -126,9 +128,8 @@ def test_dissolved_cells_are_those_of_geopandas(regions, run, rows, kind, option
         assert sheet["cells"].tolist() == [int(row["cells"]) for row in table]
         assert sheet[area].tolist() == pytest.approx([float(row[area]) for row in table], rel=1e-14)
     assert [row["region"] for row in table] == ["America", "Pacific", "Europe", ""]
-    assert [float(row[area] or "inf") for row in table] == pytest.approx(
-        [expected["sum"][row["region"]] for row in table], rel=1e-14
-    )
+    sums = [expected["sum"][row["region"]] for row in table]
+    assert [float(row[area] or "inf") for row in table] == pytest.approx(sums, rel=1e-14)
 
 
 def test_dissolved_borders_are_those_of_cells(regions, run):
@@ -172,10 +173,8 @@ def test_sums_by_cells_are_those_of_numpy(folder, run, rows):
     rng = np.random.default_rng(8)
     sites, points = rng.uniform(-50, 50, (40, 2)), rng.uniform(-60, 60, (2000, 2))
     values = rng.normal(size=2000)
-    np.savetxt(folder / "sites.csv", sites, delimiter=",", header="x,y", comments="", fmt="%.17g")
-    np.savetxt(
-        folder / "of.csv", np.column_stack([points, values]), delimiter=",", header="x,y,v", comments="", fmt="%.17g"
-    )
+    for name, header, table in (("sites", "x,y", sites), ("of", "x,y,v", np.column_stack([points, values]))):
+        np.savetxt(folder / f"{name}.csv", table, delimiter=",", header=header, comments="", fmt="%.17g")
     gathered = ("--of", "of.csv", "--sum", "v", "--mean", "v", "--rows")
     table = rows(run("voronoi", "sites.csv", "--plane", "x", "y", *gathered, "-o", "-"))
     cell = np.argmin(((points[:, None] - sites) ** 2).sum(axis=2), axis=1)
@@ -216,14 +215,19 @@ def test_the_far_side_is_left_out(folder, run, rows):
 )
 def test_shapes(folder, run, rows, kind, options, what):
     run("triangulate", "cities.csv", "-o", f"out.{kind}", *options)
-    read = geopandas.read_parquet if kind == "parquet" else geopandas.read_file
-    frame = read(folder / f"out.{kind}")
+    frame = frame_of(folder / f"out.{kind}")
     found = frame.drop(columns="geometry").to_numpy()
     expected = corners(rows, run("triangulate", "cities.csv", "-o", "-", *options))
     assert sorted(found.tolist()) == sorted(expected.tolist())
     assert frame.is_valid.all()
     assert set(frame.geom_type) <= {what, f"Multi{what}"}
     assert frame.crs.to_epsg() == 4326
+
+
+@pytest.mark.parametrize("ending", ["json", "geoparquet"])
+def test_other_endings_of_formats(folder, run, ending):
+    run("nearest", "cities.csv", "--of", "cities.csv", "-o", f"out.{ending}")
+    assert len(read_points(f"out.{ending}")) == 5
 
 
 @pytest.mark.parametrize("kind", [kind for kind in TABLES if kind != "shp"])
@@ -251,17 +255,10 @@ def test_a_plane_keeps_its_coordinate_system(folder, run, command, kind):
     lines = ["e,n,v", "570000,5360000,1", "580000,5360000,2", "575000,5370000,3", "576000,5364000,2"]
     (folder / "plane.csv").write_text("\n".join(lines), encoding="utf-8")
     run(*command, "--plane", "e", "n", "--crs", "EPSG:25832", "-o", f"out.{kind}")
-    read = geopandas.read_parquet if kind == "parquet" else geopandas.read_file
-    frame = read(folder / f"out.{kind}")
+    frame = frame_of(folder / f"out.{kind}")
     if kind == "geojson":  # which is in degrees
         assert frame.crs.to_epsg() == 4326
         frame = frame.to_crs("EPSG:25832")
     assert frame.crs.to_epsg() == 25832
     assert 560_000 < frame.total_bounds[0] < 580_000
     assert "--crs is 'EPSG:0'" in run(*command, "--plane", "e", "n", "--crs", "EPSG:0", "-o", "b.gpkg", code=2)
-
-
-def test_other_endings_of_formats(folder, run):
-    run("nearest", "cities.csv", "--of", "cities.csv", "-o", "out.json")
-    run("nearest", "cities.csv", "--of", "cities.csv", "-o", "out.geoparquet")
-    assert len(read_points("out.json")) == len(read_points("out.geoparquet")) == 5

@@ -38,13 +38,8 @@ def test_a_point_beside_a_box_is_on_its_nearest_side():
 
 def test_corners_between_places():
     ways = BOX.between(np.array([1.0, 9.0, 1.0, 13.0, 3.0]), np.array([8.0, 2.0, 2.0, 13.0 + 5, 10.0]))
-    assert [way.tolist() for way in ways] == [
-        [[3, 1], [-1, 1]],
-        [[-1, 1], [3, 1]],
-        [],
-        [[3, -2], [3, 1]],
-        [[-1, 1]],
-    ]
+    expected = [[[3, 1], [-1, 1]], [[-1, 1], [3, 1]], [], [[3, -2], [3, 1]], [[-1, 1]]]
+    assert [way.tolist() for way in ways] == expected
     np.testing.assert_array_equal(BOX.once(), np.append(BOX.corners, BOX.corners[:1], axis=0))
 
 

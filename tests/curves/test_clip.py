@@ -35,11 +35,9 @@ def cells(diagram):
 
 def any_view(rng):
     place = rng.uniform(-180, 180), rng.uniform(-90, 90)
-    return (
-        View(*place)
-        if rng.random() < 0.5
-        else StereographicView(*place, angular_radius=float(rng.choice([10.0, 90.0, 170.0])))
-    )
+    if rng.random() < 0.5:
+        return View(*place)
+    return StereographicView(*place, angular_radius=float(rng.choice([10.0, 90.0, 170.0])))
 
 
 @given(SEEDS)

@@ -24,16 +24,9 @@ def areas(corners):
 
 
 def test_holes_belong_to_the_smallest_shell_of_their_region():
-    loops = Ragged.of(
-        [
-            square(0, 0, 10),
-            square(1, 1, 8, clockwise=True),
-            square(2, 2, 6),
-            square(3, 3, 1, clockwise=True),
-            square(20, 0, 2),
-            square(2.5, 2.5, 5),
-        ]
-    )
+    shells = square(0, 0, 10), square(2, 2, 6), square(20, 0, 2), square(2.5, 2.5, 5)
+    holes = square(1, 1, 8, clockwise=True), square(3, 3, 1, clockwise=True)
+    loops = Ragged.of([shells[0], holes[0], shells[1], holes[1], *shells[2:]])
     owner = np.array([0, 0, 0, 0, 0, 1])
     corners, owners = triangles(loops, owner)
     covered = np.bincount(owners, areas(corners))

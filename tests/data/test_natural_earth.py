@@ -8,12 +8,8 @@ import shapely
 from stereodel import data
 
 RESOLUTIONS = ["50m", "110m"]
-ALL = [
-    (kind, r)
-    for kind in ("land", "countries", "lakes")
-    for r in ("10m", "50m", "110m")
-    if (kind, r) != ("countries", "10m")
-]
+ALL = [(kind, r) for kind in ("land", "lakes") for r in ("10m", *RESOLUTIONS)]
+ALL += [("countries", r) for r in RESOLUTIONS]
 WORLD_LAND_KM2 = 149e6
 INVALID = {"50m": set(), "110m": {"Sudan"}}
 """A knot of the border in the source."""

@@ -185,11 +185,8 @@ def test_where_a_font_is_said():
     globe.add_labels([(30.0, 30.0)], ["two"], font=["DejaVu Serif", SHIPPED])
     assert [label.font for label in globe.page().labels] == [(SHIPPED,), ("DejaVu Serif", SHIPPED)]
     titled = styled(panels([Panel(globe, title="above")]), font="DejaVu Sans Mono")
-    assert {label.text: label.font[0] for label in titled.labels} == {
-        "one": SHIPPED,
-        "two": "DejaVu Serif",
-        "above": "DejaVu Sans Mono",
-    }
+    expected = {"one": SHIPPED, "two": "DejaVu Serif", "above": "DejaVu Sans Mono"}
+    assert {label.text: label.font[0] for label in titled.labels} == expected
     sketch = Sketch().add_label((0, 0), "a").add_label((0, 1), "b", font=("DejaVu Serif",))
     drawing = styled(sketch.page((-2, 2, -2, 2)), font=SHIPPED)
     assert [label.font for label in drawing.labels] == [(SHIPPED,), ("DejaVu Serif",)]

@@ -128,19 +128,13 @@ def test_an_arc_that_leaves_at_the_limb_has_no_piece_of_no_length():
 
 
 def test_places_of_points():
-    cases = [
-        ((0, 0, 1), Place.FRONT),
-        ((1, 0, 0), Place.FRONT),
-        ((0.8, 0, -0.6), Place.BEHIND),
-        ((0, 0, 0.5), Place.INSIDE),
-        ((2, 0, -5), Place.OUTSIDE),
-        ((1.001, 0, -3), Place.OUTSIDE),
-        ((0.999, 0, -3), Place.BEHIND),
-        ((0.5, 0, 3), Place.FRONT),
-        ((0.5, 0, -3), Place.BEHIND),
-    ]
-    for point, place in cases:
-        assert place_of(np.array(point, dtype=float), 1.0) is place
+    for place, points in {
+        Place.FRONT: [(0, 0, 1), (1, 0, 0), (0.5, 0, 3)],
+        Place.BEHIND: [(0.8, 0, -0.6), (0.999, 0, -3), (0.5, 0, -3)],
+        Place.INSIDE: [(0, 0, 0.5)],
+        Place.OUTSIDE: [(2, 0, -5), (1.001, 0, -3)],
+    }.items():
+        assert {place_of(np.array(point, dtype=float), 1.0) for point in points} == {place}
 
 
 lonlats = st.tuples(st.floats(-180, 180), st.floats(-90, 90))

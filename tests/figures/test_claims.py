@@ -5,15 +5,7 @@ import sys
 import numpy as np
 import pytest
 
-from stereodel import (
-    PlanarDelaunay,
-    RectangleLift,
-    SphericalDelaunay,
-    Stereographic,
-    fisheye,
-    lonlat_to_xyz,
-    xyz_to_lonlat,
-)
+import stereodel as sd
 from stereodel.drawing import Dots, Fill, Label, Stroke, View
 from stereodel.sphere import angular_distance
 from stereodel.triangulation import check_delaunay
@@ -26,7 +18,7 @@ def test_figure_1_shows_dual_graphs():
     n = len(g["sites"])
     assert len(g["edges"]) == len(g["ridges"]) == 3 * n - 6
     assert len(g["vertices"]) == 2 * n - 4
-    check_delaunay(SphericalDelaunay(g["sites"]))
+    check_delaunay(sd.SphericalDelaunay(g["sites"]))
     # A Voronoi vertex has no site nearer than the three that it belongs to.
     nearest = np.sort(angular_distance(g["vertices"][:, None], g["sites"][None]), axis=1)
     assert np.allclose(nearest[:, 0], nearest[:, 2], atol=1e-9)
@@ -144,7 +136,7 @@ def test_figure_7_circle_cuts_the_diagonal_in_quarters():
 
 def test_figures_7_and_8_share_sites_and_the_corners_land_on_the_equator():
     plane, ball = geometry("fig07_rectangle"), geometry("fig08_hemisphere")
-    sphere = Stereographic((0, -90), radius=float(ball["radius"]))
+    sphere = sd.Stereographic((0, -90), radius=float(ball["radius"]))
     assert np.allclose(sphere.forward(ball["lifted"]), plane["sites"], atol=1e-14)
     assert np.array_equal(plane["edges"], ball["edges"])
     assert np.isclose(4 * plane["radius"], np.hypot(3, 2))
@@ -155,8 +147,8 @@ def test_figures_7_and_8_share_sites_and_the_corners_land_on_the_equator():
     sides = np.abs(sphere.forward(arc_points(ball["sides"]))) / [1.5, 1.0]
     assert np.allclose(sides.max(axis=-1), 1, atol=1e-12)
     # The planar triangulation is the spherical one without the facets that see the pole (Theorem 1).
-    spherical = SphericalDelaunay(ball["lifted"])
-    planar = {tuple(sorted(row)) for row in PlanarDelaunay(plane["sites"]).simplices.tolist()}
+    spherical = sd.SphericalDelaunay(ball["lifted"])
+    planar = {tuple(sorted(row)) for row in sd.PlanarDelaunay(plane["sites"]).simplices.tolist()}
     assert planar <= {tuple(sorted(row)) for row in spherical.simplices.tolist()}
 
 
@@ -188,11 +180,11 @@ def test_figure_9_scale_is_that_of_the_similar_triangles():
 def test_figure_9_draws_the_scale_and_its_rate_as_the_library_has_them():
     module, g, drawn = script("fig09_scale"), geometry("fig09_scale"), page("fig09_scale")
     # The rate by central differences of the scale along a meridian.
-    lift, step = RectangleLift(4 * module["RADIUS"], 0.0), 1e-3
+    lift, step = sd.RectangleLift(4 * module["RADIUS"], 0.0), 1e-3
     inner = module["KNOTS"][1:-1]
 
     def scale(phi):
-        return lift.scale_factor(lift.inverse(lonlat_to_xyz(np.stack([np.full_like(phi, 90.0), -phi], axis=-1))))
+        return lift.scale_factor(lift.inverse(sd.lonlat_to_xyz(np.stack([np.full_like(phi, 90.0), -phi], axis=-1))))
 
     differences = (scale(inner + step) - scale(inner - step)) / np.radians(2 * step)
     assert np.allclose(g["rate"][1:-1], differences, atol=1e-9)
@@ -216,7 +208,7 @@ def test_figure_9_draws_the_scale_and_its_rate_as_the_library_has_them():
 )
 def test_the_numbers_of_figures_10_to_12(name, magnification, coarse, fine, half_width):
     """The paper's S, graticule and fine step, and our half-width, read off the drawn arcs by undoing the fisheye."""
-    back, g = fisheye((0, 40), magnification=magnification).inverse(), geometry(name)
+    back, g = sd.fisheye((0, 40), magnification=magnification).inverse(), geometry(name)
     coarse_rows, fine_rows = (np.concatenate([g[f"{kind}_{view}"] for view in range(5)]) for kind in ("coarse", "fine"))
     parallels, meridians = straightened(back, coarse_rows)
     # Where neighbours have no room some lines end, and on their far side a few are left out altogether.
@@ -228,7 +220,7 @@ def test_the_numbers_of_figures_10_to_12(name, magnification, coarse, fine, half
     steps = np.arange(-half_width, half_width + fine / 2, fine)
     assert parallels == pytest.approx(40 + steps)
     assert meridians == pytest.approx(steps, abs=1e-9)
-    lon, lat = np.moveaxis(xyz_to_lonlat(back(arc_points(fine_rows))), -1, 0)
+    lon, lat = np.moveaxis(sd.xyz_to_lonlat(back(arc_points(fine_rows))), -1, 0)
     assert (lon.min(), lon.max()) == pytest.approx((-half_width, half_width))
     assert (lat.min(), lat.max()) == pytest.approx((40 - half_width, 40 + half_width))
     assert {f"$S = {magnification}$", "40° N"} <= {label.text for label in page(name).labels}
@@ -238,7 +230,7 @@ def straightened(back, rows):
     """The latitudes and longitudes of arcs that are images of parallels and meridians."""
     parallels, meridians = [], []
     for points in back(arc_points(rows)[:, 1:-1]):
-        lon, lat = xyz_to_lonlat(points).T
+        lon, lat = sd.xyz_to_lonlat(points).T
         turns = np.exp(1j * np.radians(lon))
         if np.ptp(lat) < 1e-9:
             parallels.append(lat.mean())

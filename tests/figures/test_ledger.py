@@ -8,18 +8,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 from mpmath import mp, mpf, workdps
 
-from stereodel import Gnomonic, MoebiusMap, Stereographic, fisheye, lonlat_to_xyz
+from stereodel import Gnomonic, HullInsertion, MoebiusMap, Stereographic, fisheye, lonlat_to_xyz
 from stereodel import _kernel_probe as probe
 from stereodel.conformal import three_points
 from stereodel.sphere import SphereCircle, angular_distance, great_circle_points
-from stereodel.triangulation import (
-    HullInsertion,
-    PlanarDelaunay,
-    PlanarVoronoi,
-    SphericalDelaunay,
-    SphericalVoronoi,
-    planar_part,
-)
+from stereodel.triangulation import PlanarDelaunay, PlanarVoronoi, SphericalDelaunay, SphericalVoronoi, planar_part
 from stereodel.triangulation.sites import GHOST, PlaneSites, RaySites
 from tests import sets
 from tests.figures.scripts import script

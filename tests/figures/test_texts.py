@@ -74,11 +74,8 @@ def test_the_largest_cell_of_an_airport_in_sight():
 )
 def test_numbers_beside_a_scale_stand_where_they_belong(name):
     """Where the logarithm puts them, between the ends of the bar; and the ends say what lies beyond them."""
-    ticks = {
-        label.anchor[0]: label.text
-        for label in page(name).labels
-        if re.fullmatch(r"[≤≥]? ?[\d. ]+( million)?", label.text) and label.size == 8.0
-    }
+    small, number = [label for label in page(name).labels if label.size == 8.0], r"[≤≥]? ?[\d. ]+( million)?"
+    ticks = {label.anchor[0]: label.text for label in small if re.fullmatch(number, label.text)}
     places, values = np.array(sorted(ticks)), np.log([as_number(ticks[x]) for x in sorted(ticks)])
     slope, start = np.polyfit(places, values, 1)
     assert len(ticks) >= 4

@@ -159,6 +159,9 @@ def start(balls, out, code, *, slow="0", how="film.py"):
     return subprocess.Popen(command, env=environment, stderr=subprocess.PIPE, text=True, start_new_session=True)
 
 
+NAMES = """import balls; from stereodel.film import Film; from stereodel.film.frames import frame_names
+film = Film(balls.ball, [1.0], size=40); before = frame_names(film._camera, film.shots); film.picture(0)
+assert frame_names(film._camera, film.shots) == before"""
 # How the script is run, its code, what it says, and how many frames the file has.
 SCRIPTS = {
     "of a module's pages": ("film.py", FILM, r"drawing 20/20.*writing 20/20", 20),
@@ -167,14 +170,7 @@ SCRIPTS = {
     "as a module": ("-m", GUARDED, "", 3),
     "interactive": ("-c", OWN, r"TypeError: draw or the shots are defined in an interactive session.*jobs=1", 0),
     "interactive, here": ("-c", OWN.replace("jobs=2", "jobs=1"), "", 3),
-    "names": (
-        "-c",
-        "import balls\nfrom stereodel.film import Film\nfrom stereodel.film.frames import frame_names\n"
-        "film = Film(balls.ball, [1.0], size=40)\nbefore = frame_names(film._camera, film.shots)\nfilm.picture(0)\n"
-        "assert frame_names(film._camera, film.shots) == before",
-        "",
-        None,
-    ),
+    "names": ("-c", NAMES, "", None),
 }
 """Names depend on the environment, which the first picture of a process leaves as it was."""
 

@@ -41,12 +41,8 @@ def said_to_viewers(path):
     text = xmp.decode()
     assert text.startswith("<?xpacket begin=")
     space = f"{{{GPANO}}}"
-    return {
-        name.removeprefix(space): value
-        for node in ET.fromstring(text).iter()
-        for name, value in node.attrib.items()
-        if name.startswith(space)
-    }
+    found = [each for node in ET.fromstring(text).iter() for each in node.attrib.items()]
+    return {name.removeprefix(space): value for name, value in found if name.startswith(space)}
 
 
 @pytest.mark.parametrize("kind", KINDS)

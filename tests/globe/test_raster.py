@@ -12,6 +12,7 @@ from stereodel.globe import Raster
 from tests.examples import examples
 from tests.globe.sights import disc, places, sizes
 from tests.globe.supersampling import checkerboard, grid, noise, psnr, reference, zone_plate
+from tests.refused import refused
 
 PLAIN = MoebiusMap.identity()
 MILD, STRONG = (fisheye((20.0, 40.0), magnification=size) for size in (4.0, 20.0))
@@ -218,39 +219,25 @@ def test_input_is_not_modified_and_not_shared():
         raster.pixels[0, 0] = 1
 
 
-@pytest.mark.parametrize(
-    ("pixels", "bounds", "error", "words"),
-    [
-        (np.zeros((4, 8)), None, TypeError, "pixels must be of uint8, not float64"),
-        (np.zeros((4, 8, 2), np.uint8), None, ValueError, r"pixels must have shape \(h, w\), \(h, w, 3\) or"),
-        (np.zeros((0, 8), np.uint8), None, ValueError, "not empty"),
-        (np.zeros((4, 9), np.uint8), None, ValueError, r"9 wide and 4 high; .* bounds=\(west, south, east, north\)"),
-        (np.zeros((4, 9), np.uint8), (0, 0, 361, 9), ValueError, "bounds runs from longitude 0 to 361"),
-        (np.zeros((4, 9), np.uint8), (0, 9, 5, 0), ValueError, "bounds runs from latitude 9 to 0"),
-        (np.zeros((4, 9), np.uint8), (0, 0, 5, 91), ValueError, "bounds runs from latitude 0 to 91"),
-        (np.zeros((4, 9), np.uint8), (0, 0, 5), ValueError, r"bounds must be \(west, south, east, north\)"),
-        (np.zeros((4, 9), np.uint8), (0, 0, 5, np.nan), ValueError, "bounds"),
-        (np.broadcast_to(np.uint8(0), (2**14, 2**14)), (0, 0, 1, 1), ValueError, "make the picture smaller"),
-    ],
-)  # fmt: skip
-def test_bad_rasters_are_refused(pixels, bounds, error, words):
-    with pytest.raises(error, match=words):
-        Raster(pixels, bounds)
-    with pytest.raises(ValueError, match="latitude is 'geocentric'"):
-        Raster(noise(4), latitude="geocentric")
-
-
-@pytest.mark.parametrize(
-    ("size", "error", "words"),
-    [
-        (0, ValueError, "size is 0"),
-        (2.5, TypeError, "size must be one integer"),
-        (2**21, ValueError, "size is 2097152"),
-    ],
+NINE_BY_FOUR = np.zeros((4, 9), np.uint8)
+test_bad_rasters_are_refused = refused(
+    (np.zeros((4, 8)), None, "pixels must be of uint8, not float64", TypeError),
+    (np.zeros((4, 8, 2), np.uint8), None, r"pixels must have shape \(h, w\), \(h, w, 3\) or"),
+    (np.zeros((0, 8), np.uint8), None, "not empty"),
+    (NINE_BY_FOUR, None, r"9 wide and 4 high; .* bounds=\(west, south, east, north\)"),
+    (NINE_BY_FOUR, (0, 0, 361, 9), "bounds runs from longitude 0 to 361"),
+    (NINE_BY_FOUR, (0, 9, 5, 0), "bounds runs from latitude 9 to 0"),
+    (NINE_BY_FOUR, (0, 0, 5, 91), "bounds runs from latitude 0 to 91"),
+    (NINE_BY_FOUR, (0, 0, 5), r"bounds must be \(west, south, east, north\)"),
+    (NINE_BY_FOUR, (0, 0, 5, np.nan), "bounds"),
+    (np.broadcast_to(np.uint8(0), (2**14, 2**14)), (0, 0, 1, 1), "make the picture smaller"),
+    (np.zeros((4, 8), np.uint8), None, "geocentric", "latitude is 'geocentric'"),
+    call=lambda pixels, bounds, *latitude: Raster(pixels, bounds, **({"latitude": latitude[0]} if latitude else {})),
 )
-def test_bad_sizes_are_refused(size, error, words):
-    with pytest.raises(error, match=words):
-        Raster(noise(4)).warp(PLAIN, View(0, 0), size)
+test_bad_sizes_are_refused = refused(
+    *((0, "size is 0"), (2.5, "size must be one integer", TypeError), (2**21, "size is 2097152")),
+    call=lambda size: Raster(noise(4)).warp(PLAIN, View(0, 0), size),
+)
 
 
 @pytest.mark.parametrize("magnification", [1e-100, 1e-9, 1e9, 1e100])

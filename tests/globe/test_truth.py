@@ -36,17 +36,8 @@ LAYERS = {
     "graticule": lambda globe, _: globe.add_graticule(15, style=LineStyle("black", 1.0)),
     "polygons": lambda globe, _: globe.add_polygons(BOXES, color="black", outline=None),
 }
-VIEWS = [
-    View(90, 0),
-    View(-90, 0),
-    View(0, 90),
-    View(0, 0),
-    View(0, -90),
-    View(180, 0),
-    View(135, -25),
-    StereographicView(90, 0, angular_radius=90),
-    StereographicView(-60, 30, angular_radius=150),
-]
+VIEWS = [View(90, 0), View(-90, 0), View(0, 90), View(0, 0), View(0, -90), View(180, 0), View(135, -25)]
+VIEWS += [StereographicView(90, 0, angular_radius=90), StereographicView(-60, 30, angular_radius=150)]
 
 
 def globe_of(layer, resolution="110m"):

@@ -28,12 +28,8 @@ EVENLY = 6
 def by_chromium(browser, file, shape):
     """The pixels that a browser shows of an SVG file which is as large as a picture of that shape."""
     height, width = shape[:2]
-    text, found = re.subn(
-        r'(<svg[^>]*) width="[^"]*" height="[^"]*"',
-        rf'\1 width="{width}" height="{height}"',
-        file.read_text(encoding="utf-8"),
-        count=1,
-    )
+    said, size = r'(<svg[^>]*) width="[^"]*" height="[^"]*"', rf'\1 width="{width}" height="{height}"'
+    text, found = re.subn(said, size, file.read_text(encoding="utf-8"), count=1)
     assert found == 1
     larger = file.with_suffix(".large.svg")
     larger.write_text(text, encoding="utf-8")
@@ -61,12 +57,7 @@ def disagreements(page, ours, theirs, limits=FIGURES):
     spread = np.maximum(*((tiled(p, np.max) - tiled(p, np.min)).max(axis=-1) for p in (ours, theirs)))
     even = ~with_type & (spread <= EVENLY)
     lit = any(getattr(item, "ball", None) for item in page.items)
-    kinds = {
-        "type": with_type,
-        "edges": ~with_type & ~even,
-        "light": even & lit,
-        "one colour": even & (not lit),
-    }
+    kinds = {"type": with_type, "edges": ~with_type & ~even, "light": even & lit, "one colour": even & (not lit)}
     wrong = []
     for kind, where in kinds.items():
         found, limit = np.where(where, apart, 0.0), limits[kind]

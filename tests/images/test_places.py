@@ -22,82 +22,37 @@ EARTH_KM = 6371.0
 USUAL = 300.0
 """Distance in km from the coast that a place has at least, where it does not say otherwise."""
 
-LAND = {
-    "Kalgoorlie": (121.5, -30.7),
-    "Alice Springs": (133.9, -23.7, 800),
-    "the Gibson Desert": (124.5, -24.5, 450),
-    "Nairobi": (36.8, -1.3, 400),
-    "Kano": (8.5, 12.0, 700),
-    "Fairbanks": (-147.7, 64.8, 400),
-    "the Yukon": (-157.0, 64.7, 230),
-    "Brasília": (-47.9, -15.8, 800),
-    "the middle of Greenland": (-40.0, 72.0),
-    "the South Pole": (0.0, -89.9, 500),
-    "Denver": (-105.0, 39.7, 900),
-    "Winnipeg": (-97.1, 49.9, 600),
-    "Manaus": (-60.0, -3.1, 800),
-    "La Paz": (-67.5, -16.5),
-    "Asunción": (-57.6, -25.3, 700),
-    "Timbuktu": (-3.0, 16.8, 900),
-    "Tamanrasset": (5.5, 22.8, 1000),
-    "Khartoum": (32.5, 15.6, 500),
-    "Kisangani": (25.2, 0.5, 1200),
-    "Lusaka": (28.3, -15.4, 700),
-    "Vienna": (16.4, 48.2),
-    "Madrid": (-3.7, 40.4),
-    "Moscow": (37.6, 55.8, 550),
-    "Tashkent": (69.2, 41.3, 700),
-    "Delhi": (77.2, 28.6, 800),
-    "Lhasa": (91.1, 29.7, 600),
-    "Ulaanbaatar": (106.9, 47.9, 900),
-    "Novosibirsk": (82.9, 55.0, 1200),
-    "Yakutsk": (129.7, 62.0, 500),
-    "Chengdu": (104.1, 30.7, 900),
-    "Riyadh": (46.7, 24.7),
-    "Pittsburgh": (-80.0, 40.4, 150),
-    "Allentown": (-75.5, 40.6, 50),
-    "Springfield": (-72.6, 42.1, 80),
-    "Concord": (-71.5, 43.2, 50),
-    "Binghamton": (-75.9, 42.1, 120),
-    "Morristown": (-74.5, 40.8, 25),
-    "Somerville": (-74.6, 40.6, 20),
-    "the Ramapo Mountains": (-74.3, 41.1, 25),
-    "Danbury": (-73.5, 41.4, 25),
-}
-SEA = {
-    "mid-Pacific": (-140.0, 10.0, 1000),
-    "the North Pacific": (-150.0, 42.0, 1000),
-    "the South Pacific": (-115.0, -45.0, 1500),
-    "the Philippine Sea": (133.0, 18.0, 700),
-    "the Tasman Sea": (160.0, -38.0, 700),
-    "the Bay of Bengal": (88.0, 14.0, 500),
-    "the Arabian Sea": (64.0, 14.0, 600),
-    "the Indian Ocean": (82.0, -15.0, 900),
-    "the sea off Western Australia": (100.0, -28.0, 1000),
-    "the Weddell Sea": (-38.0, -68.0),
-    "the Southern Ocean": (110.0, -55.0, 900),
-    "the South Atlantic": (-20.0, -28.0, 800),
-    "the Gulf of Guinea": (0.0, -3.0, 600),
-    "mid-Atlantic": (-38.0, 25.0, 1000),
-    "the Sargasso Sea": (-60.0, 27.0, 500),
-    "the North Atlantic": (-35.0, 48.0, 800),
-    "the Labrador Sea": (-54.0, 58.0),
-    "the Norwegian Sea": (0.0, 68.0),
-    "the Arctic Ocean": (-150.0, 80.0, 700),
-    "Hudson Bay": (-86.0, 59.5, 200),
-    "the Gulf of Mexico": (-90.5, 25.0),
-    "the Bering Sea": (-177.0, 57.5),
-    "the Ionian Sea": (18.5, 36.3, 200),
-    "the sea south of Cyprus": (31.0, 33.2, 120),
-    "the Black Sea": (34.0, 43.2, 110),
-    "the Bay of Biscay": (-5.5, 45.7, 180),
-    "the sea off Long Island": (-72.5, 39.8, 90),
-    "the New York Bight": (-73.3, 40.1, 35),
-    "the sea off Rockaway": (-73.75, 40.4, 15),
-    "the sea south of Montauk": (-71.9, 40.3, 60),
-    "the edge of the continental shelf": (-71.0, 39.0, 180),
-}
-PLACES = [(name, *place, kind) for kind, places in (("land", LAND), ("sea", SEA)) for name, place in places.items()]
+LAND = """
+Kalgoorlie: 121.5 -30.7; Alice Springs: 133.9 -23.7 800; the Gibson Desert: 124.5 -24.5 450; Nairobi: 36.8 -1.3 400;
+Kano: 8.5 12.0 700; Fairbanks: -147.7 64.8 400; the Yukon: -157.0 64.7 230; Brasília: -47.9 -15.8 800;
+the middle of Greenland: -40.0 72.0; the South Pole: 0.0 -89.9 500; Denver: -105.0 39.7 900;
+Winnipeg: -97.1 49.9 600; Manaus: -60.0 -3.1 800; La Paz: -67.5 -16.5; Asunción: -57.6 -25.3 700;
+Timbuktu: -3.0 16.8 900; Tamanrasset: 5.5 22.8 1000; Khartoum: 32.5 15.6 500; Kisangani: 25.2 0.5 1200;
+Lusaka: 28.3 -15.4 700; Vienna: 16.4 48.2; Madrid: -3.7 40.4; Moscow: 37.6 55.8 550; Tashkent: 69.2 41.3 700;
+Delhi: 77.2 28.6 800; Lhasa: 91.1 29.7 600; Ulaanbaatar: 106.9 47.9 900; Novosibirsk: 82.9 55.0 1200;
+Yakutsk: 129.7 62.0 500; Chengdu: 104.1 30.7 900; Riyadh: 46.7 24.7; Pittsburgh: -80.0 40.4 150;
+Allentown: -75.5 40.6 50; Springfield: -72.6 42.1 80; Concord: -71.5 43.2 50; Binghamton: -75.9 42.1 120;
+Morristown: -74.5 40.8 25; Somerville: -74.6 40.6 20; the Ramapo Mountains: -74.3 41.1 25; Danbury: -73.5 41.4 25
+"""
+SEA = """
+mid-Pacific: -140.0 10.0 1000; the North Pacific: -150.0 42.0 1000; the South Pacific: -115.0 -45.0 1500;
+the Philippine Sea: 133.0 18.0 700; the Tasman Sea: 160.0 -38.0 700; the Bay of Bengal: 88.0 14.0 500;
+the Arabian Sea: 64.0 14.0 600; the Indian Ocean: 82.0 -15.0 900; the sea off Western Australia: 100.0 -28.0 1000;
+the Weddell Sea: -38.0 -68.0; the Southern Ocean: 110.0 -55.0 900; the South Atlantic: -20.0 -28.0 800;
+the Gulf of Guinea: 0.0 -3.0 600; mid-Atlantic: -38.0 25.0 1000; the Sargasso Sea: -60.0 27.0 500;
+the North Atlantic: -35.0 48.0 800; the Labrador Sea: -54.0 58.0; the Norwegian Sea: 0.0 68.0;
+the Arctic Ocean: -150.0 80.0 700; Hudson Bay: -86.0 59.5 200; the Gulf of Mexico: -90.5 25.0;
+the Bering Sea: -177.0 57.5; the Ionian Sea: 18.5 36.3 200; the sea south of Cyprus: 31.0 33.2 120;
+the Black Sea: 34.0 43.2 110; the Bay of Biscay: -5.5 45.7 180; the sea off Long Island: -72.5 39.8 90;
+the New York Bight: -73.3 40.1 35; the sea off Rockaway: -73.75 40.4 15; the sea south of Montauk: -71.9 40.3 60;
+the edge of the continental shelf: -71.0 39.0 180
+"""
+"""Longitude and latitude of places, and km from the coast."""
+PLACES = [
+    (name.strip(), *map(float, numbers.split()), kind)
+    for kind, text in (("land", LAND), ("sea", SEA))
+    for name, numbers in re.findall(r"([^;:]+): ([-\d. ]+)", text)
+]
 
 REACH = (1, 5)
 """Half the width of the window that is asked about a place, at least and at most, pixels."""
@@ -108,14 +63,8 @@ COVERED = 2 / 3
 NEAR = 0.016
 """How far a channel may be from a colour that is looked for, in [0, 1]: 4 levels of 255."""
 
-LEAST = {
-    "anim_flight": 6,
-    "earth_cities": 30,
-    "earth_partitions": 30,
-    "globe_new_york": 14,
-    "globe_poster": 9,
-    "globe_tissot": 40,
-}
+LEAST = {"anim_flight": 6, "globe_poster": 9, "globe_new_york": 14, "globe_tissot": 40}
+LEAST |= {"earth_cities": 30, "earth_partitions": 30}
 """How many answers the pictures of a script give at least, one from each globe that shows a place."""
 
 

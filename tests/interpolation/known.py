@@ -4,12 +4,8 @@ import numpy as np
 
 from stereodel import interpolation
 
-KINDS = {
-    "nearest": interpolation.NearestInterpolator,
-    "linear": interpolation.LinearInterpolator,
-    "natural": interpolation.NaturalNeighborInterpolator,
-    "smooth": interpolation.SmoothInterpolator,
-}
+NAMES = {"nearest": "Nearest", "linear": "Linear", "natural": "NaturalNeighbor", "smooth": "Smooth"}
+KINDS = {method: getattr(interpolation, f"{name}Interpolator") for method, name in NAMES.items()}
 
 
 def known(x):

@@ -26,13 +26,8 @@ def lonlat():
 @pytest.fixture
 def stations(lonlat):
     """Four times, fifty stations, three levels."""
-    coords = {
-        "lon": ("station", lonlat[:, 0]),
-        "lat": ("station", lonlat[:, 1]),
-        "time": np.arange(4),
-        "code": ("station", np.arange(50)),
-        "source": "made up",
-    }
+    coords = {name: ("station", lonlat[:, k]) for k, name in enumerate(("lon", "lat"))}
+    coords |= {"time": np.arange(4), "code": ("station", np.arange(50)), "source": "made up"}
     values = np.random.default_rng(2).normal(size=(4, 50, 3))
     values[1, 7, 1] = np.nan
     return xr.DataArray(values, coords, ("time", "station", "level"), "t", {"units": "K"})
@@ -77,15 +72,11 @@ def refused(*_, **__):
 
 def test_points_and_curvilinear_grids(stations, lonlat):
     linear = LinearInterpolator.from_lonlat(lonlat, np.moveaxis(stations.values, 1, 0))
-    way = (
-        xr.DataArray(LON[:3], dims="place"),
-        xr.DataArray(LAT, dims="place", name="phi", attrs={"units": "degrees_north"}),
-    )
-    found = stations.stereodel.interpolate(lon=way[0], lat=way[1])
+    phi = xr.DataArray(LAT, dims="place", name="phi", attrs={"units": "degrees_north"})
+    found = stations.stereodel.interpolate(lon=xr.DataArray(LON[:3], dims="place"), lat=phi)
     assert found.dims == ("time", "level", "place")
-    assert np.array_equal(
-        found.transpose("place", "time", "level"), linear(lonlat=np.column_stack([LON[:3], LAT])), equal_nan=True
-    )
+    expected = np.moveaxis(linear(lonlat=np.column_stack([LON[:3], LAT])), 0, -1)
+    assert np.array_equal(found, expected, equal_nan=True)
     assert np.array_equal(found.lon, LON[:3])
     assert found.phi.attrs == {"units": "degrees_north"}
     bent = [xr.DataArray(GRID[..., k] + GRID[..., 1 - k] / 9, dims=("y", "x")) for k in (0, 1)]
@@ -121,23 +112,20 @@ def test_one_place_and_extrapolation(stations, lonlat):
 
 
 def test_what_cannot_be_found_is_said(stations):
-    with pytest.raises(ValueError, match="one coordinate of longitude, but there is none; name two by source="):
-        stations.drop_vars("lon").stereodel.interpolate(lon=LON, lat=LAT)
     twice = stations.assign_coords(longitude=("station", np.zeros(50)))
-    with pytest.raises(ValueError, match="there are several: lon, longitude"):
-        twice.stereodel.interpolate(lon=LON, lat=LAT)
     named = twice.stereodel.interpolate(lon=LON, lat=LAT, source=("lon", "lat"))
     assert np.array_equal(named, stations.stereodel.interpolate(lon=LON, lat=LAT), equal_nan=True)
-    with pytest.raises(ValueError, match=r"source names 'l', but the coordinates are \['code', 'lat', 'lon'"):
-        stations.stereodel.interpolate(lon=LON, lat=LAT, source=("l", "lat"))
-    with pytest.raises(ValueError, match="lon and lat have the dimension 'time', which the values also have"):
-        stations.stereodel.interpolate(lon=xr.DataArray(LON, dims="time"), lat=1.0)
-    with pytest.raises(ValueError, match=r"lon has shape \(3, 5\); give a DataArray"):
-        stations.stereodel.interpolate(lon=GRID[..., 0], lat=LAT)
-    with pytest.raises(ValueError, match=r"cannot align|conflict|join"):
-        stations.stereodel.interpolate(
-            lon=xr.DataArray(LON, {"p": LON}, "p"), lat=xr.DataArray(LON, {"p": LON + 1}, "p")
-        )
+    apart = {name: xr.DataArray(LON, {"p": LON + k}, "p") for k, name in enumerate(("lon", "lat"))}
+    for given, options, message in (
+        (stations.drop_vars("lon"), {}, "one coordinate of longitude, but there is none; name two by source="),
+        (twice, {}, "there are several: lon, longitude"),
+        (stations, {"source": ("l", "lat")}, r"source names 'l', but the coordinates are \['code', 'lat', 'lon'"),
+        (stations, {"lon": xr.DataArray(LON, dims="time")}, "have the dimension 'time', which the values also have"),
+        (stations, {"lon": GRID[..., 0]}, r"lon has shape \(3, 5\); give a DataArray"),
+        (stations, apart, r"cannot align|conflict|join"),
+    ):
+        with pytest.raises(ValueError, match=message):
+            given.stereodel.interpolate(**{"lon": LON, "lat": LAT} | options)
 
 
 def test_the_accessor_is_there_by_one_import():
@@ -207,16 +195,3 @@ def test_classes_by_scipys_names_on_the_sphere(lonlat):
     assert np.array_equal(function(LON[1:4], LAT), griddata(lonlat, values, (LON[1:4], LAT), latitude="geodetic"))
     directions = SphericalDelaunay.from_lonlat(lonlat).points
     assert stereodel.interpolation.NearestNDInterpolator(directions, values)(directions[3]) == values[3]
-
-
-@pytest.mark.parametrize(
-    ("options", "error", "message"),
-    [
-        ({"points": [[1, 0, 0], [0, 2, 0], [0, 0, 3]]}, ValueError, "space.*scipy.interpolate.LinearNDInterpolator"),
-        ({"values": [1j, 0, 0]}, TypeError, "values must hold real numbers"),
-    ],
-)
-def test_what_classes_by_scipys_names_refuse(options, error, message):
-    given = {"points": [[0, 0], [1, 0], [0, 1]], "values": [1.0, 2.0, 3.0]}
-    with pytest.raises(error, match=message):
-        stereodel.interpolation.LinearNDInterpolator(**(given | options))

@@ -18,13 +18,13 @@ AT = np.stack(np.meshgrid(PLACES["lon"], PLACES["lat"]), axis=-1)
 BENT = np.stack(np.meshgrid(np.linspace(-4, 20, 13), np.linspace(35, 50, 11)), axis=-1)
 BENT = BENT + 0.05 * BENT[..., ::-1] % 0.7
 """Longitude and latitude of a curvilinear grid, (11, 13, 2)."""
+CELLS = BENT.reshape(-1, 2)
 
 
 def field(lonlat, *leading):
     """A smooth function of place, of another size at each index of the leading dimensions."""
-    return np.add.outer(np.arange(float(np.prod(leading))), known(lonlat_to_xyz(lonlat))).reshape(
-        *leading, *lonlat.shape[:-1]
-    )
+    sizes = np.arange(float(np.prod(leading))).reshape(leading)
+    return np.add.outer(sizes, known(lonlat_to_xyz(lonlat)))
 
 
 def expected(lonlat, values, kind=LinearInterpolator):
@@ -75,17 +75,16 @@ def wrf(moving=False):
 
 def mpas():
     """Cells in radians, among the variables; those of vertices with nothing on them."""
-    cells = BENT.reshape(-1, 2)
-    radians = np.radians(cells)
+    radians = np.radians(CELLS)
     return xr.Dataset(
         {
             "lonCell": ("nCells", radians[:, 0], {"units": "rad"}),
             "latCell": ("nCells", radians[:, 1], {"units": "rad"}),
             "lonVertex": ("nVertices", np.zeros(7), {"units": "rad"}),
             "latVertex": ("nVertices", np.zeros(7), {"units": "rad"}),
-            "temperature": (("Time", "nCells", "nVertLevels"), np.moveaxis(field(cells, 2, 3), -1, 1)),
-            "indexToCellID": ("nCells", np.arange(1, len(cells) + 1, dtype="i4")),
-            "verticesOnCell": (("nCells", "maxEdges"), np.zeros((len(cells), 6), dtype="i4")),
+            "temperature": (("Time", "nCells", "nVertLevels"), np.moveaxis(field(CELLS, 2, 3), -1, 1)),
+            "indexToCellID": ("nCells", np.arange(1, len(CELLS) + 1, dtype="i4")),
+            "verticesOnCell": (("nCells", "maxEdges"), np.zeros((len(CELLS), 6), dtype="i4")),
         }
     )
 
@@ -145,25 +144,21 @@ def test_an_atmosphere_model_whose_coordinates_have_a_time(times):
     assert np.array_equal(both.P_TOP, air.P_TOP)
 
 
-def test_stations_with_a_time_of_one_step():
-    points = BENT.reshape(-1, 2)
-    coords = {name: (("Time", "station"), points[None, :, k]) for k, name in enumerate(("XLONG", "XLAT"))}
-    values = xr.DataArray(field(points, 1), coords, ("Time", "station"))
-    assert np.array_equal(values.stereodel.interpolate(**PLACES), expected(points, values.values))
-
-
-def test_points_that_move_in_time_are_refused():
+def test_stations_with_a_time_of_one_step_and_points_that_move_in_time():
+    coords = {name: (("Time", "station"), CELLS[None, :, k]) for k, name in enumerate(("XLONG", "XLAT"))}
+    values = xr.DataArray(field(CELLS, 1), coords, ("Time", "station"))
+    assert np.array_equal(values.stereodel.interpolate(**PLACES), expected(CELLS, values.values))
+    moving = wrf(moving=True).T2
     with pytest.raises(ValueError, match=r"move along 'Time'; take one time, isel\(Time=0\)"):
-        wrf(moving=True).T2.stereodel.interpolate(**PLACES)
-    still = wrf(moving=True).T2.isel(Time=0)
+        moving.stereodel.interpolate(**PLACES)
+    still = moving.isel(Time=0)
     assert np.array_equal(still.stereodel.interpolate(**PLACES), expected(BENT, still.values))
 
 
 def test_cells_in_radians():
     mesh = mpas()
     found = ask(mesh)
-    cells = BENT.reshape(-1, 2)
-    wanted = expected(cells, np.moveaxis(mesh.temperature.values, 1, -1))
+    wanted = expected(CELLS, np.moveaxis(mesh.temperature.values, 1, -1))
     assert found.temperature.dims == ("Time", "nVertLevels", "lat", "lon")
     assert np.allclose(found.temperature.transpose("Time", "nVertLevels", "lat", "lon"), wanted, rtol=1e-13)
     assert found.verticesOnCell.dims == ("maxEdges", "lat", "lon")
@@ -173,7 +168,7 @@ def test_cells_in_radians():
     assert back.dims == ("Time", "nVertLevels", "nCells")
     assert back.lonCell.variable.identical(mesh.lonCell.variable)
     inside = np.isfinite(back.isel(Time=0, nVertLevels=0))
-    assert 0 < inside.sum() < len(cells)
+    assert 0 < inside.sum() < len(CELLS)
     mesh["vorticity"] = ("nVertices", np.ones(7))
     with pytest.raises(ValueError, match="longitude, but there are several: lonCell, lonVertex; name two by source="):
         ask(mesh)
@@ -193,41 +188,29 @@ def test_degrees_of_radians_are_the_nearest_doubles(rng):
     assert np.array_equal(found, wanted, equal_nan=True)
 
 
-def test_the_conventions_come_before_names():
-    points = BENT.reshape(-1, 2)
-    said = {way: ("node", points[:, k], {"units": f"degrees_{way}"}) for k, way in enumerate(("east", "north"))}
-    named = {"lon": ("node", 0 * points[:, 0]), "lat": ("node", 0 * points[:, 1])}
-    both = xr.Dataset({"zeta": ("node", field(points))} | named | said)
-    assert np.array_equal(ask(both).zeta, expected(points, field(points)))
-
-
 @pytest.mark.parametrize(
-    ("lon", "lat", "attributes"),
+    ("lon", "lat", "units"),
     [
-        ("lon_rho", "lat_rho", None),
-        ("clon", "clat", "radian"),
-        ("TLONG", "TLAT", None),
-        ("geolon", "geolat", None),
-        ("glamt", "gphit", None),
-        ("lonc", "latc", None),
-        ("x", "y", "degrees"),
+        *(("lon_rho", "lat_rho", ""), ("TLONG", "TLAT", ""), ("geolon", "geolat", ""), ("glamt", "gphit", "")),
+        *(("lonc", "latc", ""), ("clon", "clat", "radian"), ("x", "y", "degrees")),
+        ("east", "north", "degrees_"),  # the conventions come before names
     ],
 )
-def test_names_and_units_of_other_models(lon, lat, attributes):
-    points, dims = BENT.reshape(-1, 2), ("node",)
-    scale = np.pi / 180 if attributes == "radian" else 1.0
-    rules = [{"units": attributes, "axis": axis} if attributes else {} for axis in "XY"]
-    data = xr.Dataset(
-        {
-            lon: (dims, points[:, 0] * scale, rules[0]),
-            lat: (dims, points[:, 1] * scale, rules[1]),
-            "zeta": (dims, field(points)),
-            "latent_heat": (dims, field(points)),
-            "rlon": (dims, points[:, 0] * 0, {"standard_name": "grid_longitude", "units": "degrees", "axis": "X"}),
-        }
-    )
-    found = ask(data)
-    assert np.allclose(found.zeta, expected(points, field(points)), rtol=1e-13)
+def test_names_and_units_of_other_models(lon, lat, units):
+    scale = np.pi / 180 if units == "radian" else 1.0
+    rules = [{"units": units, "axis": axis} if units else {} for axis in "XY"]
+    if units == "degrees_":
+        rules = [{"units": f"degrees_{way}"} for way in (lon, lat)]
+    data = {
+        lon: ("node", CELLS[:, 0] * scale, rules[0]),
+        lat: ("node", CELLS[:, 1] * scale, rules[1]),
+        "zeta": ("node", field(CELLS)),
+        "latent_heat": ("node", field(CELLS)),
+        "rlon": ("node", CELLS[:, 0] * 0, {"standard_name": "grid_longitude", "units": "degrees", "axis": "X"}),
+    }
+    named = dict.fromkeys(("lon", "lat"), ("node", 0 * CELLS[:, 0])) if lon == "east" else {}
+    found = ask(xr.Dataset(data | named))
+    assert np.allclose(found.zeta, expected(CELLS, field(CELLS)), rtol=1e-13)
     assert np.array_equal(found.latent_heat, found.zeta)
 
 
@@ -251,9 +234,7 @@ def test_pixels_of_healpix(order, centres):
 
 
 def test_what_healpix_cannot_be_is_said():
-    with pytest.raises(
-        ValueError, match=r'nside is 3, but must be a power of two for nested order; or give order="ring'
-    ):
+    with pytest.raises(ValueError, match=r'nside is 3, but must be a power of two for nested order; or give order="r'):
         healpix(3)
     assert healpix(3, order="ring")["lat"].sizes == {"cell": 108}
     with pytest.raises(ValueError, match="order is 'nest', but must be one of 'nested', 'ring'"):

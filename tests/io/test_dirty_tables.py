@@ -1,8 +1,10 @@
 """Tables as people have them: what is read, what is said of it, and what is refused with the option that helps."""
 
+import gzip
 import io
 import json
 import warnings
+from zipfile import ZipFile
 
 import duckdb
 import geopandas
@@ -16,136 +18,101 @@ from typer.testing import CliRunner
 from stereodel import SphericalVoronoi
 from stereodel.cli.application import app
 from stereodel.io import DataWarning, PointTable, inspect, read_points, to_geodataframe, write
-from tests.workbooks import workbook
 
 ULM, KIEL = (9.99, 48.4), (10.1, 54.3)
 TWO = [ULM, KIEL]
+NAMES, GROUPED = {"name": ["Ulm", "Kiel"]}, {"n": [128928, 1085664]}
+
+
+def case(content, places=TWO, columns=None, note="", **options):
+    """A table with | between its lines: what is read by some options, and what is said or, as places, refused."""
+    return content.replace("|", "\n"), options, places, columns or {}, note
+
+
+HEADERS = """
+Länge;Breite|Längengrad;Breitengrad|geogr. Länge;geogr. Breite|longitud;latitud|Longitudine;Latitudine|долгота;широта|\
+经度;纬度|経度;緯度|خط الطول;خط العرض|X_COORD;Y_COORD|POINT_X;POINT_Y
+"""
 READ = [
-    # content, options, places, columns, notes
-    ("sep=;\nname;lon;lat\nUlm;9,99;48,4\nKiel;10,1;54,3", {}, TWO, {"name": ["Ulm", "Kiel"]}, ""),
-    (
-        "Report 2024\nby us\n\nname,lon,lat\nUlm,9.99,48.4\nKiel,10.1,54.3",
-        {},
-        TWO,
-        {"name": ["Ulm", "Kiel"]},
-        "2 rows above",
-    ),
-    ("Report;;\n;;\nname;lon;lat\nUlm;9,99;48,4\nKiel;10,1;54,3", {}, TWO, {"name": ["Ulm", "Kiel"]}, "1 row above"),
-    ("a\nb,c,d\nlon,lat,v\n9.99,48.4,1\n10.1,54.3,2", {"skip_rows": 2}, TWO, {"v": [1, 2]}, ""),
-    ("lon,lat,rain\ndeg,deg,mm\n9.99,48.4,7\n10.1,54.3,8", {}, TWO, {"rain": [7, 8]}, "a row of units is left out"),
-    (
-        "name,lon,lat,n\nUlm,9.99,48.4,7\nKiel,10.1,54.3,8\nTotal,,,15",
-        {},
-        TWO,
-        {"name": ["Ulm", "Kiel"], "n": [7, 8]},
-        "a row of totals is left",
-    ),
-    (
-        "name;lon;lat;n\nUlm;9,99;48,4;128.928\nKiel;10,1;54,3;1.085.664",
-        {},
-        TWO,
-        {"name": ["Ulm", "Kiel"], "n": [128928, 1085664]},
-        "thousands",
-    ),
-    ("n;lon;lat\n1.234;9,99;48,4\n2.345;10,1;54,3", {"decimal": ","}, TWO, {"n": [1234, 2345]}, ""),
-    ("n;lon;lat\n1.234;9;48\n2.345;10;54", {"decimal": "."}, [(9, 48), (10, 54)], {"n": [1.234, 2.345]}, ""),
-    ("n;lon;lat\n1'763'000;9.99;48.4\n12;10.1;54.3", {}, TWO, {"n": [1763000, 12]}, ""),
-    ("n;lon;lat\n1\u202f763\u202f000,5;9,99;48,4\n12;10,1;54,3", {}, TWO, {"n": [1763000.5, 12]}, ""),
-    ("n;lon;lat\n\u22125;9,99;48,4\n12;10,1;54,3", {}, TWO, {"n": [-5, 12]}, ""),
-    ("t,lon,lat\n-9999,9.99,48.4\n12.5,10.1,54.3", {"missing": [-9999]}, TWO, {"t": [None, 12.5]}, ""),
-    ("t,lon,lat\nkeine,9.99,48.4\n12.5,10.1,54.3", {"missing": "keine"}, TWO, {"t": [None, 12.5]}, ""),
-    ("lon,lat\n-9999,48\n9.99,48.4", {"missing": ["-9999"], "skip_missing": True}, [ULM], {}, ""),
-    (
-        "lon,lat\n9.99,48.4\n181,91\n10.1,54.3\nx,3",
-        {"skip_invalid": True},
-        TWO,
-        {},
-        "2 rows are left out: row 2: latitude 91",
-    ),
-    ("lon,lat\n9.99,48.4\n1,2,3\n10.1,54.3", {"skip_invalid": True}, TWO, {}, "1 row is left out: row 2: has 3 fields"),
-    ("lon,lat\n9.99,48.4\n99999,3", {"skip_invalid": True}, [ULM], {}, "row 2: longitude 99999.0 is outside"),
-    ("lon,lat\n729.99,48.4", {"wrap": True}, [(729.99, 48.4)], {}, ""),
-    ("lon,lat,\n9.99,48.4,\n10.1,54.3,,", {}, TWO, {}, ""),
-    ("v,lon,lat\n#N/A,9.99,48.4\n2,10.1,54.3", {}, TWO, {"v": [None, 2]}, ""),
-    ("n;lon;lat\n1.085.664;9;48\n128.928;10;54", {}, [(9, 48), (10, 54)], {"n": [1085664, 128928]}, "thousands"),
-    (
-        "n;m;lon;lat\n1.085.664;128.928;9;48",
-        {},
-        [(9, 48)],
-        {"n": [1085664], "m": [128928]},
-        2,
-    ),
-    ('n,lon,lat\n"1,234","9,99","48,4"', {}, [ULM], {"n": [1.234]}, ""),
-    ("n;lon;lat\n1,5;9.99;48.4", {"decimal": "."}, [ULM], {"n": ["1,5"]}, "not a number with the decimal mark '.'"),
-    ("n;lon;lat\n1.234.567;9.99;48.4", {}, [ULM], {"n": ["1.234.567"]}, "kept as text"),
-    ('"name" "lon" "lat"\n"New  York" -74 40.7', {}, [(-74, 40.7)], {"name": ["New York"]}, ""),
-    ('where\n"48.4, 9.99"\n"54.3, 10.1"', {}, TWO, {}, "read as latitude, longitude"),
-    ("lon,lat,n\ndeg,deg,mm\n9.99,48.4,7\n1,2\n10.1,54.3,8", {"skip_invalid": True}, TWO, {"n": [7, 8]}, 2),
-    ("id,lon,lat\n1E3,9.99,48.4\n2E5,10.1,54.3", {}, TWO, {"id": ["1E3", "2E5"]}, ""),
-    ("id,lon,lat\n1E3,9.99,48.4\n7,10.1,54.3", {}, TWO, {"id": ["1E3", "7"]}, ""),
-    ("v,lon,lat\n1e16,9.99,48.4\n1.5E3,10.1,54.3", {}, TWO, {"v": [1e16, 1500]}, ""),
-    ("v,lon,lat\n1E+16,9.99,48.4\n2,10.1,54.3", {}, TWO, {"v": [1e16, 2]}, ""),
-    ("lon\tlat\n10°59'07″E\t48°24'N", {}, [(10.985277777777778, 48.4)], {}, ""),
-    ("lon;lat\n170 41,4 W;S 12° 30' 15,5''", {}, [(-170.69, -12.504305555555556)], {}, ""),
-    ("lon,lat\n170.70W,12:30:15\n\u22125°,1d30m", {}, [(-170.7, 12.504166666666666), (-5, 1.5)], {}, ""),
-    ("wkt,v\nPOINT (9.99 48.4),1\nPOINT Z (10.1 54.3 7),2", {}, TWO, {"v": [1, 2]}, ""),
-    ("g;v\nSRID=3857;1", {"lon": "g", "lat": "g"}, "column 'g' is to have both coordinates", {}, ""),
-    ('where,v\n"48.4, 9.99",1\n"54.3, 10.1",2', {}, TWO, {"v": [1, 2]}, "'where' is read as latitude, longitude"),
-    ("lonlat,v\n9.99 48.4,1\n10.1 54.3,2", {}, TWO, {"v": [1, 2]}, "'lonlat' is read as longitude, latitude"),
-    ("at;v\n48°24'N 9°59'24″E;1", {}, [(9.99, 48.4)], {"v": [1]}, "'at' is read as latitude, longitude"),
-    ('at,v\n"48.4, 9.99",1', {"lon": "at", "lat": "at"}, [ULM], {"v": [1]}, ""),
-    *[
-        (f"{lon};{lat}\n9,99;48,4\n10,1;54,3", {}, TWO, {}, "")
-        for lon, lat in (
-            *(("Länge", "Breite"), ("Längengrad", "Breitengrad"), ("geogr. Länge", "geogr. Breite")),
-            *(("longitud", "latitud"), ("Longitudine", "Latitudine"), ("долгота", "широта"), ("经度", "纬度")),
-            *(("経度", "緯度"), ("خط الطول", "خط العرض"), ("X_COORD", "Y_COORD"), ("POINT_X", "POINT_Y")),
-        )
-    ],
+    case("sep=;|name;lon;lat|Ulm;9,99;48,4|Kiel;10,1;54,3", TWO, NAMES),
+    case("Report 2024|by us||name,lon,lat|Ulm,9.99,48.4|Kiel,10.1,54.3", TWO, NAMES, "2 rows above"),
+    case("Report;;|;;|name;lon;lat|Ulm;9,99;48,4|Kiel;10,1;54,3", TWO, NAMES, "1 row above"),
+    case("a|b,c,d|lon,lat,v|9.99,48.4,1|10.1,54.3,2", TWO, {"v": [1, 2]}, skip_rows=2),
+    case("lon,lat,rain|deg,deg,mm|9.99,48.4,7|10.1,54.3,8", TWO, {"rain": [7, 8]}, "a row of units is left out"),
+    case("name,lon,lat,n|Ulm,9.99,48.4,7|Kiel,10.1,54.3,8|Total,,,15", TWO, NAMES | {"n": [7, 8]}, "a row of totals"),
+    case("name;lon;lat;n|Ulm;9,99;48,4;128.928|Kiel;10,1;54,3;1.085.664", TWO, NAMES | GROUPED, "thousands"),
+    case("n;lon;lat|1.234;9,99;48,4|2.345;10,1;54,3", TWO, {"n": [1234, 2345]}, decimal=","),
+    case("n;lon;lat|1.234;9;48|2.345;10;54", [(9, 48), (10, 54)], {"n": [1.234, 2.345]}, decimal="."),
+    case("n;lon;lat|1'763'000;9.99;48.4|12;10.1;54.3", TWO, {"n": [1763000, 12]}),
+    case("n;lon;lat|1\u202f763\u202f000,5;9,99;48,4|12;10,1;54,3", TWO, {"n": [1763000.5, 12]}),
+    case("n;lon;lat|\u22125;9,99;48,4|12;10,1;54,3", TWO, {"n": [-5, 12]}),
+    case("t,lon,lat|-9999,9.99,48.4|12.5,10.1,54.3", TWO, {"t": [None, 12.5]}, missing=[-9999]),
+    case("t,lon,lat|keine,9.99,48.4|12.5,10.1,54.3", TWO, {"t": [None, 12.5]}, missing="keine"),
+    case("lon,lat|-9999,48|9.99,48.4", [ULM], missing=["-9999"], skip_missing=True),
+    case("lon,lat|9.99,48.4|181,91|10.1,54.3|x,3", note="2 rows are left out: row 2: latitude 91", skip_invalid=True),
+    case("lon,lat|9.99,48.4|1,2,3|10.1,54.3", note="1 row is left out: row 2: has 3 fields", skip_invalid=True),
+    case("lon,lat|9.99,48.4|99999,3", [ULM], note="row 2: longitude 99999.0 is outside", skip_invalid=True),
+    case("lon,lat|729.99,48.4", [(729.99, 48.4)], wrap=True),
+    case("lon,lat,|9.99,48.4,|10.1,54.3,,"),
+    case("v,lon,lat|#N/A,9.99,48.4|2,10.1,54.3", TWO, {"v": [None, 2]}),
+    case("n;lon;lat|1.085.664;9;48|128.928;10;54", [(9, 48), (10, 54)], {"n": GROUPED["n"][::-1]}, "thousands"),
+    case("n;m;lon;lat|1.085.664;128.928;9;48", [(9, 48)], {"n": [1085664], "m": [128928]}, 2),
+    case('n,lon,lat|"1,234","9,99","48,4"', [ULM], {"n": [1.234]}),
+    case("n;lon;lat|1,5;9.99;48.4", [ULM], {"n": ["1,5"]}, "not a number with the decimal mark '.'", decimal="."),
+    case("n;lon;lat|1.234.567;9.99;48.4", [ULM], {"n": ["1.234.567"]}, "kept as text"),
+    case('"name" "lon" "lat"|"New  York" -74 40.7', [(-74, 40.7)], {"name": ["New York"]}),
+    case('where|"48.4, 9.99"|"54.3, 10.1"', note="read as latitude, longitude"),
+    case("lon,lat,n|deg,deg,mm|9.99,48.4,7|1,2|10.1,54.3,8", TWO, {"n": [7, 8]}, 2, skip_invalid=True),
+    case("id,lon,lat|1E3,9.99,48.4|2E5,10.1,54.3", TWO, {"id": ["1E3", "2E5"]}),
+    case("id,lon,lat|1E3,9.99,48.4|7,10.1,54.3", TWO, {"id": ["1E3", "7"]}),
+    case("v,lon,lat|1e16,9.99,48.4|1.5E3,10.1,54.3", TWO, {"v": [1e16, 1500]}),
+    case("v,lon,lat|1E+16,9.99,48.4|2,10.1,54.3", TWO, {"v": [1e16, 2]}),
+    case("lon\tlat|10°59'07″E\t48°24'N", [(10.985277777777778, 48.4)]),
+    case("lon;lat|170 41,4 W;S 12° 30' 15,5''", [(-170.69, -12.504305555555556)]),
+    case("lon,lat|170.70W,12:30:15|\u22125°,1d30m", [(-170.7, 12.504166666666666), (-5, 1.5)]),
+    case("wkt,v|POINT (9.99 48.4),1|POINT Z (10.1 54.3 7),2", TWO, {"v": [1, 2]}),
+    case('where,v|"48.4, 9.99",1|"54.3, 10.1",2', TWO, {"v": [1, 2]}, "'where' is read as latitude, longitude"),
+    case("lonlat,v|9.99 48.4,1|10.1 54.3,2", TWO, {"v": [1, 2]}, "'lonlat' is read as longitude, latitude"),
+    case("at;v|48°24'N 9°59'24″E;1", [(9.99, 48.4)], {"v": [1]}, "'at' is read as latitude, longitude"),
+    case('at,v|"48.4, 9.99",1', [ULM], {"v": [1]}, lon="at", lat="at"),
+    *(case(f"{names}|9,99;48,4|10,1;54,3") for names in HEADERS.strip().split("|")),
+    case("10 48.4|2 51", [(10, 48.4), (2, 51)]),
+    case("a,10,48.4|b,2,51", [(10, 48.4), (2, 51)], {"column_1": ["a", "b"]}, lon="column_2", lat="column_3"),
+    case('n;lon;lat|"Ulm; Donau, B";9,99;48,4|"a\nb";10,1;54,3', TWO, {"n": ["Ulm; Donau, B", "a\nb"]}),
+    case("\ufefflon,lat|9.99,48.4||10.1,54.3"),
+    case("lon,lat,name|", [], {"name": []}),
     # refused, with the option that helps
-    (
-        "lon,lat\n9,48\n99999,3",
-        {},
-        r"row 2: longitude 99999.0 is outside .* skip_invalid=True, or .* wrap=True",
-        {},
-        "",
-    ),
-    (
-        "lon,lat\n9,48\n181,91",
-        {},
-        "row 2: latitude 91.0 is outside .* leave such rows out with skip_invalid=True",
-        {},
-        "",
-    ),
-    ("lon,lat\n9,48\n1,2,3", {}, "row 2 has 3 fields, .* skip_invalid=True", {}, ""),
-    ("lon,lat\n48°N,9°E", {}, "row 1: the longitude '48°N' is a latitude", {}, ""),
-    ("lon,lat\n9°O,48°", {}, "row 1: the longitude '9°O' is not a number", {}, ""),
-    ("lon,lat\n9°75',48", {}, "row 1: the longitude .9°75'. is not a number", {}, ""),
-    ("lon,lat\n9,48", {"encoding": "cp1525"}, "encoding is 'cp1525', which does not exist", {}, ""),
-    ("lon,lat\n9,48", {"decimal": "x"}, "decimal is 'x', but must be one of", {}, ""),
-    (
-        "v\nSRID=1;POINT(1 2)\nSRID=2;POINT(1 2)".replace("v", "v\t").replace(")", ")\t"),
-        {},
-        "several coordinate systems, 1, 2",
-        {},
-        "",
-    ),
+    case("lon,lat|9,48|99999,3", r"row 2: longitude 99999.0 is outside .* skip_invalid=True, or .* wrap=True"),
+    case("lon,lat|9,48|181,91", "row 2: latitude 91.0 is outside .* leave such rows out with skip_invalid=True"),
+    case("lon,lat|9,48|1,2,3", "row 2 has 3 fields, .* skip_invalid=True"),
+    case("lon,lat|48°N,9°E", "row 1: the longitude '48°N' is a latitude"),
+    case("lon,lat|9°O,48°", "row 1: the longitude '9°O' is not a number"),
+    case("lon,lat|9°75',48", "row 1: the longitude .9°75'. is not a number"),
+    case("lon,lat|9,48", "encoding is 'cp1525', which does not exist", encoding="cp1525"),
+    case("lon,lat|9,48", "decimal is 'x', but must be one of", decimal="x"),
+    case("v\t|SRID=1;POINT(1 2)\t|SRID=2;POINT(1 2)\t", "several coordinate systems, 1, 2"),
+    case("g;v|SRID=3857;1", "column 'g' is to have both coordinates", lon="g", lat="g"),
 ]
+
+
+def heard(read, *source, **options):
+    """What is read, and what was said of it."""
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always", DataWarning)
+        return read(*source, **options), [str(each.message) for each in said]
 
 
 @pytest.mark.parametrize(("content", "options", "places", "columns", "note"), READ)
 def test_a_dirty_table(content, options, places, columns, note):
-    with warnings.catch_warnings(record=True) as said:
-        warnings.simplefilter("always", DataWarning)
-        if isinstance(places, str):
-            with pytest.raises(ValueError, match=places):
-                read_points(io.StringIO(content), **options)
-            return
-        table = read_points(io.StringIO(content), **options)
+    if isinstance(places, str):
+        with pytest.raises(ValueError, match=places):
+            heard(read_points, io.StringIO(content), **options)
+        return
+    table, told = heard(read_points, io.StringIO(content), **options)
     assert table.places.tolist() == [list(place) for place in places]
+    assert table.rows.tolist() == [*range(1, len(places) + 1)] or "left out" in str(told) or "skip_missing" in options
     got = {name: [None if each != each else each for each in values.tolist()] for name, values in table.columns.items()}
     assert got == columns
-    told = [str(each.message) for each in said]
     assert len(told) == int(note if isinstance(note, int) else bool(note))
     assert str(note) in "".join(told) or isinstance(note, int)
 
@@ -170,24 +137,47 @@ def test_encodings(text, encoding, guess):
         assert [values.tolist() for values in table.columns.values()] == [c.tolist() for c in expected.columns.values()]
     for name in ("utf-16", *(["utf-16-le"] if text[0] < "\x80" else [])):
         assert [*read_points(io.BytesIO(text.encode(name))).columns] == [*expected.columns]
+    packed = read_points(io.BytesIO(gzip.compress(text.encode())))
+    assert packed.lonlat.tolist() == expected.lonlat.tolist()
     with pytest.raises(ValueError, match="line 2 is not text in ascii; say which encoding the file has with encoding="):
         read_points(io.BytesIO(text.replace("都市", "a").replace("город", "a").encode()), encoding="ascii")
 
 
+OFFICE = "http://schemas.openxmlformats.org/officeDocument/2006/relationships"
+KIND = "application/vnd.openxmlformats-officedocument.spreadsheetml"
+
+
+def workbook(path, sheets):
+    """Sheets of rows of text and numbers, as small as a workbook may be."""
+
+    def cell(value):
+        return f"<c><v>{value}</v></c>" if value != str(value) else f'<c t="inlineStr"><is><t>{value}</t></is></c>'
+
+    names, links, parts = "", "", {}
+    types = f'<Override PartName="/xl/workbook.xml" ContentType="{KIND}.sheet.main+xml"/>'
+    for k, (name, rows) in enumerate(sheets.items(), 1):
+        types += f'<Override PartName="/xl/worksheets/sheet{k}.xml" ContentType="{KIND}.worksheet+xml"/>'
+        names += f'<sheet name="{name}" sheetId="{k}" r:id="r{k}"/>'
+        links += f'<Relationship Id="r{k}" Type="{OFFICE}/worksheet" Target="worksheets/sheet{k}.xml"/>'
+        cells = "".join(f"<row>{''.join(map(cell, row))}</row>" for row in rows)
+        parts[f"worksheets/sheet{k}.xml"] = f"<worksheet><sheetData>{cells}</sheetData></worksheet>"
+    parts["../[Content_Types].xml"] = f"<Types>{types}</Types>"
+    parts["workbook.xml"] = f'<workbook xmlns:r="{OFFICE}"><sheets>{names}</sheets></workbook>'
+    parts["_rels/workbook.xml.rels"] = f"<Relationships>{links}</Relationships>"
+    with ZipFile(path, "w") as archive:
+        for name, text in parts.items():
+            archive.writestr(f"xl/{name}".replace("xl/../", ""), text)
+
+
 def test_sheets_of_text_with_titles_and_several_sheets(tmp_path):
-    path = tmp_path / "book.xlsx"
-    plain = [["name", "lon", "lat"], ["Ulm", "9.99", "48.4"], ["Kiel", "10.1", "54.3"]]
-    titled = [["Report", "", ""], *plain[:1], ["Ulm", 9.99, 48.4], ["Kiel", 10.1, 54.3]]
-    workbook(path, {"Text": plain, "Titel": titled})
+    path, header = tmp_path / "book.xlsx", ["name", "lon", "lat"]
+    plain = [header, ["Ulm", "9.99", "48.4"], ["Kiel", "10.1", "54.3"]]
+    workbook(path, {"Text": plain, "Titel": [["Report", "", ""], header, ["Ulm", *ULM], ["Kiel", *KIEL]]})
     for sheet in ("Text", "Titel"):
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", DataWarning)
-            table = read_points(path, layer=sheet)
+        table, _ = heard(read_points, path, layer=sheet)
         assert table.lonlat.tolist() == [list(place) for place in TWO]
         assert table.columns["name"].tolist() == ["Ulm", "Kiel"]
-    with pytest.raises(
-        ValueError, match="several layers, 'Text', 'Titel'; give a file with one, or say which with layer="
-    ):
+    with pytest.raises(ValueError, match="several layers, 'Text', 'Titel'; give a file with one, or say which"):
         read_points(path)
 
 
@@ -217,7 +207,8 @@ def test_an_index_and_geometries_of_frames():
     named = pd.DataFrame(COLUMNS).set_index("name")
     assert read_points(named).columns["name"].tolist() == COLUMNS["name"]
     points = geopandas.points_from_xy(*np.transpose(TWO))
-    assert read_points(geopandas.GeoSeries(points, crs=4326)).lonlat.tolist() == [list(place) for place in TWO]
+    for crs in (4326, None):  # those without a coordinate system are degrees
+        assert read_points(geopandas.GeoSeries(points, crs=crs)).lonlat.tolist() == [list(place) for place in TWO]
 
 
 DIRTY = """Bericht
@@ -239,20 +230,11 @@ def test_inspect_says_what_was_understood():
     assert found["columns"]["n"] == {"type": "integer", "range": [7, 1085664], "missing": 0}
     assert found["columns"]["Stadt"]["examples"] == ["Köln", "Ulm"]
     assert json.loads(json.dumps(found))["thousands"] == {"n": "."}
-    options = dict(found["options"])
-    assert options == {
-        "encoding": "cp1252",
-        "lon": "Länge",
-        "lat": "Breite",
-        "decimal": ",",
-        "skip_rows": 2,
-        "missing": [-9999.0],
-        "skip_invalid": True,
-    }
-    with warnings.catch_warnings(record=True) as said:
-        warnings.simplefilter("always", DataWarning)
-        table = read_points(io.BytesIO(DIRTY.encode("cp1252")), **options)
-    assert [str(each.message) for each in said] == ["1 row is left out: row 3: latitude 91.0 is outside [-90, 90]"]
+    options = {"encoding": "cp1252", "lon": "Länge", "lat": "Breite", "decimal": ",", "skip_rows": 2}
+    options |= {"missing": [-9999.0], "skip_invalid": True}
+    assert dict(found["options"]) == options
+    table, told = heard(read_points, io.BytesIO(DIRTY.encode("cp1252")), **options)
+    assert told == ["1 row is left out: row 3: latitude 91.0 is outside [-90, 90]"]
     assert np.isnan(table.columns["t"][0])
     text = str(report)
     assert "left out    row 3: latitude 91.0" in text

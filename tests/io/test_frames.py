@@ -3,25 +3,17 @@
 import io
 import math
 
-import geopandas
 import numpy as np
 import pytest
 import shapely
 from hypothesis import given
 from hypothesis import strategies as st
 
-from stereodel import (
-    PlanarDelaunay,
-    PlanarVoronoi,
-    SphericalDelaunay,
-    SphericalVoronoi,
-    angular_distance,
-    check_delaunay,
-    lonlat_to_xyz,
-)
+from stereodel import PlanarDelaunay, PlanarVoronoi, SphericalDelaunay, SphericalVoronoi, check_delaunay
 from stereodel.earth import AUTHALIC_RADIUS_KM
 from stereodel.interpolation import contours
 from stereodel.io import read_points, to_geodataframe, write
+from stereodel.sphere import angular_distance, lonlat_to_xyz
 from tests import sets
 from tests.examples import examples
 
@@ -195,11 +187,6 @@ def test_back_from_sites():
         table = read_points(sites.to_crs(3857))
         assert angular_distance(lonlat_to_xyz(table.lonlat, latitude=latitude), SPHERE).max() < 1e-11
         assert table.columns["point"].tolist() == list(range(len(SPHERE)))
-
-
-def test_points_without_a_coordinate_system_are_degrees():
-    series = geopandas.GeoSeries(geopandas.points_from_xy([5, 7], [50, 51]))
-    assert read_points(series).lonlat.tolist() == [[5, 50], [7, 51]]
 
 
 AXIS = np.array([0.5, 0.3, 0.8])

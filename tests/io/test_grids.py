@@ -83,13 +83,6 @@ def test_the_extent_of_points(lonlat, spacing, centers, lon, lat):
     assert (grid.lat[0], grid.lat[-1]) == lat
 
 
-def test_extents_that_no_grid_has():
-    with pytest.raises(ValueError, match="there are no points, whose extent would be that of the grid; give bounds"):
-        Grid.regular(1, of=PointTable(np.zeros((0, 2))))
-    with pytest.raises(ValueError, match="spacing is 1e-300, which makes a grid of"):
-        Grid.regular(1e-300, of=PointTable([[0.0, 0.0], [1e300, 1.0]], surface="plane"))
-
-
 @pytest.mark.filterwarnings("ignore::stereodel.io.RenamedColumnWarning")
 def test_a_plane_without_a_coordinate_system(tmp_path):
     table = PointTable([[-3.5, 200.0], [1.0, 203.0]], surface="plane")

@@ -50,11 +50,8 @@ def test_levels_of_an_index_and_names_that_are_taken():
     frame = geopandas.GeoDataFrame({"v": [7, 8, 9]}, geometry=POINTS, crs=4326).set_index(levels)
     with pytest.warns(UserWarning, match="'v' is written as 'v_1'"):
         columns = read_points(frame).columns
-    assert {name: values.tolist() for name, values in columns.items()} == {
-        "v_1": ["a", "b", "c"],
-        "level_1": [1, 2, 3],
-        "v": [7, 8, 9],
-    }
+    expected = {"v_1": ["a", "b", "c"], "level_1": [1, 2, 3], "v": [7, 8, 9]}
+    assert {name: values.tolist() for name, values in columns.items()} == expected
 
 
 def test_geometries_beside_others_are_text(tmp_path):

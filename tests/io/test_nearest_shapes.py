@@ -35,11 +35,8 @@ def brute(place, geometry, latitude):
         return 0.0
     rings = shapely.get_rings(geometry) if geometry.geom_type == "Polygon" else [geometry]
     lines = [shapely.get_coordinates(ring) for ring in rings]
-    return min(
-        least_along(place, a, b, latitude)
-        for line in lines
-        for a, b in zip(line, line[1:] if len(line) > 1 else line, strict=False)
-    )
+    sides = (side for line in lines for side in zip(line, line[1:] if len(line) > 1 else line, strict=False))
+    return min(least_along(place, *side, latitude) for side in sides)
 
 
 def random_shapes(rng, count):
@@ -76,44 +73,31 @@ COUNTRY = shapely.MultiPolygon([shapely.Polygon([(0, 0), (10, 0), (10, 10), (0, 
 ACROSS = [[[170, -10], [190, -10], [190, 10], [170, 10], [170, -10]]]
 CUT = shapely.MultiPolygon([shapely.box(170, -10, 180, 10), shapely.box(-180, -10, -170, 10)])
 CAP = shapely.box(-180, 60, 180, 90)
-DEGREE = np.radians(1.0)
 
 
-@pytest.mark.parametrize(
-    ("shape", "place", "degrees"),
-    [
-        (COUNTRY, (1, 1), 0),
-        (COUNTRY, (10, 5), 0),
-        (COUNTRY, (5, 5), 0),
-        (COUNTRY, (2, 2), 0),
-        (COUNTRY, (3, 0.0), 0),
-        (COUNTRY, (0, -3), 3),
-        (COUNTRY, (11, 0), 1),
-        (shapely.Polygon(COUNTRY.geoms[0].exterior, [LAKE]), (5, 2.5), 0.5),
-        ({"type": "Polygon", "coordinates": ACROSS}, (-175, 0), 0),
-        ({"type": "Polygon", "coordinates": ACROSS}, (180, 0), 0),
-        ({"type": "Polygon", "coordinates": ACROSS}, (-169, 0), 1),
-        (CUT, (180, 0), 0),
-        (CUT, (-180, 12), 2),
-        (CUT, (168, 0), 2),
-        (CAP, (0, 90), 0),
-        (CAP, (123, 89), 0),
-        (CAP, (-60, 59), 1),
-        (CAP, (0, -90), 150),
-        (shapely.LineString([(175, 0), (-175, 0)]), (180, 1), 1),
-        (shapely.LineString([(0, 80), (0, 90)]), (180, 85), 5),
-        (shapely.LineString([(-180, 60), (180, 60)]), (17, 90), 30),
-        (shapely.LineString([(0, 60), (90, 60)]), (45, 61), 1),
-        (shapely.Point(0, 0), (180, 0), 180),
-        (shapely.MultiPoint([(0, 0), (20, 0)]), (17, 0), 3),
-    ],
-)
-def test_known_distances(shape, place, degrees):
+KNOWN = [
+    (COUNTRY, [(1, 1, 0), (10, 5, 0), (5, 5, 0), (2, 2, 0), (3, 0.0, 0), (0, -3, 3), (11, 0, 1)]),
+    (shapely.Polygon(COUNTRY.geoms[0].exterior, [LAKE]), [(5, 2.5, 0.5)]),
+    ({"type": "Polygon", "coordinates": ACROSS}, [(-175, 0, 0), (180, 0, 0), (-169, 0, 1)]),
+    (CUT, [(180, 0, 0), (-180, 12, 2), (168, 0, 2)]),
+    (CAP, [(0, 90, 0), (123, 89, 0), (-60, 59, 1), (0, -90, 150)]),
+    (shapely.LineString([(175, 0), (-175, 0)]), [(180, 1, 1)]),
+    (shapely.LineString([(0, 80), (0, 90)]), [(180, 85, 5)]),
+    (shapely.LineString([(-180, 60), (180, 60)]), [(17, 90, 30)]),
+    (shapely.LineString([(0, 60), (90, 60)]), [(45, 61, 1)]),
+    (shapely.Point(0, 0), [(180, 0, 180)]),
+    (shapely.MultiPoint([(0, 0), (20, 0)]), [(17, 0, 3)]),
+]
+
+
+@pytest.mark.parametrize(("shape", "places"), KNOWN)
+def test_known_distances(shape, places):
     """Within, on the outline, in a lake, on its island, across ±180°, about the poles: on the plain sphere."""
-    number, distance = nearest_shapes([place], shape, latitude="spherical", radius=1.0)
-    assert number.tolist() == [0]
-    assert distance[0] == pytest.approx(degrees * DEGREE, abs=OUTLINE_TOLERANCE)
-    assert degrees or distance[0] < 1e-15
+    *places, degrees = np.transpose(places)
+    number, distance = nearest_shapes(np.transpose(places), shape, latitude="spherical", radius=1.0)
+    assert not number.any()
+    assert distance == pytest.approx(np.radians(degrees), abs=OUTLINE_TOLERANCE)
+    assert (distance[degrees == 0] < 1e-15).all()
 
 
 def test_no_point_of_the_outline_is_nearer():

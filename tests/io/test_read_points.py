@@ -1,6 +1,5 @@
 """Reading tables of points: separators, names of columns, what is said of wrong rows, and every format."""
 
-import gzip
 import io
 import re
 import warnings
@@ -44,13 +43,6 @@ def test_separators_and_decimal_signs(separator, decimal, end):
     assert_cities(read_points(io.StringIO(end.join(lines) + end)))
 
 
-def test_a_separator_inside_quotes_is_text():
-    text = 'name;lon;lat\n"Ulm; Donau, Germany";10,0;48,4\n"two\nlines";1,0;2,0\n'
-    table = read_points(io.StringIO(text))
-    assert table.columns["name"].tolist() == ["Ulm; Donau, Germany", "two\nlines"]
-    assert table.lonlat.tolist() == [[10, 48.4], [1, 2]]
-
-
 @pytest.mark.parametrize(
     ("header", "row", "values"),
     [
@@ -90,16 +82,10 @@ def test_a_place_in_metres_has_no_doubtful_marks():
         lambda: read_points(io.StringIO(text), lon="east", lat="north", crs="EPSG:3857"),
         lambda: read_points(io.StringIO(text), plane=("east", "north")),
     ):
-        with pytest.warns(
-            DataWarning, match="'east' has marks between thousands: '567.890' is 567890; decimal= says it"
-        ):
+        with pytest.warns(DataWarning, match="'east' has marks between thousands: '567.890' is 567890; decimal= says"):
             read()
-    with (
-        pytest.warns(DataWarning, match="'east' is kept as text"),
-        pytest.raises(
-            ValueError, match=r"row 1: the east '567.890' may be 567.890 or 567890; say which mark is decimal"
-        ),
-    ):
+    said = r"row 1: the east '567.890' may be 567.890 or 567890; say which mark is decimal"
+    with pytest.warns(DataWarning, match="'east' is kept as text"), pytest.raises(ValueError, match=said):
         read_points(io.StringIO("east;north;rain;snow\n567.890;54321;2,5;0.5\n"), plane=("east", "north"))
     table = read_points(io.StringIO(text.replace("2,5", "2.5")), plane=("east", "north"))
     assert table.places.tolist() == [[567.890, 54321]]
@@ -153,19 +139,6 @@ def test_a_table_of_a_plane_is_written_in_its_own_coordinates(tmp_path):
     write(tmp_path / "a.gpkg", table)
     found = geopandas.read_file(tmp_path / "a.gpkg")
     assert (found.crs.to_epsg(), found.geometry[0].coords[:]) == (31467, [(3500, 5400)])
-
-
-def test_no_names_of_columns():
-    assert read_points(io.StringIO("10 48.4\n2 51\n")).lonlat.tolist() == [[10, 48.4], [2, 51]]
-    table = read_points(io.StringIO("a,10,48.4\nb,2,51\n"), lon="column_2", lat="column_3")
-    assert table.columns["column_1"].tolist() == ["a", "b"]
-
-
-def test_blank_lines_and_a_mark_of_the_byte_order():
-    table = read_points(io.BytesIO("\ufefflon,lat\n1,2\n\n3,4\n".encode()))
-    assert table.lonlat.tolist() == [[1, 2], [3, 4]]
-    assert table.rows.tolist() == [1, 2]
-    assert len(read_points(io.StringIO("lon,lat,name\n"))) == 0
 
 
 @pytest.mark.parametrize(
@@ -230,9 +203,3 @@ def test_tables_are_values():
         table.lonlat[0, 0] = 5
     with pytest.raises(TypeError):
         table.columns["name"] = []
-
-
-@pytest.mark.parametrize("packed", [lambda text: text.encode("utf-16"), lambda text: gzip.compress(text.encode())])
-def test_other_encodings(packed):
-    table = read_points(io.BytesIO(packed("name,lon,lat\nKöln,7,51\n")))
-    assert (table.columns["name"].tolist(), table.lonlat.tolist()) == (["Köln"], [[7, 51]])

@@ -18,6 +18,7 @@ def feature(geometry, **properties):
     return {"type": "Feature", "properties": properties, "geometry": geometry}
 
 
+SEVERAL = [{"type": "Point", "coordinates": [5, 5]}, {"type": "Polygon", "coordinates": [RING]}]
 EVERYTHING = {
     "type": "FeatureCollection",
     "features": [
@@ -28,12 +29,7 @@ EVERYTHING = {
         feature({"type": "Polygon", "coordinates": [RING, [[1, 1], [2, 1], [2, 2], [1, 1]]]}),
         feature({"type": "MultiPolygon", "coordinates": [[RING], [RING]]}),
         feature(None),
-        feature(
-            {
-                "type": "GeometryCollection",
-                "geometries": [{"type": "Point", "coordinates": [5, 5]}, {"type": "Polygon", "coordinates": [RING]}],
-            }
-        ),
+        feature({"type": "GeometryCollection", "geometries": SEVERAL}),
         feature({"type": "Point", "coordinates": []}),
         feature({"type": "MultiPolygon", "coordinates": []}),
     ],

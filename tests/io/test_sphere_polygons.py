@@ -7,18 +7,12 @@ import shapely
 from hypothesis import given
 from hypothesis import strategies as st
 
-from stereodel import (
-    SphericalDelaunay,
-    SphericalVoronoi,
-    angular_distance,
-    check_delaunay,
-    lonlat_to_xyz,
-    xyz_to_lonlat,
-)
+from stereodel import SphericalDelaunay, SphericalVoronoi, check_delaunay
 from stereodel.curves.ragged import Ragged
 from stereodel.io import to_geodataframe
 from stereodel.io.maps import on_map, tiles
 from stereodel.io.rows_of import rows_of
+from stereodel.sphere import angular_distance, lonlat_to_xyz, xyz_to_lonlat
 from tests import sets
 from tests.examples import examples
 

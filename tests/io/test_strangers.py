@@ -236,6 +236,18 @@ def spreadsheet(path, rows, shared=b"</sst>"):
             archive.writestr(name, text)
 
 
+def repeated(row, count):
+    return b"".join(row.replace(b"#", b"%d" % k) for k in range(3, count))
+
+
+SHARED = b'<row r="#"><c r="A#"><v>1</v></c><c r="B#"><v>1</v></c><c r="C#" t="s"><v>2</v></c></row>'
+END = b"</t></si></sst>"
+
+
+def parquet(path, count, **more):
+    pq.write_table(pa.table({"lon": np.zeros(count), "lat": np.zeros(count)} | more), path, compression="zstd")
+
+
 def archive(path, *members):
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as packed:
         for name, content in members:
@@ -299,24 +311,10 @@ BOMBS = {
     "many.zip": lambda path: archive(path, *((f"{k}.shp", b"") for k in range(MOST_MEMBERS + 1))),
     "nested.zip": lambda path: archive(path, ("a.kml", b"PK\x03\x04")),
     "a.xlsx": lambda path: spreadsheet(path, b" " * (1 << 26)),
-    "far.xlsx": lambda path: spreadsheet(
-        path, b"".join(b'<row r="%d"><c r="XFD%d"><v>1</v></c></row>' % (k, k) for k in range(3, 40_000))
-    ),
-    "shared.xlsx": lambda path: spreadsheet(
-        path,
-        b"".join(
-            b'<row r="%d"><c r="A%d"><v>1</v></c><c r="B%d"><v>1</v></c><c r="C%d" t="s"><v>2</v></c></row>'
-            % ((k,) * 4)
-            for k in range(3, 20_000)
-        ),
-        shared=b"<si><t>%s</t></si></sst>" % (b"x" * 30_000),
-    ),
-    "zeros.parquet": lambda path: pq.write_table(
-        pa.table({"lon": np.zeros(1 << 25), "lat": np.zeros(1 << 25)}), path, compression="zstd"
-    ),
-    "text.parquet": lambda path: pq.write_table(
-        pa.table({"lon": np.zeros(1000), "lat": np.zeros(1000), "a": ["x" * 300_000] * 1000}), path, compression="zstd"
-    ),
+    "far.xlsx": lambda path: spreadsheet(path, repeated(b'<row r="#"><c r="XFD#"><v>1</v></c></row>', 40_000)),
+    "shared.xlsx": lambda path: spreadsheet(path, repeated(SHARED, 20_000), b"<si><t>" + b"x" * 30_000 + END),
+    "zeros.parquet": lambda path: parquet(path, 1 << 25),
+    "text.parquet": lambda path: parquet(path, 1000, a=["x" * 300_000] * 1000),
     "a.ods": lambda path: archive(path, ("content.xml", bytes(1 << 26))),
 }
 
@@ -358,14 +356,9 @@ def test_what_is_packed_well_is_read(tmp_path):
 
 def own_keys(count, rows):
     """GeoJSON with properties that few of its features have, and one that all have."""
-    features = [
-        {
-            "type": "Feature",
-            "properties": {"a": row, **{f"k{row}_{k}": k for k in range(count)}},
-            "geometry": {"type": "Point", "coordinates": [row % 180, 1]},
-        }
-        for row in range(rows)
-    ]
+    place = {"type": "Point", "coordinates": [1, 1]}
+    properties = ({"a": row} | {f"k{row}_{k}": k for k in range(count)} for row in range(rows))
+    features = [{"type": "Feature", "properties": own, "geometry": place} for own in properties]
     return json.dumps({"type": "FeatureCollection", "features": features})
 
 

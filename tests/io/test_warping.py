@@ -9,17 +9,9 @@ from hypothesis import strategies as st
 from pyproj import Transformer
 from scipy.spatial import KDTree
 
-from stereodel import (
-    MoebiusMap,
-    SphereCircle,
-    angular_distance,
-    bubble_to_bubble,
-    data,
-    fisheye,
-    lonlat_to_xyz,
-    xyz_to_lonlat,
-)
+from stereodel import MoebiusMap, bubble_to_bubble, data, fisheye
 from stereodel.io import warp
+from stereodel.sphere import SphereCircle, angular_distance, lonlat_to_xyz, xyz_to_lonlat
 from tests.examples import examples
 from tests.globe import truth
 
@@ -211,13 +203,8 @@ SLIVERS = {
     "from a corner": [(-180, -90), (-175, -49), (-175, -48.999999)],
 }
 """Each covered the map, or was lost, under one of `THINNING` or another."""
-THINNING = [
-    MoebiusMap.identity(),
-    fisheye((20.0, 30.0), magnification=2.0),
-    fisheye((-170.0, -80.0), magnification=7.0),
-    fisheye((60.0, -20.0), magnification=50.0),
-    fisheye((60.0, -20.0), magnification=0.2),
-]
+THINNING = [((20.0, 30.0), 2.0), ((-170.0, -80.0), 7.0), ((60.0, -20.0), 50.0), ((60.0, -20.0), 0.2)]
+THINNING = [MoebiusMap.identity(), *(fisheye(focus, magnification=size) for focus, size in THINNING)]
 
 
 def on_sphere(polygon):

@@ -12,26 +12,9 @@ import shapely
 import trimesh
 import xarray as xr
 
-from stereodel import (
-    PlanarDelaunay,
-    PlanarVoronoi,
-    SphericalDelaunay,
-    SphericalVoronoi,
-    angular_distance,
-    check_delaunay,
-    lonlat_to_xyz,
-)
-from stereodel.io import (
-    DataWarning,
-    PointTable,
-    from_ugrid,
-    to_geodataframe,
-    to_geojson,
-    to_polydata,
-    to_trimesh,
-    to_ugrid,
-    write,
-)
+import stereodel as sd
+from stereodel.io import PointTable, from_ugrid, to_geodataframe, to_geojson, to_polydata, to_trimesh, to_ugrid, write
+from stereodel.io.formats.names import DataWarning
 from tests import sets
 
 SPHERE = sets.sphere("random").drawn(60)
@@ -43,7 +26,7 @@ GREAT_CIRCLE = sets.sphere("short circle").points
 
 @pytest.fixture
 def diagram():
-    return SphericalVoronoi(SPHERE)
+    return sd.SphericalVoronoi(SPHERE)
 
 
 @pytest.mark.parametrize(
@@ -83,20 +66,20 @@ def test_geojson_rounds_transforms_and_turns_rings():
     feature = json.loads(to_geojson(frame, decimals=3))["features"][0]
     assert feature["properties"] == {"value": None}
     assert feature["geometry"]["coordinates"] == [[[0, 0], [0.898, 0], [0.898, 0.898], [0, 0.898], [0, 0]]]
-    collection = json.loads(to_geojson(to_geodataframe(PlanarVoronoi(PLANE[:3]))))
+    collection = json.loads(to_geojson(to_geodataframe(sd.PlanarVoronoi(PLANE[:3]))))
     assert [feature["properties"]["area"] for feature in collection["features"]] == [None] * 3
 
 
 def test_triangles_as_csv(tmp_path):
-    triangulation = PlanarDelaunay(PLANE)
+    triangulation = sd.PlanarDelaunay(PLANE)
     write(tmp_path / "triangles.csv", triangulation)
     rows = np.loadtxt(tmp_path / "triangles.csv", delimiter=",", skiprows=1, dtype=int)
-    check_delaunay(PLANE, rows)
-    north = SphericalDelaunay(SPHERE[SPHERE[:, 2] > 0])  # what closes the far side has no row
+    sd.check_delaunay(PLANE, rows)
+    north = sd.SphericalDelaunay(SPHERE[SPHERE[:, 2] > 0])  # what closes the far side has no row
     write(tmp_path / "north.csv", north)
     rows = np.loadtxt(tmp_path / "north.csv", delimiter=",", skiprows=1, dtype=int)
     assert rows.tolist() == to_geodataframe(north)[["a", "b", "c"]].to_numpy().tolist()
-    write(tmp_path / "cells.csv", PlanarVoronoi(triangulation))
+    write(tmp_path / "cells.csv", sd.PlanarVoronoi(triangulation))
     assert (tmp_path / "cells.csv").read_text().startswith("x,y,area\n")
 
 
@@ -106,7 +89,7 @@ def canonical(faces):
 
 @pytest.mark.parametrize("what", ["triangles", "cells"])
 def test_ugrid_comes_back(tmp_path, what):
-    triangulation = SphericalDelaunay(SPHERE)
+    triangulation = sd.SphericalDelaunay(SPHERE)
     dataset = to_ugrid(triangulation, what=what)
     write(tmp_path / "mesh.nc", triangulation, what=what)
     with (
@@ -117,25 +100,25 @@ def test_ugrid_comes_back(tmp_path, what):
             nodes, faces = from_ugrid(read)
             if what == "triangles":
                 assert (nodes == np.column_stack([dataset[f"node_{k}"] for k in "xyz"])).all()
-                assert angular_distance(nodes, SPHERE).max() < 1e-13
-                check_delaunay(SPHERE, faces)
+                assert sd.angular_distance(nodes, SPHERE).max() < 1e-13
+                sd.check_delaunay(SPHERE, faces)
                 assert canonical(faces) == canonical(triangulation.simplices)
             else:
-                regions = SphericalVoronoi(triangulation).regions
+                regions = sd.SphericalVoronoi(triangulation).regions
                 assert [[int(k) for k in row[row >= 0]] for row in faces] == regions
             assert float(read["face_area"].sum()) == pytest.approx(4 * np.pi)
 
 
 def test_ugrid_of_the_plane_and_without_cartesian_nodes_counted_from_one():
-    dataset = to_ugrid(SphericalDelaunay(SPHERE)).drop_vars(["node_x", "node_y", "node_z"])
+    dataset = to_ugrid(sd.SphericalDelaunay(SPHERE)).drop_vars(["node_x", "node_y", "node_z"])
     links = dataset["face_node_connectivity"]
     dataset["face_node_connectivity"] = (links.dims, links.values + 1, links.attrs | {"start_index": 1})
     nodes, faces = from_ugrid(dataset)
-    assert angular_distance(nodes, SPHERE).max() < 1e-13
-    check_delaunay(SPHERE, faces)
-    nodes, faces = from_ugrid(to_ugrid(PlanarDelaunay(PLANE)))
+    assert sd.angular_distance(nodes, SPHERE).max() < 1e-13
+    sd.check_delaunay(SPHERE, faces)
+    nodes, faces = from_ugrid(to_ugrid(sd.PlanarDelaunay(PLANE)))
     assert (nodes == PLANE).all()
-    check_delaunay(nodes, faces)
+    sd.check_delaunay(nodes, faces)
 
 
 @pytest.mark.parametrize(
@@ -144,7 +127,7 @@ def test_ugrid_of_the_plane_and_without_cartesian_nodes_counted_from_one():
 def test_uxarray_opens_the_grid(tmp_path, points, what):
     import uxarray  # which brings 300 MB along: only into the process of this test
 
-    diagram = SphericalVoronoi(points)
+    diagram = sd.SphericalVoronoi(points)
     write(tmp_path / "mesh.nc", diagram, what=what)
     grid = uxarray.open_grid(tmp_path / "mesh.nc")
     ours = to_ugrid(diagram, what=what)
@@ -180,7 +163,7 @@ def test_columns_of_meshes_come_back(tmp_path, what, kind):
     with (
         nullcontext() if kind == "nc" else pytest.warns(DataWarning, match="column 'name' is left out, as it has text")
     ):
-        write(path, SphericalDelaunay(SPHERE), what=what, columns=VALUED)
+        write(path, sd.SphericalDelaunay(SPHERE), what=what, columns=VALUED)
     names = [*list(VALUED)[:-2], *(["node_x_1"] if kind == "nc" else ["node_x"]), "km_h, (mean) _"]
     if kind == "nc":
         import uxarray
@@ -206,13 +189,13 @@ def test_columns_of_meshes_come_back(tmp_path, what, kind):
 def test_points_without_a_face_lose_their_values(tmp_path):
     points = np.vstack([SPHERE, SPHERE[:3]])
     with pytest.warns(DataWarning, match=f"3 of {len(points)} points have no bounded cell of their own: their values"):
-        dataset = to_ugrid(SphericalVoronoi(points), columns={"k": range(len(points))})
+        dataset = to_ugrid(sd.SphericalVoronoi(points), columns={"k": range(len(points))})
     assert dataset["k"].values.tolist() == list(range(len(SPHERE)))
     with pytest.raises(ValueError, match=r"column 'k' has .* \.nc cannot hold"):
-        write(tmp_path / "a.nc", SphericalVoronoi(SPHERE), columns={"k": ["a\0b"] * len(SPHERE)})
+        write(tmp_path / "a.nc", sd.SphericalVoronoi(SPHERE), columns={"k": ["a\0b"] * len(SPHERE)})
 
 
-@pytest.mark.parametrize("mesh", [SphericalVoronoi(SPHERE), SphericalDelaunay(SPHERE), PlanarVoronoi(PLANE)])
+@pytest.mark.parametrize("mesh", [sd.SphericalVoronoi(SPHERE), sd.SphericalDelaunay(SPHERE), sd.PlanarVoronoi(PLANE)])
 def test_ugrid_keeps_to_its_conventions(mesh):
     """UGRID 1.0: attributes of the topology name variables of the right shape; places have standard names and units."""
     dataset = to_ugrid(mesh)
@@ -234,25 +217,25 @@ def test_ugrid_keeps_to_its_conventions(mesh):
 
 def test_centres_of_ugrid():
     """Sites of cells; triangles hold theirs; middles of edges are as far from one end as from the other."""
-    cells, triangles = to_ugrid(SphericalVoronoi(SPHERE)), to_ugrid(SphericalDelaunay(SPHERE))
+    cells, triangles = to_ugrid(sd.SphericalVoronoi(SPHERE)), to_ugrid(sd.SphericalDelaunay(SPHERE))
 
     def places(dataset, location):
-        return lonlat_to_xyz(np.column_stack([dataset[f"{location}_lon"], dataset[f"{location}_lat"]]))
+        return sd.lonlat_to_xyz(np.column_stack([dataset[f"{location}_lon"], dataset[f"{location}_lat"]]))
 
-    assert angular_distance(places(cells, "face"), SPHERE[cells["face_point"].values]).max() < 1e-13
-    found = SphericalDelaunay(SPHERE).find_simplex(places(triangles, "face"))
+    assert sd.angular_distance(places(cells, "face"), SPHERE[cells["face_point"].values]).max() < 1e-13
+    found = sd.SphericalDelaunay(SPHERE).find_simplex(places(triangles, "face"))
     assert (found == triangles["face_triangle"].values).all()
     for dataset in (cells, triangles):
         ends = places(dataset, "node")[dataset["edge_node_connectivity"].values]
         middle = places(dataset, "edge")
-        to_both = angular_distance(ends[:, 0], middle), angular_distance(ends[:, 1], middle)
+        to_both = sd.angular_distance(ends[:, 0], middle), sd.angular_distance(ends[:, 1], middle)
         assert np.abs(to_both[0] - to_both[1]).max() < 1e-12
-        assert np.abs(to_both[0] + to_both[1] - angular_distance(*ends.transpose(1, 0, 2))).max() < 1e-12
+        assert np.abs(to_both[0] + to_both[1] - sd.angular_distance(*ends.transpose(1, 0, 2))).max() < 1e-12
 
 
 @pytest.mark.parametrize("ending", ["glb", "ply"])
 def test_globes_and_coloured_cells_come_back(tmp_path, ending, diagram):
-    triangulation, colors = SphericalDelaunay(SPHERE), np.random.default_rng(13).integers(0, 256, size=(60, 3))
+    triangulation, colors = sd.SphericalDelaunay(SPHERE), np.random.default_rng(13).integers(0, 256, size=(60, 3))
     write(tmp_path / f"globe.{ending}", triangulation)
     write(tmp_path / f"cells.{ending}", diagram, colors=colors)
     globe, cells = (
@@ -261,7 +244,7 @@ def test_globes_and_coloured_cells_come_back(tmp_path, ending, diagram):
     assert np.allclose(globe.vertices, UNIT, atol=1e-6)
     assert globe.is_watertight
     assert globe.volume == pytest.approx(trimesh.Trimesh(UNIT, triangulation.simplices, process=False).volume)
-    check_delaunay(SPHERE, globe.faces)
+    sd.check_delaunay(SPHERE, globe.faces)
     made = to_trimesh(diagram, colors=colors)
     assert np.allclose(cells.vertices, made.vertices, atol=1e-6)
     assert (cells.faces == made.faces).all()
@@ -270,7 +253,7 @@ def test_globes_and_coloured_cells_come_back(tmp_path, ending, diagram):
 
 @pytest.mark.parametrize("points", [SPHERE, SPHERE[:2], GREAT_CIRCLE], ids=["random", "two", "great circle"])
 def test_facets_of_cells_cover_the_sphere(points):
-    diagram = SphericalVoronoi(points)
+    diagram = sd.SphericalVoronoi(points)
     mesh = to_trimesh(diagram, max_segment=2)
     owner = mesh.vertex_attributes["point"].astype(int)
     assert np.allclose(np.linalg.norm(mesh.vertices, axis=1), 1, rtol=1e-14)
@@ -281,16 +264,16 @@ def test_facets_of_cells_cover_the_sphere(points):
 
 
 def test_meshes_of_the_plane():
-    triangles, cells = to_trimesh(PlanarDelaunay(PLANE)), to_trimesh(PlanarVoronoi(PLANE))
+    triangles, cells = to_trimesh(sd.PlanarDelaunay(PLANE)), to_trimesh(sd.PlanarVoronoi(PLANE))
     assert (triangles.vertices == np.column_stack([PLANE, np.zeros(50)])).all()
-    bounded = np.isfinite(PlanarVoronoi(PLANE).areas())
-    assert cells.area == pytest.approx(PlanarVoronoi(PLANE).areas()[bounded].sum())
-    assert to_polydata(PlanarDelaunay(PLANE)).area == pytest.approx(triangles.area)
-    assert to_polydata(PlanarVoronoi(PLANE)).n_cells == bounded.sum()
+    bounded = np.isfinite(sd.PlanarVoronoi(PLANE).areas())
+    assert cells.area == pytest.approx(sd.PlanarVoronoi(PLANE).areas()[bounded].sum())
+    assert to_polydata(sd.PlanarDelaunay(PLANE)).area == pytest.approx(triangles.area)
+    assert to_polydata(sd.PlanarVoronoi(PLANE)).n_cells == bounded.sum()
 
 
 def test_coloured_triangles():
-    triangulation = SphericalDelaunay(SPHERE)
+    triangulation = sd.SphericalDelaunay(SPHERE)
     colors = np.random.default_rng(14).uniform(size=(len(triangulation.simplices), 4))
     mesh = to_trimesh(triangulation, colors=colors)
     assert np.allclose(mesh.triangles, UNIT[triangulation.simplices], atol=1e-15)
@@ -303,8 +286,8 @@ def test_polydata_comes_back(tmp_path, diagram):
     assert mesh.n_cells == 60
     assert mesh["area"].sum() == pytest.approx(4 * np.pi)
     assert [mesh.get_cell(k).point_ids for k in range(60)] == diagram.regions
-    triangles = to_polydata(SphericalDelaunay(SPHERE))
-    assert (triangles.regular_faces == SphericalDelaunay(SPHERE).simplices).all()
+    triangles = to_polydata(sd.SphericalDelaunay(SPHERE))
+    assert (triangles.regular_faces == sd.SphericalDelaunay(SPHERE).simplices).all()
     assert triangles.is_manifold
 
 

@@ -21,40 +21,31 @@ OPEN = 2
 PREDICATES = Path(stereodel.__file__).parent / "kernel" / "predicates"
 ROUNDOFF = 2.0**-53
 
-WORST = {
-    "orient2d": (
-        "0x1.0e55e9a389994p-3 0x1.02977cc297c5ap-2",
-        "0x1.2b2d68c6638b5p+0 -0x1.432de6b9c8366p-4",
-        "0x1.3b94f3a550a44p+0 -0x1.971823f654702p-4",
-    ),
-    "incircle": (
-        "-0x1.30ee694694a93p-3 0x1.d71b727b30c49p-2",
-        "-0x1.331a1cf84d23cp-4 0x1.edf1f3a751afbp-2",
-        "-0x1.e8b36d90fc489p-2 0x1.266ef4d945181p+0",
-        "-0x1.d2d603016c05bp-5 0x1.3413b3d04f8f2p+0",
-    ),
-    "orient3d": (
-        "-0x1.65eda37748dabp+1 0x1.0153b0bdd0446p-1 0x1.85f700e72c6e4p-4",
-        "0x1.34d5ffec538fcp+0 -0x1.c160ac2b61f7cp+0 0x1.67cf3a18c64e1p-1",
-        "0x1.5d33e803e79c0p+0 -0x1.0e8c69fe200bbp-1 -0x1.429e746d95decp+1",
-        "-0x1.d3a0e29c029a4p+1 0x1.4f0249485b650p+1 -0x1.03d76af24797cp+2",
-    ),
-    "turn": (
-        "0x1.e656dbbaaba88p-1 -0x1.e7de27213e65ap-3 0x1.9e93d9ef27136p-3",
-        "0x1.cef72df5cde58p-1 0x1.30f6c16469cd4p-2 -0x1.396879de9b514p-2",
-        "0x1.cc36ffc59a36ap-1 0x1.3959b3b1133d2p-2 -0x1.413e133117f02p-2",
-    ),
-    "bubble": (
-        "0x1.6a3f96bd649c6p-4 -0x1.f80f914d0ce13p-1 0x1.3642891d17b9dp-3",
-        "-0x1.1b454b3a9e107p-2 -0x1.e31b0ed1a277dp-1 0x1.74ee2f5988d81p-3",
-        "-0x1.1c8b3b253dbf8p-2 -0x1.e27b53ab6842cp-1 0x1.7dded12827120p-3",
-        "0x1.7158022941bd5p-4 -0x1.e0b23ce2a47e2p-1 0x1.5441b1c47dbf6p-2",
-    ),
-}
+WORST = """
+orient2d 0x1.0e55e9a389994p-3 0x1.02977cc297c5ap-2
+orient2d 0x1.2b2d68c6638b5p+0 -0x1.432de6b9c8366p-4
+orient2d 0x1.3b94f3a550a44p+0 -0x1.971823f654702p-4
+incircle -0x1.30ee694694a93p-3 0x1.d71b727b30c49p-2
+incircle -0x1.331a1cf84d23cp-4 0x1.edf1f3a751afbp-2
+incircle -0x1.e8b36d90fc489p-2 0x1.266ef4d945181p+0
+incircle -0x1.d2d603016c05bp-5 0x1.3413b3d04f8f2p+0
+orient3d -0x1.65eda37748dabp+1 0x1.0153b0bdd0446p-1 0x1.85f700e72c6e4p-4
+orient3d 0x1.34d5ffec538fcp+0 -0x1.c160ac2b61f7cp+0 0x1.67cf3a18c64e1p-1
+orient3d 0x1.5d33e803e79c0p+0 -0x1.0e8c69fe200bbp-1 -0x1.429e746d95decp+1
+orient3d -0x1.d3a0e29c029a4p+1 0x1.4f0249485b650p+1 -0x1.03d76af24797cp+2
+turn 0x1.e656dbbaaba88p-1 -0x1.e7de27213e65ap-3 0x1.9e93d9ef27136p-3
+turn 0x1.cef72df5cde58p-1 0x1.30f6c16469cd4p-2 -0x1.396879de9b514p-2
+turn 0x1.cc36ffc59a36ap-1 0x1.3959b3b1133d2p-2 -0x1.413e133117f02p-2
+bubble 0x1.6a3f96bd649c6p-4 -0x1.f80f914d0ce13p-1 0x1.3642891d17b9dp-3
+bubble -0x1.1b454b3a9e107p-2 -0x1.e31b0ed1a277dp-1 0x1.74ee2f5988d81p-3
+bubble -0x1.1c8b3b253dbf8p-2 -0x1.e27b53ab6842cp-1 0x1.7dded12827120p-3
+bubble 0x1.7158022941bd5p-4 -0x1.e0b23ce2a47e2p-1 0x1.5441b1c47dbf6p-2
+"""
 
 
 def points(name):
-    return [[float.fromhex(number) for number in row.split()] for row in WORST[name]]
+    rows = [line.split()[1:] for line in WORST.splitlines() if line.startswith(f"{name} ")]
+    return [list(map(float.fromhex, row)) for row in rows]
 
 
 def constant(file, name):

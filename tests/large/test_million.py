@@ -1,5 +1,8 @@
 """A million points of each kind, certified: `make test-large`."""
 
+from functools import partial
+from itertools import product
+
 import numpy as np
 import pytest
 
@@ -28,15 +31,10 @@ def clusters(dimension, spread):
 OWN = {
     "Fibonacci lattice": fibonacci,
     "small circle": lambda: np.insert(sets.plane("rounded circle").drawn(SIZE), 2, 0.5, axis=1),
-    "millimetres far away": lambda: (
-        np.round(np.random.default_rng(2).random((SIZE, 2)) * 1e3, 3) + [500_000, 5_000_000]
-    ),
-    **{
-        f"{d} clusters of {size}": lambda d=d, size=size: clusters(d, size)
-        for d in (2, 3)
-        for size in (1e-3, 1e-6, 1e-9)
-    },
+    "millimetres far away": lambda: np.round(np.random.default_rng(2).random((SIZE, 2)) * 1e3, 3) + [5e5, 5e6],
 }
+for d, size in product((2, 3), (1e-3, 1e-6, 1e-9)):
+    OWN[f"{d} clusters of {size}"] = partial(clusters, d, size)
 SETS = [
     *(pytest.param(make, id=name) for name, make in OWN.items()),
     *(

@@ -6,14 +6,7 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from stereodel import (
-    PlanarDelaunay,
-    PlanarVoronoi,
-    SphericalDelaunay,
-    SphericalVoronoi,
-    angular_distance,
-    lonlat_to_xyz,
-)
+import stereodel as sd
 from stereodel.partitioned import Execution, triangulate
 from tests import sets
 
@@ -55,32 +48,27 @@ def surface_of(columns):
 
 def mesh_of(columns, rows):
     if surface_of(columns) == "plane":
-        return PlanarDelaunay(rows)
-    return SphericalDelaunay(rows if len(columns) == 3 else lonlat_to_xyz(rows))
+        return sd.PlanarDelaunay(rows)
+    return sd.SphericalDelaunay(rows if len(columns) == 3 else sd.lonlat_to_xyz(rows))
 
 
 def in_memory(columns, rows):
     """Sorted triangles with `closing`, and what is told of each point."""
     mesh = mesh_of(columns, rows)
     own, size = np.arange(len(mesh.points)), len(mesh.points)
-    if isinstance(mesh, PlanarDelaunay):
-        diagram, closing = PlanarVoronoi(mesh), np.zeros(len(mesh.simplices), bool)
+    if isinstance(mesh, sd.PlanarDelaunay):
+        diagram, closing = sd.PlanarVoronoi(mesh), np.zeros(len(mesh.simplices), bool)
     else:
-        diagram, closing = SphericalVoronoi(mesh), mesh.closing
+        diagram, closing = sd.SphericalVoronoi(mesh), mesh.closing
     kept, nearest, distance = own.copy(), np.full(size, -1), np.full(size, np.inf)
     kept[mesh.duplicates[:, 0]] = mesh.duplicates[:, 1]
     if size > 1:
         found = mesh.nearest(mesh.points, k=2)
         nearest = np.where(found[:, 0] == own, found[:, 1], found[:, 0])
         a, b = mesh.points, mesh.points[nearest]
-        distance = np.hypot(*(a - b).T) if a.shape[1] == 2 else np.radians(angular_distance(a, b))
-    told = {
-        "area": diagram.areas(),
-        "degree": np.diff(diagram.region_offsets),
-        "nearest": nearest,
-        "kept": kept,
-        "distance": distance,
-    }
+        distance = np.hypot(*(a - b).T) if a.shape[1] == 2 else np.radians(sd.angular_distance(a, b))
+    told = {"area": diagram.areas(), "degree": np.diff(diagram.region_offsets), "nearest": nearest}
+    told |= {"kept": kept, "distance": distance}
     return ordered(np.column_stack([mesh.simplices, closing])), told
 
 
@@ -123,12 +111,8 @@ def differences(run, truth):
     wrong = [] if np.array_equal(faces, right) else ["triangles"]
     wrong += [name for name in values if name != "distance" and not np.array_equal(told[name], values[name])]
     # Angles of points in double-double are right to 2^-98; those of the same direction are 0 exactly in partitions.
-    near = np.allclose(
-        told["distance"],
-        values["distance"],
-        rtol=1e-13,
-        atol=2.0**-98 if run.statistics["surface"] == "sphere" else 0.0,
-    )
+    least = 2.0**-98 if run.statistics["surface"] == "sphere" else 0.0
+    near = np.allclose(told["distance"], values["distance"], rtol=1e-13, atol=least)
     return wrong if near else [*wrong, "distance"]
 
 

@@ -39,7 +39,7 @@ def answers():
     return answer
 
 
-def check(folder, columns, rows, truth, parts, files=5, **options):
+def check(folder, columns, rows, parts, files=5, truth=None, **options):
     write_points(folder / "points", columns, rows, files)
     size = max(1, -(-len(rows) // parts))
     options |= {"columns": columns, "surface": surface_of(columns), "partition": size}
@@ -47,7 +47,7 @@ def check(folder, columns, rows, truth, parts, files=5, **options):
         run = serially(folder / "points", folder / "out", **options)
     except RuntimeError as error:
         pytest.fail(f"the run notices itself: {error}")
-    assert differences(run, truth) == []
+    assert differences(run, truth or in_memory(columns, rows)) == []
     assert not (folder / "out" / "scratch").exists()
     return run
 
@@ -55,7 +55,7 @@ def check(folder, columns, rows, truth, parts, files=5, **options):
 @pytest.mark.parametrize(("one", "parts"), list(of_any()))
 def test_every_set_in_any_number_of_partitions(tmp_path, answers, one, parts):
     columns, rows, truth = answers(one, min(SIZE, one.size) if "sizes" in one.traits else SIZE)
-    run = check(tmp_path, columns, rows, truth, parts)
+    run = check(tmp_path, columns, rows, parts, truth=truth)
     assert run.statistics["points"] == len(rows)
     assert run.statistics["triangles"] == run.statistics["euler"] == len(truth[0])
 
@@ -65,7 +65,8 @@ def test_every_set_in_any_number_of_partitions(tmp_path, answers, one, parts):
 def test_every_large_set(tmp_path, answers, one, parts):
     """The pole of a circle has a star of all points."""
     size = 16_000 if "circle and" in one.name or one.name == "line and one" else 100_000
-    check(tmp_path, *answers(one, min(size, one.size) if "sizes" in one.traits else size), parts)
+    columns, rows, truth = answers(one, min(size, one.size) if "sizes" in one.traits else size)
+    check(tmp_path, columns, rows, parts, truth=truth)
 
 
 @examples(0.1)
@@ -88,21 +89,15 @@ def test_any_split_gives_the_same(tmp_path_factory, one, cuts, partition, block,
         patch.setattr("stereodel.partitioned.plan.LARGEST_SHARE", share)
         patch.setattr(spread, "is_compact", lambda *_: compact)
         patch.setattr(stars, "REACH", stars.REACH if halo else -1.0)
-        check(
-            tmp_path_factory.mktemp("split"),
-            columns,
-            rows,
-            in_memory(columns, rows),
-            -(-len(rows) // partition),
-            sorted(min(cut, len(rows)) for cut in cuts),
-        )
+        files = sorted(min(cut, len(rows)) for cut in cuts)
+        check(tmp_path_factory.mktemp("split"), columns, rows, -(-len(rows) // partition), files)
 
 
 def test_a_circle_through_the_corner_of_a_block_is_open(tmp_path, monkeypatch):
     """Its tie is decided with the point there, though nothing else had that block read."""
     monkeypatch.setattr(stars, "REACH", -1.0)
     rows = sets.plane("lattice").rows(250)
-    check(tmp_path, XY, rows, in_memory(XY, rows), 40)
+    check(tmp_path, XY, rows, 40)
 
 
 def test_compact_files_are_the_partitions(tmp_path):
@@ -112,15 +107,7 @@ def test_compact_files_are_the_partitions(tmp_path):
     order = np.argsort(octant, kind="stable")
     ends = np.cumsum(np.bincount(octant))[:-1]
     passes = set()
-    run = check(
-        tmp_path,
-        columns,
-        rows[order],
-        in_memory(columns, rows[order]),
-        8,
-        ends,
-        progress=lambda name, *_: passes.add(name),
-    )
+    run = check(tmp_path, columns, rows[order], 8, ends, progress=lambda name, *_: passes.add(name))
     assert run.statistics["compact"]
     assert passes == {"sample", "collect", "solve", "align"}
 
@@ -128,7 +115,7 @@ def test_compact_files_are_the_partitions(tmp_path):
 def test_files_in_another_order_are_spread(tmp_path):
     columns, rows = rows_of("random", 4000)
     calls = []
-    run = check(tmp_path, columns, rows, in_memory(columns, rows), 8, progress=lambda *told: calls.append(told))
+    run = check(tmp_path, columns, rows, 8, progress=lambda *told: calls.append(told))
     assert not run.statistics["compact"]
     assert list(dict.fromkeys(name for name, _, _ in calls)) == list(PASSES)
     last = {name: (done, of) for name, done, of in calls}
@@ -139,14 +126,8 @@ def test_files_in_another_order_are_spread(tmp_path):
 def test_columns_that_are_wanted_alone(tmp_path, columns, name):
     _, rows = rows_of(name, 300, surface_of(columns))
     write_points(tmp_path / "points", columns, rows)
-    run = serially(
-        tmp_path / "points",
-        tmp_path / "out",
-        surface=surface_of(columns),
-        rows=("nearest", "degree"),
-        triangles=False,
-        partition=50,
-    )
+    options = {"surface": surface_of(columns), "rows": ("nearest", "degree"), "triangles": False, "partition": 50}
+    run = serially(tmp_path / "points", tmp_path / "out", **options)
     table = run.rows().to_table()
     assert table.column_names == ["degree", "nearest"]
     assert not (tmp_path / "out" / "triangles").exists()

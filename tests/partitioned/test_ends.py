@@ -47,15 +47,9 @@ def points(tmp_path):
 def driver(folder, points, out, **options):
     """A process in a session of its own, by which those that it starts are known."""
     environment = os.environ | {"PYTHONPATH": str(Path(stereodel.__file__).parents[1])}
-    return subprocess.Popen(
-        [sys.executable, "driver.py", *map(json.dumps, (str(points), str(out), options))],
-        cwd=folder,
-        env=environment,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-        start_new_session=True,
-    )
+    command = [sys.executable, "driver.py", *map(json.dumps, (str(points), str(out), options))]
+    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "text": True}
+    return subprocess.Popen(command, cwd=folder, env=environment, start_new_session=True, **pipes)
 
 
 def processes(session):

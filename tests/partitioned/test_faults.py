@@ -101,25 +101,14 @@ def test_a_run_that_ended_is_not_run_again(points):
     assert (contents(points.out), contents(points.folder)) == (made, inputs)
 
 
+HAS_CHANGED = "is new, missing or has changed since"
 NOTICED = [
     ({"partition": 61}, None, "partition was 60, and is 61"),
     ({"rows": ("area",)}, None, r"rows was \('area', 'degree', .*\), and is \('area',\)"),
     ({"triangles": False}, None, "triangles was True, and is False"),
-    (
-        {},
-        lambda folder: os.utime(folder / "002.parquet", ns=(1, 1)),
-        r".*002\.parquet is new, missing or has changed since",
-    ),
-    (
-        {},
-        lambda folder: (folder / "002.parquet").rename(folder / "009.parquet"),
-        r".*002\.parquet is new, missing or has changed since",
-    ),
-    (
-        {},
-        lambda folder: shutil.copy(folder / "001.parquet", folder / "009.parquet"),
-        r".*009\.parquet is new, missing or has changed since",
-    ),
+    ({}, lambda path: os.utime(path, ns=(1, 1)), rf".*002\.parquet {HAS_CHANGED}"),
+    ({}, lambda path: path.rename(path.with_name("009.parquet")), rf".*002\.parquet {HAS_CHANGED}"),
+    ({}, lambda path: shutil.copy(path, path.with_name("009.parquet")), rf".*009\.parquet {HAS_CHANGED}"),
 ]
 
 
@@ -127,7 +116,7 @@ NOTICED = [
 def test_other_arguments_and_files_are_noticed(points, options, change, message):
     interrupted(points, "solve", 1)
     if change:
-        change(points.folder)
+        change(points.folder / "002.parquet")
     with pytest.raises(ValueError, match=f"has a run of other files or arguments: {message}; take another folder"):
         points.run(**options)
     if not change:

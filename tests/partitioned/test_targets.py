@@ -52,21 +52,12 @@ def targets_of(columns, rows, rng, count=20):
     return rng.permutation(found[np.abs(found).max(axis=1) > 0])
 
 
-def run_of(folder, columns, rows, values, parts, **options):
+def run_of(folder, columns, rows, values, parts):
     names = (*columns, "value", "other", "wrong")[: len(columns) + values.shape[1]]
     write_points(folder / "points", names, np.column_stack([rows, values]), 3)
     size = max(1, -(-len(rows) // parts))
-    return serially(
-        folder / "points",
-        folder / "out",
-        columns=columns,
-        surface=surface_of(columns),
-        rows=(),
-        triangles=False,
-        index=True,
-        partition=size,
-        **options,
-    )
+    options = {"columns": columns, "surface": surface_of(columns), "rows": (), "triangles": False, "partition": size}
+    return serially(folder / "points", folder / "out", index=True, **options)
 
 
 def differences(found, mesh, values, targets):

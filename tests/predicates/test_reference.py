@@ -95,16 +95,14 @@ def displaced_bubble(*vectors):
     """in_bubble after p̂(1 + ε) and the much smaller shifts along x, y, z; for the sizes see the comment below."""
     units = [unit(v) for v in vectors]
     rank = {k: order for order, k in enumerate(sorted(range(4), key=units.__getitem__))}
+
     # Outward steps 1e-200 … 1e-230, shifts 1e-400 … 1e-510: every first-order shift exceeds any product with an outward
     # step (1e-600), so the order of all first-order terms is the order of the rule.
-    moved = [
-        [
-            x * (1 + mpf(10) ** (-200 - 10 * rank[k])) + mpf(10) ** (-400 - 10 * rank[k] - 40 * i)
-            for i, x in enumerate(u)
-        ]
-        for k, u in enumerate(units)
-    ]
-    value = volume(*moved)
+    def moved(k):
+        step = 10 * rank[k]
+        return [x * (1 + mpf(10) ** (-200 - step)) + mpf(10) ** (-400 - step - 40 * i) for i, x in enumerate(units[k])]
+
+    value = volume(*map(moved, range(4)))
     assert abs(value) > mpf(10) ** -560
     return int(mp.sign(value))
 

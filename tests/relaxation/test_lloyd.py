@@ -137,10 +137,8 @@ def test_densities_of_different_size_move_every_point(bounds):
     """Each cell has the centroid of its own density, however small that is beside the others'."""
     rng = np.random.default_rng(7)
     points = rng.normal(size=(40, 3)) / 3 if bounds is None else rng.random((40, 2))
-    steep = [
-        lloyd(points, steps=1, bounds=bounds, density=lambda x, a=a: a * 10 ** (300 * x[:, 0].clip(-1, 1)))
-        for a in (1, 1e5)
-    ]
+    densities = [lambda x, a=a: a * 10 ** (300 * x[:, 0].clip(-1, 1)) for a in (1, 1e5)]
+    steep = [lloyd(points, steps=1, bounds=bounds, density=density) for density in densities]
     assert steep[0].points == pytest.approx(steep[1].points, abs=1e-9)
     assert np.isfinite(steep[0].points).all()
 

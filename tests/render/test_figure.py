@@ -131,10 +131,8 @@ def test_figures_have_the_captions_of_their_scripts(name, tmp_path):
     assert (shown.title, shown.description) == (title, description)
     figure.save(tmp_path, size=100)
     root = ET.parse(tmp_path / f"{name}.svg").getroot()
-    assert [(child.tag.partition("}")[2], child.text) for child in root[:2]] == [
-        ("title", title),
-        ("desc", description),
-    ]
+    first = [(child.tag.partition("}")[2], child.text) for child in root[:2]]
+    assert first == [("title", title), ("desc", description)]
     told = pypdf.PdfReader(tmp_path / f"{name}.pdf").metadata
     assert (told["/Title"], told["/Subject"]) == (title, description)
     texts = iio.immeta(tmp_path / f"{name}.png")

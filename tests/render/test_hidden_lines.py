@@ -58,13 +58,8 @@ def alone(placed, reach):
     extent = (x - reach, x + reach, y - reach, y + reach)
     page = Page(extent, width=float(SIZE))
     style = LineStyle("black", 2 * HALF_WIDTH * 2 * reach / SIZE * page.points_per_unit)
-    lines = [
-        SceneLines((part,), style, "line")
-        for item in placed.items
-        if isinstance(item, SceneLines)
-        for curve in item.curves
-        for part in parts(curve)
-    ]
+    curves = [curve for item in placed.items if isinstance(item, SceneLines) for curve in item.curves]
+    lines = [SceneLines((part,), style, "line") for curve in curves for part in parts(curve)]
     ball = SceneBall((1.0, 1.0, 1.0, 1.0), style)
     return page, layout, ball, lines
 

@@ -54,11 +54,8 @@ def test_many_lines_in_one_item_are_drawn_as_strokes_and_dots():
     corners = np.array([(0.2, 0.2), (1.8, 0.3), (0.3, 0.5), (2.5, 0.5), (3.8, 0.5), (3.1, 1.8), (2.5, 0.5), (1.0, 1.5)])
     ink = (0.0, 0.0, 0.0, 0.5)
     together = Polylines(corners, np.array([0, 3, 7, 8], dtype=np.int32), ink, 8.0)
-    strokes = (
-        Stroke(lines(*corners[:3]), ink, 8.0),
-        Stroke(lines(*corners[3:7]), ink, 8.0, closed=True),
-        Dots(corners[7:], 4.0, ink),
-    )
+    strokes = Stroke(lines(*corners[:3]), ink, 8.0), Stroke(lines(*corners[3:7]), ink, 8.0, closed=True)
+    strokes += (Dots(corners[7:], 4.0, ink),)
     ours, theirs = (render(Page(EXTENT, items), size=200).astype(int) for items in ((together,), strokes))
     # A dot and a round end are disc and sector of different corners.
     apart = np.abs(ours - theirs)

@@ -107,10 +107,8 @@ def test_a_file_of_nothing_and_one_of_another_kind_are_refused(solid, tmp_path):
 
 @pytest.mark.thorough
 def test_a_file_has_the_same_bytes_whatever_the_seed_of_hashes(tmp_path):
-    code = (
-        "import sys; sys.path.insert(0, sys.argv[1]); from fig05_projections import FIGURE\n"
-        "FIGURE.solid().save(sys.argv[2])"
-    )
+    code = "import sys; sys.path.insert(0, sys.argv[1]); from fig05_projections import FIGURE\n"
+    code += "FIGURE.solid().save(sys.argv[2])"
     for seed in ("1", "2"):
         environment = {**os.environ, "PYTHONHASHSEED": seed}
         subprocess.run([sys.executable, "-c", code, FOLDER, tmp_path / f"{seed}.glb"], check=True, env=environment)
@@ -154,9 +152,8 @@ def test_things_are_where_the_page_has_them(solid, tmp_path):
     circle = read.geometry["circle"].copy()
     circle.apply_transform(read.graph.get("circle")[0])
     pole = VIEW.axes(lonlat_to_xyz((30.0, 40.0)))
-    assert (
-        np.abs(np.degrees(np.arccos(circle.vertices @ pole / np.linalg.norm(circle.vertices, axis=1))) - 25).max() < 1
-    )
+    away = np.degrees(np.arccos(circle.vertices @ pole / np.linalg.norm(circle.vertices, axis=1)))
+    assert np.abs(away - 25).max() < 1
 
 
 def test_a_scene_off_the_middle_keeps_its_place():

@@ -9,15 +9,7 @@ from scipy.spatial import cKDTree
 
 from stereodel.drawing.scene.space_curves import CircleArc, Segment
 from stereodel.drawing.scene.visibility import SphereRegion
-from stereodel.render.space.surfaces import (
-    BALL_LEVELS,
-    CURVE_ERROR,
-    ball,
-    dashed,
-    patch,
-    polygon,
-    tube,
-)
+from stereodel.render.space.surfaces import BALL_LEVELS, CURVE_ERROR, ball, dashed, patch, polygon, tube
 from stereodel.sphere import SphereCircle, lonlat_to_xyz, solid_angle
 
 

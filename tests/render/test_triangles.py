@@ -59,18 +59,13 @@ def test_a_ribbon_covers_what_is_near_its_line_and_nothing_else(line, width, clo
 BENT = np.array([[0.0, 0.0], [10.0, 0.0], [10.0, 10.0]])
 BACK = np.array([[0.0, 0.0], [10.0, 0.0], [0.0, 0.0]])
 POINT = np.array([[3.0, 3.0], [3.0, 3.0]])
+DASHED, GAP = [(0.5, 0.1), (3.9, 0.1), (7.1, 0.1), (9.9, 0.1)], [(4.1, 0.1), (6.9, 0.1)]
 
 
 @pytest.mark.parametrize(
     ("line", "width", "options", "inside", "outside"),
     [
-        (
-            BENT,
-            1.0,
-            {"dash": (4.0, 3.0), "round_caps": False},
-            [(0.5, 0.1), (3.9, 0.1), (7.1, 0.1), (9.9, 0.1), (10.1, 0.9)],
-            [(4.1, 0.1), (6.9, 0.1), (10.1, 1.1)],
-        ),
+        (BENT, 1.0, {"dash": (4.0, 3.0), "round_caps": False}, [*DASHED, (10.1, 0.9)], [*GAP, (10.1, 1.1)]),
         (BACK, 4.0, {"round_caps": False}, [(11.5, 0.1)], [(12.1, 0.1), (-0.1, 0.1)]),
         (POINT, 10.0, {}, [(3.1, 7.8), (7.8, 3.1)], [(6.9, 6.9), (8.2, 3.1)]),
         (POINT, 10.0, {"round_caps": False}, [], [(3.1, 3.2)]),

@@ -124,11 +124,6 @@ def test_what_has_no_triangle_raises_when_asked(name, points):
     assert getattr(stereodel.spatial, name)([[0, 0], [1, 1], [1, 1.5]], strict=True).npoints == 3
 
 
-def test_options_are_a_string():
-    with pytest.raises(TypeError, match="qhull_options must be a string or None"):
-        stereodel.spatial.Delaunay(FLAT, qhull_options=b"Qc")
-
-
 def test_every_other_name_of_scipy_spatial():
     for name in scipy.spatial.__all__:
         assert hasattr(stereodel.spatial, name)

@@ -9,6 +9,8 @@ from pathlib import Path
 
 import pytest
 
+from tests.tiers import by_day
+
 HERE = Path(__file__).resolve().parent
 FILES = ("test_qhull", "test_spherical_voronoi", "test__plotutils")
 
@@ -25,23 +27,11 @@ NOT_APPLICABLE = {
     "test__plotutils.py::TestPlotting::test_gh_19653*": (DIFFERENT, "order of the ridges that are drawn"),
     # What SciPy refuses has an answer.
     "test_spherical_voronoi.py::*::test_duplicate_point_handling": (ANSWERED, "equal points: an empty region"),
-    "test_spherical_voronoi.py::*::test_rank_deficient[[]*-3-*]": (
-        ANSWERED,
-        "points on one great circle: two vertices",
-    ),
-    # Exactness.
-    "test_qhull.py::TestUtilities::test_degenerate_barycentric_transforms": (
-        DIFFERENT,
-        "31 slivers are in the triangulation, of which Qhull lists 22",
-    ),
-    "test_qhull.py::TestVoronoi::test_ridges[[]pathological-2]": (
-        DIFFERENT,
-        "a ridge of length 1e-16, which Qhull merges, separates points that the comparing tree finds equally near",
-    ),
-    "test_qhull.py::TestVoronoi::test_incremental[[]pathological-2-*]": (
-        DIFFERENT,
-        "two vertices that are 1e-16 apart are one and the same for the test's comparison",
-    ),
+    "test_spherical_voronoi.py::*::test_rank_deficient[[]*-3-*]": (ANSWERED, "a great circle: two vertices"),
+    # Exactness: Qhull lists 22 of the 31 slivers; it merges a ridge of length 1e-16, and two vertices as far apart.
+    "test_qhull.py::TestUtilities::test_degenerate_barycentric_transforms": (DIFFERENT, "31 slivers"),
+    "test_qhull.py::TestVoronoi::test_ridges[[]pathological-2]": (DIFFERENT, "the tree finds points equally near"),
+    "test_qhull.py::TestVoronoi::test_incremental[[]pathological-2-*]": (DIFFERENT, "the same for the comparison"),
     "test_qhull.py::TestDelaunay::test_joggle": (DIFFERENT, "QJ moves no points: equal ones stay one vertex"),
     # Errors.
     "test_qhull.py::test_gh_21286": ("xi must have shape (..., 2)", "ValueError with the shape instead of IndexError"),
@@ -53,15 +43,10 @@ def ran(folder, *files):
     (folder / "pytest.ini").write_text("[pytest]\n", encoding="utf-8")
     report = folder / "report.json"
     paths = os.pathsep.join([str(HERE), str(HERE.parent.parent), os.environ.get("PYTHONPATH", "")])
+    environment = {"PYTHONPATH": paths, "STEREODEL_SCIPY_SUITE": str(report), "MPLBACKEND": "Agg", "PYTEST_ADDOPTS": ""}
     options = ["-p", "scipy_suite", "-p", "no:cacheprovider", "-c", "pytest.ini", "--noconftest", "--tb=no", "-q"]
-    done = subprocess.run(
-        [sys.executable, "-m", "pytest", *options, "--pyargs", *(f"scipy.spatial.tests.{name}" for name in files)],
-        cwd=folder,
-        env=os.environ
-        | {"PYTHONPATH": paths, "STEREODEL_SCIPY_SUITE": str(report), "MPLBACKEND": "Agg", "PYTEST_ADDOPTS": ""},
-        capture_output=True,
-        text=True,
-    )
+    command = [sys.executable, "-m", "pytest", *options, "--pyargs", *(f"scipy.spatial.tests.{name}" for name in files)]
+    done = subprocess.run(command, cwd=folder, env=os.environ | environment, capture_output=True, text=True)
     assert report.is_file(), done.stdout + done.stderr
     return json.loads(report.read_text(encoding="utf-8"))
 
@@ -70,11 +55,7 @@ def matching(name):
     return [pattern for pattern in NOT_APPLICABLE if fnmatch.fnmatchcase(name, pattern)]
 
 
-@pytest.mark.parametrize(
-    ("files", "passing"),
-    [(FILES[2:], 1), pytest.param(FILES, 200, marks=pytest.mark.thorough)],
-    ids=["plots", "all"],
-)
+@pytest.mark.parametrize(("files", "passing"), by_day([(FILES[2:], 1), (FILES, 200)], (FILES[2:], 1)))
 def test_scipys_tests_pass_but_for_those_listed(tmp_path, files, passing):
     """Each failure is listed once, and meets the error that is listed; what is listed fails."""
     errors = ran(tmp_path, *files)

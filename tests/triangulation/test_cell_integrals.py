@@ -314,10 +314,8 @@ def test_additions_count_in_a_cell_of_many_ridges_in_the_plane(n, share):
     before = np.roll(others, 1, axis=0)
     across = others - before
     double = before[:, 0] * others[:, 1] - before[:, 1] * others[:, 0]
-    areas = [
-        (a * a).sum(axis=1) * (b * across).sum(axis=1) / (8 * double) * sign
-        for a, b, sign in ((before, others, 1), (others, before, -1))
-    ]
+    ends = (before, others, 1), (others, before, -1)
+    areas = [(a * a).sum(axis=1) * (b * across).sum(axis=1) / (8 * double) * sign for a, b, sign in ends]
     expected = math.fsum(np.concatenate(areas))
     assert integrals_of_first(np.vstack([np.zeros(2), others]))[0] == pytest.approx(expected, rel=5e-16, abs=0)
 

@@ -203,27 +203,19 @@ def test_closing_facets_are_asked_anew_after_a_change():
     assert (triangulation.find_simplex(sets.AXES) >= 0).all()
 
 
-@pytest.mark.parametrize(
-    ("points", "spanning"),
-    [
-        ([[1, 2]], [0]),
-        ([[1, 2], [1, 2]], [0]),
-        ([[1, 2], [3, 4]], [0, 1]),
-        ([[0, 0], [1, 1], [2, 2], [-7, -7]], [0, 1]),
-        ([[0, 0], [1, 1], [2, 2 + 1e-15]], [0, 1, 2]),
-        ([[1, 1], [2, 2], [3, 3], [1e-300, 0]], [0, 1, 3]),
-        ([[0.1, 0.1], [0.2, 0.2], [0.3, 0.3]], [0, 1]),
-        ([[0, 0], [0.1, 0.3], [0.2, 0.6], [0.3, 0.9]], [0, 1, 3]),  # 0.9 is not three times the double 0.3
-        ([[0, 0, 5]], [0]),
-        ([[0, 0, 5], [0, 0, 1e-300]], [0]),
-        ([[1, 0, 0], [-1, 0, 0]], [0, 1]),
-        (EQUATOR, [0, 1]),
-        (EQUATOR @ sets.TILT, [0, 1]),
-        ([[1, 2, 3], [2, 4, 7], [3, 6, 1], [0, 0, 1]], [0, 1]),
-        ([[1, 0, 0], [-2, 0, 0], [0, 1, 0], [0, -1, 0]], [0, 2]),
-        ([[1, 0, 0], [-2, 0, 0], [0, 1, 0], [0, -1, 1e-300]], [0, 2, 3]),
-    ],
-)
+SPANNING = [
+    ([0], [[[1, 2]], [[1, 2], [1, 2]], [[0, 0, 5]], [[0, 0, 5], [0, 0, 1e-300]]]),
+    ([0, 1], [[[1, 2], [3, 4]], [[0, 0], [1, 1], [2, 2], [-7, -7]], [[0.1, 0.1], [0.2, 0.2], [0.3, 0.3]]]),
+    ([0, 1], [[[1, 0, 0], [-1, 0, 0]], EQUATOR, EQUATOR @ sets.TILT, [[1, 2, 3], [2, 4, 7], [3, 6, 1], [0, 0, 1]]]),
+    ([0, 1, 2], [[[0, 0], [1, 1], [2, 2 + 1e-15]]]),
+    ([0, 1, 3], [[[1, 1], [2, 2], [3, 3], [1e-300, 0]]]),
+    ([0, 1, 3], [[[0, 0], [0.1, 0.3], [0.2, 0.6], [0.3, 0.9]]]),  # 0.9 is not three times the double 0.3
+    ([0, 2], [[[1, 0, 0], [-2, 0, 0], [0, 1, 0], [0, -1, 0]]]),
+    ([0, 2, 3], [[[1, 0, 0], [-2, 0, 0], [0, 1, 0], [0, -1, 1e-300]]]),
+]
+
+
+@pytest.mark.parametrize(("spanning", "points"), [(spanning, one) for spanning, many in SPANNING for one in many])
 def test_small_and_flat_sets(points, spanning):
     """The first points that span are told exactly; arrays have their shapes also where there are none."""
     space, points = space_of(points), np.array(points, dtype=float)
@@ -304,13 +296,8 @@ def test_neighbours_of_points_are_the_ends_of_edges(space):
     assert len(triangulation.vertex_neighbor_vertices[0]) == 80
 
 
-LARGER = {
-    "plane": sets.plane("random"),
-    "plane grid": sets.plane("lattice"),
-    "sphere": sets.sphere("random"),
-    "sphere clusters": sets.sphere("clusters"),
-    "graticule": sets.sphere("graticule"),
-}
+LARGER = {"plane": sets.plane("random"), "plane grid": sets.plane("lattice"), "sphere": sets.sphere("random")}
+LARGER |= {"sphere clusters": sets.sphere("clusters"), "graticule": sets.sphere("graticule")}
 THOROUGH = {"plane", "sphere clusters", "graticule"}
 
 

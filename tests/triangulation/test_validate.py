@@ -127,6 +127,10 @@ def a_fold_that_nothing_else_sees():
 TRIANGLE = [[0, 0], [1, 0], [0, 1]]
 BOW_TIE = [[0, 0], [1, 0], [1, 1], [-1, 0], [-1, -1]]
 ONE_MORE = np.vstack([GOOD, unit_normal(1, 9)])
+TWICE = [[0, 1, 4], [0, 4, 2], [0, 2, 3], [0, 3, 1], [1, 3, 2], [1, 2, 4]]
+OTHER_NUMBER = np.where(TRIANGLES == 7, 60, TRIANGLES)
+PENTAGRAM = np.vstack([STAR[:, :2], [[0, 0]]]), [[k, (k + 1) % 5, 5] for k in range(5)]
+THREE_ON_A_LINE = [[0, 0], [1, 0], [2, 0], [1, 1]]
 WRONG = {
     "number too large": (TRIANGLE, [[0, 1, 3]], "outside 0 to 2"),
     "number too small": (TRIANGLE, [[0, 1, -1]], "outside 0 to 2"),
@@ -149,33 +153,17 @@ WRONG = {
     "star that turns twice": (PYRAMID, SIDES, None),
     "fold that nothing else sees": (*a_fold_that_nothing_else_sees(), "folded"),
     # Both sides change twice around point 0, and every other edge between them goes forward.
-    "two sides meet twice in one point": (
-        RING[:5],
-        [[0, 1, 4], [0, 4, 2], [0, 2, 3], [0, 3, 1], [1, 3, 2], [1, 2, 4]],
-        "do not meet in one convex polygon",
-    ),
+    "two sides meet twice in one point": (RING[:5], TWICE, "do not meet in one convex polygon"),
     "duplicate used": (*a_duplicate_beside_its_original(), "point 60 is used by a simplex although"),
-    "duplicate for its original": (
-        np.vstack([GOOD, GOOD[7]]),
-        np.where(TRIANGLES == 7, 60, TRIANGLES),
-        "point 7 is used by no simplex",
-    ),
+    "duplicate for its original": (np.vstack([GOOD, GOOD[7]]), OTHER_NUMBER, "point 7 is used by no simplex"),
     "unused point": (ONE_MORE, TRIANGLES, "point 60 is used by no simplex"),
     # A pentagram's star of triangles around the centre covers it twice.
-    "boundary run through twice": (
-        np.vstack([STAR[:, :2], [[0, 0]]]),
-        [[k, (k + 1) % 5, 5] for k in range(5)],
-        "turns once",
-    ),
+    "boundary run through twice": (*PENTAGRAM, "turns once"),
     "nonconvex boundary": ([[0, 0], [4, 0], [2, 1], [2, 4]], [[0, 1, 2], [0, 2, 3]], "not convex at point 2"),
     "hole": (grid(4)[0], [u for u in grid(4)[1] if not {5, 6, 9, 10} >= set(u)], "V - E"),
     "pinch": (BOW_TIE, [[0, 1, 2], [0, 3, 4]], "separate fans"),
     "clockwise": ([[0, 0], [0, 1], [1, 0]], [[0, 1, 2]], r"simplex 0 .* not counterclockwise"),
-    "flat on the boundary": (
-        [[0, 0], [1, 0], [2, 0], [1, 1]],
-        [[0, 2, 3], [0, 1, 2]],
-        r"simplex 1 .* not counterclock",
-    ),
+    "flat on the boundary": (THREE_ON_A_LINE, [[0, 2, 3], [0, 1, 2]], r"simplex 1 .* not counterclock"),
 }
 
 

@@ -86,17 +86,10 @@ def test_a_page_runs_by_itself(built, visit, tmp_path):
     file = web(tmp_path / "page.html", lonlat=[(10, 48.4)], name='</script><script>alert("x")</script>')
     page = visit(file, complaints=REFUSED)
     page.until("window.report")
-    assert page.page.evaluate("report") == {
-        "end": "</script><!--<script>",
-        "module": True,
-        "name": '</script><script>alert("x")</script>',
-        "eval": "refused",
-        "function": "refused",
-        "second": "before and after",
-        "third": "refused",
-        "fetch": "refused",
-        "colour": "rgb(1, 2, 3)",
-    }
+    expected = dict.fromkeys(("eval", "function", "third", "fetch"), "refused")
+    expected |= {"end": "</script><!--<script>", "module": True, "name": '</script><script>alert("x")</script>'}
+    expected |= {"second": "before and after", "colour": "rgb(1, 2, 3)"}
+    assert page.page.evaluate("report") == expected
     assert page.requests == [file.as_uri()]
 
 

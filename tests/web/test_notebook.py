@@ -95,22 +95,13 @@ def lab(folder):
         "LabApp.check_for_updates_class": "jupyterlab.NeverCheckForUpdate",
         "LabApp.extension_manager": "readonly",
     }
-    folders = {
-        "JUPYTER_CONFIG_DIR": "config",
-        "JUPYTER_DATA_DIR": "data",
-        "JUPYTER_RUNTIME_DIR": "runtime",
-        "JUPYTERLAB_SETTINGS_DIR": "settings",
-        "IPYTHONDIR": "ipython",
-        "HOME": "",
-    }
+    folders = {f"JUPYTER_{name}_DIR": name.lower() for name in ("CONFIG", "DATA", "RUNTIME")}
+    folders |= {"JUPYTERLAB_SETTINGS_DIR": "settings", "IPYTHONDIR": "ipython", "HOME": ""}
     line = [sys.executable, "-m", "jupyterlab", "--no-browser", "--allow-root"]
+    line += [f"--{name}={value}" for name, value in options.items()]
+    environment = os.environ | {name: str(folder / part) for name, part in folders.items()}
     with (folder / "log").open("w") as log:
-        server = subprocess.Popen(
-            [*line, *(f"--{name}={value}" for name, value in options.items())],
-            env={**os.environ, **{name: str(folder / part) for name, part in folders.items()}},
-            stdout=log,
-            stderr=subprocess.STDOUT,
-        )
+        server = subprocess.Popen(line, env=environment, stdout=log, stderr=subprocess.STDOUT)
     try:
         for _ in range(600):
             assert server.poll() is None, (folder / "log").read_text()

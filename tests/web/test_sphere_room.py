@@ -115,11 +115,8 @@ def test_inserting_into_squares_keeps_a_triangulation(node):
     """Sites that lie on a bubble displace nothing: what comes out differs from the kernel's by diagonals alone."""
     around = [[lon, lat] for lat in (-40, 0, 40) for lon in range(-180, 180, 45)]
     sites = [[0, 90], *around, [0, -90]]
-    after = ask(
-        node,
-        "Array.from({ length: given.length - 8 }, (_, k) => [...facetsAfter(sitesOf(given).insertion(k + 8))])",
-        sites,
-    )
+    each = "(_, k) => [...facetsAfter(sitesOf(given).insertion(k + 8))]"
+    after = ask(node, f"Array.from({{ length: given.length - 8 }}, {each})", sites)
     for count, facets in zip(range(9, len(sites) + 1), after, strict=True):
         delaunay = SphericalDelaunay.from_lonlat(sites[:count])
         assert len(triangles(facets)) == 2 * count - 4
