@@ -76,22 +76,18 @@ def drawn(page_of: Callable[[Any], Any], most: int | None = None) -> Callable[[A
     def made(it: Any) -> Mimes:
         if most is not None and len(it.points) > most:
             raise OverflowError(f"{len(it.points)} points are more than {most}; `diagram_page` draws any number")
-        if (
-            _numbers(it) > 16 * constants.MOST_SHOWN_NUMBERS
-            or _numbers(page := page_of(it)) > constants.MOST_SHOWN_NUMBERS
-        ):
-            raise OverflowError(f"it has more than {constants.MOST_SHOWN_NUMBERS} coordinates; `save` draws any number")
+        numbers, most_bytes = constants.MOST_SHOWN_NUMBERS, constants.MOST_SHOWN_BYTES
+        if _numbers(it) > 16 * numbers or _numbers(page := page_of(it)) > numbers:
+            raise OverflowError(f"it has more than {numbers} coordinates; `save` draws any number")
         wide = round(min(page.width / 72 * 96, constants.SHOWN_PIXELS * min(1.0, page.width / page.height))) or 1
         shown = {"width": wide, "height": page.pixels_up(wide)}
-        svg = (
-            _saved(page, "page.svg") if 4 * _numbers(page) <= constants.MOST_SHOWN_BYTES else b""
-        )  # it has more than 4 for each
-        if 0 < len(svg) <= constants.MOST_SHOWN_BYTES:
+        svg = _saved(page, "page.svg") if 4 * _numbers(page) <= most_bytes else b""  # it has more than 4 for each
+        if 0 < len(svg) <= most_bytes:
             sides = 'width="{width}" height="{height}"'.format(**shown)
             return {"image/svg+xml": re.sub('width="[^"]+" height="[^"]+"', sides, _alone(svg.decode()), count=1)}, {}
         shaded = page.pictured or any(type(it).__name__ == "Ball" or getattr(it, "ball", None) for it in page.items)
         size, renderer = 2 * wide, "gl" if shaded else "agg"
-        while len(png := _saved(page, "page.png", size=size, renderer=renderer)) > constants.MOST_SHOWN_BYTES:
+        while len(png := _saved(page, "page.png", size=size, renderer=renderer)) > most_bytes:
             size //= 2
         return {"image/png": b64encode(png).decode()}, {"image/png": shown}
 
@@ -126,9 +122,8 @@ def playing(film: Any) -> Mimes:
         frames.append(shot.picture(number))
         start = start or time.monotonic()  # the first frame loads what draws
         spent = (time.monotonic() - start) / max(number, 1) * len(film)
-        if (
-            spent > constants.MOST_SHOWN_SECONDS or frames[0].size // 3 * len(film) > constants.MOST_FRAME_PIXELS
-        ):  # which take as long
+        pixels = frames[0].size // 3 * len(film)  # of which so many take as long
+        if spent > constants.MOST_SHOWN_SECONDS or pixels > constants.MOST_FRAME_PIXELS:
             break
     first, wide = frames[0], min(frames[0].shape[1], constants.SHOWN_PIXELS)
     if len(frames) == len(film):

@@ -7,7 +7,7 @@ Delaunay triangulation.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Literal, Protocol
+from typing import Literal, Protocol, TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -19,12 +19,7 @@ from stereodel._spaces import PLANE
 from stereodel.sphere.coordinates import LONLAT
 from stereodel.sphere.latitudes import Latitude
 from stereodel.sphere.vectors import units
-from stereodel.triangulation.delaunay import (
-    Triangulation,
-    as_triangulation,
-    state_of,
-    threads_of,
-)
+from stereodel.triangulation.delaunay import Triangulation, as_triangulation, state_of, threads_of
 from stereodel.triangulation.topology import as_edges
 
 __all__ = [
@@ -44,6 +39,8 @@ _SHARED = LONLAT | {
         points : array_like (n, 2) or (n, 3), PlanarDelaunay or SphericalDelaunay
             Points of the plane, directions, or a triangulation of them.
         {instead}
+        workers : int, optional
+            Threads; -1 for all processors. By default those of the triangulation. Does not affect the result.
         """,
     "raises": """
         Raises
@@ -54,8 +51,6 @@ _SHARED = LONLAT | {
         """,
     "graph": """
         {points}
-        workers : int, optional
-            Threads; -1 for all processors. By default those of the triangulation. Does not affect the result.
 
         Returns
         -------
@@ -74,7 +69,10 @@ _SHARED = LONLAT | {
 }
 
 
-class _Graph(Protocol):
+Found = TypeVar("Found", IntArray, float, covariant=True)
+
+
+class _OfPoints(Protocol[Found]):
     def __call__(
         self,
         points: npt.ArrayLike | Triangulation | None = None,
@@ -82,28 +80,27 @@ class _Graph(Protocol):
         lonlat: npt.ArrayLike | None = None,
         latitude: Latitude | None = None,
         workers: int | None = None,
-    ) -> IntArray: ...
+    ) -> Found: ...
 
 
-def _graph(edges: Callable[[Triangulation, int], IntArray]) -> _Graph:
-    """The function of points, by name and docstring that of the edges of a triangulation, found by so many threads."""
+def _of_points(found: Callable[[Triangulation], Found]) -> _OfPoints[Found]:
+    """The function of points, by name and docstring that of a triangulation."""
 
-    def graph(
+    def asked(
         points: npt.ArrayLike | Triangulation | None = None,
         *,
         lonlat: npt.ArrayLike | None = None,
         latitude: Latitude | None = None,
         workers: int | None = None,
-    ) -> IntArray:
-        triangulation = as_triangulation(points, lonlat=lonlat, latitude=latitude)
-        return locked(edges(triangulation, threads_of(triangulation, workers)))
+    ) -> Found:
+        return found(as_triangulation(points, lonlat=lonlat, latitude=latitude, workers=workers))
 
-    graph.__name__, graph.__qualname__, graph.__doc__ = edges.__name__, edges.__qualname__, edges.__doc__
-    return shared(**_SHARED)(graph)
+    asked.__name__, asked.__qualname__, asked.__doc__ = found.__name__, found.__qualname__, found.__doc__
+    return shared(**_SHARED)(asked)
 
 
-@_graph
-def gabriel_graph(triangulation: Triangulation, threads: int) -> IntArray:
+@_of_points
+def gabriel_graph(triangulation: Triangulation) -> IntArray:
     """Edges whose diametral circle contains no other point, neither inside nor on it.
 
     {graph}
@@ -128,11 +125,11 @@ def gabriel_graph(triangulation: Triangulation, threads: int) -> IntArray:
     >>> gabriel_graph([[0, 0], [3, 0], [0, 4]]).tolist()
     [[0, 1], [0, 2]]
     """
-    return _proximity_edges(triangulation, "gabriel", threads)
+    return locked(_proximity_edges(triangulation, "gabriel"))
 
 
-@_graph
-def urquhart_graph(triangulation: Triangulation, threads: int) -> IntArray:
+@_of_points
+def urquhart_graph(triangulation: Triangulation) -> IntArray:
     """Delaunay edges that are not strictly the longest edge of a triangle.
 
     {graph}
@@ -153,11 +150,11 @@ def urquhart_graph(triangulation: Triangulation, threads: int) -> IntArray:
     >>> urquhart_graph([[0, 0], [4, 0], [1, 2], [4, 3]]).tolist()
     [[0, 2], [1, 3], [2, 3]]
     """
-    return _proximity_edges(triangulation, "urquhart", threads)
+    return locked(_proximity_edges(triangulation, "urquhart"))
 
 
-@_graph
-def relative_neighborhood_graph(triangulation: Triangulation, threads: int) -> IntArray:
+@_of_points
+def relative_neighborhood_graph(triangulation: Triangulation) -> IntArray:
     """Pairs of points without a third that is strictly nearer to both than they are to each other.
 
     {graph}
@@ -177,11 +174,11 @@ def relative_neighborhood_graph(triangulation: Triangulation, threads: int) -> I
     >>> relative_neighborhood_graph([[0, 0], [4, 0], [1, 2], [4, 3]]).tolist()
     [[0, 2], [1, 3], [2, 3]]
     """
-    return _proximity_edges(triangulation, "relative", threads)
+    return locked(_proximity_edges(triangulation, "relative"))
 
 
-@_graph
-def minimum_spanning_tree(triangulation: Triangulation, threads: int) -> IntArray:
+@_of_points
+def minimum_spanning_tree(triangulation: Triangulation) -> IntArray:
     """The spanning tree of least total length.
 
     {graph}
@@ -204,17 +201,12 @@ def minimum_spanning_tree(triangulation: Triangulation, threads: int) -> IntArra
     >>> minimum_spanning_tree([[0, 0], [2, 0], [2, 1], [0, 1]]).tolist()
     [[0, 1], [0, 3], [1, 2]]
     """
-    edges = _proximity_edges(triangulation, "urquhart", threads)
-    return triangulation.surface.kernel.spanning_tree(triangulation.points, edges)
+    edges = _proximity_edges(triangulation, "urquhart")
+    return locked(triangulation.surface.kernel.spanning_tree(triangulation.points, edges))
 
 
-@shared(**_SHARED)
-def hull(
-    points: npt.ArrayLike | Triangulation | None = None,
-    *,
-    lonlat: npt.ArrayLike | None = None,
-    latitude: Latitude | None = None,
-) -> IntArray:
+@_of_points
+def hull(triangulation: Triangulation) -> IntArray:
     """Corners of the convex hull, counterclockwise.
 
     {points}
@@ -244,18 +236,12 @@ def hull(
     >>> hull([[1, 0, 0], [0, 1, 0], [0, 0, 1], [-1, -1, -1]]).tolist()
     []
     """
-    triangulation = as_triangulation(points, lonlat=lonlat, latitude=latitude)
     corners = _corners(triangulation) if triangulation.dimension == 2 else _ends(triangulation)
     return locked(corners.astype(np.int32))
 
 
-@shared(**_SHARED)
-def hull_area(
-    points: npt.ArrayLike | Triangulation | None = None,
-    *,
-    lonlat: npt.ArrayLike | None = None,
-    latitude: Latitude | None = None,
-) -> float:
+@_of_points
+def hull_area(triangulation: Triangulation) -> float:
     """Area of the convex hull.
 
     {points}
@@ -281,19 +267,13 @@ def hull_area(
     >>> round(hull_area(lonlat=[[0, 0], [90, 0], [0, 90]]) / np.pi, 15)
     0.5
     """
-    triangulation = as_triangulation(points, lonlat=lonlat, latitude=latitude)
     corners = _hull_points(triangulation)
     first = np.broadcast_to(corners[:1], corners[2:].shape)
     return float(triangulation.surface.areas(first, corners[1:-1], corners[2:]).sum())
 
 
-@shared(**_SHARED)
-def hull_perimeter(
-    points: npt.ArrayLike | Triangulation | None = None,
-    *,
-    lonlat: npt.ArrayLike | None = None,
-    latitude: Latitude | None = None,
-) -> float:
+@_of_points
+def hull_perimeter(triangulation: Triangulation) -> float:
     """Length of the boundary of the convex hull.
 
     {points}
@@ -313,7 +293,6 @@ def hull_perimeter(
     >>> hull_perimeter(lonlat=[[0, 0], [90, 0], [0, 90]])
     270.0
     """
-    triangulation = as_triangulation(points, lonlat=lonlat, latitude=latitude)
     corners = _hull_points(triangulation)
     return float(triangulation.surface.distances(corners, np.roll(corners, -1, axis=0)).sum())
 
@@ -326,14 +305,12 @@ def _hull_points(triangulation: Triangulation) -> FloatArray:
     return corners
 
 
-def _proximity_edges(
-    triangulation: Triangulation, kind: Literal["gabriel", "urquhart", "relative"], threads: int
-) -> IntArray:
+def _proximity_edges(triangulation: Triangulation, kind: Literal["gabriel", "urquhart", "relative"]) -> IntArray:
     """Edges (e, 2) with i < j, in lexicographic order."""
-    points, space = triangulation.points, triangulation.surface.kernel
+    points = triangulation.points
     if triangulation.dimension == 2:
         mesh = points, triangulation.simplices, triangulation.neighbors
-        return space.proximity(*mesh, kind, threads, True)
+        return triangulation.surface.kernel.proximity(*mesh, kind, threads_of(triangulation, None), True)
     order = state_of(triangulation).flat_order
     if triangulation.surface is PLANE or len(order) < 3:
         return as_edges(order[:-1], order[1:])

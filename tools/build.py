@@ -24,7 +24,7 @@ from typing import Any
 
 from stereodel._tasks.crew import Crew
 from stereodel._tasks.kept import Kept, Note
-from stereodel._threads import thread_count
+from stereodel._tasks.threads import thread_count
 from stereodel.film import Film
 from stereodel.film.frames import library_digest, library_versions
 from stereodel.render.figure import STYLE_HELP, style_names, styled_folder

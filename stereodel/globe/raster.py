@@ -27,7 +27,7 @@ from stereodel._arrays import (
 )
 from stereodel._extras import of_extra
 from stereodel._notebook import Shown
-from stereodel._threads import thread_count
+from stereodel._tasks.threads import thread_count
 from stereodel.conformal import MoebiusMap
 from stereodel.constants import MOST_PIXELS_ACROSS, MOST_TEXELS
 from stereodel.curves.chart import Chart

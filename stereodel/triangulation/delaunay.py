@@ -23,7 +23,7 @@ from stereodel._arrays import (
 from stereodel._docs import by_name, shared
 from stereodel._notebook import Shown
 from stereodel._spaces import SPHERE, PlaneOrSphere, surface_of
-from stereodel._threads import thread_count
+from stereodel._tasks.threads import thread_count
 from stereodel.constants import REBUILD_INSERTING, REBUILD_REMOVING
 from stereodel.sphere.coordinates import BY_NAME, LONLAT, as_asked, as_sites, refuse_lonlat
 from stereodel.sphere.latitudes import Latitude
@@ -417,14 +417,18 @@ def as_triangulation(
     *,
     lonlat: npt.ArrayLike | None = None,
     latitude: Latitude | None = None,
+    workers: int | None = None,
 ) -> Triangulation:
     """The triangulation given, as it is now, or that of points of the plane, of directions, or of `lonlat`."""
+    triangulation: Triangulation
     if isinstance(points, Triangulation):
         refuse_lonlat(lonlat, latitude)
-        return copy.copy(points)
-    array, kind = as_sites(points, lonlat, latitude)
-    triangulation: Triangulation = surface_of(array).delaunay(array)
-    triangulation._latitude = kind
+        triangulation = copy.copy(points)
+        triangulation._workers = points._workers if workers is None else as_workers(workers)
+    else:
+        array, kind = as_sites(points, lonlat, latitude)
+        triangulation = surface_of(array).delaunay(array, workers=workers)
+        triangulation._latitude = kind
     return triangulation
 
 
