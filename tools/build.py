@@ -56,13 +56,7 @@ class Outcome:
     error: str = ""
 
 
-def build(
-    scripts: Path,
-    out: Path,
-    names: Iterable[str] = (),
-    *,
-    styles: tuple[str, ...] = (),
-) -> list[Outcome]:
+def build(scripts: Path, out: Path, names: Iterable[str] = (), *, styles: tuple[str, ...] = ()) -> list[Outcome]:
     """Run the scripts of a folder that are out of date, one a core at once; say so and note what was drawn.
 
     `names` are beginnings of script names, none for all; `styles` those of `stereodel.drawing.styled`. A BuildError
