@@ -15,16 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel import _kernel
-from stereodel._arrays import (
-    FloatArray,
-    Pixels,
-    as_choice,
-    as_count,
-    as_edges,
-    as_pixels,
-    as_scalar,
-    locked,
-)
+from stereodel._arrays import FloatArray, Pixels, as_choice, as_count, as_edges, as_pixels, as_scalar, locked
 from stereodel._extras import of_extra
 from stereodel._notebook import Shown
 from stereodel._tasks.threads import thread_count
@@ -220,14 +211,7 @@ class Raster(Shown):
         except ValueError as error:
             raise ValueError(f"{os.fspath(path)}: {error}") from error
 
-    def warp(
-        self,
-        lens: MoebiusMap,
-        view: MapView,
-        size: int,
-        *,
-        workers: int | None = None,
-    ) -> Pixels:
+    def warp(self, lens: MoebiusMap, view: MapView, size: int, *, workers: int | None = None) -> Pixels:
         """Image of the globe through a lens; `painted` gives a part of it.
 
         Parameters

@@ -288,11 +288,7 @@ class Triangulation(Shown):
     @by_name(BY_NAME)
     @shared(**LONLAT)
     def find_simplex(
-        self,
-        queries: npt.ArrayLike | None = None,
-        *,
-        lonlat: npt.ArrayLike | None = None,
-        workers: int | None = None,
+        self, queries: npt.ArrayLike | None = None, *, lonlat: npt.ArrayLike | None = None, workers: int | None = None
     ) -> IntArray | int:
         """Triangle that contains each query, exactly.
 

@@ -180,13 +180,7 @@ class Page(Shown):
             output("save_page")(self, path, size=size, text=text, renderer=renderer, transparent=transparent)
         return Path(path)
 
-    def pixels(
-        self,
-        *,
-        size: int | None = None,
-        text: bool = True,
-        renderer: Literal["gl", "agg"] = "gl",
-    ) -> Pixels:
+    def pixels(self, *, size: int | None = None, text: bool = True, renderer: Literal["gl", "agg"] = "gl") -> Pixels:
         """Draw the page: the pixels that `save` writes as PNG, with its parameters and errors.
 
         Returns

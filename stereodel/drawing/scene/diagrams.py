@@ -26,10 +26,7 @@ MARGIN = 0.02
 
 
 def diagram_page(
-    mesh: Triangulation | Diagram[Any],
-    *,
-    view: npt.ArrayLike = (0.0, 20.0),
-    bounds: npt.ArrayLike | None = None,
+    mesh: Triangulation | Diagram[Any], *, view: npt.ArrayLike = (0.0, 20.0), bounds: npt.ArrayLike | None = None
 ) -> Page:
     """The ridges of a diagram, or the edges of a triangulation, with the points.
 
