@@ -69,10 +69,10 @@ _SHARED = LONLAT | {
 }
 
 
-Found = TypeVar("Found", IntArray, float, covariant=True)
+_T = TypeVar("_T", covariant=True)
 
 
-class _OfPoints(Protocol[Found]):
+class _OfPoints(Protocol[_T]):
     def __call__(
         self,
         points: npt.ArrayLike | Triangulation | None = None,
@@ -80,23 +80,27 @@ class _OfPoints(Protocol[Found]):
         lonlat: npt.ArrayLike | None = None,
         latitude: Latitude | None = None,
         workers: int | None = None,
-    ) -> Found: ...
+    ) -> _T: ...
 
 
-def _of_points(found: Callable[[Triangulation], Found]) -> _OfPoints[Found]:
-    """The function of points, by name and docstring that of a triangulation."""
+def _of_points(function: Callable[[Triangulation], _T]) -> _OfPoints[_T]:
+    """The function of points that has the name and the docstring of this one of their triangulation."""
 
-    def asked(
+    def of_points(
         points: npt.ArrayLike | Triangulation | None = None,
         *,
         lonlat: npt.ArrayLike | None = None,
         latitude: Latitude | None = None,
         workers: int | None = None,
-    ) -> Found:
-        return found(as_triangulation(points, lonlat=lonlat, latitude=latitude, workers=workers))
+    ) -> _T:
+        found = function(as_triangulation(points, lonlat=lonlat, latitude=latitude, workers=workers))
+        if isinstance(found, np.ndarray):
+            locked(found)
+        return found
 
-    asked.__name__, asked.__qualname__, asked.__doc__ = found.__name__, found.__qualname__, found.__doc__
-    return shared(**_SHARED)(asked)
+    for name in ("__name__", "__qualname__", "__doc__"):
+        setattr(of_points, name, getattr(function, name))
+    return shared(**_SHARED)(of_points)
 
 
 @_of_points
@@ -125,7 +129,7 @@ def gabriel_graph(triangulation: Triangulation) -> IntArray:
     >>> gabriel_graph([[0, 0], [3, 0], [0, 4]]).tolist()
     [[0, 1], [0, 2]]
     """
-    return locked(_proximity_edges(triangulation, "gabriel"))
+    return _proximity_edges(triangulation, "gabriel")
 
 
 @_of_points
@@ -150,7 +154,7 @@ def urquhart_graph(triangulation: Triangulation) -> IntArray:
     >>> urquhart_graph([[0, 0], [4, 0], [1, 2], [4, 3]]).tolist()
     [[0, 2], [1, 3], [2, 3]]
     """
-    return locked(_proximity_edges(triangulation, "urquhart"))
+    return _proximity_edges(triangulation, "urquhart")
 
 
 @_of_points
@@ -174,7 +178,7 @@ def relative_neighborhood_graph(triangulation: Triangulation) -> IntArray:
     >>> relative_neighborhood_graph([[0, 0], [4, 0], [1, 2], [4, 3]]).tolist()
     [[0, 2], [1, 3], [2, 3]]
     """
-    return locked(_proximity_edges(triangulation, "relative"))
+    return _proximity_edges(triangulation, "relative")
 
 
 @_of_points
@@ -202,7 +206,7 @@ def minimum_spanning_tree(triangulation: Triangulation) -> IntArray:
     [[0, 1], [0, 3], [1, 2]]
     """
     edges = _proximity_edges(triangulation, "urquhart")
-    return locked(triangulation.surface.kernel.spanning_tree(triangulation.points, edges))
+    return triangulation.surface.kernel.spanning_tree(triangulation.points, edges)
 
 
 @_of_points
@@ -237,7 +241,7 @@ def hull(triangulation: Triangulation) -> IntArray:
     []
     """
     corners = _corners(triangulation) if triangulation.dimension == 2 else _ends(triangulation)
-    return locked(corners.astype(np.int32))
+    return corners.astype(np.int32)
 
 
 @_of_points
@@ -307,10 +311,10 @@ def _hull_points(triangulation: Triangulation) -> FloatArray:
 
 def _proximity_edges(triangulation: Triangulation, kind: Literal["gabriel", "urquhart", "relative"]) -> IntArray:
     """Edges (e, 2) with i < j, in lexicographic order."""
-    points = triangulation.points
+    points, space = triangulation.points, triangulation.surface.kernel
     if triangulation.dimension == 2:
         mesh = points, triangulation.simplices, triangulation.neighbors
-        return triangulation.surface.kernel.proximity(*mesh, kind, threads_of(triangulation, None), True)
+        return space.proximity(*mesh, kind, threads_of(triangulation, None), True)
     order = state_of(triangulation).flat_order
     if triangulation.surface is PLANE or len(order) < 3:
         return as_edges(order[:-1], order[1:])

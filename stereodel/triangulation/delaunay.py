@@ -416,15 +416,14 @@ def as_triangulation(
     workers: int | None = None,
 ) -> Triangulation:
     """The triangulation given, as it is now, or that of points of the plane, of directions, or of `lonlat`."""
-    triangulation: Triangulation
     if isinstance(points, Triangulation):
         refuse_lonlat(lonlat, latitude)
-        triangulation = copy.copy(points)
-        triangulation._workers = points._workers if workers is None else as_workers(workers)
-    else:
-        array, kind = as_sites(points, lonlat, latitude)
-        triangulation = surface_of(array).delaunay(array, workers=workers)
-        triangulation._latitude = kind
+        given = copy.copy(points)
+        given._workers = points._workers if workers is None else as_workers(workers)
+        return given
+    array, kind = as_sites(points, lonlat, latitude)
+    triangulation: Triangulation = surface_of(array).delaunay(array, workers=workers)
+    triangulation._latitude = kind
     return triangulation
 
 
