@@ -231,14 +231,12 @@ def load_arrays(path: str | os.PathLike[str]) -> dict[str, npt.NDArray[Any]]:
 
 def read_picture(path: str | os.PathLike[str]) -> Pixels:
     """The pixels of a picture file, (h, w, 3)."""
-    picture: Pixels = np.asarray(iio.imread(Path(path)))[..., :3]
-    return picture
+    return np.asarray(iio.imread(Path(path)))[..., :3]
 
 
 def levels_apart(expected: Pixels, actual: Pixels) -> npt.NDArray[np.int16]:
     """Largest difference of any channel, (h, w)."""
-    apart: npt.NDArray[np.int16] = np.abs(expected.astype(np.int16) - actual.astype(np.int16)).max(axis=-1)
-    return apart
+    return np.abs(expected.astype(np.int16) - actual.astype(np.int16)).max(axis=-1)
 
 
 def _array_difference(expected: npt.NDArray[Any], actual: npt.NDArray[Any], tolerance: float) -> str:

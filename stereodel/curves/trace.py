@@ -353,8 +353,7 @@ def largest_scale(lens: MoebiusMap, points: FloatArray, radius: FloatArray) -> F
     # At the place nearest to the point of largest scale: the focus, or its antipode if the map shrinks.
     half = np.maximum(np.arctan2(across, height) - radius, 0.0) / 2
     larger = max(size, 1 / size)
-    scale: FloatArray = larger / (np.cos(half) ** 2 + (larger * np.sin(half)) ** 2)
-    return scale
+    return larger / (np.cos(half) ** 2 + (larger * np.sin(half)) ** 2)
 
 
 def numbered(arcs: Arcs) -> Arcs:

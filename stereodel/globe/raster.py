@@ -401,8 +401,7 @@ class Raster(Shown):
 
     @property
     def _edges(self) -> FloatArray:
-        edges: FloatArray = np.radians(np.array(self.bounds))
-        return edges
+        return np.radians(np.array(self.bounds))
 
 
 @cache
@@ -416,8 +415,7 @@ def _shifts(latitude: Latitude) -> FloatArray:
         return np.zeros(0)
     degrees = np.linspace(-90.0, 90.0, 1025)
     at = lonlat_to_xyz(np.column_stack([np.zeros(1025), degrees]))
-    shifts: FloatArray = np.radians(xyz_to_lonlat(at, latitude=latitude)[:, 1] - degrees)
-    return shifts
+    return np.radians(xyz_to_lonlat(at, latitude=latitude)[:, 1] - degrees)
 
 
 @dataclass(frozen=True, eq=False)

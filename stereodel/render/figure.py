@@ -152,8 +152,7 @@ class Figure:
 
     def _files(self, folder: Path, *, size: int | None, text: bool) -> list[str]:
         """See `Drawing`."""
-        files: list[str] = self.save(folder, size=size, text=text)["files"]
-        return files
+        return self.save(folder, size=size, text=text)["files"]
 
 
 class Drawing(Protocol):

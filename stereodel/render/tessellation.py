@@ -80,8 +80,7 @@ class Batches:
 def _touching(boxes: SingleArray, window: Window) -> BoolArray:
     left, bottom, right, top = boxes.T
     across = (left < window.left + window.width + MARGIN) & (right > window.left - MARGIN)
-    touching: BoolArray = across & (bottom < window.bottom + window.height + MARGIN) & (top > window.bottom - MARGIN)
-    return touching
+    return across & (bottom < window.bottom + window.height + MARGIN) & (top > window.bottom - MARGIN)
 
 
 def triangulate(page: Page, width: int, height: int) -> Batches:
@@ -123,8 +122,7 @@ class _PixelMap:
                 assert_never(item)
 
     def _place(self, points: FloatArray) -> FloatArray:
-        placed: FloatArray = (points - self.origin) * self.scale
-        return placed
+        return (points - self.origin) * self.scale
 
     def _disc(self, ball: Ball | None) -> Disc | None:
         if ball is None:
@@ -325,8 +323,7 @@ def _abscissa(low: FloatArray, high: FloatArray, edge: Indices, y: FloatArray) -
     """Where edges meet horizontal lines; at the heights of their ends, exactly those ends."""
     (x0, y0), (x1, y1) = low[edge].T, high[edge].T
     share = (y - y0) / (y1 - y0)
-    x: FloatArray = x0 * (1 - share) + x1 * share
-    return x
+    return x0 * (1 - share) + x1 * share
 
 
 def _crossing_heights(low: FloatArray, high: FloatArray) -> FloatArray:

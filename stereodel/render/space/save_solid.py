@@ -93,8 +93,7 @@ def glb_bytes(solid: Solid) -> bytes:
         tree["nodes"].append({"name": CAMERA, "camera": 0, "translation": place})
 
     options = {"include_normals": True, "buffer_postprocessor": _shorten, "tree_postprocessor": finished}
-    data: bytes = scene.export(file_type="glb", **options)
-    return data
+    return scene.export(file_type="glb", **options)
 
 
 def _shorten(buffers: Any, tree: dict[str, Any]) -> None:
@@ -110,8 +109,7 @@ def _shorten(buffers: Any, tree: dict[str, Any]) -> None:
 
 
 def _view(tree: dict[str, Any], accessor: int) -> dict[str, Any]:
-    view: dict[str, Any] = tree["bufferViews"][tree["accessors"][accessor]["bufferView"]]
-    return view
+    return tree["bufferViews"][tree["accessors"][accessor]["bufferView"]]
 
 
 def page_box(solid: Solid, scene: Any) -> list[list[float]]:
