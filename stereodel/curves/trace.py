@@ -148,10 +148,8 @@ def great(start: FloatArray, end: FloatArray, normal: FloatArray | None = None) 
     if normal is not None:
         far = (np.sum(start * end, axis=1) < 0) & normal.any(axis=1)
         axis[far] = normal[far]
-    count = len(start)
-    return Arcs(
-        start, end, axis, np.zeros(count), start.copy(), np.zeros(count), _swept(axis, start, end), np.arange(count)
-    )
+    none, edge = np.zeros((2, len(start))), np.arange(len(start))
+    return Arcs(start, end, axis, none[0], start.copy(), none[1], _swept(axis, start, end), edge)
 
 
 def exact(arcs: Sequence[SphereArc]) -> Arcs:

@@ -328,10 +328,8 @@ class Raster(Shown):
         if form == "cubemap":
             place = (-1.0, 1.0, 2.0 / width, 2.0 / width)
             faces = (face @ seen.matrix for face in FACES.values())
-            sides = [
-                self._warped(bend, face, "gnomonic", 0.0, place, (width, width), workers=workers) for face in faces
-            ]
-            return np.stack(sides)
+            square = (width, width)
+            return np.stack([self._warped(bend, f, "gnomonic", 0.0, place, square, workers=workers) for f in faces])
         if form == "planet":
             radius = as_scalar(angular_radius, "angular_radius", low=0.0, high=MOST_PLANET_RADIUS, open_low=True)
             # The square is centred in a disc twice as wide, which contains its corners.

@@ -116,8 +116,7 @@ def write_png(rows: Iterable[Pixels], page: Page, target: Path, width: int, chan
 def save_vector(page: Page, path: str | os.PathLike[str], *, pictures: Sequence[Pixels] = ()) -> Path:
     """Write a page as SVG or PDF, by the extension, with an image of the whole page for each of `page.pictured`."""
     target = Path(path)
-    data = pdf(page, pictures) if target.suffix.lower() == ".pdf" else svg(page, pictures).encode()
-    write_whole(target, data)
+    write_whole(target, (pdf if target.suffix.lower() == ".pdf" else svg)(page, pictures))
     return target
 
 

@@ -69,9 +69,8 @@ class Batches:
         colors = np.concatenate([np.zeros((0, 3, 4)), *(batch.colors[rows] for batch, rows in chosen)])
         slots = np.repeat(self._numbers[hit], [3 * len(rows) for _, rows in chosen])
         faces = np.arange(3 * len(corners), dtype=np.int32).reshape(-1, 3)
-        drawn = [
-            (int(self._numbers[i]), self._batches[i]) for i, (_, rows) in zip(hit, chosen, strict=True) if len(rows)
-        ]
+        seen = (i for i, (_, rows) in zip(hit, chosen, strict=True) if len(rows))
+        drawn = [(int(self._numbers[i]), self._batches[i]) for i in seen]
         textures = {number: batch.texture(window) for number, batch in drawn if batch.texture is not None}
         balls = {number: batch.ball for number, batch in drawn if batch.ball is not None}
         return Triangles(corners.reshape(-1, 2), colors.reshape(-1, 4), slots, faces, textures, balls)

@@ -194,8 +194,7 @@ class Page(Shown):
         [255, 0, 0]
         """
         with of_extra(picture_extra(".png", renderer)):
-            pixels: Pixels = output("draw_page")(self, size=size, text=text, renderer=renderer)
-        return pixels
+            return output("draw_page")(self, size=size, text=text, renderer=renderer)
 
     def arrays(self) -> Arrays:
         """Everything drawn as named arrays, for the regression tests: every visible change alters a number."""

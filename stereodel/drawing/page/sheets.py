@@ -106,16 +106,10 @@ GROUND: Final[Color] = (0.07, 0.07, 0.07, 1.0)
 
 def dark_page(page: Page) -> Page:
     """A page on a dark background; one that is already dark is unchanged, as are the pixels of images."""
-    ground = dark_color((*page.background[:3], 1.0))
+    ground = as_color(dark_colors(np.array([[*page.background[:3], 1.0]]))[0])
     if contrast(page.background[:3], WHITE[:3]) > contrast(page.background[:3], BLACK[:3]):
         return page
     return replace(page, background=ground, items=tuple(item.recoloured(dark_colors) for item in page.items))
-
-
-def dark_color(color: Color) -> Color:
-    """The dark counterpart of a colour on white."""
-    red, green, blue, opacity = dark_colors(np.array([color]))[0].tolist()
-    return (red, green, blue, opacity)
 
 
 def dark_colors(colors: FloatArray) -> FloatArray:
@@ -180,9 +174,8 @@ class StyleSheet:
     def __call__(self, page: Page) -> Page:
         """A page in this style."""
         background = page.background if self.background is None else self.background
-        return replace(
-            page, background=background, items=tuple(item.restyled(self._changes(item)) for item in page.items)
-        )
+        items = tuple(item.restyled(self._changes(item)) for item in page.items)
+        return replace(page, background=background, items=items)
 
     def _changes(self, item: Item) -> Changes:
         name = "" if item._kind == "labels" else item.name.removeprefix(LEGEND)

@@ -60,8 +60,7 @@ def save_solid(solid: Solid, path: str | os.PathLike[str], *, size: int | None, 
     target = Path(path)
     match target.suffix.lower():
         case ".glb":
-            data = glb_bytes(solid)
-            write_whole(target, data)
+            write_whole(target, glb_bytes(solid))
         case ".png":
             page, width = solid.page if text else solid.page.without_labels(), solid.page.pixels_across(size)
             write_png(labelled(lit_rows(solid, width), page, width), page, target, width)
