@@ -106,10 +106,15 @@ GROUND: Final[Color] = (0.07, 0.07, 0.07, 1.0)
 
 def dark_page(page: Page) -> Page:
     """A page on a dark background; one that is already dark is unchanged, as are the pixels of images."""
-    ground = as_color(dark_colors(np.array([[*page.background[:3], 1.0]]))[0])
+    ground = dark_color((*page.background[:3], 1.0))
     if contrast(page.background[:3], WHITE[:3]) > contrast(page.background[:3], BLACK[:3]):
         return page
     return replace(page, background=ground, items=tuple(item.recoloured(dark_colors) for item in page.items))
+
+
+def dark_color(color: Color) -> Color:
+    """The dark counterpart of a colour on white."""
+    return as_color(dark_colors(np.array([color]))[0])
 
 
 def dark_colors(colors: FloatArray) -> FloatArray:
