@@ -48,8 +48,7 @@ def main() -> int:
     results = json.loads(options.results.read_text(encoding="utf-8")) if options.results.exists() else {}
     for name in options.only:
         begin = time.perf_counter()
-        measured = EXPERIMENTS[name](int(options.largest))
-        results[name] = measured
+        results[name] = EXPERIMENTS[name](int(options.largest))
         results.setdefault("machine", {})[name] = machine()
         pages.save(results, options.results)
         print(f"{name}: {time.perf_counter() - begin:.0f} s", flush=True)

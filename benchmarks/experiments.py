@@ -82,13 +82,10 @@ def _uniform(space: str, n: int, players: Sequence[Contender], smaller: Records)
 
 def distributions(largest: int) -> Records:
     """Every distribution at 1e5 and 1e6."""
+    counts = [n for n in (100_000, 1_000_000) if n <= largest]
     return {
         space: {
-            name: {
-                str(n): _distribution(space, name, n)
-                for n in (100_000, 1_000_000)
-                if n <= largest and not (name in REAL and n > 100_000)
-            }
+            name: {str(n): _distribution(space, name, n) for n in counts[: 1 if name in REAL else None]}
             for name in DISTRIBUTIONS[space]
             if name != "uniform"
         }

@@ -21,7 +21,7 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter
 
 from benchmarks.engines import CONTENDERS, Contender
 from benchmarks.rounds import paired
-from stereodel._tasks.whole_files import replacing
+from stereodel._tasks.whole_files import replacing, write_whole
 from stereodel.drawing.page.style import DARK_GRAY, PRINT_WIDTH, TYPE
 
 HERE = Path(__file__).resolve().parent
@@ -39,8 +39,7 @@ def record(name: str, found: Any) -> None:
 
 def save(found: Any, path: Path) -> None:
     """Write results, whole or not at all."""
-    with replacing(path) as temporary:
-        temporary.write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
+    write_whole(path, json.dumps(found, indent=1) + "\n")
 
 
 def write(name: str) -> None:
@@ -81,8 +80,7 @@ def fill(page: str, blocks: Blocks) -> None:
         if not marked.search(text):
             raise ValueError(f"{page} has no place for {name!r}")
         text = marked.sub(lambda found, block=block: f"{found[1]}\n{block}\n\n{found[2]}", text)
-    with replacing(path) as temporary:
-        temporary.write_text(text, encoding="utf-8")
+    write_whole(path, text)
 
 
 @contextmanager
@@ -137,10 +135,10 @@ def kernel(results: Results) -> Blocks:
     """The page's blocks and its plots."""
     plot_sizes(results["sizes"])
     plot_distributions(results["distributions"])
-    whole = {"machine": machine, "opening": opening, "engines": taking_part, "missing": missing}
     parts = {"changes": changes, "derived": derived, "voronoi": diagrams, "conformal maps": conformal_maps, "gmt": gmt}
-    blocks = {name: block(results) for name, block in whole.items()}
-    blocks |= {name: block(results[name]) for name, block in parts.items()}
+    blocks = {name: block(results[name]) for name, block in parts.items()}
+    whole = {"machine": machine, "opening": opening, "engines": taking_part, "missing": missing}
+    blocks |= {name: block(results) for name, block in whole.items()}
     for space in CONTENDERS:
         blocks[f"sizes {space}"] = sizes(results, space)
         blocks |= {f"{space} {n}": distributions(results, space, n) for n in ("100000", "1000000")}
@@ -276,19 +274,15 @@ def diagrams(measured: Results) -> str:
         "lists 2": "the same with regions as lists",
         "scipy": "SciPy, regions as lists",
     }
-    rows = []
-    for key, label in labels.items():
-        cells = []
-        for record in measured.values():
-            ours = record[key]
-            cells.append(ours.get("stopped") or digits(ours["seconds"]))
-            cells.append(faster(record, "scipy", key) if key != "scipy" else "")
-            cells.append(digits(ours["peak"] / 1e6) if "peak" in ours else "")
-        rows.append([label, *cells])
-    head = [""]
-    for n in measured:
-        head += [f"{power(int(n))}: s", "times as fast as SciPy", "peak MB"]
-    return table(head, rows, "l" + "r" * (len(head) - 1))
+
+    def cells(record: Results, key: str) -> list[str]:
+        ours, ratio = record[key], faster(record, "scipy", key) if key != "scipy" else ""
+        peak = digits(ours["peak"] / 1e6) if "peak" in ours else ""
+        return [ours.get("stopped") or digits(ours["seconds"]), ratio, peak]
+
+    rows = [[label, *(c for record in measured.values() for c in cells(record, key))] for key, label in labels.items()]
+    head = [word for n in measured for word in (f"{power(int(n))}: s", "times as fast as SciPy", "peak MB")]
+    return table(["", *head], rows, "l" + "r" * len(head))
 
 
 def conformal_maps(measured: Results) -> str:
@@ -361,20 +355,16 @@ def plot_sizes(measured: Results) -> None:
             for one in CONTENDERS[space]:
                 known = {int(n): record[one.key] for n, record in measured[space].items() if one.key in record}
                 done = [(n, 1e9 * record["seconds"] / n) for n, record in known.items() if "seconds" in record]
+                width, size = (2.0, 3.5) if one.ours else (1.0, 2.2)
+                look = {"color": one.color, "label": one.label, "zorder": 3 if one.ours else 2, "marker": "o"}
                 if done:
-                    width, size = (2.0, 3.5) if one.ours else (1.0, 2.2)
-                    axis.plot(
-                        *zip(*done, strict=True), color=one.color, label=one.label, zorder=3 if one.ours else 2,
-                        linewidth=width, marker="o", markersize=size,
-                    )  # fmt: skip
-            axis.set_xscale("log")
+                    axis.plot(*zip(*done, strict=True), **look, linewidth=width, markersize=size)
             axis.set_yscale("log")
             axis.yaxis.set_major_locator(FixedLocator([m * 10.0**k for k in range(1, 7) for m in (1, 2, 5)]))
             axis.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,.0f}".replace(",", "\u202f")))
             axis.yaxis.set_minor_formatter(NullFormatter())
+            _finish(axis, space, "uniform points")
             axis.minorticks_off()
-            axis.set_xlabel("uniform points")
-            _finish(axis, space)
         axes[0].set_ylabel("nanoseconds per point")
 
 
@@ -394,13 +384,13 @@ def plot_distributions(measured: Results) -> None:
                     axis.scatter(*zip(*places, strict=True), s=size, color=one.color, label=one.label, zorder=3)
             axis.set_yticks(range(len(named)), list(named))
             axis.invert_yaxis()
-            axis.set_xscale("log")
-            axis.set_xlabel("nanoseconds per point")
-            _finish(axis, space)
+            _finish(axis, space, "nanoseconds per point")
 
 
-def _finish(axis: Axes, title: str) -> None:
+def _finish(axis: Axes, title: str, across: str) -> None:
     axis.set_title(title)
+    axis.set_xscale("log")
+    axis.set_xlabel(across)
     axis.legend(fontsize=6.8, ncols=2, loc="upper center", bbox_to_anchor=(0.45, -0.17), handletextpad=0.4)
 
 

@@ -75,26 +75,21 @@ def in_partitions(points: Path, folder: Path, size: int, partition: int, workers
         ProcessPoolExecutor(workers, mp_context=multiprocessing.get_context("forkserver")) as executor,
         Watch(scratch) as watch,
     ):
-        run = triangulate(
-            points,
-            folder / "out",
-            execution=Execution(
-                partition,
-                executor=executor,
-                scratch=scratch,
-                resume=False,
-                progress=lambda name, *_: passes.update({name: time.perf_counter()}),
-            ),
-        )
+
+        def told(name: str, *_: Any) -> None:
+            passes[name] = time.perf_counter()
+
+        execution = Execution(partition, executor=executor, scratch=scratch, resume=False, progress=told)
+        run = triangulate(points, folder / "out", execution=execution)
     statistics, ends = run.statistics, list(passes.values())
-    told = watch.found()
+    found = watch.found()
     shutil.rmtree(folder / "out")
     shutil.rmtree(scratch, ignore_errors=True)
     seconds = {name: end - begin for name, begin, end in zip(passes, [ends[0], *ends[:-1]], ends, strict=True)}
     return {
-        **told,
-        "scratch_a_point": told.pop("scratch_bytes") / size,
-        "cpu_us_a_point": 1e6 * told["cpu"] / size,
+        **found,
+        "scratch_a_point": found["scratch_bytes"] / size,
+        "cpu_us_a_point": 1e6 * found["cpu"] / size,
         "passes": seconds,
         "beyond": statistics["read"] / size - 1,
         **{name: statistics[name] for name in ("triangles", "area", "partitions", "rounds", "largest", "compact")},
@@ -156,8 +151,7 @@ def main() -> int:
                 row["memory"] = in_memory(folder / "points", folder / "memory", options.workers)
             row["partitions"] = in_partitions(folder / "points", folder, size, int(options.partition), options.workers)
             if "memory" in row:
-                row["cpu_ratio"] = row["partitions"]["cpu"] / row["memory"]["cpu"]
-                row["wall_ratio"] = row["partitions"]["wall"] / row["memory"]["wall"]
+                row |= {f"{what}_ratio": row["partitions"][what] / row["memory"][what] for what in ("cpu", "wall")}
             others = [other for other in results["rows"] if (other["sky"], other["size"]) != (sky, size)]
             results["rows"] = sorted([*others, row], key=lambda each: (each["sky"], each["size"]))
             pages.record("partitioned", results)

@@ -137,8 +137,7 @@ def measure(name: str, raster: Pixels) -> Iterator[Row]:
 def main() -> None:
     """Measure, save, write the page."""
     raster = sample_raster()
-    rows = [row for name in LENSES for row in measure(name, raster)]
-    pages.record("rasters", rows)
+    pages.record("rasters", [row for name in LENSES for row in measure(name, raster)])
 
 
 if __name__ == "__main__":

@@ -86,9 +86,8 @@ def take_turns(entries: Sequence[Entry], rounds: int, say: Callable[[Result], No
         for _ in range(1 + rounds):
             for player in players:
                 next(player, None)
-    for result in results.values():
-        if say:
-            say(result)
+    for result in results.values() if say else ():
+        say(result)
     return results
 
 

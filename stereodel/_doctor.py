@@ -61,7 +61,9 @@ def command() -> None:
     chosen, reason, problem = _choice(found)
     rendering = _rendering(found, chosen, reason)
     stop_if_interrupted()
-    for title, rows in (("Versions", _versions()), ("Extras", _extras()), ("Rendering", rendering)):
+    versions = [("stereodel", stereodel.__version__), ("python", platform.python_version())]
+    versions += [("numpy", installed_version("numpy")), ("system", platform.platform())]
+    for title, rows in (("Versions", versions), ("Extras", _extras()), ("Rendering", rendering)):
         print(f"{title}\n{_table(rows)}\n")
     if problem:
         print(f"Globes cannot be drawn as PNG: {problem}.")
@@ -114,16 +116,6 @@ def _choice(found: Mapping[str, gl.Description]) -> tuple[str, str, str]:
     except gl.OpenGLError as error:
         return "", "", str(error)
     return name, reason, found[name].problem if name in found else f"no library of {name} can be opened"
-
-
-def _versions() -> list[tuple[str, str]]:
-    """Versions of the library, of what it always needs, and of the system."""
-    return [
-        ("stereodel", stereodel.__version__),
-        ("python", platform.python_version()),
-        ("numpy", installed_version("numpy")),
-        ("system", platform.platform()),
-    ]
 
 
 def _extras() -> list[tuple[str, str, str]]:

@@ -17,6 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import AnyIndices, BoolArray, FloatArray, IntArray
+from stereodel.constants import STORED_ERROR
 
 _SPLITTER = 2.0**27 + 1.0  # Veltkamp: cuts a 53-bit significand into two halves of at most 26 bits
 
@@ -170,7 +171,7 @@ def _unit(columns: FloatArray) -> tuple[FloatArray, FloatArray]:
     # Most have length 1 to rounding: 1/√(1 + δ) = 1 − δ/2 + 3δ²/8 − …, what follows below 2⁻¹⁵⁰.
     excess = (square - 1.0).hi
     found = fast_two_sum(scaled, scaled * (excess * (0.375 * excess - 0.5)))
-    rest = np.flatnonzero(~(np.abs(excess) < 2.0**-50))
+    rest = np.flatnonzero(~(np.abs(excess) < STORED_ERROR))
     if len(rest):
         others = DoubleDouble(scaled[:, rest]) / square[rest].sqrt()
         found[0][:, rest], found[1][:, rest] = others.hi, others.lo

@@ -22,7 +22,14 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from stereodel import constants
+from stereodel.constants import (
+    MOST_FRAME_PIXELS,
+    MOST_SHOWN_BYTES,
+    MOST_SHOWN_NUMBERS,
+    MOST_SHOWN_SECONDS,
+    SHOWN_PIXELS,
+    SHOWN_TABLE,
+)
 
 Mimes = tuple[dict[str, str], dict[str, dict[str, int]]]
 """Data by MIME type, and how large pictures are shown."""
@@ -76,22 +83,17 @@ def drawn(page_of: Callable[[Any], Any], most: int | None = None) -> Callable[[A
     def made(it: Any) -> Mimes:
         if most is not None and len(it.points) > most:
             raise OverflowError(f"{len(it.points)} points are more than {most}; `diagram_page` draws any number")
-        if (
-            _numbers(it) > 16 * constants.MOST_SHOWN_NUMBERS
-            or _numbers(page := page_of(it)) > constants.MOST_SHOWN_NUMBERS
-        ):
-            raise OverflowError(f"it has more than {constants.MOST_SHOWN_NUMBERS} coordinates; `save` draws any number")
-        wide = round(min(page.width / 72 * 96, constants.SHOWN_PIXELS * min(1.0, page.width / page.height))) or 1
+        if _numbers(it) > 16 * MOST_SHOWN_NUMBERS or _numbers(page := page_of(it)) > MOST_SHOWN_NUMBERS:
+            raise OverflowError(f"it has more than {MOST_SHOWN_NUMBERS} coordinates; `save` draws any number")
+        wide = round(min(page.width / 72 * 96, SHOWN_PIXELS * min(1.0, page.width / page.height))) or 1
         shown = {"width": wide, "height": page.pixels_up(wide)}
-        svg = (
-            _saved(page, "page.svg") if 4 * _numbers(page) <= constants.MOST_SHOWN_BYTES else b""
-        )  # it has more than 4 for each
-        if 0 < len(svg) <= constants.MOST_SHOWN_BYTES:
+        svg = _saved(page, "page.svg") if 4 * _numbers(page) <= MOST_SHOWN_BYTES else b""  # it has more than 4 for each
+        if 0 < len(svg) <= MOST_SHOWN_BYTES:
             sides = 'width="{width}" height="{height}"'.format(**shown)
             return {"image/svg+xml": re.sub('width="[^"]+" height="[^"]+"', sides, _alone(svg.decode()), count=1)}, {}
         shaded = page.pictured or any(type(it).__name__ == "Ball" or getattr(it, "ball", None) for it in page.items)
         size, renderer = 2 * wide, "gl" if shaded else "agg"
-        while len(png := _saved(page, "page.png", size=size, renderer=renderer)) > constants.MOST_SHOWN_BYTES:
+        while len(png := _saved(page, "page.png", size=size, renderer=renderer)) > MOST_SHOWN_BYTES:
             size //= 2
         return {"image/png": b64encode(png).decode()}, {"image/png": shown}
 
@@ -121,22 +123,21 @@ def _alone(svg: str) -> str:
 
 def playing(film: Any) -> Mimes:
     """A film in a video element, or its first frame where drawing all would take too long."""
-    shot, frames, start, video = replace(film, size=min(film.size, constants.SHOWN_PIXELS)), [], 0.0, b""
+    shot, frames, start, video = replace(film, size=min(film.size, SHOWN_PIXELS)), [], 0.0, b""
     for number in range(len(film)):
         frames.append(shot.picture(number))
         start = start or time.monotonic()  # the first frame loads what draws
         spent = (time.monotonic() - start) / max(number, 1) * len(film)
-        if (
-            spent > constants.MOST_SHOWN_SECONDS or frames[0].size // 3 * len(film) > constants.MOST_FRAME_PIXELS
-        ):  # which take as long
+        pixels = frames[0].size // 3 * len(film)  # of which so many take as long
+        if spent > MOST_SHOWN_SECONDS or pixels > MOST_FRAME_PIXELS:
             break
-    first, wide = frames[0], min(frames[0].shape[1], constants.SHOWN_PIXELS)
+    first, wide = frames[0], min(frames[0].shape[1], SHOWN_PIXELS)
     if len(frames) == len(film):
         video = _saved(film.of_pictures(frames, seconds=film.times.tolist()), "film.mp4", progress=False)
-    while len(png := _saved(film.of_pictures([first]), "first.png", progress=False)) > constants.MOST_SHOWN_BYTES:
+    while len(png := _saved(film.of_pictures([first]), "first.png", progress=False)) > MOST_SHOWN_BYTES:
         first = first[::2, ::2].copy()
     poster = f"data:image/png;base64,{b64encode(png).decode()}"
-    if 0 < len(video) <= 4 * constants.MOST_SHOWN_BYTES:
+    if 0 < len(video) <= 4 * MOST_SHOWN_BYTES:
         source = f'poster="{poster}" src="data:video/mp4;base64,{b64encode(video).decode()}"'
         return {"text/html": f'<video controls loop muted playsinline width="{wide}" {source}></video>'}, {}
     said = f"The first of {len(film)} frames, {film.duration:g} s; <code>save</code> writes them all."
@@ -145,7 +146,7 @@ def playing(film: Any) -> Mimes:
 
 def tabular(count: Callable[[Any], int], take: Callable[[Any, Any], Mapping[str, Any]]) -> Callable[[Any], Mimes]:
     """Shown as a table of `count(it)` rows, of which `take(it, numbers)` gives columns: the first and last rows."""
-    most, broad, letters = constants.SHOWN_TABLE
+    most, broad, letters = SHOWN_TABLE
 
     def row(cells: Any, kind: str) -> str:
         texts = [f"{cell:.9g}" if isinstance(cell, float) else str(cell) for cell in cells]

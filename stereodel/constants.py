@@ -147,9 +147,6 @@ A doubled area is off by about 2⁻⁵¹ in these units, so that weights keep 39
 LEAST_WEIGHT: Final = 2.0**-200
 """Least barycentric coordinate in smooth interpolation: at a corner the sum of the two others must not be zero."""
 
-SAME_DIRECTION: Final = 2.0**-100
-"""Largest difference of the components of two unit vectors in double-double, each off by 2⁻¹⁰², that are the same."""
-
 WEIGHT_ROUNDING: Final = 1e-9
 """Largest distance from one of the sum of a query's weights in a file: rounding leaves 1e-15."""
 

@@ -18,7 +18,7 @@ import numpy.typing as npt
 from stereodel import _kernel
 from stereodel._arrays import FloatArray, SignArray, as_directions, as_vectors
 from stereodel._docs import shared
-from stereodel._threads import thread_count
+from stereodel._tasks.threads import thread_count
 
 __all__ = ["in_bubble", "incircle", "orient2d", "orient3d"]
 

@@ -257,7 +257,7 @@ def _places(
 def _in_degrees(angles: xarray.DataArray) -> npt.NDArray[Any]:
     if str(angles.attrs.get("units", "")).lower() not in ("rad", "radian", "radians"):
         return np.asarray(angles.values)
-    degrees = DoubleDouble(np.array(57.29577951308232), np.array(-1.9878495670576283e-15))  # of a radian
+    degrees = DoubleDouble(*map(float.fromhex, ("0x1.ca5dc1a63c1f8p+5", "-0x1.1e7ab456405f9p-49")))  # of a radian
     return (DoubleDouble(angles.values.astype(np.float64)) * degrees).round()
 
 

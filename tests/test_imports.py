@@ -17,7 +17,7 @@ ROOT = Path(__file__).resolve().parent.parent
 PACKAGE = ROOT / "stereodel"
 
 BASE = {"constants", "earth"}
-BASE |= {"_arrays", "_docs", "_extras", "_notebook", "_numbers", "_double_double", "_threads"}
+BASE |= {"_arrays", "_docs", "_extras", "_notebook", "_numbers", "_double_double", "_tasks"}
 MATHEMATICS = BASE | {"sphere", "projections", "conformal", "predicates", "triangulation"}
 KERNEL = BASE | {"_kernel", "_spaces"}
 MAY_IMPORT = {
@@ -31,8 +31,7 @@ MAY_IMPORT = {
     "_arrays": BASE,
     "_numbers": BASE,
     "_double_double": BASE,
-    "_threads": BASE,
-    "_tasks": {"_extras", "_threads"},
+    "_tasks": BASE,
     "data": BASE,
     "sphere": KERNEL,
     "projections": BASE | {"sphere"},
@@ -40,26 +39,25 @@ MAY_IMPORT = {
     "curves": BASE | {"sphere", "conformal"},
     "predicates": KERNEL,
     "triangulation": KERNEL | {"sphere", "projections", "predicates"},
-    "interpolation": KERNEL | {"_tasks", "curves", "sphere", "triangulation"},
+    "interpolation": KERNEL | {"curves", "sphere", "triangulation"},
     "xarray": BASE | {"interpolation", "sphere", "triangulation"},
     "spatial": BASE | {"curves", "triangulation"},
     "graphs": KERNEL | {"sphere", "triangulation"},
     "relaxation": KERNEL | {"curves", "sphere", "triangulation"},
-    "io": BASE
-    | {"_spaces", "_tasks", "conformal", "curves", "data", "interpolation", "predicates", "sphere", "triangulation"},
-    "partitioned": KERNEL | {"__init__", "curves", "interpolation", "io", "sphere", "_tasks", "triangulation"},
+    "io": BASE | {"_spaces", "conformal", "curves", "data", "interpolation", "predicates", "sphere", "triangulation"},
+    "partitioned": KERNEL | {"__init__", "curves", "interpolation", "io", "sphere", "triangulation"},
     "__init__": MATHEMATICS,
     "_doctor": {"__init__", "_extras", "_tasks", "render"},
     "__main__": {"__init__", "_doctor", "_extras", "_tasks", "cli"},
     "drawing": MATHEMATICS | {"_spaces", "curves"},
-    "render": MATHEMATICS | {"_tasks", "curves", "drawing"},
+    "render": MATHEMATICS | {"curves", "drawing"},
     "mpl": MATHEMATICS | {"curves", "data", "drawing", "io"},
-    "globe": MATHEMATICS | {"_tasks", "_kernel", "curves", "data", "drawing", "io"},
-    "web": BASE | {"_tasks", "curves", "data", "sphere", "triangulation"},
-    "film": MATHEMATICS | {"_kernel", "_tasks", "curves", "drawing", "globe", "render"},
+    "globe": MATHEMATICS | {"_kernel", "curves", "data", "drawing", "io"},
+    "web": BASE | {"curves", "data", "sphere", "triangulation"},
+    "film": MATHEMATICS | {"_kernel", "curves", "drawing", "globe", "render"},
     "cli": MATHEMATICS
     | {"__init__", "curves", "data", "drawing", "earth", "film", "globe", "interpolation", "io"}
-    | {"_doctor", "_tasks", "partitioned", "web"},
+    | {"_doctor", "partitioned", "web"},
 }
 # Whatever the table above says some day: data know nothing of pictures, and drawing is without OpenGL.
 NEVER = {("io", "render"), ("io", "globe"), ("io", "film"), ("io", "mpl"), ("drawing", "render"), ("render", "globe")}

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from stereodel import PlanarDelaunay, PlanarVoronoi, SphericalDelaunay, lonlat_to_xyz, xyz_to_lonlat
 from stereodel._arrays import as_floats
 from stereodel._numbers import as_doubles
-from stereodel._threads import thread_count
+from stereodel._tasks.threads import thread_count
 from stereodel.conformal import fisheye
 from stereodel.graphs import gabriel_graph
 from stereodel.interpolation import LinearInterpolator, NaturalNeighborInterpolator, SmoothInterpolator

@@ -41,8 +41,8 @@ def wheel_problems(names: set[str], tracked: set[str]) -> list[str]:
     return found if len(kernels) == 1 else [*found, f"one compiled kernel wanted, not {sorted(kernels)}"]
 
 
-def main(archive: str, wheel: str) -> int:
-    """Report and return the exit code."""
+def main(archive: str, wheel: str) -> None:
+    """Report; end with 1 where something is wrong."""
     listing = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, capture_output=True, text=True, check=True)
     tracked = {name for name in listing.stdout.split("\0") if name}
     with tarfile.open(archive) as source, zipfile.ZipFile(wheel) as built:
@@ -50,9 +50,8 @@ def main(archive: str, wheel: str) -> int:
         packed = {member.filename for member in built.infolist() if not member.is_dir()}
         found = archive_problems(members, tracked) + wheel_problems(packed, tracked)
     print(f"{len(members)} files in {archive}, {len(packed)} in {wheel}")
-    print(*found, sep="\n", end="\n" if found else "", file=sys.stderr)
-    return 1 if found else 0
+    sys.exit("\n".join(found) or 0)
 
 
 if __name__ == "__main__":
-    sys.exit(main(*sys.argv[1:]))
+    main(*sys.argv[1:])

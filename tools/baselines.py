@@ -38,7 +38,7 @@ from matplotlib import ft2font
 
 from stereodel._arrays import FloatArray, Pixels
 from stereodel._extras import installed_version
-from stereodel._tasks.whole_files import replacing
+from stereodel._tasks.whole_files import write_whole
 from stereodel.drawing.page import Label, Page
 from stereodel.film import Film
 from stereodel.render.figure import Figure
@@ -216,12 +216,10 @@ def save_arrays(arrays: Arrays, path: str | os.PathLike[str]) -> Path:
     All arrays are packed as one, so that what occurs twice is stored once: in a third of the space that
     `numpy.savez_compressed` takes, which packs each by itself.
     """
-    target = Path(path)
     members = io.BytesIO()
     np.savez(members, **arrays)  # type: ignore[arg-type]
-    with replacing(target) as temporary:
-        temporary.write_bytes(lzma.compress(members.getvalue(), filters=PACKING))
-    return target
+    write_whole(path, lzma.compress(members.getvalue(), filters=PACKING))
+    return Path(path)
 
 
 def load_arrays(path: str | os.PathLike[str]) -> dict[str, npt.NDArray[Any]]:
@@ -233,14 +231,12 @@ def load_arrays(path: str | os.PathLike[str]) -> dict[str, npt.NDArray[Any]]:
 
 def read_picture(path: str | os.PathLike[str]) -> Pixels:
     """The pixels of a picture file, (h, w, 3)."""
-    picture: Pixels = np.asarray(iio.imread(Path(path)))[..., :3]
-    return picture
+    return np.asarray(iio.imread(Path(path)))[..., :3]
 
 
 def levels_apart(expected: Pixels, actual: Pixels) -> npt.NDArray[np.int16]:
     """Largest difference of any channel, (h, w)."""
-    apart: npt.NDArray[np.int16] = np.abs(expected.astype(np.int16) - actual.astype(np.int16)).max(axis=-1)
-    return apart
+    return np.abs(expected.astype(np.int16) - actual.astype(np.int16)).max(axis=-1)
 
 
 def _array_difference(expected: npt.NDArray[Any], actual: npt.NDArray[Any], tolerance: float) -> str:
@@ -371,7 +367,7 @@ class Store:
         """Store a case; its hash and its labels go into their files with `write_tables`."""
         save_arrays(case.arrays, self.folder / f"{case.name}.{ARRAYS}")
         data = iio.imwrite("<bytes>", case.picture, extension=".png", plugin="pillow", optimize=True)
-        _replace(self.folder / f"{case.name}.png", data)
+        write_whole(self.folder / f"{case.name}.png", data)
         self.hashes[case.name] = pixel_hash(case.picture)
         self.write_labels(case)
 
@@ -384,7 +380,7 @@ class Store:
         """Write `pixels.json` and `labels.json`, a line for each case."""
         for file, table in ((HASHES, self.hashes), (LABELS, self.labels)):
             lines = [f" {json.dumps(name)}: {json.dumps(entry)}" for name, entry in sorted(table.items())]
-            _replace(self.folder / file, ("{\n" + ",\n".join(lines) + "\n}\n").encode())
+            write_whole(self.folder / file, "{\n" + ",\n".join(lines) + "\n}\n")
 
     def forget_others(self, names: Iterable[str]) -> list[str]:
         """Remove what belongs to none of `names`, and say what."""
@@ -457,11 +453,6 @@ def _moved(stored: FloatArray, found: FloatArray, limit: float) -> str:
         return "" if np.array_equal(stored, found, equal_nan=True) else "has ink where it had none, or none any more"
     apart = float(np.abs(stored - found).max())
     return f"has its ink {apart:.2f} points from where it was" if apart > limit else ""
-
-
-def _replace(path: Path, data: bytes) -> None:
-    with replacing(path) as temporary:
-        temporary.write_bytes(data)
 
 
 if __name__ == "__main__":

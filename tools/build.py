@@ -24,7 +24,7 @@ from typing import Any
 
 from stereodel._tasks.crew import Crew
 from stereodel._tasks.kept import Kept, Note
-from stereodel._threads import thread_count
+from stereodel._tasks.threads import thread_count
 from stereodel.film import Film
 from stereodel.film.frames import library_digest, library_versions
 from stereodel.render.figure import STYLE_HELP, style_names, styled_folder
@@ -56,13 +56,7 @@ class Outcome:
     error: str = ""
 
 
-def build(
-    scripts: Path,
-    out: Path,
-    names: Iterable[str] = (),
-    *,
-    styles: tuple[str, ...] = (),
-) -> list[Outcome]:
+def build(scripts: Path, out: Path, names: Iterable[str] = (), *, styles: tuple[str, ...] = ()) -> list[Outcome]:
     """Run the scripts of a folder that are out of date, one a core at once; say so and note what was drawn.
 
     `names` are beginnings of script names, none for all; `styles` those of `stereodel.drawing.styled`. A BuildError

@@ -6,20 +6,15 @@ source "$(dirname "${BASH_SOURCE[0]}")/shell.sh"
 use "$1"
 tag=$(python -c 'import sys; print(sys.implementation.cache_tag)')
 build=build/$tag
-wanted=$(find CMakeLists.txt tools/{build_kernel,shell}.sh constraints.txt stereodel/kernel tests/kernel/probe -type f -print0 |
-    LC_ALL=C sort -z | xargs -0 sha256sum | sha256sum)
+wanted=$(files_digest CMakeLists.txt tools/{build_kernel,shell}.sh constraints.txt stereodel/kernel tests/kernel/probe)
 if [[ -f $build/installed && $(<"$build/installed") == "$wanted" ]] &&
     compgen -G "stereodel/_kernel.$tag*" >/dev/null && compgen -G "stereodel/_kernel_probe.$tag*" >/dev/null; then
     exit 0
 fi
 tools/system_packages.sh compiler
 echo "Building the kernel for $tag" >&2
-mkdir -p "$build"
-# Configured anew each time: paths of an environment that was made anew must not survive in the cache.
-rm -f "$build/installed" "$build/CMakeCache.txt"
-quietly cmake -S . -B "$build" -G Ninja -DSTEREODEL_DEVELOPMENT=ON -DPython_EXECUTABLE="$(command -v python)" \
-    -Dnanobind_DIR="$(python -m nanobind --cmake_dir)"
-quietly cmake --build "$build"
+rm -f "$build/installed"
+compile_for_python
 # Moved into place whole: a running Python keeps the file that it opened.
 quietly cmake --install "$build" --prefix "$build/stage"
 mv -f "$build"/stage/stereodel/_kernel.* "$build"/stage/stereodel/_kernel_probe.* stereodel/

@@ -7,17 +7,14 @@ use "$1"
 use_zig
 built=stereodel/web/built
 build=build/web
-mkdir -p "$build" "$built"
+mkdir -p "$built"
 echo "Building the kernel for the web with zig $("$zig" version)" >&2
-rm -f "$build/cmake/CMakeCache.txt"
 # For few bytes, but for what CMakeLists.txt names. Zig takes -Oz for -Os: hence the word for clang itself.
 mapfile -t defines < <(zig_cmake wasm32-wasi)
-quietly cmake -S . -B "$build/cmake" -G Ninja "${defines[@]/#/-D}" \
-    -DCMAKE_CXX_FLAGS_RELEASE="-Os -Xclang -Oz -DNDEBUG" -DSTEREODEL_DEVELOPMENT=ON -DSTEREODEL_MODULE=OFF \
-    -DSTEREODEL_THREADS=OFF -DSTEREODEL_WEB=ON
-quietly cmake --build "$build/cmake"
+compile "${defines[@]/#/-D}" -DCMAKE_CXX_FLAGS_RELEASE="-Os -Xclang -Oz -DNDEBUG" -DSTEREODEL_DEVELOPMENT=ON \
+    -DSTEREODEL_MODULE=OFF -DSTEREODEL_THREADS=OFF -DSTEREODEL_WEB=ON
 rm -rf "$build/stage"
-quietly cmake --install "$build/cmake" --prefix "$build/stage"
+quietly cmake --install "$build" --prefix "$build/stage"
 chmod 644 "$build/stage/stereodel.wasm"
 
 quietly node tools/bundle_web.mjs "$build/stage"

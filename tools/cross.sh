@@ -7,17 +7,12 @@ source "$(dirname "${BASH_SOURCE[0]}")/shell.sh"
 use "$1"
 use_zig
 targets=("${@:2}")
-if [[ ${#targets[@]} == 0 ]]; then
+((${#targets[@]})) ||
     targets=(x86_64-linux-musl aarch64-macos.11.0 x86_64-macos.11.0 x86_64-windows-gnu aarch64-windows-gnu)
-fi
 for target in "${targets[@]}"; do
     build=build/cross/$target
-    mkdir -p "$build"
-    rm -f "$build/CMakeCache.txt"
     mapfile -t defines < <(zig_cmake "$target")
-    quietly cmake -S . -B "$build" -G Ninja "${defines[@]/#/-D}" -DCMAKE_CXX_FLAGS_RELEASE="-O1 -DNDEBUG" \
-        -DSTEREODEL_MODULE=OFF -DSTEREODEL_FUZZ=ON
-    quietly cmake --build "$build"
+    compile "${defines[@]/#/-D}" -DCMAKE_CXX_FLAGS_RELEASE="-O1 -DNDEBUG" -DSTEREODEL_MODULE=OFF -DSTEREODEL_FUZZ=ON
     if [[ $target == "$(uname -m)"-linux-musl* ]]; then
         quietly "$build/fuzz_points" -max_total_time=2
         echo "$target: compiled, linked, and run"

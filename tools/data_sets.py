@@ -27,7 +27,7 @@ from typing import Any
 import numpy as np
 from PIL import Image
 
-from stereodel._tasks.whole_files import replacing
+from stereodel._tasks.whole_files import write_whole
 from stereodel.data import stored
 from stereodel.data.sets import DEGREE_DIGITS, MAGNITUDE_DIGITS
 from tools.natural_earth import borders, coastlines, countries, lakes, land, rivers
@@ -114,8 +114,7 @@ def make(name: str, entry: Entry, package: Path) -> Entry:
         kind, *resolution = name.split("_")
         columns = KINDS[kind](package, *resolution)
         file, data, rows = f"{name}.npz.xz", dump(columns), len(columns["lon"])
-    with replacing(TARGET / file) as temporary:
-        temporary.write_bytes(data)
+    write_whole(TARGET / file, data)
     return {
         **entry,
         "package_sha256": hashlib.sha256(package.read_bytes()).hexdigest(),
@@ -137,11 +136,9 @@ def main(folder: Path) -> None:
     """Write all files, then the table."""
     table = json.loads((TARGET / stored.TABLE).read_text(encoding="utf-8"))
     for name, entry in table.items():
-        table[name] = make(name, entry, package_of(entry, folder))
-    with replacing(TARGET / stored.TABLE) as temporary:
-        temporary.write_text(json.dumps(table, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
-    for name, entry in table.items():
-        print(f"{name}: {entry['rows']} rows, {entry['bytes']} bytes")
+        table[name] = made = make(name, entry, package_of(entry, folder))
+        print(f"{name}: {made['rows']} rows, {made['bytes']} bytes")
+    write_whole(TARGET / stored.TABLE, json.dumps(table, indent=1, ensure_ascii=False) + "\n")
 
 
 if __name__ == "__main__":

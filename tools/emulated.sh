@@ -8,10 +8,7 @@ root=$(cd "$1" && pwd)
 wheel=$2
 machine=$(sed -E 's/.*_([a-z]+[0-9]+(_64)?)\.whl$/\1/' <<<"$wheel")
 emulator=${QEMU:-$(command -v "qemu-$machine-static" || command -v "qemu-$machine" || true)}
-if [[ -z $emulator ]]; then
-    echo "$machine: not run; qemu-$machine is not here (Debian: qemu-user-static)"
-    exit
-fi
+[[ -n $emulator ]] || { echo "$machine: not run; qemu-$machine is not here (Debian: qemu-user-static)"; exit; }
 interpreter=$(compgen -G "$root/usr/bin/python3.[0-9][0-9]" | sort | tail -1)
 version=${interpreter##*python}
 # Where the loader is looked for; distributions have this link in a package of their own.

@@ -12,14 +12,9 @@ if echo 'extern "C" int LLVMFuzzerTestOneInput(const unsigned char*, unsigned lo
     clang++ -fsanitize=fuzzer,address,undefined -x c++ -o "$build/probe" - >/dev/null 2>&1; then
     compiler=clang++
 fi
-rm -f "$build/CMakeCache.txt"
-quietly cmake -S . -B "$build" -G Ninja -DCMAKE_CXX_COMPILER="$compiler" -DSTEREODEL_SANITIZE=ON \
-    -DSTEREODEL_FUZZ=ON -DSTEREODEL_MODULE=OFF -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_FLAGS_RELWITHDEBINFO='-O1 -g'
-quietly cmake --build "$build"
+compile -DCMAKE_CXX_COMPILER="$compiler" -DSTEREODEL_SANITIZE=ON -DSTEREODEL_FUZZ=ON -DSTEREODEL_MODULE=OFF \
+    -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_FLAGS_RELWITHDEBINFO='-O1 -g'
 cd "$build"
 options=(-max_total_time="$seconds" -max_len=3000 -timeout=60 -rss_limit_mb=4096 -print_final_stats=1)
-if ! ./fuzz_points "${options[@]}" corpus >log 2>&1; then
-    tail -n 60 log >&2
-    exit 1
-fi
+./fuzz_points "${options[@]}" corpus >log 2>&1 || { tail -n 60 log >&2; exit 1; }
 grep -E 'number_of_executed_units|runs$' log

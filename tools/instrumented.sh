@@ -9,12 +9,8 @@ instrumented() {
     rm -rf "$tree"
     mkdir -p "$tree"
     git ls-files -z | xargs -0 tar c | tar x -C "$tree"
-    rm -f "$build/CMakeCache.txt"
     # No -DNDEBUG: assertions count as well.
-    quietly cmake -S . -B "$build" -G Ninja -DSTEREODEL_DEVELOPMENT=ON \
-        -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="$flags" \
-        -DPython_EXECUTABLE="$venv/bin/python" -Dnanobind_DIR="$(python -m nanobind --cmake_dir)" "${@:4}"
-    quietly cmake --build "$build"
+    compile_for_python -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="$flags" "${@:4}"
     quietly cmake --install "$build" --prefix "$tree"
     export PYTHONPATH=$tree
     cd "$tree"

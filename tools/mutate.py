@@ -116,9 +116,7 @@ def main() -> None:
     """Try all mutations, or some; exit with 1 where one of them survives."""
     parser = argparse.ArgumentParser(prog="python -m tools.mutate", description=__doc__.partition("\n")[0])
     parser.add_argument("--only", metavar="PATTERN", default="", help="those whose row or name match")
-    parser.add_argument(
-        "--changed", metavar="FILE", nargs="+", default=(), help="those of these files, or of tests in them"
-    )
+    parser.add_argument("--changed", metavar="FILE", nargs="+", default=(), help="those of these files or tests")
     given = parser.parse_args()
     os.environ["PATH"] = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
     chosen = [m for m in mutations() if re.search(given.only, f"{m.where}: {m.name}")]

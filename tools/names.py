@@ -17,7 +17,7 @@ from types import ModuleType
 from typing import Any, Final
 
 import stereodel
-from stereodel._tasks.whole_files import replacing
+from stereodel._tasks.whole_files import write_whole
 
 PAGE: Final = Path(__file__).resolve().parent.parent / "docs" / "names.md"
 
@@ -108,5 +108,4 @@ def filled(text: str) -> str:
 
 
 if __name__ == "__main__":
-    with replacing(PAGE) as temporary:
-        temporary.write_text(filled(PAGE.read_text(encoding="utf-8")), encoding="utf-8")
+    write_whole(PAGE, filled(PAGE.read_text(encoding="utf-8")))

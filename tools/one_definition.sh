@@ -8,18 +8,10 @@ if ! ${CXX:-c++} --version | grep -qiE 'gcc|g\+\+|free software foundation'; the
     echo "one definition a name: not checked, GCC alone compares them" >&2
     exit 0
 fi
-wanted=$(find CMakeLists.txt tools/{one_definition,shell}.sh constraints.txt stereodel/kernel tests/kernel/probe -type f -print0 |
-    LC_ALL=C sort -z | xargs -0 sha256sum | sha256sum)
+wanted=$(files_digest CMakeLists.txt tools/{one_definition,shell}.sh constraints.txt stereodel/kernel tests/kernel/probe)
 build=build/link_time
 done=$build/one_definition
-if [[ -f $done && $(<"$done") == "$wanted" ]]; then
-    exit 0
-fi
-mkdir -p "$build"
-rm -f "$build/CMakeCache.txt"
-quietly cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1 \
-    -DSTEREODEL_ONE_DEFINITION=ON -DSTEREODEL_DEVELOPMENT=ON \
-    -DPython_EXECUTABLE="$venv/bin/python" -Dnanobind_DIR="$(python -m nanobind --cmake_dir)"
-quietly cmake --build "$build"
+if [[ -f $done && $(<"$done") == "$wanted" ]]; then exit; fi
+compile_for_python -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1 -DSTEREODEL_ONE_DEFINITION=ON
 echo "each name has one definition"
 printf '%s\n' "$wanted" >"$done"

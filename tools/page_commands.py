@@ -62,8 +62,8 @@ def wrong_programs(text: str, folder: Path) -> list[str]:
     return wrong
 
 
-def main(page: str, into: str) -> int:
-    """Report and return the exit code."""
+def main(page: str, into: str) -> None:
+    """Report; end with 1 where something is wrong."""
     text = Path(page).read_text(encoding="utf-8")
     folder = Path(into)
     folder.mkdir(parents=True, exist_ok=True)
@@ -71,9 +71,8 @@ def main(page: str, into: str) -> int:
     wrong = [told for command, printed in sessions(text) if (told := wrong_command(command, printed, folder))]
     wrong += wrong_programs(text, folder)
     print(f"{page}: {len(sessions(text))} commands, {len(programs(text))} pieces of Python, {len(wrong)} of them wrong")
-    print(*wrong, sep="\n", end="\n" if wrong else "", file=sys.stderr)
-    return 1 if wrong else 0
+    sys.exit("\n".join(wrong) or 0)
 
 
 if __name__ == "__main__":
-    sys.exit(main(*sys.argv[1:]))
+    main(*sys.argv[1:])

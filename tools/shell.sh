@@ -11,6 +11,21 @@ die() { echo "tools/${0##*/}: $*" >&2; exit 1; }
 
 quietly() { "$@" >"$build/log" 2>&1 || { cat "$build/log" >&2; exit 1; }; } # what it says, only if it fails
 
+files_digest() { find "$@" -type f -print0 | LC_ALL=C sort -z | xargs -0 sha256sum | sha256sum; } # of files and folders
+
+# Configure with these options of CMake and compile, in `$build`. The cache of an earlier time may hold paths of an
+# environment that was made anew since.
+compile() {
+    mkdir -p "$build"
+    rm -f "$build/CMakeCache.txt"
+    quietly cmake -S . -B "$build" -G Ninja "$@"
+    quietly cmake --build "$build"
+}
+compile_for_python() {
+    compile -DSTEREODEL_DEVELOPMENT=ON -DPython_EXECUTABLE="$(command -v python)" \
+        -Dnanobind_DIR="$(python -m nanobind --cmake_dir)" "$@"
+}
+
 # The time that stands in archives is that of the last commit, so that the same sources give the same bytes whenever they
 # are built. In an unpacked source archive it is that of its settings.
 source_date() { export SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git log -1 --format=%ct 2>/dev/null || stat -c %Y pyproject.toml)}; }

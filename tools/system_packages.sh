@@ -63,9 +63,7 @@ fi
 if [[ -n $packages ]]; then
     echo "Missing packages of the system; on Debian: apt-get install ${packages//$'\n'/ }" >&2
 fi
-for what in "$@"; do
-    if [[ $what == compiler && -n $(missing compiler) ]]; then
-        echo "stereodel's kernel needs a C++17 compiler and Python's headers" >&2
-        exit 1
-    fi
-done
+if [[ " $* " == *" compiler "* && -n $(missing compiler) ]]; then
+    echo "stereodel's kernel needs a C++17 compiler and Python's headers" >&2
+    exit 1
+fi

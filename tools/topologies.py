@@ -13,6 +13,8 @@ from typing import Any
 import numpy as np
 import shapely
 
+from stereodel.data.natural_earth import end_to_end
+
 Arc = np.ndarray
 """(k, 2) longitudes and latitudes, whole numbers."""
 Ring = list[int]
@@ -54,16 +56,11 @@ class Atlas:
         """An arc in the direction that a ring uses it."""
         return self.arcs[index] if index >= 0 else self.arcs[~index][::-1]
 
-    def outline(self, ring: Ring) -> Arc:
-        """The points of a ring, the first one again at its end."""
-        parts = [self.line(i) for i in ring]
-        return np.concatenate([part[:-1] for part in parts] + [parts[-1][-1:]])
-
     def _cut_polygon(self, rings: list[Ring]) -> list[list[Ring]]:
         """A polygon of the source as polygons of the flat map."""
         outlines, holes = [], []
         for ring in chain.from_iterable(map(self._cut_ring, rings)):
-            shape = shapely.Polygon(self.outline(ring))
+            shape = shapely.Polygon(end_to_end(self.arcs, ring))
             if shape.area == 0:  # an islet that the source's rounding made one point
                 continue
             (outlines if shape.exterior.is_ccw else holes).append((shape, [ring]))

@@ -44,8 +44,8 @@ def problems(name: str, text: str) -> list[str]:
     return found
 
 
-def main() -> int:
-    """Report and return the exit code."""
+def main() -> None:
+    """Report; end with 1 where something is wrong."""
     listing = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, capture_output=True, text=True, check=True)
     names = [name for name in listing.stdout.split("\0") if name and (ROOT / name).is_file()]
     found: list[str] = []
@@ -55,9 +55,8 @@ def main() -> int:
         except UnicodeDecodeError:
             continue  # pictures and other binary files
     print(f"{len(names)} tracked files read")
-    print(*found, sep="\n", end="\n" if found else "", file=sys.stderr)
-    return 1 if found else 0
+    sys.exit("\n".join(found) or 0)
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

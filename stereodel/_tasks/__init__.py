@@ -1,1 +1,1 @@
-"""Tasks in processes, begun, watched and begun again, and files that are written whole or not at all."""
+"""Tasks in threads and in processes, begun, watched and begun again; files that are written whole or not at all."""

@@ -25,7 +25,7 @@ from multiprocessing import parent_process
 from multiprocessing.context import SpawnContext, SpawnProcess
 from typing import Any, Final, Generic, Literal, NoReturn, Self, TypeVar
 
-from stereodel._threads import thread_count
+from stereodel._tasks.threads import thread_count
 
 T = TypeVar("T")
 R = TypeVar("R")

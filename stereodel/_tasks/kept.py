@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
-from stereodel._tasks.whole_files import replacing
+from stereodel._tasks.whole_files import write_whole
 
 Note = dict[str, Any]
 """What there was to say when something was done, and the sizes of the files that were written, by ``files``."""
@@ -60,8 +60,7 @@ class Kept:
 def save_json(path: Path, value: Mapping[str, Any]) -> None:
     """A document, which appears when it is complete."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    with replacing(path) as temporary:
-        temporary.write_text(json.dumps(value), encoding="utf-8")
+    write_whole(path, json.dumps(value))
 
 
 @contextmanager

@@ -50,6 +50,12 @@ def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
         yield temporary
 
 
+def write_whole(path: str | os.PathLike[str], content: str | bytes) -> None:
+    """Write text, in UTF-8, or bytes by `replacing`."""
+    with replacing(path) as temporary:
+        temporary.write_bytes(content if isinstance(content, bytes) else content.encode())
+
+
 def write_netcdf(dataset: Any, path: Path, *, form: str = "NETCDF4") -> None:
     """Write a dataset of xarray; what HDF5 says of files becomes an OSError."""
     optional("netCDF4", "grid")

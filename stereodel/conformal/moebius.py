@@ -19,7 +19,7 @@ import numpy.typing as npt
 from stereodel import _kernel
 from stereodel._arrays import FloatArray, as_complex_matrix, as_directions, as_lonlat, as_scalar, as_shaped, as_vectors
 from stereodel._double_double import DoubleDouble, dot, stack, unit
-from stereodel._threads import thread_count
+from stereodel._tasks.threads import thread_count
 from stereodel.conformal.forms import from_lorentz, from_moebius, lorentz_matrix, stereographic_pipeline
 from stereodel.conformal.group import Z_AXIS, Biquaternion, Kind, fixed_points_of, kind_of, multiplier_of, parts, power
 from stereodel.constants import LARGEST_EXPONENT, LARGEST_MAGNIFICATION, STORED_ERROR

@@ -92,9 +92,7 @@ class GroupPath:
         between = _rotation(self.start).inverse() @ _rotation(self.end)
         w, *v = between.quaternion * (-1.0 if between.quaternion[0] < 0 else 1.0)
         size = float(np.linalg.norm(v))
-        return (
-            (np.array(v), float(np.degrees(2 * np.arctan2(size, w)))) if size > 0 else (np.array([0.0, 0.0, 1.0]), 0.0)
-        )
+        return np.array(v if size > 0 else [0.0, 0.0, 1.0]), float(np.degrees(2 * np.arctan2(size, w)))
 
 
 def _rotation(conformal: MoebiusMap) -> Rotation:

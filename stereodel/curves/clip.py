@@ -125,13 +125,7 @@ def regions(
 
 
 def in_sight(
-    rings: Ragged,
-    owner: Indices,
-    count: int,
-    pieces: Pieces,
-    samples: Ragged,
-    border: Outline,
-    left: FloatArray,
+    rings: Ragged, owner: Indices, count: int, pieces: Pieces, samples: Ragged, border: Outline, left: FloatArray
 ) -> tuple[Ragged, Indices, BoolArray]:
     """As for `regions`, but for those whose rings are hidden, for `surround`; also which have a ring in sight."""
     chains = chains_of(rings, pieces)
@@ -208,13 +202,7 @@ def bordered(loops: Ragged, owner: Indices, around: BoolArray, border: Outline) 
 
 
 def surround(
-    rings: Ragged,
-    owner: Indices,
-    asked: BoolArray,
-    pieces: Pieces,
-    samples: Ragged,
-    border: Outline,
-    left: FloatArray,
+    rings: Ragged, owner: Indices, asked: BoolArray, pieces: Pieces, samples: Ragged, border: Outline, left: FloatArray
 ) -> BoolArray:
     """Which of some regions (count,) without visible rings contain the whole visible part."""
     # The areas between rings and the place opposite the centre of the view, on their left, add up to that of the

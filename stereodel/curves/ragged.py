@@ -85,9 +85,8 @@ class Ragged:
 
     def inserted(self, places: Indices, values: npt.NDArray[Any]) -> Ragged:
         """The rows with additional values (k, ...) inserted before those at `places` (k,), in order."""
-        return Ragged(
-            np.insert(self.values, places, values, axis=0), self.offsets + np.searchsorted(places, self.offsets)
-        )
+        offsets = self.offsets + np.searchsorted(places, self.offsets)
+        return Ragged(np.insert(self.values, places, values, axis=0), offsets)
 
     def reversed(self, chosen: BoolArray) -> Ragged:
         """The rows, some of them backwards."""

@@ -148,10 +148,8 @@ def great(start: FloatArray, end: FloatArray, normal: FloatArray | None = None) 
     if normal is not None:
         far = (np.sum(start * end, axis=1) < 0) & normal.any(axis=1)
         axis[far] = normal[far]
-    count = len(start)
-    return Arcs(
-        start, end, axis, np.zeros(count), start.copy(), np.zeros(count), _swept(axis, start, end), np.arange(count)
-    )
+    none, edge = np.zeros((2, len(start))), np.arange(len(start))
+    return Arcs(start, end, axis, none[0], start.copy(), none[1], _swept(axis, start, end), edge)
 
 
 def exact(arcs: Sequence[SphereArc]) -> Arcs:
@@ -353,8 +351,7 @@ def largest_scale(lens: MoebiusMap, points: FloatArray, radius: FloatArray) -> F
     # At the place nearest to the point of largest scale: the focus, or its antipode if the map shrinks.
     half = np.maximum(np.arctan2(across, height) - radius, 0.0) / 2
     larger = max(size, 1 / size)
-    scale: FloatArray = larger / (np.cos(half) ** 2 + (larger * np.sin(half)) ** 2)
-    return scale
+    return larger / (np.cos(half) ** 2 + (larger * np.sin(half)) ** 2)
 
 
 def numbered(arcs: Arcs) -> Arcs:

@@ -183,8 +183,7 @@ class StereographicView(_Above):
         inside = np.sum(xy**2, axis=-1, keepdims=True) <= 1
         wide = np.where(inside, xy, np.nan) * self._reach
         square = np.sum(wide**2, axis=-1, keepdims=True)
-        axes: FloatArray = np.concatenate([2 * wide, 1 - square], axis=-1) / (1 + square)
-        return axes
+        return np.concatenate([2 * wide, 1 - square], axis=-1) / (1 + square)
 
     def breadth(self, axes: FloatArray, across: FloatArray) -> FloatArray:
         """Ratio of the distance between two close lines on the page to that on the sphere: the scale of the map."""

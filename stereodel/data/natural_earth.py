@@ -172,7 +172,7 @@ def coastlines(resolution: str = "50m") -> EarthLines:
     if resolution == "10m":
         outlines = land("10m")
         rings = np.split(outlines.lonlat, outlines.ring_offsets[1:-1])
-        return EarthLines(*_joined([coast for ring in rings for coast in _coasts(ring)]))
+        return EarthLines(*_joined([coast for ring in rings for coast in coasts(ring)]))
     columns = _columns("coastlines", resolution)
     degrees = [stored.decimals(columns[key], DEGREE_DIGITS) for key in ("lon", "lat")]
     return EarthLines(locked(np.stack(degrees, axis=-1)), _offsets(stored.integers(columns["sizes"])))
@@ -310,19 +310,19 @@ def _polygons(
     arcs = _arcs(columns, digits)
     used = stored.integers(columns[f"{kind}_arcs"]).tolist()
     bounds = _offsets(stored.integers(columns[f"{kind}_rings"]))
-    rings = [_ring(arcs, used[i:j]) for i, j in pairwise(bounds.tolist())]
+    rings = [end_to_end(arcs, used[i:j]) for i, j in pairwise(bounds.tolist())]
     return *_joined(rings), _offsets(stored.integers(columns[f"{kind}_polygons"]))
 
 
-def _coasts(ring: FloatArray) -> list[FloatArray]:
-    """A ring without its sides along the edges of the map."""
-    on_edge = (np.abs(ring[:, 0]) == 180.0) | (ring[:, 1] == -90.0)
+def coasts(ring: FloatArray, east: float = 180.0, south: float = -90.0) -> list[FloatArray]:
+    """A ring without its sides along the edges of the map, from these degrees on."""
+    on_edge = (np.abs(ring[:, 0]) >= east) | (ring[:, 1] <= south)
     cut = np.flatnonzero(on_edge[:-1] & on_edge[1:])
     bounds = [-1, *cut.tolist(), len(ring) - 1]
     return [ring[i + 1 : j + 1] for i, j in pairwise(bounds) if j - i > 1]
 
 
-def _ring(arcs: list[FloatArray], used: list[int]) -> FloatArray:
+def end_to_end(arcs: list[Any], used: list[int]) -> Any:
     """Arcs end to end; ~i stands for arc i from its end to its start."""
     parts = [arcs[i] if i >= 0 else arcs[~i][::-1] for i in used]
     return np.concatenate([*(part[:-1] for part in parts), parts[-1][-1:]])

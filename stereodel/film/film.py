@@ -159,11 +159,7 @@ class Film(Generic[T], Shown):
 
     @classmethod
     def of_pictures(
-        cls,
-        pictures: Reel,
-        *,
-        fps: float | None = None,
-        seconds: float | Sequence[float] | None = None,
+        cls, pictures: Reel, *, fps: float | None = None, seconds: float | Sequence[float] | None = None
     ) -> Film[Pixels]:
         """A film of existing pictures.
 

@@ -242,8 +242,7 @@ class _Leg:
         d = self._middle_length
         if d == 0:
             return np.tile(start, (len(t), 1))
-        middles: FloatArray = (np.sinh((1 - t[:, None]) * d) * start + np.sinh(t[:, None] * d) * end) / np.sinh(d)
-        return middles
+        return (np.sinh((1 - t[:, None]) * d) * start + np.sinh(t[:, None] * d) * end) / np.sinh(d)
 
     def _view(self, t: float) -> View:
         """View from above the centre; up turns uniformly relative to the great circle between the stops."""

@@ -94,8 +94,7 @@ def frame_seconds(seconds: float | Sequence[float], count: int) -> FloatArray:
 def whole_ticks(seconds: FloatArray, per_second: int) -> list[int]:
     """Durations in whole clock ticks, such that the sum of the first n is rounded correctly for every n."""
     ends = np.floor(np.cumsum(seconds) * per_second + 0.5).astype(np.int64)
-    ticks: list[int] = np.diff(ends, prepend=0).tolist()
-    return ticks
+    return np.diff(ends, prepend=0).tolist()
 
 
 # By FFmpeg's libraries

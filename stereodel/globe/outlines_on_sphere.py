@@ -83,11 +83,7 @@ class SphereRegions:
 
     @classmethod
     def of_lonlat(
-        cls,
-        polygons: Iterable[Rings],
-        *,
-        owners: npt.ArrayLike | None = None,
-        latitude: Latitude = "spherical",
+        cls, polygons: Iterable[Rings], *, owners: npt.ArrayLike | None = None, latitude: Latitude = "spherical"
     ) -> SphereRegions:
         """Polygons whose sides are straight in longitude and latitude; ValueError for a ring of less than three points.
 

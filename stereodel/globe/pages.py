@@ -69,11 +69,7 @@ def default_view(lens: MoebiusMap) -> View:
 
 
 def panels(
-    contents: Sequence[Panel],
-    *,
-    columns: int | None = None,
-    width: float = PRINT_WIDTH,
-    tolerance: float = 0.02,
+    contents: Sequence[Panel], *, columns: int | None = None, width: float = PRINT_WIDTH, tolerance: float = 0.02
 ) -> Page:
     """Globes side by side, row by row.
 

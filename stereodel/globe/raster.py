@@ -15,19 +15,10 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel import _kernel
-from stereodel._arrays import (
-    FloatArray,
-    Pixels,
-    as_choice,
-    as_count,
-    as_edges,
-    as_pixels,
-    as_scalar,
-    locked,
-)
+from stereodel._arrays import FloatArray, Pixels, as_choice, as_count, as_edges, as_pixels, as_scalar, locked
 from stereodel._extras import of_extra
 from stereodel._notebook import Shown
-from stereodel._threads import thread_count
+from stereodel._tasks.threads import thread_count
 from stereodel.conformal import MoebiusMap
 from stereodel.constants import MOST_PIXELS_ACROSS, MOST_TEXELS
 from stereodel.curves.chart import Chart
@@ -220,14 +211,7 @@ class Raster(Shown):
         except ValueError as error:
             raise ValueError(f"{os.fspath(path)}: {error}") from error
 
-    def warp(
-        self,
-        lens: MoebiusMap,
-        view: MapView,
-        size: int,
-        *,
-        workers: int | None = None,
-    ) -> Pixels:
+    def warp(self, lens: MoebiusMap, view: MapView, size: int, *, workers: int | None = None) -> Pixels:
         """Image of the globe through a lens; `painted` gives a part of it.
 
         Parameters
@@ -344,10 +328,8 @@ class Raster(Shown):
         if form == "cubemap":
             place = (-1.0, 1.0, 2.0 / width, 2.0 / width)
             faces = (face @ seen.matrix for face in FACES.values())
-            sides = [
-                self._warped(bend, face, "gnomonic", 0.0, place, (width, width), workers=workers) for face in faces
-            ]
-            return np.stack(sides)
+            square = (width, width)
+            return np.stack([self._warped(bend, f, "gnomonic", 0.0, place, square, workers=workers) for f in faces])
         if form == "planet":
             radius = as_scalar(angular_radius, "angular_radius", low=0.0, high=MOST_PLANET_RADIUS, open_low=True)
             # The square is centred in a disc twice as wide, which contains its corners.
@@ -417,8 +399,7 @@ class Raster(Shown):
 
     @property
     def _edges(self) -> FloatArray:
-        edges: FloatArray = np.radians(np.array(self.bounds))
-        return edges
+        return np.radians(np.array(self.bounds))
 
 
 @cache
@@ -432,8 +413,7 @@ def _shifts(latitude: Latitude) -> FloatArray:
         return np.zeros(0)
     degrees = np.linspace(-90.0, 90.0, 1025)
     at = lonlat_to_xyz(np.column_stack([np.zeros(1025), degrees]))
-    shifts: FloatArray = np.radians(xyz_to_lonlat(at, latitude=latitude)[:, 1] - degrees)
-    return shifts
+    return np.radians(xyz_to_lonlat(at, latitude=latitude)[:, 1] - degrees)
 
 
 @dataclass(frozen=True, eq=False)

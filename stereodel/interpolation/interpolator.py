@@ -14,7 +14,7 @@ from stereodel._arrays import AnyIndices, FloatArray, as_choice, as_values, lock
 from stereodel._docs import by_name, shared
 from stereodel._double_double import DoubleDouble, unit
 from stereodel._spaces import SPHERE, surface_of
-from stereodel.constants import SAME_DIRECTION
+from stereodel.constants import UNDECIDED
 from stereodel.sphere.coordinates import BY_NAME, IN_ROWS, LONLAT, as_asked
 from stereodel.sphere.latitudes import Latitude
 from stereodel.triangulation.delaunay import Triangulation, as_triangulation
@@ -247,7 +247,7 @@ class Interpolator(ABC):
         points = np.asarray(self.triangulation.nearest(queries[outside], workers=workers))
         if not self._nearest_outside:
             gaps = PrecisePoints(queries[outside]) - self._sites.take(points)
-            at = np.abs(gaps).max(axis=0) <= (SAME_DIRECTION if self._sites.curved else 0.0)
+            at = np.abs(gaps).max(axis=0) <= (UNDECIDED if self._sites.curved else 0.0)
             outside, points = outside[at], points[at]
         return outside, points
 

@@ -123,9 +123,8 @@ def _mesh_paths(corners: FloatArray, globe: LonLatToPage) -> list[Path]:
     rings = Ragged(cells[large].reshape(-1, 2), 5 * np.arange(len(large) + 1))
     loops, cell = globe.regions(rings, np.arange(len(large)), len(large))
     order = np.argsort(cell, kind="stable")
-    for number, path in zip(
-        large.tolist(), compounds(loops.take(order), cell[order], len(large), closed=True), strict=True
-    ):
+    found = compounds(loops.take(order), cell[order], len(large), closed=True)
+    for number, path in zip(large.tolist(), found, strict=True):
         paths[number] = path
     return paths
 
@@ -135,10 +134,8 @@ def _page_step(globe: LonLatToPage, lon: FloatArray, lat: FloatArray, step: Floa
     places = np.stack([lon, lat], axis=-1)
     # Away from the pole, as there is nothing beyond it.
     side = np.where(lat > 0, -1.0, 1.0)[..., None]
-    moved = (globe.transform((places + side * step).reshape(-1, 2)) - globe.transform(places.reshape(-1, 2))).reshape(
-        places.shape
-    )
-    return side * moved
+    there, here = (globe.transform(lonlat.reshape(-1, 2)) for lonlat in (places + side * step, places))
+    return side * (there - here).reshape(places.shape)
 
 
 def _with_open_lines(contours: Any) -> Any:

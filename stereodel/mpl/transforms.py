@@ -200,9 +200,7 @@ def compounds(lines: Ragged, number: Indices, count: int, *, closed: bool) -> li
     everything = compound(lines, closed=closed)
     vertices, codes = np.asarray(everything.vertices), np.asarray(everything.codes)
     ends = lines.offsets[np.searchsorted(number, np.arange(count + 1))].tolist()
-    return [
-        Path(vertices[begin:stop], codes[begin:stop]) if stop > begin else NOTHING for begin, stop in pairwise(ends)
-    ]
+    return [Path(vertices[i:j], codes[i:j]) if j > i else NOTHING for i, j in pairwise(ends)]
 
 
 def paths_of(geometries: Any) -> tuple[list[Path], FloatArray]:

@@ -346,11 +346,9 @@ class Passes:
         if plan.rows:
             self._aligned()
         _write_files(store)
-        hidden = ("files", "task")
-        partitions = [
-            {"part": note["task"]} | {name: value for name, value in note.items() if name not in hidden}
-            for note in notes
-        ]
+        partitions = [{"part": note["task"], **note} for note in notes]
+        for each in partitions:
+            del each["files"], each["task"]
         for file in plan.files:
             file.check()
         check_results(store.made, plan, partitions)

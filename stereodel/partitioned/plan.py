@@ -83,7 +83,7 @@ class Question:
     method: str  # nearest points, or how values are interpolated
     k: int | None = None  # number of nearest points; None: the nearest one, without an axis of its own
     values: tuple[str, ...] = ()  # columns of the points' files that are interpolated
-    flat: bool = False  # the points have no triangles, so that there are no values between them
+    flat: bool = False  # the points have no triangles, so that there are values at them alone
 
 
 @dataclass(frozen=True)

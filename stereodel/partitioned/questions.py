@@ -159,7 +159,10 @@ class TargetRounds(Rounds[tuple[Indices, Columns]]):
         names, natural = self.question.values, self.question.method == "natural"
         values = np.full((len(targets), len(names)), np.nan)
         closing = mesh.closing if isinstance(mesh, SphericalDelaunay) else None
-        if mesh.dimension < 2 or (closing is not None and closing.all()):  # any other point will do
+        if self.question.flat:  # there are values at the points themselves
+            nearest = np.ascontiguousarray(mesh.points[np.asarray(mesh.nearest(targets, workers=1))])
+            is_open, depth = self.index.space.open_discs(targets, nearest, *self.index.tree(unread))
+        elif mesh.dimension < 2 or (closing is not None and closing.all()):  # any other point will do
             is_open, depth = np.full(len(targets), unread.any()), unread.astype(np.float64)
         else:
             is_open, depth = self.index.space.open_targets(
@@ -172,9 +175,9 @@ class TargetRounds(Rounds[tuple[Indices, Columns]]):
                 natural=natural,
                 checked=True,
             )
-            if not is_open.all():
-                function = INTERPOLATORS[self.question.method](mesh, self._values(numbers))
-                values[~is_open] = function(targets[~is_open], workers=1)
+        if not is_open.all():
+            function = INTERPOLATORS[self.question.method](mesh, self._values(numbers))
+            values[~is_open] = function(targets[~is_open], workers=1)
         return dict(zip(names, values.T, strict=True)), is_open, depth
 
     @cached_property
@@ -221,10 +224,10 @@ def answer(store: Store, part: int, limit: int) -> None:
     points, numbers = (np.array(store.load("points", part, name)) for name in ("points", "numbers"))
     columns: Columns = {"number": numbers}
     for name, kind in plan.row_kinds.items():
-        columns[name] = np.full((len(numbers), *kind.shape), np.nan if question.flat else 0, dtype=kind.base)
+        columns[name] = np.full((len(numbers), *kind.shape), np.nan if question.values else 0, dtype=kind.base)
     sizes: list[int] = []
-    if not question.flat:
-        for rows, found in TargetRounds(Index(points_of(question)), limit, store, points, numbers, sizes=sizes).all():
+    if (known := points_of(question)).plan.size:
+        for rows, found in TargetRounds(Index(known), limit, store, points, numbers, sizes=sizes).all():
             for name, column in found.items():
                 columns[name][rows] = column
     order = np.argsort(numbers)
@@ -265,7 +268,7 @@ def _answers(passes: Passes, parts: list[int]) -> tuple[dict[str, Any], list[Not
     store, plan, notes = passes.store, passes.store.plan, []
     if parts:
         question = question_of(plan)
-        if question.values and not question.flat and store.notes.note("answer") is None:
+        if question.values and store.notes.note("answer") is None:
             passes.do("values", take_values, range(len(points_of(question).plan.shares)))
         notes = passes.do("answer", answer, parts, limit=passes.limit)
         if store.notes.note("align") is None:

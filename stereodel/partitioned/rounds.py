@@ -128,8 +128,7 @@ Mesh = SphericalDelaunay | PlanarDelaunay
 
 def triangulation(points: FloatArray) -> Mesh:
     """Of points of the plane (n, 2), or of directions (n, 3), in the worker's own thread."""
-    mesh: Mesh = surface_of(points).delaunay(points, workers=1)
-    return mesh
+    return surface_of(points).delaunay(points, workers=1)
 
 
 class Verdict(NamedTuple, Generic[T]):

@@ -142,7 +142,8 @@ class Run(Results):
         Returns
         -------
         {returns}
-            Their columns have the names of the values; NaN outside all triangles, and where a missing value takes part.
+            Their columns have the names of the values; NaN outside all triangles but at points, and where a missing
+            value takes part.
 
         Raises
         ------

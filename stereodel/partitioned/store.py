@@ -124,10 +124,9 @@ class Store:
         """A file of Parquet with what it belongs to in its metadata."""
         table = optional("pyarrow", "partitioned").table(columns).replace_schema_metadata(self.plan.metadata)
         path.parent.mkdir(parents=True, exist_ok=True)
+        parquet = optional("pyarrow.parquet", "partitioned")
         with replacing(path) as temporary:
-            optional("pyarrow.parquet", "partitioned").write_table(
-                table, temporary, compression="none", use_dictionary=False
-            )
+            parquet.write_table(table, temporary, compression="none", use_dictionary=False)
         return path
 
     def drop(self, *folders: str) -> None:

@@ -105,13 +105,7 @@ class Figure:
         with of_extra(picture_extra(".png", self.renderer)):
             return self.page().pixels(size=size, text=text, renderer=self.renderer)
 
-    def save(
-        self,
-        out: str | os.PathLike[str],
-        *,
-        size: int | None = None,
-        text: bool = True,
-    ) -> dict[str, Any]:
+    def save(self, out: str | os.PathLike[str], *, size: int | None = None, text: bool = True) -> dict[str, Any]:
         """Write NAME.png, NAME.svg and NAME.pdf into a folder, and NAME.glb of the picture in space.
 
         Parameters
@@ -158,8 +152,7 @@ class Figure:
 
     def _files(self, folder: Path, *, size: int | None, text: bool) -> list[str]:
         """See `Drawing`."""
-        files: list[str] = self.save(folder, size=size, text=text)["files"]
-        return files
+        return self.save(folder, size=size, text=text)["files"]
 
 
 class Drawing(Protocol):

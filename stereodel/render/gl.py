@@ -341,8 +341,7 @@ class _OpenGL:
         self._offscreen.viewport_width, self._offscreen.viewport_height = window.width, window.height
         self._offscreen._renderer._program_cache.shader_dir = self._shaders[own]
         try:
-            pixels: Pixels = self._offscreen.render(scene, flags=flags, **more)[0]
-            return pixels
+            return self._offscreen.render(scene, flags=flags, **more)[0]
         except MemoryError:
             raise
         except Exception as error:  # pyrender and PyOpenGL raise anything here too

@@ -205,13 +205,7 @@ class _RowCanvas(RendererAgg):
 
 
 def png_chunks(
-    rows: Iterable[Pixels],
-    width: int,
-    height: int,
-    *,
-    page_width: float,
-    texts: Mapping[str, str],
-    channels: int = 3,
+    rows: Iterable[Pixels], width: int, height: int, *, page_width: float, texts: Mapping[str, str], channels: int = 3
 ) -> Iterator[bytes]:
     """The chunks of a PNG file; ValueError if rows have another width or type, or their number is not `height`.
 

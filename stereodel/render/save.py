@@ -18,7 +18,7 @@ from typing import Final
 import numpy as np
 
 from stereodel._arrays import Pixels
-from stereodel._tasks.whole_files import replacing
+from stereodel._tasks.whole_files import replacing, write_whole
 from stereodel.drawing.page import Page
 from stereodel.drawing.page.fonts import missing_characters, warn_of_missing
 from stereodel.drawing.page.page import OUTPUTS
@@ -116,9 +116,7 @@ def write_png(rows: Iterable[Pixels], page: Page, target: Path, width: int, chan
 def save_vector(page: Page, path: str | os.PathLike[str], *, pictures: Sequence[Pixels] = ()) -> Path:
     """Write a page as SVG or PDF, by the extension, with an image of the whole page for each of `page.pictured`."""
     target = Path(path)
-    data = pdf(page, pictures) if target.suffix.lower() == ".pdf" else svg(page, pictures).encode()
-    with replacing(target) as temporary:
-        temporary.write_bytes(data)
+    write_whole(target, (pdf if target.suffix.lower() == ".pdf" else svg)(page, pictures))
     return target
 
 

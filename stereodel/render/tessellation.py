@@ -69,9 +69,8 @@ class Batches:
         colors = np.concatenate([np.zeros((0, 3, 4)), *(batch.colors[rows] for batch, rows in chosen)])
         slots = np.repeat(self._numbers[hit], [3 * len(rows) for _, rows in chosen])
         faces = np.arange(3 * len(corners), dtype=np.int32).reshape(-1, 3)
-        drawn = [
-            (int(self._numbers[i]), self._batches[i]) for i, (_, rows) in zip(hit, chosen, strict=True) if len(rows)
-        ]
+        seen = (i for i, (_, rows) in zip(hit, chosen, strict=True) if len(rows))
+        drawn = [(int(self._numbers[i]), self._batches[i]) for i in seen]
         textures = {number: batch.texture(window) for number, batch in drawn if batch.texture is not None}
         balls = {number: batch.ball for number, batch in drawn if batch.ball is not None}
         return Triangles(corners.reshape(-1, 2), colors.reshape(-1, 4), slots, faces, textures, balls)
@@ -80,8 +79,7 @@ class Batches:
 def _touching(boxes: SingleArray, window: Window) -> BoolArray:
     left, bottom, right, top = boxes.T
     across = (left < window.left + window.width + MARGIN) & (right > window.left - MARGIN)
-    touching: BoolArray = across & (bottom < window.bottom + window.height + MARGIN) & (top > window.bottom - MARGIN)
-    return touching
+    return across & (bottom < window.bottom + window.height + MARGIN) & (top > window.bottom - MARGIN)
 
 
 def triangulate(page: Page, width: int, height: int) -> Batches:
@@ -123,8 +121,7 @@ class _PixelMap:
                 assert_never(item)
 
     def _place(self, points: FloatArray) -> FloatArray:
-        placed: FloatArray = (points - self.origin) * self.scale
-        return placed
+        return (points - self.origin) * self.scale
 
     def _disc(self, ball: Ball | None) -> Disc | None:
         if ball is None:
@@ -325,8 +322,7 @@ def _abscissa(low: FloatArray, high: FloatArray, edge: Indices, y: FloatArray) -
     """Where edges meet horizontal lines; at the heights of their ends, exactly those ends."""
     (x0, y0), (x1, y1) = low[edge].T, high[edge].T
     share = (y - y0) / (y1 - y0)
-    x: FloatArray = x0 * (1 - share) + x1 * share
-    return x
+    return x0 * (1 - share) + x1 * share
 
 
 def _crossing_heights(low: FloatArray, high: FloatArray) -> FloatArray:

@@ -28,7 +28,7 @@ from stereodel._arrays import (
 )
 from stereodel._docs import by_name
 from stereodel._double_double import DoubleDouble, by_blocks, scaled, shift_exponent, stack, unit
-from stereodel._threads import thread_count
+from stereodel._tasks.threads import thread_count
 from stereodel.sphere.degrees import angle_degrees, sin_cos_degrees
 from stereodel.sphere.latitudes import KINDS, Latitude, latitude_of, sin_cos_on_sphere
 

@@ -23,7 +23,7 @@ from stereodel._arrays import (
 from stereodel._docs import by_name, shared
 from stereodel._notebook import Shown
 from stereodel._spaces import SPHERE, PlaneOrSphere, surface_of
-from stereodel._threads import thread_count
+from stereodel._tasks.threads import thread_count
 from stereodel.constants import REBUILD_INSERTING, REBUILD_REMOVING
 from stereodel.sphere.coordinates import BY_NAME, LONLAT, as_asked, as_sites, refuse_lonlat
 from stereodel.sphere.latitudes import Latitude
@@ -288,11 +288,7 @@ class Triangulation(Shown):
     @by_name(BY_NAME)
     @shared(**LONLAT)
     def find_simplex(
-        self,
-        queries: npt.ArrayLike | None = None,
-        *,
-        lonlat: npt.ArrayLike | None = None,
-        workers: int | None = None,
+        self, queries: npt.ArrayLike | None = None, *, lonlat: npt.ArrayLike | None = None, workers: int | None = None
     ) -> IntArray | int:
         """Triangle that contains each query, exactly.
 

@@ -14,12 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import (
-    FloatArray,
-    IntArray,
-    as_plane_or_sphere,
-    read_only,
-)
+from stereodel._arrays import FloatArray, IntArray, as_plane_or_sphere, read_only
 from stereodel._spaces import surface_of
 from stereodel.triangulation.sites import GHOST, SITES, InsertionSites
 from stereodel.triangulation.topology import Edge, Facet, Facets, as_rows

@@ -11,7 +11,7 @@ from typing import Any, Final
 import numpy as np
 
 from stereodel._arrays import BigIntegers, FloatArray, LongArray, SignArray
-from stereodel._double_double import two_prod
+from stereodel._double_double import scaled, two_prod
 from stereodel.constants import FILTER_RANGE, UNDERFLOW_FLOOR, UNIT_ROUNDOFF
 
 _BLOCK = 1 << 16  # rows at a time: the temporaries of one block stay in the cache
@@ -21,36 +21,45 @@ _BUBBLE_BOUND = 32 * UNIT_ROUNDOFF
 _RADIAL_BOUND = 300 * UNIT_ROUNDOFF**2
 
 
-class PlaneSigns:
-    """Orientation and incircle signs of points (n, 2) of the plane, given by their numbers."""
-
-    surface: Final = "plane"
+class _Signs:
+    """Signs of points, given by their numbers."""
 
     def __init__(self, points: FloatArray) -> None:
         self.points = points
         self.exact_tests = 0
 
-    def turn(self, rows: LongArray) -> SignArray:
-        """Sign of the area of the triangle a b c, (k,) from (k, 3): > 0 counterclockwise."""
-        return self._decide(rows, _turn_filter, _turn_integers)
-
-    def circle(self, rows: LongArray) -> SignArray:
-        """Sign of d against the circle of a counterclockwise triangle a b c, (k,) from (k, 4): > 0 inside."""
-        return self._decide(rows, _circle_filter, _circle_integers)
-
     def _decide(self, rows: LongArray, estimate: Any, exact: Any) -> SignArray:
+        """Of rows (k, m) of numbers, by an estimate with its bound, and exactly where that leaves them open."""
         signs = np.zeros(len(rows), dtype=np.int8)
         for start in range(0, len(rows), _BLOCK):
             block = rows[start : start + _BLOCK]
             with np.errstate(over="ignore", invalid="ignore", under="ignore"):
-                value, bound = estimate(self.points[block])
+                value, bound = estimate(block)
             # Written so that an overflow to NaN or infinity is undecided as well.
             undecided = np.flatnonzero(~(np.abs(value) > bound))
             block_signs = (value > 0).astype(np.int8) - (value < 0)
-            block_signs[undecided] = exact(common_integers(self.points[block[undecided]]))
+            block_signs[undecided] = exact(block[undecided])
             self.exact_tests += len(undecided)
             signs[start : start + _BLOCK] = block_signs
         return signs
+
+
+class PlaneSigns(_Signs):
+    """Orientation and incircle signs of points (n, 2) of the plane."""
+
+    surface: Final = "plane"
+
+    def turn(self, rows: LongArray) -> SignArray:
+        """Sign of the area of the triangle a b c, (k,) from (k, 3): > 0 counterclockwise."""
+        return self._of_places(rows, _turn_filter, _turn_integers)
+
+    def circle(self, rows: LongArray) -> SignArray:
+        """Sign of d against the circle of a counterclockwise triangle a b c, (k,) from (k, 4): > 0 inside."""
+        return self._of_places(rows, _circle_filter, _circle_integers)
+
+    def _of_places(self, rows: LongArray, estimate: Any, exact: Any) -> SignArray:
+        points = self.points
+        return self._decide(rows, lambda some: estimate(points[some]), lambda few: exact(common_integers(points[few])))
 
 
 def _turn_filter(p: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -94,14 +103,13 @@ def _circle_integers(p: BigIntegers) -> SignArray:
     return _sign(_determinant(lifted[:, 0], lifted[:, 1], lifted[:, 2]))
 
 
-class SphereSigns:
-    """Signs on the exact rays through points (n, 3) of space, of any length but zero, given by their numbers."""
+class SphereSigns(_Signs):
+    """Signs on the exact rays through points (n, 3) of space, of any length but zero."""
 
     surface: Final = "sphere"
 
     def __init__(self, points: FloatArray) -> None:
-        self.points = points
-        self.exact_tests = 0
+        super().__init__(points)
         self._high, self._low = _nearly_unit(points)
 
     def bubble(self, rows: LongArray) -> SignArray:
@@ -109,16 +117,7 @@ class SphereSigns:
 
         Positive where p lies in the open bubble on that side of the plane a b c from which they turn counterclockwise.
         """
-        signs = np.zeros(len(rows), dtype=np.int8)
-        for start in range(0, len(rows), _BLOCK):
-            block = rows[start : start + _BLOCK]
-            value, bound = self._bubble_filter(block)
-            block_signs = np.sign(value).astype(np.int8)
-            undecided = np.flatnonzero(~(np.abs(value) > bound))
-            block_signs[undecided] = self._bubble_integers(block[undecided])
-            self.exact_tests += len(undecided)
-            signs[start : start + _BLOCK] = block_signs
-        return signs
+        return self._decide(rows, self._bubble_filter, self._bubble_integers)
 
     def side(self, rows: LongArray) -> SignArray:
         """Sign of det[a, b, c], (k,) from (k, 3): > 0 where the triangle's outer bubble is under a hemisphere."""
@@ -194,10 +193,9 @@ def _nearly_unit(points: FloatArray) -> tuple[FloatArray, FloatArray | None]:
         as_is = np.abs(squared - 1) <= 12 * UNIT_ROUNDOFF
     if as_is.all():
         return points, None
-    _, exponent = np.frexp(np.abs(points).max(axis=1, keepdims=True))
-    scaled = np.ldexp(np.ldexp(points, -(exponent // 2)), -(exponent - exponent // 2))
-    factor = 1 / np.sqrt(np.einsum("ij,ij->i", scaled, scaled))
-    high, low = two_prod(scaled, factor[:, None])
+    over, _ = scaled(points)
+    factor = 1 / np.sqrt(np.einsum("ij,ij->i", over, over))
+    high, low = two_prod(over, factor[:, None])
     keep = as_is[:, None]
     return np.where(keep, points, high), np.where(keep, 0.0, low)
 

@@ -22,7 +22,7 @@ from typing import Final
 import numpy.typing as npt
 
 from stereodel._arrays import as_choice, as_lonlat
-from stereodel._tasks.whole_files import replacing
+from stereodel._tasks.whole_files import write_whole
 from stereodel.sphere.latitudes import KINDS, Latitude
 from stereodel.web.contents import RESOLUTIONS, Given, built, contents, packed
 
@@ -93,8 +93,7 @@ def web(
     as_choice(resolution, tuple(RESOLUTIONS), "resolution")
     given = None if lonlat is None else Given(as_lonlat(lonlat).reshape(-1, 2), name, names)
     text = html(resolution, given, as_choice(latitude, KINDS, "latitude"))
-    with replacing(path) as temporary:
-        temporary.write_text(text, encoding="utf-8", newline="\n")
+    write_whole(path, text)
     return Path(path)
 
 

@@ -8,7 +8,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from stereodel import lonlat_to_xyz
-from stereodel.graphs import gabriel_graph, minimum_spanning_tree, relative_neighborhood_graph, urquhart_graph
+from stereodel.graphs import (
+    gabriel_graph,
+    hull,
+    minimum_spanning_tree,
+    relative_neighborhood_graph,
+    urquhart_graph,
+)
+from stereodel.triangulation import delaunay
 from tests import sets
 from tests.examples import examples
 from tests.graphs import definitions
@@ -104,6 +111,19 @@ def test_order_of_points_and_threads_change_nothing(graph, space):
     triangulation = space.delaunay(points)
     assert places(names, graph(triangulation)) == places(names[order], graph(points[order]))
     assert np.array_equal(graph(triangulation), graph(triangulation, workers=3))
+
+
+@BOTH
+def test_workers_are_those_of_the_triangulation_of_points_too(space, monkeypatch):
+    asked = []
+    monkeypatch.setattr(delaunay, "thread_count", lambda workers, size: asked.append(workers) or 1)
+    points = space.lattice(np.random.default_rng(3), 12, 600)
+    for graph in (*FROM_THE_INSIDE, hull):
+        graph(points, workers=2)
+        graph(space.delaunay(points, workers=3), workers=2)
+        assert asked.count(3) == 1  # of the one that was given
+        assert set(asked) == {2, 3}
+        asked.clear()
 
 
 @pytest.mark.parametrize("graph", FROM_THE_INSIDE)

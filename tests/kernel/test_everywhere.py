@@ -4,7 +4,7 @@ import threading
 
 import pytest
 
-from stereodel import _threads
+from stereodel._tasks import threads
 from tools import try_kernel
 
 
@@ -29,5 +29,5 @@ def test_jobs_are_done_where_the_system_gives_no_thread(monkeypatch, started):
         begun(thread)
 
     monkeypatch.setattr(threading.Thread, "start", start)
-    assert list(_threads.in_order(abs, range(-3, 3), threads=3)) == [3, 2, 1, 0, 1, 2]
+    assert list(threads.in_order(abs, range(-3, 3), threads=3)) == [3, 2, 1, 0, 1, 2]
     assert len(given) == started

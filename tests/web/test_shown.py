@@ -190,7 +190,7 @@ def test_long_pages_are_pixels_and_longer_ones_a_line(monkeypatch):
     assert len(png) < MOST_SHOWN_BYTES
     assert max(shown.values()) <= 576
     assert png[16:24] == (2 * shown["width"]).to_bytes(4) + page.pixels_up(2 * shown["width"]).to_bytes(4)
-    monkeypatch.setattr("stereodel.constants.MOST_SHOWN_NUMBERS", 1000)
+    monkeypatch.setattr("stereodel._notebook.MOST_SHOWN_NUMBERS", 1000)
     assert "more than 1000 coordinates" in mimes(page)["text/plain"]
     globe = Globe()
     globe.add_land(resolution="110m")  # is not even laid out
@@ -234,7 +234,7 @@ def test_films_play_or_show_their_first_frame(monkeypatch):
     assert b64decode(re.search('video/mp4;base64,([^"]+)', text)[1])[4:8] == b"ftyp"
     for limit in ("MOST_FRAME_PIXELS", "MOST_SHOWN_SECONDS"):
         with monkeypatch.context() as less:
-            less.setattr(f"stereodel.constants.{limit}", 0)
+            less.setattr(f"stereodel._notebook.{limit}", 0)
             text = mimes(film())["text/html"]
         assert "The first of 3 frames, 0.3 s" in text
         assert "<video" not in text

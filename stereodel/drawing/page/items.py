@@ -417,5 +417,4 @@ def corners_along(path: FloatArray) -> FloatArray:
 def along(cubics: FloatArray, s: FloatArray) -> FloatArray:
     """Points of cubics (..., 4, 2) at parameters (..., 1)."""
     p0, p1, p2, p3 = (cubics[..., i, :] for i in range(4))
-    points: FloatArray = (1 - s) ** 3 * p0 + 3 * s * (1 - s) ** 2 * p1 + 3 * s**2 * (1 - s) * p2 + s**3 * p3
-    return points
+    return (1 - s) ** 3 * p0 + 3 * s * (1 - s) ** 2 * p1 + 3 * s**2 * (1 - s) * p2 + s**3 * p3

@@ -180,13 +180,7 @@ class Page(Shown):
             output("save_page")(self, path, size=size, text=text, renderer=renderer, transparent=transparent)
         return Path(path)
 
-    def pixels(
-        self,
-        *,
-        size: int | None = None,
-        text: bool = True,
-        renderer: Literal["gl", "agg"] = "gl",
-    ) -> Pixels:
+    def pixels(self, *, size: int | None = None, text: bool = True, renderer: Literal["gl", "agg"] = "gl") -> Pixels:
         """Draw the page: the pixels that `save` writes as PNG, with its parameters and errors.
 
         Returns
@@ -200,8 +194,7 @@ class Page(Shown):
         [255, 0, 0]
         """
         with of_extra(picture_extra(".png", renderer)):
-            pixels: Pixels = output("draw_page")(self, size=size, text=text, renderer=renderer)
-        return pixels
+            return output("draw_page")(self, size=size, text=text, renderer=renderer)
 
     def arrays(self) -> Arrays:
         """Everything drawn as named arrays, for the regression tests: every visible change alters a number."""

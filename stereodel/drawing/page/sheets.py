@@ -114,8 +114,7 @@ def dark_page(page: Page) -> Page:
 
 def dark_color(color: Color) -> Color:
     """The dark counterpart of a colour on white."""
-    red, green, blue, opacity = dark_colors(np.array([color]))[0].tolist()
-    return (red, green, blue, opacity)
+    return as_color(dark_colors(np.array([color]))[0])
 
 
 def dark_colors(colors: FloatArray) -> FloatArray:
@@ -180,9 +179,8 @@ class StyleSheet:
     def __call__(self, page: Page) -> Page:
         """A page in this style."""
         background = page.background if self.background is None else self.background
-        return replace(
-            page, background=background, items=tuple(item.restyled(self._changes(item)) for item in page.items)
-        )
+        items = tuple(item.restyled(self._changes(item)) for item in page.items)
+        return replace(page, background=background, items=items)
 
     def _changes(self, item: Item) -> Changes:
         name = "" if item._kind == "labels" else item.name.removeprefix(LEGEND)

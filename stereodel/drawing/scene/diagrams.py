@@ -10,7 +10,7 @@ import numpy.typing as npt
 from stereodel._arrays import as_lonlat
 from stereodel._notebook import drawn
 from stereodel._spaces import PLANE
-from stereodel.constants import MOST_SHOWN_POINTS
+from stereodel.constants import MOST_SHOWN_POINTS, UNDECIDED
 from stereodel.curves.borders import frame_of
 from stereodel.curves.view import View
 from stereodel.drawing.page import Page
@@ -26,10 +26,7 @@ MARGIN = 0.02
 
 
 def diagram_page(
-    mesh: Triangulation | Diagram[Any],
-    *,
-    view: npt.ArrayLike = (0.0, 20.0),
-    bounds: npt.ArrayLike | None = None,
+    mesh: Triangulation | Diagram[Any], *, view: npt.ArrayLike = (0.0, 20.0), bounds: npt.ArrayLike | None = None
 ) -> Page:
     """The ridges of a diagram, or the edges of a triangulation, with the points.
 
@@ -64,7 +61,7 @@ def _globe(mesh: SphericalDelaunay | SphericalVoronoi, view: npt.ArrayLike) -> P
     scene = Scene()
     if isinstance(mesh, Diagram):
         chords = np.linalg.norm(np.diff(mesh.vertices[mesh.ridge_vertices], axis=1), axis=-1)
-        if ((chords > 1e-30) & (chords < 1.9)).all():  # the ends say what arc: nearly always, and six times as fast
+        if ((chords > UNDECIDED) & (chords < 1.9)).all():  # the ends say what arc: nearly always, and six times as fast
             scene.add_edges(mesh.vertices, mesh.ridge_vertices, name="voronoi")
         else:
             scene.add_arcs(mesh.ridge_arcs(), name="voronoi")

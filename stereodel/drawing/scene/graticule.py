@@ -247,8 +247,7 @@ class _GridLines:
         image = lens(place)
         turn = self._turned(place, across, image)
         breadth = self.chart.view.breadth(turned(image, matrix), turned(turn, matrix))
-        found: FloatArray = gap * lens.scale_factor(place) * breadth
-        return found
+        return gap * lens.scale_factor(place) * breadth
 
     def ends(self, t: FloatArray, enough: BoolArray, wanted: FloatArray) -> tuple[Indices, FloatArray, BoolArray]:
         """Where parts of lines begin and end between samples t (n, k): line, parameter, whether it is a beginning."""

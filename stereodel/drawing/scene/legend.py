@@ -35,13 +35,7 @@ LegendEntry = LineStyle | DotStyle | ColorLike | ColorScale
 """Symbols of a legend."""
 
 
-def with_legend(
-    page: Page,
-    entries: Mapping[str, LegendEntry],
-    *,
-    columns: int = 1,
-    indent: float = 0.0,
-) -> Page:
+def with_legend(page: Page, entries: Mapping[str, LegendEntry], *, columns: int = 1, indent: float = 0.0) -> Page:
     """The page with a legend below the picture.
 
     A sample that looks like a part of the picture, "coast", is named after it, "legend-coast", and follows it in styles

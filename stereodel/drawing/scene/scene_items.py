@@ -90,8 +90,7 @@ class Layout:
 
     def on_page(self, points: FloatArray) -> FloatArray:
         """Page coordinates (..., 2) of points in view axes about the ball's centre."""
-        placed: FloatArray = points[..., :2] * self.scale + np.array(self.origin)
-        return placed
+        return points[..., :2] * self.scale + np.array(self.origin)
 
     def path(self, curves: Iterable[Curve]) -> Beziers:
         """Page path of connected curves in view axes about the ball's centre."""

@@ -164,14 +164,7 @@ class Sketch:
         return self.add_label(place, text, (gap * float(outward[0]), gap * float(outward[1])), **options)
 
     def add_dimension(
-        self,
-        a: Point,
-        b: Point,
-        text: str,
-        *,
-        name: str,
-        style: LineStyle | None = None,
-        **options: Any,
+        self, a: Point, b: Point, text: str, *, name: str, style: LineStyle | None = None, **options: Any
     ) -> Sketch:
         """A dimension line from a to b, with a tick across each end and a label along it.
 

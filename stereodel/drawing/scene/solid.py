@@ -113,5 +113,4 @@ class Solid(Shown):
     def pixels(self, *, size: int | None = None, text: bool = True) -> Pixels:
         """Draw the bodies with shading: the pixels that `save` writes as PNG, as from `Page.pixels`."""
         with of_extra("render"):
-            pixels: Pixels = output("draw_solid")(self, size=size, text=text)
-        return pixels
+            return output("draw_solid")(self, size=size, text=text)

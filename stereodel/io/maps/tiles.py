@@ -18,7 +18,7 @@ import numpy as np
 
 from stereodel._arrays import BoolArray, FloatArray, Indices, Packed
 from stereodel._tasks.progress import Progress
-from stereodel._threads import in_order, thread_count
+from stereodel._tasks.threads import in_order, thread_count
 from stereodel.constants import AT_POLE, BORDER_STEPS, CHORD_CLEARANCE, DEGREE_ROUNDING, THIN_CELL
 from stereodel.curves import clip
 from stereodel.curves.borders import Antimeridian, Pieces

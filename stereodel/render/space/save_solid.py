@@ -15,7 +15,7 @@ from typing import Any, Final
 import numpy as np
 
 from stereodel._arrays import FloatArray, Pixels
-from stereodel._tasks.whole_files import replacing
+from stereodel._tasks.whole_files import write_whole
 from stereodel.drawing.page.colors import Color
 from stereodel.drawing.page.page import OUTPUTS
 from stereodel.drawing.scene.scene_items import Layer
@@ -60,9 +60,7 @@ def save_solid(solid: Solid, path: str | os.PathLike[str], *, size: int | None, 
     target = Path(path)
     match target.suffix.lower():
         case ".glb":
-            data = glb_bytes(solid)
-            with replacing(target) as temporary:
-                temporary.write_bytes(data)
+            write_whole(target, glb_bytes(solid))
         case ".png":
             page, width = solid.page if text else solid.page.without_labels(), solid.page.pixels_across(size)
             write_png(labelled(lit_rows(solid, width), page, width), page, target, width)
@@ -94,8 +92,7 @@ def glb_bytes(solid: Solid) -> bytes:
         tree["nodes"].append({"name": CAMERA, "camera": 0, "translation": place})
 
     options = {"include_normals": True, "buffer_postprocessor": _shorten, "tree_postprocessor": finished}
-    data: bytes = scene.export(file_type="glb", **options)
-    return data
+    return scene.export(file_type="glb", **options)
 
 
 def _shorten(buffers: Any, tree: dict[str, Any]) -> None:
@@ -111,8 +108,7 @@ def _shorten(buffers: Any, tree: dict[str, Any]) -> None:
 
 
 def _view(tree: dict[str, Any], accessor: int) -> dict[str, Any]:
-    view: dict[str, Any] = tree["bufferViews"][tree["accessors"][accessor]["bufferView"]]
-    return view
+    return tree["bufferViews"][tree["accessors"][accessor]["bufferView"]]
 
 
 def page_box(solid: Solid, scene: Any) -> list[list[float]]:

@@ -18,7 +18,7 @@ from stereodel.constants import FINEST_PLACE, FINEST_POINTS, PIXEL_ROUNDING
 from stereodel.curves.fill import union
 from stereodel.curves.ragged import Ragged, thinned
 from stereodel.drawing.page import Ball, Beziers, Dots, Fill, Label, Page, Picture, Polygons, Polylines, Stroke
-from stereodel.drawing.page.colors import Color
+from stereodel.drawing.page.colors import Color, as_color
 from stereodel.drawing.page.items import alike
 
 CIRCLE_KAPPA: Final = 4 / 3 * np.tan(np.pi / 16)
@@ -105,17 +105,15 @@ def shapes(page: Page, dpi: float, pictures: Sequence[Pixels] = ()) -> Iterator[
         items = list(group)
         match items[0]:
             case Stroke() as first:
-                runs = [
-                    (item.path, item.closed) for item in items if isinstance(item, Stroke) and has_length(item, scale)
-                ]
-                if runs:
+                seen = (item for item in items if isinstance(item, Stroke) and has_length(item, scale))
+                if runs := [(item.path, item.closed) for item in seen]:
                     shut = CLOSE if first.cap == "butt" else LINE
                     yield Drawn(outline(runs, scale, shut), first.color, first.width, first.dash, first.cap, first.name)
             case Polylines() as lines:
                 yield from _lines(lines, scale)
             case Polygons() as polygons if polygons.pictured:
                 border = thinned_loops(union(polygons.loops), FINEST_POINTS / scale)
-                yield Shown(next(rest), page.extent, _loops(border), polygons.name)
+                yield Shown(next(rest), page.extent, _polygonal(border), polygons.name)
             case Polygons() as polygons:
                 yield from _by_color(polygons, FINEST_POINTS / scale)
             case Fill() as fill:
@@ -179,9 +177,7 @@ def _lines(lines: Polylines, points_per_unit: float) -> Iterator[Shape]:
     alone, long = rows.values[rows.offsets[:-1][~extended]], rows.take(extended)
     if len(long):
         # Ends are round, so closed lines need not be closed: see `outline`.
-        kinds = np.full(len(long.values), LINE, dtype=np.uint8)
-        kinds[long.offsets[:-1]] = MOVE
-        yield Drawn(Outlines(long.values, kinds), lines.color, lines.width, name=lines.name)
+        yield Drawn(_polygonal(long, LINE), lines.color, lines.width, name=lines.name)
     if len(alone):
         yield _discs(alone, lines.width / 2, points_per_unit, lines.color, lines.name)
 
@@ -191,8 +187,7 @@ def _by_color(polygons: Polygons, spacing: float) -> Iterator[Filled]:
     colors, number = polygons.by_color
     for k, color in enumerate(colors):
         loops = thinned_loops(polygons.loops.take(number == k), spacing)
-        red, green, blue, opacity = color.tolist()
-        yield Filled(_loops(loops), (red, green, blue, opacity), polygons.name, polygons.ball)
+        yield Filled(_polygonal(loops), as_color(color), polygons.name, polygons.ball)
 
 
 def thinned_loops(loops: Ragged, spacing: float) -> Ragged:
@@ -216,11 +211,11 @@ def thinned_loops(loops: Ragged, spacing: float) -> Ragged:
     return loops.take(loops.sizes > 3)
 
 
-def _loops(loops: Ragged) -> Outlines:
-    kinds = np.full(len(loops.values), LINE, dtype=np.uint8)
-    kinds[loops.offsets[:-1]] = MOVE
-    kinds[loops.offsets[1:] - 1] = CLOSE
-    return Outlines(loops.values, kinds)
+def _polygonal(rows: Ragged, last: int = CLOSE) -> Outlines:
+    """Straight lines from point to point, and a point of a kind at the end of each row."""
+    kinds = np.full(len(rows.values), LINE, dtype=np.uint8)
+    kinds[rows.offsets[1:] - 1], kinds[rows.offsets[:-1]] = last, MOVE
+    return Outlines(rows.values, kinds)
 
 
 def _painted(picture: Picture, page: Page, dpi: float) -> Shown:

@@ -60,8 +60,7 @@ class Paper:
 
     def points(self, places: Any) -> FloatArray:
         """Places (..., 2) of the page, in points."""
-        placed: FloatArray = (np.asarray(places) - self.corner) * self.scale
-        return placed
+        return (np.asarray(places) - self.corner) * self.scale
 
     def placed(self, outline: Outlines) -> Outlines:
         """An outline of the page, in points."""
