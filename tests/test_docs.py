@@ -201,8 +201,9 @@ def test_recipes_are_many_and_short_and_found_by_the_words_of_those_who_ask():
     )
     words += (
         ", contour lines, regrid, TIN, raster, GeoTIFF, choropleth, fisheye, UTM, duplicates, spatial join, griddata"
-        ", DMS, degrees, minutes and seconds, −9999, umlauts, German Excel, sheets, dissolve, points in polygon, coast, 3-D"
+        ", DMS, degrees, minutes and seconds, −9999, umlauts, German Excel, sheets, dissolve, points in polygon, coast"
         ", country, Dataset, NEMO, nside, notebook, pandas, polars, DuckDB, xESMF, LinearNDInterpolator, ConvexHull"
+        ", 3-D, zonal statistics, reverse geocoding, Jupyter"
     )
     assert [word for word in words.split(", ") if word.lower() not in text.lower()] == []
 
