@@ -29,7 +29,7 @@ COMMANDS: Final[Mapping[str, str]] = {
     "partition": "areas and neighbours of the cells of more points than memory holds, in a folder",
     "interpolate": "values at other points, or on a grid",
     "contour": "isolines of values known at points",
-    "nearest": "the points, lines or polygons nearest to points, and how far away they are",
+    "nearest": "the sites nearest to points, or the line or polygon, and how far away they are",
     "globe": "a picture or a film of the Earth with points and files on it, magnified around a focus if wanted",
     "panorama": "a 360° picture through a fisheye: a panorama again, the faces of a cube, or a little planet",
     "web": "an interactive page with the sphere, the lift and the globe, with your points if you like",
