@@ -251,6 +251,14 @@ def test_the_options_of_an_inspection_say_the_same(content, options):
     assert {name: again.get(name) for name in SAME} == {name: found.get(name) for name in SAME}
 
 
+@pytest.mark.parametrize("field", ["", "t;"])
+def test_decimal_commas_are_no_separators_under_a_title(field):
+    head, row = f"Report\n\n{field}lon;lat", f"{field and '1,5;'}8,5;54,25"
+    with pytest.warns(DataWarning, match="1 row above the header left out"):
+        table = read_points(io.StringIO("\n".join([head, row, row])))
+    assert (table.lonlat[0].tolist(), [*table.columns]) == ([8.5, 54.25], ["t"] if field else [])
+
+
 def test_options_are_quoted_as_a_shell_wants_them():
     ran = CliRunner().invoke(app, ["inspect", "-"], input="My Lon, [deg];lat\n9,5;48,5\n")
     assert "options     '--lon=My Lon, [deg]' --lat=lat\n" in ran.stdout

@@ -222,7 +222,7 @@ def _columns(rows: Lines, width: int, before: int, invalid: dict[int, str], *, s
 
 
 def _separator(text: str) -> str | None:
-    """The separator that splits the first lines into the same, largest number of fields; None for blanks."""
+    """The separator that splits most of the first lines into one number of fields, the largest; None for blanks."""
     # One field may be as long as the table; by default, csv refuses fields of 131 072 characters for the whole process.
     csv.field_size_limit(max(csv.field_size_limit(), len(text)))
     lines = list(islice(io.StringIO(text, newline=""), LOOKED_AT))
@@ -234,7 +234,8 @@ def _separator(text: str) -> str | None:
     blanks = {len(line.split()) for line in lines if line.strip()}
     if not several or (not even and len(blanks) == 1 and blanks != {1}):
         return None
-    return max(even or several, key=lambda mark: max(lengths[mark]))
+    # Under a title no mark is even: decimal commas are in most lines, the separator is in the header, too.
+    return max(even or several, key=lambda mark: max((rows[mark].count(n), n) for n in lengths[mark] if n > 1))
 
 
 def _rows(text: str, mark: str | None, above: int, progress: Progress | None) -> Iterator[list[str]]:
