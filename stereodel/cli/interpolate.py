@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from stereodel.cli import options
+from stereodel.interpolation.methods import METHODS, Method
 
 if TYPE_CHECKING:
     from stereodel._arrays import FloatArray
 
 GRIDS = ("csv", "nc", "tif")
-Method = Literal["nearest", "linear", "smooth", "natural"]
 PIECE = 100_000  # rows between two signs of progress
 EXAMPLE = "stereodel interpolate stations.csv --value temperature --grid 5 -o temperature.csv"
 
@@ -90,7 +90,6 @@ def _interpolated(points: FloatArray, values: FloatArray, method: Method, querie
     import numpy as np
 
     from stereodel.cli.application import reporting
-    from stereodel.interpolation.methods import METHODS
 
     with reporting("triangulating"):
         interpolator = METHODS[method](points, values)
