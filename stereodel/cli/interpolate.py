@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Annotated, Literal
+from typing import Annotated
 
 import typer
 
 from stereodel.cli import options
+from stereodel.interpolation.methods import METHODS, Method
 
 GRIDS = ("csv", "nc", "tif")
 PLANE = ("xmin,ymin,xmax,ymax", "0,0,5000,9000")
 """What --bounds must be in a plane, with an example."""
-Method = Literal["nearest", "linear", "smooth", "natural"]
 PIECE = 100_000  # rows between two signs of progress
 EXAMPLE = "stereodel interpolate stations.csv --value temperature --grid 5 -o temperature.csv"
 
@@ -42,7 +42,6 @@ def command(
     import numpy as np
 
     from stereodel.cli.application import reporting
-    from stereodel.interpolation.methods import METHODS
     from stereodel.io import Grid, PointTable, write
 
     if (at is None) == (grid is None):

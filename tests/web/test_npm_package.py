@@ -26,7 +26,8 @@ def installed(tmp_path_factory):
     subprocess.run([ROOT / "tools" / "npm_archive.sh", environment, folder], check=True, capture_output=True)
     (archive,) = folder.glob("*.tgz")
     with tarfile.open(archive) as members:
-        members.extractall(folder, filter="data")
+        safe = {"filter": "data"} if hasattr(tarfile, "data_filter") else {}  # Debian 12's Python 3.11.2 has none
+        members.extractall(folder, **safe)
     (folder / "node_modules").mkdir()
     (folder / "package").rename(folder / "node_modules" / "stereodel")
     return folder
