@@ -1,6 +1,6 @@
 """What a notebook shows of an object: a picture, a table or a film, bounded in bytes and time; and a short `repr`.
 
-A class derives from `Shown` and says in `_mimes` what shows it, or which module enters that there when it is loaded, so
+A class derives from `Displayed` and says in `_mimes` what shows it, or which module enters that there when loaded, so
 that nothing here or below knows what draws. No output has a script.
 """
 
@@ -44,20 +44,20 @@ class Brief(Repr):
     repr_mappingproxy = Repr.repr_dict
 
     def repr_instance(self, value: object, level: int) -> str:
-        if is_dataclass(value) or isinstance(value, Shown):
+        if is_dataclass(value) or isinstance(value, Displayed):
             return f"{type(value).__name__}(…)"
         return getattr(value, "__qualname__", "") or super().repr_instance(value, level)
 
 
-class Shown:
+class Displayed:
     """Has a `repr` of one line unless it writes its own, and is shown in notebooks by what `_mimes` makes of it."""
 
     _mimes: ClassVar[Any] = staticmethod(lambda: ({}, {}))
 
     def __init_subclass__(cls, **given: Any) -> None:
         super().__init_subclass__(**given)
-        if cls.__repr__ is Shown.__repr__:
-            cls.__repr__ = Shown.__repr__  # type: ignore[method-assign]  # or a dataclass would write another
+        if cls.__repr__ is Displayed.__repr__:
+            cls.__repr__ = Displayed.__repr__  # type: ignore[method-assign]  # or a dataclass would write another
 
     def __repr__(self) -> str:
         names = [each.name for each in fields(self)] if is_dataclass(self) else vars(self)
@@ -78,7 +78,7 @@ class Shown:
 
 
 def drawn(page_of: Callable[[Any], Any], most: int | None = None) -> Callable[[Any], Mimes]:
-    """Shown as a page: SVG, or PNG where that would be too long; nothing of more than `most` points."""
+    """Displayed as a page: SVG, or PNG where that would be too long; nothing of more than `most` points."""
 
     def made(it: Any) -> Mimes:
         if most is not None and len(it.points) > most:
@@ -109,7 +109,7 @@ def _numbers(value: Any) -> int:
     """How many coordinates an object and its parts have: what drawing it takes time for."""
     if isinstance(value, np.ndarray):
         return value.size * (value.dtype.kind == "f")
-    held = vars(value).values() if is_dataclass(value) or isinstance(value, Shown) else value
+    held = vars(value).values() if is_dataclass(value) or isinstance(value, Displayed) else value
     return sum(map(_numbers, held)) if held is not value or isinstance(value, list | tuple) else 0
 
 
@@ -145,7 +145,7 @@ def playing(film: Any) -> Mimes:
 
 
 def tabular(count: Callable[[Any], int], take: Callable[[Any, Any], Mapping[str, Any]]) -> Callable[[Any], Mimes]:
-    """Shown as a table of `count(it)` rows, of which `take(it, numbers)` gives columns: the first and last rows."""
+    """Displayed as a table of `count(it)` rows, of which `take(it, numbers)` gives columns: the first and last rows."""
     most, broad, letters = SHOWN_TABLE
 
     def row(cells: Any, kind: str) -> str:

@@ -311,3 +311,11 @@ SHOWN_PIXELS: Final = 576
 
 SHOWN_TABLE: Final = (10, 20, 50)
 """Most rows (half of them the first, half the last), columns, and characters of a cell of a table in a notebook."""
+
+DISSOLVE_LOSS: Final = 1e-9
+"""Share of the area by which a union of cells may differ from their sum before they are taken to overlap: rounding of
+corners, with room.
+"""
+
+SAME_LENGTH: Final = 1e-6
+"""Share by which lengths of rows of three columns may differ and still be directions: six decimals."""

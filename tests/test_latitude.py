@@ -34,13 +34,14 @@ def doors():
 
 
 DOORS = dict(doors())
+OF_THE_EARTH = {"stereodel.web.web", "stereodel.io.nearest_shapes"}
 
 
 @pytest.mark.parametrize("name", DOORS)
 def test_a_door_of_the_library(name):
-    """Spherical by default, or what is remembered and else spherical; authalic for the page, as for the commands."""
+    """Spherical, or what is remembered; authalic, as for commands, for the page and shapes."""
     parameter = DOORS[name]
-    assert parameter.default in ({"authalic"} if name == "stereodel.web.web" else {"spherical", None})
+    assert parameter.default in ({"authalic"} if name in OF_THE_EARTH else {"spherical", None})
     assert str(parameter.annotation).removesuffix(" | None") == "Latitude"
 
 
@@ -51,12 +52,12 @@ def test_there_are_these_doors():
 
 def test_doors_of_the_commands():
     """Every command that takes columns of longitude and latitude takes their kind, and all have the same default; but
-    for pictures, in which the kind cannot be seen.
+    for pictures, in which the kind cannot be seen, and for what is understood of a table, where it decides nothing.
     """
     takers = {}
     for name, command in typer.main.get_command(app).commands.items():
         options = {option: each for each in command.params for option in each.opts}
-        assert ("--lat" in options) == ("--latitude" in options) or name == "globe", name
+        assert ("--lat" in options) == ("--latitude" in options) or name in {"globe", "inspect"}, name
         if "--latitude" in options:
             takers[name] = options["--latitude"]
     assert takers.keys() >= {"contour", "interpolate", "nearest", "triangulate", "voronoi", "web"}

@@ -76,7 +76,7 @@ def command(
     ] = None,
     labels: Annotated[str | None, typer.Option(metavar="COLUMN", help="Labels of points, as many as fit.")] = None,
     fly: Annotated[list[str] | None, typer.Option(metavar="LON,LAT", help="For films: fly there; repeatable.")] = None,
-    picture: options.Picture,
+    picture: options.PictureOptions,
     columns: options.Table,
 ) -> None:
     """Draw a globe under a conformal fisheye, with maps, points and their cells, and layers from files.

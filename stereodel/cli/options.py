@@ -125,7 +125,7 @@ class Output(File):
 
 
 @dataclass(frozen=True)
-class Picture:
+class PictureOptions:
     """How a picture looks, and what is written on it."""
 
     heading: ClassVar[str] = "Picture"

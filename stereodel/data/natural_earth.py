@@ -15,12 +15,12 @@ import numpy as np
 
 from stereodel._arrays import BoolArray, Bytes, FloatArray, IntArray, Texts, as_choice, locked
 from stereodel._docs import shared
-from stereodel._notebook import Shown
+from stereodel._notebook import Displayed
 from stereodel.data import stored
 
 
 @dataclass(frozen=True, eq=False)
-class EarthLines(Shown):
+class EarthLines(Displayed):
     """Polylines, straight in longitude and latitude: line i is ``lonlat[offsets[i]:offsets[i + 1]]``.
 
     It is closed where its ends are equal.
@@ -42,7 +42,7 @@ class EarthLines(Shown):
 
 
 @dataclass(frozen=True, eq=False)
-class EarthPolygons(Shown):
+class EarthPolygons(Displayed):
     """Polygons as GeoJSON has them: sides straight in longitude and latitude, cut along ±180°.
 
     Ring i is ``lonlat[ring_offsets[i]:ring_offsets[i + 1]]``, its first point again at its end; polygon j has the rings

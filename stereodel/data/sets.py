@@ -11,7 +11,7 @@ import numpy as np
 
 from stereodel._arrays import Bytes, FloatArray, IntArray, Pixels, Texts, locked
 from stereodel._extras import of_extra
-from stereodel._notebook import Shown
+from stereodel._notebook import Displayed
 from stereodel.data import stored
 
 DEGREE_DIGITS: Final = {"airports": 6, "cities": 5, "stars": 5}
@@ -22,7 +22,7 @@ MAGNITUDE_DIGITS: Final = 2
 
 
 @dataclass(frozen=True, eq=False)
-class Airports(Shown):
+class Airports(Displayed):
     """Airports, landing strips and some seaplane bases of the world, in the order of their codes."""
 
     lonlat: FloatArray
@@ -38,7 +38,7 @@ class Airports(Shown):
 
 
 @dataclass(frozen=True, eq=False)
-class Cities(Shown):
+class Cities(Displayed):
     """Places of more than 500 people, and seats of administrations, in the order of their GeoNames numbers."""
 
     lonlat: FloatArray
@@ -48,7 +48,7 @@ class Cities(Shown):
 
 
 @dataclass(frozen=True, eq=False)
-class Stars(Shown):
+class Stars(Displayed):
     """The stars of the Hipparcos catalogue, new reduction, in the order of their numbers."""
 
     lonlat: FloatArray

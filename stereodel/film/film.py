@@ -13,7 +13,7 @@ import numpy as np
 
 from stereodel._arrays import FloatArray, Pixels, as_count, as_frame, as_scalar
 from stereodel._extras import of_extra
-from stereodel._notebook import Shown, playing
+from stereodel._notebook import Displayed, playing
 from stereodel._tasks.crew import Crew, main_script_here
 from stereodel._tasks.progress import Progress, reporting
 from stereodel._tasks.whole_files import replacing
@@ -50,7 +50,7 @@ class FrameError(RuntimeError):
 
 
 @dataclass(frozen=True)
-class Film(Generic[T], Shown):
+class Film(Generic[T], Displayed):
     """A film: drawn in parallel, resumed after interruptions, written in several formats.
 
     Parameters

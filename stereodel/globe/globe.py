@@ -23,7 +23,7 @@ from stereodel._arrays import (
     as_values,
 )
 from stereodel._extras import of_extra
-from stereodel._notebook import Shown, drawn
+from stereodel._notebook import Displayed, drawn
 from stereodel.conformal import MoebiusMap
 from stereodel.curves.chart import Chart
 from stereodel.curves.view import MapView
@@ -68,7 +68,7 @@ LEGEND_INDENT: Final = 24.0
 """White space around a legend, in points."""
 
 
-class Globe(Shown):
+class Globe(Displayed):
     """A map of the sphere in layers, the first at the bottom, drawn through a conformal lens from any side.
 
     Layers are added once; each picture then has its own view and, optionally, a lens.

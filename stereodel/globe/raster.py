@@ -17,7 +17,7 @@ import numpy.typing as npt
 from stereodel import _kernel
 from stereodel._arrays import FloatArray, Pixels, as_choice, as_count, as_edges, as_pixels, as_scalar, locked
 from stereodel._extras import of_extra
-from stereodel._notebook import Shown
+from stereodel._notebook import Displayed
 from stereodel._tasks.threads import thread_count
 from stereodel.conformal import MoebiusMap
 from stereodel.constants import MOST_PIXELS_ACROSS, MOST_TEXELS
@@ -123,7 +123,7 @@ def _converted(name: str, image: Any) -> Pixels:
 
 
 @dataclass(frozen=True, eq=False)
-class Raster(Shown):
+class Raster(Displayed):
     """An equirectangular image of the Earth or part of it.
 
     Parameters

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from stereodel._arrays import AnyIndices, BoolArray, FloatArray, Keyed, as_levels, as_values, read_only
 from stereodel._docs import shared
-from stereodel._notebook import Shown
+from stereodel._notebook import Displayed
 from stereodel.interpolation.interpolator import FAMILY, PrecisePoints, one_value_a_place
 from stereodel.sphere.coordinates import as_told
 from stereodel.sphere.latitudes import Latitude
@@ -18,7 +18,7 @@ from stereodel.triangulation.delaunay import Triangulation, as_triangulation, st
 
 
 @dataclass(frozen=True, eq=False)
-class Contour(Keyed, Shown):
+class Contour(Keyed, Displayed):
     """A connected component of a contour.
 
     Parameters

@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from stereodel._arrays import FloatArray, as_choice, as_floats
 from stereodel._spaces import SPHERE
+from stereodel.constants import SAME_LENGTH
 from stereodel.interpolation.interpolator import Interpolator
 from stereodel.interpolation.smooth import SmoothInterpolator
 from stereodel.interpolation.weighted import LinearInterpolator, NaturalNeighborInterpolator, NearestInterpolator
@@ -138,7 +139,7 @@ class _Scattered:
         self.tri = self.function.triangulation
         name, far = type(self).__name__, np.linalg.norm(self.tri.points, axis=1)
         curved = self.tri.surface is SPHERE
-        if curved and name != "griddata" and far.max(initial=0.0) > (1 + 1e-6) * far.min(initial=np.inf):
+        if curved and name != "griddata" and far.max(initial=0.0) > (1 + SAME_LENGTH) * far.min(initial=np.inf):
             raise ValueError(
                 "points has three columns and rows of different lengths; here they are directions. For points in space "
                 f"use scipy.interpolate.{name}, for directions of any length griddata"

@@ -15,7 +15,7 @@ import numpy.typing as npt
 from stereodel._arrays import AnyIndices, FloatArray, Indices, as_choice, as_values, locked
 from stereodel._docs import shared
 from stereodel._extras import optional
-from stereodel._notebook import Shown, tabular
+from stereodel._notebook import Displayed, tabular
 from stereodel._tasks.whole_files import replacing, write_netcdf
 from stereodel.constants import WEIGHT_ROUNDING
 from stereodel.curves.ragged import offsets_of, spans
@@ -32,7 +32,7 @@ class Shares(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class Weights(Shown):
+class Weights(Displayed):
     """The weight of each point at each query: a sparse matrix with a row for each query.
 
     Returned by `weights` of `LinearInterpolator`, `NearestInterpolator` and `NaturalNeighborInterpolator`.

@@ -25,7 +25,7 @@ from stereodel._arrays import (
     read_only,
 )
 from stereodel._extras import optional
-from stereodel._notebook import Shown, tabular
+from stereodel._notebook import Displayed, tabular
 from stereodel.constants import GRID_ROUNDING, MOST_PLACES
 from stereodel.earth import EQUATORIAL_RADIUS_KM, INVERSE_FLATTENING
 from stereodel.io.formats.names import DataWarning, beside, spelled
@@ -58,7 +58,7 @@ Places all over the Earth have a widest gap somewhere, too, and their grid is be
 
 
 @dataclass(frozen=True, eq=False)
-class Grid(Shown):
+class Grid(Displayed):
     """Values at the nodes of a regular grid of longitude and latitude, or of a plane, or at the centres of its cells.
 
     Parameters

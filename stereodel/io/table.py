@@ -12,7 +12,7 @@ import numpy as np
 
 from stereodel._arrays import BoolArray, Column, FloatArray, Indices, as_choice, as_lonlat, as_points, read_only
 from stereodel._extras import optional
-from stereodel._notebook import Shown, tabular
+from stereodel._notebook import Displayed, tabular
 from stereodel.io.formats import Content, Wanted, notation
 from stereodel.io.formats.columns import EXACT_INTEGERS, blanked, doubles, far, why_not
 from stereodel.io.formats.map_rows import content_of, is_frame
@@ -25,7 +25,7 @@ AXES: Final = {"sphere": ("lon", "lat"), "plane": ("x", "y")}  # unless a table 
 
 
 @dataclass(frozen=True, eq=False)
-class PointTable(Shown):
+class PointTable(Displayed):
     """Points of the Earth or of a plane and their other columns, from `read_points` and for `write`.
 
     Parameters

@@ -13,7 +13,7 @@ import numpy.typing as npt
 from stereodel._arrays import AnyIndices, FloatArray, as_amounts, as_count, as_scalar, as_workers, locked, read_only
 from stereodel._docs import shared
 from stereodel._double_double import unit
-from stereodel._notebook import Shown
+from stereodel._notebook import Displayed
 from stereodel._spaces import PLANE, SPHERE, surface_of
 from stereodel.constants import BALANCED
 from stereodel.relaxation.cell_triangles import (
@@ -74,7 +74,7 @@ class Quality:
 
 
 @dataclass(frozen=True, eq=False)
-class Relaxation(Shown):
+class Relaxation(Displayed):
     """The result of `lloyd`; arrays are read-only.
 
     Attributes

@@ -117,7 +117,7 @@ class GrowingPoints:
         strict: bool = False,
     ) -> None:
         array = as_floats(points, "points")
-        space = array.ndim == 2 and array.shape[1] > 2
+        space = array.size > 0 and array.ndim == 2 and array.shape[1] > 2
         if space or furthest_site:
             what = f"{array.shape[1]} dimensions" if space else "furthest_site=True beside it"
             hand_over(self, what, array, furthest_site, incremental, qhull_options)

@@ -71,7 +71,7 @@ class ExactOnSphere(scipy.spatial.SphericalVoronoi):
         if radius is None:
             raise ValueError("`radius` is `None`. Please provide a floating point number (i.e. `radius=1`).")
         array = as_floats(points, "points")
-        if array.ndim == 2 and array.shape[1] not in (1, 3):
+        if array.size > 0 and array.ndim == 2 and array.shape[1] not in (1, 3):
             hand_over(self, f"{array.shape[1]} dimensions", array, radius, center, threshold)
             return
         self.radius = as_scalar(radius, "radius", low=0.0, open_low=True)

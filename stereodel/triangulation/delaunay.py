@@ -21,7 +21,7 @@ from stereodel._arrays import (
     private,
 )
 from stereodel._docs import by_name, shared
-from stereodel._notebook import Shown
+from stereodel._notebook import Displayed
 from stereodel._spaces import SPHERE, PlaneOrSphere, surface_of
 from stereodel._tasks.threads import thread_count
 from stereodel.constants import REBUILD_INSERTING, REBUILD_REMOVING
@@ -134,7 +134,7 @@ def _of_now(name: str, doc: str) -> Any:
     return property(lambda triangulation: getattr(triangulation._now(), name), doc=doc)
 
 
-class Triangulation(Shown):
+class Triangulation(Displayed):
     """A triangulation that depends only on the set of points; see the two subclasses.
 
     The first change makes a mesh of the kernel, from which changes and states come from then on; its lock lets one

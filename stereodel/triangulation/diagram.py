@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from stereodel import _kernel
 from stereodel._arrays import BoolArray, FloatArray, Indices, IntArray, locked
-from stereodel._notebook import Shown
+from stereodel._notebook import Displayed
 from stereodel._spaces import PlaneOrSphere
 from stereodel.sphere.latitudes import Latitude
 from stereodel.triangulation.delaunay import Triangulation, state_of, threads_of
@@ -42,7 +42,7 @@ FAMILY: Final = {
 """What the docstrings of both diagrams have in common."""
 
 
-class Diagram(Generic[_Mesh], Shown):
+class Diagram(Generic[_Mesh], Displayed):
     """The common part of planar and spherical Voronoi diagrams: cells, ridges and vertices as read-only arrays.
 
     The cell of a site is a range of entries: its vertices counterclockwise from the lowest, and beside each the site

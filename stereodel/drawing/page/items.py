@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import FloatArray, Indices, Pixels
-from stereodel._notebook import Shown
+from stereodel._notebook import Displayed
 from stereodel.constants import GROUND_PIXEL
 from stereodel.curves.ragged import Ragged
 from stereodel.drawing.page.colors import Color, as_color
@@ -42,7 +42,7 @@ Look = LineStyle | DotStyle | Color
 
 
 @dataclass(frozen=True, eq=False)
-class Mark(Shown):
+class Mark(Displayed):
     """What every item of a page can do; kinds override what differs."""
 
     _kind: ClassVar[Literal["lines", "dots", "fills", "labels", ""]]

@@ -16,7 +16,7 @@ import numpy as np
 
 from stereodel._arrays import FloatArray, Pixels, as_count, as_scalar
 from stereodel._extras import of_extra
-from stereodel._notebook import Shown, drawn
+from stereodel._notebook import Displayed, drawn
 from stereodel.drawing.page.colors import Color
 from stereodel.drawing.page.items import Arrays, Item, Label, Polygons
 from stereodel.drawing.page.style import PRINT_DPI
@@ -45,7 +45,7 @@ def output(work: str) -> Callable[..., Any]:
 
 
 @dataclass(frozen=True, eq=False)
-class Page(Shown):
+class Page(Displayed):
     """A picture.
 
     Parameters

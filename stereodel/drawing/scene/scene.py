@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import as_choice, as_directions, as_indices, as_points, as_scalar, as_vectors
-from stereodel._notebook import Shown, drawn
+from stereodel._notebook import Displayed, drawn
 from stereodel.curves.view import View
 from stereodel.drawing.page import Item, Label, Page
 from stereodel.drawing.page import style as styles
@@ -38,7 +38,7 @@ MARGIN = 0.02
 """Default white space around the ball on a page, in radii."""
 
 
-class Scene(Shown):
+class Scene(Displayed):
     """A ball with items on it, inside it and around it.
 
     Coordinates are those of space, in one unit. Points and arcs *of the ball* are given on the unit sphere about the

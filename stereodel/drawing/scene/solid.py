@@ -12,14 +12,14 @@ import numpy as np
 
 from stereodel._arrays import FloatArray, Pixels
 from stereodel._extras import of_extra
-from stereodel._notebook import Shown, drawn
+from stereodel._notebook import Displayed, drawn
 from stereodel.drawing.page import Page
 from stereodel.drawing.page.page import output
 from stereodel.drawing.scene.scene_items import Layout, SceneItem
 
 
 @dataclass(frozen=True, eq=False)
-class PlacedScene(Shown):
+class PlacedScene(Displayed):
     """A scene at its position on a page.
 
     Parameters
@@ -43,7 +43,7 @@ class PlacedScene(Shown):
 
 
 @dataclass(frozen=True, eq=False)
-class Solid(Shown):
+class Solid(Displayed):
     """The content of a page in space: balls, lines as tubes, dots as small balls, regions and planes as surfaces.
 
     Widths are those on the page. The limb of a ball depends on the viewing direction and does not exist in space;

@@ -12,19 +12,17 @@ from contextlib import suppress
 from fractions import Fraction
 from itertools import pairwise
 from math import fsum
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 
 from stereodel._arrays import Column, FloatArray, Geometries, Indices, Packed
+from stereodel.constants import DISSOLVE_LOSS
 from stereodel.curves.ragged import Ragged
 from stereodel.io.formats.columns import as_text, plain
 from stereodel.io.formats.map_rows import packed, shapely, unpacked
 from stereodel.io.formats.names import listed, spelled
 from stereodel.io.maps.clipping import areal
-
-LOST: Final = 1e-9
-"""Share of the area by which a union may differ from the sum of its parts before they are taken to overlap."""
 
 
 def dividing(name: str, columns: Mapping[str, Column], what: str) -> Column:
@@ -97,6 +95,6 @@ def _union(parts: Geometries) -> Any:
     whole = shapely.area(parts).sum()
     with suppress(shapely.errors.GEOSException):
         union = shapely.coverage_union_all(parts)
-        if shapely.is_valid(union) and abs(shapely.area(union) - whole) <= LOST * whole:
+        if shapely.is_valid(union) and abs(shapely.area(union) - whole) <= DISSOLVE_LOSS * whole:
             return union
     return shapely.union_all(parts)
