@@ -34,7 +34,8 @@ def _rows(vector: DoubleDouble) -> FloatArray:
 
 def conjugate(q: DoubleDouble) -> DoubleDouble:
     """The inverse rotation, exactly."""
-    return q * np.array([1.0, -1.0, -1.0, -1.0])
+    signs = np.array([1.0, -1.0, -1.0, -1.0])
+    return DoubleDouble(q.hi * signs, q.lo * signs)  # a product would have no −0.0, which the kernel's has
 
 
 def normalized(q: DoubleDouble) -> DoubleDouble:
