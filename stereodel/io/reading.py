@@ -144,6 +144,8 @@ def _content(source: Any, wanted: Wanted, kind: FormatName | None = None) -> tup
     """What a source holds, its name for messages, and its format."""
     if is_frame(source):
         return content_of(source), "", "frame"
+    if not isinstance(source, str | os.PathLike) and not hasattr(source, "read"):
+        raise TypeError(f"source must be a path, a stream or a frame, not {type(source).__name__}; make a frame of it")
     file = SourceFile(source, FORMATS, kind)
     if wanted.layer is not None and file.kind != "vector":
         said = f"{spelled('layer')} is {wanted.layer!r}, but a file of the kind {file.kind} has no layers"
@@ -262,6 +264,8 @@ def shapes_of(source: Any) -> Shapes:
     if isinstance(source, str | os.PathLike):
         with naming(source):
             return _shapes_in(_content(source, Wanted())[0])
+    if is_frame(source) and not hasattr(source, "to_crs"):
+        return _shapes_in(content_of(source))
     if hasattr(source, "to_crs"):
         frame = source if source.crs is None else source.to_crs("EPSG:4326")
         others = frame.drop(columns=frame.geometry.name).to_dict("records") if hasattr(frame, "columns") else None
@@ -279,7 +283,7 @@ def _shapes_in(found: Content) -> Shapes:
         return of_features(found)
     if isinstance(found, Frame) and hasattr(found.frame, "to_crs"):
         return shapes_of(found.frame)
-    raise ValueError("the file is a table without geometries")
+    raise ValueError("this is a table without geometries; it can be read as points, not as shapes")
 
 
 def of_items(items: list[Any]) -> Shapes:

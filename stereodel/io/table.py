@@ -15,7 +15,7 @@ from stereodel._extras import optional
 from stereodel._notebook import Displayed, tabular
 from stereodel.io.formats import Content, Wanted, notation
 from stereodel.io.formats.columns import EXACT_INTEGERS, blanked, doubles, far, why_not
-from stereodel.io.formats.map_rows import content_of, is_frame
+from stereodel.io.formats.map_rows import columns_of
 from stereodel.io.formats.names import DataWarning, beside, has_lonlat, left_out, naming, spelled
 from stereodel.sphere import lonlat_to_xyz
 from stereodel.sphere.latitudes import Latitude
@@ -82,8 +82,7 @@ class PointTable(Displayed):
                 raise ValueError(f"crs is {self.crs!r}, but points of the sphere are in degrees, {DEGREES}")
         given = np.asarray(self.rows, dtype=np.intp)
         rows = given if given.size else np.arange(1, len(places) + 1)
-        named = content_of(self.columns).columns() if is_frame(self.columns) else self.columns
-        columns = {str(name): read_only(np.asarray(values)) for name, values in named.items()}
+        columns = {str(name): read_only(np.asarray(values)) for name, values in columns_of(self.columns).items()}
         for name, values in {**columns, "rows": rows}.items():
             if values.ndim < 1 or len(values) != len(places):
                 raise ValueError(f"column {name!r} has shape {values.shape}, but there are {len(places)} points")
