@@ -140,8 +140,10 @@ class StereodelAccessor:
         """What is interpolated, and what stays as it is."""
         if not isinstance(self._values, xarray.Dataset):
             if strange := set(points) - set(self._values.dims):
-                said = f"the source has the dimension {strange.pop()!r}, but the values have {_listed(self._values.dims)}"
-                raise ValueError(f"{said}; rename one of both")
+                known = _listed(self._values.dims)
+                raise ValueError(
+                    f"the source has the dimension {strange.pop()!r}, but the values have {known}; rename one"
+                )
             return self._values, {}
         others = self._values.drop_vars(source, errors="ignore").data_vars
         inside = [name for name, each in others.items() if set(points) <= set(each.dims) and each.dtype.kind in "iuf"]
