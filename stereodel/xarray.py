@@ -139,11 +139,9 @@ class StereodelAccessor:
     def _parted(self, points: tuple[Hashable, ...], source: list[Hashable]) -> tuple[Any, dict[Hashable, Any]]:
         """What is interpolated, and what stays as it is."""
         if not isinstance(self._values, xarray.Dataset):
-            if strange := set(points) - set(self._values.dims):
-                known = _listed(self._values.dims)
-                raise ValueError(
-                    f"the source has the dimension {strange.pop()!r}, but the values have {known}; rename one"
-                )
+            if set(points) - set(self._values.dims):
+                said = f"the source has {_listed(points)}, but the values have {_listed(self._values.dims)}"
+                raise ValueError(f"{said}; rename dimensions of one")
             return self._values, {}
         others = self._values.drop_vars(source, errors="ignore").data_vars
         inside = [name for name, each in others.items() if set(points) <= set(each.dims) and each.dtype.kind in "iuf"]

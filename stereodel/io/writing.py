@@ -18,7 +18,7 @@ from stereodel._tasks.progress import Progress
 from stereodel._tasks.whole_files import replacing, said_of, write_netcdf
 from stereodel.interpolation import Contour
 from stereodel.io.formats import wkb
-from stereodel.io.formats.columns import check_held, objects
+from stereodel.io.formats.columns import objects
 from stereodel.io.formats.delimited import write_csv
 from stereodel.io.formats.gdal import DRIVERS, write_layer
 from stereodel.io.formats.geojson import write_geojson
@@ -188,9 +188,6 @@ def _write_grid(thing: Any, path: Path, options: dict[str, Any], progress: Progr
     elif isinstance(thing, Grid):
         write_netcdf(thing.to_xarray(), path, form="NETCDF3_64BIT")  # the classic format, which every reader supports
     else:
-        if isinstance(thing, MESHES):
-            options["columns"] = point_columns(options.get("columns"), len(thing.points))
-            check_held(options["columns"], "nc")
         write_netcdf(to_ugrid(thing, **options), path)
 
 
