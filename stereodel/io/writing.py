@@ -128,7 +128,8 @@ def _layer(thing: Any, options: dict[str, Any]) -> MapRows:
         rows = {name: objects(values.tolist()) if values.ndim > 1 else values for name, values in thing.columns.items()}
         return MapRows(beside(["geometry"], rows), wkb.points(thing.places), thing.crs)
     if not hasattr(thing, "geometry"):
-        raise TypeError(f"thing must be a mesh, a PointTable or a GeoDataFrame, not {type(thing).__name__}")
+        said = f"thing must be a mesh, a PointTable or a GeoDataFrame, not {type(thing).__name__}"
+        raise TypeError(f"{said}; read_points makes a PointTable of a frame")
     return MapRows.of_frame(thing)
 
 

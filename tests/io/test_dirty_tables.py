@@ -222,8 +222,9 @@ def test_an_index_and_geometries_of_frames():
 
 @pytest.mark.parametrize("door", [read_points, lambda given: PointTable(TWO, given)])
 def test_what_is_no_frame_is_refused(door):
-    with pytest.raises(TypeError, match="a frame, not set"):
-        door({1, 2})
+    for given in ({1, 2}, pd.Series([1, 2])):
+        with pytest.raises(TypeError, match=f"a frame, not {type(given).__name__}"):
+            door(given)
 
 
 DIRTY = """Bericht

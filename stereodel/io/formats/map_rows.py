@@ -132,7 +132,8 @@ def of_arrow(values: Any) -> Column:
 
 def is_frame(source: Any) -> bool:
     """Whether something is a frame, of pandas, polars, Arrow, DuckDB or any other library that speaks Arrow."""
-    return any(hasattr(source, name) for name in ("__arrow_c_stream__", "to_crs", "collect"))
+    speaks = hasattr(source, "__arrow_c_stream__") or hasattr(source, "collect")
+    return hasattr(source, "to_crs") or (speaks and not hasattr(source, "to_frame"))  # which a single column has
 
 
 def columns_of(given: Any) -> Mapping[str, Any]:
