@@ -139,6 +139,9 @@ class StereodelAccessor:
     def _parted(self, points: tuple[Hashable, ...], source: list[Hashable]) -> tuple[Any, dict[Hashable, Any]]:
         """What is interpolated, and what stays as it is."""
         if not isinstance(self._values, xarray.Dataset):
+            if set(points) - set(self._values.dims):
+                said = f"the source has {_listed(points)}, but the values have {_listed(self._values.dims)}"
+                raise ValueError(f"{said}; rename dimensions of one")
             return self._values, {}
         others = self._values.drop_vars(source, errors="ignore").data_vars
         inside = [name for name, each in others.items() if set(points) <= set(each.dims) and each.dtype.kind in "iuf"]
@@ -155,7 +158,8 @@ class StereodelAccessor:
         pair = []
         for each in self._found(held) if given is None else given:
             if not isinstance(each, xarray.DataArray) and each not in held.variables:
-                raise ValueError(f"source names {each!r}, but the coordinates are {sorted(map(str, held.variables))}")
+                known = _listed(held.variables) or "none; ask the whole dataset, or give two arrays"
+                raise ValueError(f"source names {each!r}, but the coordinates are {known}")
             pair.append((each if isinstance(each, xarray.DataArray) else held[each]).reset_coords(drop=True).compute())
         for dim in [dim for dim in pair[0].dims if dim in pair[1].dims and pair[0].ndim > 1]:
             still, timely = all((each == each.isel({dim: 0})).all() for each in pair), "time" in str(dim).lower()

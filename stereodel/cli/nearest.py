@@ -51,7 +51,8 @@ def command(
     try:
         asking = of_columns.read(queries, columns)
     except NoPointError as error:
-        raise ValueError(f"{error}, or ask for the shapes nearest to points: {queries} --of {sites}") from error
+        asks = "" if isinstance(chosen, ShapeTable) else ", or ask for the shapes nearest to points: "
+        raise ValueError(f"{error}{asks and f'{asks}{queries} --of {sites}'}") from error
     if isinstance(chosen, ShapeTable):
         if count > 1 or exclude_self:
             raise ValueError(f"{sites}: has not only points; leave out --count and --exclude-self, which are for these")

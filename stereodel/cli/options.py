@@ -121,7 +121,7 @@ class File:
 class Output(File):
     """What a command writes, to stdout in one of several formats."""
 
-    format: str | None = option("NAME", "Format of stdout, when --out is -; an extension, such as csv.")
+    format: str | None = option("NAME", "Format of stdout, when --out is -; an extension, such as csv or png.")
 
 
 @dataclass(frozen=True)
@@ -226,7 +226,7 @@ def grouped(command: Callable[..., None]) -> Callable[..., None]:
         for key, each in options.items():
             kind, said = (hints[key], each.metadata["option"]) if each.metadata else get_args(hints[key])
             told = copy(said)
-            if kind is bool:  # without an option that says no
+            if kind is bool and each.metadata:  # without an option that says no
                 told.param_decls = (f"--{key.replace('_', '-')}",)
             told.help = told.help.format(of=of and f" of {of}")
             told.rich_help_panel = getattr(group, "heading", "").format(of=of).strip() or None

@@ -54,7 +54,8 @@ def griddata(
         Query points, in the form of `points`; the arrays of a tuple are broadcast against each other, so that
         ``np.ix_``, ``np.mgrid`` and ``np.meshgrid`` give grids.
     method : {"linear", "nearest", "natural", "smooth"}, optional
-        `LinearInterpolator`, `NearestInterpolator`, `NaturalNeighborInterpolator` or `SmoothInterpolator`.
+        `LinearInterpolator`, `NearestInterpolator`, `NaturalNeighborInterpolator` or `SmoothInterpolator`, which
+        is what SciPy calls "cubic".
     fill_value : float, optional
         Value outside all triangles; not used by "nearest".
     latitude : {"spherical", "geodetic", "authalic"}, optional

@@ -191,7 +191,7 @@ class Weights(Displayed):
         refused = f"{os.fspath(where)} is not a file of weights"
         names = ("row", "col", "S", "src_grid_dims", "dst_grid_dims")
         if missing := [name for name in names if name not in held]:
-            raise ValueError(f"{refused}: {', '.join(missing)} is missing")
+            raise ValueError(f"{refused}, it lacks {', '.join(missing)}")
         row, column, data, source, target = (np.asarray(held[name]) for name in names)
         size, count = int(source.prod()), int(target.prod())
         agree = row.shape == column.shape == data.shape == (row.size,)

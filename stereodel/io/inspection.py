@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from shlex import quote
-from typing import Any, Final
+from typing import Any, ClassVar, Final
 
 import numpy as np
 
 from stereodel._arrays import Column
+from stereodel._notebook import Displayed
 from stereodel.io.formats import Content, Wanted
 from stereodel.io.formats.columns import MISSING, OTHER, doubles, far
 from stereodel.io.formats.names import listed, spelled
@@ -19,8 +20,8 @@ SHOWN: Final = 5  # rows that are left out, and values, that a text shows
 
 
 @dataclass(frozen=True)
-class Inspection:
-    r"""What `inspect` found; as a text by ``print``, as JSON by ``json.dumps(inspection.found)``.
+class Inspection(Displayed):
+    r"""What `inspect` found; as a text by ``print`` and in notebooks, as JSON by ``json.dumps(inspection.found)``.
 
     Attributes
     ----------
@@ -51,6 +52,7 @@ class Inspection:
     """
 
     found: dict[str, Any]
+    _mimes: ClassVar[Any] = lambda it: ({"text/plain": str(it)}, {})
 
     def __str__(self) -> str:
         said = {

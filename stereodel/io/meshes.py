@@ -18,7 +18,7 @@ from stereodel._spaces import SPHERE
 from stereodel.curves.clip import points_along
 from stereodel.curves.ragged import Ragged, spans
 from stereodel.curves.trace import sides_of
-from stereodel.io.formats.columns import as_text, of_objects, plain_cells
+from stereodel.io.formats.columns import as_text, check_held, of_objects, plain_cells
 from stereodel.io.formats.names import DataWarning, beside
 from stereodel.io.rows_of import (
     LARGEST_SEGMENT,
@@ -216,8 +216,10 @@ def to_ugrid(
     }
     variables["mesh"] = ((), np.int32(0), topology)
     at = "face" if faces.what == "point" else "node"
-    given = faces.valued(mesh, columns, [*variables, "node", "face", "edge", "two", width])
-    for (name, values), own in zip(given.items(), columns or (), strict=True):
+    named = point_columns(columns, len(mesh.points))
+    check_held(named, "nc")
+    given = faces.valued(mesh, named, [*variables, "node", "face", "edge", "two", width])
+    for (name, values), own in zip(given.items(), named, strict=True):
         variables[name] = (at, values, {"mesh": "mesh", "location": at, "long_name": own})
     return optional("xarray", "grid").Dataset(variables, attrs={"Conventions": "CF-1.11 UGRID-1.0"})
 

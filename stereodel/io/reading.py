@@ -144,6 +144,8 @@ def _content(source: Any, wanted: Wanted, kind: FormatName | None = None) -> tup
     """What a source holds, its name for messages, and its format."""
     if is_frame(source):
         return content_of(source), "", "frame"
+    if not isinstance(source, str | os.PathLike) and not hasattr(source, "read"):
+        raise TypeError(f"source must be a path, a stream or a frame, not {type(source).__name__}; make a frame of it")
     file = SourceFile(source, FORMATS, kind)
     if wanted.layer is not None and file.kind != "vector":
         said = f"{spelled('layer')} is {wanted.layer!r}, but a file of the kind {file.kind} has no layers"
@@ -262,10 +264,8 @@ def shapes_of(source: Any) -> Shapes:
     if isinstance(source, str | os.PathLike):
         with naming(source):
             return _shapes_in(_content(source, Wanted())[0])
-    if hasattr(source, "to_crs"):
-        frame = source if source.crs is None else source.to_crs("EPSG:4326")
-        others = frame.drop(columns=frame.geometry.name).to_dict("records") if hasattr(frame, "columns") else None
-        return of_geometries(np.asarray(frame.geometry, dtype=object), others)
+    if is_frame(source):
+        return _shapes_in(content_of(source))
     alone = isinstance(source, Mapping) or hasattr(source, "geom_type")
     if alone or isinstance(getattr(source, "__geo_interface__", None), Mapping):
         return of_items([source])
@@ -277,9 +277,11 @@ def shapes_of(source: Any) -> Shapes:
 def _shapes_in(found: Content) -> Shapes:
     if isinstance(found, geojson.Features):
         return of_features(found)
-    if isinstance(found, Frame) and hasattr(found.frame, "to_crs"):
-        return shapes_of(found.frame)
-    raise ValueError("the file is a table without geometries")
+    if not isinstance(found, Frame) or not hasattr(found.frame, "to_crs"):
+        raise ValueError("this is a table without geometries; it can be read as points, not as shapes")
+    frame = found.frame if found.frame.crs is None else found.frame.to_crs("EPSG:4326")
+    others = frame.drop(columns=frame.geometry.name).to_dict("records") if hasattr(frame, "columns") else None
+    return of_geometries(np.asarray(frame.geometry, dtype=object), others)
 
 
 def of_items(items: list[Any]) -> Shapes:

@@ -25,7 +25,7 @@ from stereodel.curves.ragged import Ragged
 from stereodel.curves.trace import Arcs, great, sides_of
 from stereodel.interpolation import Contour
 from stereodel.io.formats import wkb
-from stereodel.io.formats.map_rows import MapRows, content_of, is_frame, packed, unpacked
+from stereodel.io.formats.map_rows import MapRows, columns_of, packed, unpacked
 from stereodel.io.formats.names import beside, spelled
 from stereodel.io.maps.clipping import clipped
 from stereodel.io.maps.dissolving import codes_of, dissolved, dividing, grouped, merged
@@ -330,8 +330,7 @@ def usual_kind(mesh: Mesh) -> str:
 
 def point_columns(columns: Any, count: int) -> Columns:
     """The columns of a mapping or a frame as arrays with a value for each of `count` points."""
-    named: Any = content_of(columns).columns() if is_frame(columns) else columns or {}
-    given = {name: np.asarray(values) for name, values in named.items()}
+    given = {name: np.asarray(values) for name, values in columns_of({} if columns is None else columns).items()}
     for name, values in given.items():
         if values.ndim < 1 or len(values) != count:
             raise ValueError(f"columns[{name!r}] has shape {values.shape}, but there are {count} points")

@@ -15,7 +15,7 @@ from stereodel._extras import optional
 from stereodel._notebook import Displayed, tabular
 from stereodel.io.formats import Content, Wanted, notation
 from stereodel.io.formats.columns import EXACT_INTEGERS, blanked, doubles, far, why_not
-from stereodel.io.formats.map_rows import content_of, is_frame
+from stereodel.io.formats.map_rows import columns_of
 from stereodel.io.formats.names import DataWarning, beside, has_lonlat, left_out, naming, spelled
 from stereodel.sphere import lonlat_to_xyz
 from stereodel.sphere.latitudes import Latitude
@@ -82,8 +82,7 @@ class PointTable(Displayed):
                 raise ValueError(f"crs is {self.crs!r}, but points of the sphere are in degrees, {DEGREES}")
         given = np.asarray(self.rows, dtype=np.intp)
         rows = given if given.size else np.arange(1, len(places) + 1)
-        named = content_of(self.columns).columns() if is_frame(self.columns) else self.columns
-        columns = {str(name): read_only(np.asarray(values)) for name, values in named.items()}
+        columns = {str(name): read_only(np.asarray(values)) for name, values in columns_of(self.columns).items()}
         for name, values in {**columns, "rows": rows}.items():
             if values.ndim < 1 or len(values) != len(places):
                 raise ValueError(f"column {name!r} has shape {values.shape}, but there are {len(places)} points")
@@ -160,6 +159,7 @@ def located(found: Content, wanted: Wanted, name: str = "") -> PointTable:
     """
     gaps = wanted.skip_missing or wanted.skip_invalid
     pair, crs = None if wanted.plane else found.places(skip_missing=gaps), found.crs
+    remedy = left_out("skip_invalid") if pair else f"give {spelled('crs', '=')}, or {left_out('skip_invalid')}"
     columns = {key: blanked(np.asarray(each), wanted.sentinels) for key, each in found.columns().items()}
     if pair is None:
         pair, columns, crs = _place_columns(columns, wanted, found.understood)
@@ -175,7 +175,7 @@ def located(found: Content, wanted: Wanted, name: str = "") -> PointTable:
 
     places, rows, columns = there()
     if wanted.plane is None:
-        places = degrees(places, crs, rows, wrap=wanted.wrap, wrong=wrong)
+        places = degrees(places, crs, rows, wrap=wanted.wrap, wrong=wrong, remedy=remedy)
         places, rows, columns = there()
     if found.invalid:
         first, many = min(found.invalid), len(found.invalid)
@@ -220,12 +220,13 @@ def degrees(
     *,
     wrap: bool = True,
     wrong: dict[int, str] | None = None,
+    remedy: str = "",
 ) -> FloatArray:
     """Places in degrees, transformed if `crs` is given, easting first; ValueError names the first row with a wrong one.
 
     With `wrong`, those are NaN, and it takes their rows. Without `wrap`, longitudes beyond ±360° are wrong.
     """
-    lonlat, skip = places, left_out("skip_invalid")
+    lonlat = places
     if crs is not None and len(places):
         transformer = optional("pyproj", "geo").Transformer.from_crs(known_crs(crs), DEGREES, always_xy=True)
         lonlat = np.column_stack(transformer.transform(*places.T))
@@ -234,11 +235,11 @@ def degrees(
         lonlat[lost] = np.nan
     if wrong is None:
         _refuse(~np.isfinite(lonlat).all(axis=1), rows, lambda k: "a coordinate is not finite")
-    advice = f"is it the longitude, or not in degrees? {skip}"
+    advice = f"is it the longitude, or not in degrees? {remedy}".rstrip()
     outside = np.abs(lonlat[:, 1]) > 90.0
     _refuse(outside, rows, lambda k: f"latitude {lonlat[k, 1]} is outside [-90, 90]", advice, wrong)
     far_round = np.abs(lonlat[:, 0]) > (np.inf if wrap or crs is not None else 360.0)
-    advice = f"{skip}, or take it as it is with {spelled('wrap', '=True')}"
+    advice = f"{left_out('skip_invalid')}, or take it as it is with {spelled('wrap', '=True')}"
     _refuse(far_round, rows, lambda k: f"longitude {lonlat[k, 0]} is outside [-360, 360]", advice, wrong)
     return lonlat if wrong is None else np.where((outside | far_round)[:, None], np.nan, lonlat)
 

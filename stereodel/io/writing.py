@@ -18,7 +18,7 @@ from stereodel._tasks.progress import Progress
 from stereodel._tasks.whole_files import replacing, said_of, write_netcdf
 from stereodel.interpolation import Contour
 from stereodel.io.formats import wkb
-from stereodel.io.formats.columns import check_held, objects
+from stereodel.io.formats.columns import objects
 from stereodel.io.formats.delimited import write_csv
 from stereodel.io.formats.gdal import DRIVERS, write_layer
 from stereodel.io.formats.geojson import write_geojson
@@ -128,7 +128,8 @@ def _layer(thing: Any, options: dict[str, Any]) -> MapRows:
         rows = {name: objects(values.tolist()) if values.ndim > 1 else values for name, values in thing.columns.items()}
         return MapRows(beside(["geometry"], rows), wkb.points(thing.places), thing.crs)
     if not hasattr(thing, "geometry"):
-        raise TypeError(f"thing must be a mesh, a PointTable or a GeoDataFrame, not {type(thing).__name__}")
+        said = f"thing must be a mesh, a PointTable or a GeoDataFrame, not {type(thing).__name__}"
+        raise TypeError(f"{said}; read_points makes a PointTable of a frame")
     return MapRows.of_frame(thing)
 
 
@@ -188,7 +189,6 @@ def _write_grid(thing: Any, path: Path, options: dict[str, Any], progress: Progr
     elif isinstance(thing, Grid):
         write_netcdf(thing.to_xarray(), path, form="NETCDF3_64BIT")  # the classic format, which every reader supports
     else:
-        check_held(options.get("columns") or {}, "nc")
         write_netcdf(to_ugrid(thing, **options), path)
 
 

@@ -198,7 +198,7 @@ def opened(path: str | os.PathLike[str]) -> Any:
     except (OSError, ValueError, optional("pyarrow", "partitioned").ArrowException) as error:
         if isinstance(error, OSError) and error.errno is not None:  # of the system, which names it
             raise
-        raise ValueError(f"{path} is not a Parquet file: {error}") from error
+        raise ValueError(f"{path} is not a Parquet file; write other tables as Parquet first ({error})") from error
 
 
 def read(file: PointFile, columns: PointColumns, first: int, last: int) -> Iterator[FloatArray]:

@@ -111,7 +111,7 @@ def test_help_shows_an_example_and_names_what_is_given(command):
     assert f"stereodel {command}" in ran.stdout
     assert "--help" in ran.stdout
     for said in (ran.output, CliRunner().invoke(app, ["--help"]).output):
-        assert re.findall(r"bool|list\[|TEXT,|[{}<>]|int range|x<=|x>=", said) == []
+        assert re.findall(r"bool|list\[|TEXT,|--[\w-]+,--|[{}<>]|int range|x<=|x>=", said) == []
     _, first, *below = re.split(r"─ (?:Options|Reading|Picture)[^─]* ─", ran.stdout)
     assert 0 < len(re.findall(r"^│ .{3}--\w", first, re.MULTILINE) or re.findall(r"^│ --\w", first, re.MULTILINE)) <= 20
     assert ("--skip-missing" in "".join(below)) == ("--skip-missing" in ran.stdout)

@@ -70,6 +70,7 @@ def test_cells_on_land_and_in_the_polygons_of_a_file(folder, run, rows):
     (folder / "square.geojson").write_text(json.dumps(square), encoding="utf-8")
     found = rows(run("voronoi", "cities.csv", "--clip", "square.geojson", "-o", "-"))
     assert [row["name"] for row in found if float(row["area_km2"]) > 0] == ["Ulm"]
+    assert run.said == f"note: {len(found) - 1} of {len(found)} cells have no part inside --clip\n"
 
 
 REGIONS = """name,region,lon,lat

@@ -119,7 +119,8 @@ def test_what_cannot_be_found_is_said(stations):
     for given, options, message in (
         (stations.drop_vars("lon"), {}, "one coordinate of longitude, but there is none; name two by source="),
         (twice, {}, "there are several: lon, longitude"),
-        (stations, {"source": ("l", "lat")}, r"source names 'l', but the coordinates are \['code', 'lat', 'lon'"),
+        (stations, {"source": ("l", "lat")}, "source names 'l', but the coordinates are lon, lat, time, code"),
+        (stations, {"source": (xr.DataArray(LON, dims="q"),) * 2}, "the source has q, but the values have time, "),
         (stations, {"lon": xr.DataArray(LON, dims="time")}, "have the dimension 'time', which the values also have"),
         (stations, {"lon": GRID[..., 0]}, r"lon has shape \(3, 5\); give a DataArray"),
         (stations, apart, r"cannot align|conflict|join"),

@@ -196,6 +196,7 @@ test_values = refused(
     (lambda: shapes_of("nowhere.geojson"), r"nowhere\.geojson", FileNotFoundError),
     (lambda: shapes_of(3), "source must be a file", TypeError),
     (lambda: shapes_of([shapely.Point(1, 2), 3]), r"source\[1\] must be a geometry", TypeError),
+    (lambda: shapes_of([shapely.Point(1, 95)]), r"is it the longitude, or not in degrees\?$", ValueError),
     (lambda: to_geodataframe(POINTS), "mesh must be", TypeError),
     (lambda: to_geodataframe([LINES[0], 5]), r"mesh\[1\] must be a Contour, not int", TypeError),
 )

@@ -13,11 +13,12 @@ import pandas as pd
 import polars as pl
 import pyarrow as pa
 import pytest
+import xarray
 from typer.testing import CliRunner
 
 from stereodel import SphericalVoronoi
 from stereodel.cli.application import app
-from stereodel.io import DataWarning, PointTable, inspect, read_points, to_geodataframe, write
+from stereodel.io import DataWarning, PointTable, inspect, nearest_shapes, read_points, to_geodataframe, write
 
 ULM, KIEL = (9.99, 48.4), (10.1, 54.3)
 TWO = [ULM, KIEL]
@@ -189,7 +190,7 @@ def relation(columns):
     return duckdb.sql("SELECT * FROM given")
 
 
-@pytest.mark.parametrize("frame", [pd.DataFrame, pl.DataFrame, pa.table, relation])
+@pytest.mark.parametrize("frame", [pd.DataFrame, pl.DataFrame, pl.LazyFrame, pa.table, relation])
 def test_frames_at_every_door(tmp_path, frame):
     source = frame(COLUMNS)
     table = read_points(source)
@@ -199,8 +200,13 @@ def test_frames_at_every_door(tmp_path, frame):
     assert to_geodataframe(diagram, columns=others)["name"].tolist() == COLUMNS["name"]
     write(tmp_path / "a.csv", diagram, columns=others)
     assert "Kiel" in (tmp_path / "a.csv").read_text()
+    write(tmp_path / "a.nc", diagram, columns=others, what="triangles")
+    with xarray.open_dataset(tmp_path / "a.nc") as mesh:
+        assert mesh["name"].values.tolist() == COLUMNS["name"]
     assert PointTable(TWO, others).columns["name"].tolist() == COLUMNS["name"]
     assert inspect(source).found["rows"] == 2
+    with pytest.raises(ValueError, match="without geometries; it can be read as points"):
+        nearest_shapes(TWO, source)
 
 
 def test_an_index_and_geometries_of_frames():
@@ -209,6 +215,16 @@ def test_an_index_and_geometries_of_frames():
     points = geopandas.points_from_xy(*np.transpose(TWO))
     for crs in (4326, None):  # those without a coordinate system are degrees
         assert read_points(geopandas.GeoSeries(points, crs=crs)).lonlat.tolist() == [list(place) for place in TWO]
+        arrow = pa.table(geopandas.GeoDataFrame(NAMES, geometry=points, crs=crs).to_arrow())
+        assert read_points(arrow).lonlat.tolist() == [list(place) for place in TWO]
+        assert nearest_shapes(TWO, arrow)[0].tolist() == [0, 1]
+
+
+@pytest.mark.parametrize("door", [read_points, lambda given: PointTable(TWO, given)])
+def test_what_is_no_frame_is_refused(door):
+    for given in ({1, 2}, pd.Series([1, 2])):
+        with pytest.raises(TypeError, match=f"a frame, not {type(given).__name__}"):
+            door(given)
 
 
 DIRTY = """Bericht

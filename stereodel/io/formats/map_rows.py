@@ -132,14 +132,24 @@ def of_arrow(values: Any) -> Column:
 
 def is_frame(source: Any) -> bool:
     """Whether something is a frame, of pandas, polars, Arrow, DuckDB or any other library that speaks Arrow."""
-    return hasattr(source, "__arrow_c_stream__") or hasattr(source, "to_crs")
+    speaks = hasattr(source, "__arrow_c_stream__") or hasattr(source, "collect")
+    return hasattr(source, "to_crs") or (speaks and not hasattr(source, "to_frame"))  # which a single column has
+
+
+def columns_of(given: Any) -> Mapping[str, Any]:
+    """The columns of a mapping or a frame."""
+    if not is_frame(given) and not isinstance(given, Mapping):
+        raise TypeError(f"columns must be a mapping or a frame, not {type(given).__name__}")
+    return content_of(given).columns() if is_frame(given) else given
 
 
 def content_of(frame: Any) -> Content:
-    """The rows of a frame, with places if it has geometries; ImportError without PyArrow."""
+    """The rows of a frame, a lazy one collected, with places if it has geometries; ImportError without PyArrow."""
     if hasattr(frame, "to_crs"):
         return Frame(frame)
-    table = arrow.table(frame)
+    table = arrow.table(frame.collect() if hasattr(frame, "collect") else frame)
+    if any((field.metadata or {}).get(b"ARROW:extension:name", b"").startswith(b"geoarrow") for field in table.schema):
+        return Frame(optional("geopandas", "geo").GeoDataFrame.from_arrow(table))
     found = {name: of_arrow(table[name]) for name in table.column_names if not name.startswith("__index_level_")}
     index = index_columns(frame) if hasattr(getattr(frame, "index", None), "nlevels") else {}
     more = {name: of_objects(np.asarray(each)) for name, each in index.items() if name not in table.column_names}
