@@ -108,6 +108,7 @@ READ = [
     case("\ufefflon,lat|9.99,48.4||10.1,54.3"),
     case("lon,lat,name|", [], {"name": []}),
     # refused, with the option that helps
+    case("lon,lat|1" + 5000 * " " + "x,2", "row 1: the longitude .* is not a number"),
     case("lon,lat|9,48|99999,3", r"row 2: longitude 99999.0 is outside .* skip_invalid=True, or .* wrap=True"),
     case("lon,lat|9,48|181,91", "row 2: latitude 91.0 is outside .* leave such rows out with skip_invalid=True"),
     case("lon,lat|48°N,9°E", "row 1: the longitude '48°N' is a latitude"),
@@ -245,10 +246,7 @@ def test_missing_values_and_odd_types_of_frames():
         assert got[:1] + got[2:5] == ["x", 3, frame["d"][1], frame["e"][1]]
         assert np.isnan(got[1])
     twice = pa.table([[1.0], [2.0], [3.0]], names=["lon", "lat", "lat"])
-    for source, said in (
-        (pl.LazyFrame(COLUMNS), "a frame, got LazyFrame"),
-        (twice, 'cannot be read, .*"lat" exists 2'),
-    ):
+    for source, said in ((pl.LazyFrame(COLUMNS), "got LazyFrame"), (twice, 'cannot be read, .*"lat" exists 2')):
         with pytest.raises((TypeError, ValueError), match=said):
             read_points(source)
 

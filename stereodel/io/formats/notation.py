@@ -48,7 +48,7 @@ ANGLE: Final = re.compile(
 NUMBER: Final = r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?"
 # A point of well-known text, also extended by the number of its coordinate system.
 WKT: Final = re.compile(
-    rf"(?:SRID\s*=\s*(?P<srid>[0-9]+)\s*;)?\s*(?:MULTI)?POINT\s*(?:ZM|Z|M)?\s*"
+    rf"(?![^\0]{{200}})(?:SRID\s*=\s*(?P<srid>[0-9]+)\s*;)?\s*(?:MULTI)?POINT\s*(?:ZM|Z|M)?\s*"
     rf"(?:EMPTY|\(+\s*(?P<x>{NUMBER})\s+(?P<y>{NUMBER})(?:\s+{NUMBER})*\s*\)+)",
     re.IGNORECASE,
 )
@@ -60,7 +60,7 @@ BETWEEN: Final = tuple(
 COMMA: Final = re.compile(r"[-+]?[0-9]+,[0-9]+")  # a number with a decimal comma, or two whole ones
 WELL_KNOWN: Final = "well-known text"
 
-LONGEST: Final = 200  # characters of a line that may be a place
+LONGEST: Final = 200  # characters of a cell that may be a place
 LOOKED_AT: Final = 20  # cells from which it is known whether a column has both coordinates
 
 # Both coordinates of a column's cells, as text where they are plain numbers, "" where there are none; what they were
@@ -81,8 +81,8 @@ def angle(cell: str) -> Angle | None:
     >>> angle("10°59'07\"E"), angle("48 24.5 S")
     (Angle(degrees=10.985277777777778, axis='longitude'), Angle(degrees=-48.40833333333333, axis='latitude'))
     """
-    found = ANGLE.fullmatch(cell.translate(PLAIN).strip())
-    if found is None:
+    found = ANGLE.fullmatch(" ".join(cell[:LONGEST].translate(PLAIN).split()))  # as runs of blanks take long
+    if found is None or len(cell) > LONGEST:
         return None
     parts = [found[name] for name in ("degrees", "minutes", "seconds") if found[name]]
     said = [found[name] for name in ("before", "after") if found[name]]
@@ -162,7 +162,7 @@ def _well_known(cells: list[str]) -> Both:
 
 def is_place(cell: str) -> bool:
     """Whether a line has both coordinates, and no more."""
-    return len(cell) < LONGEST and bool(WKT.fullmatch(cell.strip()) or _pair(cell.strip()))
+    return bool(WKT.fullmatch(cell.strip()) or _pair(cell.strip()))
 
 
 def _pair(cell: str) -> tuple[Angle, Angle] | None:
