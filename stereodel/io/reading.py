@@ -109,10 +109,8 @@ def read_points(
     may be angles, such as 10°59'07"E, 170 41.4 W and 48.5 Nord. Titles above the header, a row of units below it and
     one of totals at the end are left out; what is guessed a `DataWarning` tells.
 
-    The page on files says which marks separate thousands, and what becomes of properties that few features have.
-
-    Geometries in another coordinate system (in GeoJSON, with a member ``crs``) are transformed to EPSG:4326; without
-    one they are taken as longitude and latitude in degrees. A MultiPoint with one point counts as a point.
+    The page on files says which marks separate thousands, and more. Geometries in another coordinate system (in
+    GeoJSON, with a member ``crs``) are transformed to EPSG:4326; without one they are in degrees.
 
     Examples
     --------

@@ -30,10 +30,10 @@ BLOCK = 20_000  # rows that are split in one block
 COMMENTS = re.compile(r"(?:[ \t]*#[^\r\n]*(?:\r\n?|\n|\Z))+")
 TITLES: Final = 20  # rows among which the header is looked for
 UNIT: Final = 16  # letters that the name of a unit has at most
-# Words of a row of totals or means.
+# What names a row of totals or means, such as Grand Total and Mittelwert:
 TOTALS: Final = re.compile(
-    r"\b(?:totale?s?|sums?|summe|gesamt\w*|insgesamt|somme|suma|soma|итого|всего|合计|合計|总计|المجموع|"
-    r"mean|average|mittelwert|durchschnitt|moyenne|m[eé]dia|promedio|среднее|平均|المتوسط)\b",
+    r"(?:\w+ )?(?:totale?s?|sums?|summe|gesamt\w*|insgesamt|somme|suma|soma|итого|всего|合计|合計|总计|المجموع|"
+    r"mean|average|mittelwert|durchschnitt|moyenne|m[eé]dia|promedio|среднее|平均|المتوسط)(?: \w+)?\W*",
     re.IGNORECASE,
 )
 WHOLE: Final = re.compile(r'"[^"\r\n]*[,;\t|][^"\r\n]*"[ \t]*[\r\n]')  # a line that is one quoted field
@@ -213,7 +213,7 @@ def _rows_of_words(columns: Mapping[str, Column], places: Collection[str], count
     units = all(first[k] and len(first[k]) <= UNIT and angle(second[k]) for k in here)
     if units and not any(angle(cell) or NUMBER.fullmatch(cell) for cell in first):
         found[0] = "a row of units"
-    if any(map(TOTALS.search, last)) and all(_sums_up(columns[name]) for name in places):
+    if any(map(TOTALS.fullmatch, last)) and all(_sums_up(columns[name]) for name in places):
         found[count - 1] = "a row of totals"
     return found
 

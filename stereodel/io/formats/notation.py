@@ -37,6 +37,7 @@ O_IS: Final = "has an O, which is east in German and west in French, Spanish and
 LETTERED: Final = re.compile(
     r"n\W?s|e\W?w|[nsew]|\w*hem\w*|\w*(?:lat|lon)\w*(?:ns|ew|[nsew]|dir|ref)|column_\d+", re.IGNORECASE
 )
+LONGEST: Final = 200  # characters of a cell that may be a place
 PART: Final = r"[0-9]+(?:[.,][0-9]*)?"
 # An angle, such as `10°59'07"E`, `170 41.4 W`, `-12:30`, `N 48.5`, `10d30m` and `9,5° Ost`.
 ANGLE: Final = re.compile(
@@ -48,7 +49,7 @@ ANGLE: Final = re.compile(
 NUMBER: Final = r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?"
 # A point of well-known text, also extended by the number of its coordinate system.
 WKT: Final = re.compile(
-    rf"(?![^\0]{{200}})(?:SRID\s*=\s*(?P<srid>[0-9]+)\s*;)?\s*(?:MULTI)?POINT\s*(?:ZM|Z|M)?\s*"
+    rf"(?![^\0]{{{LONGEST}}})(?:SRID\s*=\s*(?P<srid>[0-9]+)\s*;)?\s*(?:MULTI)?POINT\s*(?:ZM|Z|M)?\s*"
     rf"(?:EMPTY|\(+\s*(?P<x>{NUMBER})\s+(?P<y>{NUMBER})(?:\s+{NUMBER})*\s*\)+)",
     re.IGNORECASE,
 )
@@ -60,12 +61,9 @@ BETWEEN: Final = tuple(
 COMMA: Final = re.compile(r"[-+]?[0-9]+,[0-9]+")  # a number with a decimal comma, or two whole ones
 WELL_KNOWN: Final = "well-known text"
 
-LONGEST: Final = 200  # characters of a cell that may be a place
 LOOKED_AT: Final = 20  # cells from which it is known whether a column has both coordinates
 
-# Both coordinates of a column's cells, as text where they are plain numbers, "" where there are none; what they were
-# read as, `WELL_KNOWN`, "latitude, longitude" or "longitude, latitude"; and their coordinate system, None for degrees.
-Both = tuple[Column, Column, str, str | None]
+Both = tuple[Column, Column, str, str | None]  # x, y, what they were read as, and coordinate system, None for degrees
 
 
 class Angle(NamedTuple):
