@@ -217,7 +217,7 @@ def to_ugrid(
     variables["mesh"] = ((), np.int32(0), topology)
     at = "face" if faces.what == "point" else "node"
     given = faces.valued(mesh, columns, [*variables, "node", "face", "edge", "two", width])
-    for (name, values), own in zip(given.items(), columns or (), strict=True):
+    for (name, values), own in zip(given.items(), point_columns(columns, len(mesh.points)), strict=True):
         variables[name] = (at, values, {"mesh": "mesh", "location": at, "long_name": own})
     return optional("xarray", "grid").Dataset(variables, attrs={"Conventions": "CF-1.11 UGRID-1.0"})
 

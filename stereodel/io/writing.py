@@ -188,7 +188,7 @@ def _write_grid(thing: Any, path: Path, options: dict[str, Any], progress: Progr
     elif isinstance(thing, Grid):
         write_netcdf(thing.to_xarray(), path, form="NETCDF3_64BIT")  # the classic format, which every reader supports
     else:
-        check_held(options.get("columns") or {}, "nc")
+        check_held(point_columns(options.get("columns"), len(thing.points)), "nc")
         write_netcdf(to_ugrid(thing, **options), path)
 
 

@@ -13,6 +13,7 @@ import pandas as pd
 import polars as pl
 import pyarrow as pa
 import pytest
+import xarray as xr
 from typer.testing import CliRunner
 
 from stereodel import SphericalVoronoi
@@ -230,6 +231,10 @@ def test_frames_at_every_door(tmp_path, frame):
     assert to_geodataframe(diagram, columns=others)["name"].tolist() == COLUMNS["name"]
     write(tmp_path / "a.csv", diagram, columns=others)
     assert "Kiel" in (tmp_path / "a.csv").read_text()
+    octahedron = SphericalVoronoi([*np.eye(3), *-np.eye(3)])
+    write(tmp_path / "a.nc", octahedron, columns=frame({"my name": list("abcdef")}))
+    with xr.open_dataset(tmp_path / "a.nc") as cells:
+        assert (cells["my name"].attrs["long_name"], "".join(cells["my name"].values)) == ("my name", "abcdef")
     assert PointTable(TWO, others).columns["name"].tolist() == COLUMNS["name"]
     assert inspect(source).found["rows"] == 2
 

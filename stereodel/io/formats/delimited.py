@@ -177,7 +177,7 @@ def _header(top: Lines, wanted: Wanted) -> tuple[int, list[str], Lines]:
     """The number of the header's row among the first ones, 0 without; names of the columns; and the rows below.
 
     It is the first row with names of coordinates, else the first one of several fields; or else it is the first data,
-    if most of its fields are numbers. Two columns without names are longitude and latitude.
+    if most of its fields are numbers. Two columns without names are longitude and latitude, unless others are said.
     """
     known = {*(wanted.plane or ()), wanted.lon, wanted.lat}
     rows = {k: [field.strip() for field in row] for k, row in enumerate(top) if _filled([row])}
@@ -196,8 +196,7 @@ def _header(top: Lines, wanted: Wanted) -> tuple[int, list[str], Lines]:
     names = rows[header]
     if header not in places and 2 * sum(map(bool, map(NUMBER.fullmatch, names))) > sum(map(bool, names)):
         numbered = [f"column_{k + 1}" for k in range(len(names))]
-        two = len(names) == 2 and known.isdisjoint(numbered)
-        return 0, ["lon", "lat"] if two else numbered, top[header:]
+        return 0, ["lon", "lat"] if len(names) == 2 and known.isdisjoint(numbered) else numbered, top[header:]
     if repeated := sorted(name for name, times in Counter(names).items() if name and times > 1):
         raise ValueError(f"there are several columns with the name {listed(repeated)}; give each another one")
     return header + 1, names, top[header + 1 :]
