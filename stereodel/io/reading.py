@@ -106,16 +106,11 @@ def read_points(
     Text may be compressed with gzip or bzip2. CSV is separated by commas, semicolons, tabs, vertical bars or blanks;
     decimal commas are accepted with any but the comma; leading lines that begin with # are comments. A column becomes
     numeric if all its values are numbers whose digits a double can hold and none is a code such as 007 or 1E3. Degrees
-    may be angles, such as 10°59'07"E, 170 41.4 W and N48.5. Titles above the header, a row of units below it and one of
-    totals at the end are left out; what is guessed a `DataWarning` tells.
+    may be angles, such as 10°59'07"E, 170 41.4 W and 48.5 Nord. Titles above the header, a row of units below it and
+    one of totals at the end are left out; what is guessed a `DataWarning` tells.
 
-    Where the points or commas of a column may be decimal or separate thousands (128.928, 1,234), the other columns and
-    degrees decide, if their decimal mark is the same one; a point is decimal if they have none; else the column stays
-    text. If columns of a GeoJSON file's properties would have more than a million cells, and more than fifty for each
-    property of a feature, those that fewer than one in fifty features have are mappings in one column, ``others``.
-
-    Geometries in another coordinate system (in GeoJSON, with a member ``crs``) are transformed to EPSG:4326; without
-    one they are taken as longitude and latitude in degrees. A MultiPoint with one point counts as a point.
+    The page on files says which marks separate thousands, and more. Geometries in another coordinate system (in
+    GeoJSON, with a member ``crs``) are transformed to EPSG:4326; without one they are in degrees.
 
     Examples
     --------

@@ -143,7 +143,7 @@ def rows_of(
     """
     as_scalar(max_segment, spelled("max_segment"), low=0.0, high=LARGEST_SEGMENT, open_low=True)
     if isinstance(mesh, list):
-        if columns or any(each is not None for each in (what, bounds, clip, dissolve)):
+        if any(each is not None for each in (what, columns, bounds, clip, dissolve)):
             raise ValueError("what, columns, bounds, clip and dissolve are options of meshes, not of contours")
         return _of_contours(mesh, max_segment, latitude, crs)
     wanted = as_choice(what or usual_kind(mesh), WHAT, "what")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType
@@ -16,7 +15,7 @@ from stereodel._notebook import Displayed, tabular
 from stereodel.io.formats import Content, Wanted, notation
 from stereodel.io.formats.columns import EXACT_INTEGERS, blanked, doubles, far, why_not
 from stereodel.io.formats.map_rows import columns_of
-from stereodel.io.formats.names import DataWarning, beside, has_lonlat, left_out, naming, spelled
+from stereodel.io.formats.names import beside, has_lonlat, left_out, naming, note, spelled
 from stereodel.sphere import lonlat_to_xyz
 from stereodel.sphere.latitudes import Latitude
 
@@ -131,7 +130,7 @@ class PointTable(Displayed):
         for name, column in zip(names, values.T, strict=True):
             for value, count in far(column).items():
                 said = f"{count} of the values of {name!r} are {value:g}, far outside all others"
-                warnings.warn(f"{said}; {spelled('missing', '=')} leaves them out", DataWarning, stacklevel=2)
+                note(f"{said}; {spelled('missing', '=')} leaves them out")
         kept = np.flatnonzero(~np.isnan(values).any(axis=1))
         return values[kept], self.taken(kept)
 
@@ -180,7 +179,7 @@ def located(found: Content, wanted: Wanted, name: str = "") -> PointTable:
     if found.invalid:
         first, many = min(found.invalid), len(found.invalid)
         told = f"{many} {'rows are' if many > 1 else 'row is'} left out: row {first}: {found.invalid[first]}"
-        warnings.warn(told + (f" (and {many - 1} more)" if many > 1 else ""), DataWarning, stacklevel=2)
+        note(told + (f" (and {many - 1} more)" if many > 1 else ""))
     if wanted.plane is not None:
         return PointTable(places, columns, rows, "plane", wanted.plane, crs and known_crs(crs).to_string(), name)
     return PointTable(places, columns, rows, name=name)
@@ -198,19 +197,23 @@ def _place_columns(
     if wanted.plane is None and (same or not (wanted.lon or wanted.lat or has_lonlat(names))):
         asked = [name for name in names if not same or name == wanted.lon]
         every = {name: each for name in asked if (each := notation.both(columns[name], name)) is not None}
-        found = {name: each for name, each in every.items() if each.how == notation.WELL_KNOWN} or every
+        found = {name: each for name, each in every.items() if each[2] == notation.WELL_KNOWN} or every
         if len(found) == 1:
-            ((name, each),) = found.items()
-            understood |= {"place": [name], "notation": each.how}
-            if not same and each.how != notation.WELL_KNOWN:
-                warnings.warn(f"column {name!r} is read as {each.how}", DataWarning, stacklevel=2)
-            return (each.x, each.y), {key: columns[key] for key in names if key != name}, each.crs or crs
+            ((name, (x, y, how, system)),) = found.items()
+            understood |= {"place": [name], "notation": how}
+            if not same and how != notation.WELL_KNOWN:
+                other = "latlon" if how.startswith("lon") else "lonlat"
+                note(f"column {name!r} is read as {how}; the name {other!r} says it if that is wrong")
+            return (x, y), {key: columns[key] for key in names if key != name}, system or crs
         if same and names.count(str(wanted.lon)):
             both = "both coordinates, as POINT (10 48.4) or '48.4, 10'"
             raise ValueError(f"column {wanted.lon!r} is to have {both}, but has not")
     axes = wanted.axes(names)
     understood["place"] = [*axes]
-    return (columns[axes[0]], columns[axes[1]]), {key: columns[key] for key in names if key not in axes}, crs
+    others, angles = {key: columns[key] for key in names if key not in axes}, wanted.plane is None and crs is None
+    kinds = zip(axes, ("longitude", "latitude"), strict=True)
+    x, y = (notation.with_letters(columns, name, kind) if angles else columns[name] for name, kind in kinds)
+    return (x, y), others, crs
 
 
 def degrees(
@@ -281,15 +284,16 @@ def numbers(
         result, bad = doubles(array, decimal=decimal)
         for k in np.flatnonzero(bad).tolist() if decimal else ():
             found = notation.angle(str(array[k]))
-            if found is not None and found.axis in ("", name):
+            if found is not None and found.axis in ("", name) and found.degrees == found.degrees:
                 result[k], bad[k] = found.degrees, False
 
         def why(k: int) -> str:
             said = str(array[k]).strip()
             found = notation.angle(said) if decimal else None
-            return f"the {name} {said!r} {f'is a {found.axis}' if found and found.axis else why_not(said)}"
+            unsure = notation.O_IS if decimal and notation.LONE_O.search(said) else why_not(said)
+            return f"the {name} {said!r} {f'is a {found.axis}' if found and found.axis not in ('', name) else unsure}"
 
-        _refuse(bad, rows, why, wrong=wrong)
+        _refuse(bad, rows, why, left_out("skip_invalid") if decimal else "", wrong)
     remedy = "correct or drop such rows first"
     _refuse(np.isinf(result), rows, lambda k: f"the {name} is {result[k]}, but must be finite", remedy, wrong)
     if not gaps or wrong is not None:

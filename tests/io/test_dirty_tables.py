@@ -32,7 +32,7 @@ def case(content, places=TWO, columns=None, note="", **options):
 
 HEADERS = """
 Länge;Breite|Längengrad;Breitengrad|geogr. Länge;geogr. Breite|longitud;latitud|Longitudine;Latitudine|долгота;широта|\
-经度;纬度|経度;緯度|خط الطول;خط العرض|X_COORD;Y_COORD|POINT_X;POINT_Y
+经度;纬度|経度;緯度|خط الطول;خط العرض|X_COORD;Y_COORD|POINT_X;POINT_Y|geoLaenge;geoBreite
 """
 READ = [
     case("sep=;|name;lon;lat|Ulm;9,99;48,4|Kiel;10,1;54,3", TWO, NAMES),
@@ -40,12 +40,10 @@ READ = [
     case("Report;;|;;|name;lon;lat|Ulm;9,99;48,4|Kiel;10,1;54,3", TWO, NAMES, "1 row above"),
     case("a|b,c,d|lon,lat,v|9.99,48.4,1|10.1,54.3,2", TWO, {"v": [1, 2]}, skip_rows=2),
     case("lon,lat,rain|deg,deg,mm|9.99,48.4,7|10.1,54.3,8", TWO, {"rain": [7, 8]}, "a row of units is left out"),
-    case("name,lon,lat,n|Ulm,9.99,48.4,7|Kiel,10.1,54.3,8|Total,,,15", TWO, NAMES | {"n": [7, 8]}, "a row of totals"),
     case("name;lon;lat;n|Ulm;9,99;48,4;128.928|Kiel;10,1;54,3;1.085.664", TWO, NAMES | GROUPED, "thousands"),
     case("n;lon;lat|1.234;9,99;48,4|2.345;10,1;54,3", TWO, {"n": [1234, 2345]}, decimal=","),
     case("n;lon;lat|1.234;9;48|2.345;10;54", [(9, 48), (10, 54)], {"n": [1.234, 2.345]}, decimal="."),
-    case("n;lon;lat|1'763'000;9.99;48.4|12;10.1;54.3", TWO, {"n": [1763000, 12]}),
-    case("n;lon;lat|1\u202f763\u202f000,5;9,99;48,4|12;10,1;54,3", TWO, {"n": [1763000.5, 12]}),
+    case("n;lon;lat|1'763'000;9.99;48.4|1\u202f763\u202f000.5;10.1;54.3", TWO, {"n": [1763000, 1763000.5]}),
     case("n;lon;lat|\u22125;9,99;48,4|12;10,1;54,3", TWO, {"n": [-5, 12]}),
     case("t,lon,lat|-9999,9.99,48.4|12.5,10.1,54.3", TWO, {"t": [None, 12.5]}, missing=[-9999]),
     case("t,lon,lat|keine,9.99,48.4|12.5,10.1,54.3", TWO, {"t": [None, 12.5]}, missing="keine"),
@@ -54,7 +52,7 @@ READ = [
     case("lon,lat|9.99,48.4|1,2,3|10.1,54.3", note="1 row is left out: row 2: has 3 fields", skip_invalid=True),
     case("lon,lat|9.99,48.4|99999,3", [ULM], note="row 2: longitude 99999.0 is outside", skip_invalid=True),
     case("lon,lat|729.99,48.4", [(729.99, 48.4)], wrap=True),
-    case("lon,lat,|9.99,48.4,|10.1,54.3,,"),
+    case("lon,lat,|9.99,48.4|10.1,54.3,,"),
     case("v,lon,lat|#N/A,9.99,48.4|2,10.1,54.3", TWO, {"v": [None, 2]}),
     case("n;lon;lat|1.085.664;9;48|128.928;10;54", [(9, 48), (10, 54)], {"n": GROUPED["n"][::-1]}, "thousands"),
     case("n;m;lon;lat|1.085.664;128.928;9;48", [(9, 48)], {"n": [1085664], "m": [128928]}, 2),
@@ -62,32 +60,58 @@ READ = [
     case("n;lon;lat|1,5;9.99;48.4", [ULM], {"n": ["1,5"]}, "not a number with the decimal mark '.'", decimal="."),
     case("n;lon;lat|1.234.567;9.99;48.4", [ULM], {"n": ["1.234.567"]}, "kept as text"),
     case('"name" "lon" "lat"|"New  York" -74 40.7', [(-74, 40.7)], {"name": ["New York"]}),
-    case('where|"48.4, 9.99"|"54.3, 10.1"', note="read as latitude, longitude"),
     case("lon,lat,n|deg,deg,mm|9.99,48.4,7|1,2|10.1,54.3,8", TWO, {"n": [7, 8]}, 2, skip_invalid=True),
-    case("id,lon,lat|1E3,9.99,48.4|2E5,10.1,54.3", TWO, {"id": ["1E3", "2E5"]}),
     case("id,lon,lat|1E3,9.99,48.4|7,10.1,54.3", TWO, {"id": ["1E3", "7"]}),
-    case("v,lon,lat|1e16,9.99,48.4|1.5E3,10.1,54.3", TWO, {"v": [1e16, 1500]}),
-    case("v,lon,lat|1E+16,9.99,48.4|2,10.1,54.3", TWO, {"v": [1e16, 2]}),
+    case("v,lon,lat|1E+16,9.99,48.4|1.5E3,10.1,54.3", TWO, {"v": [1e16, 1500]}),
     case("lon\tlat|10°59'07″E\t48°24'N", [(10.985277777777778, 48.4)]),
     case("lon;lat|170 41,4 W;S 12° 30' 15,5''", [(-170.69, -12.504305555555556)]),
     case("lon,lat|170.70W,12:30:15|\u22125°,1d30m", [(-170.7, 12.504166666666666), (-5, 1.5)]),
     case("wkt,v|POINT (9.99 48.4),1|POINT Z (10.1 54.3 7),2", TWO, {"v": [1, 2]}),
-    case('where,v|"48.4, 9.99",1|"54.3, 10.1",2', TWO, {"v": [1, 2]}, "'where' is read as latitude, longitude"),
     case("lonlat,v|9.99 48.4,1|10.1 54.3,2", TWO, {"v": [1, 2]}, "'lonlat' is read as longitude, latitude"),
     case("at;v|48°24'N 9°59'24″E;1", [(9.99, 48.4)], {"v": [1]}, "'at' is read as latitude, longitude"),
     case('at,v|"48.4, 9.99",1', [ULM], {"v": [1]}, lon="at", lat="at"),
     *(case(f"{names}|9,99;48,4|10,1;54,3") for names in HEADERS.strip().split("|")),
-    case("10 48.4|2 51", [(10, 48.4), (2, 51)]),
+    case("10 48.4|2 51", [(10, 48.4), (2, 51)], {}, "there is no header: column_1 is read as the longitude"),
+    case("48.4 10|51 2", [(10, 48.4), (2, 51)], lon="column_2", lat="column_1"),
+    case("35.7,139.7|-9,9", [(-9, 9)], {}, 2, skip_invalid=True),
+    case("where|48.4, 9.99|54.3, 10.1", TWO, {}, "'where' is read as latitude, longitude; the name 'lonlat' says it"),
+    case("Länge/Breite|9,99 / 48,4|10,1 / 54,3", TWO, {}, "is read as longitude, latitude; the name 'latlon' says it"),
+    case("cache|N 48° 24.000 E 009° 59.400|N 54° 18.000 E 010° 06.000", TWO, {}, "is read as latitude, longitude"),
+    case("geom|SRID=4326;POINT(9.99 48.4)|SRID=4326;MULTIPOINT((10.1 54.3))"),
+    case("geom,v|POINT EMPTY,1|POINT(9.99 48.4),2", [ULM], {"v": [2]}, skip_missing=True),
+    case("# by us|# lat,lon|48.4,9.99|54.3,10.1", TWO, {}, "the last line of comments is read as the header"),
+    case("# lat, lon, as text|lon,lat|9.99,48.4|10.1,54.3"),
+    case('"name,lon,lat"|"Ulm,9.99,48.4"|"Kiel,10.1,54.3"', TWO, NAMES),
+    case("sep=~|name~lon~lat|Ulm~9.99~48.4|Kiel~10.1~54.3", TWO, NAMES),
+    case("lat,NS,lon,EW|48.4,N,9.99,W", [(-9.99, 48.4)], {"NS": ["N"], "EW": ["W"]}, 2),
+    case("lon,EW,lat,wind|-9.99,W,48.4,S", [(-9.99, 48.4)], {"EW": ["W"], "wind": ["S"]}),
+    case("lon;lat|9,5° Ost;48° Nord|9°30' Ouest;48° Süd", [(9.5, 48), (-9.5, -48)]),
+    case("lon;lat|9,5° O;48°|1° W;48°", [(9.5, 48), (-1, 48)], {}, "column 'lon': O is read as E, by its name"),
+    case("lon;lat|9,5° O;48°|1° E;48°", [(-9.5, 48), (1, 48)], {}, "column 'lon': O is read as W"),
+    case("Länge;Breite|9°30'O;48°N", [(9.5, 48)], {}, "O is read as E"),
+    case("longitud;latitud|9°30'O;48°N", [(-9.5, 48)], {}, "O is read as W"),
+    case("経度;緯度|東経139度30分;北緯35度|37°30' в.д.;55° ю.ш.", [(139.5, 35), (37.5, -55)]),
+    case("lon;lat|٩٫٩٩;٤٨٫٤|–۱۰.۱;\u200b５４.３", [ULM, (-10.1, 54.3)]),
+    case("name,lon,lat,n|Ulm,9,48,7|Kiel,10,54,8|Grand Total,,,15", [(9, 48), (10, 54)], NAMES | {"n": [7, 8]}, 1),
+    case("name;lon;lat|Ulm;9;48|Kiel;10;54|Mittelwert:;9,5;51", [(9, 48), (10, 54)], NAMES, "a row of totals"),
+    case("name,lon,lat|Aral,9.99,48.4|Total,10.1,54.3", TWO, {"name": ["Aral", "Total"]}),
+    case('{"name":"Ulm","lon":9.99,"lat":48.4}|{"name":"Kiel","lon":10.1,"lat":54.3}', TWO, NAMES),
+    case('[{"where":"48.4, 9.99"},{"where":"54.3, 10.1"}]', TWO, {}, "is read as latitude, longitude"),
     case("a,10,48.4|b,2,51", [(10, 48.4), (2, 51)], {"column_1": ["a", "b"]}, lon="column_2", lat="column_3"),
     case('n;lon;lat|"Ulm; Donau, B";9,99;48,4|"a\nb";10,1;54,3', TWO, {"n": ["Ulm; Donau, B", "a\nb"]}),
     case("\ufefflon,lat|9.99,48.4||10.1,54.3"),
     case("lon,lat,name|", [], {"name": []}),
     # refused, with the option that helps
+    case("lon,lat|1" + 5000 * " " + "x,2", "row 1: the longitude .* is not a number"),
     case("lon,lat|9,48|99999,3", r"row 2: longitude 99999.0 is outside .* skip_invalid=True, or .* wrap=True"),
     case("lon,lat|9,48|181,91", "row 2: latitude 91.0 is outside .* leave such rows out with skip_invalid=True"),
-    case("lon,lat|9,48|1,2,3", "row 2 has 3 fields, .* skip_invalid=True"),
     case("lon,lat|48°N,9°E", "row 1: the longitude '48°N' is a latitude"),
-    case("lon,lat|9°O,48°", "row 1: the longitude '9°O' is not a number"),
+    case("lon,lat|9°O,48°", "row 1: the longitude '9°O' has an O, which is east in German and west in .* skip_inv"),
+    case("at|48°N 9°O", "row 1: the longitude '48°N 9°O' has an O, which is"),
+    case("lon~lat|9~48", "both the column 'lon~lat'.*; a first line such as sep=~ says what separates columns"),
+    case("lon,lat|3571234,5363123", "row 1: latitude 5363123.0 is outside .* give crs=, or"),
+    case("name,where|Ulm,48.4, 9.99", "row 1 has 3 fields, .* put fields with separators in quotation marks, or"),
+    case("lat,lon|4824N,00959E", "row 1: the longitude '00959E' is not a number"),
     case("lon,lat|9°75',48", "row 1: the longitude .9°75'. is not a number"),
     case("lon,lat|9,48", "encoding is 'cp1525', which does not exist", encoding="cp1525"),
     case("lon,lat|9,48", "decimal is 'x', but must be one of", decimal="x"),
@@ -136,7 +160,7 @@ def test_encodings(text, encoding, guess):
     for table in (told, guessed):
         assert table.lonlat.tolist() == expected.lonlat.tolist()
         assert [values.tolist() for values in table.columns.values()] == [c.tolist() for c in expected.columns.values()]
-    for name in ("utf-16", *(["utf-16-le"] if text[0] < "\x80" else [])):
+    for name in ("utf-16", *(["utf-16-le", "utf-16-be"] if text[0] < "\x80" else [])):
         assert [*read_points(io.BytesIO(text.encode(name))).columns] == [*expected.columns]
     packed = read_points(io.BytesIO(gzip.compress(text.encode())))
     assert packed.lonlat.tolist() == expected.lonlat.tolist()
@@ -207,6 +231,22 @@ def test_frames_at_every_door(tmp_path, frame):
     assert inspect(source).found["rows"] == 2
     with pytest.raises(ValueError, match="without geometries; it can be read as points"):
         nearest_shapes(TWO, source)
+
+
+def test_missing_values_and_odd_types_of_frames():
+    columns = {"a": pd.Categorical([None, "x"]), "b": pa.array([2.5, None]).dictionary_encode().to_pandas()}
+    columns |= {"c": pd.array([None, 3], "Int64"), "d": pd.to_datetime([None, "2020-01-01T05+02:00"])}
+    columns |= {"e": pd.period_range("2020-01", periods=2, freq="M"), "f": ["9,5", 2]}
+    frame = pd.DataFrame({"lon": pd.Categorical([None, 10.1]), "lat": [48.4, 54.3], **columns})
+    for given in (frame, frame.drop(columns="f")):  # Arrow has no column of text and numbers
+        table = read_points(given, skip_missing=True)
+        assert (table.places.tolist(), table.rows.tolist()) == ([[10.1, 54.3]], [2])
+        got = [each.tolist()[0] for each in table.columns.values()]
+        assert got[:1] + got[2:5] == ["x", 3, frame["d"][1], frame["e"][1]]
+        assert np.isnan(got[1])
+    twice = pa.table([[1.0], [2.0], [3.0]], names=["lon", "lat", "lat"])
+    with pytest.raises(ValueError, match=r'cannot be read, .*"lat" exists 2'):
+        read_points(twice)
 
 
 def test_an_index_and_geometries_of_frames():

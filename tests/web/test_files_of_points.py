@@ -131,6 +131,7 @@ CASES = [pytest.param("lonlat", name, content, None, id=name) for name, content 
 CASES += [pytest.param("plane", "plane.csv", content, columns, id=content) for content, columns in PLANE.items()]
 
 
+@pytest.mark.filterwarnings("ignore:there is no header")
 @pytest.mark.parametrize(("kind", "name", "content", "columns"), CASES)
 def test_the_page_reads_what_the_library_reads(node, tmp_path, kind, name, content, columns):
     assert on_page(node, {name: content}, kind)[name]["places"] == in_python(tmp_path, name, content, columns)

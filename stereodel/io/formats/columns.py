@@ -67,7 +67,8 @@ def decoded(content: bytes, encoding: str | None = None) -> tuple[str, str]:
     ValueError for an encoding that does not exist or does not fit, and where nothing can be guessed.
     """
     marked = content.startswith((b"\xff\xfe", b"\xfe\xff"))
-    zeros = "utf-16-le" if content[1:2] == b"\0" else "utf-8-sig"  # as the first letter of a table has one
+    at = content[:2].find(b"\0")  # as the first letter of a table has one
+    zeros = ("utf-8-sig", "utf-16-be", "utf-16-le")[at + 1]
     tried = encoding or ("utf-16" if marked else zeros)
     try:
         return content.decode("utf-8-sig" if tried.lower() in ("utf-8", "utf8") else tried), tried

@@ -5,7 +5,6 @@ from __future__ import annotations
 import csv
 import io
 import re
-import warnings
 from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from itertools import islice
@@ -20,20 +19,24 @@ from stereodel.constants import MOST_COLUMNS, MOST_LINE
 from stereodel.io.formats import Content, FileFormat, Wanted
 from stereodel.io.formats.columns import NUMBER, OTHER, blanked, check_held, decoded, fields, readings, texts, why_not
 from stereodel.io.formats.foreign import SourceFile
-from stereodel.io.formats.names import DataWarning, has_lonlat, left_out, listed, spelled
-from stereodel.io.formats.notation import angle
+from stereodel.io.formats.names import has_lonlat, left_out, listed, note
+from stereodel.io.formats.notation import angle, is_place
 
 SEPARATORS = ",;\t|"
+ALONE: Final = "\x1f"  # stands for none, where lines have one field with both coordinates
 LOOKED_AT = 50  # number of lines from which the separator is detected
 BLOCK = 20_000  # rows that are split in one block
 # Comment lines at the top, which begin with a hash.
 COMMENTS = re.compile(r"(?:[ \t]*#[^\r\n]*(?:\r\n?|\n|\Z))+")
 TITLES: Final = 20  # rows among which the header is looked for
 UNIT: Final = 16  # letters that the name of a unit has at most
-# Words that begin a row of totals.
-TOTALS: Final = frozenset(
-    "total totals sum summe gesamt insgesamt somme suma soma totale итого всего 合计 合計 总计 المجموع".split()  # noqa: SIM905
+# What names a row of totals or means, such as Grand Total and Mittelwert:
+TOTALS: Final = re.compile(
+    r"(?:\w+ )?(?:totale?s?|sums?|summe|gesamt\w*|insgesamt|somme|suma|soma|итого|всего|合计|合計|总计|المجموع|"
+    r"mean|average|mittelwert|durchschnitt|moyenne|m[eé]dia|promedio|среднее|平均|المتوسط)(?: \w+)?\W*",
+    re.IGNORECASE,
 )
+WHOLE: Final = re.compile(r'"[^"\r\n]*[,;\t|][^"\r\n]*"[ \t]*[\r\n]')  # a line that is one quoted field
 SEPARATED: Final = re.compile(r"sep=([^\r\n])\r?\n", re.IGNORECASE)  # by which spreadsheets say what separates fields
 
 Lines = list[list[str]]
@@ -52,9 +55,17 @@ def read(file: SourceFile, wanted: Wanted) -> Content:
         if max(text.find(end, begin, begin + MOST_LINE) for end in "\r\n") < 0:
             raise ValueError(f"a line has more than {MOST_LINE} characters, which no line of a table needs")
     separator = said[1] if said else _separator(text)
+    if separator is None and WHOLE.match(text):  # every line is one quoted field, as spreadsheets save pasted text
+        text = "\n".join(row[0].strip() if row else "" for row in csv.reader(io.StringIO(text, newline="")))
+        separator = _separator(text)
+    last = comments[0].splitlines()[-1].lstrip(" \t#") if comments else ""
+    names, first = (line.strip().split(separator) for line in (last, text.partition("\n")[0]))
+    if len(names) == len(first) and has_lonlat(names) and not has_lonlat(first):
+        note("the last line of comments is read as the header", "skip_rows")
+        text, above = f"{last}\n{text}", above - 1
     rows = _rows(text, separator, above, wanted.progress)
     found = tabulated(rows, wanted, comma=separator != ",", above=above)
-    named = {None: "blanks", "\t": "tab"}.get(separator, separator)
+    named = {None: "blanks", "\t": "tab", ALONE: "none"}.get(separator, separator)
     found.understood = {"encoding": encoding, "separator": named, **found.understood}
     return found
 
@@ -71,10 +82,14 @@ def tabulated(rows: Iterable[list[str]], wanted: Wanted, *, comma: bool = True, 
     named = wanted.lon != wanted.lat or (wanted.lon is None and has_lonlat(list(columns)))
     degrees = wanted.axes(list(columns)) if named and wanted.crs is None and wanted.plane is None else ()
     columns = {name: blanked(values, wanted.sentinels) for name, values in columns.items()}
+    if not header and [*columns] == ["lon", "lat"] and wanted.lon is None and wanted.plane is None:
+        lon, lat = ([abs(at.degrees) for at in map(angle, each[:LOOKED_AT]) if at] for each in columns.values())
+        unlike = ", though the values look swapped" if max(lat, default=0) > 90 >= max(lon, default=0) else ""
+        note(f"there is no header: column_1 is read as the longitude, column_2 as the latitude{unlike}", "lon")
     count = len(next(iter(columns.values()), ()))
     words = _rows_of_words(columns, wanted.plane or degrees, count)
     for row, what in words.items():
-        _note(f"{what} is left out: {listed([str(values[row]) for values in columns.values()])}")
+        note(f"{what} is left out: {listed([str(values[row]) for values in columns.values()])}")
     units = 0 in words
     numbers = np.delete(np.arange(1 - units, count + len(invalid) + 1 - units), [row - 1 for row in invalid])
     columns = {name: np.delete(values, [*words]) for name, values in columns.items()} if words else columns
@@ -119,21 +134,16 @@ def typed_columns(
                 thousands[name] = OTHER[mark]
             if cell and not decimal:
                 plain = cell.replace(OTHER[mark], "")
-                _note(f"column {name!r} has marks between thousands: {cell!r} is {plain}", "decimal")
+                note(f"column {name!r} has marks between thousands: {cell!r} is {plain}", "decimal")
         else:
             cell = _first(columns[name], ",") or _first(columns[name], ".")
-            _note(f"column {name!r} is kept as text: {cell!r} {why_not(cell, ''.join(known - ways.keys()))}")
+            note(f"column {name!r} is kept as text: {cell!r} {why_not(cell, ''.join(known - ways.keys()))}")
     return result, thousands
 
 
 def _first(values: Column, mark: str) -> str:
     """The first cell that has a mark, "" if none has."""
     return next((cell.strip() for cell in values.tolist() if mark in cell), "")
-
-
-def _note(what: str, option: str = "") -> None:
-    advice = f"; {spelled(option, '=')} says it if that is wrong" if option else ""
-    warnings.warn(f"{what}{advice}", DataWarning, stacklevel=2)
 
 
 def _filled(rows: Iterable[list[str]]) -> Lines:
@@ -150,7 +160,7 @@ def _split(rows: Iterator[list[str]], wanted: Wanted) -> tuple[dict[str, Column]
     blocks, block, before = list[list[Column]](), data, 0
     while block or not blocks:
         filled = _filled(block)
-        blocks.append(_columns(filled, len(names), before, invalid, skip=wanted.skip_invalid))
+        blocks.append(_columns(filled, names, before, invalid, skip=wanted.skip_invalid))
         before += len(filled)
         block = list(islice(rows, BLOCK))
     columns = [np.concatenate(parts) for parts in zip(*blocks, strict=True)]
@@ -167,7 +177,7 @@ def _header(top: Lines, wanted: Wanted) -> tuple[int, list[str], Lines]:
     """The number of the header's row among the first ones, 0 without; names of the columns; and the rows below.
 
     It is the first row with names of coordinates, else the first one of several fields; or else it is the first data,
-    if most of its fields are numbers. Two columns without names are longitude and latitude.
+    if most of its fields are numbers. Two columns without names are longitude and latitude, unless others are said.
     """
     known = {*(wanted.plane or ()), wanted.lon, wanted.lat}
     rows = {k: [field.strip() for field in row] for k, row in enumerate(top) if _filled([row])}
@@ -182,13 +192,13 @@ def _header(top: Lines, wanted: Wanted) -> tuple[int, list[str], Lines]:
     header = first if wanted.skip_rows else (worded or several or [first])[0]
     titles = sum(k < header for k in rows)
     if titles:
-        _note(f"{titles} {'rows' if titles > 1 else 'row'} above the header left out", "skip_rows")
+        note(f"{titles} {'rows' if titles > 1 else 'row'} above the header left out", "skip_rows")
     names = rows[header]
     if header not in places and 2 * sum(map(bool, map(NUMBER.fullmatch, names))) > sum(map(bool, names)):
-        return 0, ["lon", "lat"] if len(names) == 2 else [f"column_{k + 1}" for k in range(len(names))], top[header:]
-    repeated = sorted(name for name, times in Counter(names).items() if name and times > 1)
-    if repeated:
-        raise ValueError(f"there are several columns with the name {listed(repeated)}")
+        numbered = [f"column_{k + 1}" for k in range(len(names))]
+        return 0, ["lon", "lat"] if len(names) == 2 and known.isdisjoint(numbered) else numbered, top[header:]
+    if repeated := sorted(name for name, times in Counter(names).items() if name and times > 1):
+        raise ValueError(f"there are several columns with the name {listed(repeated)}; give each another one")
     return header + 1, names, top[header + 1 :]
 
 
@@ -202,20 +212,28 @@ def _rows_of_words(columns: Mapping[str, Column], places: Collection[str], count
     units = all(first[k] and len(first[k]) <= UNIT and angle(second[k]) for k in here)
     if units and not any(angle(cell) or NUMBER.fullmatch(cell) for cell in first):
         found[0] = "a row of units"
-    if not any(last[k] for k in here) and any(cell.casefold().rstrip(":") in TOTALS for cell in last):
+    if any(map(TOTALS.fullmatch, last)) and all(_sums_up(columns[name]) for name in places):
         found[count - 1] = "a row of totals"
     return found
 
 
-def _columns(rows: Lines, width: int, before: int, invalid: dict[int, str], *, skip: bool) -> list[Column]:
+def _sums_up(values: Column) -> bool:
+    """Whether the last coordinate is missing, or the sum or mean of all others."""
+    *others, last = (found.degrees if (found := angle(cell)) else np.nan for cell in values.tolist())
+    return bool(np.isnan(last) or np.isclose(last, [np.sum(others), np.mean(others)]).any())
+
+
+def _columns(rows: Lines, names: list[str], before: int, invalid: dict[int, str], *, skip: bool) -> list[Column]:
     """Rows of text as columns, after `before` others; `invalid` takes those with too many or too few fields."""
+    width, named = len(names), max((k for k, name in enumerate(names, 1) if name), default=0)
     for k in [k for k, row in enumerate(rows) if len(row) != width]:
-        if len(rows[k]) > width and not any(rows[k][width:]):
-            rows[k] = rows[k][:width]  # of separators at the end
+        if not any(rows[k][width:]) and len(rows[k]) >= named:  # separators at the end, or of the header alone
+            rows[k] = [*rows[k], *[""] * width][:width]
             continue
         said = f"has {len(rows[k])} {'field' if len(rows[k]) == 1 else 'fields'}, but there are {width} columns"
         if not skip:
-            raise ValueError(f"row {before + k + 1} {said}; {left_out('skip_invalid')}")
+            advice = f"put fields with separators in quotation marks, or {left_out('skip_invalid')}"
+            raise ValueError(f"row {before + k + 1} {said}; {advice}")
         invalid[before + k + 1] = said
     good = [row for row in rows if len(row) == width] if invalid else rows
     return [texts(column) for column in zip(*good, strict=True)] or [np.zeros(0, dtype="<U1")] * width
@@ -232,10 +250,12 @@ def _separator(text: str) -> str | None:
     several = [mark for mark in SEPARATORS if max(lengths[mark], default=0) > 1]
     even = [mark for mark in several if len({*rows[mark]}) == 1] or [m for m in several if len(lengths[m]) == 1]
     blanks = {len(line.split()) for line in lines if line.strip()}
-    if not several or (not even and len(blanks) == 1 and blanks != {1}):
-        return None
-    # Under a title no mark is even: decimal commas are in most lines, the separator is in the header, too.
-    return max(even or several, key=lambda mark: max((rows[mark].count(n), n) for n in lengths[mark] if n > 1))
+    found = None
+    if several and (even or len(blanks) != 1 or blanks == {1}):
+        # Under a title no mark is even: decimal commas are in most lines, the separator is in the header, too.
+        found = max(even or several, key=lambda mark: max((rows[mark].count(n), n) for n in lengths[mark] if n > 1))
+    head, *below = [line for line in lines if line.strip()] or [""]
+    return ALONE if below and len(head.split(found)) == 1 and all(map(is_place, below)) else found
 
 
 def _rows(text: str, mark: str | None, above: int, progress: Progress | None) -> Iterator[list[str]]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import warnings
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
@@ -18,17 +17,20 @@ import numpy as np
 from stereodel._arrays import Column, FloatArray, as_count
 from stereodel._tasks.progress import Progress
 from stereodel.constants import EMPTY_RATIO, FEW_CELLS
-from stereodel.io.formats import Content, FileFormat, wkb
+from stereodel.io.formats import Content, FileFormat, Wanted, wkb
 from stereodel.io.formats.columns import check_held, column, decoded, objects, plain_cells
 from stereodel.io.formats.foreign import check_crs
 from stereodel.io.formats.map_rows import MapRows, no_point, packed
-from stereodel.io.formats.names import DataWarning, beside, listed
+from stereodel.io.formats.names import beside, listed, note
 
 HEAD: Final = '{"type":"FeatureCollection","features":['
 TAIL: Final = "]}"
 
 # Types of geometries with coordinates; a LinearRing is a closed line of Shapely.
 KINDS: Final = ("Point", "MultiPoint", "LineString", "LinearRing", "MultiLineString", "Polygon", "MultiPolygon")
+
+# Members and types of GeoJSON that rows of a table have not.
+FEATURE: Final = {"geometry", "properties", "coordinates", "Feature", "GeometryCollection", *KINDS}
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,7 +66,7 @@ class Features(Content):
         result = {name: column(each.get(name) for each in self.properties) for name in common}
         added = beside(common, {"others": objects(others)})
         said = f"{len(counts) - len(common)} of {len(counts)} properties are together in the column {listed([*added])}"
-        warnings.warn(f"{said}, as few features have any of them", DataWarning, stacklevel=2)
+        note(f"{said}, as few features have any of them")
         return result | added
 
     def places(self, *, skip_missing: bool) -> tuple[Column, Column]:
@@ -84,7 +86,7 @@ class Features(Content):
 
 
 def parsed(text: str) -> Any:
-    """A JSON document; a sequence of features (RFC 8142, or one per line) becomes a collection."""
+    """A JSON document; a sequence of features (RFC 8142, or one per line), or of rows, becomes a collection."""
     try:
         return json.loads(text)
     except RecursionError:
@@ -97,10 +99,20 @@ def parsed(text: str) -> Any:
         raise ValueError(f"the file is not JSON: {error}") from error
 
 
+def read(file: Any, wanted: Wanted) -> Content:
+    """The features of GeoJSON, or the columns of rows of JSON that have neither geometry nor properties."""
+    found = parsed(decoded(file.content, wanted.encoding)[0])
+    rows = found.get("features", [found] * ("type" not in found)) if isinstance(found, dict) else found
+    plain = (isinstance(row, dict) and FEATURE.isdisjoint([*row, str(row.get("type"))]) for row in rows or ())
+    if isinstance(rows, list) and rows and all(plain):
+        return Content(Features(rows, [], None).columns())
+    return Features.of(found)
+
+
 FORMAT = FileFormat(
-    (".geojson", ".json", ".geojsonl", ".geojsons"),
-    {b"{": ".geojson", b"\x1e{": ".geojson"},
-    lambda file, wanted: Features.of(parsed(decoded(file.content, wanted.encoding)[0])),
+    (".geojson", ".json", ".jsonl", ".ndjson", ".geojsonl", ".geojsons"),
+    {b"{": ".geojson", b"\x1e{": ".geojson", b"[{": ".geojson"},
+    read,
 )
 
 

@@ -126,8 +126,11 @@ def arrow_column(values: Any) -> Any:
 
 def of_arrow(values: Any) -> Column:
     """An Arrow column as an array; integers with missing values do not become doubles if that would round them."""
-    whole = arrow.types.is_integer(values.type)
-    return column(values.to_pylist()) if whole and values.null_count else of_objects(values.to_numpy())
+    kind, types = values.type, arrow.types
+    whole, zoned = types.is_integer(kind) and values.null_count, types.is_timestamp(kind) and kind.tz
+    if whole or zoned or types.is_dictionary(kind):  # whose missing values would be the first of the others
+        return column(values.to_pylist())
+    return of_objects(values.to_pandas() if hasattr(kind, "extension_name") else values.to_numpy())
 
 
 def is_frame(source: Any) -> bool:
@@ -147,11 +150,17 @@ def content_of(frame: Any) -> Content:
     """The rows of a frame, a lazy one collected, with places if it has geometries; ImportError without PyArrow."""
     if hasattr(frame, "to_crs"):
         return Frame(frame)
-    table = arrow.table(frame.collect() if hasattr(frame, "collect") else frame)
-    if any((field.metadata or {}).get(b"ARROW:extension:name", b"").startswith(b"geoarrow") for field in table.schema):
-        return Frame(optional("geopandas", "geo").GeoDataFrame.from_arrow(table))
-    found = {name: of_arrow(table[name]) for name in table.column_names if not name.startswith("__index_level_")}
     index = index_columns(frame) if hasattr(getattr(frame, "index", None), "nlevels") else {}
+    try:
+        table = arrow.table(frame.collect() if hasattr(frame, "collect") else frame)
+        kinds = [(field.metadata or {}).get(b"ARROW:extension:name", b"") for field in table.schema]
+        if any(kind.startswith(b"geoarrow") for kind in kinds):
+            return Frame(optional("geopandas", "geo").GeoDataFrame.from_arrow(table))
+        found = {name: of_arrow(table[name]) for name in table.column_names if not name.startswith("__index_level_")}
+    except (arrow.ArrowException, KeyError, TypeError) as error:  # of values of several types, say, as pandas may have
+        if hasattr(frame, "index") and hasattr(frame, "columns"):
+            return Frame(frame)
+        raise ValueError(f"the frame cannot be read, {error}; give its columns other types or names") from error
     more = {name: of_objects(np.asarray(each)) for name, each in index.items() if name not in table.column_names}
     return Content(more | found)
 

@@ -30,8 +30,10 @@ NAMES: Final = {
 UNSURE: Final = {"lon": {"x", "xcoord", "länge", "laenge", "الطول"}, "lat": {"y", "ycoord", "breite", "العرض"}}
 # What may stand beside a word that is unsure.
 BESIDE: Final = frozenset(
-    ["coord", "coords", "coordinate", "coordinates", "point", "geogr", "geographische", "deg", "degrees", "grad"]
+    ["coord", "coords", "coordinate", "coordinates", "point", "geo", "geogr", "geographische", "deg", "degrees", "grad"]
 )
+# A name in which a word for longitude stands before one for latitude, as in lonlat and Länge/Breite.
+LON_FIRST: Final = re.compile(rf"({'|'.join(NAMES['lon'])}|länge).*({'|'.join(NAMES['lat'])}|breite)", re.I | re.S)
 IDEOGRAPHS: Final = "\u3040"  # from here on a name is not written in words
 SPELLING: Final[ContextVar[Mapping[str, str]]] = ContextVar("SPELLING", default=MappingProxyType({}))
 
@@ -82,7 +84,8 @@ def find_lonlat(names: Sequence[str], lon: str | None = None, lat: str | None = 
     found = [_find(names, kind, given) for kind, given in (("lon", lon), ("lat", lat))]
     if found[0] == found[1]:
         both = f"{spelled('lon')} and {spelled('lat')} are both the column {found[0]!r}"
-        raise ValueError(f"{both}; the columns are {listed(names)}")
+        advice = "; a first line such as sep=~ says what separates columns" if len(names) == 1 else ""
+        raise ValueError(f"{both}; the columns are {listed(names)}{advice}")
     return found[0], found[1]
 
 
@@ -103,6 +106,12 @@ class DataWarning(UserWarning):
 
 class RenamedColumnWarning(DataWarning):
     """A column is written under another name because its own is taken."""
+
+
+def note(what: str, option: str = "") -> None:
+    """Say in a `DataWarning` what is guessed or left out, and with which option to say it otherwise."""
+    advice = f"; {spelled(option, '=')} says it if that is wrong" if option else ""
+    warnings.warn(f"{what}{advice}", DataWarning, stacklevel=3)
 
 
 def beside(taken: Iterable[str], columns: Mapping[str, T], *, any_case: bool = False) -> dict[str, T]:

@@ -2,38 +2,68 @@
 
 from __future__ import annotations
 
+import math
 import re
+from collections.abc import Mapping
 from fractions import Fraction
-from typing import Final, NamedTuple
+from typing import Any, Final, NamedTuple
 
 from stereodel._arrays import Column
-from stereodel.io.formats.columns import texts
+from stereodel.io.formats.columns import MISSING, texts
+from stereodel.io.formats.names import LON_FIRST, note, words
 
-# Characters of word processors in place of those of the keyboard.
-PLAIN: Final = str.maketrans({"\N{MINUS SIGN}": "-", "\xa0": " ", "\u202f": " ", "\u2009": " "})
-PART: Final = r"[0-9]+(?:[.,][0-9]*)?"
-# An angle, such as `10°59'07"E`, `170 41.4 W`, `-12:30`, `N 48.5` and `10d30m`.
-ANGLE: Final = re.compile(
-    rf"(?P<before>[NSEW])?\s*(?P<sign>[-+])?\s*(?P<degrees>{PART})"
-    rf"(?:\s*(?:[°º˚d:]|deg|\s)\s*(?:(?P<minutes>{PART})(?:\s*(?:['′’‘´m:]|min|\s)\s*"
-    rf"(?:(?P<seconds>{PART})\s*(?:\"|″|”|“|''|’’|′′|s|sec)?)?)?)?)?\s*(?P<after>[NSEW])?"
+# Characters of word processors and other scripts in place of those of the keyboard.
+PLAIN: Final = {zero + digit: str(digit) for zero in (0x660, 0x6F0, 0xFF10) for digit in range(10)} | str.maketrans(
+    "\N{MINUS SIGN}\N{EN DASH}\xa0\u202f\u2009\u3000٫．，،", "--    ..,,", "\u200b\u200e\u200f\ufeff"
 )
-LETTERS: Final = {"longitude": "EW", "latitude": "NS"}
-NEGATIVE: Final = "SW"
+# Points of the compass, by axis and sign. O is east in German and west in Romance languages, see `with_letters`.
+COMPASS: Final = {
+    ("longitude", 1.0): "E East Ost Osten Est Este Leste в.д. 东经 東経 شرقا",
+    ("longitude", -1.0): "W West Westen Ouest Oeste Ovest з.д. 西经 西経 غربا",
+    ("longitude", math.nan): "O",
+    ("latitude", 1.0): "N North Nord Norden Norte с.ш. 北纬 北緯 شمالا",
+    ("latitude", -1.0): "S South Süd Süden Sud Sur Sul ю.ш. 南纬 南緯 جنوبا",
+}
+POINTS: Final = {word.casefold(): point for point, words in COMPASS.items() for word in words.split()}
+WORD: Final = rf"(?i:{'|'.join(re.escape(word) for word in POINTS if len(word) > 1)})|[NSEWO]"
+LONE_O: Final = re.compile(r"(?<![^\W\d])O(?![^\W\d])")
+# What it is by other words of its column, or by the language of the column's name.
+SAYS_O: Final = {
+    "E": {"W", "West", "Süd", "länge", "laenge", "längengrad", "laengengrad"},
+    "W": {"E", "Est", "Este", "Sur", "Sul", "longitud", "longitudine"},
+}
+O_IS: Final = "has an O, which is east in German and west in French, Spanish and Italian; write E or W in its place"
+# The name of a column of such letters behind that of the degrees, as of NMEA and Exif.
+LETTERED: Final = re.compile(
+    r"n\W?s|e\W?w|[nsew]|\w*hem\w*|\w*(?:lat|lon)\w*(?:ns|ew|[nsew]|dir|ref)|column_\d+", re.IGNORECASE
+)
+LONGEST: Final = 200  # characters of a cell that may be a place
+PART: Final = r"[0-9]+(?:[.,][0-9]*)?"
+# An angle, such as `10°59'07"E`, `170 41.4 W`, `-12:30`, `N 48.5`, `10d30m` and `9,5° Ost`.
+ANGLE: Final = re.compile(
+    rf"(?P<before>{WORD})?\s*(?P<sign>[-+])?\s*(?P<degrees>[0-9]{{1,3}}(?:[.,][0-9]*)?)"
+    rf"(?:\s*(?:[°º˚d:度]|deg(?:rees?)?|\s)\s*(?:(?P<minutes>{PART})(?:\s*(?:['′’‘´m:分]|min|\s)\s*"
+    rf"(?:(?P<seconds>{PART})\s*(?:\"|″|”|“|''|’’|′′|秒|s|sec)?)?)?)?)?\s*(?P<after>{WORD})?"
+)
 
 NUMBER: Final = r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?"
 # A point of well-known text, also extended by the number of its coordinate system.
 WKT: Final = re.compile(
-    rf"(?:SRID\s*=\s*(?P<srid>[0-9]+)\s*;)?\s*POINT\s*(?:ZM|Z|M)?\s*"
-    rf"\(\s*(?P<x>{NUMBER})\s+(?P<y>{NUMBER})(?:\s+{NUMBER})*\s*\)",
+    rf"(?![^\0]{{{LONGEST}}})(?:SRID\s*=\s*(?P<srid>[0-9]+)\s*;)?\s*(?:MULTI)?POINT\s*(?:ZM|Z|M)?\s*"
+    rf"(?:EMPTY|\(+\s*(?P<x>{NUMBER})\s+(?P<y>{NUMBER})(?:\s+{NUMBER})*\s*\)+)",
     re.IGNORECASE,
 )
 # What stands between both coordinates of a cell, the surest first.
-BETWEEN: Final = tuple(re.compile(each) for each in (r"[;/|]", r",\s", r",", r"(?<=[NSEW])\s*(?=[-+0-9])", r"\s+"))
+BETWEEN: Final = tuple(
+    re.compile(each)
+    for each in (r"[;/|]", r",\s", r",", r"(?<=[^\W\d])\s*(?=[-+0-9])", rf"(?<=[^\s\w]|\d)\s*(?={WORD})", r"\s+")
+)
 COMMA: Final = re.compile(r"[-+]?[0-9]+,[0-9]+")  # a number with a decimal comma, or two whole ones
 WELL_KNOWN: Final = "well-known text"
 
 LOOKED_AT: Final = 20  # cells from which it is known whether a column has both coordinates
+
+Both = tuple[Column, Column, str, str | None]  # x, y, what they were read as, and coordinate system, None for degrees
 
 
 class Angle(NamedTuple):
@@ -43,34 +73,51 @@ class Angle(NamedTuple):
     axis: str
 
 
-class Both(NamedTuple):
-    """Both coordinates of a column's cells, as text where they are plain numbers, "" where there are none."""
-
-    x: Column
-    y: Column
-    how: str
-    """What the column was read as: `WELL_KNOWN`, "latitude, longitude" or "longitude, latitude"."""
-    crs: str | None
-
-
 def angle(cell: str) -> Angle | None:
     r"""The angle that a cell says, as the nearest double; None if it says none.
 
     >>> angle("10°59'07\"E"), angle("48 24.5 S")
     (Angle(degrees=10.985277777777778, axis='longitude'), Angle(degrees=-48.40833333333333, axis='latitude'))
     """
-    found = ANGLE.fullmatch(cell.translate(PLAIN).strip())
-    if found is None:
+    found = ANGLE.fullmatch(" ".join(cell[:LONGEST].translate(PLAIN).split()))  # as runs of blanks take long
+    if found is None or len(cell) > LONGEST:
         return None
     parts = [found[name] for name in ("degrees", "minutes", "seconds") if found[name]]
-    letter = "".join(found[name] for name in ("before", "after") if found[name])
+    said = [found[name] for name in ("before", "after") if found[name]]
     numbers = [Fraction(part.replace(",", ".").rstrip(".")) for part in parts]
     whole = all(part.isdecimal() for part in parts[:-1])
-    if len(letter) > 1 or (letter and found["sign"]) or not whole or any(number >= 60 for number in numbers[1:]):
+    if len(said) > 1 or (said and found["sign"]) or not whole or any(number >= 60 for number in numbers[1:]):
         return None
     size = float(sum((number / 60**power for power, number in enumerate(numbers)), Fraction(0)))
-    axis = next((axis for axis, known in LETTERS.items() if letter and letter in known), "")
-    return Angle(-size if found["sign"] == "-" or (letter and letter in NEGATIVE) else size, axis)
+    axis, way = POINTS[said[0].casefold()] if said else ("", -1.0 if found["sign"] == "-" else 1.0)
+    return Angle(way * size, axis)
+
+
+def with_letters(columns: Mapping[str, Column], name: str, axis: str = "") -> Column:
+    """A column of angles, with the letters of a column behind it, and E or W for an O where words say which it is."""
+    values, names = columns[name], [*columns]
+    beside = [each for each in names[names.index(name) + 1 :][:1] if axis and LETTERED.fullmatch(each)]
+    if not beside and (values.dtype.kind not in "UO" or "O" not in "".join(map(str, values.tolist()))):
+        return values
+    cells, letters = ([_written(cell) for cell in columns[key].tolist()] for key in (name, *beside, name)[:2])
+    axes, read, told = {POINTS.get(each.casefold(), ("",))[0] for each in letters if each}, cells, ""
+    if beside and axes == {axis} and "-" not in "".join(cells):
+        read = [cell and f"{cell} {letter}".strip() for cell, letter in zip(cells, letters, strict=True)]
+        told = f"column {beside[0]!r} is read as the points of the compass of {name!r}"
+    said = words(name).union(re.findall(r"[^\W\d]+", "\n".join(read)))
+    ways = [way for way, by in SAYS_O.items() if by & said]
+    if "O" in said and len(ways) == 1:
+        read = [LONE_O.sub(ways[0], cell) for cell in read]
+        told += f"{told and '; '}column {name!r}: O is read as {ways[0]}, by its name or other words"
+    if told:
+        note(f"{told}; write letters beside the numbers to say it")
+    return texts(read) if told else values
+
+
+def _written(cell: Any) -> str:
+    """What a cell says, with the characters of the keyboard; "" for nothing."""
+    text = str(cell).translate(PLAIN).strip()
+    return "" if text.lower() in MISSING else text
 
 
 def both(values: Column, name: str) -> Both | None:
@@ -82,22 +129,23 @@ def both(values: Column, name: str) -> Both | None:
     """
     if values.dtype.kind not in "UO":
         return None
-    cells = ["" if cell is None or cell != cell else str(cell).translate(PLAIN).strip() for cell in values.tolist()]
+    cells = [_written(cell) for cell in values.tolist()]
     known = [cell for cell in cells if cell]
     if known and all(WKT.fullmatch(cell) for cell in known[:LOOKED_AT]):
         return _well_known(cells)
     if not known or not all(_pair(cell) for cell in known[:LOOKED_AT]):
         return None
+    cells = with_letters({name: texts(cells)}, name).tolist()
     pairs = [_pair(cell) for cell in cells]
     beyond = any(abs(pair[0].degrees) > 90 and not pair[0].axis for pair in pairs if pair)
-    lon_first = beyond or re.search("(lon|lng).*lat", name, re.IGNORECASE | re.DOTALL) is not None
+    lon_first = beyond or LON_FIRST.search(name) is not None
     x, y = list(cells), list(cells)
     for row, pair in enumerate(pairs):
         if pair is not None:
             said = pair[0].axis == "latitude" or pair[1].axis == "longitude"
             lon, lat = pair[::-1] if said or not (lon_first or pair[0].axis or pair[1].axis) else pair
-            x[row], y[row] = repr(lon.degrees), repr(lat.degrees)
-    return Both(texts(x), texts(y), "longitude, latitude" if lon_first else "latitude, longitude", None)
+            x[row], y[row] = (cells[row] if each.degrees != each.degrees else repr(each.degrees) for each in (lon, lat))
+    return texts(x), texts(y), "longitude, latitude" if lon_first else "latitude, longitude", None
 
 
 def _well_known(cells: list[str]) -> Both:
@@ -106,8 +154,13 @@ def _well_known(cells: list[str]) -> Both:
     if len(systems) > 1:
         raise ValueError(f"the points are in several coordinate systems, {', '.join(sorted(systems))}")
     both = zip(cells, points, strict=True)
-    x, y = zip(*((cell, cell) if point is None else point.group("x", "y") for cell, point in both), strict=True)
-    return Both(texts(x), texts(y), WELL_KNOWN, f"EPSG:{systems.pop()}" if systems else None)
+    x, y = zip(*((cell, cell) if point is None else point.groups("")[1:3] for cell, point in both), strict=True)
+    return texts(x), texts(y), WELL_KNOWN, f"EPSG:{systems.pop()}" if systems else None
+
+
+def is_place(cell: str) -> bool:
+    """Whether a line has both coordinates, and no more."""
+    return bool(WKT.fullmatch(cell.strip()) or _pair(cell.strip()))
 
 
 def _pair(cell: str) -> tuple[Angle, Angle] | None:
