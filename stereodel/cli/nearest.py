@@ -54,8 +54,8 @@ def command(
         asks = "" if isinstance(chosen, ShapeTable) else ", or ask for the shapes nearest to points: "
         raise ValueError(f"{error}{asks and f'{asks}{queries} --of {sites}'}") from error
     if isinstance(chosen, ShapeTable):
-        if count > 1 or exclude_self:
-            raise ValueError(f"{sites}: has not only points; leave out --count and --exclude-self, which are for these")
+        reason = f"{sites} has lines or polygons, of which the nearest one alone is found; leave out what is for points"
+        options.refuse({"--count": count > 1, "--exclude-self": exclude_self}, f"points, and {reason}")
         site, distance = nearest_shapes(asking.lonlat, chosen.shapes, latitude=latitude)
         query = np.flatnonzero(distance <= limit)
         pairs = Pairs(query, site[query], np.ones_like(query), distance[query])

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import AnyIndices, FloatArray
+from stereodel._arrays import AnyIndices, BoolArray, FloatArray, keep_freed_memory
 from stereodel._docs import shared
 from stereodel.constants import UNDETERMINED
 from stereodel.curves.ragged import spans
@@ -65,91 +65,88 @@ def fit_gradients(triangulation: Triangulation, values: FloatArray, sites: Preci
     """The same (d, k, n) for values (n, k), one a place."""
     size, dimension = triangulation.points.shape
     fields = np.ascontiguousarray(values.T)
+    keep_freed_memory()
     gradients = np.full((dimension, len(fields), size), np.nan)
     known = ~np.isnan(fields)
     # Fields without values at the same points share the work of the fit.
     groups = [slice(None)] if known.all() else [slice(k, k + 1) for k in range(len(fields))]
-    for block, owners, others in rings_in_blocks(triangulation):
+    for block, others, present in rings_in_blocks(triangulation):
         for columns in groups:
-            usable = slice(None) if known[columns].all() else known[columns, others].all(axis=0)
-            fitted = _fit(sites, fields[columns], block, owners[usable], others[usable])
-            gradients[:, columns, block] = fitted
+            usable = present if known[columns].all() else present & known[columns].all(axis=0).take(others)
+            gradients[:, columns, block] = _fit(sites, fields[columns], block, others, usable)
     dropped, kept = triangulation.duplicates.T
     gradients[:, :, dropped] = gradients[:, :, kept]
     return gradients
 
 
 def _fit(
-    sites: PrecisePoints, values: FloatArray, block: AnyIndices, owners: AnyIndices, others: AnyIndices
+    sites: PrecisePoints, values: FloatArray, block: AnyIndices, others: AnyIndices, usable: BoolArray
 ) -> FloatArray:
-    """Gradients (d, k, b) at the points `block`; pairs of a place in it, sorted, and one of its neighbours."""
-    gradients = np.full((len(sites.rounded), len(values), len(block)), np.nan)
-    if len(owners) == 0:
-        return gradients
-    # Pairs are sorted by owner: sums over an owner's neighbours run from its start to the next.
-    starts = np.flatnonzero(np.concatenate([[True], owners[1:] != owners[:-1]]))
-    fitted, counts = owners[starts], np.diff(starts, append=len(owners))
-    here = sites.take(block[fitted])
+    """Gradients (d, k, b) at the points `block`, each with a column of others (s, b), of which some count."""
+    here = sites.take(block[None])
     axes = _axes(here)
-    differences = sites.take(others) - here.take(np.repeat(np.arange(len(fitted)), counts))
-    columns, weights, unit = _columns(differences, axes, starts, counts)
-    rises = (values.take(others, axis=1) - np.repeat(values.take(block[fitted], axis=1), counts, axis=1)) * weights
-    slopes = _solve(*_normal_equations(columns, rises, starts))[:2]
-    # The first two unknowns are the slopes along the axes, per unit of length of each point.
-    with np.errstate(over="ignore", invalid="ignore"):
-        one, other = slopes / unit
-        gradients[:, :, fitted] = axes[0][:, None] * one + axes[1][:, None] * other
-    return gradients
+    with np.errstate(all="ignore"):
+        columns, weights, unit = _columns(sites.take(others) - here, axes, usable)
+        rises = np.where(usable, values.take(others, axis=1) - values.take(block, axis=1)[:, None], 0.0) * weights
+        one, other = _solve(*_normal_equations(columns, rises))[:2] / unit
+        # The first two unknowns are the slopes along the axes, per unit of length of each point.
+        return np.asarray(axes[0] * one + axes[1] * other)
 
 
-def _normal_equations(columns: FloatArray, rises: FloatArray, starts: AnyIndices) -> tuple[FloatArray, FloatArray]:
-    """Systems (5, 5, b) and right sides (5, k, b) of columns (5, p) and (k, p), summed from each start to the next."""
-    normal = np.empty((_UNKNOWNS, _UNKNOWNS, len(starts)))
-    right = np.empty((_UNKNOWNS, len(rises), len(starts)))
+def _normal_equations(columns: list[FloatArray], rises: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Systems (5, 5, b) and right sides (5, k, b) of columns (5, s, b) and (k, s, b), summed over what a point has."""
+    normal = np.empty((_UNKNOWNS, _UNKNOWNS, rises.shape[-1]))
+    right = np.empty((_UNKNOWNS, len(rises), rises.shape[-1]))
     for i, column in enumerate(columns):
         for j in range(i + 1):
-            normal[i, j] = normal[j, i] = np.add.reduceat(column * columns[j], starts)
+            normal[i, j] = normal[j, i] = _sums(column * columns[j])
         for j, rise in enumerate(rises):
-            right[i, j] = np.add.reduceat(column * rise, starts)
+            right[i, j] = _sums(column * rise)
     return normal, right
 
 
+def _sums(rows: FloatArray) -> FloatArray:
+    """Of each column, in pieces: rounding does not grow with thousands of neighbours."""
+    return np.asarray(sum(np.add.reduce(rows[k : k + 64]) for k in range(0, len(rows), 64)))
+
+
 def _columns(
-    differences: FloatArray, axes: FloatArray, starts: AnyIndices, counts: AnyIndices
-) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Weighted ξ, η, |d|², ξ² − η², 2ξη of each pair (5, p), its weight, and the unit of length of each point."""
+    differences: FloatArray, axes: FloatArray, usable: BoolArray
+) -> tuple[list[FloatArray], FloatArray, FloatArray]:
+    """Weighted ξ, η, |d|², ξ² − η², 2ξη of each pair (5, s, b), its weight, and the unit of length of each point."""
     # The unit u is the distance of the third neighbour. Weights are smaller by (u/r)² where r is longer; so columns are
     # made of d/max(u, r), which is one at most, however much longer the longest distance is.
     size = lengths(differences)[0]
-    unit = _third_least(size, starts, counts)
-    of_pair = np.repeat(unit, counts)
-    longer = np.maximum(size, of_pair)
+    farthest = np.where(usable, size, 0.0).max(axis=0)
+    unit = np.minimum(_third_least(np.where(usable, size, np.inf)), farthest)
+    longer = np.maximum(size, unit)
     # (1 − r/R)², R a tenth beyond the farthest: the weight without its 1/r², which (u/max(u, r))² replaces below.
-    share = (1.0 - size / np.repeat(1.1 * np.maximum.reduceat(size, starts), counts)) ** 2
+    share = np.where(usable, np.square(1.0 - size / (1.1 * farthest)), 0.0)
     # Coordinates along the axes of the owner, of d over max(u, r).
-    nearer = of_pair / longer
+    nearer = unit / longer
     differences /= longer
-    xi, eta = (inner(np.repeat(axis, counts, axis=1), differences) for axis in axes)
+    xi, eta = (inner(axis, differences) for axis in axes)
     r = size / longer
-    columns = np.stack([xi * nearer, eta * nearer, r * r, xi * xi - eta * eta, 2.0 * xi * eta])
-    return columns * share, share * nearer * nearer, unit
+    part = share * nearer
+    columns = [part * xi, part * eta, share * (r * r), share * (xi * xi - eta * eta), 2.0 * share * (xi * eta)]
+    return columns, part * nearer, unit
 
 
-def _third_least(size: FloatArray, starts: AnyIndices, counts: AnyIndices) -> FloatArray:
-    """The third smallest length of each owner, equal lengths counted separately; the largest if fewer than three."""
-    # Twice, one smallest of the remaining lengths is set aside; the smallest of the rest is the third.
-    rest, owners = size.copy(), np.repeat(np.arange(len(starts)), counts)
-    for _ in range(2):
-        least = np.flatnonzero(rest == np.repeat(np.minimum.reduceat(rest, starts), counts))
-        rest[least[np.flatnonzero(np.diff(owners[least], prepend=-1))]] = np.inf
-    return np.minimum(np.minimum.reduceat(rest, starts), np.maximum.reduceat(size, starts))
+def _third_least(rows: FloatArray) -> FloatArray:
+    """The third smallest number of each column, equal ones counted separately."""
+    first, second, third = np.sort(rows[:3], axis=0)
+    for row in rows[3:]:
+        third = np.minimum(third, np.maximum(second, row))
+        second = np.minimum(second, np.maximum(first, row))
+        first = np.minimum(first, row)
+    return third
 
 
 def _axes(places: PrecisePoints) -> FloatArray:
-    """Two unit vectors of the tangent plane at each point, (2, d, b)."""
+    """Two unit vectors of the tangent plane at each point, (2, d, 1, b)."""
     up = places.rounded
     if not places.curved:
-        return np.broadcast_to(np.eye(2)[:, :, None], (2, *up.shape))
+        return np.broadcast_to(np.eye(2)[:, :, None, None], (2, *up.shape))
     first = crossed(np.eye(3)[:, np.abs(up).argmin(axis=0)], up)
     first /= np.sqrt(inner(first, first))
     return np.stack([first, crossed(up, first)])
@@ -176,36 +173,48 @@ def _solve(normal: FloatArray, right: FloatArray) -> FloatArray:
 BLOCK = 1024
 """Points in a block: numbers of their 20 000 neighbours of neighbours stay in the second-level cache."""
 
+PAIRS = 300 * BLOCK
+"""Neighbours of neighbours looked up at a time, those of eight blocks."""
 
-def rings_in_blocks(triangulation: Triangulation) -> Iterator[tuple[AnyIndices, AnyIndices, AnyIndices]]:
-    """Points (b,) that have triangles, and pairs: a place among them, in order, and a point of the two rings there.
 
-    Each pair comes once. Edges of triangles that close a set within a hemisphere do not count.
+def rings_in_blocks(triangulation: Triangulation) -> Iterator[tuple[AnyIndices, AnyIndices, BoolArray]]:
+    """Points (b,) that have triangles, for each a column of points (s, b), and which of these count, s being 3 or more.
+
+    Those of the two rings around the point, each once. Edges of triangles that close a set within a hemisphere do not
+    count.
     """
     simplices = triangulation.simplices[state_of(triangulation).open]
     size = len(triangulation.points)
     indptr, ends = adjacency_of(edges_of(simplices), size)
     starts, counts = indptr[:-1].astype(np.int64), np.diff(indptr)
-    # A pair is one number, place and neighbour, so that sorting finds what comes twice; a short one if that is enough.
-    bits = size.bit_length()
-    kind = np.int32 if BLOCK << bits < 2**31 else np.int64
-    ends = ends.astype(kind)
     # In the order of their first triangles, which lie near one another: so do the neighbours, in memory as well.
     earliest = np.empty(size, dtype=np.int32)
     earliest[simplices.ravel()[::-1]] = np.arange(simplices.size, dtype=np.int32)[::-1]
     used = np.flatnonzero(counts)
-    used = used[np.argsort(earliest[used])]
-
-    for first in range(0, len(used), BLOCK):
-        points = used[first : first + BLOCK]
+    if not len(used):
+        return
+    order = np.argsort(earliest[used])
+    sums = np.cumsum(np.add.reduceat(counts.take(ends), starts[used])[order], dtype=np.int64)
+    cuts = np.flatnonzero(np.diff(sums * (sums[-1] // PAIRS + 1) // (sums[-1] + 1))) + 1
+    bits = size.bit_length()
+    for points in np.split(used[order], cuts):
+        # A pair is one number, place and neighbour, so that sorting finds what comes twice; a short one if that does.
+        own: AnyIndices = np.arange(len(points), dtype=np.int32 if len(points) << bits < 2**31 else np.int64)
         number = counts[points]
         ring = ends[spans(starts[points], number)]
         further = counts[ring]
         # The ring of the ring, which holds the ring, as each of its points is in a triangle with another.
-        own: AnyIndices = np.arange(len(points), dtype=kind)
         places = np.repeat(np.repeat(own << bits, number), further)
         pairs = np.sort(places | ends[spans(starts[ring], further)])
         pairs = pairs.take(np.flatnonzero(np.concatenate([[True], pairs[1:] != pairs[:-1]])))
-        owners, others = pairs >> bits, pairs & ((1 << bits) - 1)
-        apart = np.flatnonzero(others != points.take(owners))
-        yield points, owners.take(apart), others.take(apart)
+        begin = pairs.searchsorted(own << bits)
+        number = np.diff(begin, append=len(pairs))
+        order = np.argsort(number)
+        while stop := len(order):
+            # Of the rings that are about equally long: a column has room for the longest.
+            slots = np.arange(max(3, number[order[-1]]))[:, None]
+            order, some = np.split(order, [max(0, stop - max(1, min(BLOCK, 64 * BLOCK // len(slots))))])
+            others = pairs.take(begin[some] + np.minimum(slots, number[some] - 1)) & ((1 << bits) - 1)
+            itself = others == points[some]
+            usable = (slots < number[some]) & ~itself
+            yield points[some], np.where(itself, ends[starts[points[some]]], others), usable

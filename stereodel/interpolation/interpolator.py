@@ -10,7 +10,7 @@ from typing import Any, Final, Self
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import AnyIndices, FloatArray, as_choice, as_values, locked
+from stereodel._arrays import AnyIndices, FloatArray, as_choice, as_values, keep_freed_memory, locked
 from stereodel._docs import by_name, shared
 from stereodel._double_double import DoubleDouble, unit
 from stereodel._spaces import SPHERE, surface_of
@@ -282,10 +282,11 @@ class TriangleInterpolator(Interpolator):
         """Fill the rows of `result` for queries inside triangles, and return the triangle of each, -1 outside."""
         found = np.asarray(self.triangulation.find_simplex(queries, workers=workers))
         inside = np.flatnonzero(found >= 0)
+        keep_freed_memory()
         size = BLOCK // max(1, min(result.shape[-1], BLOCK // 256))
         for first in range(0, len(inside), size):
             rows = inside[first : first + size]
-            result[rows] = function(self.triangulation.simplices[found[rows]], queries[rows])
+            result[rows] = function(self.triangulation.simplices.take(found[rows], axis=0), queries.take(rows, axis=0))
         return found
 
     @abstractmethod

@@ -28,7 +28,10 @@ def cross3(a: Any, b: Any) -> list[Any]:
 
 def crossed(a: FloatArray, b: FloatArray) -> FloatArray:
     """The same as an array."""
-    return np.stack(cross3(a, b))
+    found = np.empty(np.broadcast_shapes(a.shape, b.shape))
+    for k in range(3):
+        np.subtract(a[k - 2] * b[k - 1], a[k - 1] * b[k - 2], out=found[k])
+    return found
 
 
 def inner(a: Any, b: Any) -> Any:
@@ -43,16 +46,23 @@ def dot(a: FloatArray, b: FloatArray) -> FloatArray:
 
 
 def lengths(vectors: FloatArray) -> FloatArray:
-    """Lengths (1, m) of vectors (d, m), also where squares would overflow or underflow."""
+    """Lengths (1, ...) of vectors (d, ...), also where squares would overflow or underflow."""
     with np.errstate(over="ignore"):
-        plain = np.sqrt(np.sum(np.square(vectors), axis=0, keepdims=True))
+        squares = vectors * vectors
+        plain = np.sqrt(sum(squares[1:], squares[0]))[None]
     least, largest = PLAIN_SQUARES
-    odd_ones = np.flatnonzero(~((plain > least) & (plain < largest)))
-    if len(odd_ones):
+    if not (plain.min(initial=1.0) > least and plain.max(initial=1.0) < largest):
+        odd_ones = ~((plain[0] > least) & (plain[0] < largest))
         near, exponent = scaled(vectors[:, odd_ones].T)
         root = np.sqrt(np.sum(np.square(near), axis=1))
         plain[0, odd_ones] = np.ldexp(np.ldexp(root, exponent // 2), exponent - exponent // 2)
     return plain
+
+
+def heaviest(weights: FloatArray, of: FloatArray) -> FloatArray:
+    """Of arrays (3, ...), what belongs to the corner with the largest weight, the first of these."""
+    a, b, c = weights
+    return np.where((a >= b) & (a >= c), of[0], np.where(b >= c, of[1], of[2]))
 
 
 class LocatedQueries:

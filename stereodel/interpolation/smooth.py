@@ -21,8 +21,8 @@ from stereodel._arrays import AnyIndices, FloatArray, as_values, locked
 from stereodel._docs import shared
 from stereodel.constants import LEAST_WEIGHT
 from stereodel.interpolation.gradients import fit_gradients
-from stereodel.interpolation.interpolator import FAMILY, TriangleInterpolator, one_value_a_place
-from stereodel.interpolation.located import LocatedQueries, crossed, dot, inner, lengths
+from stereodel.interpolation.interpolator import FAMILY, PrecisePoints, TriangleInterpolator, one_value_a_place
+from stereodel.interpolation.located import LocatedQueries, crossed, dot, heaviest, inner, lengths
 from stereodel.triangulation.delaunay import Triangulation
 
 
@@ -101,7 +101,7 @@ class SmoothInterpolator(TriangleInterpolator):
 
     def _within(self, corners: AnyIndices, queries: FloatArray) -> FloatArray:
         located, weights, values, gradients = self._located(corners, queries)
-        first = _heaviest(weights, values)
+        first = heaviest(weights, values)
         found = np.asarray(first + _mix(located, list(weights[:, None]), values, first, gradients))
         return _met(found, first, weights, values, gradients).T
 
@@ -109,10 +109,10 @@ class SmoothInterpolator(TriangleInterpolator):
         located, weights, values, gradients = self._located(corners, queries)
         directions = np.array([[-1.0, 1.0, 0.0], [-1.0, 0.0, 1.0]])  # by the second and the third coordinate
         b = [Jet(weights[k : k + 1], directions[:, k, None, None]) for k in range(3)]
-        mixed = _mix(located, b, values, _heaviest(weights, values), gradients)
+        mixed = _mix(located, b, values, heaviest(weights, values), gradients)
         assert isinstance(mixed, Jet)
         slope = located.slope([np.zeros_like(mixed.slope[0]), *mixed.slope])
-        return np.moveaxis(_met(slope, _heaviest(weights, gradients), weights, values, gradients), -1, 0)
+        return np.moveaxis(_met(slope, heaviest(weights, gradients), weights, values, gradients), -1, 0)
 
     def _located(
         self, corners: AnyIndices, queries: FloatArray
@@ -193,11 +193,6 @@ def norm(vector: Number) -> Number:
     return Jet(length, np.sum(vector.value / length * vector.slope, axis=-2, keepdims=True))
 
 
-def _heaviest(weights: FloatArray, of: FloatArray) -> FloatArray:
-    """Of arrays (3, ..., m), what belongs to the corner with the largest weight."""
-    return np.choose(weights.argmax(axis=0), of)
-
-
 def _met(
     found: FloatArray, at_corner: FloatArray, weights: FloatArray, values: FloatArray, gradients: FloatArray
 ) -> FloatArray:
@@ -218,12 +213,10 @@ def _mix(
     """The difference from the value `first` of one corner."""
     total: Number = 0.0
     divisor: Number = 0.0
-    # Each edge from its first corner on; seen from the other end its sign is turned, which rounds nothing.
     corners = located.corners
-    edges = [corners[i - 2] - corners[i] for i in range(3)]
-    normals = [crossed(corner.rounded, edge) for corner, edge in zip(corners, edges, strict=True) if corner.curved]
+    sides = [_Side(corners[i], corners[i - 2] - corners[i], (gradients[i], gradients[i - 2])) for i in range(3)]
     for i in range(3):
-        corner = _Corner(located, i, edges, normals, values, first, gradients)
+        corner = _Corner(sides, i, values, first)
         weight = b[i - 2] * b[i - 1]
         total = total + weight * corner.surface(b[i], b[i - 2], b[i - 1])
         divisor = divisor + weight
@@ -252,88 +245,86 @@ def hermite_slope(rise: Number, slopes: Pair, parts: Pair, length: Number) -> Nu
     return 6.0 * s * t * (rise / length) + t * (t - 2.0 * s) * slopes[0] + s * (s - 2.0 * t) * slopes[1]
 
 
-class _Corner:
-    """S_i of the module's description: corner i; the side jk opposite, unit tangents at its ends, its unit normal."""
+class _Side:
+    """The edge from a corner to the next one; seen from its other end its sign is turned, which rounds nothing.
 
-    def __init__(
-        self,
-        located: LocatedQueries,
-        i: int,
-        edges: list[FloatArray],
-        normals: list[FloatArray],
-        values: FloatArray,
-        first: FloatArray,
-        gradients: FloatArray,
-    ) -> None:
-        self.curved = located.sites.curved
-        self.to_start, self.to_end, edge = edges[i], -edges[i - 1], edges[i - 2]
+    Tangent gradients have the same products with `along`, on the sphere the edge over its sine, as with the unit
+    tangent at either end. `drop` is the cosine less one. At both ends slopes are along the side and across.
+    """
+
+    def __init__(self, corner: PrecisePoints, edge: FloatArray, gradients: tuple[FloatArray, FloatArray]) -> None:
+        self.curved, self.edge = corner.curved, edge
         if self.curved:
-            self.origin, self.foot, end = (located.corners[k].rounded for k in (i, i - 2, i - 1))
-            self.turns = normals[i], -normals[i - 1]  # the corner times the vectors to both ends
-            self.sine, self.cosine = lengths(normals[i - 2]), 1.0 + dot(self.foot, edge)
-            self.length, self.normal = np.arctan2(self.sine, self.cosine), normals[i - 2] / self.sine
-            self.tangents = crossed(self.normal, self.foot), crossed(self.normal, end)
+            self.normal = crossed(corner.rounded, edge)
+            self.sine, self.drop = lengths(self.normal), dot(corner.rounded, edge)
+            self.cosine = 1.0 + self.drop
+            self.length = np.arctan2(self.sine, self.cosine)
+            self.along, self.across = edge / self.sine, self.normal / self.sine
         else:
-            self.length = lengths(edge)
-            tangent = edge / self.length
-            self.tangents, self.normal = (tangent, tangent), np.stack([-tangent[1], tangent[0]])
+            self.sine = self.length = lengths(edge)
+            self.along = edge / self.length
+            self.across = np.stack([-self.along[1], self.along[0]])
+        self.slopes = [(inner(at_end, self.along), inner(at_end, self.across)) for at_end in gradients]
+
+
+class _Corner:
+    """S_i of the module's description: corner i, the sides after and before it, and the side jk opposite."""
+
+    def __init__(self, sides: list[_Side], i: int, values: FloatArray, first: FloatArray) -> None:
+        self.after, self.before, self.side = sides[i], sides[i - 1], sides[i - 2]
+        self.on_sides = [self.after.slopes[0][0] * self.after.sine, self.before.slopes[1][0] * self.before.sine]
         self.value, self.ends = values[i] - first, (values[i - 2] - first, values[i - 1] - first)
         # Not of the ends: two values next to each other have lost their difference when a far one is taken off.
         self.rise = values[i - 1] - values[i - 2]
-        self.gradient, self.end_gradients = gradients[i], (gradients[i - 2], gradients[i - 1])
 
     def surface(self, b: Number, b_start: Number, b_end: Number) -> Number:
         """Values (k, m) where the barycentric coordinates of the corner and of the side's two ends are given."""
         share = b_start + b_end
         rests = b_end / share, b_start / share  # parts of the chord jk before and behind the line
-        parts, length, divisor, (along, across) = self._line(b, share, rests)
-        value, slope_along, slope_across = self._on_side(rests)
-        start = self._from_corner(rests, [inner(self.gradient, d) for d in (self.to_start, self.to_end)]) / divisor
+        # Where the line meets the chord, along j and across it.
+        chord = self._on_chord(rests) if self.side.curved else rests
+        parts, length, divisor, (along, across) = self._line(b, share, rests, chord)
+        value, slope_along, slope_across = self._on_side(rests, chord)
+        start = self._from_corner(rests, self.on_sides) / divisor
         end = (slope_along * along + slope_across * across) / divisor
         return hermite((self.value, value), (start, end), parts, length)
 
     @staticmethod
-    def _from_corner(rests: Pair, of_ends: list[FloatArray]) -> Number:
-        """What is linear in the vector from the corner to the chord, from what it is for the chord's two ends."""
-        return of_ends[0] * rests[1] + of_ends[1] * rests[0]
+    def _from_corner(rests: Pair, on_sides: list[FloatArray]) -> Number:
+        """What is linear in the vector from the corner to the chord, from what it is along the two sides there."""
+        return on_sides[0] * rests[1] - on_sides[1] * rests[0]
 
-    def _line(self, b: Number, share: Number, rests: Pair) -> tuple[Pair, Number, Number, Pair]:
+    def _line(self, b: Number, share: Number, rests: Pair, chord: Pair) -> tuple[Pair, Number, Number, Pair]:
         """The line from the corner to Q: the fractions of its length before and behind the query, its length, divisor.
 
         That is of slopes along the vector from the corner to the chord, at the corner, and of the components last
         returned: those of the line's direction at Q, along the side and across.
         """
-        tangent = self.tangents[0]
-        across = dot(self.to_start, self.normal)
-        if not self.curved:
-            length = norm(self._from_corner(rests, [self.to_start, self.to_end]))
-            along = dot(self.to_start, tangent) + rests[0] * self.length
-            return (share, b), length, length, (along, across)
-        sine = norm(self._from_corner(rests, list(self.turns)))
-        cosine = 1.0 + self._from_corner(rests, [dot(self.origin, d) for d in (self.to_start, self.to_end)])
+        after, before, side = self.after, self.before, self.side
+        along, across = dot(after.edge, side.along), dot(after.edge, side.across)
+        if not side.curved:
+            length = norm(self._from_corner(rests, [after.edge, before.edge]))
+            return (share, b), length, length, (along + rests[0] * side.length, across)
+        sine = norm(self._from_corner(rests, [after.normal, before.normal]))
+        cosine = 1.0 + self._from_corner(rests, [after.drop, -before.drop])
         square = sine * sine + cosine * cosine
-        length = arctan2(sine, cosine)
-        before = arctan2(share * sine, b + share * cosine)
+        ahead = arctan2(share * sine, b + share * cosine)
         behind = arctan2(b * sine, share * square + b * cosine)
-        x, y = self._on_chord(rests)
-        along = x * (dot(self.to_start, tangent) + y) - y * (
-            dot(self.to_start, self.foot) + rests[0] * (self.cosine - 1.0)
-        )
-        return (before / length, behind / length), length, sine, (along, across * sqrt(square))
+        length = ahead + behind
+        x, y = chord
+        forward = x * (along + after.drop * side.drop / side.sine + y) + y * (after.drop - rests[0] * side.drop)
+        return (ahead / length, behind / length), length, sine, (forward, across * sqrt(square))
 
     def _on_chord(self, rests: Pair) -> Pair:
         """Where the line meets the chord jk, along j and across it; with the rests exchanged along k."""
-        return rests[1] + rests[0] * self.cosine, rests[0] * self.sine
+        return rests[1] + rests[0] * self.side.cosine, rests[0] * self.side.sine
 
-    def _on_side(self, rests: Pair) -> tuple[Number, Number, Number]:
+    def _on_side(self, rests: Pair, chord: Pair) -> tuple[Number, Number, Number]:
         """Value, slope along and slope across at Q."""
-        parts = rests
-        if self.curved:
-            x, y = self._on_chord(rests)
-            u, v = self._on_chord(rests[::-1])
-            parts = arctan2(y, x) / self.length, arctan2(v, u) / self.length
-        first, last = self.end_gradients
-        slopes = inner(first, self.tangents[0]), inner(last, self.tangents[1])
-        across = inner(first, self.normal) * parts[1] + inner(last, self.normal) * parts[0]
-        along = hermite_slope(self.rise, slopes, parts, self.length)
-        return hermite(self.ends, slopes, parts, self.length), along, across
+        parts, length = rests, self.side.length
+        if self.side.curved:
+            (x, y), (u, v) = chord, self._on_chord(rests[::-1])
+            parts = arctan2(y, x) / length, arctan2(v, u) / length
+        slopes, across = zip(*self.side.slopes, strict=True)
+        along = hermite_slope(self.rise, slopes, parts, length)
+        return hermite(self.ends, slopes, parts, length), along, across[0] * parts[1] + across[1] * parts[0]

@@ -14,7 +14,7 @@ from stereodel._arrays import AnyIndices, FloatArray, Indices
 from stereodel._docs import shared
 from stereodel.curves.ragged import offsets_of
 from stereodel.interpolation.interpolator import FAMILY, PrecisePoints, TriangleInterpolator
-from stereodel.interpolation.located import LocatedQueries
+from stereodel.interpolation.located import LocatedQueries, heaviest
 from stereodel.interpolation.weights import Shares, WeightedInterpolator
 from stereodel.triangulation.delaunay import Triangulation, state_of, threads_of
 
@@ -99,12 +99,12 @@ class LinearInterpolator(WeightedInterpolator, TriangleInterpolator):
     """
 
     def _within(self, corners: AnyIndices, queries: FloatArray) -> FloatArray:
-        weights = LocatedQueries(self._sites, corners, queries).weights().T
-        values = self._values[corners]
+        located = LocatedQueries(self._sites, corners, queries)
+        weights, values = located.weights()[:, :, None], self._values.take(located.numbers, axis=0)
         # From the heaviest corner, so that values at points are reproduced exactly.
-        first = np.take_along_axis(values, weights.argmax(axis=1)[:, None, None], axis=1)
-        one, two, three = np.moveaxis(weights[:, :, None] * (values - first), 1, 0)
-        return first[:, 0] + (one + two + three)
+        first = heaviest(weights, values)
+        one, two, three = weights * (values - first)
+        return np.asarray(first + (one + two + three))
 
     def _slope_within(self, corners: AnyIndices, queries: FloatArray) -> FloatArray:
         found = LocatedQueries(self._sites, corners, queries).slope([self._values[corners[:, k]].T for k in range(3)])

@@ -138,8 +138,9 @@ def test_what_is_said_of_shapes(shapes, run):
     assert "shapes.gpkg: row 1: a Point is needed, not Polygon; take e.g. centroids first" in said
     assert "or ask for the shapes nearest to points: shapes.gpkg --of inner.csv" in said
     assert "ask for" not in run("nearest", "shapes.gpkg", "--of", "shapes.gpkg", "-o", "-", code=2)
-    for option in (("-k", 2), ("--exclude-self",)):
+    for option, name in ((("-k", 2), "--count"), (("--exclude-self",), "--exclude-self")):
         said = run("nearest", "shapes.gpkg", *shapes, *option, code=2)
-        assert "shapes.gpkg: has not only points; leave out --count and --exclude-self" in said
+        assert f"{name} is for points, and shapes.gpkg has lines or polygons, of which the nearest one alone is" in said
+        assert "found; leave out what is for points" in said
     said = run("nearest", "shapes.gpkg", *shapes, "--plane", "lon", "lat", code=2)
     assert "there is no column 'lon'; the columns are 'name', 'size'" in said

@@ -311,3 +311,16 @@ def test_later_changes_of_the_triangulation_do_not_matter(rng):
         assert other([0.5, 0.5]) == before
     with pytest.raises(ValueError, match="read-only"):
         function.values[0] = 1.0
+
+
+def test_neighbours_of_other_points_do_not_change_a_gradient(rng):
+    """Points are fitted together, each with room for as many neighbours as the one with most, here a hub of 1500."""
+    angle = np.linspace(0, 2 * np.pi, 1500, endpoint=False)
+    wheel = [9.0, 0.0] + np.vstack([np.column_stack([np.cos(angle), np.sin(angle)]), [[0, 0]]])
+    points, values = rng.random((1200, 2)), rng.random(1200)
+    values[::40] = np.nan
+    both = estimate_gradients(np.vstack([points, wheel]), np.append(values, wheel @ [2.0, -3.0]))
+    inner = (np.abs(points - 0.5) < 0.3).all(axis=1)
+    assert np.isfinite(both[:1200][inner & ~np.isnan(values)]).all()
+    assert np.array_equal(both[:1200][inner], estimate_gradients(points, values)[inner], equal_nan=True)
+    assert np.abs(both[-1] - [2.0, -3.0]).max() < 1e-7
