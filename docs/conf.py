@@ -1,5 +1,6 @@
 """Sphinx configuration. The gallery runs the figure scripts through the library's own rendering; nothing is fetched."""
 
+import re
 import sys
 import warnings
 from pathlib import Path
@@ -99,7 +100,18 @@ def write_interactive_page(app, problem):
         web(Path(app.outdir) / "interactive.html")
 
 
+def break_between_words(_app, _page, _template, context, _doctree):
+    """Long names, as of files and tests, break after a slash, colon or underscore; copied they are as before."""
+    if "body" in context:
+        context["body"] = re.sub(
+            r'(?<=<span class="pre">)[^<]{16,}',
+            lambda name: re.sub(r"(/|::|_(?=[^_<]))(?=\w)", r"\1<wbr>", name[0]),
+            context["body"],
+        )
+
+
 def setup(app):
     """After numpydoc, which listens at the default priority."""
+    app.connect("html-page-context", break_between_words)
     app.connect("autodoc-process-docstring", escape_bars, priority=900)
     app.connect("build-finished", write_interactive_page)
