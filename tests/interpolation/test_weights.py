@@ -77,7 +77,7 @@ def test_a_file_of_something_else_is_refused(tmp_path, rng):
         {},
     ):
         np.savez(tmp_path / "a.npz", **(parts | wrong if wrong else {"a": 1}))
-        said = "do not fit together" if wrong else r"a\.npz is not a file of weights: row, col, S"
+        said = "do not fit together" if wrong else r"a\.npz is not a file of weights, it lacks row, col, S"
         with pytest.raises(ValueError, match=said):
             Weights.load(tmp_path / "a.npz")
     for name in ("weights", "weights.zip"):
@@ -150,7 +150,7 @@ def test_entries_of_others_come_in_any_order(rng):
     again = Weights.from_xarray(shuffled)
     values = rng.normal(size=200)
     assert np.allclose(again @ values, Weights.from_xarray(dataset) @ values, rtol=0, atol=1e-15, equal_nan=True)
-    with pytest.raises(ValueError, match="the dataset is not a file of weights: src_grid_dims, dst_grid_dims is miss"):
+    with pytest.raises(ValueError, match="the dataset is not a file of weights, it lacks src_grid_dims, dst_grid_dims"):
         Weights.from_xarray(dataset[["row", "col", "S"]])
     for name, by in (("row", -1), ("row", 1), ("col", -1), ("col", 199)):
         with pytest.raises(ValueError, match="do not fit together"):
