@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Protocol
 
@@ -12,6 +12,7 @@ from stereodel._arrays import FloatArray
 from stereodel.curves.chart import Chart
 from stereodel.drawing.page import Ball, Beziers, Dots, Fill, Item, Label, Picture, Polygons, Polylines, Stroke
 from stereodel.drawing.page.colors import Color
+from stereodel.drawing.page.items import FEW_COLORS, Tags, xml_name
 from stereodel.drawing.page.labels import placed_apart, within_disc
 from stereodel.drawing.page.style import DotStyle, LineStyle
 from stereodel.drawing.scene.graticule import LEAST_APART, WIDTHS_APART, Graticule, usual_spacing
@@ -20,6 +21,24 @@ from stereodel.drawing.scene.visibility import limb
 from stereodel.globe.outlines_on_sphere import SphereLines, SphereRegions
 from stereodel.globe.raster import Raster, RasterOnDisc
 from stereodel.sphere.latitudes import Latitude
+
+TagRows = Sequence[Mapping[str, str]]
+"""Attributes in SVG of each region, line or dot of a layer, see `Tags`; empty if they have none."""
+
+
+def tags_of(columns: Mapping[str, Iterable[object]]) -> TagRows:
+    """The first column as ids, and the values of all as data under their names; missing values are left out."""
+    texts = [[written(value) for value in column] for column in columns.values()]
+    names = ["id", *(f"data-{xml_name(name.lower())}" for name in columns)]
+    rows = zip(*texts[:1], *texts, strict=True)
+    return [{name: text for name, text in zip(names, row, strict=True) if text} for row in rows]
+
+
+def written(value: object) -> str:
+    """A value of a table as text; whole numbers without a point, "" for a missing one."""
+    if isinstance(value, float):
+        return "" if np.isnan(value) else np.format_float_positional(value, trim="-")
+    return "" if value is None else str(value)
 
 
 def outline(chart: Chart) -> Beziers:
@@ -70,12 +89,14 @@ class LineLayer:
     lines: SphereLines
     style: LineStyle
     name: str
+    tags: TagRows = ()
 
     def lay(self, chart: Chart) -> Iterator[Item]:
         """All visible parts, as one item."""
-        seen = self.lines.on(chart)
+        seen, line = self.lines.on(chart)
         if len(seen):
-            yield Polylines(seen.values, seen.offsets, self.style.color, self.style.width, self.name)
+            color, width, tags = self.style.color, self.style.width, Tags.of(self.tags, line)
+            yield Polylines(seen.values, seen.offsets, color, width, self.name, tags=tags)
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,6 +127,7 @@ class Areas:
     regions: SphereRegions
     colors: FloatArray
     name: str
+    tags: TagRows = ()
 
     def lay(self, chart: Chart) -> Iterator[Item]:
         """One item for each colour, or one for all regions if there are too many colours.
@@ -115,14 +137,14 @@ class Areas:
         loops, owner = self.regions.on(chart)
         if len(loops) == 0:
             return
-        whole = Polygons(loops.values, loops.offsets, owner, self.colors, ball(chart), self.name)
-        if whole.pictured:
+        tags = Tags.of(self.tags, owner)
+        whole = Polygons(loops.values, loops.offsets, owner, self.colors, ball(chart), self.name, tags=tags)
+        colors, number = whole.by_color
+        if len(colors) > FEW_COLORS:
             yield whole
             return
-        _, number = whole.by_color
-        for color in range(int(number.max()) + 1):
-            some, region = loops.take(number == color), owner[number == color]
-            yield replace(whole, points=some.values, offsets=some.offsets, owner=region)
+        for color in range(len(colors)):
+            yield whole.some(number == color)
 
 
 @dataclass(frozen=True, eq=False)
@@ -145,13 +167,15 @@ class Points:
     xyz: FloatArray
     style: DotStyle
     name: str
+    tags: TagRows = ()
 
     def lay(self, chart: Chart) -> Iterator[Item]:
         """Dots whose centres are visible."""
         places, seen = chart.points(self.xyz)
         if seen.any():
             style = self.style
-            yield Dots(places[seen], style.radius, style.color, style.rim, style.rim_width, self.name)
+            tags, look = Tags.of(self.tags, np.flatnonzero(seen)), (style.radius, style.color, style.rim)
+            yield Dots(places[seen], *look, style.rim_width, self.name, tags=tags)
 
 
 @dataclass(frozen=True, eq=False)

@@ -5,7 +5,7 @@ import xml.etree.ElementTree as ET
 import numpy as np
 import pypdf
 
-from stereodel.drawing.page import Ball, Dots, Fill, Label, Page, Picture, Polygons, Polylines, Stroke
+from stereodel.drawing.page import Ball, Dots, Fill, Label, Page, Picture, Polygons, Polylines, Ramp, Stroke
 from stereodel.render.save import region_pictures, save_vector
 from tests.images.foreign import DPI, FIGURES, LARGE, by_chromium, by_pdfium, disagreements
 from tests.images.scripts import cases, thorough_but_for
@@ -88,6 +88,7 @@ def everything():
         Fill(tuple(part + [0.1, 1.1] for part in ring), (0.9, 0.6, 0.1, 0.4)),
         Fill((*(part + [0.3, 1.0] for part in ring), box(0.6, 0.8, 1.3, 1.5)), RED),
         checkerboard(2.3, 2.0),
+        Ramp((4.2, 5.4, 3.5, 3.7), np.linspace([0.9, 0.9, 0.2, 1.0], [0.3, 0.3, 0.5, 1.0], 200) ** [[1, 2, 1, 1]]),
         Picture((circle((3.6, 2.4), 0.4),), Checks()),
         fan((1.8, 1.5), 1.5 * np.pi, 0.35),
         fan((1.9, 1.5), 2.0 * np.pi, 0.4),

@@ -11,6 +11,7 @@ from stereodel.drawing.page.items import (
     Picture,
     Polygons,
     Polylines,
+    Ramp,
     Stroke,
 )
 from stereodel.drawing.page.page import Page, picture_extra
@@ -27,6 +28,7 @@ __all__ = [
     "Picture",
     "Polygons",
     "Polylines",
+    "Ramp",
     "Stroke",
     "picture_extra",
 ]

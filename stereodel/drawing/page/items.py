@@ -1,4 +1,4 @@
-"""The seven kinds of items on a page, each with all that differs by kind but its rendering.
+"""The eight kinds of items on a page, each with all that differs by kind but its rendering.
 
 A new kind is one class here, and a case in each of the two renderers, `stereodel.render.vector.outlines` (outlines) and
 `stereodel.render.tessellation`, where the type checker finds a kind that is missing.
@@ -6,15 +6,16 @@ A new kind is one class here, and a case in each of the two renderers, `stereode
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterable, Mapping
-from dataclasses import dataclass, replace
+import re
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, ClassVar, Final, Literal, Protocol, Self
 
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import FloatArray, Indices, Pixels
+from stereodel._arrays import BoolArray, FloatArray, Indices, Pixels
 from stereodel._notebook import Displayed
 from stereodel.constants import GROUND_PIXEL
 from stereodel.curves.ragged import Ragged
@@ -31,6 +32,11 @@ FEW_COLORS: Final = 64
 """Largest number of colours of `Polygons` written as paths in vector files; with more, they become an image."""
 
 
+_LETTERS = "A-Z_a-z\xc0-\xd6\xd8-\xf6\xf8-\u02ff\u0370-\u037d\u037f-\u1fff\u200c\u200d\u2070-\u218f\u2c00-\u2fef"
+_LETTERS += "\u3001-\ud7ff\uf900-\ufdcf\ufdf0-\ufffd\U00010000-\U000effff"
+NO_NAME: Final = re.compile(f"[^-.0-9\xb7\u0300-\u036f\u203f\u2040{_LETTERS}]+")
+"""Characters that no name in XML has, of which a colon would be a prefix's (XML 1.0, fifth edition, productions 4)."""
+
 BEZIER_STEPS: Final = np.linspace(0.0, 1.0, 8, endpoint=False)
 
 Arrays = dict[str, npt.NDArray[np.generic]]
@@ -41,9 +47,35 @@ Recolour = Callable[[FloatArray], FloatArray]
 Look = LineStyle | DotStyle | Color
 
 
+def xml_name(text: str) -> str:
+    """The name in XML that is closest to a text, such as "_12-c" of "12 °c"; empty if nothing is left."""
+    name = NO_NAME.sub("-", text).strip("-")
+    return name if re.match(f"[{_LETTERS}]|$", name) else f"_{name}"
+
+
+@dataclass(frozen=True, eq=False)
+class Tags:
+    """What the parts of an item are called in SVG.
+
+    rows: the attributes of each part, such as ``{"id": "Ulm", "data-name": "Ulm"}``.
+    owner: the part of each loop, line or dot.
+    """
+
+    rows: Sequence[Mapping[str, str]]
+    owner: Indices
+
+    @classmethod
+    def of(cls, rows: Sequence[Mapping[str, str]], owner: Indices) -> Tags | None:
+        """None without any rows."""
+        return cls(rows, owner) if rows else None
+
+
 @dataclass(frozen=True, eq=False)
 class Mark(Displayed):
     """What every item of a page can do; kinds override what differs."""
+
+    tags: Tags | None = field(default=None, kw_only=True)
+    """Its parts with names of their own in SVG, if there are any."""
 
     _kind: ClassVar[Literal["lines", "dots", "fills", "labels", ""]]
     """Table of a style file with its looks; "" if it has none."""
@@ -59,7 +91,8 @@ class Mark(Displayed):
         if not self._inks:
             return self
         changed = change(np.array([getattr(self, ink) for ink in self._inks]))
-        return replace(self, **dict(zip(self._inks, map(tuple, changed.tolist()), strict=True)))
+        inks: dict[str, Any] = dict(zip(self._inks, map(tuple, changed.tolist()), strict=True))
+        return replace(self, **inks)
 
     def restyled(self, looks: Mapping[str, Any]) -> Self:
         """The same with other values of its fields, those of its kind in a style file."""
@@ -68,6 +101,19 @@ class Mark(Displayed):
     def colors_at(self, places: FloatArray) -> FloatArray | None:
         """Colours (n, 4) at places (n, 2) of the page, with opacity 0 outside; None if it covers no area."""
         return None
+
+    def parts(self) -> Iterator[tuple[Mapping[str, str], Self]]:
+        """Each part that has a name of its own: its attributes, and the part alone."""
+        if self.tags:
+            for part in np.unique(self.tags.owner).tolist():
+                yield self.tags.rows[part], self.some(self.tags.owner == part)
+
+    def some(self, rows: BoolArray) -> Self:
+        """The same of some of its loops, lines or dots."""
+        raise NotImplementedError
+
+    def _tagged(self, rows: BoolArray) -> Tags | None:
+        return self.tags and replace(self.tags, owner=self.tags.owner[rows])
 
     @property
     def _look(self) -> Look | None:
@@ -165,6 +211,10 @@ class Dots(Mark):
         """Centres and style, for the regression tests."""
         return {"centers": self.centers, "style": np.array([self.radius, *self.color, *self.rim, self.rim_width])}
 
+    def some(self, rows: BoolArray) -> Self:
+        """The same of some dots."""
+        return replace(self, centers=self.centers[rows], tags=self._tagged(rows))
+
     @property
     def _look(self) -> DotStyle:
         return DotStyle(self.color, self.radius, self.rim, self.rim_width)
@@ -233,6 +283,11 @@ class Polylines(Mark):
         """Points and style, for the regression tests."""
         return {"points": self.points, "offsets": self.offsets, "style": np.array([*self.color, self.width])}
 
+    def some(self, rows: BoolArray) -> Self:
+        """The same of some lines."""
+        lines = Ragged(self.points, self.offsets).take(rows)
+        return replace(self, points=lines.values, offsets=lines.offsets, tags=self._tagged(rows))
+
     @property
     def _look(self) -> LineStyle:
         return LineStyle(self.color, self.width)
@@ -245,7 +300,7 @@ class Polygons(Mark):
     Loop i is ``points[offsets[i]:offsets[i + 1]]``, with its first point repeated at the end; outer loops are
     counterclockwise, holes clockwise, and regions are filled by the nonzero rule. Regions of different colours do not
     overlap. In vector files the regions of a colour are one path; with more than `FEW_COLORS` colours, all regions are
-    one image.
+    one image. Regions with names (`tags`) are never an image, and in SVG each is a path.
     """
 
     points: FloatArray
@@ -273,7 +328,12 @@ class Polygons(Mark):
     @property
     def pictured(self) -> bool:
         """Whether there are so many colours that vector files hold the regions as an image."""
-        return len(self.by_color[0]) > FEW_COLORS
+        return self.tags is None and len(self.by_color[0]) > FEW_COLORS
+
+    def some(self, rows: BoolArray) -> Self:
+        """The same of some loops."""
+        loops, owner = self.loops.take(rows), self.owner[rows]
+        return replace(self, points=loops.values, offsets=loops.offsets, owner=owner, tags=self._tagged(rows))
 
     _kind = "fills"
 
@@ -300,6 +360,51 @@ class Polygons(Mark):
     def _look(self) -> Color | None:
         colors = self.by_color[0]
         return as_color(colors[0].tolist()) if len(colors) == 1 else None
+
+
+@dataclass(frozen=True, eq=False)
+class Ramp(Mark):
+    """A box whose colour changes evenly from left to right, as the bar of a scale; a gradient in vector files."""
+
+    box: tuple[float, float, float, float]
+    """Its left, right, bottom and top."""
+    colors: FloatArray
+    """(n, 4): sRGB and opacity in the middles of steps of equal width, which pixels show."""
+    name: str = ""
+
+    _kind = ""
+
+    def arrays(self) -> Arrays:
+        """Box and colours, for the regression tests."""
+        return {"box": np.array(self.box), "colors": self.colors}
+
+    def recoloured(self, change: Recolour) -> Self:
+        """With other colours of all steps."""
+        return replace(self, colors=change(self.colors))
+
+    def steps(self) -> Iterator[Fill]:
+        """Its steps as regions: each extends to the right end and is covered by the next, which avoids seams."""
+        left, right, bottom, top = self.box
+        for number, color in enumerate(self.colors.tolist()):
+            x = left + (right - left) * number / len(self.colors)
+            corners = [(x, bottom), (right, bottom), (right, top), (x, top), (x, bottom)]
+            yield Fill((straight(np.array(corners)),), as_color(color), self.name)
+
+    @property
+    def stops(self) -> tuple[tuple[float, Color], ...]:
+        """The fewest of its colours, with their places from 0 to 1, between which all are linear to half a level."""
+        count = len(self.colors)
+        at = np.array([0.0, *(np.arange(count) + 0.5) / count, 1.0])
+        colors = self.colors[[0, *range(count), -1]]
+
+        def after(first: int, last: int) -> list[int]:
+            share = (at[first : last + 1] - at[first]) / (at[last] - at[first])
+            linear = colors[first] + share[:, None] * (colors[last] - colors[first])
+            off = np.abs(colors[first : last + 1] - linear).max(axis=1)
+            worst = first + int(off.argmax())
+            return [last] if off.max() <= 0.5 / 255 else after(first, worst) + after(worst, last)
+
+        return tuple((float(at[k]), as_color(colors[k].tolist())) for k in [0, *after(0, count + 1)])
 
 
 @dataclass(frozen=True, eq=False)
@@ -349,7 +454,7 @@ def straight(corners: FloatArray) -> Beziers:
     return path
 
 
-Item = Stroke | Polylines | Polygons | Fill | Dots | Picture | Label
+Item = Stroke | Polylines | Polygons | Fill | Ramp | Dots | Picture | Label
 
 
 def _light(ball: Ball | None) -> Arrays:

@@ -6,7 +6,7 @@ All coordinates are page coordinates; `Paper` converts them to points.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from itertools import groupby
 from typing import Final, Literal, assert_never
@@ -17,7 +17,7 @@ from stereodel._arrays import Bytes, FloatArray, Pixels
 from stereodel.constants import FINEST_PLACE, FINEST_POINTS, PIXEL_ROUNDING
 from stereodel.curves.fill import union
 from stereodel.curves.ragged import Ragged, thinned
-from stereodel.drawing.page import Ball, Beziers, Dots, Fill, Label, Page, Picture, Polygons, Polylines, Stroke
+from stereodel.drawing.page import Ball, Beziers, Dots, Fill, Label, Page, Picture, Polygons, Polylines, Ramp, Stroke
 from stereodel.drawing.page.colors import Color, as_color
 from stereodel.drawing.page.items import alike
 
@@ -52,13 +52,14 @@ class Outlines:
 
 @dataclass(frozen=True, eq=False)
 class Filled:
-    """A region in one colour (even-odd or nonzero rule), which may be shaded as a ball."""
+    """A region in one colour (even-odd or nonzero rule), or shaded as a ball, or in the colours of a ramp."""
 
     outline: Outlines
     color: Color
     name: str = ""
     ball: Ball | None = None
     even_odd: bool = False
+    ramp: Ramp | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,7 +95,7 @@ class Shown:
 Shape = Filled | Drawn | Shown
 
 
-def shapes(page: Page, dpi: float, pictures: Sequence[Pixels] = ()) -> Iterator[Shape]:
+def shapes(page: Page, dpi: float, pictures: Iterable[Pixels] = ()) -> Iterator[Shape]:
     """The shapes of a page without its labels, in painter's order.
 
     dpi: pixels per inch of each `Picture`.
@@ -119,6 +120,8 @@ def shapes(page: Page, dpi: float, pictures: Sequence[Pixels] = ()) -> Iterator[
             case Fill() as fill:
                 runs = [(path, True) for path in fill.paths]
                 yield Filled(outline(runs, scale), fill.color, fill.name, fill.ball, even_odd=True)
+            case Ramp() as ramp:
+                yield Filled(boxed(ramp.box), as_color(ramp.colors[0].tolist()), ramp.name, ramp=ramp)
             case Picture() as picture:
                 yield _painted(picture, page, dpi)
             case Dots() as dots:
@@ -132,9 +135,14 @@ def shapes(page: Page, dpi: float, pictures: Sequence[Pixels] = ()) -> Iterator[
 def ground(page: Page) -> Iterator[Filled]:
     """The background, unless it is transparent."""
     if page.background[3]:
-        left, right, bottom, top = page.extent
-        corners = np.array([(left, top), (right, top), (right, bottom), (left, bottom), (left, top)])
-        yield Filled(Outlines(corners, RECTANGLE), page.background, "ground")
+        yield Filled(boxed(page.extent), page.background, "ground")
+
+
+def boxed(box: tuple[float, float, float, float]) -> Outlines:
+    """The outline of a box with these left, right, bottom and top sides."""
+    left, right, bottom, top = box
+    corners = np.array([(left, top), (right, top), (right, bottom), (left, bottom), (left, top)])
+    return Outlines(corners, RECTANGLE)
 
 
 def has_length(stroke: Stroke, points_per_unit: float) -> bool:

@@ -7,7 +7,7 @@ and focus f and centre c, on the axis toward the light, are those with the small
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Final
 
@@ -16,7 +16,8 @@ import numpy as np
 from stereodel._arrays import Bytes, FloatArray, Indices
 from stereodel.constants import FINEST_PLACE
 from stereodel.drawing.page import Ball, Page
-from stereodel.render.vector.outlines import CLOSE, CURVE, LINE, MOVE, Outlines
+from stereodel.drawing.page.colors import Color
+from stereodel.render.vector.outlines import CLOSE, CURVE, LINE, MOVE, Filled, Outlines
 
 PLACES = round(1 / FINEST_PLACE)
 """Steps of coordinates in a point."""
@@ -70,6 +71,15 @@ class Paper:
         """Focus, centre and radius of the gradient of a ball, in points."""
         focus, center = self.points(np.array(ball.center) + ball.radius * np.array([FOCUS, CENTER]))
         return focus, center, RADIUS * ball.radius * float(self.scale[0])
+
+
+def shades(shape: Filled) -> Sequence[tuple[float, Color]]:
+    """Colours of the gradient of a ball or a ramp at places from 0 to 1, linear in between."""
+    if shape.ramp:
+        return shape.ramp.stops
+    red, green, blue, opacity = shape.color
+    levels = zip(OFFSETS, BRIGHTNESS, strict=True)
+    return [(at, (level * red, level * green, level * blue, opacity)) for at, level in levels]
 
 
 def number(value: float) -> str:
