@@ -30,6 +30,7 @@ from stereodel.curves.view import MapView
 from stereodel.drawing.page import Item, Label, Page, picture_extra
 from stereodel.drawing.page.colors import ColorLike, as_color, as_colors
 from stereodel.drawing.page.fonts import FontLike, as_font
+from stereodel.drawing.page.items import Tags
 from stereodel.drawing.page.labels import placed_label, with_title
 from stereodel.drawing.page.page import LARGEST_SIZE
 from stereodel.drawing.page.scales import ColorScale, category_colors, usual_scale
@@ -49,20 +50,7 @@ from stereodel.drawing.page.style import (
     as_length,
 )
 from stereodel.drawing.scene.legend import LegendEntry, with_legend
-from stereodel.globe.layers import (
-    Areas,
-    GridLines,
-    Ground,
-    Image,
-    Limb,
-    LineLayer,
-    MapLayer,
-    Names,
-    Points,
-    TagRows,
-    laid,
-    tags_of,
-)
+from stereodel.globe.layers import Areas, GridLines, Ground, Image, Limb, LineLayer, MapLayer, Names, Points, laid
 from stereodel.globe.outlines_on_sphere import Rings, SphereLines, SphereRegions, earth_lines, earth_regions
 from stereodel.globe.pages import Panel, default_view, panels
 from stereodel.globe.raster import Raster
@@ -236,7 +224,7 @@ class Globe(Displayed):
         each, lines are paths with these ids in SVG.
         """
         rows = list(lines)
-        self._add_lines(rows, style, name, _tags(ids, len(rows)))
+        self._add_lines(rows, style, name, Tags.of({"id": ids}, len(rows)))
 
     def add_great_circles(
         self, starts: npt.ArrayLike, ends: npt.ArrayLike, *, style: LineStyle = MAP_LINES["line"], name: str = "arcs"
@@ -272,7 +260,7 @@ class Globe(Displayed):
             unique, and the texts as they are in ``data-id``; without, those of a colour are one path.
         """
         regions = SphereRegions.of_lonlat(polygons, latitude=self.latitude)
-        self._add_polygons(regions, color, outline, name, _tags(ids, regions.count))
+        self._add_polygons(regions, color, outline, name, Tags.of({"id": ids}, regions.count))
 
     def add_points(
         self,
@@ -284,7 +272,7 @@ class Globe(Displayed):
     ) -> None:
         """Draw dots at places, in degrees (n, 2) or as directions (n, 3); with `ids` in SVG, as for `add_polygons`."""
         xyz = self._xyz(places, "places")
-        self.add(Points(xyz, style, name, _tags(ids, len(xyz))))
+        self.add(Points(xyz, style, name, Tags.of({"id": ids}, len(xyz))))
 
     def add_labels(
         self,
@@ -342,7 +330,7 @@ class Globe(Displayed):
         """
         if colors is not None:
             cells = SphereRegions.cells(voronoi)
-            self.add(Areas(cells, as_colors(colors, cells.count), name, _tags(ids, cells.count)))
+            self.add(Areas(cells, as_colors(colors, cells.count), name, Tags.of({"id": ids}, cells.count)))
         if style is not None:
             self.add(LineLayer(SphereLines.alone(ridge_net(voronoi).arcs()), style, name))
 
@@ -445,8 +433,8 @@ class Globe(Displayed):
             than eight different texts.
         """
         shapes = shapes_of(source)
-        named = {} if id_column is None else {key: shapes.values(key) for key in (id_column, column) if key is not None}
-        tags = tags_of(named) if named else ()
+        keys = (id_column, column) if id_column is not None else ()
+        tags = Tags.of({key: shapes.values(key) for key in keys if key is not None}, len(shapes.properties))
         if len(shapes.polygon_feature):
             colors = as_colors(color, len(shapes.properties), "color")
             if column is not None:
@@ -455,11 +443,10 @@ class Globe(Displayed):
             polygons = SphereRegions.of_lonlat(shapes.polygons, owners=owners, latitude=self.latitude)
             self._add_polygons(polygons, colors[: polygons.count], outline, name, tags)
         if len(shapes.lines):
-            own = [tags[feature] for feature in shapes.line_feature] if tags else ()
-            self._add_lines(list(shapes.lines), style, name, own)
+            self._add_lines(list(shapes.lines), style, name, tags and tags.some(shapes.line_feature))
         if len(shapes.points):
-            own = [tags[feature] for feature in shapes.point_feature] if tags else ()
-            self.add(Points(self._xyz(shapes.points, "places"), dot_style, name, own))
+            named = tags and tags.some(shapes.point_feature)
+            self.add(Points(self._xyz(shapes.points, "places"), dot_style, name, named))
         if legend and not (column and len(shapes.polygon_feature)):
             self.legend[legend] = (
                 as_color(color) if len(shapes.polygon_feature) else style if len(shapes.lines) else dot_style
@@ -572,8 +559,8 @@ class Globe(Displayed):
             colors[known, :3], colors[known, 3] = chosen(values[known]), 1.0
             self.legend[column] = chosen
 
-    def _add_lines(self, lines: Sequence[npt.ArrayLike], style: LineStyle, name: str, tags: TagRows) -> None:
-        long = [row for line, row in zip(lines, tags, strict=True) if np.size(line) > 2] if tags else ()
+    def _add_lines(self, lines: Sequence[npt.ArrayLike], style: LineStyle, name: str, tags: Tags | None) -> None:
+        long = tags and tags.some(np.array([np.size(line) > 2 for line in lines], dtype=bool))
         self.add(LineLayer(SphereLines.straight_in_lonlat(lines, self.latitude), style, name, long))
 
     def _add_polygons(
@@ -582,16 +569,8 @@ class Globe(Displayed):
         color: ColorLike | npt.ArrayLike,
         outline: LineStyle | None,
         name: str,
-        tags: TagRows = (),
+        tags: Tags | None = None,
     ) -> None:
         self.add(Areas(regions, as_colors(color, regions.count, "color"), name, tags))
         if outline is not None:
             self.add(LineLayer(regions.outlines, outline, f"{name}-outline"))
-
-
-def _tags(ids: Iterable[object] | None, count: int) -> TagRows:
-    """The attributes of so many parts with these ids, none without."""
-    texts = [] if ids is None else list(ids)
-    if ids is not None and len(texts) != count:
-        raise ValueError(f"ids has {len(texts)} entries, but there are {count} to name")
-    return tags_of({"id": texts}) if texts else ()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Protocol
 
@@ -12,7 +12,7 @@ from stereodel._arrays import FloatArray
 from stereodel.curves.chart import Chart
 from stereodel.drawing.page import Ball, Beziers, Dots, Fill, Item, Label, Picture, Polygons, Polylines, Stroke
 from stereodel.drawing.page.colors import Color
-from stereodel.drawing.page.items import FEW_COLORS, Tags, xml_name
+from stereodel.drawing.page.items import FEW_COLORS, Tags
 from stereodel.drawing.page.labels import placed_apart, within_disc
 from stereodel.drawing.page.style import DotStyle, LineStyle
 from stereodel.drawing.scene.graticule import LEAST_APART, WIDTHS_APART, Graticule, usual_spacing
@@ -21,24 +21,6 @@ from stereodel.drawing.scene.visibility import limb
 from stereodel.globe.outlines_on_sphere import SphereLines, SphereRegions
 from stereodel.globe.raster import Raster, RasterOnDisc
 from stereodel.sphere.latitudes import Latitude
-
-TagRows = Sequence[Mapping[str, str]]
-"""Attributes in SVG of each region, line or dot of a layer, see `Tags`; empty if they have none."""
-
-
-def tags_of(columns: Mapping[str, Iterable[object]]) -> TagRows:
-    """The first column as ids, and the values of all as data under their names; missing values are left out."""
-    texts = [[written(value) for value in column] for column in columns.values()]
-    names = ["id", *(f"data-{xml_name(name.lower())}" for name in columns)]
-    rows = zip(*texts[:1], *texts, strict=True)
-    return [{name: text for name, text in zip(names, row, strict=True) if text} for row in rows]
-
-
-def written(value: object) -> str:
-    """A value of a table as text; whole numbers without a point, "" for a missing one."""
-    if isinstance(value, float):
-        return "" if np.isnan(value) else np.format_float_positional(value, trim="-")
-    return "" if value is None else str(value)
 
 
 def outline(chart: Chart) -> Beziers:
@@ -89,14 +71,14 @@ class LineLayer:
     lines: SphereLines
     style: LineStyle
     name: str
-    tags: TagRows = ()
+    tags: Tags | None = None
 
     def lay(self, chart: Chart) -> Iterator[Item]:
         """All visible parts, as one item."""
         seen, line = self.lines.on(chart)
         if len(seen):
-            color, width, tags = self.style.color, self.style.width, Tags.of(self.tags, line)
-            yield Polylines(seen.values, seen.offsets, color, width, self.name, tags=tags)
+            look, tags = (self.style.color, self.style.width), self.tags and self.tags.some(line)
+            yield Polylines(seen.values, seen.offsets, *look, self.name, tags=tags)
 
 
 @dataclass(frozen=True, eq=False)
@@ -127,7 +109,7 @@ class Areas:
     regions: SphereRegions
     colors: FloatArray
     name: str
-    tags: TagRows = ()
+    tags: Tags | None = None
 
     def lay(self, chart: Chart) -> Iterator[Item]:
         """One item for each colour, or one for all regions if there are too many colours.
@@ -137,7 +119,7 @@ class Areas:
         loops, owner = self.regions.on(chart)
         if len(loops) == 0:
             return
-        tags = Tags.of(self.tags, owner)
+        tags = self.tags and self.tags.some(owner)
         whole = Polygons(loops.values, loops.offsets, owner, self.colors, ball(chart), self.name, tags=tags)
         colors, number = whole.by_color
         if len(colors) > FEW_COLORS:
@@ -167,14 +149,14 @@ class Points:
     xyz: FloatArray
     style: DotStyle
     name: str
-    tags: TagRows = ()
+    tags: Tags | None = None
 
     def lay(self, chart: Chart) -> Iterator[Item]:
         """Dots whose centres are visible."""
         places, seen = chart.points(self.xyz)
         if seen.any():
             style = self.style
-            tags, look = Tags.of(self.tags, np.flatnonzero(seen)), (style.radius, style.color, style.rim)
+            tags, look = self.tags and self.tags.some(seen), (style.radius, style.color, style.rim)
             yield Dots(places[seen], *look, style.rim_width, self.name, tags=tags)
 
 

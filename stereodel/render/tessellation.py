@@ -18,20 +18,7 @@ from stereodel._arrays import BoolArray, FloatArray, Indices, Pixels, SingleArra
 from stereodel.constants import FLATNESS
 from stereodel.curves.fill import triangles
 from stereodel.curves.ragged import Ragged, spans
-from stereodel.drawing.page import (
-    Ball,
-    Beziers,
-    Dots,
-    Fill,
-    Item,
-    Label,
-    Page,
-    Picture,
-    Polygons,
-    Polylines,
-    Ramp,
-    Stroke,
-)
+from stereodel.drawing.page import Ball, Beziers, Dots, Fill, Item, Label, Page, Picture, Polygons, Polylines, Stroke
 from stereodel.drawing.page.colors import Color
 from stereodel.drawing.page.items import along
 from stereodel.render.gl import Disc, Triangles, Window
@@ -124,8 +111,6 @@ class _PixelMap:
                 return [self._polygons(item)]
             case Fill():
                 return [_colored(region(self._outlines(item.paths)), item.color, self._disc(item.ball))]
-            case Ramp():
-                return [batch for step in reversed([*item.steps()]) for batch in self.batches(step)]
             case Dots():
                 return self._dots(item)
             case Picture():

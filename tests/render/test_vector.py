@@ -12,8 +12,8 @@ import pypdf
 import pytest
 
 from stereodel.curves.view import View
-from stereodel.drawing.page import Dots, Fill, Label, Page, Polygons, Polylines, Ramp, Stroke
-from stereodel.drawing.page.items import xml_name
+from stereodel.drawing.page import Dots, Fill, Label, Page, Picture, Polygons, Polylines, Stroke
+from stereodel.drawing.page.items import Ramp, xml_name
 from stereodel.drawing.page.style import BLACK
 from stereodel.drawing.scene.scene import Scene
 from stereodel.render.pixel_rows import LabelLayer, agg_rows
@@ -122,15 +122,15 @@ def test_names_are_layers_as_inkscape_knows_them(tmp_path):
 
 def test_bars_of_colour_scales_are_gradients(tmp_path):
     """Of the fewest colours that are right to half a level: one where all are on a line, many of viridis."""
-    gray, viridis = (Ramp((0, 4, 0, 1), colors, "bar") for colors in (fading(256), mpl.colormaps["viridis"].colors))
+    gray, viridis = (Ramp((0, 4), colors) for colors in (fading(256), mpl.colormaps["viridis"].colors))
     viridis = replace(viridis, colors=np.insert(viridis.colors, 3, 1.0, axis=1))
-    assert len(gray.stops) == 2
+    assert len(gray.stops) == 2  # of colours on a line
     assert 8 < len(viridis.stops) < 60
     places, colors = (np.array(part) for part in zip(*viridis.stops, strict=True))
     middles = (np.arange(256) + 0.5) / 256
     shown = np.stack([np.interp(middles, places, colors[:, k]) for k in range(3)], axis=1)
     assert np.abs(shown - viridis.colors[:, :3]).max() <= 0.5 / 255
-    root = tree_of(Page((0, 4, 0, 4), (viridis,)), tmp_path)
+    root = tree_of(Page((0, 4, 0, 4), (Picture((square(0, 4),), viridis, "bar"),)), tmp_path)
     assert len(list(root.iter(f"{SVG}linearGradient"))) == 1
     assert [path.get("id") for path in root.iter(f"{SVG}path")] == ["ground", "bar"]
 

@@ -11,7 +11,6 @@ from stereodel.drawing.page.items import (
     Picture,
     Polygons,
     Polylines,
-    Ramp,
     Stroke,
 )
 from stereodel.drawing.page.page import Page, picture_extra
@@ -28,7 +27,6 @@ __all__ = [
     "Picture",
     "Polygons",
     "Polylines",
-    "Ramp",
     "Stroke",
     "picture_extra",
 ]

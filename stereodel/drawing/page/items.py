@@ -1,4 +1,4 @@
-"""The eight kinds of items on a page, each with all that differs by kind but its rendering.
+"""The seven kinds of items on a page, each with all that differs by kind but its rendering.
 
 A new kind is one class here, and a case in each of the two renderers, `stereodel.render.vector.outlines` (outlines) and
 `stereodel.render.tessellation`, where the type checker finds a kind that is missing.
@@ -55,7 +55,7 @@ def xml_name(text: str) -> str:
 
 @dataclass(frozen=True, eq=False)
 class Tags:
-    """What the parts of an item are called in SVG.
+    """What the parts of an item, or of a layer, are called in SVG.
 
     rows: the attributes of each part, such as ``{"id": "Ulm", "data-name": "Ulm"}``.
     owner: the part of each loop, line or dot.
@@ -65,9 +65,27 @@ class Tags:
     owner: Indices
 
     @classmethod
-    def of(cls, rows: Sequence[Mapping[str, str]], owner: Indices) -> Tags | None:
-        """None without any rows."""
-        return cls(rows, owner) if rows else None
+    def of(cls, columns: Mapping[str, Iterable[object] | None], count: int) -> Tags | None:
+        """Ids by the first column, and data by all, of so many parts, without missing values; None without columns."""
+        names = ["id", *(f"data-{xml_name(name.lower())}" for name in columns)]
+        texts = [[text_of(value) for value in column] for column in columns.values() if column is not None]
+        if not texts:
+            return None
+        if len(texts[0]) != count:
+            raise ValueError(f"ids has {len(texts[0])} entries, but there are {count} to name")
+        rows = (zip(names, row, strict=True) for row in zip(texts[0], *texts, strict=True))
+        return cls([{name: text for name, text in row if text} for row in rows], np.arange(count))
+
+    def some(self, rows: Indices | BoolArray) -> Tags:
+        """Those of some loops, lines or dots."""
+        return replace(self, owner=self.owner[rows])
+
+
+def text_of(value: object) -> str:
+    """A value of a table as text; whole numbers without a point, "" for a missing one."""
+    if isinstance(value, float):
+        return "" if np.isnan(value) else np.format_float_positional(value, trim="-")
+    return "" if value is None else str(value)
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,9 +129,6 @@ class Mark(Displayed):
     def some(self, rows: BoolArray) -> Self:
         """The same of some of its loops, lines or dots."""
         raise NotImplementedError
-
-    def _tagged(self, rows: BoolArray) -> Tags | None:
-        return self.tags and replace(self.tags, owner=self.tags.owner[rows])
 
     @property
     def _look(self) -> Look | None:
@@ -213,7 +228,7 @@ class Dots(Mark):
 
     def some(self, rows: BoolArray) -> Self:
         """The same of some dots."""
-        return replace(self, centers=self.centers[rows], tags=self._tagged(rows))
+        return replace(self, centers=self.centers[rows], tags=self.tags and self.tags.some(rows))
 
     @property
     def _look(self) -> DotStyle:
@@ -235,6 +250,39 @@ class Painter(Protocol):
 
 
 @dataclass(frozen=True, eq=False)
+class Ramp:
+    """A painter whose colour changes evenly from left to right, as the bar of a scale; a gradient in vector files."""
+
+    ends: tuple[float, float]
+    """Left and right, in page units."""
+    colors: FloatArray
+    """(n, 4): sRGB and opacity in the middles of steps of equal width, which pixels show."""
+
+    def paint(self, place: tuple[float, float, float, float], pixels: tuple[int, int]) -> Pixels:
+        """Pixels as `Painter` has them: the rows are alike."""
+        along = (place[0] + place[2] * (np.arange(pixels[0]) + 0.5) - self.ends[0]) / (self.ends[1] - self.ends[0])
+        step = np.clip(along * len(self.colors), 0, len(self.colors) - 1).astype(np.intp)
+        return np.tile(np.floor(255 * self.colors[step] + 0.5).astype(np.uint8), (pixels[1], 1, 1))
+
+    def arrays(self) -> Arrays:
+        """Ends and colours, for the regression tests."""
+        return {"ends": np.array(self.ends), "colors": self.colors}
+
+    @property
+    def stops(self) -> tuple[tuple[float, Color], ...]:
+        """The fewest of its colours, with their places from 0 to 1, between which all are linear to half a level."""
+
+        def after(first: int, last: int) -> list[int]:
+            linear = np.linspace(self.colors[first], self.colors[last], last - first + 1)
+            off = np.abs(self.colors[first : last + 1] - linear).max(axis=1)
+            worst = int(off.argmax())
+            return [last] if off[worst] <= 0.5 / 255 else after(first, first + worst) + after(first + worst, last)
+
+        count = len(self.colors)
+        return tuple(((k + 0.5) / count, as_color(self.colors[k].tolist())) for k in [0, *after(0, count - 1)])
+
+
+@dataclass(frozen=True, eq=False)
 class Picture(Mark):
     """A region painted pixel by pixel: a raster on a globe.
 
@@ -252,6 +300,11 @@ class Picture(Mark):
     def arrays(self) -> Arrays:
         """Outline, and what defines the painter, for the regression tests."""
         return {"outline": np.concatenate(self.outline), **self.painter.arrays()}
+
+    def recoloured(self, change: Recolour) -> Self:
+        """With other colours of a ramp; rasters keep theirs."""
+        ramp = self.painter
+        return replace(self, painter=replace(ramp, colors=change(ramp.colors))) if isinstance(ramp, Ramp) else self
 
     def colors_at(self, places: FloatArray) -> FloatArray:
         """The pixels painted inside the outline."""
@@ -286,7 +339,7 @@ class Polylines(Mark):
     def some(self, rows: BoolArray) -> Self:
         """The same of some lines."""
         lines = Ragged(self.points, self.offsets).take(rows)
-        return replace(self, points=lines.values, offsets=lines.offsets, tags=self._tagged(rows))
+        return replace(self, points=lines.values, offsets=lines.offsets, tags=self.tags and self.tags.some(rows))
 
     @property
     def _look(self) -> LineStyle:
@@ -332,8 +385,8 @@ class Polygons(Mark):
 
     def some(self, rows: BoolArray) -> Self:
         """The same of some loops."""
-        loops, owner = self.loops.take(rows), self.owner[rows]
-        return replace(self, points=loops.values, offsets=loops.offsets, owner=owner, tags=self._tagged(rows))
+        loops, owner, tags = self.loops.take(rows), self.owner[rows], self.tags and self.tags.some(rows)
+        return replace(self, points=loops.values, offsets=loops.offsets, owner=owner, tags=tags)
 
     _kind = "fills"
 
@@ -360,51 +413,6 @@ class Polygons(Mark):
     def _look(self) -> Color | None:
         colors = self.by_color[0]
         return as_color(colors[0].tolist()) if len(colors) == 1 else None
-
-
-@dataclass(frozen=True, eq=False)
-class Ramp(Mark):
-    """A box whose colour changes evenly from left to right, as the bar of a scale; a gradient in vector files."""
-
-    box: tuple[float, float, float, float]
-    """Its left, right, bottom and top."""
-    colors: FloatArray
-    """(n, 4): sRGB and opacity in the middles of steps of equal width, which pixels show."""
-    name: str = ""
-
-    _kind = ""
-
-    def arrays(self) -> Arrays:
-        """Box and colours, for the regression tests."""
-        return {"box": np.array(self.box), "colors": self.colors}
-
-    def recoloured(self, change: Recolour) -> Self:
-        """With other colours of all steps."""
-        return replace(self, colors=change(self.colors))
-
-    def steps(self) -> Iterator[Fill]:
-        """Its steps as regions: each extends to the right end and is covered by the next, which avoids seams."""
-        left, right, bottom, top = self.box
-        for number, color in enumerate(self.colors.tolist()):
-            x = left + (right - left) * number / len(self.colors)
-            corners = [(x, bottom), (right, bottom), (right, top), (x, top), (x, bottom)]
-            yield Fill((straight(np.array(corners)),), as_color(color), self.name)
-
-    @property
-    def stops(self) -> tuple[tuple[float, Color], ...]:
-        """The fewest of its colours, with their places from 0 to 1, between which all are linear to half a level."""
-        count = len(self.colors)
-        at = np.array([0.0, *(np.arange(count) + 0.5) / count, 1.0])
-        colors = self.colors[[0, *range(count), -1]]
-
-        def after(first: int, last: int) -> list[int]:
-            share = (at[first : last + 1] - at[first]) / (at[last] - at[first])
-            linear = colors[first] + share[:, None] * (colors[last] - colors[first])
-            off = np.abs(colors[first : last + 1] - linear).max(axis=1)
-            worst = first + int(off.argmax())
-            return [last] if off.max() <= 0.5 / 255 else after(first, worst) + after(worst, last)
-
-        return tuple((float(at[k]), as_color(colors[k].tolist())) for k in [0, *after(0, count + 1)])
 
 
 @dataclass(frozen=True, eq=False)
@@ -454,7 +462,7 @@ def straight(corners: FloatArray) -> Beziers:
     return path
 
 
-Item = Stroke | Polylines | Polygons | Fill | Ramp | Dots | Picture | Label
+Item = Stroke | Polylines | Polygons | Fill | Dots | Picture | Label
 
 
 def _light(ball: Ball | None) -> Arrays:

@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from stereodel._arrays import FloatArray, as_floats, as_scalar
 from stereodel.drawing.page.colors import Color, ColorLike, as_color, color_map
-from stereodel.drawing.page.items import Item, Label, Ramp, Stroke, straight
+from stereodel.drawing.page.items import Item, Label, Picture, Ramp, Stroke, straight
 from stereodel.drawing.page.style import BLACK, LABEL_SIZE
 
 STEPS = 256
@@ -117,7 +117,8 @@ class ColorScale:
         """
         (x, y), (width, height), ink = corner, size, as_color(ink, "ink")
         colors = np.insert(self(self._at((np.arange(STEPS) + 0.5) / STEPS)), 3, 1.0, axis=1)
-        bar = Ramp((x, x + width, y, y + height), colors, "scale")
+        box = np.array([(x, y), (x + width, y), (x + width, y + height), (x, y + height), (x, y)])
+        bar = Picture((straight(box),), Ramp((x, x + width), colors), "scale")
         marks: list[Item] = []
         for number, text in ticks.items():
             at, foot = x + width * float(self.place(number)), y - 0.35 * height

@@ -11,7 +11,7 @@ import numpy as np
 
 from stereodel._extras import of_extra
 from stereodel.constants import PIXEL_ROUNDING
-from stereodel.drawing.page import Fill, Label, Page, Ramp
+from stereodel.drawing.page import Fill, Label, Page
 from stereodel.drawing.page.fonts import families_of, font_properties, quiet_fonts
 from stereodel.drawing.page.items import corners_along
 from stereodel.drawing.page.style import TYPE
@@ -52,9 +52,8 @@ def drawn(page: Page, dpi: float, pixels: tuple[int, int] | None = None) -> Canv
     left, right, bottom, top = page.extent
     axes = canvas.add_axes((0.0, 0.0, 1.0, 1.0), xlim=(left, right), ylim=(bottom, top))
     axes.set_axis_off()
-    items = [part for item in page.items for part in (item.steps() if isinstance(item, Ramp) else (item,))]
-    turned = tuple(_turned(item) if isinstance(item, Fill) else item for item in items)
-    for number, shape in enumerate(shapes(replace(page, items=turned), dpi)):
+    turned = replace(page, items=tuple(_turned(item) if isinstance(item, Fill) else item for item in page.items))
+    for number, shape in enumerate(shapes(turned, dpi, gradients=False)):
         artist = _artist(shape, axes)
         artist.set(zorder=1 + number, snap=False, clip_on=isinstance(artist, AxesImage))
         axes.add_artist(artist)

@@ -17,9 +17,9 @@ from stereodel._arrays import Bytes, FloatArray, Pixels
 from stereodel.constants import FINEST_PLACE, FINEST_POINTS, PIXEL_ROUNDING
 from stereodel.curves.fill import union
 from stereodel.curves.ragged import Ragged, thinned
-from stereodel.drawing.page import Ball, Beziers, Dots, Fill, Label, Page, Picture, Polygons, Polylines, Ramp, Stroke
+from stereodel.drawing.page import Ball, Beziers, Dots, Fill, Label, Page, Picture, Polygons, Polylines, Stroke
 from stereodel.drawing.page.colors import Color, as_color
-from stereodel.drawing.page.items import alike
+from stereodel.drawing.page.items import Ramp, alike
 
 CIRCLE_KAPPA: Final = 4 / 3 * np.tan(np.pi / 16)
 """Distance of the control points of a circle drawn as eight cubics, in radii."""
@@ -57,9 +57,8 @@ class Filled:
     outline: Outlines
     color: Color
     name: str = ""
-    ball: Ball | None = None
+    light: Ball | Ramp | None = None
     even_odd: bool = False
-    ramp: Ramp | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,11 +94,12 @@ class Shown:
 Shape = Filled | Drawn | Shown
 
 
-def shapes(page: Page, dpi: float, pictures: Iterable[Pixels] = ()) -> Iterator[Shape]:
+def shapes(page: Page, dpi: float, pictures: Iterable[Pixels] = (), *, gradients: bool = True) -> Iterator[Shape]:
     """The shapes of a page without its labels, in painter's order.
 
     dpi: pixels per inch of each `Picture`.
     pictures: an image of the whole page for each of `page.pictured`.
+    gradients: whether ramps are regions, not images.
     """
     rest, scale = iter(pictures), page.points_per_unit
     for _, group in groupby(page.without_labels().items, key=alike):
@@ -120,8 +120,9 @@ def shapes(page: Page, dpi: float, pictures: Iterable[Pixels] = ()) -> Iterator[
             case Fill() as fill:
                 runs = [(path, True) for path in fill.paths]
                 yield Filled(outline(runs, scale), fill.color, fill.name, fill.ball, even_odd=True)
-            case Ramp() as ramp:
-                yield Filled(boxed(ramp.box), as_color(ramp.colors[0].tolist()), ramp.name, ramp=ramp)
+            case Picture(painter=Ramp() as ramp) as picture if gradients:
+                bar = outline([(path, True) for path in picture.outline], scale)
+                yield Filled(bar, as_color(ramp.colors[0].tolist()), picture.name, ramp)
             case Picture() as picture:
                 yield _painted(picture, page, dpi)
             case Dots() as dots:
@@ -135,14 +136,9 @@ def shapes(page: Page, dpi: float, pictures: Iterable[Pixels] = ()) -> Iterator[
 def ground(page: Page) -> Iterator[Filled]:
     """The background, unless it is transparent."""
     if page.background[3]:
-        yield Filled(boxed(page.extent), page.background, "ground")
-
-
-def boxed(box: tuple[float, float, float, float]) -> Outlines:
-    """The outline of a box with these left, right, bottom and top sides."""
-    left, right, bottom, top = box
-    corners = np.array([(left, top), (right, top), (right, bottom), (left, bottom), (left, top)])
-    return Outlines(corners, RECTANGLE)
+        left, right, bottom, top = page.extent
+        corners = np.array([(left, top), (right, top), (right, bottom), (left, bottom), (left, top)])
+        yield Filled(Outlines(corners, RECTANGLE), page.background, "ground")
 
 
 def has_length(stroke: Stroke, points_per_unit: float) -> bool:

@@ -17,7 +17,8 @@ from stereodel._arrays import Bytes, FloatArray, Indices
 from stereodel.constants import FINEST_PLACE
 from stereodel.drawing.page import Ball, Page
 from stereodel.drawing.page.colors import Color
-from stereodel.render.vector.outlines import CLOSE, CURVE, LINE, MOVE, Filled, Outlines
+from stereodel.drawing.page.items import Ramp
+from stereodel.render.vector.outlines import CLOSE, CURVE, LINE, MOVE, Outlines
 
 PLACES = round(1 / FINEST_PLACE)
 """Steps of coordinates in a point."""
@@ -73,11 +74,11 @@ class Paper:
         return focus, center, RADIUS * ball.radius * float(self.scale[0])
 
 
-def shades(shape: Filled) -> Sequence[tuple[float, Color]]:
-    """Colours of the gradient of a ball or a ramp at places from 0 to 1, linear in between."""
-    if shape.ramp:
-        return shape.ramp.stops
-    red, green, blue, opacity = shape.color
+def shades(light: Ball | Ramp, color: Color) -> Sequence[tuple[float, Color]]:
+    """Colours of the gradient of a ball of some colour, or of a ramp, at places from 0 to 1, linear in between."""
+    if isinstance(light, Ramp):
+        return light.stops
+    red, green, blue, opacity = color
     levels = zip(OFFSETS, BRIGHTNESS, strict=True)
     return [(at, (level * red, level * green, level * blue, opacity)) for at, level in levels]
 

@@ -15,8 +15,9 @@ from typing import Final
 import numpy as np
 
 from stereodel._arrays import FloatArray, Pixels
-from stereodel.drawing.page import Label, Page
+from stereodel.drawing.page import Ball, Label, Page
 from stereodel.drawing.page.colors import Color
+from stereodel.drawing.page.items import Ramp
 from stereodel.drawing.page.style import PRINT_DPI
 from stereodel.render.vector.outlines import (
     CLOSE,
@@ -138,8 +139,8 @@ class _PdfSheet:
         match shape:
             case Filled():
                 paint = f"{_rgb(shape.color)} rg"
-                if shape.ball or shape.ramp:
-                    paint = f"/Pattern cs /{self.named('Pattern', self.gradient(shape))} scn"
+                if shape.light:
+                    paint = f"/Pattern cs /{self.named('Pattern', self.gradient(shape.light, shape.color))} scn"
                 fill = "f*" if shape.even_odd else "f"
                 return f"q\n{self.opacity(shape.color)}{paint}\n{self.path(shape.outline)}{fill}\nQ\n"
             case Drawn():
@@ -155,14 +156,14 @@ class _PdfSheet:
                 image = self.named("XObject", _image(self.objects, shape.pixels))
                 return f"q\n{self.path(shape.outline)}W n\n{place} cm\n/{image} Do\nQ\n"
 
-    def gradient(self, shape: Filled) -> str:
-        """The colours of a ball or a ramp: a pattern that is linear between colours."""
-        if shape.ball:
-            focus, center, radius = self.paper.shading(shape.ball)
+    def gradient(self, light: Ball | Ramp, color: Color) -> str:
+        """A colour shaded by a ball, or the colours of a ramp: a pattern that is linear between colours."""
+        if isinstance(light, Ball):
+            focus, center, radius = self.paper.shading(light)
             kind, places = 3, f"{numbers(focus)} 0 {numbers(center)} {number(radius)}"
         else:
-            kind, places = 2, numbers(self.paper.points(shape.outline.points[:2]).ravel())
-        offsets, colors = zip(*((at, _rgb(color)) for at, color in shades(shape)), strict=True)
+            kind, places = 2, numbers(self.paper.points([(x, 0.0) for x in light.ends]).ravel())
+        offsets, colors = zip(*((at, _rgb(shade)) for at, shade in shades(light, color)), strict=True)
         parts = " ".join(
             f"<< /FunctionType 2 /Domain [0 1] /N 1 /C0 [{one}] /C1 [{other}] >>" for one, other in pairwise(colors)
         )

@@ -13,7 +13,6 @@ import io
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import groupby
-from types import MappingProxyType
 from typing import Final, Literal
 from xml.sax.saxutils import escape, quoteattr
 
@@ -21,9 +20,9 @@ import numpy as np
 
 from stereodel._arrays import Pixels
 from stereodel._extras import of_extra
-from stereodel.drawing.page import Item, Label, Page
+from stereodel.drawing.page import Ball, Item, Label, Page
 from stereodel.drawing.page.colors import Color
-from stereodel.drawing.page.items import LEGEND, xml_name
+from stereodel.drawing.page.items import LEGEND, Ramp, xml_name
 from stereodel.drawing.page.style import PRINT_DPI
 from stereodel.render.vector.outlines import Discs, Drawn, Filled, Outlines, Shape, Shown, ground, shapes
 from stereodel.render.vector.paper import Paper, exact, number, numbers, runs, shades
@@ -50,8 +49,6 @@ NAMESPACES: Final = (
 LEAST_SHIFT: Final = 0.02
 """Distance in points from the end of one glyph of a formula to the next from which on that begins a run."""
 
-NOTHING: Final[Mapping[str, str]] = MappingProxyType({})
-
 
 def svg(page: Page, pictures: Sequence[Pixels] = ()) -> str:
     """A page as the text of an SVG file; `pictures` hold the whole page for each of `page.pictured`, which clips it."""
@@ -64,7 +61,7 @@ class _SvgSheet:
     def __init__(self, page: Page) -> None:
         self.page, self.paper = page, Paper.of(page, downward=True)
         self.names: set[str] = set()
-        self.gradients: dict[str, str] = {}
+        self.gradients: dict[tuple[Ball | Ramp, Sequence[float]], str] = {}
 
     def text(self, pictures: Sequence[Pixels]) -> str:
         page = self.page
@@ -113,18 +110,19 @@ class _SvgSheet:
         for tagged, group in groupby(items, key=lambda item: item.tags is not None):
             some = tuple(group)
             alone = ((told, (part,)) for item in some for told, part in item.parts())
-            parts = alone if tagged else [(NOTHING, some)]
+            parts = alone if tagged else [(None, some)]
             for told, its in parts:
                 drawn = list(shapes(replace(self.page, items=its), PRINT_DPI, pictures))
-                if grouped := bool(told) and len(drawn) > 1:  # a dot and its rim
+                if grouped := told is not None and len(drawn) > 1:  # a dot and its rim
                     yield f"<g {self.attributes(told, its[0].name)}>"
-                yield from (line for shape in drawn for line in self.shape(shape, NOTHING if grouped else told))
+                yield from (line for shape in drawn for line in self.shape(shape, None if grouped else told))
                 if grouped:
                     yield "</g>"
 
-    def attributes(self, told: Mapping[str, str], name: str) -> str:
+    def attributes(self, told: Mapping[str, str] | None, name: str) -> str:
         """The attributes of an element, whose id is `name` unless it is told another."""
-        own = {"id": self.name(told.get("id", name)), **{key: text for key, text in told.items() if key != "id"}}
+        own = {"id": name, **(told or {})}
+        own["id"] = self.name(own["id"])
         return " ".join(f"{key}={quoteattr(text)}" for key, text in own.items())
 
     def path(self, outline: Outlines) -> str:
@@ -147,7 +145,7 @@ class _SvgSheet:
         yield from (f'<path d="{path}"/>' for path in paths)
         yield "</g>"
 
-    def shape(self, shape: Shape, told: Mapping[str, str] = NOTHING) -> Iterator[str]:
+    def shape(self, shape: Shape, told: Mapping[str, str] | None = None) -> Iterator[str]:
         named = self.attributes(told, shape.name)
         match shape:
             case Discs():
@@ -155,14 +153,12 @@ class _SvgSheet:
                 yield from self.split(named, _paint("fill", shape.color), found, whole=not opaque)
             case Filled():
                 paint = _paint("fill", shape.color)
-                if shape.ball or shape.ramp:
-                    kind, stops = self.gradient(shape)
-                    light = self.gradients.get(kind + stops)
-                    if light is None:
-                        light = self.gradients[kind + stops] = self.name(f"{shape.name}-light")
-                        tag = kind.split()[0]
-                        yield f'<{kind} id="{light}" gradientUnits="userSpaceOnUse">{stops}</{tag}>'
-                    paint = f'fill="url(#{light})"{_opacity("fill", shape.color)}'
+                if shape.light:
+                    look = (shape.light, shape.color[:3])
+                    if look not in self.gradients:
+                        self.gradients[look] = self.name(f"{shape.name}-light")
+                        yield self.gradient(self.gradients[look], shape.light, shape.color)
+                    paint = f'fill="url(#{self.gradients[look]})"{_opacity("fill", shape.color)}'
                 rule = ' fill-rule="evenodd"' if shape.even_odd else ""
                 yield f'<path {named} {paint}{rule} d="{self.path(shape.outline)}"/>'
             case Drawn():
@@ -185,16 +181,17 @@ class _SvgSheet:
                     f'xlink:href="data:image/png;base64,{_png(shape.pixels)}"/>'
                 )
 
-    def gradient(self, shape: Filled) -> tuple[str, str]:
-        """The colours of a ball or a ramp: the element with its places, and its stops."""
-        stops = (f'<stop offset="{exact(at)}" stop-color="{_hex(color)}"/>' for at, color in shades(shape))
-        if shape.ball:
-            (fx, fy), (cx, cy), radius = self.paper.shading(shape.ball)
+    def gradient(self, name: str, light: Ball | Ramp, color: Color) -> str:
+        """A colour shaded by a ball, or the colours of a ramp."""
+        stops = (f'<stop offset="{exact(at)}" stop-color="{_hex(shade)}"/>' for at, shade in shades(light, color))
+        if isinstance(light, Ball):
+            (fx, fy), (cx, cy), radius = self.paper.shading(light)
             places, kind = {"cx": cx, "cy": cy, "r": radius, "fx": fx, "fy": fy}, "radialGradient"
         else:
-            (x1, y1), (x2, y2) = self.paper.points(shape.outline.points[:2]).tolist()
+            (x1, y1), (x2, y2) = self.paper.points([(x, 0.0) for x in light.ends])
             places, kind = {"x1": x1, "y1": y1, "x2": x2, "y2": y2}, "linearGradient"
-        return " ".join([kind, *(f'{key}="{number(value)}"' for key, value in places.items())]), "".join(stops)
+        told = " ".join(f'{key}="{number(value)}"' for key, value in places.items())
+        return f'<{kind} id="{name}" gradientUnits="userSpaceOnUse" {told}>{"".join(stops)}</{kind}>'
 
     def label(
         self, label: Label, lines: Iterable[Line], fonts: dict[Face, Subset], shaped: dict[Face, Subset]
