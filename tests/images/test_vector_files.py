@@ -112,7 +112,7 @@ def everything():
         Label(r"$\frac{\varphi}{2}$ and $\sqrt{2\pi}$", (4.4, 3.0), size=30.0, rotation=-10.0),
         Label("", (2.0, 0.7)),
         Label(
-            "Lea & Anne", (6.1, 0.5), align="right", size=20.0, color=WHITE, halo=4.0, halo_color=(0.1, 0.2, 0.6, 1.0)
+            "Lea & Anne", (6.1, 0.5), align="right", size=20.0, color=WHITE, halo=4.0, halo_color=(0.1, 0.2, 0.6, 0.6)
         ),
         Label("שלום", (5.4, 1.4), size=50.0),
         Label("سلام עולם", (5.4, 2.2), size=30.0),

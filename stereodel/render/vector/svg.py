@@ -200,11 +200,11 @@ class _SvgSheet:
         name, lines = self.name(label.name), list(lines)
         shown = quoteattr(" ".join(label.text.split()))
         yield f'<g id="{name}" inkscape:label={shown} {_paint("fill", label.color)}>'
-        if label.halo:  # the same type once more, which follows what becomes of it
+        if label.halo:  # the same type once more; opaque strokes, as those of letters would be darker where they meet
             words = self.name(f"{name}-words")
             yield (
-                f'<use xlink:href="#{words}" aria-hidden="true" fill="none" {_paint("stroke", label.halo_color)} '
-                f'stroke-width="{exact(2 * label.halo)}" stroke-linejoin="round"/>'
+                f'<use xlink:href="#{words}" aria-hidden="true" fill="none" stroke-width="{exact(2 * label.halo)}" '
+                f'stroke="{_hex(label.halo_color)}" stroke-linejoin="round" opacity="{exact(label.halo_color[3])}"/>'
             )
             yield f'<g id="{words}">'
         for line in lines:
