@@ -79,13 +79,3 @@ def test_inkscape_opens_changes_and_saves_a_file(tmp_path):
     ids = ["Ulm", "Côte-d-Or", "_12-c", "Ulm-2", "Here", "There"]
     assert named == dict(zip(ids, [*NAMES, "Here", "There"], strict=True))
     assert {"Wave AV", "שלום", "Squares & names"} <= set(words)
-
-
-def test_a_halo_follows_its_words(tmp_path):
-    """Of a label that is moved in Inkscape nothing is left behind."""
-    first, saved = page().save(tmp_path / "page.svg"), tmp_path / "saved.svg"
-    inkscape(first, "select-by-id:label", "transform-translate:0,400", f"export-filename:{saved}", "export-do")
-    bare = page()
-    kept = tuple(item for item in bare.items if getattr(item, "text", "") != "Wave AV")
-    there = type(bare)(bare.extent, kept, bare.width, title=bare.title).pixels(size=SIZE).astype(float)
-    assert apart(there[:600], pixels(saved)[:600]) < LEVELS / 2
