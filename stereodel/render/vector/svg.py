@@ -60,14 +60,13 @@ class _SvgSheet:
 
     def __init__(self, page: Page) -> None:
         self.page, self.paper = page, Paper.of(page, downward=True)
-        self.names: set[str] = set()
+        self.names = {"title": 1, "desc": 1}  # ids, and how many begin so
         self.gradients: dict[tuple[Ball | Ramp, Sequence[float]], str] = {}
 
     def text(self, pictures: Sequence[Pixels]) -> str:
         page = self.page
         sides = number(page.width), number(page.height)
         told = [(name, text) for name, text in (("title", page.title), ("desc", page.description)) if text]
-        self.names.update(("title", "desc"))
         labels = f' role="img" aria-labelledby="{" ".join(name for name, _ in told)}"' if told else ""
         lettering = list(lines_of(page))
         fonts = subsets(line for _, lines in lettering for line in lines if not line.words)
@@ -89,12 +88,11 @@ class _SvgSheet:
 
     def name(self, wanted: str) -> str:
         """An id that no other element has."""
-        stem = xml_name(wanted) or "item"
-        name, count = stem, 1
+        name = stem = xml_name(wanted) or "item"
         while name in self.names:
-            count += 1
-            name = f"{stem}-{count}"
-        self.names.add(name)
+            self.names[stem] += 1
+            name = f"{stem}-{self.names[stem]}"
+        self.names[name] = 1
         return name
 
     def layer(self, name: str, content: Iterable[str]) -> Iterator[str]:
