@@ -20,7 +20,7 @@ BIN := $(VENV)/bin
 PYTEST = $(BIN)/python -m pytest -n $(JOBS) $(PYTEST_ARGS)
 BUILD := $(BIN)/python -m tools.build --scripts figures --out $(OUT) $(if $(STYLE),--style $(STYLE))
 
-.PHONY: help install system opengl browser librsvg figures poster animations test test-thorough test-large mutations coverage \
+.PHONY: help install system opengl browser librsvg inkscape figures poster animations test test-thorough test-large mutations coverage \
 	test-source test-pythons test-lowest sanitize fuzz fuzz-files check \
 	lint web built stub bench dist dist-again source check-archives wheels cross baselines names readme-images web-images docs clean
 
@@ -51,6 +51,9 @@ browser: # what shows the interactive page to its tests
 librsvg: # what shows vector files to their tests
 	@tools/system_packages.sh librsvg
 
+inkscape: # what opens and changes them
+	@tools/system_packages.sh inkscape
+
 figures: $(VENV)/installed-figures opengl ## draw every figure that is out of date into out/; STYLE=dark or a style file: into a folder of it
 	@$(BUILD) fig claim globe earth sky
 
@@ -65,7 +68,7 @@ test: $(VENV)/installed-test system ## what every change must pass: pictures fir
 	$(PYTEST) tests/images tests/figures
 	$(PYTEST) --ignore=tests/images --ignore=tests/figures
 
-test-thorough: $(VENV)/installed-test system ## the same for more cases, 500 examples of each property, and the pictures on EGL
+test-thorough: $(VENV)/installed-test system inkscape ## the same for more cases, 500 examples of each property, and the pictures on EGL
 	$(PYTEST) -m '(thorough or hypothesis) and not large' --hypothesis-profile=thorough
 	STEREODEL_GL=egl $(PYTEST) -m 'images and not thorough' tests/images
 
@@ -75,7 +78,7 @@ test-large: $(VENV)/installed-test ## the tests that take minutes or gigabytes
 mutations: $(VENV)/installed-test system ## change the library at one place after another: the tests named for each must fail
 	$(BIN)/python -m tools.mutate
 
-coverage: $(VENV)/installed-test system ## lines and branches of Python and C++ that all tests but the large ones reach
+coverage: $(VENV)/installed-test system inkscape ## lines and branches of Python and C++ that all tests but the large ones reach
 	tools/coverage.sh $(VENV) -n $(JOBS) $(PYTEST_ARGS)
 
 test-source: $(VENV)/installed-test opengl librsvg ## the tests from the unpacked source archive, as distributions run them

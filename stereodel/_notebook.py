@@ -116,7 +116,7 @@ def _numbers(value: Any) -> int:
 def _alone(svg: str) -> str:
     """An SVG whose ids and classes no other of the same document has: VS Code puts all into one."""
     mark = f"s{sha256(svg.encode()).hexdigest()[:8]}-"
-    names = re.compile(r'(?<= id=")|(?<=url\(#)|(?<= class=")|(?<=\.)(?=type-)|(?<=labelledby=")|(?<= )(?=desc")')
+    names = re.compile(r'(?<= id=")|(?<=url\(#)|(?<=href="#)|(?<=labelledby=")|(?<= )(?=desc")')
     # Within tags and style sheets alone: text stays as it is.
     return re.sub(r"<style>.*?</style>|<[^>]*>", lambda tag: names.sub(mark, tag[0]), svg, flags=re.DOTALL)
 

@@ -6,6 +6,7 @@
 #   opengl    libraries that draw without a display: plane figures and all computations work without them
 #   browser   Chromium, for the tests and pictures of the interactive page
 #   librsvg   rsvg-convert, for the tests of SVG files
+#   inkscape  opens, changes and saves them in tests of the thorough tier (135 MB)
 #   cgal      CGAL's headers, for the benchmarks; gmt for them, too
 set -euo pipefail
 
@@ -28,6 +29,7 @@ if sys.base_prefix == "/usr": print("python%d.%d-dev" % sys.version_info[:2])'; 
         browser) # by the names that tools/browser.py knows
             command -v chromium chromium-browser google-chrome-stable google-chrome >/dev/null || echo chromium ;;
         librsvg) command -v rsvg-convert >/dev/null || echo librsvg2-bin ;;
+        inkscape) command -v inkscape >/dev/null || echo inkscape ;;
         gmt) command -v gmt >/dev/null || echo gmt ;;
         cgal) [[ -f /usr/include/CGAL/version.h ]] || echo libcgal-dev ;;
         *) echo "tools/system_packages.sh: there is no $1" >&2; exit 2 ;;

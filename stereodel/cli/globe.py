@@ -50,7 +50,7 @@ MAPS = ("land", "lakes", "graticule", "rivers", "coastlines", "borders")
 OF_POINTS = ("triangles", "cells", "points")
 """What it may name of the points."""
 USUAL = "land,graticule,coastlines,cells,points"
-LAYER_KEYS = ("color", "width", "outline", "size", "column")
+LAYER_KEYS = ("color", "width", "outline", "size", "column", "id")
 """Of `--layer FILE,key=…`."""
 
 Projection = Literal["globe", "stereographic", "hemispheres"]
@@ -224,7 +224,8 @@ def layer_of(text: str) -> tuple[Path, dict[str, Any]]:
     looks = dict(part.split("=", 1) for part in given)
     if unknown := [key for key in looks if key not in LAYER_KEYS]:
         raise ValueError(f"--layer {text}: {unknown[0]} is unknown; the keys are {', '.join(LAYER_KEYS)}")
-    column, bare = looks.pop("column", None), looks.get("outline") == "none" and bool(looks.pop("outline"))
+    columns = {"column": looks.pop("column", None), "id_column": looks.pop("id", None)}
+    bare = looks.get("outline") == "none" and bool(looks.pop("outline"))
     readers: dict[str, Any] = {"color": as_color, "outline": as_color, "width": as_length, "size": as_length}
     read = {key: readers[key](value, f"--layer: {key}") for key, value in looks.items()}
     color, width = ({of: read[of] for of in read if of == key} for key in ("color", "width"))
@@ -235,7 +236,7 @@ def layer_of(text: str) -> tuple[Path, dict[str, Any]]:
         "outline": None if bare else replace(MAP_LINES["outline"], **width, **edge),
         "style": replace(MAP_LINES["line"], **color, **width),
         "dot_style": replace(MAP_DOT, **color, radius=radius, rim_width=min(MAP_DOT.rim_width, radius / 3)),
-        "column": column,
+        **columns,
         "legend": Path(path).stem,
     }
 

@@ -119,12 +119,12 @@ class Chart:
         axes = turned(self.lens(xyz), self.matrix)
         return self.scale * self.view.flattened(axes) + np.array(self.at), self.border.holds(axes)
 
-    def lines(self, edges: Edges, sides: Ragged) -> Ragged:
-        """The visible parts of lines, rows of edges (~e for edge e in reverse), on the page."""
+    def lines(self, edges: Edges, sides: Ragged) -> tuple[Ragged, Indices]:
+        """The visible parts of lines, rows of edges (~e for edge e in reverse), on the page; the line of each part."""
         near = self._near(edges)
         pieces, samples = self._traced(edges.take(near))
-        seen, _ = clip.lines(clip.among(sides, near), pieces, samples, self.border)
-        return self._placed(seen)
+        seen, line = clip.lines(clip.among(sides, near), pieces, samples, self.border)
+        return self._placed(seen), line
 
     def regions(
         self,

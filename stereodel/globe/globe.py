@@ -30,6 +30,7 @@ from stereodel.curves.view import MapView
 from stereodel.drawing.page import Item, Label, Page, picture_extra
 from stereodel.drawing.page.colors import ColorLike, as_color, as_colors
 from stereodel.drawing.page.fonts import FontLike, as_font
+from stereodel.drawing.page.items import Tags
 from stereodel.drawing.page.labels import placed_label, with_title
 from stereodel.drawing.page.page import LARGEST_SIZE
 from stereodel.drawing.page.scales import ColorScale, category_colors, usual_scale
@@ -210,13 +211,20 @@ class Globe(Displayed):
         self.add(GridLines(spacing, self.latitude, style, "graticule"))
 
     def add_lines(
-        self, lines: Iterable[npt.ArrayLike], *, style: LineStyle = MAP_LINES["line"], name: str = "lines"
+        self,
+        lines: Iterable[npt.ArrayLike],
+        *,
+        style: LineStyle = MAP_LINES["line"],
+        name: str = "lines",
+        ids: Iterable[object] | None = None,
     ) -> None:
         """Draw lines, (k, 2) each, in degrees, whose segments are straight in longitude and latitude.
 
-        A segment that spans more than 180° of longitude takes the shorter way, across ±180°.
+        A segment that spans more than 180° of longitude takes the shorter way, across ±180°. With `ids`, a text for
+        each, lines are paths with these ids in SVG.
         """
-        self.add(LineLayer(SphereLines.straight_in_lonlat(lines, self.latitude), style, name))
+        rows = list(lines)
+        self._add_lines(rows, style, name, Tags.of({"id": ids}, len(rows)))
 
     def add_great_circles(
         self, starts: npt.ArrayLike, ends: npt.ArrayLike, *, style: LineStyle = MAP_LINES["line"], name: str = "arcs"
@@ -232,6 +240,7 @@ class Globe(Displayed):
         color: ColorLike | npt.ArrayLike = MAP_FILLS["area"],
         outline: LineStyle | None = MAP_LINES["outline"],
         name: str = "areas",
+        ids: Iterable[object] | None = None,
     ) -> None:
         """Fill polygons given by rings in degrees, the outer one first.
 
@@ -246,12 +255,24 @@ class Globe(Displayed):
             Style of outlines; None for no outlines.
         name : str
             Name of the group in vector files.
+        ids : iterable, optional
+            A text for each polygon. In SVG polygons are then paths with these ids, in the form of names in XML and made
+            unique, and the texts as they are in ``data-id``; without, those of a colour are one path.
         """
-        self._add_polygons(SphereRegions.of_lonlat(polygons, latitude=self.latitude), color, outline, name)
+        regions = SphereRegions.of_lonlat(polygons, latitude=self.latitude)
+        self._add_polygons(regions, color, outline, name, Tags.of({"id": ids}, regions.count))
 
-    def add_points(self, places: npt.ArrayLike, *, style: DotStyle = MAP_DOT, name: str = "points") -> None:
-        """Draw dots at places, in degrees (n, 2) or as directions (n, 3)."""
-        self.add(Points(self._xyz(places, "places"), style, name))
+    def add_points(
+        self,
+        places: npt.ArrayLike,
+        *,
+        style: DotStyle = MAP_DOT,
+        name: str = "points",
+        ids: Iterable[object] | None = None,
+    ) -> None:
+        """Draw dots at places, in degrees (n, 2) or as directions (n, 3); with `ids` in SVG, as for `add_polygons`."""
+        xyz = self._xyz(places, "places")
+        self.add(Points(xyz, style, name, Tags.of({"id": ids}, len(xyz))))
 
     def add_labels(
         self,
@@ -301,11 +322,15 @@ class Globe(Displayed):
         colors: npt.ArrayLike | None = None,
         style: LineStyle | None = MAP_LINES["line"],
         name: str = "cells",
+        ids: Iterable[object] | None = None,
     ) -> None:
-        """Draw the ridges of a Voronoi diagram; fill its cells if colours (n, 3) or (n, 4) are given."""
+        """Draw the ridges of a Voronoi diagram; fill its cells if colours (n, 3) or (n, 4) are given.
+
+        Filled cells may have `ids` in SVG, as for `add_polygons`.
+        """
         if colors is not None:
             cells = SphereRegions.cells(voronoi)
-            self.add(Areas(cells, as_colors(colors, len(voronoi.points)), name))
+            self.add(Areas(cells, as_colors(colors, cells.count), name, Tags.of({"id": ids}, cells.count)))
         if style is not None:
             self.add(LineLayer(SphereLines.alone(ridge_net(voronoi).arcs()), style, name))
 
@@ -372,6 +397,7 @@ class Globe(Displayed):
         dot_style: DotStyle = MAP_DOT,
         name: str = "layer",
         legend: str = "",
+        id_column: str | None = None,
     ) -> None:
         """Draw the contents of a file or table of shapes: polygons, lines above them, points on top.
 
@@ -393,6 +419,10 @@ class Globe(Displayed):
             Name of the groups in vector files.
         legend : str
             Entry in the legend, if no column provides one.
+        id_column : str, optional
+            Property by which SVG names the shapes: each is a path of its own with this `id`, in the form of names in
+            XML and made unique, and with the values of `id_column` and `column` as they are, in ``data-name`` of a
+            column NAME. Then polygons are never an image, however many colours they have.
 
         Raises
         ------
@@ -403,17 +433,20 @@ class Globe(Displayed):
             than eight different texts.
         """
         shapes = shapes_of(source)
+        keys = (id_column, column) if id_column is not None else ()
+        tags = Tags.of({key: shapes.values(key) for key in keys if key is not None}, len(shapes.properties))
         if len(shapes.polygon_feature):
             colors = as_colors(color, len(shapes.properties), "color")
             if column is not None:
                 self._color_by(column, shapes, scale, colors)
             owners = shapes.polygon_feature
             polygons = SphereRegions.of_lonlat(shapes.polygons, owners=owners, latitude=self.latitude)
-            self._add_polygons(polygons, colors[: polygons.count], outline, name)
+            self._add_polygons(polygons, colors[: polygons.count], outline, name, tags)
         if len(shapes.lines):
-            self.add_lines(list(shapes.lines), style=style, name=name)
+            self._add_lines(list(shapes.lines), style, name, tags and tags.some(shapes.line_feature))
         if len(shapes.points):
-            self.add_points(shapes.points, style=dot_style, name=name)
+            named = tags and tags.some(shapes.point_feature)
+            self.add(Points(self._xyz(shapes.points, "places"), dot_style, name, named))
         if legend and not (column and len(shapes.polygon_feature)):
             self.legend[legend] = (
                 as_color(color) if len(shapes.polygon_feature) else style if len(shapes.lines) else dot_style
@@ -526,9 +559,18 @@ class Globe(Displayed):
             colors[known, :3], colors[known, 3] = chosen(values[known]), 1.0
             self.legend[column] = chosen
 
+    def _add_lines(self, lines: Sequence[npt.ArrayLike], style: LineStyle, name: str, tags: Tags | None) -> None:
+        long = tags and tags.some(np.array([np.size(line) > 2 for line in lines], dtype=bool))
+        self.add(LineLayer(SphereLines.straight_in_lonlat(lines, self.latitude), style, name, long))
+
     def _add_polygons(
-        self, regions: SphereRegions, color: ColorLike | npt.ArrayLike, outline: LineStyle | None, name: str
+        self,
+        regions: SphereRegions,
+        color: ColorLike | npt.ArrayLike,
+        outline: LineStyle | None,
+        name: str,
+        tags: Tags | None = None,
     ) -> None:
-        self.add(Areas(regions, as_colors(color, regions.count, "color"), name))
+        self.add(Areas(regions, as_colors(color, regions.count, "color"), name, tags))
         if outline is not None:
             self.add(LineLayer(regions.outlines, outline, f"{name}-outline"))

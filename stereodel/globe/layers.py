@@ -12,6 +12,7 @@ from stereodel._arrays import FloatArray
 from stereodel.curves.chart import Chart
 from stereodel.drawing.page import Ball, Beziers, Dots, Fill, Item, Label, Picture, Polygons, Polylines, Stroke
 from stereodel.drawing.page.colors import Color
+from stereodel.drawing.page.items import FEW_COLORS, Tags
 from stereodel.drawing.page.labels import placed_apart, within_disc
 from stereodel.drawing.page.style import DotStyle, LineStyle
 from stereodel.drawing.scene.graticule import LEAST_APART, WIDTHS_APART, Graticule, usual_spacing
@@ -70,12 +71,14 @@ class LineLayer:
     lines: SphereLines
     style: LineStyle
     name: str
+    tags: Tags | None = None
 
     def lay(self, chart: Chart) -> Iterator[Item]:
         """All visible parts, as one item."""
-        seen = self.lines.on(chart)
+        seen, line = self.lines.on(chart)
         if len(seen):
-            yield Polylines(seen.values, seen.offsets, self.style.color, self.style.width, self.name)
+            look, tags = (self.style.color, self.style.width), self.tags and self.tags.some(line)
+            yield Polylines(seen.values, seen.offsets, *look, self.name, tags=tags)
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,6 +109,7 @@ class Areas:
     regions: SphereRegions
     colors: FloatArray
     name: str
+    tags: Tags | None = None
 
     def lay(self, chart: Chart) -> Iterator[Item]:
         """One item for each colour, or one for all regions if there are too many colours.
@@ -115,14 +119,14 @@ class Areas:
         loops, owner = self.regions.on(chart)
         if len(loops) == 0:
             return
-        whole = Polygons(loops.values, loops.offsets, owner, self.colors, ball(chart), self.name)
-        if whole.pictured:
+        tags = self.tags and self.tags.some(owner)
+        whole = Polygons(loops.values, loops.offsets, owner, self.colors, ball(chart), self.name, tags=tags)
+        colors, number = whole.by_color
+        if len(colors) > FEW_COLORS:
             yield whole
             return
-        _, number = whole.by_color
-        for color in range(int(number.max()) + 1):
-            some, region = loops.take(number == color), owner[number == color]
-            yield replace(whole, points=some.values, offsets=some.offsets, owner=region)
+        for color in range(len(colors)):
+            yield whole.some(number == color)
 
 
 @dataclass(frozen=True, eq=False)
@@ -145,13 +149,15 @@ class Points:
     xyz: FloatArray
     style: DotStyle
     name: str
+    tags: Tags | None = None
 
     def lay(self, chart: Chart) -> Iterator[Item]:
         """Dots whose centres are visible."""
         places, seen = chart.points(self.xyz)
         if seen.any():
             style = self.style
-            yield Dots(places[seen], style.radius, style.color, style.rim, style.rim_width, self.name)
+            tags, look = self.tags and self.tags.some(seen), (style.radius, style.color, style.rim)
+            yield Dots(places[seen], *look, style.rim_width, self.name, tags=tags)
 
 
 @dataclass(frozen=True, eq=False)

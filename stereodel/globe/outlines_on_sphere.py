@@ -62,9 +62,10 @@ class SphereLines:
         """Prepared arcs, each of them a line."""
         return cls(trace.Edges.of(trace.numbered(arcs)), Ragged(np.arange(len(arcs)), np.arange(len(arcs) + 1)))
 
-    def on(self, chart: Chart) -> Ragged:
-        """The visible parts, on the page."""
-        return thinned(chart.lines(self.edges, self.sides), chart.tolerance)
+    def on(self, chart: Chart) -> tuple[Ragged, Indices]:
+        """The visible parts, on the page, and the line of each."""
+        seen, line = chart.lines(self.edges, self.sides)
+        return thinned(seen, chart.tolerance), line
 
 
 @dataclass(frozen=True, eq=False)

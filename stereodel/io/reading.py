@@ -211,15 +211,18 @@ class Shapes:
             rings=replace(self.rings, values=degrees(self.rings.values, crs, ring_feature[self.rings.row] + 1)),
         )
 
-    def column(self, name: str) -> FloatArray:
-        """A property of each feature as a number, NaN if lacking; ValueError if none has it, or for other values."""
+    def values(self, name: str) -> list[Any]:
+        """A property of each feature, None for those that lack it; ValueError if all do."""
         if not any(name in entry for entry in self.properties):
             known = sorted({str(key) for entry in self.properties for key in entry})
             said = ", ".join(known) or "none"
             raise ValueError(f"column {name!r} is not a property of the features; they have {said}")
-        values = [entry.get(name) for entry in self.properties]
+        return [entry.get(name) for entry in self.properties]
+
+    def column(self, name: str) -> FloatArray:
+        """A property of each feature as a number, NaN if lacking; ValueError if none has it, or for other values."""
         try:
-            return np.array([np.nan if value is None else float(value) for value in values])
+            return np.array([np.nan if value is None else float(value) for value in self.values(name)])
         except (TypeError, ValueError):
             raise ValueError(f"column {name!r} holds something that is not a number; name another") from None
 

@@ -86,7 +86,7 @@ class LonLatToPage(Transform):
         first, sides = sides_of(lines)
         xyz = lonlat_to_xyz(lines.values)
         edges = self._edges(lines.values[first], lines.values[first + 1], xyz[first], xyz[first + 1])
-        return self._chart.lines(edges, sides)
+        return self._chart.lines(edges, sides)[0]
 
     def regions(self, rings: Ragged, owner: Indices, count: int) -> tuple[Ragged, Indices]:
         """The visible parts of regions, as closed loops on the page along the edge of the view, and the region of each.

@@ -202,6 +202,11 @@ def test_layers_of_points_lines_and_polygons(folder, run):
     assert line.get("stroke") == "#ff0000"
     assert float(line.get("stroke-width")) == pytest.approx(72 / 25.4, abs=1e-4)
     assert area.get("fill").startswith("url(")  # lit as the ball is
+    shape = json.loads((folder / "Polygon.geojson").read_text(encoding="utf-8"))
+    named = {"type": "Feature", "properties": {"NAME": "Côte d’Or"}, "geometry": shape}
+    (folder / "named.geojson").write_text(json.dumps(named), encoding="utf-8")
+    assert drawn("named.geojson,outline=none,id=NAME") == []  # it has a name of its own
+    assert 'id="Côte-d-Or" data-name="Côte d’Or"' in (folder / "a.svg").read_text(encoding="utf-8")
     (folder / "a,color=b.geojson").touch()
     assert layer_of("a,color=b.geojson")[0].name == "a,color=b.geojson"
 

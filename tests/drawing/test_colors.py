@@ -8,7 +8,7 @@ from matplotlib import colormaps
 from matplotlib.colors import to_rgba
 
 from stereodel.drawing import ColorScale, DotStyle, LineStyle, Page
-from stereodel.drawing.page import Fill, Label, Stroke
+from stereodel.drawing.page import Label, Picture, Stroke
 from stereodel.drawing.page.colors import as_color, as_colors
 from tests.refused import refused
 
@@ -86,7 +86,7 @@ def test_legend():
     items = scale.legend((1.0, 2.0), (4.0, 0.5), {1.0: "one", 10.0: "ten", 100.0: "hundred"}, title="size")
     assert [item.text for item in items if isinstance(item, Label)] == ["one", "ten", "hundred", "size"]
     assert [item.path[0, 0, 0] for item in items if isinstance(item, Stroke)] == [1.0, 3.0, 5.0]
-    assert {type(item) for item in items} == {Fill, Stroke, Label}
+    assert {type(item) for item in items} == {Picture, Stroke, Label}
     picture = Page((1.0, 5.0, 2.0, 2.5), items, width=400.0).pixels(size=400, text=False, renderer="agg")
     shown = scale(10 ** (2 * (np.arange(400) + 0.5) / 400))
     assert np.abs(picture[25] / 255 - shown).max() < 0.02

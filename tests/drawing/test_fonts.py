@@ -19,6 +19,7 @@ from stereodel.drawing.page.fonts import MissingCharactersWarning, as_font, fami
 from stereodel.drawing.page.labels import label_box
 from stereodel.globe import Globe
 from stereodel.globe.pages import Panel, panels
+from stereodel.render.vector.svg import svg
 from stereodel.render.vector.type import lines_of
 
 STIX, SHIPPED = "STIXGeneral", "DejaVu Sans"
@@ -140,9 +141,12 @@ def test_right_to_left_words_stay_words_and_programs_can_join_them(tmp_path):
     found = {"".join(element.itertext()): element for element in ET.fromstring(text).iter(f"{SVG}text")}
     assert set(found) == {ARABIC, f"{HEBREW} (x)", f"x {HEBREW}", MARKED}
     ways = [(element.get("direction"), element.get("text-anchor")) for element in found.values()]
-    assert ways == [("rtl", "end"), ("rtl", "end"), (None, None), (None, None)]
-    for element in found.values():  # begins where its glyphs do, on the left
-        assert 0 < float(element.get("x")) < 100
+    assert ways == [("rtl", "middle"), ("rtl", "middle"), (None, "middle"), (None, "middle")]
+    for element in found.values():  # to a glyph's sides
+        assert float(element.get("x")) == pytest.approx(100, abs=1)
+    for align, anchors in {"left": ("end", None), "right": (None, "end")}.items():  # from the right, and from the left
+        sides = ET.fromstring(svg(page(ARABIC, MARKED, align=align)))
+        assert tuple(element.get("text-anchor") for element in sides.iter(f"{SVG}text")) == anchors
     (font,) = embedded(text).values()
     features = {record.FeatureTag for record in font["GSUB"].table.FeatureList.FeatureRecord}
     assert {"init", "medi", "fina"} <= features

@@ -1,9 +1,12 @@
 """How globes look: titles, legends, names, colours of layers, sizes, paper."""
 
+import xml.etree.ElementTree as ET
+
 import imageio.v3 as iio
 import numpy as np
 import pytest
 
+from stereodel import SphericalVoronoi, lonlat_to_xyz
 from stereodel.drawing import View
 from stereodel.drawing.page import Label
 from stereodel.drawing.page.colors import to_oklab
@@ -111,3 +114,48 @@ def test_transparent_paper(tmp_path):
         whole, without = (globe.save(tmp_path / f"{k}.{kind}", transparent=bool(k)) for k in range(2))
         assert without.stat().st_size < whole.stat().st_size
     assert 'id="ground"' not in (tmp_path / "1.svg").read_text(encoding="utf-8")
+
+
+SVG = "{http://www.w3.org/2000/svg}"
+
+
+def tree_of(page, folder):
+    return ET.parse(page.save(folder / "page.svg")).getroot()
+
+
+def test_shapes_have_ids_and_data_by_a_column(tmp_path):
+    """One element each, however many colours there are; missing ids are the layer’s, equal ones are numbered."""
+    names, shapes = ["Ulm", "Ulm", None, *map(str, range(67))], squares(range(70))
+    for k, (feature, name) in enumerate(zip(shapes["features"], names, strict=True)):
+        corners = [[6 * (k % 10) + x, 6 * (k // 10) + y] for x, y in SQUARE]
+        feature |= {"properties": {"kind": k + 0.5, "Name of it": name}}
+        feature["geometry"] = {"type": "Polygon", "coordinates": [corners]}
+    globe = Globe()
+    globe.add_layer(shapes, column="kind", id_column="Name of it", name="squares", outline=None)
+    page = globe.page(None, View(0, 0))
+    assert page.pictured == ()
+    (layer,) = (group for group in tree_of(page, tmp_path) if group.get("id") == "squares-layer")
+    paths = {path.get("id"): path for path in layer.iter(f"{SVG}path")}
+    assert list(paths) == ["Ulm", "Ulm-2", "squares", *(f"_{k}" for k in range(67))]
+    names_of_it = [path.get("data-name-of-it") for path in paths.values()]
+    assert names_of_it == names
+    assert [path.get("data-kind") for path in paths.values()] == [f"{k}.5" for k in range(70)]
+    with pytest.raises(ValueError, match=r"column 'nme' is not a property of the features; they have"):
+        globe.add_layer(shapes, id_column="nme")
+
+
+def test_lines_points_and_cells_have_ids(tmp_path):
+    """All seen of a line is one path; a dot and its rim are a group; what is hidden shifts no names."""
+    globe, places = Globe(), [[0, 0], [20, 0], [180, 0], [0, 20], [-20, 10]]
+    lines = [[[0, 10]], [[-100, 20], [0, 80], [100, 20], [0, 0]], [[0, 0], [10, 0]]]
+    globe.add_lines(lines, ids=["point", "far", "near"])
+    globe.add_points(places, ids=["a", "b", "hidden", "c", 5.0])
+    voronoi = SphericalVoronoi(lonlat_to_xyz(places))
+    globe.add_cells(voronoi, colors=np.eye(3)[[0, 1, 2, 0, 1]], style=None, ids="vwxyz")
+    page = globe.page(None, View(0, 0))
+    named = {element.get("data-id"): element for element in tree_of(page, tmp_path).iter() if element.get("data-id")}
+    found = {name: (element.tag.removeprefix(SVG), len(element)) for name, element in named.items() if name not in "xz"}
+    assert found == dict.fromkeys(["far", "near", *"vwy"], ("path", 0)) | dict.fromkeys("abc5", ("g", 2))
+    assert (named["far"].get("d").count("M"), named["near"].get("d").count("M")) == (2, 1)
+    with pytest.raises(ValueError, match="ids has 1 entries, but there are 2 to name"):
+        globe.add_points([[0, 0], [1, 1]], ids=["one"])

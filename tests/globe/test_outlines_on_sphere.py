@@ -127,11 +127,11 @@ def test_edges_that_are_left_out_are_out_of_sight(focus, size, view, name):
     chart = Chart(fisheye(focus, magnification=size), view)
     regions = SphereRegions.of_lonlat([[BOXES[name][0]]])
     some, _ = regions.on(chart)
-    lines = regions.outlines.on(chart)
+    lines, _ = regions.outlines.on(chart)
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(Edges, "within", lambda self, center, reach: np.ones(len(self), dtype=bool))
         whole, _ = regions.on(chart)
-        np.testing.assert_array_equal(lines.values, regions.outlines.on(chart).values)
+        np.testing.assert_array_equal(lines.values, regions.outlines.on(chart)[0].values)
     np.testing.assert_array_equal(some.values, whole.values)
 
 
@@ -170,7 +170,7 @@ def test_what_is_seen_of_an_arc_is_on_its_exact_image(start, end, focus, size, v
         return
     lens = fisheye(focus, magnification=size)
     chart = Chart(lens, view, tolerance=1e-3)
-    seen = SphereLines.great(a[None], b[None]).on(chart)
+    seen, _ = SphereLines.great(a[None], b[None]).on(chart)
     axes = turned(lens.image_of(SphereArc.great(a, b)).sample(4000), view.matrix)
     truth = view.flattened(axes[axes[:, 2] > view.edge])
     if not len(seen):
@@ -190,10 +190,10 @@ def test_what_is_seen_of_an_arc_is_on_its_exact_image(start, end, focus, size, v
 def test_lines_out_of_sight_leave_nothing():
     lines = SphereLines.straight_in_lonlat([[(170, -10), (175, -20), (180, -30)]])
     for view in (View(0, 0), StereographicView(0, 0, angular_radius=100)):
-        seen = lines.on(Chart(NONE, view))
+        seen, _ = lines.on(Chart(NONE, view))
         assert seen.values.shape == (0, 2)
         assert len(seen) == 0
-    assert len(SphereLines.straight_in_lonlat([]).on(Chart(NONE, View(0, 0)))) == 0
+    assert len(SphereLines.straight_in_lonlat([]).on(Chart(NONE, View(0, 0)))[0]) == 0
 
 
 @given(st.integers(0, 1000), st.floats(0.01, 1.0))

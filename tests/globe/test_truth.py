@@ -178,7 +178,7 @@ def test_tiny_caps_show_what_lies_in_them(radius, magnification, seed):
     np.testing.assert_allclose(found, xy, atol=off)
     np.testing.assert_array_equal(seen[np.abs(far - 1) > off], far[np.abs(far - 1) > off] < 1)
     for start, end, third in rng.uniform(-2, 2, (30, 3, 2)):
-        lines = SphereLines.great(places(start[None]), places(end[None])).on(chart)
+        lines, _ = SphereLines.great(places(start[None]), places(end[None])).on(chart)
         assert np.hypot(*lines.values.T).max(initial=0) < 1 + off
         length = sum(np.hypot(*np.diff(line, axis=0).T).sum() for line in lines)
         assert length == pytest.approx(chord(start, end), abs=2 * np.sqrt(2 * off))

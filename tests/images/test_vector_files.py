@@ -6,6 +6,7 @@ import numpy as np
 import pypdf
 
 from stereodel.drawing.page import Ball, Dots, Fill, Label, Page, Picture, Polygons, Polylines, Stroke
+from stereodel.drawing.page.items import Ramp
 from stereodel.render.save import region_pictures, save_vector
 from tests.images.foreign import DPI, FIGURES, LARGE, by_chromium, by_pdfium, disagreements
 from tests.images.scripts import cases, thorough_but_for
@@ -74,6 +75,10 @@ def checkerboard(left, bottom):
     return polygons(loops, count, np.stack([count / 100, 1 - count / 100, 0 * count, 0 * count + 1], axis=1))
 
 
+def fading(count):
+    return np.linspace([0.9, 0.9, 0.2, 1.0], [0.3, 0.3, 0.5, 1.0], count)
+
+
 def everything():
     """A page with each kind of item in each of its ways, large, so that a small change of it shows."""
     bent = np.array(
@@ -88,6 +93,7 @@ def everything():
         Fill(tuple(part + [0.1, 1.1] for part in ring), (0.9, 0.6, 0.1, 0.4)),
         Fill((*(part + [0.3, 1.0] for part in ring), box(0.6, 0.8, 1.3, 1.5)), RED),
         checkerboard(2.3, 2.0),
+        Picture((box(4.2, 5.4, 3.5, 3.7),), Ramp((4.2, 5.4), fading(200) ** [[1, 2, 1, 1]])),
         Picture((circle((3.6, 2.4), 0.4),), Checks()),
         fan((1.8, 1.5), 1.5 * np.pi, 0.35),
         fan((1.9, 1.5), 2.0 * np.pi, 0.4),
@@ -106,7 +112,7 @@ def everything():
         Label(r"$\frac{\varphi}{2}$ and $\sqrt{2\pi}$", (4.4, 3.0), size=30.0, rotation=-10.0),
         Label("", (2.0, 0.7)),
         Label(
-            "Lea & Anne", (6.1, 0.5), align="right", size=20.0, color=WHITE, halo=4.0, halo_color=(0.1, 0.2, 0.6, 1.0)
+            "Lea & Anne", (6.1, 0.5), align="right", size=20.0, color=WHITE, halo=4.0, halo_color=(0.1, 0.2, 0.6, 0.6)
         ),
         Label("שלום", (5.4, 1.4), size=50.0),
         Label("سلام עולם", (5.4, 2.2), size=30.0),

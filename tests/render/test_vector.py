@@ -12,7 +12,8 @@ import pypdf
 import pytest
 
 from stereodel.curves.view import View
-from stereodel.drawing.page import Dots, Fill, Label, Page, Polygons, Polylines, Stroke
+from stereodel.drawing.page import Dots, Fill, Label, Page, Picture, Polygons, Polylines, Stroke
+from stereodel.drawing.page.items import Ramp, xml_name
 from stereodel.drawing.page.style import BLACK
 from stereodel.drawing.scene.scene import Scene
 from stereodel.render.pixel_rows import LabelLayer, agg_rows
@@ -22,6 +23,8 @@ from stereodel.sphere import SphereCircle, graticule
 rasterize = partial(Page.pixels, renderer="agg")
 
 SVG = "{http://www.w3.org/2000/svg}"
+LINK = "{http://www.w3.org/1999/xlink}"
+INKSCAPE = "{http://www.inkscape.org/namespaces/inkscape}"
 
 
 def tree_of(page, folder):
@@ -73,11 +76,68 @@ def test_ids_are_unique_whatever_items_are_called(tmp_path):
     names = ["title", "a b", "a b", "a-b", "a-b-2", "", "item", "ground", "label-halo", 'x"<&']
     lines = [Stroke(line, BLACK, 1.0 + k, name=name) for k, name in enumerate(names)]
     page = Page((0, 4, 0, 4), (*lines, Label("text", (2.0, 2.0), halo=1.0)), title="Lines")
-    found = [element.get("id") for element in tree_of(page, tmp_path).iter() if element.get("id")]
-    assert len(found) == len(names) + 4
+    root = tree_of(page, tmp_path)
+    found = [element.get("id") for element in root.iter() if element.get("id")]
+    assert len(list(root.iter(f"{SVG}path"))) == len(names) + 1
     assert len(found) == len(set(found))
-    assert not any(" " in name for name in found)
-    assert 'x"<&' in found
+    assert all(re.fullmatch(r"[^\W\d][\w.-]*", name) for name in found)
+    assert {"title-2", "a-b", "a-b-2", "item", "item-2", "x"} <= set(found)
+
+
+@pytest.mark.parametrize(
+    ("text", "name"),
+    [("Côte d’Ivoire", "Côte-d-Ivoire"), ("12 °c", "_12-c"), ("a:b", "a-b"), ("東京", "東京"), ("-", ""), ("²x", "x")],
+)
+def test_names_in_xml(text, name):
+    """Those of XML Schema's type NCName, as close as may be."""
+    assert xml_name(text) == name
+
+
+def test_words_are_one_run_in_their_own_family_and_halos_the_same_once_more(tmp_path):
+    page = Page((0, 4, 0, 4), (Label("Wave AV", (2.0, 2.0), halo=1.0, rotation=30.0, font=("DejaVu Sans",)),))
+    root = tree_of(page, tmp_path)
+    (words,), (halo,) = root.iter(f"{SVG}text"), root.iter(f"{SVG}use")
+    assert (words.text, len(words), len(words.get("x").split())) == ("Wave AV", 0, 1)
+    first, second = words.get("font-family").split(",")[:2]
+    assert first == "'DejaVu Sans'"
+    assert f"@font-face{{font-family:{second};" in root.find(f"{SVG}style").text
+    held = next(element for element in root.iter() if f"#{element.get('id')}" == halo.get(f"{LINK}href"))
+    assert words in list(held)
+    assert words.get("fill") is None  # the halo's or the label's
+
+
+def test_words_beside_a_formula_are_one_run(tmp_path):
+    page = Page((0, 4, 0, 4), (Label("centre of $N$ here", (2.0, 2.0)),))
+    assert [span.text for span in tree_of(page, tmp_path).iter(f"{SVG}tspan")] == ["centre of ", "N", " here"]
+
+
+def test_names_are_layers_as_inkscape_knows_them(tmp_path):
+    line, dots = Stroke(bent(1.0), BLACK, 1.0, name="way"), Dots(np.ones((1, 2)), 2.0, BLACK, name="legend-way")
+    shown = (line, replace(line, width=2.0), replace(line, name="way-outline"), dots, replace(dots, name="legend"))
+    root = tree_of(Page((0, 4, 0, 4), (Label("words", (2.0, 2.0)), *shown)), tmp_path)
+    layers = [group for group in root if group.get(f"{INKSCAPE}groupmode") == "layer"]
+    assert [group.get(f"{INKSCAPE}label") for group in layers] == ["ground", "way", "legend", "labels"]
+    assert [element.tag for element in root if element not in layers] == [f"{SVG}style"]
+
+
+def test_bars_of_colour_scales_are_gradients(tmp_path):
+    """Of the fewest colours that are right to half a level: one where all are on a line, many of viridis."""
+    gray, viridis = (Ramp((0, 4), colors) for colors in (fading(256), mpl.colormaps["viridis"].colors))
+    viridis = replace(viridis, colors=np.insert(viridis.colors, 3, 1.0, axis=1))
+    assert len(gray.stops) == 2  # of colours on a line
+    assert 8 < len(viridis.stops) < 60
+    places, colors = (np.array(part) for part in zip(*viridis.stops, strict=True))
+    middles = (np.arange(256) + 0.5) / 256
+    shown = np.stack([np.interp(middles, places, colors[:, k]) for k in range(3)], axis=1)
+    assert np.abs(shown - viridis.colors[:, :3]).max() <= 0.5 / 255
+    root = tree_of(Page((0, 4, 0, 4), (Picture((square(0, 4),), viridis, "bar"),)), tmp_path)
+    assert len(list(root.iter(f"{SVG}linearGradient"))) == 1
+    assert [path.get("id") for path in root.iter(f"{SVG}path")] == ["ground", "bar"]
+
+
+def fading(count):
+    gray = (np.arange(count) + 0.5) / count
+    return np.stack([gray, gray, gray, np.ones(count)], axis=1)
 
 
 def test_pdf_has_the_exact_size_and_text_that_can_be_searched(tmp_path):
@@ -195,7 +255,7 @@ def test_many_dots_and_lines_are_small_files_of_paths_that_programs_open(tmp_pat
     dots, lines = Dots(places, 0.4, BLACK, name="dots"), Polylines(corners, offsets, BLACK, 0.1, "lines")
     veil = replace(lines, color=(0.0, 0.0, 0.0, 0.5), name="veil")
     page = Page((0, 4, 0, 4), (dots, lines, veil), width=400.0)
-    named = {element.get("id"): element for element in tree_of(page, tmp_path)}
+    named = {element.get("id"): element for element in tree_of(page, tmp_path).iter()}
     text = {name: [path.get("d") for path in named[name].iter(f"{SVG}path")] for name in ("dots", "lines", "veil")}
     assert sum(map(len, text["dots"])) < 550_000
     assert max(map(len, text["dots"] + text["lines"])) < 201_000

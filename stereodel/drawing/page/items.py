@@ -6,15 +6,16 @@ A new kind is one class here, and a case in each of the two renderers, `stereode
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterable, Mapping
-from dataclasses import dataclass, replace
+import re
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, ClassVar, Final, Literal, Protocol, Self
 
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import FloatArray, Indices, Pixels
+from stereodel._arrays import BoolArray, FloatArray, Indices, Pixels
 from stereodel._notebook import Displayed
 from stereodel.constants import GROUND_PIXEL
 from stereodel.curves.ragged import Ragged
@@ -31,6 +32,11 @@ FEW_COLORS: Final = 64
 """Largest number of colours of `Polygons` written as paths in vector files; with more, they become an image."""
 
 
+_LETTERS = "A-Z_a-z\xc0-\xd6\xd8-\xf6\xf8-\u02ff\u0370-\u037d\u037f-\u1fff\u200c\u200d\u2070-\u218f\u2c00-\u2fef"
+_LETTERS += "\u3001-\ud7ff\uf900-\ufdcf\ufdf0-\ufffd\U00010000-\U000effff"
+NO_NAME: Final = re.compile(f"[^-.0-9\xb7\u0300-\u036f\u203f\u2040{_LETTERS}]+")
+"""Characters that no name in XML has, of which a colon would be a prefix's (XML 1.0, fifth edition, productions 4)."""
+
 BEZIER_STEPS: Final = np.linspace(0.0, 1.0, 8, endpoint=False)
 
 Arrays = dict[str, npt.NDArray[np.generic]]
@@ -41,9 +47,53 @@ Recolour = Callable[[FloatArray], FloatArray]
 Look = LineStyle | DotStyle | Color
 
 
+def xml_name(text: str) -> str:
+    """The name in XML that is closest to a text, such as "_12-c" of "12 °c"; empty if nothing is left."""
+    name = NO_NAME.sub("-", text).strip("-")
+    return name if re.match(f"[{_LETTERS}]|$", name) else f"_{name}"
+
+
+@dataclass(frozen=True, eq=False)
+class Tags:
+    """What the parts of an item, or of a layer, are called in SVG.
+
+    rows: the attributes of each part, such as ``{"id": "Ulm", "data-name": "Ulm"}``.
+    owner: the part of each loop, line or dot.
+    """
+
+    rows: Sequence[Mapping[str, str]]
+    owner: Indices
+
+    @classmethod
+    def of(cls, columns: Mapping[str, Iterable[object] | None], count: int) -> Tags | None:
+        """Ids by the first column, and data by all, of so many parts, without missing values; None without columns."""
+        names = ["id", *(f"data-{xml_name(name.lower())}" for name in columns)]
+        texts = [[text_of(value) for value in column] for column in columns.values() if column is not None]
+        if not texts:
+            return None
+        if len(texts[0]) != count:
+            raise ValueError(f"ids has {len(texts[0])} entries, but there are {count} to name")
+        rows = (zip(names, row, strict=True) for row in zip(texts[0], *texts, strict=True))
+        return cls([{name: text for name, text in row if text} for row in rows], np.arange(count))
+
+    def some(self, rows: Indices | BoolArray) -> Tags:
+        """Those of some loops, lines or dots."""
+        return replace(self, owner=self.owner[rows])
+
+
+def text_of(value: object) -> str:
+    """A value of a table as text; whole numbers without a point, "" for a missing one."""
+    if isinstance(value, float):
+        return "" if np.isnan(value) else np.format_float_positional(value, trim="-")
+    return "" if value is None else str(value)
+
+
 @dataclass(frozen=True, eq=False)
 class Mark(Displayed):
     """What every item of a page can do; kinds override what differs."""
+
+    tags: Tags | None = field(default=None, kw_only=True)
+    """Its parts with names of their own in SVG, if there are any."""
 
     _kind: ClassVar[Literal["lines", "dots", "fills", "labels", ""]]
     """Table of a style file with its looks; "" if it has none."""
@@ -59,7 +109,8 @@ class Mark(Displayed):
         if not self._inks:
             return self
         changed = change(np.array([getattr(self, ink) for ink in self._inks]))
-        return replace(self, **dict(zip(self._inks, map(tuple, changed.tolist()), strict=True)))
+        inks: dict[str, Any] = dict(zip(self._inks, map(tuple, changed.tolist()), strict=True))
+        return replace(self, **inks)
 
     def restyled(self, looks: Mapping[str, Any]) -> Self:
         """The same with other values of its fields, those of its kind in a style file."""
@@ -68,6 +119,16 @@ class Mark(Displayed):
     def colors_at(self, places: FloatArray) -> FloatArray | None:
         """Colours (n, 4) at places (n, 2) of the page, with opacity 0 outside; None if it covers no area."""
         return None
+
+    def parts(self) -> Iterator[tuple[Mapping[str, str], Self]]:
+        """Each part that has a name of its own: its attributes, and the part alone."""
+        if self.tags:
+            for part in np.unique(self.tags.owner).tolist():
+                yield self.tags.rows[part], self.some(self.tags.owner == part)
+
+    def some(self, rows: BoolArray) -> Self:
+        """The same of some of its loops, lines or dots."""
+        raise NotImplementedError
 
     @property
     def _look(self) -> Look | None:
@@ -165,6 +226,10 @@ class Dots(Mark):
         """Centres and style, for the regression tests."""
         return {"centers": self.centers, "style": np.array([self.radius, *self.color, *self.rim, self.rim_width])}
 
+    def some(self, rows: BoolArray) -> Self:
+        """The same of some dots."""
+        return replace(self, centers=self.centers[rows], tags=self.tags and self.tags.some(rows))
+
     @property
     def _look(self) -> DotStyle:
         return DotStyle(self.color, self.radius, self.rim, self.rim_width)
@@ -185,6 +250,39 @@ class Painter(Protocol):
 
 
 @dataclass(frozen=True, eq=False)
+class Ramp:
+    """A painter whose colour changes evenly from left to right, as the bar of a scale; a gradient in vector files."""
+
+    ends: tuple[float, float]
+    """Left and right, in page units."""
+    colors: FloatArray
+    """(n, 4): sRGB and opacity in the middles of steps of equal width, which pixels show."""
+
+    def paint(self, place: tuple[float, float, float, float], pixels: tuple[int, int]) -> Pixels:
+        """Pixels as `Painter` has them: the rows are alike."""
+        along = (place[0] + place[2] * (np.arange(pixels[0]) + 0.5) - self.ends[0]) / (self.ends[1] - self.ends[0])
+        step = np.clip(along * len(self.colors), 0, len(self.colors) - 1).astype(np.intp)
+        return np.tile(np.floor(255 * self.colors[step] + 0.5).astype(np.uint8), (pixels[1], 1, 1))
+
+    def arrays(self) -> Arrays:
+        """Ends and colours, for the regression tests."""
+        return {"ends": np.array(self.ends), "colors": self.colors}
+
+    @property
+    def stops(self) -> tuple[tuple[float, Color], ...]:
+        """The fewest of its colours, with their places from 0 to 1, between which all are linear to half a level."""
+
+        def after(first: int, last: int) -> list[int]:
+            linear = np.linspace(self.colors[first], self.colors[last], last - first + 1)
+            off = np.abs(self.colors[first : last + 1] - linear).max(axis=1)
+            worst = int(off.argmax())
+            return [last] if off[worst] <= 0.5 / 255 else after(first, first + worst) + after(first + worst, last)
+
+        count = len(self.colors)
+        return tuple(((k + 0.5) / count, as_color(self.colors[k].tolist())) for k in [0, *after(0, count - 1)])
+
+
+@dataclass(frozen=True, eq=False)
 class Picture(Mark):
     """A region painted pixel by pixel: a raster on a globe.
 
@@ -202,6 +300,11 @@ class Picture(Mark):
     def arrays(self) -> Arrays:
         """Outline, and what defines the painter, for the regression tests."""
         return {"outline": np.concatenate(self.outline), **self.painter.arrays()}
+
+    def recoloured(self, change: Recolour) -> Self:
+        """With other colours of a ramp; rasters keep theirs."""
+        ramp = self.painter
+        return replace(self, painter=replace(ramp, colors=change(ramp.colors))) if isinstance(ramp, Ramp) else self
 
     def colors_at(self, places: FloatArray) -> FloatArray:
         """The pixels painted inside the outline."""
@@ -233,6 +336,11 @@ class Polylines(Mark):
         """Points and style, for the regression tests."""
         return {"points": self.points, "offsets": self.offsets, "style": np.array([*self.color, self.width])}
 
+    def some(self, rows: BoolArray) -> Self:
+        """The same of some lines."""
+        lines = Ragged(self.points, self.offsets).take(rows)
+        return replace(self, points=lines.values, offsets=lines.offsets, tags=self.tags and self.tags.some(rows))
+
     @property
     def _look(self) -> LineStyle:
         return LineStyle(self.color, self.width)
@@ -245,7 +353,7 @@ class Polygons(Mark):
     Loop i is ``points[offsets[i]:offsets[i + 1]]``, with its first point repeated at the end; outer loops are
     counterclockwise, holes clockwise, and regions are filled by the nonzero rule. Regions of different colours do not
     overlap. In vector files the regions of a colour are one path; with more than `FEW_COLORS` colours, all regions are
-    one image.
+    one image. Regions with names (`tags`) are never an image, and in SVG each is a path.
     """
 
     points: FloatArray
@@ -273,7 +381,12 @@ class Polygons(Mark):
     @property
     def pictured(self) -> bool:
         """Whether there are so many colours that vector files hold the regions as an image."""
-        return len(self.by_color[0]) > FEW_COLORS
+        return self.tags is None and len(self.by_color[0]) > FEW_COLORS
+
+    def some(self, rows: BoolArray) -> Self:
+        """The same of some loops."""
+        loops, owner, tags = self.loops.take(rows), self.owner[rows], self.tags and self.tags.some(rows)
+        return replace(self, points=loops.values, offsets=loops.offsets, owner=owner, tags=tags)
 
     _kind = "fills"
 

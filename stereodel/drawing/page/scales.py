@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from stereodel._arrays import FloatArray, as_floats, as_scalar
 from stereodel.drawing.page.colors import Color, ColorLike, as_color, color_map
-from stereodel.drawing.page.items import Fill, Item, Label, Stroke, straight
+from stereodel.drawing.page.items import Item, Label, Picture, Ramp, Stroke, straight
 from stereodel.drawing.page.style import BLACK, LABEL_SIZE
 
 STEPS = 256
@@ -116,11 +116,9 @@ class ColorScale:
             Size of the text, points.
         """
         (x, y), (width, height), ink = corner, size, as_color(ink, "ink")
-        bars = [
-            _box(x + width * number / STEPS, x + width, y, y + height, (red, green, blue, 1.0))
-            # Each step extends to the right end and is covered by the next, which avoids seams.
-            for number, (red, green, blue) in enumerate(self(self._at((np.arange(STEPS) + 0.5) / STEPS)).tolist())
-        ]
+        colors = np.insert(self(self._at((np.arange(STEPS) + 0.5) / STEPS)), 3, 1.0, axis=1)
+        box = np.array([(x, y), (x + width, y), (x + width, y + height), (x, y + height), (x, y)])
+        bar = Picture((straight(box),), Ramp((x, x + width), colors), "scale")
         marks: list[Item] = []
         for number, text in ticks.items():
             at, foot = x + width * float(self.place(number)), y - 0.35 * height
@@ -128,7 +126,7 @@ class ColorScale:
             marks.append(Label(text, (at, foot), (0.0, -2.0), "center", "top", type_size, ink))
         if title:
             marks.append(Label(title, (x + width / 2, y + height), (0.0, 4.0), "center", "bottom", type_size, ink))
-        return (*bars, *marks)
+        return (bar, *marks)
 
     def _at(self, place: FloatArray) -> FloatArray:
         """The numbers at positions from 0 to 1."""
@@ -150,8 +148,3 @@ def usual_scale(values: FloatArray) -> ColorScale:
     """Viridis from the smallest to the largest of one or more numbers."""
     low, high = float(values.min()), float(values.max())
     return ColorScale("viridis", low, high if high > low else low + 1.0)
-
-
-def _box(left: float, right: float, bottom: float, top: float, color: Color) -> Fill:
-    corners = np.array([(left, bottom), (right, bottom), (right, top), (left, top), (left, bottom)])
-    return Fill((straight(corners),), color, "scale")

@@ -53,7 +53,7 @@ def drawn(page: Page, dpi: float, pixels: tuple[int, int] | None = None) -> Canv
     axes = canvas.add_axes((0.0, 0.0, 1.0, 1.0), xlim=(left, right), ylim=(bottom, top))
     axes.set_axis_off()
     turned = replace(page, items=tuple(_turned(item) if isinstance(item, Fill) else item for item in page.items))
-    for number, shape in enumerate(shapes(turned, dpi)):
+    for number, shape in enumerate(shapes(turned, dpi, gradients=False)):
         artist = _artist(shape, axes)
         artist.set(zorder=1 + number, snap=False, clip_on=isinstance(artist, AxesImage))
         axes.add_artist(artist)

@@ -6,7 +6,7 @@ All coordinates are page coordinates; `Paper` converts them to points.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from itertools import groupby
 from typing import Final, Literal, assert_never
@@ -19,7 +19,7 @@ from stereodel.curves.fill import union
 from stereodel.curves.ragged import Ragged, thinned
 from stereodel.drawing.page import Ball, Beziers, Dots, Fill, Label, Page, Picture, Polygons, Polylines, Stroke
 from stereodel.drawing.page.colors import Color, as_color
-from stereodel.drawing.page.items import alike
+from stereodel.drawing.page.items import Ramp, alike
 
 CIRCLE_KAPPA: Final = 4 / 3 * np.tan(np.pi / 16)
 """Distance of the control points of a circle drawn as eight cubics, in radii."""
@@ -52,12 +52,12 @@ class Outlines:
 
 @dataclass(frozen=True, eq=False)
 class Filled:
-    """A region in one colour (even-odd or nonzero rule), which may be shaded as a ball."""
+    """A region in one colour (even-odd or nonzero rule), or shaded as a ball, or in the colours of a ramp."""
 
     outline: Outlines
     color: Color
     name: str = ""
-    ball: Ball | None = None
+    light: Ball | Ramp | None = None
     even_odd: bool = False
 
 
@@ -94,11 +94,12 @@ class Shown:
 Shape = Filled | Drawn | Shown
 
 
-def shapes(page: Page, dpi: float, pictures: Sequence[Pixels] = ()) -> Iterator[Shape]:
+def shapes(page: Page, dpi: float, pictures: Iterable[Pixels] = (), *, gradients: bool = True) -> Iterator[Shape]:
     """The shapes of a page without its labels, in painter's order.
 
     dpi: pixels per inch of each `Picture`.
     pictures: an image of the whole page for each of `page.pictured`.
+    gradients: whether ramps are regions, not images.
     """
     rest, scale = iter(pictures), page.points_per_unit
     for _, group in groupby(page.without_labels().items, key=alike):
@@ -119,6 +120,9 @@ def shapes(page: Page, dpi: float, pictures: Sequence[Pixels] = ()) -> Iterator[
             case Fill() as fill:
                 runs = [(path, True) for path in fill.paths]
                 yield Filled(outline(runs, scale), fill.color, fill.name, fill.ball, even_odd=True)
+            case Picture(painter=Ramp() as ramp) as picture if gradients:
+                bar = outline([(path, True) for path in picture.outline], scale)
+                yield Filled(bar, as_color(ramp.colors[0].tolist()), picture.name, ramp)
             case Picture() as picture:
                 yield _painted(picture, page, dpi)
             case Dots() as dots:

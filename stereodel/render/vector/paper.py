@@ -7,7 +7,7 @@ and focus f and centre c, on the axis toward the light, are those with the small
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Final
 
@@ -16,6 +16,8 @@ import numpy as np
 from stereodel._arrays import Bytes, FloatArray, Indices
 from stereodel.constants import FINEST_PLACE
 from stereodel.drawing.page import Ball, Page
+from stereodel.drawing.page.colors import Color
+from stereodel.drawing.page.items import Ramp
 from stereodel.render.vector.outlines import CLOSE, CURVE, LINE, MOVE, Outlines
 
 PLACES = round(1 / FINEST_PLACE)
@@ -70,6 +72,15 @@ class Paper:
         """Focus, centre and radius of the gradient of a ball, in points."""
         focus, center = self.points(np.array(ball.center) + ball.radius * np.array([FOCUS, CENTER]))
         return focus, center, RADIUS * ball.radius * float(self.scale[0])
+
+
+def shades(light: Ball | Ramp, color: Color) -> Sequence[tuple[float, Color]]:
+    """Colours of the gradient of a ball of some colour, or of a ramp, at places from 0 to 1, linear in between."""
+    if isinstance(light, Ramp):
+        return light.stops
+    red, green, blue, opacity = color
+    levels = zip(OFFSETS, BRIGHTNESS, strict=True)
+    return [(at, (level * red, level * green, level * blue, opacity)) for at, level in levels]
 
 
 def number(value: float) -> str:

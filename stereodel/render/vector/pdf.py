@@ -17,6 +17,7 @@ import numpy as np
 from stereodel._arrays import FloatArray, Pixels
 from stereodel.drawing.page import Ball, Label, Page
 from stereodel.drawing.page.colors import Color
+from stereodel.drawing.page.items import Ramp
 from stereodel.drawing.page.style import PRINT_DPI
 from stereodel.render.vector.outlines import (
     CLOSE,
@@ -31,7 +32,7 @@ from stereodel.render.vector.outlines import (
     ground,
     shapes,
 )
-from stereodel.render.vector.paper import BRIGHTNESS, OFFSETS, Paper, commands, exact, number, numbers
+from stereodel.render.vector.paper import Paper, commands, exact, number, numbers, shades
 from stereodel.render.vector.type import Face, Line, Subset, lines_of, subsets
 
 PATH: Final = {MOVE: "%s %s m\n", LINE: "%s %s l\n", CURVE: "%s %s %s %s %s %s c\n", CLOSE: "h\n"}
@@ -138,8 +139,8 @@ class _PdfSheet:
         match shape:
             case Filled():
                 paint = f"{_rgb(shape.color)} rg"
-                if shape.ball:
-                    paint = f"/Pattern cs /{self.named('Pattern', self.gradient(shape.ball, shape.color))} scn"
+                if shape.light:
+                    paint = f"/Pattern cs /{self.named('Pattern', self.gradient(shape.light, shape.color))} scn"
                 fill = "f*" if shape.even_odd else "f"
                 return f"q\n{self.opacity(shape.color)}{paint}\n{self.path(shape.outline)}{fill}\nQ\n"
             case Drawn():
@@ -155,21 +156,25 @@ class _PdfSheet:
                 image = self.named("XObject", _image(self.objects, shape.pixels))
                 return f"q\n{self.path(shape.outline)}W n\n{place} cm\n/{image} Do\nQ\n"
 
-    def gradient(self, ball: Ball, color: Color) -> str:
-        """A colour shaded by a ball: a pattern that is linear between colours."""
-        focus, center, radius = self.paper.shading(ball)
-        colors = [_rgb(level * np.array(color[:3])) for level in BRIGHTNESS]
+    def gradient(self, light: Ball | Ramp, color: Color) -> str:
+        """A colour shaded by a ball, or the colours of a ramp: a pattern that is linear between colours."""
+        if isinstance(light, Ball):
+            focus, center, radius = self.paper.shading(light)
+            kind, places = 3, f"{numbers(focus)} 0 {numbers(center)} {number(radius)}"
+        else:
+            kind, places = 2, numbers(self.paper.points([(x, 0.0) for x in light.ends]).ravel())
+        offsets, colors = zip(*((at, _rgb(shade)) for at, shade in shades(light, color)), strict=True)
         parts = " ".join(
             f"<< /FunctionType 2 /Domain [0 1] /N 1 /C0 [{one}] /C1 [{other}] >>" for one, other in pairwise(colors)
         )
-        bounds = exact(*OFFSETS[1:-1])
+        bounds = exact(*offsets[1:-1])
         function = (
             f"<< /FunctionType 3 /Domain [0 1] /Functions [{parts}] /Bounds [{bounds}] "
             f"/Encode [{' '.join(['0 1'] * (len(colors) - 1))}] >>"
         )
         return (
-            "<< /Type /Pattern /PatternType 2 /Shading << /ShadingType 3 /ColorSpace /DeviceRGB "
-            f"/Coords [{numbers(focus)} 0 {numbers(center)} {number(radius)}] /Extend [true true] "
+            f"<< /Type /Pattern /PatternType 2 /Shading << /ShadingType {kind} /ColorSpace /DeviceRGB "
+            f"/Coords [{places}] /Extend [true true] "
             f"/Function {function} >> >>"
         )
 
@@ -186,7 +191,7 @@ class _PdfSheet:
         for line in lines:
             shown = "".join(["BT\n", *_shows(line, fonts, named), "ET\n"])
             # Marks are not in the order of glyphs. Right-to-left letters are stored in reverse.
-            if line.words and not line.leftward:
+            if line.shaped and not line.leftward:
                 shown = f"/Span << /ActualText <{_utf16(line.words, mark=True)}> >> BDC\n{shown}EMC\n"
             parts.append(shown)
             if line.bars:

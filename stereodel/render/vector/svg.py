@@ -1,28 +1,32 @@
 """Pages as SVG: exact curves, text as text, balls shaded by gradients, in points from the upper left corner.
 
-Names of items become unique ids. Glyphs are positioned individually, in embedded fonts: browsers show the same as PNG
-and PDF, and can find and select the text. Programs that do not use them show another serif font in the same places.
+Names of items become layers, as Inkscape knows them, and unique ids. A line of text is one run in its own family:
+programs that have the font can edit it. For others it is embedded under a name of its own: browsers show the same as
+PNG and PDF. What reads no embedded fonts shows another serif font, anchored where the label is. Formulas are runs of
+one font and size.
 """
 
 from __future__ import annotations
 
 import base64
 import io
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from itertools import groupby
-from typing import Final
+from typing import Final, Literal
 from xml.sax.saxutils import escape, quoteattr
 
 import numpy as np
 
 from stereodel._arrays import Pixels
 from stereodel._extras import of_extra
-from stereodel.drawing.page import Ball, Label, Page
+from stereodel.drawing.page import Ball, Item, Label, Page
 from stereodel.drawing.page.colors import Color
+from stereodel.drawing.page.items import LEGEND, Ramp, xml_name
 from stereodel.drawing.page.style import PRINT_DPI
 from stereodel.render.vector.outlines import Discs, Drawn, Filled, Outlines, Shape, Shown, ground, shapes
-from stereodel.render.vector.paper import BRIGHTNESS, OFFSETS, Paper, exact, number, numbers, runs
-from stereodel.render.vector.type import Face, Glyph, Line, ShapedSubset, Subset, lines_of, subsets
+from stereodel.render.vector.paper import Paper, exact, number, numbers, runs, shades
+from stereodel.render.vector.type import Face, Glyph, Line, ShapedSubset, Subset, advance_of, lines_of, subsets
 
 with of_extra("draw"):
     from PIL import Image
@@ -32,6 +36,18 @@ LONGEST_PATH: Final = 200_000
 
 SERIF: Final = "'STIX Two Text','Times New Roman',Times,serif"
 """Fallback fonts for programs that ignore embedded fonts."""
+
+ANCHORS: Final = {"left": (0.0, "start", "end"), "center": (0.5, "middle", "middle"), "right": (1.0, "end", "start")}
+"""Of a label's alignments: where lines are anchored, in their widths, and the word for it, also from right to left."""
+
+NAMESPACES: Final = (
+    'xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" '
+    'xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape"'
+)
+"""Illustrator and older programs read links as those of XLink alone."""
+
+LEAST_SHIFT: Final = 0.02
+"""Distance in points from the end of one glyph of a formula to the next from which on that begins a run."""
 
 
 def svg(page: Page, pictures: Sequence[Pixels] = ()) -> str:
@@ -44,39 +60,68 @@ class _SvgSheet:
 
     def __init__(self, page: Page) -> None:
         self.page, self.paper = page, Paper.of(page, downward=True)
-        self.names: set[str] = set()
+        self.names = {"title": 1, "desc": 1}  # ids, and how many begin so
+        self.gradients: dict[tuple[Ball | Ramp, Sequence[float]], str] = {}
 
     def text(self, pictures: Sequence[Pixels]) -> str:
         page = self.page
         sides = number(page.width), number(page.height)
         told = [(name, text) for name, text in (("title", page.title), ("desc", page.description)) if text]
-        self.names.update(("title", "desc"))
         labels = f' role="img" aria-labelledby="{" ".join(name for name, _ in told)}"' if told else ""
         lettering = list(lines_of(page))
         fonts = subsets(line for _, lines in lettering for line in lines if not line.words)
         shaped = subsets((line for _, lines in lettering for line in lines if line.words), ShapedSubset)
+        rest, layers = iter(pictures), groupby(page.without_labels().items, key=_layer)
+        written = (line for label, its in lettering for line in self.label(label, its, fonts, shaped))
         lines = [
             '<?xml version="1.0" encoding="UTF-8"?>',
-            f'<svg xmlns="http://www.w3.org/2000/svg" width="{sides[0]}pt" height="{sides[1]}pt" '
+            f'<svg {NAMESPACES} width="{sides[0]}pt" height="{sides[1]}pt" '
             f'viewBox="0 0 {sides[0]} {sides[1]}"{labels}>',
             *(f'<{name} id="{name}">{escape(text)}</{name}>' for name, text in told),
-            *([_sheet(fonts.values(), shaped.values())] if fonts or shaped else []),
-            *(line for shape in ground(page) for line in self.shape(shape)),
-            *(line for shape in shapes(page, PRINT_DPI, pictures) for line in self.shape(shape)),
-            *(line for label, its in lettering for line in self.label(label, its, fonts, shaped)),
+            *([_sheet([*fonts.values(), *shaped.values()])] if fonts or shaped else []),
+            *self.layer("ground", (line for shape in ground(page) for line in self.shape(shape))),
+            *(line for name, items in layers for line in self.layer(name, self.items(items, rest))),
+            *self.layer("labels", written),
             "</svg>",
         ]
         return "\n".join(lines) + "\n"
 
     def name(self, wanted: str) -> str:
         """An id that no other element has."""
-        stem = "-".join(wanted.split()) or "item"
-        name, count = stem, 1
+        name = stem = xml_name(wanted) or "item"
         while name in self.names:
-            count += 1
-            name = f"{stem}-{count}"
-        self.names.add(name)
+            self.names[stem] += 1
+            name = f"{stem}-{self.names[stem]}"
+        self.names[name] = 1
         return name
+
+    def layer(self, name: str, content: Iterable[str]) -> Iterator[str]:
+        """A layer, unless it is empty."""
+        own, lines = f"{name or 'item'}-layer", list(content)
+        if lines:
+            yield f'<g id="{self.name(own)}" inkscape:groupmode="layer" inkscape:label={quoteattr(name or "item")}>'
+            yield from lines
+            yield "</g>"
+
+    def items(self, items: Iterable[Item], pictures: Iterator[Pixels]) -> Iterator[str]:
+        """Items of one name; parts with names of their own each by itself."""
+        for tagged, group in groupby(items, key=lambda item: item.tags is not None):
+            some = tuple(group)
+            alone = ((told, (part,)) for item in some for told, part in item.parts())
+            parts = alone if tagged else [(None, some)]
+            for told, its in parts:
+                drawn = list(shapes(replace(self.page, items=its), PRINT_DPI, pictures))
+                if grouped := told is not None and len(drawn) > 1:  # a dot and its rim
+                    yield f"<g {self.attributes(told, its[0].name)}>"
+                yield from (line for shape in drawn for line in self.shape(shape, None if grouped else told))
+                if grouped:
+                    yield "</g>"
+
+    def attributes(self, told: Mapping[str, str] | None, name: str) -> str:
+        """The attributes of an element, whose id is `name` unless it is told another."""
+        own = {"id": name, **(told or {})}
+        own["id"] = self.name(own["id"])
+        return " ".join(f"{key}={quoteattr(text)}" for key, text in own.items())
 
     def path(self, outline: Outlines) -> str:
         return "".join(runs(self.paper.placed(outline)))
@@ -88,30 +133,32 @@ class _SvgSheet:
         corners = self.paper.points(discs.centers) - [discs.radius, 0.0]
         return [f"M{numbers(corner)}{halves}" for corner in corners.tolist()]
 
-    def split(self, name: str, paint: str, found: list[str], *, whole: bool) -> Iterator[str]:
+    def split(self, named: str, paint: str, found: list[str], *, whole: bool) -> Iterator[str]:
         """Runs of one style as a path, or as several in a group unless they must stay together."""
         paths = ["".join(found)] if whole else _parted(found)
         if len(paths) == 1:
-            yield f'<path id={quoteattr(name)} {paint} d="{paths[0]}"/>'
+            yield f'<path {named} {paint} d="{paths[0]}"/>'
             return
-        yield f"<g id={quoteattr(name)} {paint}>"
+        yield f"<g {named} {paint}>"
         yield from (f'<path d="{path}"/>' for path in paths)
         yield "</g>"
 
-    def shape(self, shape: Shape) -> Iterator[str]:
+    def shape(self, shape: Shape, told: Mapping[str, str] | None = None) -> Iterator[str]:
+        named = self.attributes(told, shape.name)
         match shape:
             case Discs():
                 found, opaque = self.discs(shape), shape.color[3] == 1
-                yield from self.split(self.name(shape.name), _paint("fill", shape.color), found, whole=not opaque)
+                yield from self.split(named, _paint("fill", shape.color), found, whole=not opaque)
             case Filled():
-                name = self.name(shape.name)
                 paint = _paint("fill", shape.color)
-                if shape.ball:
-                    light = self.name(f"{name}-light")
-                    yield self.gradient(light, shape.ball, shape.color)
-                    paint = f'fill="url(#{light})"{_opacity("fill", shape.color)}'
+                if shape.light:
+                    look = (shape.light, shape.color[:3])
+                    if look not in self.gradients:
+                        self.gradients[look] = self.name(f"{shape.name}-light")
+                        yield self.gradient(self.gradients[look], shape.light, shape.color)
+                    paint = f'fill="url(#{self.gradients[look]})"{_opacity("fill", shape.color)}'
                 rule = ' fill-rule="evenodd"' if shape.even_odd else ""
-                yield f'<path id={quoteattr(name)} {paint}{rule} d="{self.path(shape.outline)}"/>'
+                yield f'<path {named} {paint}{rule} d="{self.path(shape.outline)}"/>'
             case Drawn():
                 dash = f' stroke-dasharray="{numbers(shape.dash)}"' if shape.dash else ""
                 paint = (
@@ -120,98 +167,108 @@ class _SvgSheet:
                 )
                 # Transparent lines of separate paths would be darker where they cross.
                 whole = shape.color[3] < 1
-                yield from self.split(self.name(shape.name), paint, runs(self.paper.placed(shape.outline)), whole=whole)
+                yield from self.split(named, paint, runs(self.paper.placed(shape.outline)), whole=whole)
             case Shown():
-                name = self.name(shape.name)
-                clip = self.name(f"{name}-outline")
+                clip = self.name(f"{shape.name}-outline")
                 left, right, bottom, top = shape.extent
                 (x, y), (end, low) = self.paper.points([(left, top), (right, bottom)]).tolist()
                 box = f'x="{number(x)}" y="{number(y)}" width="{number(end - x)}" height="{number(low - y)}"'
-                yield f'<clipPath id={quoteattr(clip)}><path d="{self.path(shape.outline)}"/></clipPath>'
+                yield f'<clipPath id="{clip}"><path d="{self.path(shape.outline)}"/></clipPath>'
                 yield (
-                    f'<image id={quoteattr(name)} clip-path="url(#{clip})" {box} preserveAspectRatio="none" '
-                    f'href="data:image/png;base64,{_png(shape.pixels)}"/>'
+                    f'<image {named} clip-path="url(#{clip})" {box} preserveAspectRatio="none" '
+                    f'xlink:href="data:image/png;base64,{_png(shape.pixels)}"/>'
                 )
 
-    def gradient(self, name: str, ball: Ball, color: Color) -> str:
-        """A colour shaded by a ball."""
-        (fx, fy), (cx, cy), radius = self.paper.shading(ball)
-        stops = "".join(
-            f'<stop offset="{exact(offset)}" stop-color="{_hex((red, green, blue, 1.0))}"/>'
-            for offset, level in zip(OFFSETS, BRIGHTNESS, strict=True)
-            for red, green, blue in [[level * value for value in color[:3]]]
-        )
-        return (
-            f'<radialGradient id={quoteattr(name)} gradientUnits="userSpaceOnUse" cx="{number(cx)}" cy="{number(cy)}" '
-            f'r="{number(radius)}" fx="{number(fx)}" fy="{number(fy)}">{stops}</radialGradient>'
-        )
+    def gradient(self, name: str, light: Ball | Ramp, color: Color) -> str:
+        """A colour shaded by a ball, or the colours of a ramp."""
+        stops = (f'<stop offset="{exact(at)}" stop-color="{_hex(shade)}"/>' for at, shade in shades(light, color))
+        if isinstance(light, Ball):
+            (fx, fy), (cx, cy), radius = self.paper.shading(light)
+            places, kind = {"cx": cx, "cy": cy, "r": radius, "fx": fx, "fy": fy}, "radialGradient"
+        else:
+            (x1, y1), (x2, y2) = self.paper.points([(x, 0.0) for x in light.ends])
+            places, kind = {"x1": x1, "y1": y1, "x2": x2, "y2": y2}, "linearGradient"
+        told = " ".join(f'{key}="{number(value)}"' for key, value in places.items())
+        return f'<{kind} id="{name}" gradientUnits="userSpaceOnUse" {told}>{"".join(stops)}</{kind}>'
 
     def label(
         self, label: Label, lines: Iterable[Line], fonts: dict[Face, Subset], shaped: dict[Face, Subset]
     ) -> Iterator[str]:
         """A label: halo, lines of type and bars."""
         name, lines = self.name(label.name), list(lines)
-        yield f"<g id={quoteattr(name)} {_paint('fill', label.color)}>"
-        if label.halo:
-            halo = "".join(self.typed(line.outline) for line in lines)
+        shown = quoteattr(" ".join(label.text.split()))
+        yield f'<g id="{name}" inkscape:label={shown} {_paint("fill", label.color)}>'
+        if label.halo:  # the same type once more; opaque strokes, as those of letters would be darker where they meet
+            words = self.name(f"{name}-words")
             yield (
-                f'<path id={quoteattr(self.name(f"{name}-halo"))} aria-hidden="true" fill="none" '
-                f'{_paint("stroke", label.halo_color)} stroke-width="{exact(2 * label.halo)}" stroke-linejoin="round" '
-                f'd="{halo}"/>'
+                f'<use xlink:href="#{words}" aria-hidden="true" fill="none" stroke-width="{exact(2 * label.halo)}" '
+                f'stroke="{_hex(label.halo_color)}" stroke-linejoin="round" opacity="{exact(label.halo_color[3])}"/>'
             )
+            yield f'<g id="{words}">'
         for line in lines:
-            yield self.words(line, shaped) if line.words else self.line(line, fonts)
+            yield self.words(line, label.align, shaped) if line.words else self.line(line, fonts)
             if line.bars:
                 yield f'<path d="{self.typed(line.placed(line.bar_outline))}"/>'
-        yield "</g>"
+        yield "</g>" * (2 if label.halo else 1)
 
     def typed(self, outline: Outlines) -> str:
         """A path from an outline in points from the lower left corner."""
         return "".join(runs(Outlines(outline.points * [1, -1] + [0, self.page.height], outline.kinds)))
 
-    def words(self, line: Line, fonts: dict[Face, Subset]) -> str:
-        """A line of type that programs shape themselves by the rules of its script, from its left end."""
-        x, y = line.x, self.page.height - line.y
-        used = dict.fromkeys(glyph.font for glyph in line.glyphs)
-        families = ",".join(f"'{fonts[font].name}'" for font in fonts if font in used)
-        own = ",".join(_quoted(fonts[font].family) for font in used)
-        # Text that starts on the right ends on the left.
-        way = ' direction="rtl" text-anchor="end"' if line.begins_leftward else ""
+    def words(self, line: Line, align: Literal["left", "center", "right"], fonts: dict[Face, Subset]) -> str:
+        """A line of type as one run, which programs set by the rules of its script, anchored as its label is aligned.
+
+        Each family comes before its embedded font, and both before the next: so is the font of each character found.
+        """
+        share, *words = ANCHORS[align]
+        x, y = line.matrix @ [share * line.advance, 0.0, 1.0]
+        anchor = words[line.begins_leftward]  # text that starts on the right ends on the left
+        way = (' direction="rtl"' * line.begins_leftward) + f' text-anchor="{anchor}"' * (anchor != "start")
+        families = (_quoted(name) for font in line.fonts for name in (fonts[font].family, fonts[font].name))
         return (
-            f'<text xml:space="preserve" text-rendering="geometricPrecision" x="{number(x)}" y="{number(y)}" '
-            f'font-family={quoteattr(f"{families},{own},{SERIF}")} font-size="{exact(line.glyphs[0].size)}"{way}'
-            f"{self.turn(line)}>{escape(line.words)}</text>"
+            f'<text xml:space="preserve" text-rendering="geometricPrecision" x="{number(x)}" '
+            f'y="{number(self.page.height - y)}" {_family(families)}{_look(fonts[line.fonts[0]])} '
+            f'font-size="{exact(line.glyphs[0].size)}"{way}{self.turn(line, x, y)}>{escape(line.words)}</text>'
         )
 
-    def turn(self, line: Line) -> str:
-        """The attribute that rotates a line of type about its start."""
+    def turn(self, line: Line, x: float, y: float) -> str:
+        """The attribute that rotates a line of type about a place on it."""
         if not line.rotation:
             return ""
-        place = numbers((line.x, self.page.height - line.y))
-        return f' transform="rotate({exact(-line.rotation)} {place})"'
+        return f' transform="rotate({exact(-line.rotation)} {numbers((x, self.page.height - y))})"'
 
     def line(self, line: Line, fonts: dict[Face, Subset]) -> str:
-        """A line of type with each character positioned, grouped by font and size."""
-        x, y = line.x, self.page.height - line.y
-        spans, order = [], list(fonts)
-
-        def together(glyph: Glyph) -> tuple[Face, float, int]:
-            # Characters beyond 16 bits would count as two positions.
-            return glyph.font, glyph.size, id(glyph) * (fonts[glyph.font].codes[glyph.index] > "\uffff")
-
-        for (font, size, _), group in groupby(line.glyphs, key=together):
-            glyphs = list(group)
-            text = "".join(fonts[font].codes[glyph.index] for glyph in glyphs)
-            heights = [number(y - glyph.y) for glyph in glyphs]
-            spans.append(
-                f'<tspan class="type-{1 + order.index(font)}" font-size="{exact(size)}" '
-                f'x="{numbers(x + glyph.x for glyph in glyphs)}" '
-                f'y="{heights[0] if len(set(heights)) == 1 else " ".join(heights)}">{escape(text)}</tspan>'
-            )
+        """A formula as runs of one font and size that begin where they must; some glyphs have codes of their own."""
+        spans: list[list[Glyph]] = []
+        style, pen = None, 0.0
+        for glyph in line.glyphs:
+            own = (glyph.font, glyph.size, glyph.y)
+            if own != style or abs(glyph.x - pen) > LEAST_SHIFT:
+                spans.append([])
+                style, pen = own, glyph.x
+            spans[-1].append(glyph)
+            pen += glyph.size * advance_of(glyph.font, glyph.index)
+        written = "".join(self.span(glyphs, line, fonts[glyphs[0].font]) for glyphs in spans)
         # By default, browsers move letters to whole pixels.
         return (
-            f'<text xml:space="preserve" text-rendering="geometricPrecision"{self.turn(line)}>{"".join(spans)}</text>'
+            f'<text xml:space="preserve" text-rendering="geometricPrecision"{self.turn(line, line.x, line.y)}>'
+            f"{written}</text>"
         )
+
+    def span(self, glyphs: Sequence[Glyph], line: Line, font: Subset) -> str:
+        """A run of a formula; here the embedded font comes first, as no other has its codes."""
+        x, y = line.x + glyphs[0].x, self.page.height - line.y - glyphs[0].y
+        text = "".join(font.codes[glyph.index] for glyph in glyphs)
+        families = _family(map(_quoted, (font.name, font.family)))
+        return (
+            f'<tspan {families}{_look(font)} font-size="{exact(glyphs[0].size)}" x="{number(x)}" y="{number(y)}">'
+            f"{escape(text)}</tspan>"
+        )
+
+
+def _layer(item: Item) -> str:
+    """The layer of an item: its name; outlines are in that of what they are around, and a legend is one."""
+    return LEGEND.rstrip("-") if item.name.startswith(LEGEND) else item.name.removesuffix("-outline")
 
 
 def _parted(found: list[str]) -> list[str]:
@@ -223,21 +280,24 @@ def _parted(found: list[str]) -> list[str]:
     return ["".join(part) for part in parts]
 
 
-def _sheet(fonts: Iterable[Subset], shaped: Iterable[Subset]) -> str:
-    """The fonts of a file, with a class for each font whose glyphs are positioned."""
-
-    def brought(font: Subset, kind: str) -> str:
-        data = base64.b64encode(font.file("woff")).decode()
-        return f"@font-face{{font-family:'{font.name}';{kind};src:url(data:font/woff;base64,{data})}}"
-
+def _sheet(fonts: Iterable[Subset]) -> str:
+    """The fonts of a file, which are right for text of any weight: no program is to make them bolder."""
     rules = []
-    for number_, font in enumerate(fonts, start=1):
-        look = font.face["head"].macStyle
-        kind = f"font-style:{'italic' if look & 2 else 'normal'};font-weight:{'bold' if look & 1 else 'normal'}"
-        family = escape(_quoted(font.family))
-        rules += [brought(font, kind), f".type-{number_}{{font-family:'{font.name}',{family},{SERIF};{kind}}}"]
-    rules += [brought(font, "font-style:normal;font-weight:normal") for font in shaped]
+    for font in fonts:
+        data = base64.b64encode(font.file("woff")).decode()
+        look = f"font-style:{'italic' if font.face['head'].macStyle & 2 else 'normal'};font-weight:1 1000"
+        rules.append(f"@font-face{{font-family:'{font.name}';{look};src:url(data:font/woff;base64,{data})}}")
     return "<style>" + "\n".join(rules) + "</style>"
+
+
+def _family(names: Iterable[str]) -> str:
+    return f"font-family={quoteattr(','.join([*names, SERIF]))}"
+
+
+def _look(font: Subset) -> str:
+    """The attributes of fonts that are bold or italic."""
+    look = font.face["head"].macStyle
+    return ' font-weight="bold"' * bool(look & 1) + ' font-style="italic"' * bool(look & 2)
 
 
 def _quoted(family: str) -> str:

@@ -33,6 +33,7 @@ with of_extra("draw"):
     from fontTools.ttLib.tables._c_m_a_p import CmapSubtable
     from matplotlib import _text_helpers
     from matplotlib.backend_bases import RendererBase
+    from matplotlib.font_manager import fontManager
     from matplotlib.textpath import text_to_path
 
 FINER: Final = 64
@@ -77,8 +78,7 @@ class Line:
 
     x, y: start on the page, in points from the lower left corner.
     rotation: counterclockwise rotation about the start, in degrees.
-    words: the text, if letters join, stack or run from right to left, so that glyphs do not correspond to characters in
-        order.
+    words: the text; "" of a formula.
     """
 
     glyphs: tuple[Glyph, ...]
@@ -87,6 +87,25 @@ class Line:
     y: float
     rotation: float
     words: str = ""
+    order: tuple[str, ...] = ()
+    """Files of the families in which it is set, in order of preference."""
+
+    @property
+    def shaped(self) -> bool:
+        """Whether letters join, stack or run from right to left, so that glyphs are not the characters in order."""
+        return any(bidirectional(sign) in LEFTWARD or category(sign) in {"Mn", "Mc"} for sign in self.words)
+
+    @property
+    def fonts(self) -> list[Face]:
+        """Its fonts in the order in which characters look for theirs: of each family before those of the next."""
+        used = dict.fromkeys(glyph.font for glyph in self.glyphs)
+        return sorted(used, key=lambda font: (*self.order, font.path).index(font.path))
+
+    @property
+    def advance(self) -> float:
+        """Width from the start to where more type would begin."""
+        widths = ((glyph.x, glyph.size * advance_of(glyph.font, glyph.index)) for glyph in self.glyphs)
+        return max((x + width for x, width in widths if width), default=0.0)  # marks have no width
 
     @property
     def leftward(self) -> bool:
@@ -161,8 +180,8 @@ class _Recorder(RendererBase):
         glyphs, bars = _formula(self, s, prop) if ismath else (_words(s, prop), ())
         glyphs = tuple(glyphs)
         if any(not glyph.text.isspace() for glyph in glyphs) or bars:
-            words = "" if ismath or not _shaped(s) else s
-            self.lines.append(Line(glyphs, bars, x / FINER, y / FINER, angle, words))
+            order = tuple(map(str, cast(Any, fontManager)._find_fonts_by_props(prop)))
+            self.lines.append(Line(glyphs, bars, x / FINER, y / FINER, angle, "" if ismath else s, order))
 
 
 def _words(text: str, properties: Any) -> Iterator[Glyph]:
@@ -189,11 +208,6 @@ def _face(font: Any) -> Face:
     return Face(font.fname, getattr(font, "face_index", 0))  # before matplotlib 3.11 the first of a file's fonts alone
 
 
-def _shaped(text: str) -> bool:
-    """Whether the glyphs of a text depend on context, as in right-to-left scripts and with combining marks."""
-    return any(bidirectional(sign) in LEFTWARD or category(sign) in {"Mn", "Mc"} for sign in text)
-
-
 # Fonts
 
 
@@ -203,6 +217,13 @@ def _opened(face: Face) -> Any:
 
 _font = cache(_opened)
 """Fonts that are only read."""
+
+
+@cache
+def advance_of(face: Face, index: int) -> float:
+    """The advance width of a glyph of a font, at size 1."""
+    font = _font(face)
+    return float(font["hmtx"][font.getGlyphName(index)][0] / font["head"].unitsPerEm)
 
 
 @cache
@@ -280,8 +301,7 @@ class Subset:
     @property
     def widths(self) -> dict[int, float]:
         """Advance widths at size 1."""
-        font = self.face
-        return {i: font["hmtx"][font.getGlyphName(i)][0] / font["head"].unitsPerEm for i in self.glyphs}
+        return {index: advance_of(self.font, index) for index in self.glyphs}
 
     def file(self, flavor: Literal["woff"] | None = None) -> bytes:
         """The font file, TrueType or WOFF; glyphs keep their indices."""
