@@ -13,7 +13,7 @@ from stereodel.sphere import SphereCircle, graticule_patch, xyz_to_lonlat
 from tests.figures.scripts import FOLDER, ROWS, arc_points, geometry, page, script
 from tests.tiers import by_day
 
-WORDS = {"three": 3, "four": 4, "five": 5, "six": 6, "eight": 8, "twenty": 20}
+WORDS = {"three": 3, "four": 4, "five": 5, "six": 6, "eight": 8, "twelve": 12, "twenty": 20}
 NUMBER = re.compile(
     r"(?P<digits>\d+(?: \d{3})*(?:\.\d+)?)(?P<million> million)?(?:/(?P<over>\d+))?"
     rf"|\b(?P<word>{'|'.join(WORDS)})\b(?P<half> and a half)?",
@@ -168,7 +168,7 @@ def truth(name):
         case "earth_cities":
             return [len(g["density"]), len(data.cities().population)]
         case "earth_partitions":
-            return [len(g[key]) for key in ("points", "rooms", "own", "alone", "planes", "boxes", "last")]
+            return [len(g[key]) for key in ("points", "rooms", "own", "alone", "planes", "shown", "boxes", "last")]
         case "globe_europe" | "globe_new_york":
             (letters,) = {len(code) for code in data.airports().iata.tolist() if code}
             radius = np.radians(g.get("radius", 0)) * earth.MEAN_RADIUS_KM

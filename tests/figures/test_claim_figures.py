@@ -203,11 +203,16 @@ def test_triangles_are_those_of_all_airports_about_its_own():
     assert turned(g["triangles"]) == turned(whole[np.isin(whole, g["own"]).any(axis=1)])
 
 
-def test_every_bubble_drawn_meets_a_box_and_every_box_a_bubble():
+def test_every_bubble_meets_a_box_and_every_box_a_bubble():
     """By points of the boxes' parts of the sphere, close together: a bubble that the boxes' balls let by has none."""
-    g = geometry("earth_partitions")
-    meet = script("earth_partitions")["meet"](g["planes"], g["boxes"])
+    module, g = script("earth_partitions"), geometry("earth_partitions")
+    meet = module["meet"](g["planes"], g["boxes"])
     assert meet.any(axis=1).all()
     assert meet.any(axis=0).all()
     inside = g["points"][g["new"]] @ g["planes"][:, :3].T >= g["planes"][:, 3]
     assert 0 < inside.any(axis=0).sum() < len(g["planes"])  # that a box is met does not say that a point is
+    # Those drawn are different, in sight, and each passes own points of the partition.
+    assert len(set(g["shown"])) == module["SHOWN"]
+    assert (module["VIEW"].depth(g["planes"][g["shown"], :3]) > 0).all()
+    through = np.abs(g["points"][g["own"]] @ g["planes"][g["shown"], :3].T - g["planes"][g["shown"], 3])
+    assert through.min(axis=0).max() < 1e-12
