@@ -151,7 +151,8 @@ def truth(name):
         case "anim_sites":
             return [len(module["changes"]()[0].before.sites)]
         case "claim_planet":
-            return [len(g["points"])]
+            exaggeration = module["STEEP"] * module["RADIUS_KM"] / module["KM"]
+            return [len(g["points"]), module["RADIUS_KM"], module["STEP"] * module["KM"], exaggeration]
         case "claim_projections":
             return [module["SITES"], module["REACH"], len(module["DRAWN"])]
         case "claim_scales":
@@ -161,7 +162,8 @@ def truth(name):
         case "claim_separation":
             return [module["DOTS"], 1 / 2, *lift_scales()[::-1], module["WIDTH"], module["HEIGHT"]]
         case "claim_terrain":
-            return [len(g["points"]), module["COLUMNS"], module["ROWS"]]
+            unit, grid = module["METRES"], (module["COLUMNS"], module["ROWS"])
+            return [len(g["points"]), *grid, module["STEP"] * unit, module["STEEP"] * 1000 * module["KM"] / unit]
         case "earth_airports":
             areas = g["areas"]
             return [len(areas), np.count_nonzero(areas == 0), areas[areas > 0].min(), areas.max(), module["NAMED"]]
