@@ -11,6 +11,8 @@ from dataclasses import replace
 
 import numpy as np
 from _poster import LATITUDE, captioned, spaced, with_legend
+from matplotlib import colormaps
+from matplotlib.colors import ListedColormap
 
 from stereodel import SphericalVoronoi, data, earth
 from stereodel.drawing import ColorScale, Page, View
@@ -19,8 +21,10 @@ from stereodel.globe import Globe
 from stereodel.render import Figure
 
 VIEW = View(68, 28)
-SCALE = ColorScale("inferno", 0.1, 1e4, log=True)  # people per km²
-SEA = (0.055, 0.058, 0.075, 1.0)
+EMBERS = ListedColormap(colormaps["inferno"](np.linspace(0.17, 1.0, 256)), name="embers")  # begins at dark violet
+colormaps.register(EMBERS, force=True)
+SCALE = ColorScale("embers", 0.1, 1e4, log=True)  # people per km²
+SEA = (0.045, 0.05, 0.065, 1.0)
 NIGHT, INK = (0.03, 0.03, 0.045, 1.0), (0.9, 0.88, 0.84, 1.0)
 
 
