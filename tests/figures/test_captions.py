@@ -182,7 +182,7 @@ def truth(name):
             size = module["MAGNIFICATION"]
             return [module["RADIUS_KM"], size, size, module["SPACING"]]
         case "sky_stars":
-            return [len(data.stars().magnitude), module["BRIGHT"]]
+            return [len(data.stars().magnitude), module["SMOOTHED"], module["BRIGHT"]]
     raise AssertionError(f"{name} has a caption that nobody checks")
 
 
