@@ -130,7 +130,8 @@ def truth(name):
             hemisphere, back = SphereCircle((0, 40), 0.0), fisheye((0, 40), magnification=size).inverse()
             filled = [2 * half, 100 * share_of_hemisphere(size, half), back.image_of(hemisphere).angular_radius]
             filled = filled if name == "fig12_fisheye20" else []
-            return [views, size, coarse, fine, focus, size, *filled, half, hidden_up_to(size)]
+            between = [step] if (step := module["PANELS"].between) else []
+            return [views, size, coarse, fine, focus, size, *filled, half, hidden_up_to(size), *between]
         case "fig10_12_plate":
             sizes, views = [row.magnification for row in module["ROWS"]], len(page(name).views)
             focus = five_views("fig10_earth")["focus"]

@@ -243,6 +243,12 @@ def test_the_numbers_of_figures_10_to_12(name, magnification, coarse, fine, half
     lon, lat = np.moveaxis(sd.xyz_to_lonlat(back(arc_points(fine_rows))), -1, 0)
     assert (lon.min(), lon.max()) == pytest.approx((-half_width, half_width))
     assert (lat.min(), lat.max()) == pytest.approx((40 - half_width, 40 + half_width))
+    if name == "fig12_fisheye20":  # and fainter ones between them, where the focus is seen
+        faint = [g[f"between_{view}"] for view in range(5)]
+        assert [len(rows) > 0 for rows in faint] == [True, True, False, True, False]
+        for lines in straightened(back, np.concatenate(faint)):
+            assert np.allclose(lines, np.round(lines), atol=1e-6)
+            assert np.diff(lines).min() == pytest.approx(1)
     assert {f"$S = {magnification}$", "40° N"} <= {label.text for label in page(name).labels}
 
 
