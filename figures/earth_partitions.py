@@ -21,7 +21,7 @@ import numpy as np
 
 from stereodel import SphereCircle, SphericalDelaunay, data, lonlat_to_xyz
 from stereodel.drawing import Page, View, with_legend
-from stereodel.drawing.page.style import BLUE, DARK_GRAY, GRAY, GREEN, VERMILION, DotStyle, LineStyle, with_opacity
+from stereodel.drawing.page.style import BLUE, DARK_GRAY, GREEN, VERMILION, DotStyle, LineStyle, with_opacity
 from stereodel.globe import Globe, Panel, panels
 from stereodel.render import Figure
 from stereodel.sphere import SphereArc, xyz_to_lonlat
@@ -37,7 +37,7 @@ OCEAN, LAND, COAST = (0.965, 0.975, 0.983, 1.0), (0.915, 0.915, 0.905, 1.0), Lin
 SEAM, EDGE = LineStyle(DARK_GRAY, 0.6), LineStyle(BLUE, 0.3)
 BUBBLE, BOX = LineStyle(VERMILION, 0.8), LineStyle(GREEN, 0.7)
 OTHERS = DotStyle(with_opacity(DARK_GRAY, 0.22), 0.42)  # where they are dense, a gray tint
-ALONE, OWN, READ = DotStyle(GRAY, 0.5), DotStyle(BLUE, 0.36), DotStyle(GREEN, 0.42)
+ALONE, OWN, READ = DotStyle(DARK_GRAY, 0.42), DotStyle(BLUE, 0.36), DotStyle(GREEN, 0.42)
 TINT = with_opacity(BLUE, 0.16)
 LEGEND = {
     "one partition, and its triangles": DotStyle(BLUE, 1.6),

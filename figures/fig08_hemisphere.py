@@ -26,7 +26,6 @@ SOUTH = np.array([0.0, 0.0, -1.0])
 SHOWN = [1, 2]  # the corners whose rays are drawn
 RECTANGLE, RAY = LineStyle(VERMILION, 0.6), LineStyle(VERMILION, 0.7, (3.0, 2.0))
 SHEETS = 1.0 + 0.02 * np.arange(5)  # sizes of the sheets, one on the other, that are the plane: its edge is soft
-SHEET = with_opacity(FILLS["plane"], FILLS["plane"][3] / len(SHEETS))
 
 
 def geometry() -> dict:
@@ -48,8 +47,8 @@ def geometry() -> dict:
     }
 
 
-def scene(g: dict) -> Scene:
-    """The ball behind the plane."""
+def scene(g: dict, sizes: np.ndarray = SHEETS) -> Scene:
+    """The ball behind the plane, which is sheets of these sizes."""
     radius = float(g["radius"])
     scene = Scene(radius=radius)
     scene.add_edges(g["lifted"], g["edges"], name="delaunay")
@@ -60,8 +59,9 @@ def scene(g: dict) -> Scene:
     scene.add_arcs(from_rows(g["sides"]), name="chord")
     scene.add_points(g["lifted"], name="sites")
     scene.add_points(g["corners"], name="points")
-    for size in SHEETS:
-        scene.add_flat_polygon(size * g["plane"] + (1 - size) * radius * SOUTH, name="plane", color=SHEET)
+    tint = with_opacity(FILLS["plane"], FILLS["plane"][3] / len(sizes))
+    for size in sizes:
+        scene.add_flat_polygon(size * g["plane"] + (1 - size) * radius * SOUTH, name="plane", color=tint)
     scene.add_outline(g["plane"], name="rectangle", style=RECTANGLE)
     scene.add_segments(radius * g["corners"][SHOWN], g["plane"][SHOWN], name="ray", style=RAY)
     scene.add_space_points(g["plane"][SHOWN], name="corner", style=DOTS["points"])
@@ -76,8 +76,8 @@ def draw(g: dict) -> Page:
 
 
 def solid(g: dict) -> Solid:
-    """All of it in space."""
-    return Solid(draw(g), [scene(g).placed(VIEW)])
+    """All of it in space, where sheets in one plane would flicker: a single one."""
+    return Solid(draw(g), [scene(g, SHEETS[:1]).placed(VIEW)])
 
 
 FIGURE = Figure("fig08_hemisphere", geometry, draw, in_space=solid)
