@@ -25,7 +25,7 @@ VIEW = View(66, -55)
 SOUTH = np.array([0.0, 0.0, -1.0])
 SHOWN = [1, 2]  # the corners whose rays are drawn
 RECTANGLE, RAY = LineStyle(VERMILION, 0.6), LineStyle(VERMILION, 0.7, (3.0, 2.0))
-SHEETS = 1.0 + 0.02 * np.arange(5)  # sizes of the sheets, one on the other, that are the plane: its edge is soft
+SHEETS = 1.0 + 0.025 * np.arange(4)  # sizes of the sheets, one on the other, that are the plane: its edge is soft
 
 
 def geometry() -> dict:
