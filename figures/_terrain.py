@@ -1,8 +1,10 @@
 """Relief by a formula, the points that a triangulated network keeps of it, and how its facets are lit and cut."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from itertools import pairwise
 
 import numpy as np
+from _chart import Chart
 
 from stereodel import PlanarDelaunay, SphericalDelaunay
 from stereodel.drawing import LineStyle, Sketch
@@ -11,24 +13,26 @@ from stereodel.interpolation import LinearInterpolator
 
 Network = PlanarDelaunay | SphericalDelaunay
 
+KEY, KEY_STEPS = (5.0, 0.22), 60  # width and height of a key of heights, cm, and its steps
 OCTAVES, WAVES = 5, 6  # of the formula; plane waves of each octave
 
 TINTS = np.array(
     [
-        [-1.0, 0.56, 0.70, 0.80],
-        [0.0, 0.80, 0.88, 0.92],
-        [0.0, 0.72, 0.80, 0.66],
-        [0.4, 0.88, 0.87, 0.70],
-        [0.85, 0.86, 0.76, 0.60],
-        [1.3, 0.78, 0.70, 0.64],
-        [1.75, 0.98, 0.98, 0.98],
+        [-1.0, 0.50, 0.70, 0.85],
+        [0.0, 0.78, 0.90, 0.96],
+        [0.0, 0.62, 0.79, 0.58],
+        [0.3, 0.83, 0.88, 0.66],
+        [0.7, 0.97, 0.91, 0.68],
+        [1.2, 0.94, 0.80, 0.64],
+        [1.75, 1.0, 0.99, 0.97],
     ]
 )
 """Heights and their colours, linear in between; the sea ends and the land begins at 0."""
 
-EDGE = LineStyle(with_opacity(BLACK, 0.3), 0.25)
-CONTOUR = LineStyle((0.42, 0.25, 0.1, 0.9), 0.3)
-COAST = LineStyle((0.10, 0.30, 0.45, 1.0), 0.6)
+SHADOW = np.array([1.2, 1.05, 0.6])  # how fast red, green and blue darken: shadows are cool
+EDGE = LineStyle(with_opacity(BLACK, 0.28), 0.2)
+CONTOUR = LineStyle((0.30, 0.16, 0.05, 1.0), 0.3)
+COAST, DEPTH = LineStyle((0.05, 0.26, 0.45, 1.0), 0.7), LineStyle((0.05, 0.26, 0.45, 1.0), 0.3)
 
 
 def relief(points: np.ndarray, wavelength: float, seed: int) -> np.ndarray:
@@ -112,14 +116,34 @@ def brightness(corners: np.ndarray, light: np.ndarray) -> np.ndarray:
     a, b, c = np.moveaxis(corners, 1, 0)
     normals = np.cross(b - a, c - a)
     normals /= np.linalg.norm(normals, axis=1, keepdims=True)
-    return 0.5 + 0.62 * np.clip((normals * light).sum(axis=1), 0, 1)
+    return 0.70 + 0.42 * np.clip((normals * light).sum(axis=1), 0, 1)
 
 
 def tint(height: float, light: float) -> tuple[float, float, float, float]:
-    """The colour of a height in that light."""
+    """The colour of a height in that light, which the sea takes little of: it has a colour of its own."""
     stops = TINTS[:2] if height < 0 else TINTS[2:]
-    red, green, blue = (min(1.0, light * float(np.interp(height, stops[:, 0], stops[:, k]))) for k in (1, 2, 3))
+    color = np.array([np.interp(height, stops[:, 0], stops[:, k]) for k in (1, 2, 3)])
+    red, green, blue = np.minimum(color * light ** (SHADOW / 2 if height < 0 else SHADOW), 1.0).tolist()
     return (red, green, blue, 1.0)
+
+
+def contour_style(level: float) -> LineStyle:
+    """The line of a height, of the sea's shore, of a depth."""
+    return COAST if level == 0 else CONTOUR if level > 0 else DEPTH
+
+
+def add_key(
+    sketch: Sketch, corner: tuple[float, float], ends: tuple[float, float], at: Sequence[float], unit: float, name: str
+) -> None:
+    """The tints of heights from one end to another, numbers below at some of them, and the name of their unit."""
+    chart, heights = Chart(corner, KEY, ends, (0.0, 1.0)), np.linspace(*ends, KEY_STEPS + 1)
+    for low, high in pairwise(heights):  # each step is covered by the next, so that there are no seams
+        box = [(low, 0), (ends[1], 0), (ends[1], 1), (low, 1)]
+        sketch.add_polygon(chart.place(box), name="key", color=tint((low + high) / 2, 1.0))
+    outline = [(ends[0], 0), (ends[1], 0), (ends[1], 1), (ends[0], 1)]
+    sketch.add_polyline(chart.place(outline), closed=True, name="frame")
+    chart.add_x_ticks(sketch, {height: f"{unit * height:g}".replace("-", "\N{MINUS SIGN}") for height in at}, "")
+    sketch.add_label(chart.place((ends[1], 0.5)), name, (5, 0), align="left")
 
 
 def add_facets(sketch: Sketch, g: dict, places: np.ndarray, light: np.ndarray) -> None:

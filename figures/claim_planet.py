@@ -2,9 +2,9 @@
 Claim P22: a planet as a triangulated irregular network
 =======================================================
 
-A network on the sphere: 450 points of a planet with heights. Left, the Delaunay triangulation, with tints, edges and
-contours on the sphere; all lines are arcs of great circles. Right, the planet rotated, with its facets in space and
-heights exaggerated.
+A network on the sphere: 450 points of a planet of radius 3000 km with heights. Left, the Delaunay triangulation, with
+tints, edges and contours, 2 km apart, on the sphere; all lines are arcs of great circles. Right, the planet rotated,
+with its facets in space and heights exaggerated 60 times. Light comes from the upper left, wherever one stands.
 
 The facets are painted from back to front in the order of n·v / d, where v is the direction to the viewer and n·x = d
 the plane of the facet of the convex hull, before any point was raised. From a facet to the one in front of it across an
@@ -15,7 +15,7 @@ Chosen by us: the relief, a formula rather than a real planet, the number of poi
 """
 
 import numpy as np
-from _terrain import COAST, CONTOUR, EDGE, add_facets, brightness, cut_at_sea, keep_points, relief, tint
+from _terrain import EDGE, add_facets, add_key, brightness, contour_style, cut_at_sea, keep_points, relief, tint
 
 from stereodel import SphericalDelaunay
 from stereodel.drawing import CircleArc, Page, Scene, Sketch, View
@@ -26,13 +26,14 @@ from stereodel.render import Figure
 POINTS, FIRST, CANDIDATES = 450, 120, 9000
 SEED, WAVELENGTH = 11, 1.3
 STEP = 0.4  # between contours
-STEEP = 0.09
+STEEP = 0.1
 """Radii for a unit of height."""
+RADIUS_KM, KM = 3000.0, 5.0  # and km for that unit
 
 VIEW, SIDEWAYS = View(35, 20), View(75, -12)
-LIGHT = np.array([-1.0, 1.0, 1.4]) / np.sqrt(3.96)  # right, up and toward the viewer
-PITCH = 2.3  # radii, between the middles of the two globes
-EXTENT = (-1.04, PITCH + 1.13, -1.12, 1.12)
+LIGHT = np.array([-1.0, 1.0, 1.4]) / np.sqrt(3.96)  # on the whole of the body in space: right, up, toward the viewer
+RADIUS, PLACES = 3.75, np.array([[3.95, 5.05], [12.75, 5.05]])  # of the globes on the page, and their middles, cm
+EXTENT, KEY, WORDS = (0.0, 17.0, 0.0, 9.15), (1.4, 0.55), (12.75, 0.62)
 
 
 def geometry() -> dict:
@@ -68,10 +69,13 @@ def spiral(count: int) -> np.ndarray:
 
 def draw(g: dict) -> Page:
     """The network on the sphere and its facets in space."""
-    sketch = Sketch().add_items(globe(g).layout(VIEW))
-    places = SIDEWAYS.project(raised(g)) + [PITCH, 0.0]
-    light = brightness(raised(g)[g["triangles"]], SIDEWAYS.matrix.T @ LIGHT)
-    add_facets(sketch, g, places, light)
+    at = tuple(PLACES[0].tolist())
+    sketch = Sketch().add_items(globe(g).layout(VIEW, at=at, scale=RADIUS))
+    lamps = (local_light(g["middles"], SIDEWAYS) + SIDEWAYS.matrix.T @ LIGHT) / 2  # relief, and that it is round
+    light = brightness(raised(g)[g["triangles"]], lamps)
+    add_facets(sketch, g, PLACES[1] + RADIUS * SIDEWAYS.project(raised(g)), light)
+    add_key(sketch, KEY, (-0.5, 1.8), (-0.4, 0.0, 0.4, 0.8, 1.2, 1.6), KM, "km")
+    sketch.add_label(WORDS, f"heights exaggerated {STEEP * RADIUS_KM / KM:g} times")
     return sketch.page(EXTENT, width=PRINT_WIDTH)
 
 
@@ -83,7 +87,7 @@ def raised(g: dict) -> np.ndarray:
 def globe(g: dict) -> Scene:
     """Tints, edges and contours on the side of the sphere that is seen."""
     scene, points, toward = Scene(), g["points"], VIEW.matrix[2]
-    light = brightness(raised(g)[g["triangles"]], local_light(g["middles"]))
+    light = brightness(raised(g)[g["triangles"]], local_light(g["middles"], VIEW))
     for facet, triangle in enumerate(g["triangles"]):
         if (points[triangle] @ toward > 0).any():
             for polygon, height in cut_at_sea(points[triangle], g["heights"][triangle]):
@@ -94,13 +98,13 @@ def globe(g: dict) -> Scene:
     for line, level in zip(np.split(g["contours"], np.cumsum(g["sizes"])[:-1]), g["levels"], strict=True):
         pairs = np.column_stack([np.arange(len(line) - 1), np.arange(1, len(line))])
         pairs = pairs[(line @ toward)[pairs].max(axis=1) > 0]
-        scene.add_edges(line, pairs, name="contour", style=COAST if level == 0 else CONTOUR)
+        scene.add_edges(line, pairs, name="contour", style=contour_style(level))
     return scene
 
 
-def local_light(up: np.ndarray) -> np.ndarray:
+def local_light(up: np.ndarray, view: View) -> np.ndarray:
     """Light from the upper left of the page as it falls at points (m, 3) of a map wrapped round the ball."""
-    right, top, _ = VIEW.matrix
+    right, top, _ = view.matrix
     along = (top - right) - (up @ (top - right))[:, None] * up
     light = along / np.linalg.norm(along, axis=1, keepdims=True) + up
     return light / np.linalg.norm(light, axis=1, keepdims=True)

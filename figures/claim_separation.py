@@ -104,6 +104,7 @@ def add_words(sketch: Sketch, g: dict) -> None:
     MAIN.add_x_ticks(sketch, {value: fraction(value) for value in (0, 0.25, 0.5, 0.75, 1)}, "distance  $d/D$")
     ticks = {value: fraction(value) for value in (0.5, 0.75, 1.0)} | {low: r"$2/\pi$", high: r"$4/\pi$"}
     MAIN.add_y_ticks(sketch, dict(sorted(ticks.items())), r"$c$ = angle / $(d/D)\,180°$", gap=27.0)
+    sketch.add_segment(*SIDE.place([(1.0, low), (1.0, high)]), name="axis")
     lengths = {value * high: fraction(value) for value in (0.5, 0.75, 1.0)}
     SIDE.add_y_ticks(sketch, lengths, "geodesic of the sphere / segment", right=True)
     for at, text, offset, align, color in (

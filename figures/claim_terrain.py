@@ -4,8 +4,8 @@ Claim P22: terrain as a triangulated irregular network
 
 A relief stored as 400 points with heights. They were selected in rounds from a grid of 145 by 97, where the error of
 the network was largest, so that they are dense where the terrain is rough. Left, the map: the facets of the Delaunay
-triangulation lit from the upper left, its edges, and contours of the function that is linear on each triangle. Right,
-the same facets in space, heights exaggerated.
+triangulation lit from the upper left, its edges, and contours of the function that is linear on each triangle, 125 m
+apart. Right, the same facets in space, heights exaggerated six times.
 
 No depth buffer is used. The facets are painted from back to front in the order of the circumcentres of
 their triangles along the line of sight: across an edge the circumcentre of the Delaunay triangle in front is never
@@ -15,7 +15,7 @@ Chosen by us: the relief, a formula rather than a real place, the number of poin
 """
 
 import numpy as np
-from _terrain import COAST, CONTOUR, add_facets, brightness, keep_points, relief
+from _terrain import add_facets, add_key, brightness, contour_style, keep_points, relief, tint
 
 from stereodel import PlanarDelaunay
 from stereodel.drawing import LineStyle, Page, Sketch
@@ -26,15 +26,17 @@ from stereodel.render import Figure
 WIDTH, HEIGHT, COLUMNS, ROWS = 3.0, 2.0, 145, 97
 POINTS, SEED, WAVELENGTH = 400, 19, 1.6
 STEP = 0.125  # between contours
+KM, METRES = 20.0, 1000.0  # a unit of the map, and one of height
 STEEP = 0.3
 """Units of the map for a unit of height, in the light and in space."""
 
 LIGHT = np.array([-1.0, 1.0, 1.1]) / np.sqrt(3.21)
 AZIMUTH, ELEVATION = 24.0, 27.0  # degrees: where the viewer stands, from the south to the east, and how high
 BASE = -0.75  # height of the foot of the block
-SCALE, MAP, BLOCK = 2.55, (4.05, 2.8), (12.75, 2.9)  # cm for a unit of the map; the middles of both panels
-EXTENT = (0.0, 17.0, 0.0, 5.6)
-WALL = (0.62, 0.58, 0.54, 1.0)
+SCALE, MAP, BLOCK = 2.55, (4.05, 3.65), (12.75, 3.6)  # cm for a unit of the map; the middles of both panels
+EXTENT = (0.0, 17.0, 0.0, 6.3)
+KEY, BAR, WORDS = (0.25, 0.52), np.array([6.0, 1.5]), (12.75, 0.63)
+WALLS = (0.86, 0.83, 0.79, 1.0), (0.75, 0.71, 0.67, 1.0)
 
 
 def geometry() -> dict:
@@ -89,11 +91,15 @@ def draw(g: dict) -> Page:
     on_map, on_block = map_place(g["points"]), block_place(g["points"], g["heights"])
     add_facets(sketch, g, on_map, light)
     for points, level in zip(np.split(g["contours"], np.cumsum(g["sizes"])[:-1]), g["levels"], strict=True):
-        sketch.add_polyline(map_place(points), name="contour", style=COAST if level == 0 else CONTOUR)
+        sketch.add_polyline(map_place(points), name="contour", style=contour_style(level))
     corners = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]]) * [WIDTH / 2, HEIGHT / 2]
     sketch.add_polyline(map_place(corners), closed=True, name="frame")
     add_facets(sketch, g, on_block, light)
     add_walls(sketch, g)
+    add_key(sketch, KEY, (-0.25, 1.9), (0.0, 0.5, 1.0, 1.5), METRES, "m above the sea")
+    halo = {"halo": 1.5, "halo_color": tint(-0.12, 1.0)}
+    sketch.add_dimension(BAR, BAR + [SCALE / 2, 0.0], f"{KM / 2:g} km", name="frame", **halo)
+    sketch.add_label(WORDS, f"heights exaggerated {1000 * KM * STEEP / METRES:g} times")
     return sketch.page(EXTENT, width=PRINT_WIDTH)
 
 
@@ -106,7 +112,7 @@ def add_walls(sketch: Sketch, g: dict) -> None:
         points, heights = g["points"][on_side], g["heights"][on_side]
         foot = block_place(points[[-1, 0]], np.full(2, BASE))
         outline = np.concatenate([block_place(points, heights), foot])
-        sketch.add_polygon(outline, name="wall", color=WALL if axis else (0.72, 0.68, 0.63, 1.0))
+        sketch.add_polygon(outline, name="wall", color=WALLS[axis])
         sketch.add_polyline(outline, closed=True, name="wall", style=LineStyle((0.2, 0.18, 0.16, 1.0), 0.5))
 
 

@@ -2,13 +2,13 @@ r"""
 Claim P7: the facets that Theorem 1 leaves out
 ==============================================
 
-Left, 16 sites in the plane with their Delaunay triangulation. Right, the same sites lifted to a sphere, and the facets
-of their convex hull as spherical triangles. Facets whose closed bubble does not contain the projection pole o are the
-triangles of the plane (gray). The others (vermilion), two fewer than the sites on the boundary of the convex hull in
-the plane, close the hull around the pole and are not triangles of the plane.
+Left, eight sites in the plane with their Delaunay triangulation. Right, the same sites lifted to a sphere, and the
+facets of their convex hull as spherical triangles. Those whose closed bubble does not contain the projection pole o are
+kept: they are the triangles of the plane. The others (vermilion), two fewer than the sites on the boundary of the
+convex hull in the plane, are left out: they close the hull around the pole and are not triangles of the plane.
 
-One of them is tinted, and dashed in the plane. Its bubble (blue) is empty and contains o. In the plane, the exterior of
-the circle is empty, and all other sites are inside.
+One of these is outlined, and dashed in the plane. Its bubble (blue) is empty and contains o. In the plane, the exterior
+of the circle is empty, and all other sites are inside.
 
 Chosen by us: the sites and their seed, the size of the sphere, the facet and the view.
 """
@@ -16,29 +16,25 @@ Chosen by us: the sites and their seed, the size of the sphere, the facet and th
 import numpy as np
 from _sites import in_rectangle
 
-from stereodel import PlanarDelaunay, SphereCircle, SphericalDelaunay, Stereographic
-from stereodel.drawing import Fill, LineStyle, Page, Scene, Sketch, View, with_legend
-from stereodel.drawing.page.style import BLUE, GRAY, PRINT_WIDTH, VERMILION, with_opacity
+from stereodel import PlanarDelaunay, SphereCircle, SphericalDelaunay, Stereographic, lonlat_to_xyz
+from stereodel.drawing import Fill, LineStyle, Page, Scene, Sketch, View
+from stereodel.drawing.page.style import BLUE, LINES, PRINT_WIDTH, VERMILION, fainter, with_opacity
 from stereodel.drawing.scene.sketch import arc_path
 from stereodel.render import Figure
 from stereodel.triangulation import planar_part
 
-SITES, HULL, SIDE, MARGIN = 16, 8, 2.0, 0.05
-SEED = 861  # of the first 900 that whose sites are farthest from all lines that pass them
-RADIUS = 0.45  # of the sphere, in units of the map
+SITES, HULL, SIDE, MARGIN = 8, 6, 2.0, 0.05
+SEED = 2054  # no site is near a line through two others or near the circle, and no facet is narrow
+RADIUS = 0.25  # of the sphere, in units of the map
 POLE = np.array([0.0, 0.0, 1.0])
-VIEW = View(25, 38)
+VIEW = View(122, 40)
 PLANE, SCALE = (-2.4, 0.0), 0.8  # middle and scale of the map on the page
 WINDOW = 1.12  # half the side of the map, page units
 EXTENT = (-3.58, 1.16, -1.16, 1.16)
-KEPT, LEFT_OUT, CIRCLE = LineStyle(GRAY, 0.8), LineStyle(VERMILION, 1.1), LineStyle(BLUE, 1.1)
-MISSING = LineStyle(VERMILION, 0.9, (3.0, 2.0))
-LEGEND = {
-    "triangles of both": KEPT,
-    "facets left out": LEFT_OUT,
-    "the tinted facet": MISSING,
-    "its bubble": CIRCLE,
-}
+KEPT, LEFT_OUT, CIRCLE = LINES["delaunay"], LineStyle(VERMILION, 0.6), LineStyle(BLUE, 1.1)
+SHOWN, MISSING = LineStyle(VERMILION, 1.6), LineStyle(VERMILION, 0.9, (3.0, 2.0))
+WORDS = {"$o$": (0, 90), "left out": (108, 62), "kept": (119, 5)}  # and where they stand on the sphere, degrees
+TINT, WASH = fainter(VERMILION, 0.5), with_opacity(BLUE, 0.12)
 
 
 def geometry() -> dict:
@@ -71,7 +67,7 @@ def draw(g: dict) -> Page:
     sketch = Sketch()
     add_plane(sketch, g)
     sketch.add_items(sphere(g).layout(VIEW))
-    return with_legend(sketch.page(EXTENT, width=PRINT_WIDTH), LEGEND, columns=len(LEGEND), indent=12.0)
+    return sketch.page(EXTENT, width=PRINT_WIDTH)
 
 
 def add_plane(sketch: Sketch, g: dict) -> None:
@@ -81,7 +77,7 @@ def add_plane(sketch: Sketch, g: dict) -> None:
     x, y, radius = g["image"] * SCALE
     circle = arc_path(middle + [x, y], radius, 0.0, 360.0)
     frame = np.linspace(window, np.roll(window, -1, axis=0), 4, axis=1)
-    sketch.add_items([Fill((frame, circle), with_opacity(BLUE, 0.12), "outside")])
+    sketch.add_items([Fill((frame, circle), WASH, "outside")])
     sites = middle + SCALE * g["sites"]
     sketch.add_edges(sites, sides(g["triangles"]), name="delaunay", style=KEPT)
     sketch.add_polyline(sites[g["shown"]], closed=True, name="left_out", style=MISSING)
@@ -91,17 +87,20 @@ def add_plane(sketch: Sketch, g: dict) -> None:
 
 
 def sphere(g: dict) -> Scene:
-    """The lifted sites on a glass ball, with the facets that are left out and the bubble of one of them."""
-    scene = Scene(style="glass")
+    """The lifted sites on a ball, with the facets that are left out and the bubble of one of them."""
+    scene, lifts = Scene(), g["lifts"]
     circle = SphereCircle(g["circle"][:3], float(g["circle"][3]))
-    scene.add_cap(circle, name="bubble", color=with_opacity(BLUE, 0.16))
-    scene.add_patch(g["lifts"][g["shown"]], name="left_out", color=with_opacity(VERMILION, 0.25))
-    scene.add_edges(g["lifts"], sides(g["facets"]), name="delaunay", style=KEPT)
-    scene.add_edges(g["lifts"], sides(g["left_out"]), name="left_out", style=LEFT_OUT)
+    scene.add_cap(circle, name="bubble", color=WASH)
+    for corners in g["left_out"]:
+        scene.add_patch(lifts[corners], name="left_out", color=TINT)
+    scene.add_edges(lifts, sides(g["facets"]), name="delaunay", style=KEPT)
+    scene.add_edges(lifts, sides(g["left_out"]), name="left_out", style=LEFT_OUT)
     scene.add_circles([circle], style=CIRCLE)
-    scene.add_points(g["lifts"], name="sites")
+    scene.add_edges(lifts, sides(g["shown"][None]), name="shown", style=SHOWN)
+    scene.add_points(lifts, name="sites")
     scene.add_points(POLE[None], name="pole")
-    scene.add_label(POLE, "$o$", offset=(6, 5), size=11.0)
+    for word, place in WORDS.items():
+        scene.add_label(lonlat_to_xyz(place), word, offset=(6, 5) if place[1] == 90 else (0, 0), size=11.0)
     return scene
 
 

@@ -3,15 +3,15 @@ Partitions, and bubbles that reach out of them
 ==============================================
 
 How `stereodel.partitioned` triangulates more points than memory holds, shown with 28 298 airports in 16 partitions.
-Left: planes halve the points again and again; of the partitions that they leave one is followed, with 1769 airports in
-the south of South America (blue). Middle, its first round: its own points are read, and a single one (gray) of each of
-512 boxes, which are as small as their points allow. Triangles are final whose empty bubble meets no box that is still
-unread; drawn are the 222 bubbles that meet one, and the 34 boxes that they meet (orange). Right, its second round: the
-points of these boxes are read, too (vermilion), and the last 184 of its own points get their triangles. They are those
-that the airports of the whole Earth have together.
+Cut: planes halve the points again and again; of the partitions that they leave one is followed, with 1769 airports in
+the south of South America (blue). Ask: its own points are read, and a single one (gray) of each of 512 boxes, which are
+as small as their points allow. Triangles are final whose empty bubble meets no box that is still unread; 222 bubbles
+meet one. Drawn are twelve of them (vermilion), and of the 34 boxes that all of them meet those that these reach
+(green). Answer: the points of all these boxes are read, too (green), and the last 184 of its own points get their
+triangles (blue). They are those that the airports of the whole Earth have together.
 
-Chosen by us: the partition, and how often points are halved. Of a box its part of the sphere is drawn, which arcs of
-circles bound.
+Chosen by us: the partition, how often points are halved, and the bubbles that are drawn. Of a box its part of the
+sphere is drawn, which arcs of circles bound.
 """
 
 from collections.abc import Iterator
@@ -21,7 +21,7 @@ import numpy as np
 
 from stereodel import SphereCircle, SphericalDelaunay, data, lonlat_to_xyz
 from stereodel.drawing import Page, View, with_legend
-from stereodel.drawing.page.style import BLUE, DARK_GRAY, ORANGE, VERMILION, DotStyle, LineStyle, with_opacity
+from stereodel.drawing.page.style import BLUE, DARK_GRAY, GREEN, VERMILION, DotStyle, LineStyle, with_opacity
 from stereodel.globe import Globe, Panel, panels
 from stereodel.render import Figure
 from stereodel.sphere import SphereArc, xyz_to_lonlat
@@ -32,18 +32,17 @@ PARTITIONS, BOXES = 4, 5  # how often all points are halved, and then those of a
 SPACE = np.array([[-1.0, -1.0, -1.0], [1.0, 1.0, 1.0]])  # low and high corner
 STEPS = 33  # points of an arc
 SAME = 1e-9  # distance of two computed ends of arcs that are one
-OCEAN, LAND, COAST = (0.955, 0.968, 0.978, 1.0), (0.895, 0.895, 0.885, 1.0), LineStyle((0.6, 0.63, 0.66, 1.0), 0.3)
-SEAM, EDGE, BUBBLE = LineStyle(DARK_GRAY, 0.6), LineStyle(BLUE, 0.25), LineStyle(VERMILION, 0.3)
-ALL, FAR = DotStyle(DARK_GRAY, 0.36), DotStyle(DARK_GRAY, 0.6)
-OWN, NEW = DotStyle(BLUE, 0.42), DotStyle(VERMILION, 0.42)
-TINT, BOX, RIM = with_opacity(BLUE, 0.16), with_opacity(ORANGE, 0.4), LineStyle(with_opacity(ORANGE, 0.9), 0.3)
+SHOWN, WIDEST = 12, 24.0  # of the bubbles that meet a box, and the largest angular radius of these, degrees
+OCEAN, LAND, COAST = (0.965, 0.975, 0.983, 1.0), (0.915, 0.915, 0.905, 1.0), LineStyle((0.68, 0.70, 0.72, 1.0), 0.3)
+SEAM, EDGE = LineStyle(DARK_GRAY, 0.6), LineStyle(BLUE, 0.3)
+BUBBLE, BOX = LineStyle(VERMILION, 0.8), LineStyle(GREEN, 0.7)
+OTHERS = DotStyle(with_opacity(DARK_GRAY, 0.22), 0.42)  # where they are dense, a gray tint
+ALONE, OWN, READ = DotStyle(DARK_GRAY, 0.42), DotStyle(BLUE, 0.36), DotStyle(GREEN, 0.42)
+TINT = with_opacity(BLUE, 0.16)
 LEGEND = {
-    "its own points": DotStyle(BLUE, 1.4),
-    "one point of a box": DotStyle(DARK_GRAY, 1.4),
-    "points read next": DotStyle(VERMILION, 1.4),
-    "its triangles": LineStyle(BLUE, 0.6),
-    "bubbles that meet a box": LineStyle(VERMILION, 0.8),
-    "boxes that they meet": BOX,
+    "one partition, and its triangles": DotStyle(BLUE, 1.6),
+    "bubbles that reach into boxes": BUBBLE,
+    "these boxes, and their points": BOX,
 }
 
 
@@ -120,10 +119,20 @@ def geometry() -> dict:
         "alone": np.array([rows[0] for rows in members]),
         "planes": first["planes"],
         "boxes": first["boxes"],
+        "shown": chosen(first["planes"]),
         "new": np.concatenate([members[box] for box in np.flatnonzero(first["touched"])]),
         "last": second["pending"],
         "triangles": np.concatenate([first["final"], second["final"]]),
     }
+
+
+def chosen(planes: np.ndarray) -> np.ndarray:
+    """Rows of some bubbles in sight, far from one another: each the one farthest from all before it."""
+    rows = np.flatnonzero((VIEW.depth(planes[:, :3]) > 0.2) & (planes[:, 3] > np.cos(np.radians(WIDEST))))
+    found = [int(np.argmin(planes[rows, 3]))]
+    while len(found) < SHOWN:
+        found.append(int(np.argmin((planes[rows, :3] @ planes[rows[found], :3].T).max(axis=1))))
+    return rows[found]
 
 
 def outline(room: np.ndarray) -> list[SphereArc]:
@@ -176,26 +185,28 @@ def polygons(arcs: list[SphereArc]) -> list[list[np.ndarray]]:
 def draw(g: dict) -> Page:
     """Three globes: all partitions, and the two rounds of one."""
     own, points = polygons(outline(g["room"])), g["points"]
-    cut, first, second = (ground(own) for _ in range(3))
-    for room in g["rooms"]:
-        for arc in outline(room):
-            steps = arc.sample(STEPS)
-            cut.add_great_circles(steps[:-1], steps[1:], style=SEAM, name="seams")
-    cut.add_points(np.delete(points, g["own"], axis=0), style=ALL, name="airports")
-    first.add_polygons(
-        [polygon for box in g["boxes"] for polygon in polygons(outline(box))], color=BOX, outline=RIM, name="boxes"
-    )
-    circles = [SphereCircle(plane[:3], plane[3]) for plane in g["planes"]]
-    first.add_circles(circles, color=None, style=BUBBLE, name="bubbles")
-    first.add_points(points[np.setdiff1d(g["alone"], g["own"])], style=FAR, name="one_of_a_box")
+    cut, ask, answer = (ground(own) for _ in range(3))
+    add_outlines(cut, g["rooms"], SEAM, "seams")
+    cut.add_points(np.delete(points, g["own"], axis=0), style=OTHERS, name="airports")
+    planes = g["planes"][g["shown"]]
+    add_outlines(ask, g["boxes"][meet(planes, g["boxes"]).any(axis=0)], BOX, "boxes")
+    ask.add_circles([SphereCircle(plane[:3], plane[3]) for plane in planes], color=None, style=BUBBLE, name="bubbles")
+    ask.add_points(points[np.setdiff1d(g["alone"], g["own"])], style=ALONE, name="one_of_a_box")
     pairs = np.unique(np.sort(g["triangles"][:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1), axis=0)
-    second.add_great_circles(points[pairs[:, 0]], points[pairs[:, 1]], style=EDGE, name="triangles")
-    second.add_points(points[g["new"]], style=NEW, name="read")
-    for globe in (cut, first, second):
+    answer.add_great_circles(points[pairs[:, 0]], points[pairs[:, 1]], style=EDGE, name="triangles")
+    answer.add_points(points[g["new"]], style=READ, name="read")
+    for globe in (cut, ask, answer):
         globe.add_points(points[g["own"]], style=OWN, name="own")
-    titles = {f"{len(g['rooms'])} partitions": cut, "first round of one": first, "its second round": second}
-    page = panels([Panel(globe, view=VIEW, title=title) for title, globe in titles.items()])
-    return with_legend(page, LEGEND, columns=3, indent=40.0)
+    titles = (f"Cut: {len(g['rooms'])} partitions", "Ask: bubbles of one", "Answer: points of the boxes")
+    globes = zip((cut, ask, answer), titles, strict=True)
+    page = panels([Panel(globe, view=VIEW, title=title) for globe, title in globes])
+    return with_legend(page, LEGEND, columns=3, indent=12.0)
+
+
+def add_outlines(globe: Globe, boxes: np.ndarray, style: LineStyle, name: str) -> None:
+    """What bounds the parts of the sphere of boxes."""
+    steps = np.array([arc.sample(STEPS) for box in boxes for arc in outline(box)])
+    globe.add_great_circles(steps[:, :-1].reshape(-1, 3), steps[:, 1:].reshape(-1, 3), style=style, name=name)
 
 
 def ground(own: list[list[np.ndarray]]) -> Globe:

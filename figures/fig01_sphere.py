@@ -20,8 +20,8 @@ from stereodel.drawing.page.style import DOTS, FILLS, GRAY, LINES
 from stereodel.render import Figure
 
 SITES, SEED = 60, 52
-VIEW = View(20, 25)
-MARKED = (28.0, 19.0)  # degrees: a point of the triangle that is marked
+VIEW = View(55, 30)
+MARKED = (63.8, 39.7)  # degrees: a point of the triangle that is marked
 HEAVY = LineStyle(GRAY, 2.0)
 
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from stereodel import lonlat_to_xyz
 from stereodel.drawing import Layer, LineStyle, Page, Scene, Sketch, Solid, View
-from stereodel.drawing.page.style import LINES, MAP_LINES, VERMILION
+from stereodel.drawing.page.style import BLACK, LINES, MAP_LINES, VERMILION
 from stereodel.render import Figure
 from stereodel.sphere import graticule
 
@@ -22,6 +22,7 @@ VIEW = View(26, 12)
 NAMES = (("$a$", (-9, -4), 0.0), ("$b$", (9, -5), 0.0), ("$c$", (3, 9), 0.0), ("$O$", (-9, 7), 1.0))
 SPACING = 30  # degrees
 GRATICULE = MAP_LINES["graticule"].scaled(1.3)  # darker than usual: it is seen through the ball
+RADIUS = LineStyle(BLACK, 0.9, LINES["construction"].dash)  # seen through the triangle
 HATCH, LINES_OF_HATCH = LineStyle(VERMILION, 0.4), 24
 HALO = (0.80, 0.90, 0.96, 1.0)  # as the triangle on the ball
 
@@ -38,7 +39,7 @@ def scene(g: dict) -> Scene:
     steps = np.linspace(0, 1, LINES_OF_HATCH + 2)[1:-1, None]
     scene = Scene(style="glass")
     scene.add_arcs(graticule(SPACING), name="graticule", style=GRATICULE)
-    scene.add_segments(np.zeros(3), vertices, name="radius", style=LINES["construction"])
+    scene.add_segments(np.zeros(3), vertices, name="radius", style=RADIUS)
     scene.add_segments(a + steps * (c - a), b + steps * (c - b), name="hatch", style=HATCH)
     scene.add_patch(vertices, name="triangle")
     scene.add_segments(vertices, vertices[[1, 2, 0]], name="chord", layer=Layer.LINE)

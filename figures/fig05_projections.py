@@ -18,20 +18,20 @@ from stereodel.drawing.page.style import LINES
 from stereodel.render import Figure
 
 PANELS = {  # tangent point; centre and angular radius of the circle; directions of its points, all in degrees
-    "normal": ((0.0, -90.0), (10.0, -66.0), 52.0, (118.0, 168.0, 235.0)),
+    "normal": ((20.0, -90.0), (10.0, -66.0), 52.0, (118.0, 168.0, 235.0)),
     "oblique": ((100.0, -42.0), (92.0, -32.0), 48.0, (215.0, 285.0, 325.0)),
 }
 NAMES = {"normal": ("$N$", "$S$"), "oblique": ("$-t$", "$t$")}
 LABELS = {  # which of the points is called p; where the four names stand, in points
     "normal": (1, ((-8, 7), (-8, 4), (-6, 6), (-15, 4))),
-    "oblique": (0, ((-7, 7), (8, -7), (-11, -7), (-13, -6))),
+    "oblique": (2, ((-7, 7), (6, -5), (-8, -5), (-4, -10))),
 }
 SIDE = {"normal": 1, "oblique": 3}  # the corner of the plane to which a side of the right angle points
 CORNER = 0.12  # side of the mark of a right angle
 VIEW = View(0, 18)
 HALF_SIDE = {"normal": 1.75, "oblique": 1.5}  # of the square of the plane that is drawn
-PITCH = 3.55
-EXTENT = (-1.82, PITCH + 2.02, -2.47, 1.26)
+PITCH = 3.85
+EXTENT = (-2.27, PITCH + 2.02, -2.47, 1.26)
 
 
 def geometry() -> dict:

@@ -4,10 +4,11 @@ Figure 8: Inverse stereographic projection to hemisphere (as seen through a tran
 
 The sites of Figure 7 lifted to the tangent sphere whose diameter is half the diagonal of the rectangle. Only vertices
 are lifted: Delaunay edges are rebuilt as great-circle arcs, Voronoi edges as perpendicular bisectors of them. The
-sides of the rectangle become arcs of circles (red) whose ends, the lifted corners (red dots), lie on the equator
-(dashed). One ray is shown, from a lifted corner to the corner; the plane touches the sphere at the south pole S.
+rectangle is drawn thin in the plane, which touches the sphere at the south pole S. Its sides become arcs of circles
+(heavy red) whose ends, the lifted corners (red dots), lie on the equator (dashed). From the two that are in sight, rays
+(dashed red) lead on to their corners; the others are behind the sphere.
 
-Chosen by us: the view from below, tilted so that the plane is seen as a sheet.
+Chosen by us: the view, from 55° below the equator, and that the plane goes on a little beyond the rectangle.
 """
 
 import numpy as np
@@ -15,14 +16,16 @@ from _arcs import from_rows, to_rows
 from _rectangle import CORNERS, lift, lifted_sides, sites
 
 from stereodel import PlanarDelaunay, SphericalVoronoi
-from stereodel.drawing import Page, Scene, Solid, View
-from stereodel.drawing.page.style import DOTS, LINES
+from stereodel.drawing import LineStyle, Page, Scene, Solid, View
+from stereodel.drawing.page.style import DOTS, FILLS, LINES, VERMILION, with_opacity
 from stereodel.render import Figure
 from stereodel.sphere import SphereCircle
 
-VIEW = View(0, -78)
+VIEW = View(66, -55)
 SOUTH = np.array([0.0, 0.0, -1.0])
-SHOWN = 2  # the corner whose ray is drawn
+SHOWN = [1, 2]  # the corners whose rays are drawn
+RECTANGLE, RAY = LineStyle(VERMILION, 0.6), LineStyle(VERMILION, 0.7, (3.0, 2.0))
+SHEETS = 1.0 + 0.025 * np.arange(4)  # sizes of the sheets, one on the other, that are the plane: its edge is soft
 
 
 def geometry() -> dict:
@@ -44,8 +47,8 @@ def geometry() -> dict:
     }
 
 
-def scene(g: dict) -> Scene:
-    """The ball behind the plane."""
+def scene(g: dict, sizes: np.ndarray = SHEETS) -> Scene:
+    """The ball behind the plane, which is sheets of these sizes."""
     radius = float(g["radius"])
     scene = Scene(radius=radius)
     scene.add_edges(g["lifted"], g["edges"], name="delaunay")
@@ -56,10 +59,12 @@ def scene(g: dict) -> Scene:
     scene.add_arcs(from_rows(g["sides"]), name="chord")
     scene.add_points(g["lifted"], name="sites")
     scene.add_points(g["corners"], name="points")
-    scene.add_flat_polygon(g["plane"], name="plane")
-    scene.add_outline(g["plane"], name="plane")
-    scene.add_segments(radius * g["corners"][SHOWN], g["plane"][[SHOWN]], name="ray", style=LINES["chord"])
-    scene.add_space_points(g["plane"][[SHOWN]], name="corner", style=DOTS["points"])
+    tint = with_opacity(FILLS["plane"], FILLS["plane"][3] / len(sizes))
+    for size in sizes:
+        scene.add_flat_polygon(size * g["plane"] + (1 - size) * radius * SOUTH, name="plane", color=tint)
+    scene.add_outline(g["plane"], name="rectangle", style=RECTANGLE)
+    scene.add_segments(radius * g["corners"][SHOWN], g["plane"][SHOWN], name="ray", style=RAY)
+    scene.add_space_points(g["plane"][SHOWN], name="corner", style=DOTS["points"])
     scene.add_points(SOUTH[None], name="ring")
     scene.add_label(radius * SOUTH, "$S$", offset=(3, -9), always=True)
     return scene
@@ -67,12 +72,12 @@ def scene(g: dict) -> Scene:
 
 def draw(g: dict) -> Page:
     """What is seen through the plane."""
-    return scene(g).page(VIEW, extent=(-1.56, 1.56, -1.22, 0.95), width=340.0)
+    return scene(g).page(VIEW, extent=(-1.66, 1.66, -2.1, 1.07), width=340.0)
 
 
 def solid(g: dict) -> Solid:
-    """All of it in space."""
-    return Solid(draw(g), [scene(g).placed(VIEW)])
+    """All of it in space, where sheets in one plane would flicker: a single one."""
+    return Solid(draw(g), [scene(g, SHEETS[:1]).placed(VIEW)])
 
 
 FIGURE = Figure("fig08_hemisphere", geometry, draw, in_space=solid)

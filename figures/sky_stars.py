@@ -4,8 +4,9 @@ Every star its own sky
 
 The Voronoi cells of the 117 955 stars of the Hipparcos catalogue, on the half of the sky about the galactic anticentre,
 seen from inside, the galactic equator across the middle. Small cells are light: the Milky Way and Orion are visible by
-the number of their stars alone. The colour shows the mean area of a cell and its neighbours. The stars brighter than
-magnitude 4.5 are drawn in their own colours, with faint lines for some constellations.
+the number of their stars alone. The colour shows the area of a cell, smoothed: eight times in turn, each takes the mean
+of itself and its neighbours. The stars brighter than magnitude 4.5 are drawn in their own colours, with faint lines for
+some constellations.
 """
 
 from dataclasses import replace
@@ -22,9 +23,9 @@ from stereodel.render import Figure
 
 CENTER, POLE = (266.40499, -28.93617), (192.85948, 27.12825)  # of the galaxy, ICRS
 VIEW = View(180, 0)
-SCALE = ColorScale("bone_r", 0.06, 0.9, log=True)  # square degrees
-TICKS = (0.1, 0.2, 0.4, 0.8)
-BRIGHT, SMOOTHED = 4.5, 1
+SCALE = ColorScale("bone_r", 0.14, 0.64, log=True)  # square degrees
+TICKS = (0.15, 0.2, 0.3, 0.4, 0.6)
+BRIGHT, SMOOTHED = 4.5, 8
 NIGHT, INK = (0.02, 0.022, 0.035, 1.0), (0.9, 0.9, 0.92, 1.0)
 NAMES = {
     "above": {24608: "Capella", 21421: "Aldebaran", 37279: "Procyon", 37826: "Pollux"},
@@ -42,6 +43,8 @@ FIGURES = {
     "Cassiopeia": [(8886, 6686, 4427, 3179, 746)],
 }
 """Constellations about the anticentre, from star to star by their numbers in the catalogue."""
+NAMED = {"Orion": (36.0, 0.0), "Auriga": (0.0, 0.0)}
+"""Those that are named, and how far from their middle, points."""
 OFFSETS = {"above": (0.0, 5.0), "right": (5.0, 0.0), "below": (0.0, -5.0)}
 
 
@@ -103,6 +106,10 @@ def draw(g: dict) -> Page:
     for place, names in NAMES.items():
         stars = [int(np.flatnonzero(data.stars().hip == hip)[0]) for hip in names]
         globe.add_labels(g["points"][stars], names.values(), offset=OFFSETS[place], size=8.0, color=INK, halo=0.0)
+    for name, offset in NAMED.items():
+        stars = np.isin(data.stars().hip, np.concatenate(FIGURES[name]))
+        middle, text = g["points"][stars].mean(axis=0), rf"$\mathit{{{name}}}$"
+        globe.add_labels(middle, [text], offset=offset, size=11.0, color=INK, halo=0.0, formulas=True)
     count = spaced(len(g["areas"]))
     subtitle = f"{count} stars of the Hipparcos catalogue, each with the part of the sky that is nearest to it"
     credit = (

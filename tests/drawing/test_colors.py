@@ -51,6 +51,7 @@ test_what_is_no_colour_or_scale_is_named = refused(
     (DotStyle, ("k", 1.0, "sky"), "rim is 'sky'"),
     (LineStyle, ("k", -1.0), "width"),
     (ColorScale, ("sunset", 0.0, 1.0), "name is 'sunset', which is not a colour map of matplotlib"),
+    (ColorScale, (["k", "sky"], 0.0, 1.0), "name is 'sky', which is not a colour"),
     (ColorScale, ("viridis", 1.0, 1.0), "high is 1.0"),
     (ColorScale, ("viridis", 0.0, 1.0, True), "low is 0.0"),
     (ColorScale, ("viridis", np.nan, 1.0), "low is nan"),
@@ -79,6 +80,8 @@ def test_places_on_scales_and_their_colours():
     np.testing.assert_allclose(ColorScale("viridis", 0.0, 1000.0).place([0.0, 250.0, 2000.0, -1.0]), [0, 0.25, 1, 0])
     values = np.linspace(-1, 1, 20).reshape(4, 5)
     np.testing.assert_array_equal(ColorScale("magma", -1.0, 1.0)(values), colormaps["magma"](values / 2 + 0.5)[..., :3])
+    own = ColorScale(["k", (1.0, 0.5, 0.0), "w"], 0.0, 2.0)
+    np.testing.assert_allclose(own([0.5, 1.0, 2.0]), [(0.5, 0.25, 0), (1, 0.5, 0), (1, 1, 1)], atol=5e-3)
 
 
 def test_legend():

@@ -13,7 +13,7 @@ from stereodel.sphere import SphereCircle, graticule_patch, xyz_to_lonlat
 from tests.figures.scripts import FOLDER, ROWS, arc_points, geometry, page, script
 from tests.tiers import by_day
 
-WORDS = {"three": 3, "four": 4, "five": 5, "six": 6, "eight": 8, "twenty": 20}
+WORDS = {"three": 3, "four": 4, "five": 5, "six": 6, "eight": 8, "twelve": 12, "twenty": 20}
 NUMBER = re.compile(
     r"(?P<digits>\d+(?: \d{3})*(?:\.\d+)?)(?P<million> million)?(?:/(?P<over>\d+))?"
     rf"|\b(?P<word>{'|'.join(WORDS)})\b(?P<half> and a half)?",
@@ -116,7 +116,9 @@ def truth(name):
         case "fig07_rectangle":
             (outline,) = [item for item in page(name).items if item.name == "outline"]
             return list(np.ptp(outline.path.reshape(-1, 2), axis=0))
-        case "fig08_hemisphere" | "anim_lift":
+        case "fig08_hemisphere":
+            return [-module["VIEW"].lat]
+        case "anim_lift":
             return []
         case "fig09_scale":
             x, y = g["point"]
@@ -128,7 +130,8 @@ def truth(name):
             hemisphere, back = SphereCircle((0, 40), 0.0), fisheye((0, 40), magnification=size).inverse()
             filled = [2 * half, 100 * share_of_hemisphere(size, half), back.image_of(hemisphere).angular_radius]
             filled = filled if name == "fig12_fisheye20" else []
-            return [views, size, coarse, fine, focus, size, *filled, half, hidden_up_to(size)]
+            between = [step] if (step := module["PANELS"].between) else []
+            return [views, size, coarse, fine, focus, size, *filled, half, hidden_up_to(size), *between]
         case "fig10_12_plate":
             sizes, views = [row.magnification for row in module["ROWS"]], len(page(name).views)
             focus = five_views("fig10_earth")["focus"]
@@ -149,7 +152,8 @@ def truth(name):
         case "anim_sites":
             return [len(module["changes"]()[0].before.sites)]
         case "claim_planet":
-            return [len(g["points"])]
+            exaggeration = module["STEEP"] * module["RADIUS_KM"] / module["KM"]
+            return [len(g["points"]), module["RADIUS_KM"], module["STEP"] * module["KM"], exaggeration]
         case "claim_projections":
             return [module["SITES"], module["REACH"], len(module["DRAWN"])]
         case "claim_scales":
@@ -159,14 +163,15 @@ def truth(name):
         case "claim_separation":
             return [module["DOTS"], 1 / 2, *lift_scales()[::-1], module["WIDTH"], module["HEIGHT"]]
         case "claim_terrain":
-            return [len(g["points"]), module["COLUMNS"], module["ROWS"]]
+            unit, grid = module["METRES"], (module["COLUMNS"], module["ROWS"])
+            return [len(g["points"]), *grid, module["STEP"] * unit, module["STEEP"] * 1000 * module["KM"] / unit]
         case "earth_airports":
             areas = g["areas"]
             return [len(areas), np.count_nonzero(areas == 0), areas[areas > 0].min(), areas.max(), module["NAMED"]]
         case "earth_cities":
             return [len(g["density"]), len(data.cities().population)]
         case "earth_partitions":
-            return [len(g[key]) for key in ("points", "rooms", "own", "alone", "planes", "boxes", "last")]
+            return [len(g[key]) for key in ("points", "rooms", "own", "alone", "planes", "shown", "boxes", "last")]
         case "globe_europe" | "globe_new_york":
             (letters,) = {len(code) for code in data.airports().iata.tolist() if code}
             radius = np.radians(g.get("radius", 0)) * earth.MEAN_RADIUS_KM
@@ -178,7 +183,7 @@ def truth(name):
             size = module["MAGNIFICATION"]
             return [module["RADIUS_KM"], size, size, module["SPACING"]]
         case "sky_stars":
-            return [len(data.stars().magnitude), module["BRIGHT"]]
+            return [len(data.stars().magnitude), module["SMOOTHED"], module["BRIGHT"]]
     raise AssertionError(f"{name} has a caption that nobody checks")
 
 

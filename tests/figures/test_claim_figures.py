@@ -1,7 +1,7 @@
 """What the pictures of claims without a figure of the paper show: computed once more, in another way."""
 
 import re
-from itertools import pairwise
+from itertools import combinations, pairwise
 
 import numpy as np
 import pytest
@@ -36,6 +36,21 @@ def test_the_circle_drawn_holds_no_site_on_the_sphere_and_all_in_the_plane():
     away = np.linalg.norm(g["sites"] - g["image"][:2], axis=1)
     assert away[g["shown"]] == pytest.approx(g["image"][2], rel=1e-12)
     assert (away[others] < g["image"][2]).all()
+
+
+def test_words_stand_on_facets_that_are_what_they_say_and_no_site_is_near_a_line():
+    module, g, drawn = script("claim_theorem"), geometry("claim_theorem"), page("claim_theorem")
+    for text, inside in (("left out", True), ("kept", False)):
+        place = lonlat_to_xyz(module["WORDS"][text])
+        corners = g["facets"][SphericalDelaunay(g["lifts"]).find_simplex(place)]
+        assert (set(corners) in map(set, g["left_out"])) == inside
+        assert text in {label.text for label in drawn.labels}
+    for start, end in combinations(g["sites"], 2):  # nothing looks degenerate that is not
+        way, left = (end - start) / np.linalg.norm(end - start), g["sites"] - start
+        away = np.abs(left @ [-way[1], way[0]])
+        assert np.sort(away)[2] * module["SCALE"] * drawn.points_per_unit > 6
+    away = np.abs(np.linalg.norm(g["sites"] - g["image"][:2], axis=1) - g["image"][2])
+    assert np.sort(away)[3] * module["SCALE"] * drawn.points_per_unit > 6
 
 
 # P12 and P13: claim_separation.
@@ -188,11 +203,16 @@ def test_triangles_are_those_of_all_airports_about_its_own():
     assert turned(g["triangles"]) == turned(whole[np.isin(whole, g["own"]).any(axis=1)])
 
 
-def test_every_bubble_drawn_meets_a_box_and_every_box_a_bubble():
+def test_every_bubble_meets_a_box_and_every_box_a_bubble():
     """By points of the boxes' parts of the sphere, close together: a bubble that the boxes' balls let by has none."""
-    g = geometry("earth_partitions")
-    meet = script("earth_partitions")["meet"](g["planes"], g["boxes"])
+    module, g = script("earth_partitions"), geometry("earth_partitions")
+    meet = module["meet"](g["planes"], g["boxes"])
     assert meet.any(axis=1).all()
     assert meet.any(axis=0).all()
     inside = g["points"][g["new"]] @ g["planes"][:, :3].T >= g["planes"][:, 3]
     assert 0 < inside.any(axis=0).sum() < len(g["planes"])  # that a box is met does not say that a point is
+    # Those drawn are different, in sight, and each passes own points of the partition.
+    assert len(set(g["shown"])) == module["SHOWN"]
+    assert (module["VIEW"].depth(g["planes"][g["shown"], :3]) > 0).all()
+    through = np.abs(g["points"][g["own"]] @ g["planes"][g["shown"], :3].T - g["planes"][g["shown"], 3])
+    assert through.min(axis=0).max() < 1e-12

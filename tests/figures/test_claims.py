@@ -152,19 +152,39 @@ def test_figures_7_and_8_share_sites_and_the_corners_land_on_the_equator():
     assert planar <= {tuple(sorted(row)) for row in spherical.simplices.tolist()}
 
 
-def test_figure_8_shows_a_ray_from_a_lifted_corner_to_its_corner():
+def test_figure_8_shows_rays_from_lifted_corners_to_their_corners():
     module, g, drawn = script("fig08_hemisphere"), geometry("fig08_hemisphere"), page("fig08_hemisphere")
-    radius, view = float(g["radius"]), module["VIEW"]
-    lifted, corner = radius * g["corners"][module["SHOWN"]], g["plane"][module["SHOWN"]]
+    radius, view, shown = float(g["radius"]), module["VIEW"], module["SHOWN"]
+    lifted, corners = radius * g["corners"], g["plane"]
     north = np.array([0.0, 0.0, radius])
-    assert np.allclose(np.cross(lifted - north, corner - north), 0, atol=1e-12)
-    assert view.depth(lifted) > 0
+    assert np.allclose(np.cross(lifted - north, corners - north), 0, atol=1e-12)
+    assert (view.depth(lifted)[shown] > 0.1).all()  # two are seen, and the others are not
+    assert (np.delete(view.depth(lifted), shown) < -0.1).all()
     rays = np.array([item.path[0, [0, 3]] for item in drawn.items if item.name == "ray"])
-    assert np.allclose([rays[0, 0], rays[-1, 1]], view.project([lifted, corner]))
-    assert np.allclose(rays[1:, 0], rays[:-1, 1])
+    for start, end in np.stack(view.project([lifted[shown], corners[shown]]), axis=1):
+        assert covered(rays, start, end) == pytest.approx(1)
     (south,) = [item for item in drawn.items if item.name == "ring"]
     assert np.allclose(south.centers, view.project([-north]))
     assert g["plane"].mean(axis=0) == pytest.approx(-north)
+
+
+def covered(pieces, a, b):
+    """The share of a segment of the page that pieces (n, 2, 2) of lines, which do not overlap, have of it."""
+    way = (b - a) / np.linalg.norm(b - a)
+    on_it = (np.abs((pieces - a) @ [-way[1], way[0]]) < 1e-12).all(axis=1)
+    return np.abs(np.diff((pieces[on_it] - a) @ way, axis=1)).sum() / np.linalg.norm(b - a)
+
+
+def test_figure_8_shows_rectangle_and_equator_as_they_are_seen():
+    """The sides of the rectangle, and the ellipse of the equator, whose half axes are 1 and sin 55°."""
+    module, g, drawn = script("fig08_hemisphere"), geometry("fig08_hemisphere"), page("fig08_hemisphere")
+    radius, places = float(g["radius"]), module["VIEW"].project(g["plane"])
+    sides = np.vstack([item.path[:, [0, 3]] for item in drawn.items if item.name == "rectangle"])
+    for a, b in zip(places, np.roll(places, -1, axis=0), strict=True):
+        assert covered(sides, a, b) == pytest.approx(1)
+    equator = np.vstack([path_points(item.path) for item in drawn.items if item.name == "equator"]) / radius
+    away = np.linalg.norm(equator / [1.0, np.sin(np.radians(55))], axis=1)
+    assert np.abs(away - 1).max() * radius * drawn.points_per_unit < 1e-2
 
 
 def test_figure_9_scale_is_that_of_the_similar_triangles():
@@ -223,6 +243,12 @@ def test_the_numbers_of_figures_10_to_12(name, magnification, coarse, fine, half
     lon, lat = np.moveaxis(sd.xyz_to_lonlat(back(arc_points(fine_rows))), -1, 0)
     assert (lon.min(), lon.max()) == pytest.approx((-half_width, half_width))
     assert (lat.min(), lat.max()) == pytest.approx((40 - half_width, 40 + half_width))
+    if name == "fig12_fisheye20":  # and fainter ones between them, where the focus is seen
+        faint = [g[f"between_{view}"] for view in range(5)]
+        assert [len(rows) > 0 for rows in faint] == [True, True, False, True, False]
+        for lines in straightened(back, np.concatenate(faint)):
+            assert np.allclose(lines, np.round(lines), atol=1e-6)
+            assert np.diff(lines).min() == pytest.approx(1)
     assert {f"$S = {magnification}$", "40° N"} <= {label.text for label in page(name).labels}
 
 

@@ -204,7 +204,7 @@ def test_curves_of_equal_ratio_say_their_ratio():
 
 def test_partitions_are_as_many_as_the_title_says():
     """Halved boxes: as many as the different boxes that their points fill."""
-    (count,) = said("earth_partitions", r"(\d+) partitions")
+    (count,) = said("earth_partitions", r"Cut: (\d+) partitions")
     rooms, points = geometry("earth_partitions")["rooms"], geometry("earth_partitions")["points"]
     inside = ((rooms[:, None, 0] <= points) & (points <= rooms[:, None, 1])).all(axis=2).sum(axis=1)
     assert int(count) == np.count_nonzero(inside)

@@ -83,14 +83,18 @@ def as_colors(values: ColorLike | npt.ArrayLike, count: int, name: str = "colors
     return np.concatenate([array, np.ones((count, 4 - array.shape[-1]))], axis=1)
 
 
-def color_map(name: str) -> Callable[[FloatArray], FloatArray]:
-    """A colour map of matplotlib: numbers (...) in [0, 1] to colours (..., 4); ValueError for unknown names."""
+def color_map(colors: str | Sequence[ColorLike]) -> Callable[[FloatArray], FloatArray]:
+    """Colours (..., 4) of numbers (...) in [0, 1]: a colour map of matplotlib by its name, or a mixture of colours."""
     with of_extra("draw"):
         from matplotlib import colormaps
+        from matplotlib.colors import LinearSegmentedColormap
 
-    if name not in colormaps:
-        raise ValueError(f"name is {name!r}, which is not a colour map of matplotlib")
-    return colormaps[name]
+    if not isinstance(colors, str):
+        several = [as_color(color, "name") for color in colors]
+        return LinearSegmentedColormap.from_list("colors", several if len(several) > 1 else 2 * several)
+    if colors not in colormaps:
+        raise ValueError(f"name is {colors!r}, which is not a colour map of matplotlib; give such a name, or colours")
+    return colormaps[colors]
 
 
 LUMINANCE: Final = np.array([0.2126, 0.7152, 0.0722])

@@ -39,8 +39,9 @@ class ColorScale:
 
     Parameters
     ----------
-    name : str
-        Name of a matplotlib colour map, such as "viridis", "magma" or "cividis", whose lightness increases uniformly.
+    name : str or sequence of color-like
+        Name of a matplotlib colour map, such as "viridis", "magma" or "cividis", whose lightness increases uniformly;
+        or colours, between which others are mixed.
     low, high : float
         Numbers with the first and the last colour; numbers beyond them are clipped.
     log : bool
@@ -49,7 +50,7 @@ class ColorScale:
     Raises
     ------
     ValueError
-        If the map is unknown, the limits are out of order, or a logarithmic scale does not begin above 0.
+        If the map or a colour is unknown, the limits are out of order, or a logarithmic scale does not begin above 0.
 
     Examples
     --------
@@ -60,12 +61,14 @@ class ColorScale:
      [0.99 0.91 0.14]]
     """
 
-    name: str
+    name: str | Sequence[ColorLike]
     low: float
     high: float
     log: bool = False
 
     def __post_init__(self) -> None:
+        if not isinstance(self.name, str):
+            object.__setattr__(self, "name", tuple(as_color(color, "name") for color in self.name))
         color_map(self.name)
         as_scalar(self.low, "low", low=0.0 if self.log else -np.inf, open_low=True)
         as_scalar(self.high, "high", low=self.low, open_low=True)
