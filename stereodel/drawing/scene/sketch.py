@@ -35,6 +35,9 @@ GAP: Final = 3.0
 HEAD: Final = (6.0, 2.0)
 """Length and half width of an arrowhead, in points."""
 
+FLAT_ARC: Final = 1e-9
+"""Height of an arc over its chord, relative to it, below which it is drawn straight."""
+
 
 class Sketch:
     """A drawing under construction.
@@ -304,6 +307,20 @@ def arc_path(center: Point, radius: float, start: float, stop: float) -> Beziers
     turn = 2 * np.pi if stop - start == 360.0 else np.radians(stop - start)
     first = float(np.radians(start))
     return page_path([CircleArc(np.zeros(3), u, v, first, first + turn)], (float(center[0]), float(center[1])), 1.0)
+
+
+def arc_through(a: Point, middle: Point, b: Point) -> Beziers:
+    """The arc of a circle of the page from a to b by way of a point between, straight where the three are on a line."""
+    start, chord = complex(*a), complex(*b) - complex(*a)
+    along = (complex(*middle) - start) / chord
+    if abs(along.imag) < FLAT_ARC:
+        return _run([a, b])
+    rise = (abs(along) ** 2 - along.real) / (2 * along.imag)  # of the centre above the middle of the chord
+    center = start + chord * complex(0.5, rise)
+    ends = (start, start + chord) if along.imag < 0 else (start + chord, start)
+    first, last = (float(np.degrees(np.angle(end - center))) for end in ends)
+    path = arc_path((center.real, center.imag), abs(start - center), first, last + 360.0 * (last < first))
+    return path if along.imag < 0 else path[::-1, ::-1]
 
 
 def _run(points: Sequence[Point]) -> Beziers:
