@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy.spatial import ConvexHull
 
 from stereodel import SphericalDelaunay, Stereographic
 from stereodel.drawing.scene.sketch import arc_through
@@ -39,3 +40,18 @@ def test_lifts_of_segments_are_arcs_of_circles_through_the_pole():
         assert (np.diff(along.real) > 0).all()
         normal = np.cross(points[8] - points[0], points[16] - points[0])
         assert (np.array([0, 0, 1]) - points[0]) @ normal == pytest.approx(0, abs=1e-12)
+
+
+# P2: claim_closing.
+
+
+def test_the_larger_bubble_of_the_tinted_facet_is_empty_and_the_hull_is_beside_the_centre():
+    g = geometry("claim_closing")
+    *normal, offset = g["circle"]
+    heights, corners = g["sites"] @ normal - offset, g["facets"][g["shown"]]
+    assert heights[corners] == pytest.approx(0, abs=1e-14)
+    assert np.delete(heights, corners).max() < -0.01
+    assert -0.9 < offset < -0.2  # the empty side, beyond the centre, is larger than a hemisphere
+    hull = ConvexHull(g["sites"])
+    assert hull.equations[:, 3].max() == pytest.approx(-offset, rel=1e-12)  # the centre is above this facet
+    assert {frozenset(facet) for facet in g["facets"].tolist()} == {frozenset(f) for f in hull.simplices.tolist()}
