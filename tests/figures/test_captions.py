@@ -116,7 +116,7 @@ def truth(name):
         case "fig07_rectangle":
             (outline,) = [item for item in page(name).items if item.name == "outline"]
             return list(np.ptp(outline.path.reshape(-1, 2), axis=0))
-        case "fig08_hemisphere" | "anim_lift" | "claim_closing" | "claim_edges":
+        case "fig08_hemisphere" | "anim_lift" | "claim_closing" | "claim_edges" | "claim_inscribed":
             return []
         case "fig09_scale":
             x, y = g["point"]
@@ -158,6 +158,8 @@ def truth(name):
             return [*bounds, *bounds[::-1], *kinds, 1 / bounds[1], 0]
         case "claim_separation":
             return [module["DOTS"], 1 / 2, *lift_scales()[::-1], module["WIDTH"], module["HEIGHT"]]
+        case "claim_signs":
+            return [len(module["THREE"]), module["SIZES"][-1] * 1e5 * earth.MEAN_RADIUS_KM]
         case "claim_terrain":
             return [len(g["points"]), module["COLUMNS"], module["ROWS"]]
         case "earth_airports":

@@ -1,13 +1,15 @@
 """What the pictures of what the paper says and does not draw show: computed once more, in another way."""
 
+import re
+
 import numpy as np
 import pytest
 from scipy.spatial import ConvexHull
 
-from stereodel import SphericalDelaunay, Stereographic
+from stereodel import SphereCircle, SphericalDelaunay, Stereographic
 from stereodel.drawing.scene.sketch import arc_through
-from stereodel.sphere import great_circle_points
-from tests.figures.scripts import arc_points, geometry, path_points, script
+from stereodel.sphere import angular_distance, great_circle_points
+from tests.figures.scripts import arc_points, geometry, page, path_points, script
 
 # P24: claim_edges.
 
@@ -55,3 +57,49 @@ def test_the_larger_bubble_of_the_tinted_facet_is_empty_and_the_hull_is_beside_t
     hull = ConvexHull(g["sites"])
     assert hull.equations[:, 3].max() == pytest.approx(-offset, rel=1e-12)  # the centre is above this facet
     assert {frozenset(facet) for facet in g["facets"].tolist()} == {frozenset(f) for f in hull.simplices.tolist()}
+
+
+# P8: claim_inscribed.
+
+
+def test_angles_of_one_colour_are_equal_and_p_lies_on_all_circles_that_the_proof_speaks_of():
+    g = geometry("claim_inscribed")
+    ends = {"-": g["N"] - [1, 0, 0], "+": g["N"] + [1, 0, 0]}
+    for angles in script("claim_inscribed")["ANGLES"].values():
+        arms = [[(g | ends)[name] for name in re.findall(".'?", angle)] for angle in angles]
+        assert len({float(angular_distance(a - vertex, b - vertex).round(9)) for vertex, a, b in arms}) == 1
+    projection, normal = Stereographic((0, -90)), np.cross(g["B"] - g["A"], [0, 1, 0])
+    circle = SphereCircle(normal, normal @ g["A"] / np.linalg.norm(normal))
+    image = projection.image_of(circle)
+    center = projection.in_space(image.center)
+    assert center == pytest.approx((g["A'"] + g["B'"]) / 2, abs=1e-12)
+    assert np.linalg.norm(g["P"] - center) == pytest.approx(image.radius, rel=1e-12)
+    ray = g["P"] - g["N"]
+    assert (g["N"] - 2 * (g["N"] @ ray) / (ray @ ray) * ray) @ circle.normal == pytest.approx(circle.offset, abs=1e-12)
+    assert np.linalg.norm(g["P"] - (g["D"] + g["E"]) / 2) == pytest.approx(np.linalg.norm(g["E"] - g["D"]) / 2)
+    assert np.cross(g["E"] - g["D"], g["B"] - g["A"]) == pytest.approx(0, abs=1e-12)
+
+
+# P5 and P6: claim_signs.
+
+
+def test_signs_are_wrong_in_the_strip_alone_and_nowhere_after_the_lift():
+    module, g = script("claim_signs"), geometry("claim_signs")
+    square = (g["grid"] ** 2).sum(axis=1)
+    assert (np.abs(square - 1) > 1e-4).all()  # so that which are above the plane is known without any test
+    for kinds in g["kinds"]:
+        assert (square[kinds == 0] < 1).all()
+        assert (square[kinds == 1] > 1).all()
+    for kinds, size in zip(g["kinds"][:2], module["SIZES"], strict=False):
+        heights = size**2 * np.abs(1 - square) / 2
+        assert heights[kinds < 2].min() > 0.5 * module["STRIP"]
+        assert heights[kinds == 3].max() < module["STRIP"] < 2 * heights[kinds == 2].max()
+    uncertain = (g["kinds"] >= 2).sum(axis=1) / len(square)
+    assert uncertain[2:].tolist() == [1, 0]
+    assert (np.diff(uncertain[:3]) > 0.05).all()
+    texts = [label.text for label in page("claim_signs").labels if "wrong" in label.text][:4]
+    assert [int(text.split()[0]) for text in texts] == (g["kinds"] == 3).sum(axis=1).tolist()
+    assert 0.1 < (g["kinds"][2] == 3).mean() < 0.5
+    assert (g["flat"].max(axis=1) / module["THICK"]).tolist() == pytest.approx(
+        module["SIZES"] ** 2 / 2 / module["STRIP"]
+    )

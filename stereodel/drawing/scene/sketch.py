@@ -148,12 +148,13 @@ class Sketch:
         *,
         name: str,
         style: LineStyle | None = None,
+        fill: ColorLike | None = None,
         gap: float = 8.0,
         **options: Any,
     ) -> Sketch:
         """The angle at a vertex, counterclockwise from the direction of a to that of b, with a label at the arc.
 
-        The label, if given, is on the bisector, `gap` points outside the arc.
+        The label, if given, is on the bisector, `gap` points outside the arc. `fill` tints the sector.
         """
         arms = np.array([a, b], dtype=np.float64) - np.asarray(vertex, dtype=np.float64)
         start, stop = np.degrees(np.arctan2(arms[:, 1], arms[:, 0]))
@@ -161,6 +162,10 @@ class Sketch:
         middle = np.radians((start + stop) / 2)
         outward = np.array([np.cos(middle), np.sin(middle)])
         place = np.asarray(vertex, dtype=np.float64) + radius * outward
+        if fill is not None:
+            arc = arc_path(vertex, radius, start, stop)
+            sector = np.concatenate([arc, _run([arc[-1, -1], vertex, arc[0, 0]])])
+            self.add_items([Fill((sector,), as_color(fill), name)])
         self.add_arc(vertex, radius, start, stop, name=name, style=style)
         if not text:
             return self
