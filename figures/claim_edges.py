@@ -12,15 +12,14 @@ Chosen by us: the other sites and their seed, and the size of the sphere.
 """
 
 import numpy as np
-from _arcs import from_rows, to_rows
+from _arcs import from_rows, rows_through
 from _sites import in_rectangle
 
-from stereodel import PlanarDelaunay, SphereCircle, Stereographic
+from stereodel import PlanarDelaunay, Stereographic
 from stereodel.drawing import CircleArc, Fill, LineStyle, Page, Scene, Sketch, Stroke, View, with_legend
 from stereodel.drawing.page.style import BLUE, PRINT_WIDTH, VERMILION, with_opacity
 from stereodel.drawing.scene.sketch import arc_through
 from stereodel.render import Figure
-from stereodel.sphere import SphereArc
 
 SITES, HULL, SIDE, SEED, MARGIN = 15, 8, 2.0, 12, 0.05
 RADIUS = 0.68  # of the sphere, in units of the map
@@ -42,14 +41,14 @@ def geometry() -> dict:
     edges = np.where(clockwise[:, None], edges, edges[:, ::-1])
     projection = Stereographic((0, -90), radius=RADIUS)
     lifts, middles = projection.inverse(sites), projection.inverse(sites[edges].mean(axis=1))
-    lifted = [SphereArc(SphereCircle.through(a, m, b), a, b) for (a, b), m in zip(lifts[edges], middles, strict=True)]
+    starts, ends = np.moveaxis(lifts[edges], 1, 0)
     return {
         "sites": sites,
         "lifts": lifts,
         "edges": edges,
         "bent": ~(edges == contact).any(axis=1),
-        "lifted": to_rows(lifted),
-        "middles": projection.forward(lifts[edges].sum(axis=1)),
+        "lifted": rows_through(starts, middles, ends),
+        "middles": projection.forward(starts + ends),
     }
 
 

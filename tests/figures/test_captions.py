@@ -116,7 +116,7 @@ def truth(name):
         case "fig07_rectangle":
             (outline,) = [item for item in page(name).items if item.name == "outline"]
             return list(np.ptp(outline.path.reshape(-1, 2), axis=0))
-        case "fig08_hemisphere" | "anim_lift" | "claim_closing" | "claim_edges" | "claim_inscribed":
+        case "fig08_hemisphere" | "anim_lift" | "claim_closing" | "claim_edges" | "claim_inscribed" | "claim_interior":
             return []
         case "fig09_scale":
             x, y = g["point"]

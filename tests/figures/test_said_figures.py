@@ -7,6 +7,7 @@ import pytest
 from scipy.spatial import ConvexHull
 
 from stereodel import SphereCircle, SphericalDelaunay, Stereographic
+from stereodel.conformal import three_points
 from stereodel.drawing.scene.sketch import arc_through
 from stereodel.sphere import angular_distance, great_circle_points
 from tests.figures.scripts import arc_points, geometry, page, path_points, script
@@ -103,3 +104,29 @@ def test_signs_are_wrong_in_the_strip_alone_and_nowhere_after_the_lift():
     assert (g["flat"].max(axis=1) / module["THICK"]).tolist() == pytest.approx(
         module["SIZES"] ** 2 / 2 / module["STRIP"]
     )
+
+
+# P16: claim_interior.
+
+
+def test_the_grid_in_the_bubble_is_perpendicular_to_its_rim_and_becomes_the_polar_one():
+    module, g = script("claim_interior"), geometry("claim_interior")
+    bubble, (p, c), (south, other) = module["BUBBLE"], g["bubble_points"], g["hemisphere_points"]
+    assert south == pytest.approx([0, 0, -1], abs=1e-14)
+    assert p @ c > bubble.offset
+    assert p @ c < 0.9
+    assert other[2] > -0.9
+    inside, on_hemisphere = arc_points(g["bubble_sides"]), arc_points(g["hemisphere_sides"])
+    assert (inside @ bubble.normal > bubble.offset - 1e-12).all()
+    assert (on_hemisphere[..., 2] < 1e-12).all()
+    # One map has these images of p, of c and of a point of the rim; it is that of all points.
+    conformal = three_points([p, c, inside[0, 0]], [south, other, on_hemisphere[0, 0]])
+    assert conformal(inside[:, ::32]) == pytest.approx(on_hemisphere[:, ::32], abs=1e-12)
+    parallels = conformal(inside[::2])[..., 2]
+    assert np.ptp(parallels, axis=1) == pytest.approx(0, abs=1e-9)
+    # Meridians: their circles hold p, and they meet the rim at right angles.
+    axes = np.cross(inside[1::4, 16] - inside[1::4, 0], inside[1::4, 32] - inside[1::4, 0])
+    axes /= np.linalg.norm(axes, axis=1, keepdims=True)
+    offsets = (axes * inside[1::4, 0]).sum(axis=1)
+    assert axes @ p == pytest.approx(offsets, abs=1e-9)
+    assert axes @ bubble.normal == pytest.approx(offsets * bubble.offset, abs=1e-9)  # perpendicular circles
