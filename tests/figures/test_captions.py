@@ -152,6 +152,8 @@ def truth(name):
             return [len(g["points"])]
         case "claim_projections":
             return [module["SITES"], module["REACH"], len(module["DRAWN"])]
+        case "claim_rigid":
+            return [len(g["points"])]
         case "claim_scales":
             bounds = lift_scales()
             kinds = [module["SEGMENTS"], module["SEGMENTS"], module["WANDERINGS"], module["STOPS"]]

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.spatial import ConvexHull
 
-from stereodel import SphereCircle, SphericalDelaunay, Stereographic
+from stereodel import SphereCircle, SphericalDelaunay, Stereographic, fisheye
 from stereodel.conformal import three_points
 from stereodel.drawing.scene.sketch import arc_through
 from stereodel.sphere import angular_distance, great_circle_points
@@ -130,3 +130,25 @@ def test_the_grid_in_the_bubble_is_perpendicular_to_its_rim_and_becomes_the_pola
     offsets = (axes * inside[1::4, 0]).sum(axis=1)
     assert axes @ p == pytest.approx(offsets, abs=1e-9)
     assert axes @ bubble.normal == pytest.approx(offsets * bubble.offset, abs=1e-9)  # perpendicular circles
+
+
+# P15 and P25: claim_rigid.
+
+
+def test_the_map_of_the_patch_is_the_composition_of_the_lenses_everywhere():
+    module, g = script("claim_rigid"), geometry("claim_rigid")
+    found, places = three_points(g["points"], g["images"]), np.random.default_rng(7).normal(size=(200, 3))
+    places /= np.linalg.norm(places, axis=1, keepdims=True)
+    assert angular_distance(places, module["PATCH"].center).max() > 160
+    once, scale = places, 1.0
+    for focus, magnification in module["LENSES"]:
+        lens = fisheye(focus, magnification=magnification)
+        once, scale = lens(once), scale * lens.scale_factor(once)
+    assert found(places) == pytest.approx(once, abs=1e-12)
+    assert found.scale_factor(places) == pytest.approx(scale, rel=1e-10)
+    assert found.inverse()(once) == pytest.approx(places, abs=1e-12)
+    # The mirror image: the same on the equator, and nowhere else.
+    apart = angular_distance(found(places), found(places * [1, 1, -1]))
+    assert (apart > 0.5 * np.degrees(np.abs(places[:, 2]) * scale)).all()
+    equator = module["EQUATOR"].sample(50)
+    assert found(equator * [1, 1, -1]).tolist() == found(equator).tolist()
