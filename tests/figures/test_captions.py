@@ -25,6 +25,7 @@ FORMULAS = {
     "anim_hull": ("2n − 4",),
     "claim_scales": ("cos² (χ/2) / cos² (Ξ/2)",),
     "claim_separation": ("R = D/4", "(d/D) 180°", "2/π", "4/π", "4 arctan(d/D)", "2 arcsin(d/D)"),
+    "claim_steps": ("Ax + By + Cz + D = 0",),
     "fig09_scale": ("heights R + R sin φ and 2R", "s = (R + R sin φ)/2R", "∂s/∂φ = cos φ / 2"),
     "fig13_latitudes": (
         "tan((90° + φ)/2) = d/2R",
@@ -162,6 +163,8 @@ def truth(name):
             return [module["DOTS"], 1 / 2, *lift_scales()[::-1], module["WIDTH"], module["HEIGHT"]]
         case "claim_signs":
             return [len(module["THREE"]), module["SIZES"][-1] * 1e5 * earth.MEAN_RADIUS_KM]
+        case "claim_steps":
+            return [len(module["TITLES"])]
         case "claim_terrain":
             return [len(g["points"]), module["COLUMNS"], module["ROWS"]]
         case "earth_airports":

@@ -8,6 +8,7 @@ from scipy.spatial import ConvexHull
 
 from stereodel import SphereCircle, SphericalDelaunay, Stereographic, fisheye
 from stereodel.conformal import three_points
+from stereodel.drawing import Fill
 from stereodel.drawing.scene.sketch import arc_through
 from stereodel.sphere import angular_distance, great_circle_points
 from tests.figures.scripts import arc_points, geometry, page, path_points, script
@@ -152,3 +153,33 @@ def test_the_map_of_the_patch_is_the_composition_of_the_lenses_everywhere():
     assert (apart > 0.5 * np.degrees(np.abs(places[:, 2]) * scale)).all()
     equator = module["EQUATOR"].sample(50)
     assert found(equator * [1, 1, -1]).tolist() == found(equator).tolist()
+
+
+# P14: claim_steps.
+
+
+def test_each_still_follows_from_the_one_before():
+    g = geometry("claim_steps")
+    points, new = g["points"], g["points"][g["inserted"]]
+
+    def rows(facets):
+        return {tuple(np.roll(row, -np.argmin(row))) for row in np.asarray(facets).tolist()}
+
+    def heights(facets, place):
+        a, b, c = np.moveaxis(points[np.asarray(facets)], 1, 0)
+        return ((place - a) * np.cross(b - a, c - a)).sum(axis=1)
+
+    seen = heights(g["before"], new) > 0
+    assert rows(g["before"][seen]) == rows(g["visible"])
+    sides = {(a, b) for row in g["visible"].tolist() for a, b in zip(row, np.roll(row, -1), strict=True)}
+    assert {tuple(pair) for pair in g["horizon"].tolist()} == {(a, b) for a, b in sides if (b, a) not in sides}
+    after = np.vstack([g["before"][~seen], g["new"]])
+    used = np.unique(g["before"])
+    assert rows(g["new"]) == rows([(a, b, g["inserted"]) for a, b in g["horizon"]])
+    assert all((heights(after, points[other]) < 1e-15).all() for other in used)  # so normals point away from the hull
+    used = np.append(used, g["inserted"])
+    assert rows(after) == rows(used[SphericalDelaunay(points[used]).simplices])
+    assert rows(g["last"]) == rows(SphericalDelaunay(points).simplices)
+    names = [item.name for item in page("claim_steps").items if isinstance(item, Fill)]
+    assert [names.count(kind) for kind in ("visible", "shade")] == [len(g["visible"]), 1]
+    assert names.count("new") == 2 * len(g["new"])
