@@ -149,6 +149,8 @@ def truth(name):
             return [max(len(np.unique(moment.facets)) for moment, _ in module["moments"]())]
         case "anim_sites":
             return [len(module["changes"]()[0].before.sites)]
+        case "claim_angles":
+            return [len(module["COLORS"]), np.degrees(np.arccos(np.divide(*module["STRETCH"][::-1])))]
         case "claim_planet":
             return [len(g["points"])]
         case "claim_projections":

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.spatial import ConvexHull
 
-from stereodel import SphereCircle, SphericalDelaunay, Stereographic, fisheye
+from stereodel import PlanarDelaunay, SphereCircle, SphericalDelaunay, Stereographic, fisheye
 from stereodel.conformal import three_points
 from stereodel.drawing import Fill
 from stereodel.drawing.scene.sketch import arc_through
@@ -183,3 +183,28 @@ def test_each_still_follows_from_the_one_before():
     names = [item.name for item in page("claim_steps").items if isinstance(item, Fill)]
     assert [names.count(kind) for kind in ("visible", "shade")] == [len(g["visible"]), 1]
     assert names.count("new") == 2 * len(g["new"])
+
+
+# P22: claim_angles.
+
+
+def test_no_least_angle_is_larger_than_that_of_delaunay():
+    module, g = script("claim_angles"), geometry("claim_angles")
+    texts = [label.text for label in page("claim_angles").labels if " with an angle " in label.text]
+    count = len(PlanarDelaunay(g["points"]).simplices)
+    least = []
+    for name, text in zip(module["COLORS"], texts, strict=True):
+        triangles = g[f"{name}_triangles"]
+        a, b, c = np.moveaxis(g["points"][triangles] @ [1, 1j], 1, 0)
+        doubled = ((b - a).conj() * (c - a)).imag
+        assert (doubled > 0).all()
+        assert doubled.sum() == pytest.approx(2 * 3.0 * 2.0)
+        sides = np.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
+        assert np.unique(sides, axis=0, return_counts=True)[1].max() == 2
+        angles = np.abs(np.angle([(b - a) / (c - a), (c - b) / (a - b), (a - c) / (b - c)], deg=True)).min(axis=0)
+        assert np.sort(angles) == pytest.approx(g[f"{name}_angles"], abs=1e-9)
+        assert re.findall(r"\d+", text) == [str((angles < 10).sum()), str(count), "10"]
+        assert len(triangles) == count
+        least.append(angles.min())
+    assert least[0] == max(least) > 1 > 100 * least[2]
+    assert g["points"].tolist() == geometry("claim_terrain")["points"].tolist()
