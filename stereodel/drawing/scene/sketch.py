@@ -13,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import FloatArray, as_vectors
+from stereodel.constants import STRAIGHT_ARC
 from stereodel.curves.view import View
 from stereodel.drawing.page import Beziers, Dots, Fill, Item, Label, Page, Stroke
 from stereodel.drawing.page.colors import ColorLike, as_color
@@ -34,9 +35,6 @@ GAP: Final = 3.0
 
 HEAD: Final = (6.0, 2.0)
 """Length and half width of an arrowhead, in points."""
-
-FLAT_ARC: Final = 1e-9
-"""Height of an arc over its chord, relative to it, below which it is drawn straight."""
 
 
 class Sketch:
@@ -318,7 +316,7 @@ def arc_through(a: Point, middle: Point, b: Point) -> Beziers:
     """The arc of a circle of the page from a to b by way of a point between, straight where the three are on a line."""
     start, chord = complex(*a), complex(*b) - complex(*a)
     along = (complex(*middle) - start) / chord
-    if abs(along.imag) < FLAT_ARC:
+    if abs(along.imag) < STRAIGHT_ARC:
         return _run([a, b])
     rise = (abs(along) ** 2 - along.real) / (2 * along.imag)  # of the centre above the middle of the chord
     center = start + chord * complex(0.5, rise)
