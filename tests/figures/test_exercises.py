@@ -11,7 +11,7 @@ from tests.figures.test_captions import hidden_up_to
 from tests.tiers import by_day
 
 PAGE = (FOLDER.parent / "docs" / "exercises.md").read_text(encoding="utf-8")
-QUESTIONS, ANSWERS = PAGE.split("(answers)=")
+QUESTIONS, ANSWERS = PAGE.split("## Answers")
 
 
 def strays(g):
