@@ -80,8 +80,9 @@ def draw(g: dict) -> Page:
     reach = BEYOND * np.array([-across[1], across[0]])
     sketch.add_segment(foot - reach, foot + reach, name="circle")
     sketch.add_label(foot + reach, "plane of the facet", (-4, 0), align="right")
-    sketch.add_label(RIGHT + [0.45, 0.55], "larger bubble:\nempty")
-    sketch.add_label(RIGHT - [0.96, 0.3], "smaller bubble:\nall other sites", (-6, 0), align="right")
+    sketch.add_label(RIGHT + [0.3, 0.55], "larger bubble: empty")
+    sketch.add_label(RIGHT - [0.96, 0.3], "smaller bubble:", (-6, 6), align="right")
+    sketch.add_label(RIGHT - [0.96, 0.3], "all other sites", (-6, -6), align="right")
     return sketch.page(EXTENT, width=PRINT_WIDTH)
 
 

@@ -70,8 +70,8 @@ def ball(g: dict, name: str) -> Scene:
     """A ball with the cells of the grid."""
     scene, sides = Scene(), from_rows(g[f"{name}_sides"])
     for k in range(0, len(sides), 4):
-        color = VERMILION if k < 2 * RINGS else BLUE
-        scene.add_region(sides[k : k + 4], name="cell", color=fainter(color, 0.4))
+        color = fainter(VERMILION, 0.1) if k < 2 * RINGS else fainter(BLUE, 0.5)
+        scene.add_region(sides[k : k + 4], name="cell", color=color)
     scene.add_circles([BUBBLE if name == "bubble" else SOUTH])
     scene.add_points(g[f"{name}_points"][:1], name="points")
     scene.add_points(g[f"{name}_points"][1:], name="ring")
