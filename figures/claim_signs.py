@@ -17,7 +17,7 @@ import numpy as np
 from stereodel import RectangleLift, Stereographic, in_bubble
 from stereodel.constants import UNIT_ROUNDOFF
 from stereodel.drawing import DotStyle, Page, Sketch, with_legend
-from stereodel.drawing.page.style import BLUE, GRAY, PRINT_WIDTH, VERMILION, fainter
+from stereodel.drawing.page.style import BLUE, GRAY, ORANGE, PRINT_WIDTH, VERMILION, fainter
 from stereodel.earth import MEAN_RADIUS_KM
 from stereodel.render import Figure
 
@@ -31,12 +31,7 @@ ACROSS = np.linspace(-1.25, 1.25, 51)  # what is seen of the sphere from the sid
 PITCH, RADIUS, THICK, LENGTH = 4.25, 1.25, 0.1, 1.9  # cm: of panels, of the circle, of half the strip and the plane
 SIDE = np.array([0.0, 3.0])  # the plane from the side, above the middle of the circle
 EXTENT = (-2.0, 3 * PITCH + 2.0, -2.95, 4.3)
-KINDS = {
-    "above the plane": BLUE,
-    "below": fainter(GRAY, 0.45),
-    "uncertain": (0.98, 0.80, 0.42, 1.0),
-    "wrong": VERMILION,
-}
+KINDS = {"above the plane": BLUE, "below": fainter(GRAY, 0.45), "uncertain": fainter(ORANGE, 0.4), "wrong": VERMILION}
 
 
 def geometry() -> dict:

@@ -73,7 +73,7 @@ def draw(g: dict) -> Page:
             for scene in hull(moment, g["points"], VIEW):
                 sketch.add_scene(scene, VIEW, at=tuple(at), scale=RADIUS)
             if layer < len(shown):
-                sketch.add_polygon(at + RADIUS * VIEW.project(border(g)), name="shade", color=SHADE)
+                sketch.add_polygon(at + RADIUS * border(g), name="shade", color=SHADE)
         if number == TITLES.index(NORMALS):
             add_normals(sketch, at, g["points"][g["new"]])
         if number < len(TITLES) - 1:
@@ -83,12 +83,9 @@ def draw(g: dict) -> Page:
 
 
 def border(g: dict) -> np.ndarray:
-    """The corners of the horizon in order."""
-    ahead = dict(g["horizon"].tolist())
-    loop = [next(iter(ahead))]
-    while len(loop) < len(ahead):
-        loop.append(ahead[loop[-1]])
-    return g["points"][loop]
+    """Where the corners of the horizon are on the page, in order about the new point, which sees all of it."""
+    rim, middle = VIEW.project(g["points"][g["horizon"][:, 0]]), VIEW.project(g["points"][g["inserted"]])
+    return rim[np.argsort(np.arctan2(*(rim - middle).T))]
 
 
 def add_normals(sketch: Sketch, at: np.ndarray, corners: np.ndarray) -> None:

@@ -13,8 +13,6 @@ from stereodel.drawing.scene.sketch import arc_through
 from stereodel.sphere import angular_distance, great_circle_points
 from tests.figures.scripts import arc_points, geometry, page, path_points, script
 
-# P24: claim_edges.
-
 
 def over_chord(points, a, b):
     """Points of the plane as complex numbers, a chord from 0 to 1 being the unit."""
@@ -46,9 +44,6 @@ def test_lifts_of_segments_are_arcs_of_circles_through_the_pole():
         assert (np.array([0, 0, 1]) - points[0]) @ normal == pytest.approx(0, abs=1e-12)
 
 
-# P2: claim_closing.
-
-
 def test_the_larger_bubble_of_the_tinted_facet_is_empty_and_the_hull_is_beside_the_centre():
     g = geometry("claim_closing")
     *normal, offset = g["circle"]
@@ -59,9 +54,6 @@ def test_the_larger_bubble_of_the_tinted_facet_is_empty_and_the_hull_is_beside_t
     hull = ConvexHull(g["sites"])
     assert hull.equations[:, 3].max() == pytest.approx(-offset, rel=1e-12)  # the centre is above this facet
     assert {frozenset(facet) for facet in g["facets"].tolist()} == {frozenset(f) for f in hull.simplices.tolist()}
-
-
-# P8: claim_inscribed.
 
 
 def test_angles_of_one_colour_are_equal_and_p_lies_on_all_circles_that_the_proof_speaks_of():
@@ -80,9 +72,6 @@ def test_angles_of_one_colour_are_equal_and_p_lies_on_all_circles_that_the_proof
     assert (g["N"] - 2 * (g["N"] @ ray) / (ray @ ray) * ray) @ circle.normal == pytest.approx(circle.offset, abs=1e-12)
     assert np.linalg.norm(g["P"] - (g["D"] + g["E"]) / 2) == pytest.approx(np.linalg.norm(g["E"] - g["D"]) / 2)
     assert np.cross(g["E"] - g["D"], g["B"] - g["A"]) == pytest.approx(0, abs=1e-12)
-
-
-# P5 and P6: claim_signs.
 
 
 def test_signs_are_wrong_in_the_strip_alone_and_nowhere_after_the_lift():
@@ -105,9 +94,6 @@ def test_signs_are_wrong_in_the_strip_alone_and_nowhere_after_the_lift():
     assert (g["flat"].max(axis=1) / module["THICK"]).tolist() == pytest.approx(
         module["SIZES"] ** 2 / 2 / module["STRIP"]
     )
-
-
-# P16: claim_interior.
 
 
 def test_the_grid_in_the_bubble_is_perpendicular_to_its_rim_and_becomes_the_polar_one():
@@ -133,9 +119,6 @@ def test_the_grid_in_the_bubble_is_perpendicular_to_its_rim_and_becomes_the_pola
     assert axes @ bubble.normal == pytest.approx(offsets * bubble.offset, abs=1e-9)  # perpendicular circles
 
 
-# P15 and P25: claim_rigid.
-
-
 def test_the_map_of_the_patch_is_the_composition_of_the_lenses_everywhere():
     module, g = script("claim_rigid"), geometry("claim_rigid")
     found, places = three_points(g["points"], g["images"]), np.random.default_rng(7).normal(size=(200, 3))
@@ -153,9 +136,6 @@ def test_the_map_of_the_patch_is_the_composition_of_the_lenses_everywhere():
     assert (apart > 0.5 * np.degrees(np.abs(places[:, 2]) * scale)).all()
     equator = module["EQUATOR"].sample(50)
     assert found(equator * [1, 1, -1]).tolist() == found(equator).tolist()
-
-
-# P14: claim_steps.
 
 
 def test_each_still_follows_from_the_one_before():
@@ -183,9 +163,6 @@ def test_each_still_follows_from_the_one_before():
     names = [item.name for item in page("claim_steps").items if isinstance(item, Fill)]
     assert [names.count(kind) for kind in ("visible", "shade")] == [len(g["visible"]), 1]
     assert names.count("new") == 2 * len(g["new"])
-
-
-# P22: claim_angles.
 
 
 def test_no_least_angle_is_larger_than_that_of_delaunay():
