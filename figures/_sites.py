@@ -4,6 +4,8 @@ from collections.abc import Callable
 
 import numpy as np
 
+from stereodel import lonlat_to_xyz
+
 OVAL = 6.0
 """Exponent n of the curve |x|ⁿ + |y|ⁿ = 1, between a circle (2) and a square (∞)."""
 
@@ -27,6 +29,18 @@ def on_sphere(count: int, seed: int) -> np.ndarray:
     def draw(n: int) -> np.ndarray:
         vectors = rng.normal(size=(n, 3))
         return vectors / np.linalg.norm(vectors, axis=1, keepdims=True)
+
+    return spread(count, draw)
+
+
+def in_cap(count: int, seed: int, middle: tuple[float, float], reach: float) -> np.ndarray:
+    """Unit vectors (count, 3) at most `reach` degrees from a place, which is given by longitude and latitude."""
+    rng, axis = np.random.default_rng(seed), lonlat_to_xyz(middle)
+
+    def draw(n: int) -> np.ndarray:
+        vectors = rng.normal(size=(64 * n, 3))
+        vectors /= np.linalg.norm(vectors, axis=1, keepdims=True)
+        return vectors[vectors @ axis > np.cos(np.radians(reach))][:n]
 
     return spread(count, draw)
 

@@ -15,13 +15,13 @@ circle.
 from collections.abc import Callable
 
 import numpy as np
-from _sites import spread
+from _sites import in_cap
 
 from stereodel import Gnomonic, Orthographic, PlanarDelaunay, SphereCircle, SphericalDelaunay, Stereographic
 from stereodel.drawing import LineStyle, Page, Polylines, Sketch
 from stereodel.drawing.page.style import BLACK, BLUE, GRAY, PRINT_WIDTH, VERMILION, DotStyle, with_opacity
 from stereodel.render import Figure
-from stereodel.sphere import lonlat_to_xyz, xyz_to_lonlat
+from stereodel.sphere import xyz_to_lonlat
 
 PLACE, REACH = (10.0, 25.0), 60.0  # degrees
 SITES, SEED = 150, 24
@@ -77,14 +77,7 @@ def triples(simplices: np.ndarray) -> list[frozenset]:
 
 def geometry() -> dict:
     """Of each projection the images of the sites, the triangles, which of them the sphere lacks, and the circle."""
-    rng, middle = np.random.default_rng(SEED), lonlat_to_xyz(PLACE)
-
-    def draw_sites(count: int) -> np.ndarray:
-        vectors = rng.normal(size=(64 * count, 3))
-        vectors /= np.linalg.norm(vectors, axis=1, keepdims=True)
-        return vectors[vectors @ middle > np.cos(np.radians(REACH))][:count]
-
-    sites = spread(SITES, draw_sites)
+    sites = in_cap(SITES, SEED, PLACE, REACH)
     own = set(triples(SphericalDelaunay(sites).simplices))
     found = {}
     for name in DRAWN:

@@ -90,6 +90,9 @@ ON_BALL: Final = 1e-9
 SPARE_PIECE: Final = 1e-9
 """Excess of an arc over a whole number of longest Bézier arcs, as a fraction of one, that adds no further Bézier."""
 
+STRAIGHT_ARC: Final = 1e-9
+"""Height of an arc over its chord, relative to it, below which it is straight: a billionth of a page is not seen."""
+
 ONE_HARMONIC: Final = 2.0**-50
 """Size of the second harmonic of a function of an angle, relative to its largest coefficient, that counts as zero.
 

@@ -10,7 +10,7 @@ from stereodel.drawing.page import Dots, Fill, Label, Page, Polygons, Polylines,
 from stereodel.drawing.page.style import LABEL_SIZE, line
 from stereodel.drawing.scene.legend import GAP as SPACE
 from stereodel.drawing.scene.legend import ROW, SAMPLE
-from stereodel.drawing.scene.sketch import GAP, HEAD, TICK, arc_path
+from stereodel.drawing.scene.sketch import GAP, HEAD, TICK, arc_path, arc_through
 from tests.figures.scripts import path_points
 from tests.refused import refused
 
@@ -23,6 +23,21 @@ def test_arcs_lie_on_their_circle(start, stop):
     ends = 3.0 * np.array([[np.cos(a), np.sin(a)] for a in np.radians([start, stop])])
     assert np.allclose(points[[0, -1]], ends, atol=1e-14)
     assert np.array_equal(path[1:, 0], path[:-1, 3])
+
+
+@pytest.mark.parametrize("middle", [(2.0, 1.5), (2.0, -0.1), (-1.0, 5.0), (1.0, 0.0)])
+def test_an_arc_through_three_points(middle):
+    """On the circle through them, from one end to the other past the middle; straight where they are on a line."""
+    a, b = np.array([-1.0, 0.0]), np.array([3.0, 0.0])
+    path = path_points(arc_through(a, middle, b), 129)
+    assert path[0] == pytest.approx(a, abs=1e-12)
+    assert path[-1] == pytest.approx(b, abs=1e-12)
+    assert np.linalg.norm(path - middle, axis=1).min() < 0.05
+    if middle[1] == 0:
+        assert (path[:, 1] == 0).all()
+    else:
+        rise = ((middle[0] - 1) ** 2 + middle[1] ** 2 - 4) / (2 * middle[1])  # of the centre above the chord
+        assert np.hypot(path[:, 0] - 1, path[:, 1] - rise) == pytest.approx(np.hypot(2, rise), rel=1e-6)
 
 
 def test_graphs_of_cubics_are_exact_and_of_parabolas_without_slopes():

@@ -25,6 +25,7 @@ FORMULAS = {
     "anim_hull": ("2n − 4",),
     "claim_scales": ("cos² (χ/2) / cos² (Ξ/2)",),
     "claim_separation": ("R = D/4", "(d/D) 180°", "2/π", "4/π", "4 arctan(d/D)", "2 arcsin(d/D)"),
+    "claim_steps": ("Ax + By + Cz + D = 0",),
     "fig09_scale": ("heights R + R sin φ and 2R", "s = (R + R sin φ)/2R", "∂s/∂φ = cos φ / 2"),
     "fig13_latitudes": (
         "tan((90° + φ)/2) = d/2R",
@@ -118,7 +119,7 @@ def truth(name):
             return list(np.ptp(outline.path.reshape(-1, 2), axis=0))
         case "fig08_hemisphere":
             return [-module["VIEW"].lat]
-        case "anim_lift":
+        case "anim_lift" | "claim_closing" | "claim_edges" | "claim_inscribed" | "claim_interior":
             return []
         case "fig09_scale":
             x, y = g["point"]
@@ -151,17 +152,25 @@ def truth(name):
             return [max(len(np.unique(moment.facets)) for moment, _ in module["moments"]())]
         case "anim_sites":
             return [len(module["changes"]()[0].before.sites)]
+        case "claim_angles":
+            return [len(module["COLORS"]), np.degrees(np.arccos(np.divide(*module["STRETCH"][::-1])))]
         case "claim_planet":
             exaggeration = module["STEEP"] * module["RADIUS_KM"] / module["KM"]
             return [len(g["points"]), module["RADIUS_KM"], module["STEP"] * module["KM"], exaggeration]
         case "claim_projections":
             return [module["SITES"], module["REACH"], len(module["DRAWN"])]
+        case "claim_rigid":
+            return [len(g["points"])]
         case "claim_scales":
             bounds = lift_scales()
             kinds = [module["SEGMENTS"], module["SEGMENTS"], module["WANDERINGS"], module["STOPS"]]
             return [*bounds, *bounds[::-1], *kinds, 1 / bounds[1], 0]
         case "claim_separation":
             return [module["DOTS"], 1 / 2, *lift_scales()[::-1], module["WIDTH"], module["HEIGHT"]]
+        case "claim_signs":
+            return [len(module["THREE"]), module["SIZES"][-1] * 1e5 * earth.MEAN_RADIUS_KM]
+        case "claim_steps":
+            return [len(module["TITLES"])]
         case "claim_terrain":
             unit, grid = module["METRES"], (module["COLUMNS"], module["ROWS"])
             return [len(g["points"]), *grid, module["STEP"] * unit, module["STEEP"] * 1000 * module["KM"] / unit]

@@ -13,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import FloatArray, as_vectors
+from stereodel.constants import STRAIGHT_ARC
 from stereodel.curves.view import View
 from stereodel.drawing.page import Beziers, Dots, Fill, Item, Label, Page, Stroke
 from stereodel.drawing.page.colors import ColorLike, as_color
@@ -145,12 +146,13 @@ class Sketch:
         *,
         name: str,
         style: LineStyle | None = None,
+        fill: ColorLike | None = None,
         gap: float = 8.0,
         **options: Any,
     ) -> Sketch:
         """The angle at a vertex, counterclockwise from the direction of a to that of b, with a label at the arc.
 
-        The label, if given, is on the bisector, `gap` points outside the arc.
+        The label, if given, is on the bisector, `gap` points outside the arc. `fill` tints the sector.
         """
         arms = np.array([a, b], dtype=np.float64) - np.asarray(vertex, dtype=np.float64)
         start, stop = np.degrees(np.arctan2(arms[:, 1], arms[:, 0]))
@@ -158,6 +160,10 @@ class Sketch:
         middle = np.radians((start + stop) / 2)
         outward = np.array([np.cos(middle), np.sin(middle)])
         place = np.asarray(vertex, dtype=np.float64) + radius * outward
+        if fill is not None:
+            arc = arc_path(vertex, radius, start, stop)
+            sector = np.concatenate([arc, _run([arc[-1, -1], vertex, arc[0, 0]])])
+            self.add_items([Fill((sector,), as_color(fill), name)])
         self.add_arc(vertex, radius, start, stop, name=name, style=style)
         if not text:
             return self
@@ -304,6 +310,20 @@ def arc_path(center: Point, radius: float, start: float, stop: float) -> Beziers
     turn = 2 * np.pi if stop - start == 360.0 else np.radians(stop - start)
     first = float(np.radians(start))
     return page_path([CircleArc(np.zeros(3), u, v, first, first + turn)], (float(center[0]), float(center[1])), 1.0)
+
+
+def arc_through(a: Point, middle: Point, b: Point) -> Beziers:
+    """The arc of a circle of the page from a to b by way of a point between, straight where the three are on a line."""
+    start, chord = complex(*a), complex(*b) - complex(*a)
+    along = (complex(*middle) - start) / chord
+    if abs(along.imag) < STRAIGHT_ARC:
+        return _run([a, b])
+    rise = (abs(along) ** 2 - along.real) / (2 * along.imag)  # of the centre above the middle of the chord
+    center = start + chord * complex(0.5, rise)
+    ends = (start, start + chord) if along.imag < 0 else (start + chord, start)
+    first, last = (float(np.degrees(np.angle(end - center))) for end in ends)
+    path = arc_path((center.real, center.imag), abs(start - center), first, last + 360.0 * (last < first))
+    return path if along.imag < 0 else path[::-1, ::-1]
 
 
 def _run(points: Sequence[Point]) -> Beziers:
