@@ -15,7 +15,7 @@ from fontTools.pens.boundsPen import BoundsPen
 from fontTools.ttLib import TTFont
 
 from stereodel.drawing import Label, Page, Sketch, styled
-from stereodel.drawing.page.fonts import MissingCharactersWarning, as_font, families_of
+from stereodel.drawing.page.fonts import FACES, MissingCharactersWarning, as_font, families_of
 from stereodel.drawing.page.labels import label_box
 from stereodel.globe import Globe
 from stereodel.globe.pages import Panel, panels
@@ -162,6 +162,31 @@ def test_boxes_have_the_size_of_their_font():
     assert wide[1] > 1.1 * wide[0]
     one, two = (np.diff(label_box(Label(text, (0, 0), font=(CJK,)), 1.0)[:, 0])[0] for text in ("東", "東京"))
     assert two - one == pytest.approx(9.0, abs=0.1)  # a square each
+
+
+@pytest.mark.parametrize("font", [(), (SHIPPED,)])
+def test_each_face_is_another_font(font, tmp_path):
+    """In boxes, pixels and files; characters that the face lacks come from where there are some, as in the upright."""
+    boxes, pictures = [], []
+    for face in FACES:
+        shown = page("Zürich", "Київ", HEBREW, font=font, face=face)
+        style, word = ("Bold" if "bold" in face else ""), re.compile("Italic|Oblique" if "italic" in face else "")
+        assert {glyph.text for glyph in glyphs("Zürich", font=font, face=face)} == set("Zürich")
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            shown.save(tmp_path / "a.pdf")
+        (sheet,) = pypdf.PdfReader(tmp_path / "a.pdf").pages
+        used = [each.get_object()["/BaseFont"] for each in sheet["/Resources"]["/Font"].values()]
+        assert all(style in name for name in used)
+        assert any(word.search(name) for name in used)
+        boxes.append(label_box(Label("mmmm Zürich", (0.0, 0.0), font=font, face=face), 1.0)[1, 0])
+        pictures.append(shown.pixels(size=200, renderer="agg").tobytes())
+        (label,) = Sketch().add_items([Label("a", (0.0, 0.0), face=face)]).page((0, 1, 0, 1)).labels
+        assert (face in label.arrays()["text"]) == bool(face)
+    assert len(set(pictures)) == len(FACES)
+    assert len({round(float(width), 6) for width in boxes}) >= (2 if font else 4)
+    with pytest.raises(ValueError, match=r"face is 'heavy', but must be one of '', 'bold', 'italic', 'bold italic'"):
+        Globe().add_labels([(0.0, 0.0)], ["a"], face="heavy")
 
 
 def test_dollars_are_formulas_only_where_asked():

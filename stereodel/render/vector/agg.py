@@ -108,7 +108,7 @@ def _draw_label(axes: Axes, label: Label) -> None:
         *label.anchor,
         label.text,
         transform=axes.transData + shift,
-        fontproperties=font_properties(families_of(label), label.size),
+        fontproperties=font_properties(families_of(label), label.size, label.face),
         parse_math=label.formulas,
         color=label.color,
         ha=label.align,
