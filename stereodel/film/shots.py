@@ -70,35 +70,6 @@ class Motion(Protocol):
 
 
 @dataclass(frozen=True, eq=False)
-class Samples(Sequence[Shot]):
-    """Shots of a motion at the times k / `rate`, evaluated on access.
-
-    Raises ValueError if the motion is too short for one frame, or has more than `MOST_FRAMES`.
-    """
-
-    motion: Motion
-    rate: float
-
-    def __post_init__(self) -> None:
-        seconds = as_scalar(self.motion.seconds, "seconds of the motion", low=0.0)
-        count, rate = seconds * self.rate, f"{self.rate:g} frames a second"
-        if count > MOST_FRAMES:
-            raise ValueError(
-                f"a motion of {seconds:g} s has {count:.7g} frames at {rate}, and at most {MOST_FRAMES} are drawn; "
-                "give fewer seconds or a smaller fps"
-            )
-        if round(count) < 1:
-            raise ValueError(f"a motion of {seconds:g} s has no frame at {rate}; give a larger fps")
-
-    def __len__(self) -> int:
-        return round(self.motion.seconds * self.rate)
-
-    def __getitem__(self, number: Any) -> Any:
-        """One shot."""
-        return self.motion(range(len(self))[number] / self.rate)
-
-
-@dataclass(frozen=True, eq=False)
 class GlobePages:
     """Draws a globe, with its title above it, centred on a page of any aspect ratio."""
 
@@ -129,27 +100,41 @@ class GlobePages:
 
 
 @dataclass(frozen=True, eq=False)
-class NamedShots(Sequence[Any]):
-    """The shots of a film of a globe, each with where its names stand if it has names.
+class Samples(Sequence[Shot]):
+    """Shots of a motion at the times k / `rate`, evaluated on access, with where names stand on pages that have names.
 
-    These are found for the whole film when the first shot is asked for, so that frames may be drawn in any order.
+    That is found for all of them when the first is asked for, so that frames may be drawn in any order.
+    Raises ValueError if the motion is too short for one frame, or has more than `MOST_FRAMES`.
     """
 
-    shots: Sequence[Shot]
+    motion: Motion
+    rate: float
     pages: GlobePages
 
+    def __post_init__(self) -> None:
+        seconds = as_scalar(self.motion.seconds, "seconds of the motion", low=0.0)
+        count, rate = seconds * self.rate, f"{self.rate:g} frames a second"
+        if count > MOST_FRAMES:
+            raise ValueError(
+                f"a motion of {seconds:g} s has {count:.7g} frames at {rate}, and at most {MOST_FRAMES} are drawn; "
+                "give fewer seconds or a smaller fps"
+            )
+        if round(count) < 1:
+            raise ValueError(f"a motion of {seconds:g} s has no frame at {rate}; give a larger fps")
+
     def __len__(self) -> int:
-        return len(self.shots)
+        return round(self.motion.seconds * self.rate)
 
     def __getitem__(self, number: Any) -> Any:
         """One shot."""
-        return (*self.shots[number], *self.names[number : number + 1 or None])
+        return (*self.motion(range(len(self))[number] / self.rate), *self.names[number : number + 1 or None])
 
     @cached_property
     def names(self) -> list[Placed]:
         """Where they stand, by frames; empty if there are none."""
+        shots = (self.motion(number / self.rate) for number in range(len(self)))
         with of_extra("render"):  # which brings what sets type, too
-            return placed(self.pages.globe, self.shots, self.pages.across / (2 * (1 + MARGIN)))
+            return placed(self.pages.globe, shots, len(self), self.pages.across / (2 * (1 + MARGIN)))
 
 
 @dataclass(frozen=True)

@@ -7,15 +7,17 @@ name keeps its side while it fits, and names that come later make way for it in 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 from copy import copy
 from dataclasses import replace
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 
 from stereodel._arrays import FloatArray, Indices
+from stereodel.conformal import MoebiusMap
 from stereodel.curves.chart import Chart
+from stereodel.curves.view import MapView
 from stereodel.drawing.page.placing import Placer, meets
 from stereodel.globe.globe import Globe
 from stereodel.globe.layers import Areas, Ground, Image, Names, Standing, disc_of, radii
@@ -42,8 +44,8 @@ Placed = tuple[tuple[Standing, ...], ...]
 """The names of a frame, by the layers that have names."""
 
 
-def placed(globe: Globe, shots: Sequence[Any], unit: float) -> list[Placed]:
-    """Where the names of a globe stand in each frame of a film, `unit` points being its radius; [] if it has none."""
+def placed(globe: Globe, shots: Iterable[tuple[MoebiusMap, MapView]], count: int, unit: float) -> list[Placed]:
+    """Where the names of a globe stand in each of the frames, `unit` points being its radius; [] if it has none."""
     layers = [replace(layer, leader=None) for layer in globe.layers if isinstance(layer, Names)]
     dots = radii(globe)
     seats = [[layer.seats(row, dots) for row in range(len(layer.xyz))] for layer in layers]
@@ -51,10 +53,9 @@ def placed(globe: Globe, shots: Sequence[Any], unit: float) -> list[Placed]:
         return []
     # All names of a layer at once: they differ in their boxes alone.
     whole = [replace(some[0], boxes=np.stack([each.boxes for each in some])) if some else None for some in seats]
-    at = [np.zeros((len(shots), len(some), 2)) for some in seats]
-    prices = [np.full((len(shots), *each.boxes.shape[:2]), np.inf) if each else np.zeros(0) for each in whole]
-    for frame in range(len(shots)):
-        lens, view = shots[frame]
+    at = [np.zeros((count, len(some), 2)) for some in seats]
+    prices = [np.full((count, *each.boxes.shape[:2]), np.inf) if each else np.zeros(0) for each in whole]
+    for frame, (lens, view) in enumerate(shots):
         chart = Chart(lens, view, (0.0, 0.0), 1.0, COARSE / unit, unit)
         bare = (layer for layer in globe.layers if not isinstance(layer, Names | Ground | Areas | Image))
         placer = Placer(disc_of(chart), [item for layer in bare for item in layer.lay(chart)])
@@ -65,8 +66,8 @@ def placed(globe: Globe, shots: Sequence[Any], unit: float) -> list[Placed]:
                 found = each.prices(places[frame], placer.disc, placer.ink if each.movable else None)
                 blocked = ~seen[:, None] | meets(each.claimed(places[frame]), placer.boxes)
                 price[frame] = np.where(blocked, np.inf, found)
-    frames: list[list[list[Standing]]] = [[[] for _ in layers] for _ in shots]
-    kept = np.zeros((len(shots), 1, 0, 2, 2))
+    frames: list[list[list[Standing]]] = [[[] for _ in layers] for _ in range(count)]
+    kept = np.zeros((count, 1, 0, 2, 2))
     for number, (some, places, price) in enumerate(zip(seats, at, prices, strict=True)):
         for row, each in enumerate(some):
             room = np.where(meets(each.claimed(places[:, row]), kept), np.inf, price[:, row])
