@@ -29,7 +29,7 @@ from stereodel.curves.chart import Chart
 from stereodel.curves.view import MapView
 from stereodel.drawing.page import Item, Label, Page, picture_extra
 from stereodel.drawing.page.colors import ColorLike, as_color, as_colors, as_inks
-from stereodel.drawing.page.fonts import FontLike, as_face, as_font
+from stereodel.drawing.page.fonts import FACES, FontLike, as_font
 from stereodel.drawing.page.labels import with_title
 from stereodel.drawing.page.page import LARGEST_SIZE
 from stereodel.drawing.page.placing import placed_label
@@ -290,7 +290,9 @@ class Globe(Displayed):
         inks = as_inks(color)
         paper = WHITE if halo_color is None else as_color(halo_color, "halo_color")
         bare = Label("", (0.0, 0.0), size=size, color=inks[0], halo=halo, halo_color=paper, formulas=formulas)
-        bare = replace(bare, on_ground=halo_color is None, inks=inks if len(inks) > 1 else (), face=as_face(face))
+        bare = replace(
+            bare, on_ground=halo_color is None, inks=inks if len(inks) > 1 else (), face=as_choice(face, FACES, "face")
+        )
         bare = replace(bare, font=self.font if font is None else as_font(font))
         labels = tuple(placed_label(replace(bare, text=text), offset) for text in texts)
         if len(labels) != len(xyz):

@@ -16,7 +16,6 @@ from pathlib import Path
 from typing import Any, Final
 from warnings import catch_warnings, filterwarnings, warn
 
-from stereodel._arrays import as_choice
 from stereodel._extras import of_extra
 from stereodel.drawing.page.items import Label
 from stereodel.drawing.page.page import Page
@@ -71,11 +70,6 @@ def as_font(font: FontLike | None, name: str = "font") -> tuple[str, ...]:
             "that matplotlib.font_manager.get_font_names() lists, or the path of a .ttf or .otf file"
         )
     return families
-
-
-def as_face(face: str, name: str = "face") -> str:
-    """One of `FACES`; ValueError, naming the argument, if it is none."""
-    return as_choice(face, FACES, name)
 
 
 def in_font(page: Page, font: tuple[str, ...]) -> Page:

@@ -434,17 +434,17 @@ def colors_within(loops: Ragged, owner: Indices, colors: FloatArray, places: Flo
     """The colour of the region that contains each place, (n, 4); opacity 0 if none does."""
     last = np.zeros(len(loops.values), dtype=bool)
     last[loops.offsets[1:] - 1] = True
-    # Only edges at the heights of the places can wind around one.
-    low, high = places[:, 1].min(), places[:, 1].max()
-    start, end = loops.values, np.roll(loops.values, -1, axis=0)
-    near = ~last & (np.minimum(start[:, 1], end[:, 1]) <= high) & (np.maximum(start[:, 1], end[:, 1]) >= low)
-    owner = owner[loops.row[near]]
-    regions, number = np.unique(owner, return_inverse=True)
+    start, end = loops.values[~last], np.roll(loops.values, -1, axis=0)[~last]
+    owner = owner[loops.row[~last]]
+    low, high = np.minimum(start[:, 1], end[:, 1]), np.maximum(start[:, 1], end[:, 1])
     found = np.zeros((len(places), 4))
-    for k, place in enumerate(places):
-        turns = np.bincount(number, _crossings(start[near], end[near], place), minlength=len(regions))
-        for region in regions[np.flatnonzero(turns)]:
-            found[k] = colors[region]
+    for height in np.unique(places[:, 1]):  # only edges that cross it can wind around a place there
+        near = np.flatnonzero((low <= height) & (high > height))
+        regions, number = np.unique(owner[near], return_inverse=True)
+        for k in np.flatnonzero(places[:, 1] == height):
+            turns = np.bincount(number, _crossings(start[near], end[near], places[k]), minlength=len(regions))
+            for region in regions[np.flatnonzero(turns)]:
+                found[k] = colors[region]
     return found
 
 

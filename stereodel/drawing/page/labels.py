@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import lru_cache
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 
@@ -12,7 +12,7 @@ from stereodel._arrays import FloatArray
 from stereodel._extras import of_extra
 from stereodel.drawing.page.colors import Color, contrast
 from stereodel.drawing.page.fonts import families_of, font_properties, quiet_fonts, set_text
-from stereodel.drawing.page.items import Item, Label, painted
+from stereodel.drawing.page.items import Label, painted
 from stereodel.drawing.page.page import Page
 from stereodel.drawing.page.style import BLACK, HALO_OPACITY, TYPE, WHITE, with_opacity
 
@@ -65,16 +65,28 @@ def haloed(page: Page) -> Page:
     The ink is the one that contrasts most with the ground under the words; halos have its colour, or where it has
     several, as at a coast, their mean, lighter or darker as type needs it. A faint ink has a faint halo.
     """
-    return replace(page, items=tuple(_tinted(item, page) for item in page.items))
+    unit, items = page.points_per_unit, list(page.items)
+    asking = {
+        row: _across(item, unit)
+        for row, item in enumerate(items)
+        if isinstance(item, Label) and (item.inks or (item.on_ground and item.halo))
+    }
+    if asking:
+        found = painted(page.items, np.concatenate(list(asking.values())), page.background).round(3)
+        for row, ground in zip(asking, np.split(found, len(asking)), strict=True):
+            items[row] = _tinted(items[row], ground)
+    return replace(page, items=tuple(items))
 
 
-def _tinted(label: Item, page: Page) -> Item:
-    if not (isinstance(label, Label) and (label.inks or (label.on_ground and label.halo))):
-        return label
-    unit = page.points_per_unit
+def _across(label: Label, unit: float) -> FloatArray:
+    """Places all over a label (n, 2)."""
     (left, bottom), (right, top) = label_box(label, unit) / unit
     places = np.stack(np.meshgrid(np.linspace(left, right, ACROSS), np.linspace(bottom, top, UP)), axis=-1)
-    found = painted(page.items, places.reshape(-1, 2), page.background).round(3)
+    return places.reshape(-1, 2)
+
+
+def _tinted(label: Any, found: FloatArray) -> Label:
+    """A label on a ground of colours (n, 3)."""
     if label.inks:
         ink = max(label.inks, key=lambda ink: float(np.log(contrast(found, ink[:3])).mean()))
         label = replace(label, color=with_opacity(ink, ink[3] * label.color[3]))

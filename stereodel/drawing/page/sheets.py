@@ -16,9 +16,9 @@ from typing import Any, Final
 
 import numpy as np
 
-from stereodel._arrays import FloatArray, as_scalar
+from stereodel._arrays import FloatArray, as_choice, as_scalar
 from stereodel.drawing.page.colors import FLARE, Color, as_color, contrast, luminance, with_luminance
-from stereodel.drawing.page.fonts import FontLike, as_face, as_font, in_font
+from stereodel.drawing.page.fonts import FACES, FontLike, as_font, in_font
 from stereodel.drawing.page.items import LEGEND, Item
 from stereodel.drawing.page.labels import haloed
 from stereodel.drawing.page.page import Page
@@ -147,7 +147,7 @@ READERS: Final[Mapping[str, Mapping[str, Callable[[Any, str], Any]]]] = {
     "labels": {
         "color": as_color,
         "font": as_font,
-        "face": as_face,
+        "face": lambda value, name: as_choice(value, FACES, name),
         "size": as_length,
         "halo": _width,
         "halo_color": as_color,
