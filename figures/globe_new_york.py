@@ -124,7 +124,7 @@ def inset(middle: np.ndarray, lens: MoebiusMap, view: View, unit: float) -> list
     globe = Globe(limb=EDGE)
     globe.add_land(resolution="110m")
     globe.add_coastlines(resolution="110m", style=LineStyle(DARK_GRAY, 0.3))
-    globe.add_labels(list(FAR.values()), FAR, size=6.0, offset=(0.0, 0.0), halo=1.0, face="italic", movable=True)
+    globe.add_labels(list(FAR.values()), FAR, size=6.0, offset=(0.0, 0.0), halo=1.0, font="italic", movable=True)
     at = tuple((middle + INSET_AT).tolist())
     chart = Chart(lens_of(FAR_KM), view, at, INSET, 0.02 / unit, unit)
     ring = np.hypot(*view.project(lens(lonlat_to_xyz((NEW_YORK[0], NEW_YORK[1] - degrees(FAR_KM))))))

@@ -85,7 +85,7 @@ def draw(g: dict) -> Page:
     globe.add_rivers(resolution=RESOLUTION, style=LineStyle(SEA, 0.22))
     globe.add_borders(resolution=RESOLUTION, style=LineStyle(BORDER, 0.25))
     globe.add_coastlines(resolution=RESOLUTION, style=LineStyle(INK, 0.25))
-    globe.add_labels(list(SEAS.values()), SEAS, offset=(0.0, 0.0), face="italic", color=CREAM, movable=True, **SEA_TYPE)
+    globe.add_labels(list(SEAS.values()), SEAS, offset=(0.0, 0.0), font="italic", color=CREAM, movable=True, **SEA_TYPE)
     globe.add_points(list(CITIES.values()), style=DotStyle(INK, 1.1, rim=LAND, rim_width=0.3))
     globe.add_labels(list(CITIES.values()), CITIES, offset=(2.6, 0.0), color=(INK, CREAM), movable=True, **CITY_TYPE)
     lens = fisheye(FOCUS, magnification=MAGNIFICATION)

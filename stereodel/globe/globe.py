@@ -29,7 +29,7 @@ from stereodel.curves.chart import Chart
 from stereodel.curves.view import MapView
 from stereodel.drawing.page import Item, Label, Page, picture_extra
 from stereodel.drawing.page.colors import ColorLike, as_color, as_colors, as_inks
-from stereodel.drawing.page.fonts import FACES, FontLike, as_font
+from stereodel.drawing.page.fonts import FontLike, as_font, filled
 from stereodel.drawing.page.labels import with_title
 from stereodel.drawing.page.page import LARGEST_SIZE
 from stereodel.drawing.page.placing import placed_label
@@ -265,7 +265,6 @@ class Globe(Displayed):
         halo: float = HALO,
         halo_color: ColorLike | None = None,
         font: FontLike | None = None,
-        face: str = "",
         formulas: bool = False,
         rank: npt.ArrayLike | None = None,
         movable: bool | LineStyle = False,
@@ -283,17 +282,15 @@ class Globe(Displayed):
         halos have the colour of this ground at 80 % opacity, or where it has several, their mean at 60 %; lighter or
         darker as type needs it.
 
-        Labels may be in any script, see `Globe` on fonts; `font` replaces the globe's, `face` is "bold", "italic" or
-        "bold italic". With `formulas`, text between two dollar signs is a formula in matplotlib's mathtext.
+        Labels may be in any script, see `Globe` on fonts; `font` replaces the globe's, or is a face of it: "bold",
+        "italic" or "bold italic". With `formulas`, text between two dollar signs is a formula in matplotlib's mathtext.
         """
         xyz = self._xyz(places, "places")
         inks = as_inks(color)
         paper = WHITE if halo_color is None else as_color(halo_color, "halo_color")
         bare = Label("", (0.0, 0.0), size=size, color=inks[0], halo=halo, halo_color=paper, formulas=formulas)
-        bare = replace(
-            bare, on_ground=halo_color is None, inks=inks if len(inks) > 1 else (), face=as_choice(face, FACES, "face")
-        )
-        bare = replace(bare, font=self.font if font is None else as_font(font))
+        bare = replace(bare, on_ground=halo_color is None, inks=inks if len(inks) > 1 else ())
+        bare = replace(bare, font=filled(as_font(font), self.font))
         labels = tuple(placed_label(replace(bare, text=text), offset) for text in texts)
         if len(labels) != len(xyz):
             raise ValueError(f"texts has {len(labels)} entries, but there are {len(xyz)} places")

@@ -164,14 +164,16 @@ def test_boxes_have_the_size_of_their_font():
     assert two - one == pytest.approx(9.0, abs=0.1)  # a square each
 
 
-@pytest.mark.parametrize("font", [(), (SHIPPED,)])
-def test_each_face_is_another_font(font, tmp_path):
+@pytest.mark.parametrize("family", ["", SHIPPED])
+def test_each_face_is_another_font(family, tmp_path):
     """In boxes, pixels and files; characters that the face lacks come from where there are some, as in the upright."""
     boxes, pictures = [], []
-    for face in FACES:
-        shown = page("Zürich", "Київ", HEBREW, font=font, face=face)
+    for face in ("", *FACES):
+        font = as_font(f"{face} {family}".strip() or None)
+        assert font == tuple(filter(None, (face, family)))
+        shown = page("Zürich", "Київ", HEBREW, font=font)
         style, word = ("Bold" if "bold" in face else ""), re.compile("Italic|Oblique" if "italic" in face else "")
-        assert {glyph.text for glyph in glyphs("Zürich", font=font, face=face)} == set("Zürich")
+        assert {glyph.text for glyph in glyphs("Zürich", font=font)} == set("Zürich")
         with warnings.catch_warnings():
             warnings.simplefilter("error")
             shown.save(tmp_path / "a.pdf")
@@ -179,14 +181,24 @@ def test_each_face_is_another_font(font, tmp_path):
         used = [each.get_object()["/BaseFont"] for each in sheet["/Resources"]["/Font"].values()]
         assert all(style in name for name in used)
         assert any(word.search(name) for name in used)
-        boxes.append(label_box(Label("mmmm Zürich", (0.0, 0.0), font=font, face=face), 1.0)[1, 0])
+        boxes.append(label_box(Label("mmmm Zürich", (0.0, 0.0), font=font), 1.0)[1, 0])
         pictures.append(shown.pixels(size=200, renderer="agg").tobytes())
-        (label,) = Sketch().add_items([Label("a", (0.0, 0.0), face=face)]).page((0, 1, 0, 1)).labels
-        assert (face in label.arrays()["text"]) == bool(face)
-    assert len(set(pictures)) == len(FACES)
-    assert len({round(float(width), 6) for width in boxes}) >= (2 if font else 4)
-    with pytest.raises(ValueError, match=r"face is 'heavy', but must be one of '', 'bold', 'italic', 'bold italic'"):
-        Globe().add_labels([(0.0, 0.0)], ["a"], face="heavy")
+    assert len(set(pictures)) == 4
+    assert len({round(float(width), 6) for width in boxes}) >= (2 if family else 4)
+
+
+def test_a_face_alone_is_one_of_the_font_of_the_page():
+    globe = Globe(font=["bold DejaVu Serif", SHIPPED])
+    for font in (None, "italic", STIX, "bold italic STIXGeneral"):
+        globe.add_labels([(0.0, 0.0)], ["a"], font=font)
+    own = ("DejaVu Serif", SHIPPED)
+    found = [layer.labels[0].font for layer in globe.layers[1:]]
+    assert found == [("bold", *own), ("italic", *own), (STIX,), ("bold italic", STIX)]
+    labels = [Label("a", (0.0, 0.0), font=font) for font in ((), ("italic",), (STIX,))]
+    (bare, face, family) = styled(Page((0.0, 1.0, 0.0, 1.0), tuple(labels)), font=SHIPPED).labels
+    assert (bare.font, face.font, family.font) == ((SHIPPED,), ("italic", SHIPPED), (STIX,))
+    with pytest.raises(ValueError, match="font is 'heavy'"):
+        globe.add_labels([(0.0, 0.0)], ["a"], font="heavy")
 
 
 def test_dollars_are_formulas_only_where_asked():

@@ -135,9 +135,9 @@ def test_ink_contrasts_with_the_ground_under_the_words(movable, tmp_path):
             "land": as_color(dark),
         }
     file = tmp_path / "green.toml"
-    file.write_text("[labels]\ncolor = 'green'\nface = 'bold'")
+    file.write_text("[labels]\ncolor = 'green'\nfont = ['bold']")
     (label, _) = globe.page(view=View(0, 0), style=file).labels
-    assert (label.color, label.face) == (as_color("green"), "bold")
+    assert (label.color, label.font) == (as_color("green"), ("bold",))
 
 
 def test_labels_are_above_what_is_added_after_them():

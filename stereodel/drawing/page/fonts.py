@@ -22,7 +22,7 @@ from stereodel.drawing.page.page import Page
 from stereodel.drawing.page.style import TYPE
 
 FontLike = str | os.PathLike[str] | Sequence[str | os.PathLike[str]]
-"""A family, the path of a font file, or several of them in order of preference."""
+"""A family, the path of a font file, or several of them in order of preference; the first may begin with a face."""
 
 FILES: Final = (".ttf", ".otf", ".ttc", ".otc")
 """Extensions of font files."""
@@ -39,8 +39,8 @@ SYMBOLS: Final = re.compile(r"(?i)last ?resort|adobe ?blank|^(cm|stix|dejavu|web
 FORMULA: Final = re.compile(r"(?<!\\)\$.*?(?<!\\)\$|\\(?=\$)", re.DOTALL)
 """A formula, or an escaped dollar sign."""
 
-FACES: Final = ("", "bold", "italic", "bold italic")
-"""Faces of a family; of one that has not all of them, the nearest is used."""
+FACES: Final = ("bold", "italic", "bold italic")
+"""Faces, alone or before a family; of one that has not all of them, the nearest is used."""
 
 NAMED: Final = 12
 """Largest number of characters that a warning names."""
@@ -51,12 +51,14 @@ class MissingCharactersWarning(UserWarning):
 
 
 def as_font(font: FontLike | None, name: str = "font") -> tuple[str, ...]:
-    """Names of font families, or paths of .ttf, .otf, .ttc or .otc files, in the form stored in labels.
+    """Names of font families, or paths of .ttf, .otf, .ttc or .otc files, in the form stored in labels: after a face.
 
     Families that are not installed are skipped, as in browsers, if at least one is. Errors have the argument's `name`.
 
     >>> as_font("DejaVu Serif"), as_font(["Nowhere", "DejaVu Sans"]), as_font(None)
     (('DejaVu Serif',), ('Nowhere', 'DejaVu Sans'), ())
+    >>> as_font("italic"), as_font("bold italic DejaVu Sans")
+    (('italic',), ('bold italic', 'DejaVu Sans'))
     """
     if font is None:
         return ()
@@ -64,25 +66,38 @@ def as_font(font: FontLike | None, name: str = "font") -> tuple[str, ...]:
         families = tuple(os.fspath(one) for one in ((font,) if isinstance(font, str | os.PathLike) else font))
     except TypeError as error:
         raise TypeError(f"{name} is {font!r}; give a family, the path of a font's file, or several of them") from error
+    face = next((face for face in reversed(FACES) if families and f"{families[0]} ".startswith(f"{face} ")), "")
+    if face:
+        families = (*filter(None, [families[0][len(face) + 1 :]]), *families[1:])
     if families and not any(_file(family) for family in families):
         raise ValueError(
             f"{name} is {', '.join(map(repr, families))}, which this machine does not have; give a family "
             "that matplotlib.font_manager.get_font_names() lists, or the path of a .ttf or .otf file"
         )
-    return families
+    return (face, *families) if face else families
+
+
+def face_of(font: tuple[str, ...]) -> str:
+    """Its face, or "" for upright type of normal weight."""
+    return font[0] if font and font[0] in FACES else ""
+
+
+def filled(font: tuple[str, ...], other: tuple[str, ...]) -> tuple[str, ...]:
+    """The font, or without families the same face of another, or without anything the other."""
+    return (*font, *other[bool(face_of(other)) :]) if font == (face_of(font),) else font or other
 
 
 def in_font(page: Page, font: tuple[str, ...]) -> Page:
     """A page with `font` for all labels that have no font of their own."""
     if not font:
         return page
-    items = (replace(item, font=font) if isinstance(item, Label) and not item.font else item for item in page.items)
+    items = (replace(item, font=filled(item.font, font)) if isinstance(item, Label) else item for item in page.items)
     return replace(page, items=tuple(items))
 
 
 def families_of(label: Label) -> list[str]:
     """The families in which a label is set, in matplotlib's form: each character uses the first that has it."""
-    return list(_families(*set_text(label), label.font, label.face)[0])
+    return list(_families(*set_text(label), label.font)[0])
 
 
 def set_text(label: Label) -> tuple[str, bool]:
@@ -116,7 +131,7 @@ def quiet_fonts() -> Iterator[None]:
 
 def missing_characters(labels: Iterable[Label]) -> frozenset[str]:
     """The characters of labels that no font has."""
-    return frozenset().union(*(_families(*set_text(label), label.font, label.face)[1] for label in labels))
+    return frozenset().union(*(_families(*set_text(label), label.font)[1] for label in labels))
 
 
 def warn_of_missing(characters: Iterable[str]) -> None:
@@ -136,9 +151,10 @@ def warn_of_missing(characters: Iterable[str]) -> None:
 
 
 @lru_cache(maxsize=4096)
-def _families(text: str, math: bool, font: tuple[str, ...], face: str) -> tuple[tuple[str, ...], frozenset[str]]:
+def _families(text: str, math: bool, font: tuple[str, ...]) -> tuple[tuple[str, ...], frozenset[str]]:
     """Families in which a text is set, and the characters that none of them has."""
-    chosen = [family for family in font if _file(family)] + [str(TYPE["font.family"])]
+    face = face_of(font)
+    chosen = [family for family in font[bool(face) :] if _file(family)] + [str(TYPE["font.family"])]
     if math:  # matplotlib sets text next to a formula in one font
         return tuple(chosen), _lacking(frozenset(FORMULA.sub("", text)), chosen[:1], face)
     missing = _lacking(frozenset(text), chosen, face)

@@ -364,8 +364,6 @@ class Label(Mark):
     """Colours of which the ground decides; without any, the ink is `color`."""
     font: tuple[str, ...] = ()
     """Font families or files, see `stereodel.drawing.page.fonts.as_font`; STIX supplies missing characters."""
-    face: str = ""
-    """One of `stereodel.drawing.page.fonts.FACES`: "bold", "italic" …; formulas have their own."""
     formulas: bool = True
     """Whether text between two dollar signs is a formula in matplotlib's mathtext; otherwise they are literal."""
 
@@ -378,14 +376,7 @@ class Label(Mark):
         if self.halo and self.halo_color != Label.halo_color:
             halo += self.halo_color
         numbers = [*self.anchor, *self.offset, self.size, *self.color, self.rotation, *halo]
-        told = [
-            self.text,
-            self.align,
-            self.valign,
-            *self.font,
-            *filter(None, [self.face]),
-            *([] if self.formulas else ["plain"]),
-        ]
+        told = [self.text, self.align, self.valign, *self.font, *([] if self.formulas else ["plain"])]
         return {"place": np.array(numbers), "text": np.array(told)}
 
     def restyled(self, looks: Mapping[str, Any]) -> Self:

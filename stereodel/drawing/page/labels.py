@@ -11,7 +11,7 @@ import numpy as np
 from stereodel._arrays import FloatArray
 from stereodel._extras import of_extra
 from stereodel.drawing.page.colors import Color, contrast
-from stereodel.drawing.page.fonts import families_of, font_properties, quiet_fonts, set_text
+from stereodel.drawing.page.fonts import face_of, families_of, font_properties, quiet_fonts, set_text
 from stereodel.drawing.page.items import Label, painted
 from stereodel.drawing.page.page import Page
 from stereodel.drawing.page.style import BLACK, HALO_OPACITY, TYPE, WHITE, with_opacity
@@ -38,7 +38,7 @@ TITLE_GAP: Final = 5.0
 
 def label_box(label: Label, points_per_unit: float) -> FloatArray:
     """Lower left and upper right corner of an unrotated label, in points, (2, 2)."""
-    width, height = _measured(*set_text(label), tuple(families_of(label)), label.size, label.face)
+    width, height = _measured(*set_text(label), tuple(families_of(label)), label.size, face_of(label.font))
     left = {"left": 0.0, "center": -width / 2, "right": -width}[label.align]
     low = {"bottom": 0.0, "baseline": 0.0, "center": -height / 2, "top": -height}[label.valign]
     corner = points_per_unit * np.array(label.anchor) + np.array(label.offset) + np.array([left, low])

@@ -8,7 +8,7 @@ and a little for each side that comes earlier. Without any side it is left out, 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Final, Literal
 
@@ -40,8 +40,8 @@ FAR: Final = (14.0, 21.0, 30.0, 42.0)
 DIRECTIONS: Final = 16
 """In which such a name may stand."""
 
-CELL, LEAST_DOT = 0.5, 1e-6
-"""Side of the cells in which ink is summed, points; weight below which rounding is no dot."""
+CELL, MOST_CELLS, LEAST_DOT = 0.5, 2048, 1e-6
+"""Side of the cells in which ink is summed, points; cells across a disc at most; weight below which there is no dot."""
 
 MOST_HIDDEN: Final = 6.0
 """Weight of dots that a name may hide: a third of a usual dot, or several of a cloud of tiny ones."""
@@ -65,26 +65,28 @@ class Ink:
     """What dots and lines cover of a disc, as sums (n + 1, n + 1, 2) over cells from its lower left corner."""
 
     corner: FloatArray
+    cell: float
     sums: FloatArray
 
     @classmethod
     def of(cls, items: Iterable[Item], disc: Disc) -> Ink:
         """The ink of items of a page."""
         center, radius, unit = disc
-        corner, count = unit * (np.array(center) - radius), int(np.ceil(2 * radius * unit / CELL))
+        corner, size = unit * (np.array(center) - radius), max(CELL, 2 * radius * unit / MOST_CELLS)
+        count = int(np.ceil(2 * radius * unit / size))
         sums = np.zeros((2, count + 1, count + 1))
         for item in items:
             if (found := item.ink_at(unit)) is not None:
-                cell = np.floor((found[:, :2] - corner) / CELL).astype(np.intp)
+                cell = np.floor((found[:, :2] - corner) / size).astype(np.intp)
                 inside = ((cell >= 0) & (cell < count)).all(axis=1)
                 place = cell[inside] @ [1, count]
                 table = np.bincount(place, found[inside, 2], minlength=count**2).reshape(count, count)
                 sums[0 if isinstance(item, Dots) else 1, 1:, 1:] += table
-        return cls(corner, np.moveaxis(sums.cumsum(axis=1).cumsum(axis=2), 0, -1))
+        return cls(corner, size, np.moveaxis(sums.cumsum(axis=1).cumsum(axis=2), 0, -1))
 
     def under(self, boxes: FloatArray) -> FloatArray:
         """Ink of dots and of lines (..., 2) in boxes (..., 2, 2), in square points."""
-        cell = np.clip(np.rint((boxes - self.corner) / CELL), 0, len(self.sums) - 1).astype(np.intp)
+        cell = np.clip(np.rint((boxes - self.corner) / self.cell), 0, len(self.sums) - 1).astype(np.intp)
         (left, right), (low, high) = np.moveaxis(cell, (-1, -2), (0, 1))
         found: FloatArray = (
             self.sums[high, right] - self.sums[high, left] - self.sums[low, right] + self.sums[low, left]
@@ -164,10 +166,9 @@ class Placer:
 
     disc: Disc
     items: Iterable[Item]
-    leaders: FloatArray = field(default_factory=lambda: np.zeros((0, 2, 2)))
-    """Lines that lead to names, (n, 2, 2), in points."""
 
     def __post_init__(self) -> None:
+        self.leaders = np.zeros((0, 2, 2))
         labels = (item for item in self.items if isinstance(item, Label))
         self.boxes = np.array([label_box(label, self.disc[2]) for label in labels]).reshape(-1, 2, 2)
 
@@ -192,7 +193,7 @@ class Placer:
         taken |= crosses(lines, self.boxes).any(axis=1) | meet(lines, self.leaders).any(axis=1)
         if (led := np.isfinite(lines[:, 0, 0])).any():
             along = np.linspace(lines[led, 0], lines[led, 1], round(FAR[-1]), axis=1)[:, :, None]
-            hidden = self.ink.under(along + CELL * np.array([[-1.0], [1.0]]))[..., 0]
+            hidden = self.ink.under(along + self.ink.cell * np.array([[-1.0], [1.0]]))[..., 0]
             taken[led] |= hidden.max(axis=1) > LEAST_DOT
         price = np.where(taken, np.inf, price)
         chosen = int(price.argmin())

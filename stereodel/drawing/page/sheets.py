@@ -16,9 +16,9 @@ from typing import Any, Final
 
 import numpy as np
 
-from stereodel._arrays import FloatArray, as_choice, as_scalar
+from stereodel._arrays import FloatArray, as_scalar
 from stereodel.drawing.page.colors import FLARE, Color, as_color, contrast, luminance, with_luminance
-from stereodel.drawing.page.fonts import FACES, FontLike, as_font, in_font
+from stereodel.drawing.page.fonts import FontLike, as_font, in_font
 from stereodel.drawing.page.items import LEGEND, Item
 from stereodel.drawing.page.labels import haloed
 from stereodel.drawing.page.page import Page
@@ -144,14 +144,7 @@ READERS: Final[Mapping[str, Mapping[str, Callable[[Any, str], Any]]]] = {
     "fills": {"color": as_color},
     "lines": {"color": as_color, "width": _width},
     "dots": {"color": as_color, "radius": _width, "rim": as_color, "rim_width": _width},
-    "labels": {
-        "color": as_color,
-        "font": as_font,
-        "face": lambda value, name: as_choice(value, FACES, name),
-        "size": as_length,
-        "halo": _width,
-        "halo_color": as_color,
-    },
+    "labels": {"color": as_color, "font": as_font, "size": as_length, "halo": _width, "halo_color": as_color},
 }
 """Tables of a file with their keys, and the function that parses the value of each."""
 
