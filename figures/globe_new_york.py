@@ -56,9 +56,9 @@ NAMES = {
     "Bermuda": (-64.78, 32.30),
 }
 FAR = {
-    "Europe": (12.0, 50.0),
+    "Europe": (20.0, 53.0),
     "Africa": (20.0, 8.0),
-    "South America": (-58.0, -12.0),
+    "South America": (-62.0, -28.0),
     "Asia": (95.0, 45.0),
     "Australia": (134.0, -25.0),
 }

@@ -9,6 +9,7 @@ from numpy.testing import assert_allclose
 
 from stereodel.drawing import LineStyle
 from stereodel.drawing.page import Dots, Label, Polygons, Polylines, Stroke
+from stereodel.drawing.page.items import BORDER_WEIGHT
 from stereodel.drawing.page.labels import label_box
 from stereodel.drawing.page.placing import MOST_HIDDEN, SIDES, Ink, Placer, Seats, crosses, meet, meets
 from tests.tiers import by_day
@@ -152,7 +153,7 @@ def test_ink_is_what_is_counted_within_boxes(seed):
     corners = np.sort(rng.integers(-360, 360, (40, 2, 2)) / 2, axis=1)  # on borders of cells
     weight, length = np.pi * 1.5**3, 0.0
     everything = ink.under(np.array([[-200.0, -200.0], [200.0, 200.0]]))
-    for part, width in ((lines.points[:3], 0.4), (points[3:17], 0.4), (points[17:], 0.4), (closed, 0.5)):
+    for part, width in ((lines.points[:3], 0.4), (points[3:17], 0.4), (points[17:], 0.4), (closed, BORDER_WEIGHT)):
         length += width * UNIT * np.hypot(*np.diff(part, axis=0).T).sum()
     assert_allclose(everything, [30 * weight, length], rtol=1e-9)
     found = ink.under(corners)

@@ -34,7 +34,7 @@ FEW_COLORS: Final = 64
 INK_STEP, DOT_PLACES = 1.0, 19
 """Of the ink that names avoid: largest length of a piece of a line, in points, and number of places in a dot."""
 
-LARGE_DOT, BORDER_WEIGHT = 3.0, 0.5
+LARGE_DOT, BORDER_WEIGHT = 3.0, 1.5
 """Radius in points from which dots weigh the same, as names may touch a bubble; width of a line like a border."""
 
 BEZIER_STEPS: Final = np.linspace(0.0, 1.0, 8, endpoint=False)
