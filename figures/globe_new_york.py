@@ -70,21 +70,21 @@ def degrees(distance: float) -> float:
 
 
 def lens_of(radius: float) -> MoebiusMap:
-    """The map that takes a bubble about New York, of a radius in kilometres, onto a hemisphere."""
-    return bubble_to_bubble(SphereCircle.around(NEW_YORK, degrees(radius)), SphereCircle.around(NEW_YORK, 90.0))
+    """The map that takes a bubble about New York, of a radius in degrees, onto a hemisphere."""
+    return bubble_to_bubble(SphereCircle.around(NEW_YORK, radius), SphereCircle.around(NEW_YORK, 90.0))
 
 
 def geometry() -> dict:
-    """Where airports are that keep their distance through the lens, and the radius of the bubble in kilometres."""
+    """Where airports are that keep their distance through the lens, and the angular radius of the bubble in degrees."""
     table = data.airports()
     lonlat = table.lonlat[table.iata != ""]
-    images = lens_of(RADIUS_KM)(lonlat_to_xyz(lonlat))
+    images = lens_of(degrees(RADIUS_KM))(lonlat_to_xyz(lonlat))
     # From New York outward: those that are nearer win.
     kept: list[int] = []
     for row in np.argsort(-images @ lonlat_to_xyz(NEW_YORK), kind="stable").tolist():
         if not kept or (np.sum((images[kept] - images[row]) ** 2, axis=1) > APART**2).all():
             kept.append(row)
-    return {"airports": lonlat[kept], "radius": RADIUS_KM}
+    return {"airports": lonlat[kept], "radius": degrees(RADIUS_KM)}
 
 
 def draw(g: dict) -> Page:
@@ -126,7 +126,7 @@ def inset(middle: np.ndarray, lens: MoebiusMap, view: View, unit: float) -> list
     globe.add_coastlines(resolution="110m", style=LineStyle(DARK_GRAY, 0.3))
     globe.add_labels(list(FAR.values()), FAR, size=6.0, offset=(0.0, 0.0), halo=1.0, font="italic", movable=True)
     at = tuple((middle + INSET_AT).tolist())
-    chart = Chart(lens_of(FAR_KM), view, at, INSET, 0.02 / unit, unit)
+    chart = Chart(lens_of(degrees(FAR_KM)), view, at, INSET, 0.02 / unit, unit)
     ring = np.hypot(*view.project(lens(lonlat_to_xyz((NEW_YORK[0], NEW_YORK[1] - degrees(FAR_KM))))))
     # Lines that touch both circles, at the ends of parallel radii.
     ahead = np.angle(complex(*INSET_AT)) + np.array([1, -1]) * np.arccos((ring - INSET) / np.hypot(*INSET_AT))

@@ -99,8 +99,8 @@ def test_leaders_meet_nothing(seed):
     items = put(labels, items=[dots], leader=LEADER)
     lines = UNIT * np.array([item.path[[0, -1], [0, 3]] for item in items if isinstance(item, Stroke)])
     shown = [item for item in items if isinstance(item, Label)]
-    assert len(lines) > 5
-    assert len(shown) > len(put(labels, items=[dots])) + 3
+    assert len(lines) >= 3
+    assert len(shown) > len(put(labels, items=[dots]))
     assert (meet(lines, lines) == np.eye(len(lines), dtype=bool)).all()
     boxes = np.array([box(label) for label in shown])
     assert not crosses(lines, boxes).any()
