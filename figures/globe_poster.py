@@ -4,7 +4,7 @@ Mare nostrum: a poster
 
 The Mediterranean three and a half times as large as its part of the globe, with the coasts, rivers, lakes and borders
 for maps of 1 : 10 million. ``make poster`` draws it 16 384 pixels across, in tiles.
-Chosen by us: focus, magnification, colours, the cities and the positions of their labels.
+Chosen by us: focus, magnification, colours, the cities and the seas.
 """
 
 from dataclasses import replace
@@ -31,7 +31,7 @@ GOLD = (0.87, 0.74, 0.45, 1.0)
 BRONZE = (0.70, 0.55, 0.27, 1.0)
 NIGHT = (0.05, 0.09, 0.14, 1.0)
 
-EAST = {
+CITIES = {
     "Rome": (12.50, 41.90),
     "Cairo": (31.24, 30.04),
     "Istanbul": (28.98, 41.01),
@@ -48,33 +48,31 @@ EAST = {
     "Seville": (-5.98, 37.39),
     "Belgrade": (20.46, 44.79),
     "Fès": (-5.00, 34.03),
-}
-WEST = {
     "Barcelona": (2.17, 41.39),
     "Madrid": (-3.70, 40.42),
-    "Marseille": (5.37, 43.30),
+    "Nice": (7.26, 43.70),
     "Venice": (12.34, 45.44),
     "Athens": (23.73, 37.98),
     "London": (-0.13, 51.51),
     "Odesa": (30.72, 46.48),
-}
-SOUTH = {
     "Tunis": (10.17, 36.81),
     "Algiers": (3.06, 36.75),
     "Tripoli": (13.19, 32.89),
     "Benghazi": (20.07, 32.12),
+    "Valletta": (14.51, 35.90),
+    "Palermo": (13.36, 38.12),
 }
-ISLANDS, BAYS = {"Valletta": (14.51, 35.90)}, {"Palermo": (13.36, 38.12)}  # their names stand on the sea
 SEAS = {
     "Tyrrhenian Sea": (12.4, 39.5),
     "Ionian Sea": (19.4, 36.1),
     "Balearic Sea": (4.9, 40.9),
-    "Adriatic": (15.2, 42.95),
+    "Adriatic": (15.9, 42.6),
     "Levantine Sea": (29.5, 33.9),
     "Black Sea": (34.5, 43.2),
     "Bay of Biscay": (-7.0, 45.9),
     "North Sea": (3.0, 56.4),
 }
+CITY_TYPE, SEA_TYPE = {"size": 6.2, "halo": 0.9}, {"size": 7.0, "halo": 0.0}
 BAR_KM = 200
 
 
@@ -87,14 +85,9 @@ def draw(g: dict) -> Page:
     globe.add_rivers(resolution=RESOLUTION, style=LineStyle(SEA, 0.22))
     globe.add_borders(resolution=RESOLUTION, style=LineStyle(BORDER, 0.25))
     globe.add_coastlines(resolution=RESOLUTION, style=LineStyle(INK, 0.25))
-    for names, offset in ((EAST, (2.6, 0.0)), (WEST, (-2.6, 0.0)), (SOUTH, (0.0, -2.6))):
-        globe.add_points(list(names.values()), style=DotStyle(INK, 1.1, rim=LAND, rim_width=0.3))
-        globe.add_labels(list(names.values()), names, offset=offset, size=6.2, color=INK, halo=0.9)
-    for place, offset in ((ISLANDS, (0.0, -2.6)), (BAYS, (-2.6, 0.0))):
-        globe.add_points(list(place.values()), style=DotStyle(INK, 1.1, rim=LAND, rim_width=0.3))
-        globe.add_labels(list(place.values()), place, offset=offset, size=6.2, color=CREAM, halo=0.9)
-    seas = [rf"$\mathit{{{name.replace(' ', chr(92) + ' ')}}}$" for name in SEAS]
-    globe.add_labels(list(SEAS.values()), seas, offset=(0.0, 0.0), size=7.0, color=CREAM, halo=0.0, formulas=True)
+    globe.add_labels(list(SEAS.values()), SEAS, offset=(0.0, 0.0), font="italic", color=CREAM, movable=True, **SEA_TYPE)
+    globe.add_points(list(CITIES.values()), style=DotStyle(INK, 1.1, rim=LAND, rim_width=0.3))
+    globe.add_labels(list(CITIES.values()), CITIES, offset=(2.6, 0.0), color=(INK, CREAM), movable=True, **CITY_TYPE)
     lens = fisheye(FOCUS, magnification=MAGNIFICATION)
     return framed(with_scale(globe.page(lens), lens))
 

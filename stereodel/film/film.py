@@ -155,7 +155,7 @@ class Film(Generic[T], Displayed):
         as_frame_size(width, height)
         rate = as_scalar(fps, "fps", low=0.0, open_low=True)
         pages = GlobePages(globe, width, height, as_color(background, "background"))
-        return Film(pages, Samples(motion, rate), fps=rate, size=width)
+        return Film(pages, Samples(motion, rate, pages), fps=rate, size=width)
 
     @classmethod
     def of_pictures(

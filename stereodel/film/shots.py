@@ -15,17 +15,23 @@ from typing import Any, Final, Protocol
 import numpy as np
 
 from stereodel._arrays import FloatArray, as_lonlat, as_scalar
+from stereodel._extras import of_extra
 from stereodel.conformal import GroupPath, MoebiusMap, fisheye, flight
 from stereodel.constants import MOST_FRAMES, OPPOSITE
 from stereodel.curves.view import MapView, View
 from stereodel.drawing.page import Page
 from stereodel.drawing.page.colors import Color
 from stereodel.drawing.page.labels import title_height
+from stereodel.film.standing import Placed, placed, standing
 from stereodel.globe.globe import Globe
+from stereodel.globe.pages import MARGIN
 from stereodel.sphere import angular_distance, lonlat_to_xyz, xyz_to_lonlat
 
 Shot = tuple[MoebiusMap, MapView]
 """The lens and the view of a frame."""
+
+NamedShot = tuple[MoebiusMap, MapView, Placed]
+"""The same, and where names stand."""
 
 WIDE: Final = 2.0
 """Magnification of the view's path relative to the lens's."""
@@ -64,14 +70,46 @@ class Motion(Protocol):
 
 
 @dataclass(frozen=True, eq=False)
-class Samples(Sequence[Shot]):
-    """Shots of a motion at the times k / `rate`, evaluated on access.
+class GlobePages:
+    """Draws a globe, with its title above it, centred on a page of any aspect ratio."""
 
+    globe: Globe
+    width: int
+    height: int
+    background: Color
+
+    @property
+    def point(self) -> float:
+        """Points in a pixel."""
+        return POINTS_PER_PIXEL * max(1.0, FULL / min(self.width, self.height)) ** 0.5
+
+    @property
+    def across(self) -> float:
+        """Points across the globe and its margin."""
+        return min(self.width * self.point, self.height * self.point - title_height(self.globe.title))
+
+    def __call__(self, shot: Shot | NamedShot) -> Page:
+        """The page of a shot, with names where they were placed for the whole film, or for this one alone."""
+        (lens, view), names, point = shot[:2], shot[2:], self.point
+        globe = standing(self.globe, *names) if names else self.globe
+        page = globe.page(lens, view, width=self.across, tolerance=FINE * point)
+        left, right, bottom, top = page.extent
+        x, y, half = (left + right) / 2, (bottom + top) / 2, point / page.points_per_unit / 2
+        extent = (x - half * self.width, x + half * self.width, y - half * self.height, y + half * self.height)
+        return replace(page, extent=extent, width=self.width * point, background=self.background)
+
+
+@dataclass(frozen=True, eq=False)
+class Samples(Sequence[Shot]):
+    """Shots of a motion at the times k / `rate`, evaluated on access, with where names stand on pages that have names.
+
+    That is found for all of them when the first is asked for, so that frames may be drawn in any order.
     Raises ValueError if the motion is too short for one frame, or has more than `MOST_FRAMES`.
     """
 
     motion: Motion
     rate: float
+    pages: GlobePages
 
     def __post_init__(self) -> None:
         seconds = as_scalar(self.motion.seconds, "seconds of the motion", low=0.0)
@@ -89,28 +127,14 @@ class Samples(Sequence[Shot]):
 
     def __getitem__(self, number: Any) -> Any:
         """One shot."""
-        return self.motion(range(len(self))[number] / self.rate)
+        return (*self.motion(range(len(self))[number] / self.rate), *self.names[number : number + 1 or None])
 
-
-@dataclass(frozen=True, eq=False)
-class GlobePages:
-    """Draws a globe, with its title above it, centred on a page of any aspect ratio."""
-
-    globe: Globe
-    width: int
-    height: int
-    background: Color
-
-    def __call__(self, shot: Shot) -> Page:
-        """The page of a shot."""
-        square = min(self.width, self.height)
-        point = POINTS_PER_PIXEL * max(1.0, FULL / square) ** 0.5
-        room = self.height * point - title_height(self.globe.title)
-        page = self.globe.page(*shot, width=min(self.width * point, room), tolerance=FINE * point)
-        left, right, bottom, top = page.extent
-        x, y, half = (left + right) / 2, (bottom + top) / 2, point / page.points_per_unit / 2
-        extent = (x - half * self.width, x + half * self.width, y - half * self.height, y + half * self.height)
-        return replace(page, extent=extent, width=self.width * point, background=self.background)
+    @cached_property
+    def names(self) -> list[Placed]:
+        """Where they stand, by frames; empty if there are none."""
+        shots = (self.motion(number / self.rate) for number in range(len(self)))
+        with of_extra("render"):  # which brings what sets type, too
+            return placed(self.pages.globe, shots, len(self), self.pages.across / (2 * (1 + MARGIN)))
 
 
 @dataclass(frozen=True)

@@ -28,11 +28,12 @@ from stereodel.conformal import MoebiusMap
 from stereodel.curves.chart import Chart
 from stereodel.curves.view import MapView
 from stereodel.drawing.page import Item, Label, Page, picture_extra
-from stereodel.drawing.page.colors import ColorLike, as_color, as_colors
-from stereodel.drawing.page.fonts import FontLike, as_font
+from stereodel.drawing.page.colors import ColorLike, as_color, as_colors, as_inks
+from stereodel.drawing.page.fonts import FontLike, as_font, filled
 from stereodel.drawing.page.items import Tags
-from stereodel.drawing.page.labels import placed_label, with_title
+from stereodel.drawing.page.labels import with_title
 from stereodel.drawing.page.page import LARGEST_SIZE
+from stereodel.drawing.page.placing import placed_label
 from stereodel.drawing.page.scales import ColorScale, category_colors, usual_scale
 from stereodel.drawing.page.sheets import Style, styled
 from stereodel.drawing.page.style import (
@@ -281,29 +282,36 @@ class Globe(Displayed):
         *,
         offset: tuple[float, float] = (4.0, 0.0),
         size: float = LABEL_SIZE,
-        color: ColorLike = BLACK,
+        color: ColorLike | tuple[ColorLike, ColorLike] = (BLACK, WHITE),
         halo: float = HALO,
         halo_color: ColorLike | None = None,
         font: FontLike | None = None,
         formulas: bool = False,
         rank: npt.ArrayLike | None = None,
-        movable: bool = False,
+        movable: bool | LineStyle = False,
     ) -> None:
         """Write labels with halos at places as for `add_points`, shifted by `offset` points; the first have priority.
 
         With `rank`, numbers (n,), labels with larger numbers have priority. A label that would overlap one of higher
         priority is left out, and so is one whose place is not visible; a label that would leave the disc moves to
-        another side of its place with room. A `movable` label may be on any side of its place where there is room,
-        at the distance given by `offset`; see `stereodel.drawing.page.labels`. Without `halo_color`, halos have the
-        colour of the ground below the words, at 80 % opacity; where it has several, they are a veil of white or black.
+        another side of its place with room. A `movable` label stands on the side of its place where it hides least of
+        dots and lines, at the distance given by `offset`, and beyond a dot at the place; with (0, 0) it moves a little
+        from its place. A `LineStyle` as `movable` also leads to labels farther away, by lines that never meet; see
+        `stereodel.drawing.page.placing`. In films each label keeps its side while it fits, and has no such lines.
 
-        Labels may be in any script, see `Globe` on fonts; `font` replaces the globe's. With `formulas`, text between
-        two dollar signs is a formula in matplotlib's mathtext.
+        Of two colours, the one that contrasts more with the ground below the words is the ink. Without `halo_color`,
+        halos have the colour of this ground at 80 % opacity, or where it has several, their mean at 60 %; lighter or
+        darker as type needs it.
+
+        Labels may be in any script, see `Globe` on fonts; `font` replaces the globe's, or is a face of it: "bold",
+        "italic" or "bold italic". With `formulas`, text between two dollar signs is a formula in matplotlib's mathtext.
         """
         xyz = self._xyz(places, "places")
-        paper, ink = WHITE if halo_color is None else as_color(halo_color, "halo_color"), as_color(color)
-        bare = Label("", (0.0, 0.0), size=size, color=ink, halo=halo, halo_color=paper, formulas=formulas)
-        bare = replace(bare, on_ground=halo_color is None, font=self.font if font is None else as_font(font))
+        inks = as_inks(color)
+        paper = WHITE if halo_color is None else as_color(halo_color, "halo_color")
+        bare = Label("", (0.0, 0.0), size=size, color=inks[0], halo=halo, halo_color=paper, formulas=formulas)
+        bare = replace(bare, on_ground=halo_color is None, inks=inks if len(inks) > 1 else ())
+        bare = replace(bare, font=filled(as_font(font), self.font))
         labels = tuple(placed_label(replace(bare, text=text), offset) for text in texts)
         if len(labels) != len(xyz):
             raise ValueError(f"texts has {len(labels)} entries, but there are {len(xyz)} places")
@@ -313,7 +321,7 @@ class Globe(Displayed):
             order = np.argsort(-np.where(np.isnan(numbers), -np.inf, numbers), kind="stable")
             xyz, labels = xyz[order], tuple(labels[k] for k in order.tolist())
         distance = float(np.hypot(*offset)) if movable else None
-        self.add(Names(xyz, labels, distance))
+        self.add(Names(xyz, labels, distance, movable if isinstance(movable, LineStyle) else None))
 
     def add_cells(
         self,

@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Protocol
 
 import numpy as np
 
 from stereodel._arrays import FloatArray
-from stereodel.curves.chart import Chart
+from stereodel.curves.chart import Chart, Place
 from stereodel.drawing.page import Ball, Beziers, Dots, Fill, Item, Label, Picture, Polygons, Polylines, Stroke
 from stereodel.drawing.page.colors import Color
 from stereodel.drawing.page.items import FEW_COLORS, Tags
-from stereodel.drawing.page.labels import placed_apart, within_disc
-from stereodel.drawing.page.style import DotStyle, LineStyle
+from stereodel.drawing.page.placing import Disc, Placer, Seats
+from stereodel.drawing.page.style import DotStyle, LineStyle, with_opacity
 from stereodel.drawing.scene.graticule import LEAST_APART, WIDTHS_APART, Graticule, usual_spacing
 from stereodel.drawing.scene.space_curves import page_path
 from stereodel.drawing.scene.visibility import limb
@@ -160,6 +160,10 @@ class Points:
             yield Dots(places[seen], *look, style.rim_width, self.name, tags=tags)
 
 
+Standing = tuple[int, int, float]
+"""In a frame of a film: the row of a name, its position among `Seats`, and how strong it is, in (0, 1]."""
+
+
 @dataclass(frozen=True, eq=False)
 class Names:
     """Labels at unit vectors (n, 3), in order of decreasing priority."""
@@ -168,25 +172,42 @@ class Names:
     labels: tuple[Label, ...]
     distance: float | None = None
     """Distance in points of a movable label from its place; None for labels that are fixed."""
+    leader: LineStyle | None = None
+    """Lines to labels that have no room beside their places; None for no such labels."""
+    standing: tuple[Standing, ...] | None = None
+    """Where they were placed before; None places them now."""
 
     def lay(self, chart: Chart) -> Iterator[Item]:
         """Labels whose places are visible, inside the disc where there is room."""
-        yield from self.beside(chart, ())
+        yield from self.beside(chart, Placer(disc_of(chart), ()), {})
 
-    def beside(self, chart: Chart, items: Sequence[Item]) -> Iterator[Label]:
-        """As for `lay`, avoiding items that are already on the chart."""
-        disc = chart.at, chart.scale, chart.unit
-        if self.distance is None:
-            yield from (within_disc(label, disc) for label in self._seen(chart))
-            return
-        before = [item for item in items if isinstance(item, Label)]
-        dots = np.concatenate([np.zeros((0, 2)), *(item.centers for item in items if isinstance(item, Dots))])
-        yield from placed_apart(self._seen(chart), self.distance, disc, before, dots)
-
-    def _seen(self, chart: Chart) -> Iterator[Label]:
+    def beside(self, chart: Chart, placer: Placer, dots: Mapping[bytes, float]) -> Iterator[Item]:
+        """As for `lay`, where items and earlier names leave room; `dots` as found by `radii`."""
         places, seen = chart.points(self.xyz)
-        for label, (x, y) in ((self.labels[k], places[k]) for k in np.flatnonzero(seen)):
-            yield replace(label, anchor=(float(x), float(y)))
+        standing = [(row, 0, 1.0) for row in np.flatnonzero(seen).tolist()] if self.standing is None else self.standing
+        for row, side, strength in standing:
+            seats = self.seats(row, dots, (float(places[row, 0]), float(places[row, 1])))
+            if self.standing is None:
+                yield from placer.place(seats, self.leader)
+            else:
+                label = seats.labels[side]
+                yield replace(label, color=with_opacity(label.color, strength * label.color[3]))
+
+    def seats(self, row: int, dots: Mapping[bytes, float], anchor: Place = (0.0, 0.0)) -> Seats:
+        """The positions of one of the names."""
+        label, own = replace(self.labels[row], anchor=anchor), dots.get(self.xyz[row].tobytes(), 0.0)
+        return Seats.of(label, self.distance, own, led=self.leader is not None and self.standing is None)
+
+
+def disc_of(chart: Chart) -> Disc:
+    """The disc of a chart."""
+    return chart.at, chart.scale, chart.unit
+
+
+def radii(globe: Layered) -> dict[bytes, float]:
+    """The radius of the dot at each place that has one, by the bytes of its unit vector."""
+    layers = (layer for layer in globe.layers if isinstance(layer, Points))
+    return {place.tobytes(): layer.style.radius for layer in layers for place in layer.xyz}
 
 
 class Layered(Protocol):
@@ -197,8 +218,11 @@ class Layered(Protocol):
 
 
 def laid(globe: Layered, chart: Chart) -> tuple[Item, ...]:
-    """The page items of a chart, in painter's order."""
-    items: list[Item] = []
-    for layer in (*globe.layers, globe.limb):
-        items += layer.beside(chart, items) if isinstance(layer, Names) else layer.lay(chart)
-    return tuple(items)
+    """The page items of a chart, in painter's order; names are placed when all else is there."""
+    layers = (*globe.layers, globe.limb)
+    items = [[] if isinstance(layer, Names) else list(layer.lay(chart)) for layer in layers]
+    placer, dots = Placer(disc_of(chart), [item for some in items for item in some]), radii(globe)
+    for layer, some in zip(layers, items, strict=True):
+        if isinstance(layer, Names):
+            some += layer.beside(chart, placer, dots)
+    return tuple(item for some in items for item in some)

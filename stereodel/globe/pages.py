@@ -10,7 +10,8 @@ from stereodel.conformal import MoebiusMap
 from stereodel.curves.chart import Chart
 from stereodel.curves.view import MapView, StereographicView, View
 from stereodel.drawing.page import Item, Label, Page
-from stereodel.drawing.page.labels import haloed, with_room
+from stereodel.drawing.page.labels import haloed
+from stereodel.drawing.page.placing import with_room
 from stereodel.drawing.page.style import BLACK, PRINT_WIDTH
 from stereodel.globe.layers import Layered, laid
 from stereodel.sphere import xyz_to_lonlat

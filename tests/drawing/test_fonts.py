@@ -15,7 +15,7 @@ from fontTools.pens.boundsPen import BoundsPen
 from fontTools.ttLib import TTFont
 
 from stereodel.drawing import Label, Page, Sketch, styled
-from stereodel.drawing.page.fonts import MissingCharactersWarning, as_font, families_of
+from stereodel.drawing.page.fonts import FACES, MissingCharactersWarning, as_font, families_of
 from stereodel.drawing.page.labels import label_box
 from stereodel.globe import Globe
 from stereodel.globe.pages import Panel, panels
@@ -166,6 +166,43 @@ def test_boxes_have_the_size_of_their_font():
     assert wide[1] > 1.1 * wide[0]
     one, two = (np.diff(label_box(Label(text, (0, 0), font=(CJK,)), 1.0)[:, 0])[0] for text in ("東", "東京"))
     assert two - one == pytest.approx(9.0, abs=0.1)  # a square each
+
+
+@pytest.mark.parametrize("family", ["", SHIPPED])
+def test_each_face_is_another_font(family, tmp_path):
+    """In boxes, pixels and files; characters that the face lacks come from where there are some, as in the upright."""
+    boxes, pictures = [], []
+    for face in ("", *FACES):
+        font = as_font(f"{face} {family}".strip() or None)
+        assert font == tuple(filter(None, (face, family)))
+        shown = page("Zürich", "Київ", HEBREW, font=font)
+        style, word = ("Bold" if "bold" in face else ""), re.compile("Italic|Oblique" if "italic" in face else "")
+        assert {glyph.text for glyph in glyphs("Zürich", font=font)} == set("Zürich")
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            shown.save(tmp_path / "a.pdf")
+        (sheet,) = pypdf.PdfReader(tmp_path / "a.pdf").pages
+        used = [each.get_object()["/BaseFont"] for each in sheet["/Resources"]["/Font"].values()]
+        assert all(style in name for name in used)
+        assert any(word.search(name) for name in used)
+        boxes.append(label_box(Label("mmmm Zürich", (0.0, 0.0), font=font), 1.0)[1, 0])
+        pictures.append(shown.pixels(size=200, renderer="agg").tobytes())
+    assert len(set(pictures)) == 4
+    assert len({round(float(width), 6) for width in boxes}) >= (2 if family else 4)
+
+
+def test_a_face_alone_is_one_of_the_font_of_the_page():
+    globe = Globe(font=["bold DejaVu Serif", SHIPPED])
+    for font in (None, "italic", STIX, "bold italic STIXGeneral"):
+        globe.add_labels([(0.0, 0.0)], ["a"], font=font)
+    own = ("DejaVu Serif", SHIPPED)
+    found = [layer.labels[0].font for layer in globe.layers[1:]]
+    assert found == [("bold", *own), ("italic", *own), (STIX,), ("bold italic", STIX)]
+    labels = [Label("a", (0.0, 0.0), font=font) for font in ((), ("italic",), (STIX,))]
+    (bare, face, family) = styled(Page((0.0, 1.0, 0.0, 1.0), tuple(labels)), font=SHIPPED).labels
+    assert (bare.font, face.font, family.font) == ((SHIPPED,), ("italic", SHIPPED), (STIX,))
+    with pytest.raises(ValueError, match="font is 'heavy'"):
+        globe.add_labels([(0.0, 0.0)], ["a"], font="heavy")
 
 
 def test_dollars_are_formulas_only_where_asked():

@@ -147,7 +147,7 @@ def drawn_lens(name):
         case "globe_europe":
             text, xyz = "AMS", authalic_xyz(data.airports().lonlat[data.airports().iata == "AMS"])[0]
         case "globe_poster":
-            text, xyz = "Rome", lonlat_to_xyz(module["EAST"]["Rome"])
+            text, xyz = "Rome", lonlat_to_xyz(module["CITIES"]["Rome"])
         case "globe_tissot":
             text, xyz = "2", lonlat_to_xyz(module["NUMBERED"][1])
     *_, limb = [item.path.reshape(-1, 2) for item in page(name).items if item.name == "limb"]
@@ -168,6 +168,19 @@ def test_the_hemisphere_of_new_york():
     own = script("globe_new_york")["lens_of"](geometry("globe_new_york")["radius"])
     assert own.is_close(lens, tolerance=1e-9)
     assert million == "10"
+    # The small globe magnifies the circle that says so: its image is as large as where the lines to the inset begin.
+    (far,) = said("globe_new_york", r"beyond (\d+) km")
+    distance = float(far) / earth.MEAN_RADIUS_KM
+    limbs = [item.path.reshape(-1, 2) for item in page("globe_new_york").items if item.name == "limb"]
+    middle, own_middle = ((path.min(axis=0) + path.max(axis=0)) / 2 for path in limbs[1:])
+    radius = np.ptp(limbs[2][:, 0]) / np.ptp(limbs[1][:, 0])
+    for line in (item.path for item in page("globe_new_york").items if item.name == "leader"):
+        image = 2 * np.arctan(factor * np.tan(distance / 2))
+        assert np.hypot(*(line[0, 0] - middle)) == pytest.approx(np.sin(image), abs=1e-9)
+        assert np.hypot(*(line[-1, 3] - own_middle)) == pytest.approx(radius, abs=1e-3)
+        way = line[-1, 3] - line[0, 0]
+        assert abs(way @ (line[0, 0] - middle)) < 1e-9
+        assert abs(way @ (line[-1, 3] - own_middle)) < 1e-3
 
 
 @pytest.mark.thorough

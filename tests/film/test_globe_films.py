@@ -1,14 +1,20 @@
 """Films of globes: sizes, numbers of frames, and that their frames are pages of the globe."""
 
 import pickle
+from dataclasses import replace
+from itertools import pairwise, product
 
 import numpy as np
 import pytest
 
-from stereodel.drawing import View
+from stereodel.drawing import Label, View
 from stereodel.drawing.page.fonts import MissingCharactersWarning
-from stereodel.film import Film, Spin
+from stereodel.drawing.page.labels import label_box
+from stereodel.drawing.page.placing import meets
+from stereodel.film import Film, Flight, Spin, Stop, standing
 from stereodel.globe import Globe
+from stereodel.globe.layers import Names
+from tests.tiers import by_day
 
 PARIS = (2.35, 48.86)
 
@@ -104,3 +110,121 @@ def test_a_film_warns_once_of_characters_that_no_font_has(tmp_path, no_other_fon
     with pytest.warns(MissingCharactersWarning, match=r"U\+4EAC .*U\+6771") as told:
         film.save(tmp_path / "a.gif", jobs=1, progress=False)
     assert len(told) == 1
+
+
+CITIES = {
+    "London": (-0.1, 51.5), "Paris": (2.4, 48.9), "Berlin": (13.4, 52.5), "Madrid": (-3.7, 40.4), "Rome": (12.5, 41.9),
+    "Vienna": (16.4, 48.2), "Warsaw": (21.0, 52.2), "Budapest": (19.0, 47.5), "Prague": (14.4, 50.1),
+    "Brussels": (4.4, 50.9), "Amsterdam": (4.9, 52.4), "Copenhagen": (12.6, 55.7), "Stockholm": (18.1, 59.3),
+    "Oslo": (10.8, 59.9), "Helsinki": (24.9, 60.2), "Frankfurt": (8.7, 50.1), "Munich": (11.6, 48.1),
+    "Zurich": (8.5, 47.4), "Milan": (9.2, 45.5), "Athens": (23.7, 38.0), "Istanbul": (29.0, 41.0),
+    "Moscow": (37.6, 55.8), "Kyiv": (30.5, 50.5), "Cairo": (31.2, 30.0), "Tehran": (51.4, 35.7), "Dubai": (55.3, 25.3),
+    "Delhi": (77.2, 28.6), "Mumbai": (72.9, 19.1), "Tashkent": (69.2, 41.3), "Novosibirsk": (82.9, 55.0),
+    "Beijing": (116.4, 39.9), "Shanghai": (121.5, 31.2), "Hong Kong": (114.2, 22.3), "Taipei": (121.6, 25.0),
+    "Seoul": (127.0, 37.6), "Tokyo": (139.7, 35.7), "Osaka": (135.5, 34.7), "Vladivostok": (131.9, 43.1),
+    "Bangkok": (100.5, 13.8), "Manila": (121.0, 14.6),
+}  # fmt: skip
+FRAMES = 70
+
+
+@pytest.fixture(scope="module")
+def journey():
+    """From Europe to Tokyo, with forty named cities, as the command makes it."""
+    globe = Globe()
+    globe.add_land(resolution="110m")
+    globe.add_graticule(15)
+    globe.add_coastlines(resolution="110m")
+    globe.add_points(list(CITIES.values()))
+    globe.add_labels(list(CITIES.values()), CITIES, movable=True)
+    trip = Flight([Stop((10.0, 50.0), 4.0), Stop((139.7, 35.7), 4.0)])
+    return Film.of_globe(globe, trip, size=(480, 480), fps=FRAMES / trip.seconds)
+
+
+def test_names_keep_their_sides_and_do_not_flicker(journey):
+    sides, strengths = np.full((FRAMES, len(CITIES)), -1), np.zeros((FRAMES, len(CITIES)))
+    for frame in range(FRAMES):
+        for row, side, strength in journey.shots[frame][2][0]:
+            sides[frame, row], strengths[frame, row] = side, strength
+    assert len(CITIES) == 40
+    assert (sides >= 0).sum(axis=1).min() >= 4
+    assert (sides >= 0).sum(axis=1).mean() > 10
+    changes = 0
+    for course, strength in zip(sides.T, strengths.T, strict=True):
+        seen = course[course >= 0]
+        changes += np.count_nonzero(np.diff(seen))
+        starts = np.flatnonzero(np.diff(course, prepend=-2))
+        for start, end in zip(starts, [*starts[1:], FRAMES], strict=True):
+            assert end - start >= 8 or start == 0 or end == FRAMES
+            fading = np.minimum(np.arange(1, end - start + 1), 4) / 4
+            expected = np.ones(end - start) if start == 0 else fading
+            expected = np.minimum(expected, 1.0 if end == FRAMES else fading[::-1])
+            assert (strength[start:end] == (expected if course[start] >= 0 else 0.0)).all()
+    assert changes <= 3
+
+
+def test_frames_show_names_where_they_were_placed_for_the_film(journey):
+    """In any order and any process; none covers another, leaves the disc or is removed by the page."""
+    page = journey.page(40)
+    _, _, (names,) = journey.shots[40]
+    assert [label.text for label in page.labels] == [list(CITIES)[row] for row, _, _ in names]
+    assert [label.color[3] for label in page.labels] == [strength for _, _, strength in names]
+    assert 0 < min(label.color[3] for label in page.labels) < 1
+    assert all(label.halo_color[3] <= 0.8 * label.color[3] for label in page.labels)
+    unit = page.points_per_unit
+    boxes = np.array([label_box(label, unit) for label in page.labels])
+    assert not any(meets(box, np.delete(boxes, k, axis=0)) for k, box in enumerate(boxes))
+    other = pickle.loads(pickle.dumps(journey))
+    assert other.page(40).arrays().keys() == page.arrays().keys()
+    # The first have priority: what comes later changes nothing of where they stand.
+    fewer = Globe()
+    fewer.layers = [*journey.draw.globe.layers[:-1], Names(*first_names(journey.draw.globe.layers[-1], 20))]
+    film = replace(journey, shots=replace(journey.shots, pages=replace(journey.draw, globe=fewer)))
+    assert film.shots[40][2][0] == tuple(name for name in names if name[0] < 20)
+
+
+def first_names(layer, count):
+    return layer.xyz[:count], layer.labels[:count], layer.distance
+
+
+@pytest.mark.parametrize("seed", by_day(range(30), 0))
+def test_the_course_of_a_name_is_the_cheapest(seed, monkeypatch):
+    """Against all courses of a short film with two sides."""
+    monkeypatch.setattr(standing, "LEAST", 3)
+    rng = np.random.default_rng(seed)
+    price = np.where(rng.random((8, 2)) < 0.3, np.inf, rng.uniform(0, 60, (8, 2)))
+    price *= rng.choice([1.0, 5.0])
+
+    def cost(course):
+        total = sum(standing.AWAY if side < 0 else price[frame, side] for frame, side in enumerate(course))
+        for one, other in pairwise(course):
+            if one != other:
+                total += standing.CHANGING if min(one, other) >= 0 else standing.COMING
+        starts = [0, *(k for k in range(1, 8) if course[k] != course[k - 1]), 8]
+        short = any(end - start < 3 for start, end in list(pairwise(starts))[1:-1])
+        return np.inf if short else total
+
+    best = min(product((-1, 0, 1), repeat=8), key=cost)
+    assert cost(standing.course(price).tolist()) == pytest.approx(cost(best))
+
+
+def test_names_in_films_of_other_layers():
+    """Fixed names fade at the limb, those of one's own layers are avoided, and a globe without names has no more."""
+    globe = Globe()
+    assert len(Film.of_globe(globe, Spin(seconds=2.0), size=(90, 90), fps=10).shots[3]) == 2
+    globe.add_labels([(0.0, 20.0), (90.0, 20.0)], ["here", "there"])
+    film = Film.of_globe(globe, Spin(seconds=4.0), size=(300, 300), fps=10)
+    shown = [{row: strength for row, _, strength in film.shots[frame][2][0]} for frame in range(len(film))]
+    assert shown[0] == {0: 1.0}
+    assert {0.25, 0.5, 0.75, 1.0} == {strength for frame in shown for strength in frame.values()}
+    assert any(1 in frame for frame in shown)
+
+    here = globe.layers[-1].xyz[:1]
+
+    class Own:
+        def lay(self, chart):
+            places, _ = chart.points(here)
+            yield Label("here, too", tuple(places[0].tolist()), (2.0, 0.0), "left")
+
+    globe.add(Own())
+    shots = Film.of_globe(globe, Spin(seconds=4.0), size=(300, 300), fps=10).shots
+    assert not any(row == 0 for frame in range(len(shots)) for row, side, _ in shots[frame][2][0] if side == 0)

@@ -71,6 +71,17 @@ def as_color(value: ColorLike, name: str = "color") -> Color:
     return (red, green, blue, opacity)
 
 
+def as_inks(value: ColorLike | tuple[ColorLike, ColorLike], name: str = "color") -> tuple[Color, ...]:
+    """One colour, or two of them; a colour with an opacity is one.
+
+    >>> as_inks((0.0, 0.0, 0.0)), len(as_inks(((0.0, 0.0, 0.0), (1.0, 1.0, 1.0, 0.5))))
+    (((0.0, 0.0, 0.0, 1.0),), 2)
+    """
+    given: Any = value
+    several = isinstance(given, tuple | list) and len(given) == 2 and not isinstance(given[1], Real)
+    return tuple(as_color(ink, name) for ink in (given if several else (given,)))
+
+
 def as_colors(values: ColorLike | npt.ArrayLike, count: int, name: str = "colors") -> FloatArray:
     """Colours (n, 4) of `count` items, from one for all or from red, green, blue and optionally opacity of each."""
     if isinstance(values, str) or np.ndim(np.asarray(values, dtype=object)) < 2:

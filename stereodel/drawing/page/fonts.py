@@ -22,7 +22,7 @@ from stereodel.drawing.page.page import Page
 from stereodel.drawing.page.style import TYPE
 
 FontLike = str | os.PathLike[str] | Sequence[str | os.PathLike[str]]
-"""A family, the path of a font file, or several of them in order of preference."""
+"""A family, the path of a font file, or several of them in order of preference; the first may begin with a face."""
 
 FILES: Final = (".ttf", ".otf", ".ttc", ".otc")
 """Extensions of font files."""
@@ -39,6 +39,9 @@ SYMBOLS: Final = re.compile(r"(?i)last ?resort|adobe ?blank|^(cm|stix|dejavu|web
 FORMULA: Final = re.compile(r"(?<!\\)\$.*?(?<!\\)\$|\\(?=\$)", re.DOTALL)
 """A formula, or an escaped dollar sign."""
 
+FACES: Final = ("bold", "italic", "bold italic")
+"""Faces, alone or before a family; of one that has not all of them, the nearest is used."""
+
 NAMED: Final = 12
 """Largest number of characters that a warning names."""
 
@@ -48,12 +51,14 @@ class MissingCharactersWarning(UserWarning):
 
 
 def as_font(font: FontLike | None, name: str = "font") -> tuple[str, ...]:
-    """Names of font families, or paths of .ttf, .otf, .ttc or .otc files, in the form stored in labels.
+    """Names of font families, or paths of .ttf, .otf, .ttc or .otc files, in the form stored in labels: after a face.
 
     Families that are not installed are skipped, as in browsers, if at least one is. Errors have the argument's `name`.
 
     >>> as_font("DejaVu Serif"), as_font(["Nowhere", "DejaVu Sans"]), as_font(None)
     (('DejaVu Serif',), ('Nowhere', 'DejaVu Sans'), ())
+    >>> as_font("italic"), as_font("bold italic DejaVu Sans")
+    (('italic',), ('bold italic', 'DejaVu Sans'))
     """
     if font is None:
         return ()
@@ -61,19 +66,32 @@ def as_font(font: FontLike | None, name: str = "font") -> tuple[str, ...]:
         families = tuple(os.fspath(one) for one in ((font,) if isinstance(font, str | os.PathLike) else font))
     except TypeError as error:
         raise TypeError(f"{name} is {font!r}; give a family, the path of a font's file, or several of them") from error
+    face = next((face for face in reversed(FACES) if families and f"{families[0]} ".startswith(f"{face} ")), "")
+    if face:
+        families = (*filter(None, [families[0][len(face) + 1 :]]), *families[1:])
     if families and not any(_file(family) for family in families):
         raise ValueError(
             f"{name} is {', '.join(map(repr, families))}, which this machine does not have; give a family "
             "that matplotlib.font_manager.get_font_names() lists, or the path of a .ttf or .otf file"
         )
-    return families
+    return (face, *families) if face else families
+
+
+def face_of(font: tuple[str, ...]) -> str:
+    """Its face, or "" for upright type of normal weight."""
+    return font[0] if font and font[0] in FACES else ""
+
+
+def filled(font: tuple[str, ...], other: tuple[str, ...]) -> tuple[str, ...]:
+    """The font, or without families the same face of another, or without anything the other."""
+    return (*font, *other[bool(face_of(other)) :]) if font == (face_of(font),) else font or other
 
 
 def in_font(page: Page, font: tuple[str, ...]) -> Page:
     """A page with `font` for all labels that have no font of their own."""
     if not font:
         return page
-    items = (replace(item, font=font) if isinstance(item, Label) and not item.font else item for item in page.items)
+    items = (replace(item, font=filled(item.font, font)) if isinstance(item, Label) else item for item in page.items)
     return replace(page, items=tuple(items))
 
 
@@ -91,13 +109,15 @@ def set_text(label: Label) -> tuple[str, bool]:
     return (label.text if math else label.text.replace(r"\$", "$")), math
 
 
-def font_properties(families: Iterable[str], size: float) -> Any:
+def font_properties(families: Iterable[str], size: float, face: str = "") -> Any:
     """Matplotlib's font properties of type of a size in points, independent of the user's settings."""
     with of_extra("draw"):
         from matplotlib.font_manager import FontProperties
 
+    style: Any = "italic" if "italic" in face else "normal"
+    weight = "bold" if "bold" in face else "normal"
     return FontProperties(
-        family=list(families), style="normal", variant="normal", weight="normal", stretch="normal", size=size
+        family=list(families), style=style, variant="normal", weight=weight, stretch="normal", size=size
     )
 
 
@@ -133,35 +153,36 @@ def warn_of_missing(characters: Iterable[str]) -> None:
 @lru_cache(maxsize=4096)
 def _families(text: str, math: bool, font: tuple[str, ...]) -> tuple[tuple[str, ...], frozenset[str]]:
     """Families in which a text is set, and the characters that none of them has."""
-    chosen = [family for family in font if _file(family)] + [str(TYPE["font.family"])]
+    face = face_of(font)
+    chosen = [family for family in font[bool(face) :] if _file(family)] + [str(TYPE["font.family"])]
     if math:  # matplotlib sets text next to a formula in one font
-        return tuple(chosen), _lacking(frozenset(FORMULA.sub("", text)), chosen[:1])
-    missing = _lacking(frozenset(text), chosen)
+        return tuple(chosen), _lacking(frozenset(FORMULA.sub("", text)), chosen[:1], face)
+    missing = _lacking(frozenset(text), chosen, face)
     if missing:
-        more = _supplements(missing)
-        chosen, missing = chosen + list(more), _lacking(missing, more)
+        more = _supplements(missing, face)
+        chosen, missing = chosen + list(more), _lacking(missing, more, face)
     return tuple(chosen), missing
 
 
-def _lacking(text: frozenset[str], families: Iterable[str]) -> frozenset[str]:
+def _lacking(text: frozenset[str], families: Iterable[str], face: str) -> frozenset[str]:
     """The visible characters of a text that no family has."""
     lacking = {
         sign for sign in text if unicodedata.category(sign) not in {"Cc", "Cf"} and not "\ufe00" <= sign <= "\ufe0f"
     }
     for family in families:
         if lacking:
-            lacking -= _had(family, lacking)
+            lacking -= _had(family, lacking, face)
     return frozenset(lacking)
 
 
 @lru_cache(maxsize=256)
-def _supplements(missing: frozenset[str]) -> tuple[str, ...]:
+def _supplements(missing: frozenset[str], face: str) -> tuple[str, ...]:
     """The fewest other families that supply all available characters of `missing`."""
     chosen, left = [], set(missing)
     others = [SHIPPED, *_others()]
     while left:
-        most = max(others, key=lambda family: len(_had(family, left)))  # ties go to the first
-        found = _had(most, left)
+        most = max(others, key=lambda family: len(_had(family, left, face)))  # ties go to the first
+        found = _had(most, left, face)
         if not found:
             break
         chosen.append(most)
@@ -176,41 +197,37 @@ def _others() -> list[str]:
     return sorted(usable, key=lambda family: (not family.startswith(USUAL), family))
 
 
-def _had(family: str, signs: set[str]) -> set[str]:
-    """The characters of `signs` that a family has."""
-    face = _face(family)
-    return {sign for sign in signs if face is not None and face.get_char_index(ord(sign))}
+def _had(family: str, signs: set[str], face: str) -> set[str]:
+    """The characters of `signs` that a face of a family has."""
+    font = _font(family, face)
+    return {sign for sign in signs if font is not None and font.get_char_index(ord(sign))}
 
 
 @cache
-def _face(family: str) -> Any:
+def _font(family: str, face: str) -> Any:
     """The font of a family; None if it has no outlines or cannot be read."""
     with of_extra("draw"):
         from matplotlib.ft2font import FT2Font
 
-    path: Any = _file(family)
+    path: Any = _file(family, face)
     if path is None:
         return None
     number = getattr(path, "face_index", 0)  # in a collection, which matplotlib reads since 3.11
     try:
         open_font: Any = FT2Font
-        face = open_font(path, **({"face_index": number} if number else {}))
+        font = open_font(path, **({"face_index": number} if number else {}))
     except (OSError, RuntimeError):
         return None
-    return face if face.scalable else None
+    return font if font.scalable else None
 
 
 @cache
-def _file(family: str) -> str | None:
-    """The upright file of a family as found by matplotlib, or the named file; None if there is none."""
-    with of_extra("draw"):
-        from matplotlib.font_manager import FontProperties
-
+def _file(family: str, face: str = "") -> str | None:
+    """The file of a family as found by matplotlib, or the named file; None if there is none."""
     if family.lower().endswith(FILES):
         _take_up(family)
-    upright = FontProperties(family=[family], style="normal", variant="normal", weight="normal", stretch="normal")
     try:
-        return _manager().findfont(upright, fallback_to_default=False)
+        return _manager().findfont(font_properties([family], 10.0, face), fallback_to_default=False)
     except ValueError:
         return None
 

@@ -12,7 +12,7 @@ import numpy as np
 from stereodel._extras import of_extra
 from stereodel.constants import PIXEL_ROUNDING
 from stereodel.drawing.page import Fill, Label, Page
-from stereodel.drawing.page.fonts import families_of, font_properties, quiet_fonts
+from stereodel.drawing.page.fonts import face_of, families_of, font_properties, quiet_fonts
 from stereodel.drawing.page.items import corners_along
 from stereodel.drawing.page.style import TYPE
 from stereodel.render.vector.outlines import Drawn, Filled, Shape, Shown, shapes
@@ -108,7 +108,7 @@ def _draw_label(axes: Axes, label: Label) -> None:
         *label.anchor,
         label.text,
         transform=axes.transData + shift,
-        fontproperties=font_properties(families_of(label), label.size),
+        fontproperties=font_properties(families_of(label), label.size, face_of(label.font)),
         parse_math=label.formulas,
         color=label.color,
         ha=label.align,
