@@ -243,11 +243,8 @@ def lloyd(
             'LinearInterpolator(points, values, extrapolate="nearest") is one'
         )
     share = as_scalar(factor, "factor", low=0.0, high=2.0, open_low=True, open_high=True)
-    limit, last, threads = (
-        as_scalar(tolerance, "tolerance", low=0.0),
-        as_count(steps, "steps", low=0),
-        as_workers(workers),
-    )
+    limit = as_scalar(tolerance, "tolerance", low=0.0)
+    last, threads = as_count(steps, "steps", low=0), as_workers(workers)
     surface, polygon = surface_of(given), None
     step: Callable[[FloatArray], Step]
     if surface is SPHERE:
