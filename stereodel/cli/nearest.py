@@ -41,16 +41,12 @@ def command(
 
     from stereodel.cli.application import reporting, say
     from stereodel.io import nearest_shapes, write
-    from stereodel.io.formats.names import NoPointError, beside
+    from stereodel.io.formats.names import beside
     from stereodel.io.reading import ShapeTable, read_sites
 
     destination = output.of(options.TABLES, sites, queries)
     chosen, limit = columns.read(sites, read_sites), np.inf if max_distance is None else max_distance
-    try:
-        asking = of_columns.read(queries, columns)
-    except NoPointError as error:
-        asks = "" if isinstance(chosen, ShapeTable) else ", or ask for the shapes nearest to points: "
-        raise ValueError(f"{error}{asks and f'{asks}{queries} --of {sites}'}") from error
+    asking = of_columns.read(queries, columns)
     if isinstance(chosen, ShapeTable):
         if count > 1 or exclude_self:
             raise ValueError(f"{sites}: has not only points; leave out --count and --exclude-self, which are for these")

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
-from functools import cached_property
 from typing import Any, Final
 
 import numpy as np
@@ -86,11 +85,6 @@ class MapRows:
         """The rows as a GeoDataFrame."""
         cells = {**self.columns, self.name: unpacked(self.binary)}
         return optional("geopandas", "geo").GeoDataFrame(cells, geometry=self.name, crs=self.crs)
-
-    @cached_property
-    def kinds(self) -> list[str]:
-        """Geometry types in the layer."""
-        return wkb.kinds(self.binary)
 
     def batches(self, progress: Progress | None = None, *, several: bool = False) -> tuple[Any, Iterator[Any]]:
         """Schema and Arrow record batches of the rows, with the geometries as binary in the last column.
