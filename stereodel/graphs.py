@@ -7,17 +7,17 @@ Delaunay triangulation.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Literal, Protocol, TypeVar
+from functools import wraps
+from inspect import signature
+from typing import Literal, ParamSpec, TypeVar
 
 import numpy as np
-import numpy.typing as npt
 
 from stereodel import _kernel
 from stereodel._arrays import AnyIndices, FloatArray, IntArray, locked
 from stereodel._docs import shared
 from stereodel._spaces import PLANE
 from stereodel.sphere.coordinates import LONLAT
-from stereodel.sphere.latitudes import Latitude
 from stereodel.sphere.vectors import units
 from stereodel.triangulation.delaunay import Triangulation, as_triangulation, state_of, threads_of
 from stereodel.triangulation.topology import as_edges
@@ -69,38 +69,30 @@ _SHARED = LONLAT | {
 }
 
 
-_T = TypeVar("_T", covariant=True)
+_T = TypeVar("_T")
+_P = ParamSpec("_P")
+_Decorator = Callable[[Callable[[Triangulation], _T]], Callable[_P, _T]]
 
 
-class _OfPoints(Protocol[_T]):
-    def __call__(
-        self,
-        points: npt.ArrayLike | Triangulation | None = None,
-        *,
-        lonlat: npt.ArrayLike | None = None,
-        latitude: Latitude | None = None,
-        workers: int | None = None,
-    ) -> _T: ...
+def _with_parameters_of(triangulate: Callable[_P, Triangulation]) -> _Decorator[_T, _P]:
+    """Decorate a function of a triangulation: it becomes one of the points of which this makes a triangulation."""
+
+    def decorated(function: Callable[[Triangulation], _T]) -> Callable[_P, _T]:
+        @wraps(function)
+        def of_points(*args: _P.args, **options: _P.kwargs) -> _T:
+            found = function(triangulate(*args, **options))
+            if isinstance(found, np.ndarray):
+                locked(found)
+            return found
+
+        given = signature(triangulate).replace(return_annotation=signature(function).return_annotation)
+        of_points.__signature__ = given  # type: ignore[attr-defined]
+        return shared(**_SHARED)(of_points)
+
+    return decorated
 
 
-def _of_points(function: Callable[[Triangulation], _T]) -> _OfPoints[_T]:
-    """The function of points that has the name and the docstring of this one of their triangulation."""
-
-    def of_points(
-        points: npt.ArrayLike | Triangulation | None = None,
-        *,
-        lonlat: npt.ArrayLike | None = None,
-        latitude: Latitude | None = None,
-        workers: int | None = None,
-    ) -> _T:
-        found = function(as_triangulation(points, lonlat=lonlat, latitude=latitude, workers=workers))
-        if isinstance(found, np.ndarray):
-            locked(found)
-        return found
-
-    for name in ("__name__", "__qualname__", "__doc__"):
-        setattr(of_points, name, getattr(function, name))
-    return shared(**_SHARED)(of_points)
+_of_points = _with_parameters_of(as_triangulation)
 
 
 @_of_points

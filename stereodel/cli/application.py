@@ -26,26 +26,12 @@ WRONG_INPUT: Final = 2
 BROKEN_PIPE: Final = 1
 """Exit code after a closed pipe, as in rich and Python's documentation."""
 
+READING: Final = ("lon", "lat", "plane", "crs", "encoding", "decimal", "skip_rows", "missing", "wrap")
+OTHERWISE: Final = {"layer": "--layer-name", "spacing": "--grid", "columns": "--lon", "resume": "--overwrite"}
 ARGUMENTS: Final = {
-    "lon": "--lon",
-    "lat": "--lat",
-    "layer": "--layer-name",
-    "crs": "--crs",
-    "skip_missing": "--skip-missing",
-    "skip_invalid": "--skip-invalid",
-    "missing": "--missing",
-    "encoding": "--encoding",
-    "decimal": "--decimal",
-    "skip_rows": "--skip-rows",
-    "wrap": "--wrap",
-    "plane": "--plane",
-    "spacing": "--grid",
-    "bounds": "--bounds",
-    "max_segment": "--max-segment",
-    "columns": "--lon",
-    "keep": "--keep",
-    "resume": "--overwrite",
-}
+    name: f"--{name.replace('_', '-')}"
+    for name in (*READING, "skip_missing", "skip_invalid", "bounds", "max_segment", "keep")
+} | OTHERWISE
 """Arguments that messages of `stereodel.io` and `stereodel.partitioned` name, and the corresponding options."""
 
 

@@ -52,8 +52,6 @@ def command(
         options.refuse({"--bounds": bounds, "--centers": centers, "--unit": unit}, "a --grid, and there is none")
     if unit is not None and len(unit) != len(value):
         raise ValueError(f"there are {len(unit)} of --unit, but {len(value)} of --value; give each its own")
-    if at == points == "-":
-        raise ValueError("POINTS and --at cannot both be stdin")
     destination = output.of(options.TABLES if grid is None else GRIDS, points, at)
     meant = ("W,S,E,N in degrees", "-25,34,45,72") if columns.plane is None else PLANE
     sides = bounds if bounds in (None, "world") else options.numbers(bounds, "--bounds", *meant, 4)
@@ -72,9 +70,8 @@ def command(
             piece = slice(start, min(start + PIECE, len(queries)))
             found[piece] = interpolator(queries[piece])
             shown("interpolating", piece.stop, len(queries))
-    result: Grid | PointTable = asking
     if empty is None:
-        result = asking.beside(dict(zip(value, found.T, strict=True)))
+        result: Grid | PointTable = asking.beside(dict(zip(value, found.T, strict=True)))
     else:
         shaped = zip(value, found.T.reshape(-1, *empty.places.shape[:2]), strict=True)
         result = replace(empty, values=dict(shaped), units=dict(zip(value, unit or (), strict=False)))

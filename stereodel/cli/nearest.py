@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, NamedTuple
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -41,48 +41,39 @@ def command(
 
     from stereodel.cli.application import reporting, say
     from stereodel.io import nearest_shapes, write
-    from stereodel.io.formats.names import NoPointError, beside
+    from stereodel.io.formats.names import beside
     from stereodel.io.reading import ShapeTable, read_sites
 
     destination = output.of(options.TABLES, sites, queries)
-    if sites == queries == "-":
-        raise ValueError("SITES and --of cannot both be stdin")
     chosen, limit = columns.read(sites, read_sites), np.inf if max_distance is None else max_distance
-    try:
-        asking = of_columns.read(queries, columns)
-    except NoPointError as error:
-        asks = "" if isinstance(chosen, ShapeTable) else ", or ask for the shapes nearest to points: "
-        raise ValueError(f"{error}{asks and f'{asks}{queries} --of {sites}'}") from error
+    asking = of_columns.read(queries, columns)
     if isinstance(chosen, ShapeTable):
         reason = f"{sites} has lines or polygons, of which the nearest one alone is found; leave out what is for points"
         options.refuse({"--count": count > 1, "--exclude-self": exclude_self}, f"points, and {reason}")
         site, distance = nearest_shapes(asking.lonlat, chosen.shapes, latitude=latitude)
         query = np.flatnonzero(distance <= limit)
-        pairs = Pairs(query, site[query], np.ones_like(query), distance[query])
+        site, rank, distance = site[query], np.ones_like(query), distance[query]
     else:
-        pairs = _pairs(chosen.points(latitude), asking.points(latitude), count, limit, exclude_self)
+        places = chosen.points(latitude), asking.points(latitude)
+        query, site, rank, distance = _pairs(*places, count, limit, exclude_self)
     kept = [name for name in chosen.columns if name.lower() == "name"] if keep is None else keep
-    results: dict[str, Column] = {"rank": pairs.rank} if count > 1 else {}
-    results["site_row"] = chosen.rows[pairs.site]
-    distances: dict[str, Column] = {"distance" if chosen.surface == "plane" else "distance_km": pairs.distance}
-    of_sites = {f"site_{name}": chosen.column(name)[pairs.site] for name in kept}
-    table = asking.taken(pairs.query).beside(results | beside([*results, *distances], of_sites) | distances)
+    results: dict[str, Column] = {"rank": rank} if count > 1 else {}
+    results["site_row"] = chosen.rows[site]
+    distances: dict[str, Column] = {"distance" if chosen.surface == "plane" else "distance_km": distance}
+    of_sites = {f"site_{name}": chosen.column(name)[site] for name in kept}
+    table = asking.taken(query).beside(results | beside([*results, *distances], of_sites) | distances)
     with reporting(f"writing {output.out}") as told, destination.file() as path:
         write(path, table, progress=told)
     say(f"{output.out}: nearest of {len(chosen)} sites for {len(asking)} points")
 
 
-class Pairs(NamedTuple):
-    """Indices of query points, each with one of its sites, that site's rank from 1 and its distance; (m,) each."""
+def _pairs(
+    sites: FloatArray, queries: FloatArray, count: int, limit: float, exclude_self: bool
+) -> tuple[Indices, Indices, Indices, FloatArray]:
+    """Indices of query points, each with one of its up to `count` nearest sites, that one's rank, and the distance.
 
-    query: Indices
-    site: Indices
-    rank: Indices
-    distance: FloatArray
-
-
-def _pairs(sites: FloatArray, queries: FloatArray, count: int, limit: float, exclude_self: bool) -> Pairs:
-    """The nearest sites of each query point, up to `count`; distances on the sphere are in kilometres."""
+    Ranks count from 1; distances on the sphere are in kilometres.
+    """
     import numpy as np
 
     from stereodel.curves.ragged import Ragged, spans
@@ -111,4 +102,4 @@ def _pairs(sites: FloatArray, queries: FloatArray, count: int, limit: float, exc
     some = np.nonzero(taken)
     times = taken[some]
     site = groups.values[spans(groups.offsets[found[some]], times)]
-    return Pairs(np.repeat(some[0], times), site, spans(before[some] + 1, times), np.repeat(distance[some], times))
+    return np.repeat(some[0], times), site, spans(before[some] + 1, times), np.repeat(distance[some], times)

@@ -96,6 +96,8 @@ class File:
         from stereodel.io.writing import SAME
 
         name, path, kind = self.out, Path(self.out), getattr(self, "format", None)
+        if inputs.count("-") > 1:
+            raise ValueError("two inputs cannot both be stdin; name a file for one of them")
         if name != "-" and kind is not None:
             raise ValueError(f"--format is for stdout (--out -); the format of {name} is given by its extension")
         chosen = ((kind or allowed[0]) if name == "-" else path.suffix).lower().removeprefix(".")

@@ -58,8 +58,6 @@ def command(
         options.refuse(asked | of_columns.given, "the table --of, and there is none")
     elif not (sums or means or rows):
         raise ValueError("--of needs --sum, --mean or --rows, which say what to gather of its points")
-    if of == points == "-":
-        raise ValueError("POINTS and --of cannot both be stdin")
     table = columns.read(points)
     by = np.arange(len(table)) if dissolve is None else table.column(dissolve)
     with reporting(f"cells of {len(table)} points"):

@@ -166,7 +166,7 @@ class Interpolator(ABC):
         >>> round(float(temperature(lonlat=(9.2, 45.5))), 2)
         12.8
         """
-        return cls(as_triangulation(None, lonlat=lonlat, latitude=latitude), values, **options)
+        return cls(as_triangulation(lonlat=lonlat, latitude=latitude), values, **options)
 
     @property
     def latitude(self) -> Latitude | None:

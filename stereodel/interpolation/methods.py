@@ -141,10 +141,9 @@ class _Scattered:
         name, far = type(self).__name__, np.linalg.norm(self.tri.points, axis=1)
         curved = self.tri.surface is SPHERE
         if curved and name != "griddata" and far.max(initial=0.0) > (1 + SAME_LENGTH) * far.min(initial=np.inf):
-            raise ValueError(
-                "points has three columns and rows of different lengths; here they are directions. For points in space "
-                f"use scipy.interpolate.{name}, for directions of any length griddata"
-            )
+            said = "points has three columns and rows of different lengths; here they are directions"
+            advice = f"For points in space use scipy.interpolate.{name}, for directions of any length griddata"
+            raise ValueError(f"{said}. {advice}")
 
     def __call__(self, *xi: Any) -> FloatArray:
         """Values at places, given as `xi` of `griddata` or coordinate by coordinate."""

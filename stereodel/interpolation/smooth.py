@@ -78,11 +78,10 @@ class SmoothInterpolator(TriangleInterpolator):
     ) -> None:
         super().__init__(points, values, extrapolate=extrapolate)
         self._fields = np.ascontiguousarray(self._values.T)
-        self._slopes = (
-            fit_gradients(self.triangulation, self._values, self._sites)
-            if gradients is None
-            else self._given(gradients)
-        )
+        if gradients is None:
+            self._slopes = fit_gradients(self.triangulation, self._values, self._sites)
+        else:
+            self._slopes = self._given(gradients)
         self.gradients = locked(np.ascontiguousarray(self._slopes.T).reshape(*self.values.shape, len(self._slopes)))
 
     def _given(self, gradients: npt.ArrayLike) -> FloatArray:

@@ -265,10 +265,9 @@ def from_ugrid(dataset: Any) -> tuple[FloatArray, IntArray]:
     wrong = np.argwhere(~missing & ((rows < start) | (rows >= start + count) | (rows != np.floor(rows))))
     if len(wrong):
         face, corner = wrong[0].tolist()
-        raise ValueError(
-            f"face {face} names node {rows[face, corner]:.15g}, but the nodes are {start} to {start + count - 1}; its "
-            "attributes start_index and _FillValue say where counting starts and which number stands for none"
-        )
+        said = f"face {face} names node {rows[face, corner]:.15g}, but the nodes are {start} to {start + count - 1}"
+        advice = "its attributes start_index and _FillValue say where counting starts and which number stands for none"
+        raise ValueError(f"{said}; {advice}")
     few = np.flatnonzero((~missing).sum(axis=1) < 3)
     if len(few):
         raise ValueError(f"face {few[0]} has {(~missing[few[0]]).sum()} nodes, but a face has at least three")

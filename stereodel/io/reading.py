@@ -16,7 +16,7 @@ from stereodel._tasks.progress import Progress
 from stereodel.curves.ragged import Ragged
 from stereodel.io.formats import Content, FileFormat, FormatName, Source, Wanted, delimited, gdal, geojson, parquet
 from stereodel.io.formats.foreign import SourceFile
-from stereodel.io.formats.map_rows import POINT, POLYGON, Frame, content_of, is_frame, shapely
+from stereodel.io.formats.map_rows import Frame, content_of, is_frame, shapely
 from stereodel.io.formats.names import DataWarning, NoPointError, naming, spelled
 from stereodel.io.inspection import Inspection, summary
 from stereodel.io.table import PointTable, degrees, located
@@ -312,19 +312,19 @@ def of_features(features: geojson.Features) -> Shapes:
 def of_geometries(geometries: Geometries, properties: list[Mapping[str, Any]] | None = None) -> Shapes:
     """Shapes of Shapely's geometries, one feature each."""
     # A copy, as pandas gives arrays that are read-only, which Shapely takes since 2.2.
-    parts, feature = np.array(geometries), np.arange(len(geometries))
-    while (shapely.get_type_id(parts) > POLYGON).any():
+    parts, feature, of = np.array(geometries), np.arange(len(geometries)), shapely.GeometryType
+    while (shapely.get_type_id(parts) > of.POLYGON).any():  # multi-part
         parts, inner = shapely.get_parts(parts, return_index=True)
         feature = feature[inner]
     there = ~(shapely.is_missing(parts) | shapely.is_empty(parts))
     parts, feature = parts[there], feature[there]
     kind = shapely.get_type_id(parts)
-    point, line, polygon = kind == POINT, (kind != POINT) & (kind != POLYGON), kind == POLYGON
+    point, line, polygon = kind == of.POINT, ~np.isin(kind, (of.POINT, of.POLYGON)), kind == of.POLYGON
     rings, owner = shapely.get_rings(parts[polygon], return_index=True)
     rows = [
-        Ragged.grouped(lonlat.reshape(-1, 2), row, len(of))
-        for of in (parts[line], rings)
-        for lonlat, row in [shapely.get_coordinates(of, return_index=True)]
+        Ragged.grouped(lonlat.reshape(-1, 2), row, len(some))
+        for some in (parts[line], rings)
+        for lonlat, row in [shapely.get_coordinates(some, return_index=True)]
     ]
     points = shapely.get_coordinates(parts[point]).reshape(-1, 2)
     named = properties or [{}] * len(geometries)

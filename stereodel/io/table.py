@@ -25,7 +25,7 @@ AXES: Final = {"sphere": ("lon", "lat"), "plane": ("x", "y")}  # unless a table 
 
 @dataclass(frozen=True, eq=False)
 class PointTable(Displayed):
-    """Points of the Earth or of a plane and their other columns, from `read_points` and for `write`.
+    """Points of the Earth or of a plane and their other columns, from `read_points` and for `write`; read-only.
 
     Parameters
     ----------
@@ -43,11 +43,6 @@ class PointTable(Displayed):
         Coordinate reference system of the plane, if it is known. Degrees are those of EPSG:4326.
     name : str
         Name of the source, for messages.
-
-    Attributes
-    ----------
-    places, columns, rows, surface, axes, crs, name
-        As given; arrays and the mapping are read-only.
 
     Raises
     ------

@@ -243,11 +243,8 @@ def lloyd(
             'LinearInterpolator(points, values, extrapolate="nearest") is one'
         )
     share = as_scalar(factor, "factor", low=0.0, high=2.0, open_low=True, open_high=True)
-    limit, last, threads = (
-        as_scalar(tolerance, "tolerance", low=0.0),
-        as_count(steps, "steps", low=0),
-        as_workers(workers),
-    )
+    limit = as_scalar(tolerance, "tolerance", low=0.0)
+    last, threads = as_count(steps, "steps", low=0), as_workers(workers)
     surface, polygon = surface_of(given), None
     step: Callable[[FloatArray], Step]
     if surface is SPHERE:
@@ -331,9 +328,8 @@ def _integrals(
         flat = (nodes + points[site][:, None]).reshape(-1, points.shape[1])
         values = as_amounts(density(flat), "density(points)", "weight")
         if values.shape != (len(flat),):
-            raise ValueError(
-                f"density(points) must return a number for each point, shape {(len(flat),)}, got {values.shape}"
-            )
+            said = f"a number for each point, shape {(len(flat),)}, got {values.shape}"
+            raise ValueError(f"density(points) must return {said}")
         values, highest = values.reshape(weights.shape), np.zeros(len(points))
         np.maximum.at(highest, site, values.max(axis=1))
         scale = np.ldexp(0.5, np.frexp(highest)[1])

@@ -85,10 +85,8 @@ def as_options(qhull_options: Any, incremental: bool) -> frozenset[str]:
         return frozenset({"Qc"} if incremental else {"Qbb", "Qc", "Qz"})
     words = frozenset(qhull_options.split())
     if unknown := sorted(words - KNOWN):
-        raise ValueError(
-            f"qhull_options has {', '.join(map(repr, unknown))}; known here are {', '.join(sorted(KNOWN))}. "
-            "Leave it out, or use the class of scipy.spatial"
-        )
+        said = f"qhull_options has {', '.join(map(repr, unknown))}; known here are {', '.join(sorted(KNOWN))}"
+        raise ValueError(f"{said}. Leave it out, or use the class of scipy.spatial")
     if incremental and (refused := sorted(words & {"Qbb", "Qz"})):
         raise ValueError(f"qhull_options {', '.join(map(repr, refused))} cannot be used with incremental=True")
     return words

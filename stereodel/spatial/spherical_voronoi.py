@@ -82,10 +82,9 @@ class ExactOnSphere(scipy.spatial.SphericalVoronoi):
         off = np.abs(distances - self.radius)
         if off.max(initial=0.0) >= as_scalar(threshold, "threshold", low=0.0) * self.radius:
             worst = int(off.argmax())
-            raise ValueError(
-                f"Radius inconsistent with generators: points[{worst}] is {float(distances[worst])} from the center, "
-                f"but radius is {self.radius}; scale the points, or allow more by threshold"
-            )
+            said = f"points[{worst}] is {float(distances[worst])} from the center, but radius is {self.radius}"
+            advice = "scale the points, or allow more by threshold"
+            raise ValueError(f"Radius inconsistent with generators: {said}; {advice}")
         triangles = exact.SphericalDelaunay(directions)
         self._diagram = exact.SphericalVoronoi(triangles)
         self._simplices = np.array(triangles.simplices)

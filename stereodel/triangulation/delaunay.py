@@ -409,7 +409,7 @@ def _shaped(found: IntArray, queries: FloatArray) -> IntArray | int:
 
 
 def as_triangulation(
-    points: npt.ArrayLike | Triangulation | None,
+    points: npt.ArrayLike | Triangulation | None = None,
     *,
     lonlat: npt.ArrayLike | None = None,
     latitude: Latitude | None = None,

@@ -1,18 +1,15 @@
 """How commands end: exit codes, one line on stderr, and silence where a reader has gone."""
 
 import codecs
-import inspect
 import re
 import signal
-from dataclasses import dataclass
-from typing import Annotated
 
 import pytest
 import typer
 from typer.testing import CliRunner
 
 from stereodel._tasks.interrupts import signals
-from stereodel.cli import app, options
+from stereodel.cli import app
 from stereodel.cli.application import Commands, reporting
 
 COMMANDS = [command.name for command in app.registered_commands]
@@ -116,21 +113,6 @@ def test_help_shows_an_example_and_names_what_is_given(command):
     assert 0 < len(re.findall(r"^│ .{3}--\w", first, re.MULTILINE) or re.findall(r"^│ --\w", first, re.MULTILINE)) <= 20
     assert ("--skip-missing" in "".join(below)) == ("--skip-missing" in ran.stdout)
     assert ("--legend" in "".join(below)) == ("--legend" in ran.stdout)
-
-
-def test_an_option_of_the_readers_falls_under_their_heading():
-    """Whoever adds a field to the dataclass need not think of the help."""
-
-    @dataclass(frozen=True)
-    class Wider(options.Table):
-        quoting: Annotated[str | None, typer.Option(metavar="NAME", help="Quotation marks of the text.")] = None
-
-    def command(*, columns: Wider) -> None:
-        """Read."""
-
-    (*_, option) = inspect.signature(options.grouped(command), eval_str=True).parameters.values()
-    assert option.name == "quoting"
-    assert option.annotation.__metadata__[0].rich_help_panel == "Reading"
 
 
 def test_wrong_usage():

@@ -79,7 +79,6 @@ nearest cities.csv --of cities.csv --of-crs x → cities.csv: --of-crs is 'x', w
 nearest not-there.csv --of cities.csv -o out.xyz → out.xyz: cannot write xyz; choose .csv
 nearest not-there.csv --of cities.csv -o none/out.csv → there is no folder none
 nearest not-there.csv --of cities.csv -o . → cannot write
-nearest - --of - → cannot both be stdin
 interpolate PEOPLE --at wrong.csv → wrong.csv: no column looks like the longitude; say which with --at-lon,
 interpolate PEOPLE --at cities.csv --at-lat x → cities.csv: --at-lat is 'x', which is not one of the columns
 interpolate PEOPLE --at cities.csv --at-crs x → cities.csv: --at-crs is 'x', which PROJ does not know;

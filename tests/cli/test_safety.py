@@ -153,14 +153,6 @@ def test_what_takes_nothing(folder, options, message):
     assert (ran.returncode, ran.stderr) == (2, message)
 
 
-def test_stdin_to_stdout(folder, run, rows):
-    text = (folder / "cities.csv").read_text(encoding="utf-8")
-    from_file = run("nearest", "cities.csv", "--of", "cities.csv", "-o", "-")
-    assert run("nearest", "-", "--of", "cities.csv", "-o", "-", stdin=text) == from_file
-    assert run("nearest", "cities.csv", "--of", "-", "-o", "-", stdin=text) == from_file
-    assert [row["distance_km"] for row in rows(from_file)] == ["0"] * 5
-
-
 def test_a_closed_pipe_is_quiet(folder):
     arguments = ["interpolate", "cities.csv", "--value", "people", "--grid", "0.5", "--method", "nearest", "-o", "-"]
     program = [sys.executable, "-c", "from stereodel.cli import app; app()"]

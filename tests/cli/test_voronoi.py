@@ -204,15 +204,9 @@ def test_edges_in_the_plane(folder, run, rows):
     assert (found - 1).tolist() == PlanarDelaunay(points).edges.tolist()
 
 
-def test_the_far_side_is_left_out(folder, run, rows):
-    (folder / "four.csv").write_text("lon,lat\n0,0\n9,0\n0,9\n3,3\n", encoding="utf-8")
-    found = corners(rows, run("triangulate", "four.csv", "-o", "-"))
-    assert {frozenset(row) for row in found.tolist()} == {frozenset(row) for row in ((1, 2, 4), (2, 3, 4), (1, 3, 4))}
-
-
 @pytest.mark.parametrize(
     ("kind", "options", "what"),
-    [("geojson", [], "Polygon"), ("parquet", ["--edges"], "LineString"), ("gpkg", ["--edges"], "LineString")],
+    [("json", [], "Polygon"), ("parquet", ["--edges"], "LineString"), ("gpkg", ["--edges"], "LineString")],
 )
 def test_shapes(folder, run, rows, kind, options, what):
     run("triangulate", "cities.csv", "-o", f"out.{kind}", *options)
@@ -223,12 +217,6 @@ def test_shapes(folder, run, rows, kind, options, what):
     assert frame.is_valid.all()
     assert set(frame.geom_type) <= {what, f"Multi{what}"}
     assert frame.crs.to_epsg() == 4326
-
-
-@pytest.mark.parametrize("ending", ["json", "geoparquet"])
-def test_other_endings_of_formats(folder, run, ending):
-    run("nearest", "cities.csv", "--of", "cities.csv", "-o", f"out.{ending}")
-    assert len(read_points(f"out.{ending}")) == 5
 
 
 @pytest.mark.parametrize("kind", [kind for kind in TABLES if kind != "shp"])

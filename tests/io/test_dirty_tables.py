@@ -81,7 +81,6 @@ READ = [
     case("geom,v|POINT EMPTY,1|POINT(9.99 48.4),2", [ULM], {"v": [2]}, skip_missing=True),
     case("# by us|# lat,lon|48.4,9.99|54.3,10.1", TWO, {}, "the last line of comments is read as the header"),
     case("# lat, lon, as text|lon,lat|9.99,48.4|10.1,54.3"),
-    case('"name,lon,lat"|"Ulm,9.99,48.4"|"Kiel,10.1,54.3"', TWO, NAMES),
     case("sep=~|name~lon~lat|Ulm~9.99~48.4|Kiel~10.1~54.3", TWO, NAMES),
     case("lat,NS,lon,EW|48.4,N,9.99,W", [(-9.99, 48.4)], {"NS": ["N"], "EW": ["W"]}, 2),
     case("lon,EW,lat,wind|-9.99,W,48.4,S", [(-9.99, 48.4)], {"EW": ["W"], "wind": ["S"]}),

@@ -97,15 +97,6 @@ def test_a_plane_without_a_coordinate_system(tmp_path):
         _ = grid.lonlat
 
 
-def test_missing_values(tmp_path):
-    grid = Grid([0, 1], [0, 1], {"z": [[1.0, np.nan], [3.0, 4.0]]})
-    for kind in ("csv", "nc", "tif"):
-        write(tmp_path / f"grid.{kind}", grid)
-    assert (tmp_path / "grid.csv").read_text(encoding="utf-8").splitlines()[1:3] == ["0,0,1", "1,0,"]
-    with rasterio.open(tmp_path / "grid.tif") as file:
-        assert file.read(1, masked=True).mask.tolist() == [[False, False], [False, True]]
-
-
 def test_names_that_are_taken(tmp_path):
     grid = Grid([0, 1], [0, 1], {"lat": np.ones((2, 2)), "crs": np.zeros((2, 2))})
     with pytest.warns(RenamedColumnWarning, match="'lat' is written as 'lat_1' and 'crs' as 'crs_1'"):

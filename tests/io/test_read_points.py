@@ -185,15 +185,6 @@ def test_files_of_geopandas(tmp_path, ending, crs):
         assert_cities(read_points(stream))
 
 
-def test_parquet_without_geometry(tmp_path):
-    pd.DataFrame(CITIES, columns=["name", "Lng", "Lat", "people"]).to_parquet(tmp_path / "cities.parquet")
-    assert_cities(read_points(tmp_path / "cities.parquet"))
-    gaps = pd.DataFrame({"lon": [1.0, None], "lat": [2.0, 3.0]})
-    gaps.to_parquet(tmp_path / "gaps.parquet")
-    with pytest.raises(ValueError, match="row 2: the longitude is missing"):
-        read_points(tmp_path / "gaps.parquet")
-
-
 def test_tables_are_values():
     lonlat = np.array([[1.0, 2.0]])
     table = PointTable(lonlat, {"name": ["a"]})

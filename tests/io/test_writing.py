@@ -47,18 +47,6 @@ def test_geometries_come_back(tmp_path, ending, what, diagram):
         assert back.drop(columns="geometry").to_numpy().tolist() == frame.drop(columns="geometry").to_numpy().tolist()
 
 
-def test_geojson_is_as_the_standard_wants_it(diagram):
-    collection = json.loads(to_geojson(to_geodataframe(diagram, columns={"name": NAMES})))
-    assert set(collection) == {"type", "features"}
-    for feature in collection["features"]:
-        assert set(feature) == {"type", "properties", "geometry"}
-        geometry = shapely.geometry.shape(feature["geometry"])
-        rings = shapely.get_exterior_ring(shapely.get_parts(geometry))
-        assert shapely.is_ccw(rings).all()
-        assert np.abs(geometry.bounds).max() <= 180
-    assert [feature["properties"]["name"] for feature in collection["features"]] == NAMES.tolist()
-
-
 def test_geojson_rounds_transforms_and_turns_rings():
     """And has no numbers but finite ones: not those of missing values and of unbounded cells."""
     clockwise = shapely.Polygon([(0, 0), (0, 1e5), (1e5, 1e5), (1e5, 0)])

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any, BinaryIO, Literal, NamedTuple, TextIO
 
 from stereodel._arrays import Column, Indices, as_choice, as_count
@@ -62,18 +61,10 @@ class Content:
     crs: str | None = None
     """Coordinate system of the places, None for degrees."""
 
-    @cached_property
-    def understood(self) -> dict[str, Any]:
-        """How the file was read, for `inspect`."""
-        return {}
-
-    @cached_property
-    def invalid(self) -> dict[int, str]:
-        """Rows that are left out, and what is wrong with them."""
-        return {}
-
     def __init__(self, columns: dict[str, Column], rows: Indices | None = None) -> None:
         self._columns, self.rows = columns, rows
+        self.understood: dict[str, Any] = {}  # how the file was read, for `inspect`
+        self.invalid: dict[int, str] = {}  # rows that are left out, and what is wrong with them
 
     def columns(self) -> dict[str, Column]:
         """All columns that are not geometries."""

@@ -36,7 +36,6 @@ TOTALS: Final = re.compile(
     r"mean|average|mittelwert|durchschnitt|moyenne|m[eé]dia|promedio|среднее|平均|المتوسط)(?: \w+)?\W*",
     re.IGNORECASE,
 )
-WHOLE: Final = re.compile(r'"[^"\r\n]*[,;\t|][^"\r\n]*"[ \t]*[\r\n]')  # a line that is one quoted field
 SEPARATED: Final = re.compile(r"sep=([^\r\n])\r?\n", re.IGNORECASE)  # by which spreadsheets say what separates fields
 
 Lines = list[list[str]]
@@ -55,9 +54,6 @@ def read(file: SourceFile, wanted: Wanted) -> Content:
         if max(text.find(end, begin, begin + MOST_LINE) for end in "\r\n") < 0:
             raise ValueError(f"a line has more than {MOST_LINE} characters, which no line of a table needs")
     separator = said[1] if said else _separator(text)
-    if separator is None and WHOLE.match(text):  # every line is one quoted field, as spreadsheets save pasted text
-        text = "\n".join(row[0].strip() if row else "" for row in csv.reader(io.StringIO(text, newline="")))
-        separator = _separator(text)
     last = comments[0].splitlines()[-1].lstrip(" \t#") if comments else ""
     names, first = (line.strip().split(separator) for line in (last, text.partition("\n")[0]))
     if len(names) == len(first) and has_lonlat(names) and not has_lonlat(first):
@@ -83,9 +79,7 @@ def tabulated(rows: Iterable[list[str]], wanted: Wanted, *, comma: bool = True, 
     degrees = wanted.axes(list(columns)) if named and wanted.crs is None and wanted.plane is None else ()
     columns = {name: blanked(values, wanted.sentinels) for name, values in columns.items()}
     if not header and [*columns] == ["lon", "lat"] and wanted.lon is None and wanted.plane is None:
-        lon, lat = ([abs(at.degrees) for at in map(angle, each[:LOOKED_AT]) if at] for each in columns.values())
-        unlike = ", though the values look swapped" if max(lat, default=0) > 90 >= max(lon, default=0) else ""
-        note(f"there is no header: column_1 is read as the longitude, column_2 as the latitude{unlike}", "lon")
+        note("there is no header: column_1 is read as the longitude, column_2 as the latitude", "lon")
     count = len(next(iter(columns.values()), ()))
     words = _rows_of_words(columns, wanted.plane or degrees, count)
     for row, what in words.items():

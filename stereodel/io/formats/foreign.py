@@ -97,8 +97,6 @@ class SourceFile:
     ) -> None:
         self._source, self._formats = source, formats
         self.path = Path(source) if isinstance(source, str | os.PathLike) else None
-        if self.path is None and not hasattr(source, "read"):
-            raise TypeError(f"source must be a file, a stream or a frame, got {type(source).__name__}")
         self.kind: FormatName = as_choice(kind or self._found(), tuple(formats), "format")
 
     def _found(self) -> FormatName:

@@ -17,12 +17,11 @@ from xml.parsers import expat
 
 from stereodel._extras import OnUse, optional
 from stereodel._tasks.progress import Progress
-from stereodel.io.formats import Content, FileFormat, Wanted, delimited
+from stereodel.io.formats import Content, FileFormat, Wanted, delimited, wkb
 from stereodel.io.formats.columns import as_text, check_held, plain
 from stereodel.io.formats.foreign import BINARY, SourceFile, check_crs, check_stored, self_contained
 from stereodel.io.formats.map_rows import Frame, MapRows, arrow, arrow_column
 from stereodel.io.formats.names import DataWarning, RenamedColumnWarning, beside, has_lonlat, listed, spelled
-from stereodel.io.formats.wkb import is_there
 
 pyogrio: Any = OnUse(lambda: optional("pyogrio", "geo"))
 
@@ -157,8 +156,9 @@ def write_layer(layer: MapRows, path: Path, *, progress: Progress | None = None)
     named = beside([layer.name, *RESERVED[kind]], layer.columns, any_case=True)
     check_held(named, kind)
     whole = replace(layer, columns={name: plain_column(values, kind) for name, values in named.items()})
-    several = any(found.startswith("Multi") for found in layer.kinds)  # then all need to be, in formats of one kind
-    kinds = sorted({SEVERAL.get(found, found) for found in layer.kinds}) if several else layer.kinds
+    kinds = wkb.kinds(layer.binary)
+    several = any(found.startswith("Multi") for found in kinds)  # then all need to be, in formats of one kind
+    kinds = sorted({SEVERAL.get(found, found) for found in kinds}) if several else kinds
     schema, batches = whole.batches(progress, several=several)
     flat = kind == "xlsx"
     if flat:
@@ -211,7 +211,7 @@ def _is_whole(path: Path, layer: MapRows) -> bool:
                 geometries += batch.num_rows - batch.column(batch.num_columns - 1).null_count
     except (IndexError, OSError, RuntimeError):  # not even a header, a cut row, no layer
         return False
-    there = int(is_there(layer.binary).sum())
+    there = int(wkb.is_there(layer.binary).sum())
     return rows == len(layer) and geometries == there and fields >= len(layer.columns)
 
 

@@ -6,7 +6,6 @@ import json
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
 from itertools import chain
 from numbers import Real
 from pathlib import Path
@@ -33,14 +32,12 @@ KINDS: Final = ("Point", "MultiPoint", "LineString", "LinearRing", "MultiLineStr
 FEATURE: Final = {"geometry", "properties", "coordinates", "Feature", "GeometryCollection", *KINDS}
 
 
-@dataclass(frozen=True, eq=False)
 class Features(Content):
     """Features that were read: properties and geometry of each, and the coordinate system, None for degrees."""
 
-    properties: list[Mapping[str, Any]]
-    geometries: list[Any]
-    crs: str | None
-    rows = None
+    def __init__(self, properties: list[Mapping[str, Any]], geometries: list[Any], crs: str | None) -> None:
+        super().__init__({})
+        self.properties, self.geometries, self.crs = properties, geometries, crs
 
     @classmethod
     def of(cls, *contents: Any) -> Features:

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
-from functools import cached_property
 from typing import Any, Final
 
 import numpy as np
@@ -24,8 +23,6 @@ shapely: Any = OnUse(lambda: optional("shapely", "geo"))
 arrow: Any = OnUse(lambda: optional("pyarrow", "geo"))
 
 ROWS: Final = 65_536  # rows in a block
-# Type codes of geometries in Shapely; those above POLYGON are multi-part.
-POINT, LINE, RING, POLYGON, MULTIPOINT, MULTILINE, MULTIPOLYGON, COLLECTION = range(8)
 
 
 def packed(geometries: Geometries) -> Packed:
@@ -88,11 +85,6 @@ class MapRows:
         """The rows as a GeoDataFrame."""
         cells = {**self.columns, self.name: unpacked(self.binary)}
         return optional("geopandas", "geo").GeoDataFrame(cells, geometry=self.name, crs=self.crs)
-
-    @cached_property
-    def kinds(self) -> list[str]:
-        """Geometry types in the layer."""
-        return wkb.kinds(self.binary)
 
     def batches(self, progress: Progress | None = None, *, several: bool = False) -> tuple[Any, Iterator[Any]]:
         """Schema and Arrow record batches of the rows, with the geometries as binary in the last column.
@@ -169,7 +161,8 @@ class Frame(Content):
     """Rows of a frame of pandas or GeoPandas, with or without geometries."""
 
     def __init__(self, frame: Any) -> None:
-        self.frame, self.rows = frame, None
+        super().__init__({})
+        self.frame = frame
 
     def columns(self) -> dict[str, Column]:
         """The columns that are not geometries, and the index if that is more than row numbers."""
@@ -184,10 +177,12 @@ class Frame(Content):
             return None
         series = self.frame.geometry
         geometry = np.asarray(series if series.crs is None else series.to_crs("EPSG:4326"), dtype=object)
-        alone = (shapely.get_type_id(geometry) == MULTIPOINT) & (shapely.get_num_geometries(geometry) == 1)
+        of = shapely.GeometryType
+        alone = (shapely.get_type_id(geometry) == of.MULTIPOINT) & (shapely.get_num_geometries(geometry) == 1)
         geometry = np.where(alone, shapely.get_geometry(geometry, 0), geometry)
         nothing = shapely.is_missing(geometry) | shapely.is_empty(geometry)
-        wrong = np.flatnonzero((nothing & (not skip_missing)) | (~nothing & (shapely.get_type_id(geometry) != POINT)))
+        other = shapely.get_type_id(geometry) != of.POINT
+        wrong = np.flatnonzero((nothing & (not skip_missing)) | (~nothing & other))
         if len(wrong):
             first = geometry[wrong[0]]
             raise no_point(wrong[0] + 1, "no geometry" if first is None or first.is_empty else first.geom_type)

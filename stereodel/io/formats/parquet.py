@@ -10,7 +10,7 @@ from typing import Any
 
 from stereodel._extras import optional
 from stereodel._tasks.progress import Progress
-from stereodel.io.formats import Content, FileFormat, Wanted
+from stereodel.io.formats import Content, FileFormat, Wanted, wkb
 from stereodel.io.formats.columns import check_held
 from stereodel.io.formats.foreign import SourceFile, check_size
 from stereodel.io.formats.gdal import in_degrees, told
@@ -53,7 +53,7 @@ def write_parquet(
     check_held(layer.columns, "parquet")
     schema, batches = layer.batches(progress)
     crs = None if layer.crs is None else optional("pyproj", "geo").CRS(layer.crs).to_json_dict()
-    column = {"encoding": "WKB", "geometry_types": layer.kinds, "crs": crs}
+    column = {"encoding": "WKB", "geometry_types": wkb.kinds(layer.binary), "crs": crs}
     geo = {"version": "1.0.0", "primary_column": layer.name, "columns": {layer.name: column}}
     schema = schema.with_metadata({"geo": json.dumps(geo), **(metadata or {})})
     with optional("pyarrow.parquet", "geo").ParquetWriter(path, schema) as file:

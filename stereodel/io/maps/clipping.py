@@ -9,7 +9,7 @@ import numpy as np
 
 from stereodel._arrays import FloatArray, Geometries, Indices, Packed
 from stereodel.curves.ragged import Ragged
-from stereodel.io.formats.map_rows import COLLECTION, ROWS, packed, shapely, unpacked
+from stereodel.io.formats.map_rows import ROWS, packed, shapely, unpacked
 from stereodel.io.formats.wkb import is_there
 from stereodel.io.maps.on_map import repaired
 from stereodel.sphere import lonlat_to_xyz
@@ -67,11 +67,9 @@ class Mask:
             return self._whole
         side = TILES[level]
         west, south = np.array([x, y]) * side + CORNER
-        outer = self._tile(level + 1, x // 4, y // 4)
         reach = MARGIN * side
-        return shapely.intersection(
-            outer, shapely.box(west - reach, south - reach, west + side + reach, south + side + reach)
-        )
+        square = shapely.box(west - reach, south - reach, west + side + reach, south + side + reach)
+        return shapely.intersection(self._tile(level + 1, x // 4, y // 4), square)
 
     def cut(self, polygons: Geometries) -> Geometries:
         """Polygons clipped to the mask; empty if they lie outside."""
@@ -96,7 +94,8 @@ class Mask:
 
 def areal(geometries: Geometries) -> Geometries:
     """The polygons in results of overlays, counterclockwise; where borders touch, these also hold lines and points."""
-    mixed = (shapely.get_type_id(geometries) == COLLECTION) | (shapely.get_dimensions(geometries) < 2)
+    collections = shapely.get_type_id(geometries) == shapely.GeometryType.GEOMETRYCOLLECTION
+    mixed = collections | (shapely.get_dimensions(geometries) < 2)
     return np.asarray(shapely.orient_polygons(repaired(geometries, mixed)), dtype=object)
 
 

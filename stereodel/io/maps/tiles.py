@@ -271,12 +271,9 @@ def _drawn(
     result = np.full(len(rows), None, dtype=object)
     wrong, large = np.zeros(len(rows), dtype=bool), np.zeros(len(rows), dtype=bool)
     blocks = list(_blocks(len(rows)))
-
-    def drawn(block: slice) -> tuple[Packed, BoolArray, BoolArray]:
-        return _drawn_block(faces.take(rows[block]), sides)
-
     sides.pieces.of_edge  # noqa: B018 - computed once here, not by each thread
-    for block, found in zip(blocks, in_order(drawn, blocks, threads), strict=True):
+    drawn = in_order(lambda block: _drawn_block(faces.take(rows[block]), sides), blocks, threads)
+    for block, found in zip(blocks, drawn, strict=True):
         result[block], wrong[block], large[block] = found
         step()
     return result, wrong, large

@@ -16,18 +16,7 @@ from stereodel.curves.insides import oriented
 from stereodel.curves.ragged import Ragged
 from stereodel.curves.seams import stitched
 from stereodel.curves.trace import Edges, sides_of, unwrapped
-from stereodel.io.formats.map_rows import (
-    COLLECTION,
-    LINE,
-    MULTILINE,
-    MULTIPOINT,
-    MULTIPOLYGON,
-    POINT,
-    POLYGON,
-    RING,
-    shapely,
-    unpacked,
-)
+from stereodel.io.formats.map_rows import shapely, unpacked
 from stereodel.io.maps.on_map import close_in_longitude, lines_on_map, polygons_on_map, repaired
 from stereodel.sphere import lonlat_to_xyz, xyz_to_lonlat
 
@@ -91,11 +80,12 @@ def _images(geometries: Geometries, lens: MoebiusMap, slack: float) -> Geometrie
     images = np.array(shapely.force_2d(geometries), dtype=object)
     as_lonlat(shapely.get_coordinates(images), "shapes")
     kinds = np.where(shapely.is_empty(images), -1, shapely.get_type_id(images))
+    of = shapely.GeometryType
     for wanted, image in (
-        ((POINT, MULTIPOINT), _points),
-        ((LINE, RING, MULTILINE), _lines),
-        ((POLYGON, MULTIPOLYGON), _polygons),
-        ((COLLECTION,), _collections),
+        ((of.POINT, of.MULTIPOINT), _points),
+        ((of.LINESTRING, of.LINEARRING, of.MULTILINESTRING), _lines),
+        ((of.POLYGON, of.MULTIPOLYGON), _polygons),
+        ((of.GEOMETRYCOLLECTION,), _collections),
     ):
         chosen = np.flatnonzero(np.isin(kinds, wanted))
         if len(chosen):
