@@ -19,7 +19,7 @@ from stereodel.globe import Globe
 from stereodel.render import Figure
 
 VIEW = View(68, 28)
-SCALE = ColorScale("inferno", 0.1, 1e4, log=True)  # people per km²
+SCALE = ColorScale("inferno", 0.1, 1e4, "log")  # people per km²
 SEA = (0.055, 0.058, 0.075, 1.0)
 NIGHT, INK = (0.03, 0.03, 0.045, 1.0), (0.9, 0.88, 0.84, 1.0)
 

@@ -19,7 +19,7 @@ from stereodel.render import Figure
 
 FOCUS = (11.0, 49.0)
 MAGNIFICATION = 4.0
-SCALE = ColorScale("YlGnBu", 1e3, 1e6, log=True)  # km²
+SCALE = ColorScale("YlGnBu", 1e3, 1e6, "log")  # km²
 LABELLED = [
     *("FRA", "LHR", "CDG", "AMS", "MAD", "FCO", "IST", "ZRH", "VIE", "CPH", "ARN", "OSL", "HEL", "WAW", "PRG", "BUD"),
     *("ATH", "LIS", "DUB", "KEF", "BCN", "SVO", "MXP", "BEG", "OTP", "SOF", "KBP", "RIX", "EDI", "BGO", "PMI"),

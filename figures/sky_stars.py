@@ -22,7 +22,7 @@ from stereodel.render import Figure
 
 CENTER, POLE = (266.40499, -28.93617), (192.85948, 27.12825)  # of the galaxy, ICRS
 VIEW = View(180, 0)
-SCALE = ColorScale("bone_r", 0.06, 0.9, log=True)  # square degrees
+SCALE = ColorScale("bone_r", 0.06, 0.9, "log")  # square degrees
 TICKS = (0.1, 0.2, 0.4, 0.8)
 BRIGHT, SMOOTHED = 4.5, 1
 NIGHT, INK = (0.02, 0.022, 0.035, 1.0), (0.9, 0.9, 0.92, 1.0)

@@ -115,6 +115,7 @@ class Film(Generic[T], Displayed):
         size: tuple[int, int] = (1280, 720),
         fps: float = FPS,
         background: ColorLike = WHITE,
+        legend: bool = False,
     ) -> Film[Shot]:
         """A film of a globe along a motion; ``Film.of_globe(...).save("flight.mp4")`` draws it.
 
@@ -130,6 +131,8 @@ class Film(Generic[T], Displayed):
             Frames per second.
         background : color
             Colour behind the globe.
+        legend : bool
+            Whether to draw `Globe.legend` below the globe in each frame.
 
         Returns
         -------
@@ -154,8 +157,9 @@ class Film(Generic[T], Displayed):
         width, height = (as_count(side, "size", high=LARGEST_SIZE) for side in size)
         as_frame_size(width, height)
         rate = as_scalar(fps, "fps", low=0.0, open_low=True)
-        pages = GlobePages(globe, width, height, as_color(background, "background"))
-        return Film(pages, Samples(motion, rate), fps=rate, size=width)
+        shots = Samples(motion, rate)
+        pages = GlobePages(globe, width, height, as_color(background, "background"), legend, shots)
+        return Film(pages, shots, fps=rate, size=width)
 
     @classmethod
     def of_pictures(

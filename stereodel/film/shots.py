@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from copy import copy
 from dataclasses import KW_ONLY, dataclass, replace
 from functools import cached_property
 from typing import Any, Final, Protocol
@@ -22,6 +23,7 @@ from stereodel.drawing.page import Page
 from stereodel.drawing.page.colors import Color
 from stereodel.drawing.page.labels import title_height
 from stereodel.globe.globe import Globe
+from stereodel.globe.layers import AUTO, OfEarth, suited_to
 from stereodel.sphere import angular_distance, lonlat_to_xyz, xyz_to_lonlat
 
 Shot = tuple[MoebiusMap, MapView]
@@ -47,6 +49,12 @@ POINTS_PER_PIXEL: Final = 0.375
 
 FULL: Final = 720
 """Diameter in pixels above which line widths and type have a fixed size; below, it scales with the square root."""
+
+SCREEN: Final = 72 / 96
+"""Points of a pixel on a screen, as browsers take it."""
+
+SAMPLED: Final = 32
+"""Number of shots by which the largest scale of a film is found."""
 
 FINE: Final = 0.2
 """Largest deviation of the drawing from the exact image, in pixels."""
@@ -94,23 +102,49 @@ class Samples(Sequence[Shot]):
 
 @dataclass(frozen=True, eq=False)
 class GlobePages:
-    """Draws a globe, with its title above it, centred on a page of any aspect ratio."""
+    """Draws a globe, with its title above and its legend below it if wanted, centred on a page of any aspect ratio."""
 
     globe: Globe
     width: int
     height: int
     background: Color
+    legend: bool = False
+    shots: Sequence[Shot] = ()
 
     def __call__(self, shot: Shot) -> Page:
         """The page of a shot."""
-        square = min(self.width, self.height)
-        point = POINTS_PER_PIXEL * max(1.0, FULL / square) ** 0.5
-        room = self.height * point - title_height(self.globe.title)
-        page = self.globe.page(*shot, width=min(self.width * point, room), tolerance=FINE * point)
+        wide, high = self.width * self._point, self.height * self._point - self._below
+        globe_wide = min(wide, high - title_height(self.globe.title))
+        page = self._steady.page(*shot, width=globe_wide, tolerance=FINE * self._point)
         left, right, bottom, top = page.extent
-        x, y, half = (left + right) / 2, (bottom + top) / 2, point / page.points_per_unit / 2
-        extent = (x - half * self.width, x + half * self.width, y - half * self.height, y + half * self.height)
-        return replace(page, extent=extent, width=self.width * point, background=self.background)
+        x, y, half = (left + right) / 2, (bottom + top) / 2, 0.5 / page.points_per_unit
+        extent = (x - half * wide, x + half * wide, y - half * high, y + half * high)
+        page = replace(page, extent=extent, width=wide, background=self.background)
+        return self.globe.told(page) if self.legend else page
+
+    @cached_property
+    def _steady(self) -> Globe:
+        """The globe with its maps of the Earth at one resolution, or coasts would change from one frame to the next."""
+        some = np.unique(np.linspace(0, len(self.shots) - 1, SAMPLED).astype(int)) if self.shots else ()
+        largest = max((self.shots[k][0].peak[1] for k in some), default=1.0)
+        resolution = suited_to(largest * min(self.width, self.height) / 2 * SCREEN)
+        globe = copy(self.globe)
+        globe.layers = [
+            replace(layer, resolution=resolution) if isinstance(layer, OfEarth) and layer.resolution == AUTO else layer
+            for layer in globe.layers
+        ]
+        return globe
+
+    @property
+    def _point(self) -> float:
+        """Points of a page in a pixel."""
+        return POINTS_PER_PIXEL * max(1.0, FULL / min(self.width, self.height)) ** 0.5
+
+    @cached_property
+    def _below(self) -> float:
+        """Height of the legend in points."""
+        blank = Page((0.0, 1.0, 0.0, 1.0), width=self.width * self._point)
+        return self.globe.told(blank).height - blank.height if self.legend else 0.0
 
 
 @dataclass(frozen=True)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import Protocol
+from typing import Final, Protocol
 
 import numpy as np
 
@@ -13,13 +13,27 @@ from stereodel.curves.chart import Chart
 from stereodel.drawing.page import Ball, Beziers, Dots, Fill, Item, Label, Picture, Polygons, Polylines, Stroke
 from stereodel.drawing.page.colors import Color
 from stereodel.drawing.page.labels import placed_apart, within_disc
-from stereodel.drawing.page.style import DotStyle, LineStyle
+from stereodel.drawing.page.style import LineStyle
+from stereodel.drawing.scene.by_value import DotLooks
 from stereodel.drawing.scene.graticule import LEAST_APART, WIDTHS_APART, Graticule, usual_spacing
 from stereodel.drawing.scene.space_curves import page_path
 from stereodel.drawing.scene.visibility import limb
-from stereodel.globe.outlines_on_sphere import SphereLines, SphereRegions
+from stereodel.earth import AUTHALIC_RADIUS_KM
+from stereodel.globe.outlines_on_sphere import SphereLines, SphereRegions, earth_lines, earth_regions
 from stereodel.globe.raster import Raster, RasterOnDisc
 from stereodel.sphere.latitudes import Latitude
+
+AUTO: Final = "auto"
+"""The resolution that suits the scale on the page."""
+
+RESOLUTIONS: Final = {"10m": 25e6, "50m": 130e6, "110m": np.inf}
+"""Resolutions of maps of the Earth, and the scale 1 : n from which on the next one is fine enough."""
+
+RADIUS_POINTS: Final = AUTHALIC_RADIUS_KM * 1e5 / 2.54 * 72
+"""Radius of the Earth in points."""
+
+FINE: Final = 0.02
+"""Tolerance in points of pages in print."""
 
 
 def outline(chart: Chart) -> Beziers:
@@ -30,6 +44,25 @@ def outline(chart: Chart) -> Beziers:
 def ball(chart: Chart) -> Ball | None:
     """The shading of a disc, if it is a ball."""
     return Ball(chart.at, chart.scale) if chart.view.round else None
+
+
+def suited(chart: Chart) -> str:
+    """The resolution of maps of the Earth that suits the scale of a chart where it is largest."""
+    peak, scale = chart.lens.peak
+    # The nearest that is seen to the place where the lens enlarges most, as an angle.
+    away = 2 * np.arcsin(min(1.0, float(np.sqrt(np.sum((chart.source.normal - peak) ** 2))) / 2)) - chart.source.radius
+    half = max(0.0, float(away)) / 2
+    flat = 1.0 if chart.view.round else 2 * float(np.tan(np.radians(chart.view.angular_radius) / 2))
+    largest = scale / (np.cos(half) ** 2 + (scale * np.sin(half)) ** 2) * chart.scale / flat
+    # Of a page with many pixels, whose curves are finer.
+    points = largest * chart.unit * max(1.0, FINE / (chart.tolerance * chart.unit))
+    return suited_to(points)
+
+
+def suited_to(points: float) -> str:
+    """The resolution that suits a map with so many points to a radian of the Earth."""
+    scale = RADIUS_POINTS / points
+    return next(name for name, least in RESOLUTIONS.items() if scale < least)
 
 
 class MapLayer(Protocol):
@@ -70,12 +103,13 @@ class LineLayer:
     lines: SphereLines
     style: LineStyle
     name: str
+    told: tuple[str, ...] = ()
 
     def lay(self, chart: Chart) -> Iterator[Item]:
         """All visible parts, as one item."""
         seen = self.lines.on(chart)
         if len(seen):
-            yield Polylines(seen.values, seen.offsets, self.style.color, self.style.width, self.name)
+            yield Polylines(seen.values, seen.offsets, self.style.color, self.style.width, self.name, self.told)
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,7 +149,8 @@ class Areas:
         loops, owner = self.regions.on(chart)
         if len(loops) == 0:
             return
-        whole = Polygons(loops.values, loops.offsets, owner, self.colors, ball(chart), self.name)
+        told = ("color",) if (self.colors != self.colors[0]).any() else ()
+        whole = Polygons(loops.values, loops.offsets, owner, self.colors, ball(chart), self.name, told)
         if whole.pictured:
             yield whole
             return
@@ -143,15 +178,39 @@ class Points:
     """Dots at unit vectors (n, 3)."""
 
     xyz: FloatArray
-    style: DotStyle
+    looks: DotLooks
     name: str
 
     def lay(self, chart: Chart) -> Iterator[Item]:
         """Dots whose centres are visible."""
         places, seen = chart.points(self.xyz)
         if seen.any():
-            style = self.style
-            yield Dots(places[seen], style.radius, style.color, style.rim, style.rim_width, self.name)
+            yield from self.looks.items(places, np.flatnonzero(seen), 1 / chart.unit, self.name)
+
+
+@dataclass(frozen=True)
+class OfEarth:
+    """A layer made of a map of the Earth, at a resolution or, "auto", at that which suits the scale on each page.
+
+    look: a colour for land or lakes, or for the ocean, all but the land; a style for their outlines, or for lines.
+    """
+
+    what: str
+    latitude: Latitude
+    look: Color | LineStyle
+    name: str
+    resolution: str
+
+    def lay(self, chart: Chart) -> Iterator[Item]:
+        """As the layers do that are made of lines and regions."""
+        given = self.what, suited(chart) if self.resolution == AUTO else self.resolution, self.latitude
+        if not isinstance(self.look, LineStyle):
+            land = earth_regions(*given)
+            regions = land.complement if self.name == "ocean" else land
+            yield from Areas(regions, np.tile(self.look, (regions.count, 1)), self.name).lay(chart)
+        else:
+            lines = earth_regions(*given).outlines if self.what in ("land", "lakes") else earth_lines(*given)
+            yield from LineLayer(lines, self.look, self.name).lay(chart)
 
 
 @dataclass(frozen=True, eq=False)

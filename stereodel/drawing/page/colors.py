@@ -72,7 +72,11 @@ def as_color(value: ColorLike, name: str = "color") -> Color:
 
 
 def as_colors(values: ColorLike | npt.ArrayLike, count: int, name: str = "colors") -> FloatArray:
-    """Colours (n, 4) of `count` items, from one for all or from red, green, blue and optionally opacity of each."""
+    """Colours (n, 4) of `count` items, from one for all, or from names or red, green, blue and opacity of each."""
+    if isinstance(values, list | tuple) and len(values) and all(isinstance(value, str) for value in values):
+        if len(values) != count:
+            raise ValueError(f"{name} has {len(values)} colours, but there are {count} items")
+        return np.array([as_color(cast(str, value), name) for value in values])
     if isinstance(values, str) or np.ndim(np.asarray(values, dtype=object)) < 2:
         return np.tile(as_color(cast(ColorLike, values), name), (count, 1))
     array = as_floats(cast(npt.ArrayLike, values), name)
@@ -83,14 +87,18 @@ def as_colors(values: ColorLike | npt.ArrayLike, count: int, name: str = "colors
     return np.concatenate([array, np.ones((count, 4 - array.shape[-1]))], axis=1)
 
 
-def color_map(name: str) -> Callable[[FloatArray], FloatArray]:
-    """A colour map of matplotlib: numbers (...) in [0, 1] to colours (..., 4); ValueError for unknown names."""
+def color_map(colors: str | Sequence[ColorLike]) -> Callable[[FloatArray], FloatArray]:
+    """Colours (..., 4) of numbers (...) in [0, 1]: a colour map of matplotlib by its name, or a mixture of colours."""
     with of_extra("draw"):
         from matplotlib import colormaps
+        from matplotlib.colors import LinearSegmentedColormap
 
-    if name not in colormaps:
-        raise ValueError(f"name is {name!r}, which is not a colour map of matplotlib")
-    return colormaps[name]
+    if not isinstance(colors, str):
+        several = [as_color(color, "colors") for color in colors]
+        return LinearSegmentedColormap.from_list("colors", several if len(several) > 1 else 2 * several)
+    if colors not in colormaps:
+        raise ValueError(f"colors is {colors!r}, which is not a colour map of matplotlib; give such a name, or colours")
+    return colormaps[colors]
 
 
 LUMINANCE: Final = np.array([0.2126, 0.7152, 0.0722])
