@@ -327,7 +327,7 @@ class ColorScale:
             case "linear":
                 return numbers
             case "log":
-                return np.log(numbers)
+                return np.log(numbers / self.low)
             case "sqrt":
                 return np.asarray(np.sign(numbers) * np.sqrt(size))
             case "symlog":
