@@ -81,7 +81,7 @@ class Figure:
     in_space: Callable[[Any], Solid] | None = None
 
     def page(self) -> Page:
-        """The picture before rendering, with the script's title if it has none, and its description before the page's."""
+        """The picture before rendering, with the script's title if it has none, and description."""
         return self._page(self.geometry())
 
     def _page(self, geometry: Geometry) -> Page:

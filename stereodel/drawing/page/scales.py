@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 import numpy.typing as npt
@@ -46,6 +46,14 @@ LARGEST: Final = 24.0
 
 KEY: Final = (4.0, 2.5)
 """Distance of the key of missing values from the bar, and its width, in heights of the bar."""
+
+SPREAD: Final[Mapping[Kind, Callable[[FloatArray, float], Any]]] = {
+    "linear": lambda numbers, _: numbers,
+    "log": lambda numbers, low: np.log(numbers / low),
+    "symlog": lambda numbers, bend: np.sign(numbers) * _bent(np.abs(numbers) / bend),
+    "sqrt": lambda numbers, _: np.sign(numbers) * np.sqrt(np.abs(numbers)),
+}
+"""How numbers are spread along a scale, by its lower end or its threshold."""
 
 SAID: Final[Mapping[Kind, str]] = {
     "linear": "linear",
@@ -232,8 +240,9 @@ class ColorScale:
         numbers = np.clip(as_doubles(values, "values"), self.low, self.high)
         if self.edges:
             return np.interp(numbers, self.edges, np.linspace(0.0, 1.0, len(self.edges)))
-        low, high = self._spread(np.array([self.low, self.high]))
-        return np.asarray((self._spread(numbers) - low) / (high - low))
+        spread, bend = SPREAD[self.kind], self.threshold or self.low
+        low, high = spread(np.array([self.low, self.high]), bend)
+        return np.asarray((spread(numbers, bend) - low) / (high - low))
 
     def __call__(self, values: npt.ArrayLike) -> FloatArray:
         """Colours (..., 4): red, green, blue and opacity in [0, 1]."""
@@ -320,20 +329,6 @@ class ColorScale:
             marks.append(Label(title, (x + width / 2, y + height), (0.0, 4.0), "center", "bottom", type_size, ink))
         return (*bars, *marks)
 
-    def _spread(self, numbers: FloatArray) -> FloatArray:
-        """Numbers as they are spread along the scale."""
-        size, bend = np.abs(numbers), self.threshold or 1.0
-        match self.kind:
-            case "linear":
-                return numbers
-            case "log":
-                return np.log(numbers / self.low)
-            case "sqrt":
-                return np.asarray(np.sign(numbers) * np.sqrt(size))
-            case "symlog":
-                beyond = 1 + np.log(np.maximum(size / bend, 1.0))
-                return np.where(size <= bend, numbers / bend, np.sign(numbers) * beyond)
-
     def _share(self, place: FloatArray) -> FloatArray:
         """Where between the first colour (0) and the last (1) places on the scale have theirs."""
         if self.center is None:
@@ -416,6 +411,11 @@ class SizeScale:
     def description(self) -> str:
         """What the scale does, in words."""
         return f"areas of dots in proportion to the amount, {written(to_digits([self.high]))[0]} the largest"
+
+
+def _bent(sizes: FloatArray) -> FloatArray:
+    """Linear up to 1, and logarithmic beyond with the same slope there."""
+    return np.minimum(sizes, 1 + np.log(np.maximum(sizes, 1.0)))
 
 
 def category_colors(words: Sequence[str], name: str) -> dict[str, Color]:

@@ -80,9 +80,8 @@ def rounded_ends(low: float, high: float, kind: Kind) -> tuple[float, float]:
         ends = [float(f"{digit}e{power}") for power in (*powers, powers[1] + 1) for digit in DIGITS[0]]
         return max(end for end in ends if end <= low), min(end for end in ends if end >= high)
     step = _step(low, high, MOST_TICKS - 2)
-    inside = _multiples(low, high, step)
-    ends = [float(k * step) for k in (inside.start - 1, inside.start, inside.stop - 1, inside.stop)]
-    return ends[ends[1] == low], ends[3 - (ends[2] == high)]
+    first, last = (Decimal(repr(float(end))) / step for end in (low, high))
+    return float(floor(first) * step), float(ceil(last) * step)
 
 
 def written(numbers: Sequence[float], kind: Kind = "linear") -> list[str]:
@@ -139,14 +138,14 @@ def class_limits(values: FloatArray, scheme: Scheme | Sequence[float], count: in
         first = np.searchsorted(known, np.quantile(values, np.arange(1, count) / count))
         first = np.unique(first[first > 0])
     inner = [_simplest(known[k - 1], known[k], known[-1]) for k in first.tolist()]
-    return np.array([known[0], *inner, known[-1]])
+    return np.unique([known[0], *inner, known[-1]])
 
 
 def _simplest(above: float, up_to: float, below: float) -> float:
     """A number of few digits that parts two neighbouring values, and is less than a third."""
     ends = ((above + up_to) / 2, up_to)
     rounded = (float(f"{end:.{digits}g}") for digits in range(1, 18) for end in ends)
-    return next(number for number in rounded if above < number <= up_to and number < below)
+    return next((number for number in rounded if above < number <= up_to and number < below), up_to)
 
 
 def natural_breaks(values: FloatArray, count: int) -> Indices:
@@ -157,8 +156,9 @@ def natural_breaks(values: FloatArray, count: int) -> Indices:
     The least sums for the first j numbers in k classes follow from those in k − 1. As the best start of the last class
     only moves up with j, the middle number of a range leaves less to its two halves: O(count · n · log n).
     """
-    known, weight = np.unique(values - np.mean(values), return_counts=True)
-    sums = np.array([np.concatenate([[0.0], np.cumsum(weight * known**power)]) for power in range(3)])
+    known, weight = np.unique(values, return_counts=True)
+    from_mean = known - np.mean(values)
+    sums = np.array([np.concatenate([[0.0], np.cumsum(weight * from_mean**power)]) for power in range(3)])
     starts = np.zeros((count, len(known)), dtype=np.intp)
     best = _deviations(sums, np.zeros(1, dtype=np.intp), np.arange(1, len(known) + 1))
     for k in range(1, count):

@@ -97,12 +97,10 @@ def with_legend(page: Page, entries: Mapping[str, LegendEntry], *, columns: int 
         _add_sample(sketch, look, place, point, f"{LEGEND}{part}" if part else "legend")
         sketch.add_label(place, text, (SAMPLE[0] + GAP, 0.0), align="left", size=size, name="legend")
     foot = bottom - row * -(-len(samples) // count)
-    room, blocks = (
-        page.width - 2 * indent + BETWEEN,
-        [_block(text, scale, indent, page) for text, scale in scales.items()],
-    )
+    room = page.width - 2 * indent
+    blocks = [BLOCKS[type(scale)](text, scale, room, page) for text, scale in scales.items()]
     while blocks:
-        many = max(1, int(np.sum(np.cumsum([block[0] + BETWEEN for block in blocks]) <= room)))
+        many = max(1, int(np.sum(np.cumsum([block[0] + BETWEEN for block in blocks]) <= room + BETWEEN)))
         line, blocks = blocks[:many], blocks[many:]
         start = (left + right - (sum(block[0] + BETWEEN for block in line) - BETWEEN) * point) / 2
         for wide, _, draw in line:
@@ -130,11 +128,7 @@ def _widths(texts: Iterable[str]) -> FloatArray:
     return np.array([np.ptp(label_box(Label(text, (0.0, 0.0), size=LABEL_SIZE), 1.0)[:, 0]) for text in texts])
 
 
-def _block(title: str, scale: ColorScale | SizeScale, indent: float, page: Page) -> Block:
-    return _circles(title, scale, page) if isinstance(scale, SizeScale) else _bar(title, scale, indent, page)
-
-
-def _bar(title: str, scale: ColorScale, indent: float, page: Page) -> Block:
+def _bar(title: str, scale: ColorScale, room: float, page: Page) -> Block:
     """A bar with as many numbers as have room below it; of classes, wide enough for all limits."""
     high, wide = BAR[1] * LABEL_SIZE, BAR[0] * page.width
     key = KEY[0] * high + KEY[1] * high if scale.missing_key else 0.0
@@ -144,7 +138,7 @@ def _bar(title: str, scale: ColorScale, indent: float, page: Page) -> Block:
         least = float(np.max(((needs[1:] + needs[:-1]) / 2 + APART) / steps, initial=0.0))
         if least <= wide:
             break
-    wide = min(max(wide, least), page.width - 2 * indent - key) if scale.edges else wide
+    wide = min(max(wide, least), room - key) if scale.edges else wide
     over = float(max(0.0, _widths([scale.missing_key])[0] - KEY[1] * high) / 2) if key else 0.0
 
     def draw(left: float, top: float) -> Iterator[Item]:
@@ -155,7 +149,7 @@ def _bar(title: str, scale: ColorScale, indent: float, page: Page) -> Block:
     return wide + key + over, BAR_ROWS * ROW * LABEL_SIZE, draw
 
 
-def _circles(title: str, scale: SizeScale, page: Page) -> Block:
+def _circles(title: str, scale: SizeScale, _: float, page: Page) -> Block:
     """Circles that touch at their feet, with lines from their tops to their numbers."""
     ticks, row = scale.ticks, ROW * LABEL_SIZE
     sizes = scale(list(ticks))
@@ -180,6 +174,9 @@ def _circles(title: str, scale: SizeScale, page: Page) -> Block:
             yield Label(text, (x, y), (3.0, 0.0), "left", size=LABEL_SIZE, name="legend")
 
     return wide, 2.2 * row + sizes[0], draw
+
+
+BLOCKS: Final[Mapping[type, Callable[..., Block]]] = {ColorScale: _bar, SizeScale: _circles}
 
 
 def _add_sample(sketch: Sketch, style: Look, place: FloatArray, point: float, name: str) -> None:
