@@ -468,7 +468,8 @@ class Globe(Displayed):
         scale : ColorScale, or function of values that returns one, optional
             Colour scale for numbers; by default `ColorScale.of`.
         outline, style, dot_style : LineStyle, LineStyle, DotStyle
-            Styles of the polygons' outlines (None for no outlines), the lines and the points.
+            Styles of the polygons' outlines (None for no outlines; by default white with a column), the lines and the
+            points.
         name : str
             Name of the groups in vector files.
         legend : str
@@ -487,6 +488,8 @@ class Globe(Displayed):
         if len(shapes.polygon_feature):
             owners = shapes.polygon_feature
             polygons = SphereRegions.of_lonlat(shapes.polygons, owners=owners, latitude=self.latitude)
+            if column is not None and outline == MAP_LINES["outline"]:
+                outline = MAP_LINES["parting"]
             own = as_colors(color, len(shapes.properties), "color") if colors is None else colors
             self._add_polygons(polygons, own[: polygons.count], outline, name)
         if len(shapes.lines) and colors is not None:

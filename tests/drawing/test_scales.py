@@ -167,7 +167,7 @@ def test_rounded_limits_leave_every_value_in_its_class(values, scheme, count):
 
 def test_classes_beside_a_centre():
     """Those that it parts have colours of its two sides, and one around it the middle colour."""
-    shares = {(-3, -2, -1, 0, 5, 9): [0, 1 / 6, 1 / 3, 2 / 3, 5 / 6], (-4, -1, 1, 4, 9): [0.25, 0.5, 0.75, 1]}
+    shares = {(-3, -2, -1, 0, 5, 9): [1 / 14, 3 / 14, 5 / 14, 9 / 14, 11 / 14], (-4, -1, 1, 4, 9): [0.3, 0.5, 0.7, 0.9]}
     for limits, wanted in shares.items():
         scale = ColorScale.classes([], limits, colors="RdBu_r", center=0)
         middles = np.add(limits[1:], limits[:-1]) / 2

@@ -344,15 +344,15 @@ class ColorScale:
 
     @property
     def _class_shades(self) -> FloatArray:
-        """Colours of the classes, (n, 4)."""
+        """Colours of the classes, (n, 4), those in the middle of as many parts of the map."""
         count = len(self.edges) - 1
         if not isinstance(self.colors, str) and len(self.colors) == count:
             return np.array(self.colors)
         if self.center is None:
-            return self._mixed(np.linspace(0.0, 1.0, count) if count > 1 else np.array([0.5]))
+            return self._mixed((np.arange(count) + 0.5) / count)
         below, above = (np.array(self.edges[1:]) <= self.center), (np.array(self.edges[:-1]) >= self.center)
         steps: FloatArray = np.asarray(np.cumsum(above) - np.cumsum(below[::-1])[::-1], dtype=np.float64)
-        return self._mixed(0.5 + 0.5 * steps / max(1, np.abs(steps).max()))
+        return self._mixed(0.5 + steps / (2 * np.abs(steps).max() + 1))
 
     def _mixed(self, share: FloatArray) -> FloatArray:
         """Colours (..., 4) at shares of the way from the first to the last."""
