@@ -213,6 +213,7 @@ test_what_makes_no_scale_is_refused = refused(
     (ColorScale.classes, ([1, 1, np.nan], "natural"), "values has no two different numbers"),
     (ColorScale.classes, ([1, 2], "equal", 0), "count is 0"),
     (ColorScale.of, ([-1, 0], None, "log"), "values has no positive number for a scale; give limits"),
+    (lambda **given: ColorScale.of([1, 2], **given), {"kind": "log", "center": 0.0}, "center is 0.0, outside"),
     (SizeScale, (0.0,), "high is 0.0"),
     (SizeScale, (1.0, "2 km"), "largest is '2 km'; give a length"),
     (SizeScale(1.0), ([-1.0],), "amounts has -1; an area cannot be negative"),

@@ -190,6 +190,7 @@ class ColorScale:
                 raise ValueError(f"values has no {'positive ' * (kind == 'log')}number for a scale; give limits")
             low, high = float(numbers.min()), float(numbers.max())
             if center is not None:
+                as_scalar(center, "center", low=0.0 if kind == "log" else -np.inf, open_low=True)
                 low, high = min(low, center), max(high, center)
             limits = rounded_ends(low, high if high > low else low + max(1.0, abs(low)), kind)
         return cls(_usual(colors, center), *limits, kind, center=center, threshold=threshold)
