@@ -115,6 +115,9 @@ class GlobePages:
         """The page of a shot."""
         wide, high = self.width * self._point, self.height * self._point - self._below
         globe_wide = min(wide, high - title_height(self.globe.title))
+        if globe_wide <= 0:
+            size = f"{self.width} × {self.height}"
+            raise ValueError(f"size is {size}, which leaves no room for the globe beside its legend")
         page = self._steady.page(*shot, width=globe_wide, tolerance=FINE * self._point)
         left, right, bottom, top = page.extent
         x, y, half = (left + right) / 2, (bottom + top) / 2, 0.5 / page.points_per_unit

@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 from matplotlib import colormaps
 from matplotlib.colors import LogNorm, PowerNorm, to_rgba
 
-from stereodel.drawing import ColorScale, SizeScale
+from stereodel.drawing import ColorScale, Page, SizeScale, with_legend
+from stereodel.drawing.page.labels import label_box, meets
 from stereodel.drawing.page.ticks import KINDS, MOST_TICKS, SCHEMES, natural_breaks, written
 from tests.refused import refused
 
@@ -187,6 +188,18 @@ def test_descriptions():
     assert "linear up to 10" in ColorScale("magma", -100, 100, **SYMLOG).description
     assert ColorScale("RdBu", -1, 1, center=0).description.endswith("centred on 0")
     assert ColorScale("magma", 0, 1, missing_key="none").description.endswith("; none in gray")
+
+
+@pytest.mark.parametrize("width", [150.0, 240.0, 480.0])
+def test_numbers_have_room_beside_each_other(width):
+    """Whatever the width of the page: fewer are written below a bar that is too short."""
+    values = np.geomspace(2.1e6, 19.3e6, 40)
+    many = ColorScale.classes(values, "quantiles", 9)
+    log = ColorScale("magma", 1e-3, 1e6, "log", missing_key="no value")
+    page = with_legend(Page((0.0, 1.0, 0.0, 0.1), width=width), {"a": many, "b": log, "c": SizeScale(2e6, "3mm")})
+    boxes = np.array([label_box(label, page.points_per_unit) for label in page.labels])
+    assert len(boxes) > 12
+    assert not any(meets(box, np.delete(boxes, k, axis=0)) for k, box in enumerate(boxes))
 
 
 def of_unit(**given):

@@ -177,6 +177,8 @@ def test_maps_suit_the_scale_on_the_page(resolution, lens, view, radius, toleran
 
 def test_frames_of_films_have_the_legend_and_one_resolution(globe):
     globe.add_coastlines()
+    with pytest.raises(ValueError, match="size is 40 × 30, which leaves no room for the globe beside its legend"):
+        Film.of_globe(globe, Spin(), size=(40, 30), legend=True).page(0)
     film = Film.of_globe(globe, Spin(seconds=1), size=(200, 160), fps=3, legend=True)
     pages = [film.page(number) for number in (0, 2)]
     assert {item.text for item in pages[0].labels} >= {"people", "people per km²", "no value", "Amounts"}

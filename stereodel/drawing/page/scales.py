@@ -255,12 +255,13 @@ class ColorScale:
     @property
     def ticks(self) -> dict[float, str]:
         """Round numbers on the scale, or the limits of its classes, and their texts."""
-        return self.at_most(MOST_TICKS)
+        return self.at_most(max(MOST_TICKS, len(self.edges)))
 
     def at_most(self, most: int) -> dict[float, str]:
-        """Ticks, at most so many unless they are the limits of classes."""
+        """Ticks with at most so many texts; all limits of classes are ticks."""
         if self.edges:
-            return dict(zip(self.edges, written(to_digits(self.edges), "log"), strict=True))
+            texts, stride = written(to_digits(self.edges), "log"), -(-len(self.edges) // most)
+            return {edge: "" if k % stride else texts[k] for k, edge in enumerate(self.edges)}
         numbers = round_numbers(self.low, self.high, self.kind, self.threshold, most)
         if self.center is not None:
             away = np.abs(self.place(numbers) - self.place(self.center)) > APART
@@ -318,7 +319,8 @@ class ColorScale:
         def mark(at: float, text: str) -> None:
             foot = y - 0.35 * height
             marks.append(Stroke(straight(np.array([(at, y), (at, foot)])), ink, 0.5, cap="butt", name="tick"))
-            marks.append(Label(text, (at, foot), (0.0, -2.0), "center", "top", type_size, ink))
+            if text:
+                marks.append(Label(text, (at, foot), (0.0, -2.0), "center", "top", type_size, ink))
 
         for number, text in (self.ticks if ticks is None else ticks).items():
             mark(x + width * float(self.place(number)), text)

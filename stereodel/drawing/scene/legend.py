@@ -128,17 +128,23 @@ def _widths(texts: Iterable[str]) -> FloatArray:
     return np.array([np.ptp(label_box(Label(text, (0.0, 0.0), size=LABEL_SIZE), 1.0)[:, 0]) for text in texts])
 
 
+def _needed(scale: ColorScale, ticks: Mapping[float, str]) -> float:
+    """Width in points at which the texts of ticks have room beside each other."""
+    shown = {number: text for number, text in ticks.items() if text}
+    needs, steps = _widths(shown.values()), np.diff(scale.place(list(shown)))
+    return float(np.max(((needs[1:] + needs[:-1]) / 2 + APART) / steps, initial=0.0))
+
+
 def _bar(title: str, scale: ColorScale, room: float, page: Page) -> Block:
     """A bar with as many numbers as have room below it; of classes, wide enough for all limits."""
     high, wide = BAR[1] * LABEL_SIZE, BAR[0] * page.width
     key = KEY[0] * high + KEY[1] * high if scale.missing_key else 0.0
-    for most in range(MOST_TICKS, 1, -1):
+    if scale.edges:
+        wide = min(max(wide, _needed(scale, scale.ticks)), room - key)
+    for most in range(max(MOST_TICKS, len(scale.edges)), 0, -1):
         ticks = scale.at_most(most)
-        needs, steps = _widths(ticks.values()), np.diff(scale.place(list(ticks)))
-        least = float(np.max(((needs[1:] + needs[:-1]) / 2 + APART) / steps, initial=0.0))
-        if least <= wide:
+        if _needed(scale, ticks) <= wide:
             break
-    wide = min(max(wide, least), room - key) if scale.edges else wide
     over = float(max(0.0, _widths([scale.missing_key])[0] - KEY[1] * high) / 2) if key else 0.0
 
     def draw(left: float, top: float) -> Iterator[Item]:
