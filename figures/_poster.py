@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from stereodel.drawing import ColorScale, Label, Page
+from stereodel.drawing.scene.legend import described
 
 LATITUDE = "authalic"  # areas of cells are those on the ellipsoid
 WORDS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve")
@@ -92,4 +93,4 @@ def with_legend(
             ends or (), (corner[0], corner[0] + size[0]), (-6.0, 6.0), ("right", "left"), strict=False
         )
     ]
-    return replace(page, items=(*page.items, *bar, *words))
+    return described(replace(page, items=(*page.items, *bar, *words)), {title: scale})

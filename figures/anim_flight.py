@@ -76,7 +76,7 @@ def moments() -> Iterator[tuple[Shot, float]]:
 def earth() -> Globe:
     """Land, a graticule and the cities."""
     globe = Globe()
-    globe.add_land(outline=COAST)
+    globe.add_land(outline=COAST, resolution="50m")
     globe.add_graticule(15)
     globe.add_points(list(CITIES.values()))
     globe.add(FadingNames(tuple(CITIES), tuple(CITIES.values())))

@@ -45,7 +45,7 @@ def largest_in_sight(voronoi: SphericalVoronoi, areas: np.ndarray) -> int:
 
 def scale_of(areas: np.ndarray) -> ColorScale:
     """Colours for all areas."""
-    return ColorScale("magma", *even_ends(areas), log=True)
+    return ColorScale("magma", *even_ends(areas), "log")
 
 
 def draw(g: dict) -> Page:

@@ -21,7 +21,7 @@ from stereodel.render import Figure
 VIEW = View(68, 28)
 EMBERS = ("#340a5f", "#5c126e", "#801f6c", "#a62d60", "#c83f4b", "#e55c30", "#f78212", "#fcac11", "#f5db4c", "#fcffa4")
 """Those of inferno, but for the black: land without people is no sea."""
-SCALE = ColorScale(EMBERS, 0.1, 1e4, log=True)  # people per km²
+SCALE = ColorScale(EMBERS, 0.1, 1e4, "log")  # people per km²
 SEA = (0.045, 0.05, 0.065, 1.0)
 NIGHT, INK = (0.03, 0.03, 0.045, 1.0), (0.9, 0.88, 0.84, 1.0)
 

@@ -19,7 +19,7 @@ from stereodel.render import Figure
 
 FOCUS = (11.0, 49.0)
 MAGNIFICATION = 4.0
-SCALE = ColorScale("YlGnBu", 1e3, 1e6, log=True)  # km²
+SCALE = ColorScale("YlGnBu", 1e3, 1e6, "log")  # km²
 LABELLED = [
     *("FRA", "LHR", "CDG", "AMS", "MAD", "FCO", "IST", "ZRH", "VIE", "CPH", "ARN", "OSL", "HEL", "WAW", "PRG", "BUD"),
     *("ATH", "LIS", "DUB", "KEF", "BCN", "SVO", "MXP", "BEG", "OTP", "SOF", "KBP", "RIX", "EDI", "BGO", "PMI"),
@@ -46,8 +46,8 @@ def draw(g: dict) -> Page:
     globe = Globe(latitude=LATITUDE)
     cells = SphericalVoronoi.from_lonlat(g["lonlat"], latitude=LATITUDE)
     globe.add_cells(cells, colors=SCALE(g["areas"]), style=LineStyle(with_opacity(WHITE, 0.45), 0.2))
-    globe.add_borders(style=LineStyle((0.1, 0.1, 0.1, 0.75), 0.35))
-    globe.add_coastlines(style=LineStyle(BLACK, 0.5))
+    globe.add_borders(style=LineStyle((0.1, 0.1, 0.1, 0.75), 0.35), resolution="50m")
+    globe.add_coastlines(style=LineStyle(BLACK, 0.5), resolution="50m")
     rows = [int(np.flatnonzero(g["iata"] == code)[0]) for code in LABELLED]
     labelled = g["lonlat"][rows]
     texts = [named(code, g["areas"][row]) for code, row in zip(LABELLED, rows, strict=True)]

@@ -23,7 +23,7 @@ from stereodel.render import Figure
 
 CENTER, POLE = (266.40499, -28.93617), (192.85948, 27.12825)  # of the galaxy, ICRS
 VIEW = View(180, 0)
-SCALE = ColorScale("bone_r", 0.14, 0.64, log=True)  # square degrees
+SCALE = ColorScale("bone_r", 0.14, 0.64, "log")  # square degrees
 TICKS = (0.15, 0.2, 0.3, 0.4, 0.6)
 BRIGHT, SMOOTHED = 4.5, 8
 NIGHT, INK = (0.02, 0.022, 0.035, 1.0), (0.9, 0.9, 0.92, 1.0)

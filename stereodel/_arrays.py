@@ -44,6 +44,10 @@ _Scalar = TypeVar("_Scalar", bound=np.generic)
 _Word = TypeVar("_Word", bound=str)
 
 
+class DataWarning(UserWarning):
+    """Data are read, written or drawn as they are, but may not be what was meant."""
+
+
 def as_floats(values: npt.ArrayLike, name: str) -> FloatArray:
     """Cast to a finite float64 array of any shape, or say which entry of `name` cannot be.
 

@@ -7,7 +7,8 @@ from __future__ import annotations
 
 import re
 import sys
-from collections.abc import Sequence
+import warnings
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Final, Literal
@@ -20,6 +21,8 @@ if TYPE_CHECKING:
     from stereodel._arrays import FloatArray
     from stereodel.conformal import MoebiusMap
     from stereodel.curves.view import MapView
+    from stereodel.drawing import DotStyle
+    from stereodel.drawing.scene.legend import LegendEntry
     from stereodel.film.shots import Motion
     from stereodel.globe import Globe
     from stereodel.io import PointTable
@@ -38,8 +41,6 @@ GIF_FPS: Final = 12.5
 FILM_SPACING: Final = 15.0
 """Of the graticule of films, in degrees: a spacing adapted to each frame would flicker."""
 KEPT = "interrupted; the same command draws the missing frames"
-CLOSE: Final = 5.0
-"""Magnification above which coastlines at 1 : 50 million show their corners."""
 CROWDED: Final = 500
 """Number of points above which lines and dots become finer, so that cells stay visible."""
 FINEST: Final = 0.2
@@ -53,6 +54,10 @@ USUAL = "land,graticule,coastlines,cells,points"
 LAYER_KEYS = ("color", "width", "outline", "size", "column", "id")
 """Of `--layer FILE,key=…`."""
 
+REPLACED: Final = {"land", "coastlines"}
+"""What polygons of layers replace unless `--show` names it."""
+
+Resolution = Literal["auto", "10m", "50m", "110m"]
 Projection = Literal["globe", "stereographic", "hemispheres"]
 
 
@@ -74,8 +79,10 @@ def command(
     layer: Annotated[
         list[str] | None, typer.Option(metavar="FILE[,KEY=…]", help=f"Shapes; {', '.join(LAYER_KEYS)}; repeatable.")
     ] = None,
+    resolution: Annotated[Resolution, typer.Option(help="Of the maps; auto suits the scale on the page.")] = "auto",
     labels: Annotated[str | None, typer.Option(metavar="COLUMN", help="Labels of points, as many as fit.")] = None,
     fly: Annotated[list[str] | None, typer.Option(metavar="LON,LAT", help="For films: fly there; repeatable.")] = None,
+    valued: options.ValueOptions,
     picture: options.PictureOptions,
     columns: options.Table,
 ) -> None:
@@ -85,19 +92,22 @@ def command(
     globe makes one turn if nothing is magnified.
     """
     from stereodel.cli.application import reporting
-    from stereodel.io.formats.names import naming
+    from stereodel.drawing import ColorScale
+    from stereodel.io.formats.names import DataWarning, naming
+    from stereodel.io.reading import shapes_of
 
     layers, styles = [layer_of(text) for text in layer or ()], picture.style or ()
     read_from = (points, texture, *(str(path) for path, _ in layers), *styles)
     destination = output.of(PICTURES + FILMS, *read_from)
     filming = destination.kind in FILMS
     if points is None:
-        options.refuse({"--labels": labels, **columns.given}, "POINTS; give a table")
+        of_points = {"--labels": labels, "--point-size": valued.point_size, "--point-color": valued.point_color}
+        options.refuse({**of_points, **columns.given}, "POINTS; give a table")
     for name in styles:
         if name != "dark" and not name.lower().endswith(".toml"):
             raise ValueError(f"--style is {name!r}; give dark or a file .toml")
     if filming:
-        options.refuse({"--legend": picture.legend, "--style": styles}, "pictures, not for films")
+        options.refuse({"--style": styles}, "pictures, not for films")
     else:
         options.refuse({"--fly": fly}, f"films, but {output.out} is none; the endings are .{', .'.join(FILMS)}")
     at = None if focus is None else options.place(focus, "--focus")
@@ -105,19 +115,29 @@ def command(
     aim = Aim(at, magnify, middle, projection)
     shown, table = shown_of(show, texture), None if points is None else columns.read(points)
     with reporting("reading maps"):
-        drawing = new_globe(shown, "50m" if filming else aim.resolution, FILM_SPACING if filming else None, texture)
+        contents = [(path, shapes_of(path), looks) for path, looks in layers]
+        if show is None and (own := [str(path) for path, shapes, _ in contents if len(shapes.polygon_feature)]):
+            shown -= REPLACED
+            said = f"{', '.join(own)}: polygons replace the land and the coastlines of the package"
+            warnings.warn(f"{said}; --show={USUAL} draws them, too", DataWarning, stacklevel=2)
+        drawing = new_globe(shown, resolution, FILM_SPACING if filming else None, texture)
         drawing.title = picture.title
-        for path, looks in layers:
+        for path, shapes, looks in contents:
             with naming(str(path)):
-                drawing.add_layer(path, **looks)
+                drawing.add_layer(shapes, scale=valued.of if valued.given else None, **looks)
         if table is not None:
             aim = aim.with_middle_of(table.points("authalic"))
-            add_points(drawing, table, shown, labels)
+            add_points(drawing, table, shown, labels, valued)
+        if not any(isinstance(entry, ColorScale) for entry in drawing.legend.values()):
+            options.refuse(valued.given, "colours by value; name a column of numbers in --point-color or --layer")
+        drawing.legend = renamed(drawing.legend, picture.legend_text or ())
+    legend = picture.legend or bool(picture.legend_text)
     if filming:
         from stereodel.film import Film, FrameError
 
         motion, size = motion_of(aim, [options.place(text, "--fly") for text in fly or ()]), picture.size or 720
-        film = Film.of_globe(drawing, motion, size=(size, size), fps=GIF_FPS if destination.kind == "gif" else FPS)
+        rate = GIF_FPS if destination.kind == "gif" else FPS
+        film = Film.of_globe(drawing, motion, size=(size, size), fps=rate, legend=legend)
         try:
             with destination.file() as target:
                 film.save(target, progress=sys.stderr.isatty())
@@ -128,7 +148,7 @@ def command(
         return
     with reporting("drawing"), destination.file() as target:
         size = picture.size or 1600
-        drawing.save(target, aim.lens, aim.views, style=styles, legend=picture.legend, width=WIDTH, size=size)
+        drawing.save(target, aim.lens, aim.views, style=styles, legend=legend, width=WIDTH, size=size)
 
 
 @dataclass(frozen=True)
@@ -148,11 +168,6 @@ class Aim:
     def place(self) -> options.Place:
         """The focus, which is also the default centre of the view."""
         return self.focus or self.middle or (0.0, 0.0)
-
-    @property
-    def resolution(self) -> str:
-        """Resolution of the maps of the Earth: the finest for strong magnification."""
-        return "10m" if self.magnification >= CLOSE else "50m"
 
     @property
     def lens(self) -> MoebiusMap:
@@ -237,11 +252,55 @@ def layer_of(text: str) -> tuple[Path, dict[str, Any]]:
         "style": replace(MAP_LINES["line"], **color, **width),
         "dot_style": replace(MAP_DOT, **color, radius=radius, rim_width=min(MAP_DOT.rim_width, radius / 3)),
         **columns,
-        "legend": Path(path).stem,
+        "legend": columns["column"] or Path(path).stem,
     }
 
 
-def add_points(globe: Globe, table: PointTable, shown: frozenset[str], labels: str | None) -> None:
+def renamed(legend: dict[str, LegendEntry], texts: Sequence[str]) -> dict[str, LegendEntry]:
+    """A legend with other texts, as ``NAME=TEXT``."""
+    given = dict(text.partition("=")[::2] for text in texts)
+    if unknown := [name for name in given if name not in legend]:
+        raise ValueError(f"--legend-text names {unknown[0]!r}, but the entries are {', '.join(legend) or 'none'}")
+    return {given.get(name, name): entry for name, entry in legend.items()}
+
+
+def of_column(table: PointTable, text: str, option: str, reader: Callable[[str, str], Any]) -> tuple[Any, str]:
+    """What an option says: the values of a column and its name, or what else is read of its text and no name."""
+    if text not in table.columns:
+        try:
+            return reader(text, option), ""
+        except ValueError as error:
+            raise ValueError(f"{error}; or a column: {', '.join(table.columns) or 'there is none'}") from None
+    column = table.column(text)
+    return (column if column.dtype.kind in "OU" else table.numbers(text)), text
+
+
+def looks_of(table: PointTable, valued: options.ValueOptions, dots: DotStyle) -> dict[str, Any]:
+    """How points look, as `Globe.add_points` takes it."""
+    import numpy as np
+
+    from stereodel.drawing.page.colors import as_color
+    from stereodel.drawing.page.scales import SizeScale
+    from stereodel.drawing.page.style import MAP_DOT, as_length
+
+    looks: dict[str, Any] = {"style": dots, "legend": Path(table.name).stem}
+    if valued.point_size is not None:
+        size, title = of_column(table, valued.point_size, "--point-size", as_length)
+        looks |= {"size": size, "size_legend": title} | ({"style": MAP_DOT, "legend": ""} if title else {})
+    if valued.largest is not None:
+        if not looks.get("size_legend"):
+            raise ValueError(f"--largest is {valued.largest!r}, but --point-size names no column of amounts")
+        looks["size_scale"] = SizeScale(float(np.nanmax(size)), as_length(valued.largest, "--largest"))
+    if valued.point_color is not None:
+        color, title = of_column(table, valued.point_color, "--point-color", as_color)
+        scale = valued.of if valued.given else None
+        looks |= {"values": color, "legend": title, "scale": scale} if title else {"color": color}
+    return looks
+
+
+def add_points(
+    globe: Globe, table: PointTable, shown: frozenset[str], labels: str | None, valued: options.ValueOptions
+) -> None:
     """Draw points, the ridges of their cells, the edges of their triangles, and labels; finer where there are many."""
     import numpy as np
 
@@ -259,9 +318,11 @@ def add_points(globe: Globe, table: PointTable, shown: frozenset[str], labels: s
     if "cells" in shown:
         globe.add_cells(SphericalVoronoi(triangulation), style=ridges, name="voronoi")
         globe.legend["cells"] = ridges
-    if "points" in shown:
-        globe.add_points(table.places, style=dots, name="sites")
-        globe.legend[Path(table.name).stem] = dots
+    given = {"--point-size": valued.point_size, "--point-color": valued.point_color, "--largest": valued.largest}
+    if "points" not in shown:
+        options.refuse(given, "points; name them in --show, too")
+    else:
+        globe.add_points(table.places, name="sites", **looks_of(table, valued, dots))
     if labels is not None:
         texts = ["" if value is None else str(value).strip() for value in table.column(labels).tolist()]
         named = [k for k, text in enumerate(texts) if text not in ("", "nan")]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 import sys
 import tempfile
@@ -25,6 +26,8 @@ from stereodel.io.formats.names import spelling
 from stereodel.sphere.latitudes import Latitude
 
 if TYPE_CHECKING:
+    from stereodel._arrays import FloatArray
+    from stereodel.drawing import ColorScale
     from stereodel.io import PointTable
 
 
@@ -33,6 +36,10 @@ FLAT = ("csv", "xlsx")  # those without shapes
 PICTURES = ("svg", "pdf")
 VALUED = ("nc", "vtp")  # formats of meshes that hold the columns of points
 MESHES = ("nc", "glb", "ply", "vtp", *PICTURES)
+
+# Arguments of scales, and the options that give them.
+OF_SCALES = {"kind": "--scale", "threshold": "--scale", "low": "--limits", "high": "--limits", "center": "--center"}
+OF_SCALES |= {"colors": "--colors", "scheme": "--classes", "count": "--classes"}
 
 Place = tuple[float, float]  # longitude and latitude in degrees
 
@@ -133,8 +140,51 @@ class PictureOptions:
     heading: ClassVar[str] = "Picture"
     title: str = option("TEXT", "Title above the picture.", "")
     legend: bool = option(None, "Explain points and layers below the picture.", False)
+    legend_text: list[str] | None = option("NAME=TEXT", "Text of an entry of the legend, with its unit; repeatable.")  # noqa: RUF009 - a field
     style: list[str] | None = option("STYLE", "dark, or a .toml file of styles; repeatable.")  # noqa: RUF009 - a field
     size: int | None = option("PIXELS", "Width; by default 1600, and 720 for films.", min=1, max=65_535)
+
+
+@dataclass(frozen=True)
+class ValueOptions:
+    """Colours and sizes by value; of layers with ``column=`` and of points."""
+
+    heading: ClassVar[str] = "By value"
+    point_size: str | None = option("LENGTH|COLUMN", "Diameter of points, or amounts that their areas show.")
+    largest: str | None = option("LENGTH", "Diameter of the point of the largest amount; by default 24pt.")
+    point_color: str | None = option("COLOR|COLUMN", "Colour of points, or numbers or words that it shows.")
+    scale: str | None = option("KIND", "linear, log, sqrt, or symlog:THRESHOLD, linear up to there.")
+    classes: str | None = option("SCHEME:N|LIMITS", "equal:5, quantiles:5, natural:5, or limits with commas.")
+    colors: str | None = option("MAP|COLORS", "A map of matplotlib, e.g. magma_r, or colours with commas.")
+    limits: str | None = option("LOW,HIGH", "Numbers with the first and the last colour.")
+    center: float | None = option("NUMBER", "Number with the middle colour, to show what is above and below.")
+
+    @property
+    def given(self) -> dict[str, object]:
+        """The options that say something of the scale."""
+        named = {name: getattr(self, name) for name in ("scale", "classes", "colors", "limits", "center")}
+        return {f"--{name}": True for name, value in named.items() if value is not None}
+
+    def of(self, values: FloatArray) -> ColorScale:
+        """The colour scale of values that the options describe."""
+        from stereodel.drawing import ColorScale
+
+        kind, _, bend = (self.scale or "linear").partition(":")
+        scheme, _, count = (self.classes or "").partition(":")
+        if self.classes:
+            refuse({"--scale": self.scale, "--limits": self.limits}, "scales without --classes")
+        colors: Any = self.colors.split(",") if self.colors and re.search("[,#]", self.colors) else self.colors
+        try:
+            if self.classes:
+                own: Any = scheme if scheme.isalpha() else numbers(self.classes, "--classes", "limits", "0,10,50")
+                (at,) = numbers(count or "5", "--classes", "SCHEME:N or limits", "quantiles:5", 1)
+                return ColorScale.classes(values, own, int(at), colors, center=self.center)
+            ends: Any = self.limits and numbers(self.limits, "--limits", "LOW,HIGH", "0,100", 2)
+            (threshold,) = numbers(bend, "--scale", "KIND", "symlog:1000", 1) if bend else (None,)
+            return ColorScale.of(values, colors, kind, limits=ends, center=self.center, threshold=threshold)  # type: ignore[arg-type]
+        except ValueError as error:
+            name, _, rest = str(error).partition(" ")
+            raise ValueError(f"{OF_SCALES.get(name, name)} {rest}") from None
 
 
 @dataclass(frozen=True)

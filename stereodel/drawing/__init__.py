@@ -5,7 +5,7 @@ from stereodel.drawing.page import Ball, Dots, Fill, Label, Page, Polygons, Poly
 from stereodel.drawing.page.colors import as_color
 from stereodel.drawing.page.fonts import MissingCharactersWarning
 from stereodel.drawing.page.labels import with_title
-from stereodel.drawing.page.scales import ColorScale
+from stereodel.drawing.page.scales import ColorScale, SizeScale
 from stereodel.drawing.page.sheets import styled
 from stereodel.drawing.page.style import DotStyle, LineStyle
 from stereodel.drawing.scene.diagrams import diagram_page
@@ -35,6 +35,7 @@ __all__ = [
     "Polylines",
     "Scene",
     "Segment",
+    "SizeScale",
     "Sketch",
     "Solid",
     "StereographicView",

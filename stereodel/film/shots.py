@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from copy import copy
 from dataclasses import KW_ONLY, dataclass, replace
 from functools import cached_property
 from typing import Any, Final, Protocol
@@ -24,6 +25,7 @@ from stereodel.drawing.page.colors import Color
 from stereodel.drawing.page.labels import title_height
 from stereodel.film.standing import Placed, placed, standing
 from stereodel.globe.globe import Globe
+from stereodel.globe.layers import AUTO, OfEarth, suited_to
 from stereodel.globe.pages import MARGIN
 from stereodel.sphere import angular_distance, lonlat_to_xyz, xyz_to_lonlat
 
@@ -54,6 +56,12 @@ POINTS_PER_PIXEL: Final = 0.375
 FULL: Final = 720
 """Diameter in pixels above which line widths and type have a fixed size; below, it scales with the square root."""
 
+SCREEN: Final = 72 / 96
+"""Points of a pixel on a screen, as browsers take it."""
+
+SAMPLED: Final = 32
+"""Number of shots by which the largest scale of a film is found."""
+
 FINE: Final = 0.2
 """Largest deviation of the drawing from the exact image, in pixels."""
 
@@ -71,12 +79,13 @@ class Motion(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class GlobePages:
-    """Draws a globe, with its title above it, centred on a page of any aspect ratio."""
+    """Draws a globe, with its title above and its legend below it if wanted, centred on a page of any aspect ratio."""
 
     globe: Globe
     width: int
     height: int
     background: Color
+    legend: bool = False
 
     @property
     def point(self) -> float:
@@ -86,7 +95,17 @@ class GlobePages:
     @property
     def across(self) -> float:
         """Points across the globe and its margin."""
-        return min(self.width * self.point, self.height * self.point - title_height(self.globe.title))
+        across = min(self.width * self.point, self.height * self.point - self._below - title_height(self.globe.title))
+        if across <= 0:
+            size = f"{self.width} × {self.height}"
+            raise ValueError(f"size is {size}, which leaves no room for the globe beside its legend")
+        return across
+
+    @cached_property
+    def _below(self) -> float:
+        """Height of the legend in points."""
+        blank = Page((0.0, 1.0, 0.0, 1.0), width=self.width * self.point)
+        return self.globe.told(blank).height - blank.height if self.legend else 0.0
 
     def __call__(self, shot: Shot | NamedShot) -> Page:
         """The page of a shot, with names where they were placed for the whole film, or for this one alone."""
@@ -94,9 +113,23 @@ class GlobePages:
         globe = standing(self.globe, *names) if names else self.globe
         page = globe.page(lens, view, width=self.across, tolerance=FINE * point)
         left, right, bottom, top = page.extent
-        x, y, half = (left + right) / 2, (bottom + top) / 2, point / page.points_per_unit / 2
-        extent = (x - half * self.width, x + half * self.width, y - half * self.height, y + half * self.height)
-        return replace(page, extent=extent, width=self.width * point, background=self.background)
+        x, y, half = (left + right) / 2, (bottom + top) / 2, 0.5 / page.points_per_unit
+        wide, high = self.width * point, self.height * point - self._below
+        extent = (x - half * wide, x + half * wide, y - half * high, y + half * high)
+        page = replace(page, extent=extent, width=wide, background=self.background)
+        return self.globe.told(page) if self.legend else page
+
+
+def steady(globe: Globe, motion: Motion, pixels: int) -> Globe:
+    """The globe with its maps of the Earth at one resolution, or coasts would change from one frame to the next."""
+    times = np.linspace(0.0, as_scalar(motion.seconds, "seconds of the motion", low=0.0), SAMPLED)
+    resolution = suited_to(max(motion(time)[0].peak[1] for time in times.tolist()) * pixels / 2 * SCREEN)
+    result = copy(globe)
+    result.layers = [
+        replace(layer, resolution=resolution) if isinstance(layer, OfEarth) and layer.resolution == AUTO else layer
+        for layer in globe.layers
+    ]
+    return result
 
 
 @dataclass(frozen=True, eq=False)

@@ -19,8 +19,9 @@ from stereodel.conformal import MoebiusMap
 from stereodel.curves.chart import Chart
 from stereodel.curves.view import MapView
 from stereodel.drawing.page.placing import Placer, meets
+from stereodel.drawing.page.style import LineStyle
 from stereodel.globe.globe import Globe
-from stereodel.globe.layers import Areas, Ground, Image, Names, Standing, disc_of, radii
+from stereodel.globe.layers import Areas, Ground, Image, Names, OfEarth, Standing, disc_of, radii
 
 LEAST: Final = 8
 """Least number of frames for which a name stands on a side, or is away; less where the film begins or ends."""
@@ -57,7 +58,8 @@ def placed(globe: Globe, shots: Iterable[tuple[MoebiusMap, MapView]], count: int
     prices = [np.full((count, *each.boxes.shape[:2]), np.inf) if each else np.zeros(0) for each in whole]
     for frame, (lens, view) in enumerate(shots):
         chart = Chart(lens, view, (0.0, 0.0), 1.0, COARSE / unit, unit)
-        bare = (layer for layer in globe.layers if not isinstance(layer, Names | Ground | Areas | Image))
+        bare = [layer for layer in globe.layers if not isinstance(layer, Names | Ground | Areas | Image)]
+        bare = [layer for layer in bare if not isinstance(layer, OfEarth) or isinstance(layer.look, LineStyle)]
         placer = Placer(disc_of(chart), [item for layer in bare for item in layer.lay(chart)])
         for layer, each, places, price in zip(layers, whole, at, prices, strict=True):
             if each:

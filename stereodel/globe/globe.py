@@ -34,7 +34,7 @@ from stereodel.drawing.page.items import Tags
 from stereodel.drawing.page.labels import with_title
 from stereodel.drawing.page.page import LARGEST_SIZE
 from stereodel.drawing.page.placing import placed_label
-from stereodel.drawing.page.scales import ColorScale, category_colors, usual_scale
+from stereodel.drawing.page.scales import SizeScale
 from stereodel.drawing.page.sheets import Style, styled
 from stereodel.drawing.page.style import (
     BLACK,
@@ -43,6 +43,7 @@ from stereodel.drawing.page.style import (
     MAP_DOT,
     MAP_FILLS,
     MAP_LINES,
+    PRINT_DPI,
     PRINT_WIDTH,
     WHITE,
     DotStyle,
@@ -50,9 +51,25 @@ from stereodel.drawing.page.style import (
     LineStyle,
     as_length,
 )
-from stereodel.drawing.scene.legend import LegendEntry, with_legend
-from stereodel.globe.layers import Areas, GridLines, Ground, Image, Limb, LineLayer, MapLayer, Names, Points, laid
-from stereodel.globe.outlines_on_sphere import Rings, SphereLines, SphereRegions, earth_lines, earth_regions
+from stereodel.drawing.scene.by_value import DotLooks, ScaleLike, colors_of
+from stereodel.drawing.scene.legend import LegendEntry, described, with_legend
+from stereodel.globe.layers import (
+    AUTO,
+    FINE,
+    RESOLUTIONS,
+    Areas,
+    GridLines,
+    Ground,
+    Image,
+    Limb,
+    LineLayer,
+    MapLayer,
+    Names,
+    OfEarth,
+    Points,
+    laid,
+)
+from stereodel.globe.outlines_on_sphere import Rings, SphereLines, SphereRegions
 from stereodel.globe.pages import Panel, default_view, panels
 from stereodel.globe.raster import Raster
 from stereodel.io.reading import Shapes, shapes_of
@@ -64,6 +81,9 @@ from stereodel.triangulation import SphericalDelaunay, SphericalVoronoi
 
 SIZE: Final = 2000
 """Default width of a picture in pixels."""
+
+FINE_PIXELS: Final = FINE * PRINT_DPI / 72
+"""Tolerance in pixels that is that of pages in print."""
 
 LEGEND_COLUMNS: Final = 3
 LEGEND_INDENT: Final = 24.0
@@ -92,9 +112,9 @@ class Globe(Displayed):
 
     Attributes
     ----------
-    legend : dict of str to LineStyle, DotStyle, color-like or ColorScale
-        Entries of the legend below pictures: descriptions with what they describe. Layers coloured by a column are
-        added automatically; other entries may be added.
+    legend : dict of str to LineStyle, DotStyle, color-like, ColorScale or SizeScale
+        Entries of the legend below pictures: descriptions with what they describe. What is coloured or sized by value
+        is added automatically; other entries may be added.
 
     Raises
     ------
@@ -173,33 +193,39 @@ class Globe(Displayed):
         self.add(Image(raster, as_scalar(opacity, "opacity", low=0.0, high=1.0), name))
 
     def add_land(
-        self, *, color: ColorLike = MAP_FILLS["land"], outline: LineStyle | None = None, resolution: str = "50m"
+        self, *, color: ColorLike = MAP_FILLS["land"], outline: LineStyle | None = None, resolution: str = AUTO
     ) -> None:
-        """Fill the land of the Earth (Natural Earth), and draw its outline if a style is given."""
-        self._add_polygons(earth_regions("land", resolution, self.latitude), color, outline, "land")
+        """Fill the land of the Earth (Natural Earth), and draw its outline if a style is given.
 
-    def add_ocean(self, *, color: ColorLike = MAP_FILLS["ocean"], resolution: str = "50m") -> None:
+        A resolution of the Earth's maps is "10m", "50m", "110m", or "auto", which suits the largest scale on each page.
+        """
+        self._add_earth("land", resolution, color, "land")
+        if outline is not None:
+            self._add_earth("land", resolution, outline, "land-outline")
+
+    def add_ocean(self, *, color: ColorLike = MAP_FILLS["ocean"], resolution: str = AUTO) -> None:
         """Fill everything but the land of the Earth (Natural Earth); layers below then show on land only."""
-        sea = earth_regions("land", resolution, self.latitude).complement
-        self.add(Areas(sea, np.array([as_color(color)]), "ocean"))
+        self._add_earth("land", resolution, color, "ocean")
 
     def add_lakes(
-        self, *, color: ColorLike = MAP_FILLS["ocean"], outline: LineStyle | None = None, resolution: str = "50m"
+        self, *, color: ColorLike = MAP_FILLS["ocean"], outline: LineStyle | None = None, resolution: str = AUTO
     ) -> None:
         """Fill the lakes of the Earth (Natural Earth)."""
-        self._add_polygons(earth_regions("lakes", resolution, self.latitude), color, outline, "lakes")
+        self._add_earth("lakes", resolution, color, "lakes")
+        if outline is not None:
+            self._add_earth("lakes", resolution, outline, "lakes-outline")
 
-    def add_rivers(self, *, style: LineStyle = MAP_LINES["rivers"], resolution: str = "50m") -> None:
+    def add_rivers(self, *, style: LineStyle = MAP_LINES["rivers"], resolution: str = AUTO) -> None:
         """Draw the large rivers of the Earth (Natural Earth)."""
-        self.add(LineLayer(earth_lines("rivers", resolution, self.latitude), style, "rivers"))
+        self._add_earth("rivers", resolution, style, "rivers")
 
-    def add_coastlines(self, *, style: LineStyle = MAP_LINES["coast"], resolution: str = "50m") -> None:
+    def add_coastlines(self, *, style: LineStyle = MAP_LINES["coast"], resolution: str = AUTO) -> None:
         """Draw the coastlines of the Earth (Natural Earth)."""
-        self.add(LineLayer(earth_lines("coastlines", resolution, self.latitude), style, "coast"))
+        self._add_earth("coastlines", resolution, style, "coast")
 
-    def add_borders(self, *, style: LineStyle = MAP_LINES["borders"], resolution: str = "50m") -> None:
+    def add_borders(self, *, style: LineStyle = MAP_LINES["borders"], resolution: str = AUTO) -> None:
         """Draw the borders between the countries of the Earth (Natural Earth)."""
-        self.add(LineLayer(earth_lines("borders", resolution, self.latitude), style, "borders"))
+        self._add_earth("borders", resolution, style, "borders")
 
     def add_graticule(self, spacing: float | None = 15.0, *, style: LineStyle = MAP_LINES["graticule"]) -> None:
         """Draw meridians and parallels, `spacing` degrees apart, which must divide 180.
@@ -267,13 +293,62 @@ class Globe(Displayed):
         self,
         places: npt.ArrayLike,
         *,
+        size: LengthLike | npt.ArrayLike | None = None,
+        color: ColorLike | npt.ArrayLike | None = None,
+        values: npt.ArrayLike | None = None,
+        scale: ScaleLike | None = None,
+        legend: str = "",
+        size_scale: SizeScale | None = None,
+        size_legend: str = "",
         style: DotStyle = MAP_DOT,
         name: str = "points",
         ids: Iterable[object] | None = None,
     ) -> None:
-        """Draw dots at places, in degrees (n, 2) or as directions (n, 3); with `ids` in SVG, as for `add_polygons`."""
+        """Draw dots at places, in degrees (n, 2) or as directions (n, 3), all alike or by value.
+
+        Parameters
+        ----------
+        places : array_like
+        size : float, str or (n,) array_like, optional
+            Diameter of all dots, in points or with a unit, such as "2mm"; or amounts, to which the areas of dots are in
+            proportion. Of amounts that are negative or missing nothing is drawn, and a `DataWarning` says so. Smaller
+            dots lie on larger ones, half transparent if all have one colour.
+        color : color-like, sequence of them or array, optional
+            Colour of all dots, or of each; by default that of `style`.
+        values : (n,) array_like, optional
+            Numbers that a scale turns into the colours of dots, NaN where one is missing; or words, at most eight
+            different ones.
+        scale : ColorScale, or function of values that returns one, optional
+            By default `ColorScale.of`.
+        legend : str
+            Title of the scale in the legend, with its unit, such as "area, km²"; without values, the entry of the dots.
+        size_scale : SizeScale, optional
+            By default one in which the largest dot has a diameter of 24 points.
+        size_legend : str
+            Title of the sizes in the legend.
+        style : DotStyle
+            Radius, colour and rim of dots without a size or colour of their own.
+        name : str
+            Name of the dots in vector files.
+        ids : iterable, optional
+            Names of the dots in SVG, as for `add_polygons`.
+
+        Raises
+        ------
+        ValueError
+            If an array has not one entry for each place, both `color` and `values` are given, or no size is positive.
+
+        Examples
+        --------
+        >>> globe = Globe()
+        >>> globe.add_points([(2.4, 48.9), (13.4, 52.5)], size=[11.2e6, 6.1e6], size_legend="people", color="teal")
+        >>> print(globe.legend["people"].description)
+        areas of dots in proportion to the amount, 11.2 M the largest
+        """
         xyz = self._xyz(places, "places")
-        self.add(Points(xyz, style, name, Tags.of({"id": ids}, len(xyz))))
+        looks = DotLooks.of(len(xyz), style, size, color, values, scale, legend, size_scale, size_legend)
+        self.legend |= looks.entries
+        self.add(Points(xyz, looks, name, Tags.of({"id": ids}, len(xyz))))
 
     def add_labels(
         self,
@@ -399,7 +474,7 @@ class Globe(Displayed):
         *,
         color: ColorLike = MAP_FILLS["area"],
         column: str | None = None,
-        scale: ColorScale | None = None,
+        scale: ScaleLike | None = None,
         outline: LineStyle | None = MAP_LINES["outline"],
         style: LineStyle = MAP_LINES["line"],
         dot_style: DotStyle = MAP_DOT,
@@ -415,18 +490,19 @@ class Globe(Displayed):
             A GeoJSON file or object; any other file that GeoPandas reads; a GeoDataFrame or Shapely geometry. What
             names another coordinate system (GeoJSON by a member ``crs``) is transformed to degrees.
         color : color-like
-            Colour of polygons.
+            Colour of polygons without a column.
         column : str, optional
-            Property by which polygons are coloured, which is added to the legend; polygons without it keep `color`.
-            Numbers use a colour scale; text gets one colour for each value, at most eight.
-        scale : ColorScale, optional
-            Colour scale for numbers; by default viridis from the smallest to the largest.
+            Property by which polygons, lines and points are coloured, which is added to the legend. Numbers use a
+            colour scale; text gets one colour for each value, at most eight. What lacks it has a colour of its own.
+        scale : ColorScale, or function of values that returns one, optional
+            Colour scale for numbers; by default `ColorScale.of`.
         outline, style, dot_style : LineStyle, LineStyle, DotStyle
-            Styles of the polygons' outlines (None for no outlines), the lines and the points.
+            Styles of the polygons' outlines (None for no outlines; by default white with a column), the lines and the
+            points.
         name : str
             Name of the groups in vector files.
         legend : str
-            Entry in the legend, if no column provides one.
+            Entry in the legend; of a column of numbers the title of its scale, by default the name of the column.
         id_column : str, optional
             Property by which SVG names the shapes: each is a path of its own with this `id`, in the form of names in
             XML and made unique, and with the values of `id_column` and `column` as they are, in ``data-name`` of a
@@ -441,21 +517,25 @@ class Globe(Displayed):
             than eight different texts.
         """
         shapes = shapes_of(source)
+        colors = None if column is None else self._color_by(column, shapes, scale, legend or column)
         keys = (id_column, column) if id_column is not None else ()
         tags = Tags.of({key: shapes.values(key) for key in keys if key is not None}, len(shapes.properties))
         if len(shapes.polygon_feature):
-            colors = as_colors(color, len(shapes.properties), "color")
-            if column is not None:
-                self._color_by(column, shapes, scale, colors)
             owners = shapes.polygon_feature
             polygons = SphereRegions.of_lonlat(shapes.polygons, owners=owners, latitude=self.latitude)
-            self._add_polygons(polygons, colors[: polygons.count], outline, name, tags)
+            if column is not None and outline == MAP_LINES["outline"]:
+                outline = MAP_LINES["parting"]
+            own = as_colors(color, len(shapes.properties), "color") if colors is None else colors
+            self._add_polygons(polygons, own[: polygons.count], outline, name, tags)
         if len(shapes.lines):
-            self._add_lines(list(shapes.lines), style, name, tags and tags.some(shapes.line_feature))
+            of_lines = None if colors is None else colors[shapes.line_feature]
+            self._add_lines(list(shapes.lines), style, name, tags and tags.some(shapes.line_feature), of_lines)
         if len(shapes.points):
+            of_points = None if colors is None else colors[shapes.point_feature]
+            looks = DotLooks.of(len(shapes.points), dot_style, color=of_points)
             named = tags and tags.some(shapes.point_feature)
-            self.add(Points(self._xyz(shapes.points, "places"), dot_style, name, named))
-        if legend and not (column and len(shapes.polygon_feature)):
+            self.add(Points(self._xyz(shapes.points, "places"), looks, name, named))
+        if legend and colors is None:
             self.legend[legend] = (
                 as_color(color) if len(shapes.polygon_feature) else style if len(shapes.lines) else dot_style
             )
@@ -470,7 +550,7 @@ class Globe(Displayed):
         view: MapView | Sequence[MapView] | None = None,
         *,
         width: LengthLike = PRINT_WIDTH,
-        tolerance: float = 0.02,
+        tolerance: float = FINE,
         style: Style | Sequence[Style] = (),
         legend: bool = False,
     ) -> Page:
@@ -501,9 +581,12 @@ class Globe(Displayed):
         views = view if isinstance(view, Sequence) else [default_view(bend) if view is None else view]
         contents = [Panel(self, bend, each) for each in views]
         page = with_title(panels(contents, width=as_length(width, "width"), tolerance=tolerance), self.title)
-        if legend and self.legend:
-            page = with_legend(page, self.legend, columns=LEGEND_COLUMNS, indent=LEGEND_INDENT)
+        page = self.told(page) if legend else described(page, self.legend)
         return styled(page, *([style] if isinstance(style, str | os.PathLike) else style), font=self.font)
+
+    def told(self, page: Page) -> Page:
+        """The page with `Globe.legend` below it."""
+        return with_legend(page, self.legend, columns=LEGEND_COLUMNS, indent=LEGEND_INDENT) if self.legend else page
 
     def save(
         self,
@@ -526,7 +609,7 @@ class Globe(Displayed):
         lens, view, width, style, legend
             As for `page`.
         size : int
-            Width of a PNG in pixels, at most 65 535, with curves accurate to a fifth of a pixel.
+            Width of a PNG in pixels, at most 65 535, with curves accurate to a twelfth of a pixel.
         transparent : bool
             Whether to make the background of the page transparent.
 
@@ -538,7 +621,7 @@ class Globe(Displayed):
             If the extension is unknown; also as for `page`.
         """
         wide, pixels = as_length(width, "width"), as_count(size, "size", high=LARGEST_SIZE)
-        tolerance = min(0.02, 0.2 * wide / pixels)
+        tolerance = min(FINE, FINE_PIXELS * wide / pixels)
         with of_extra(picture_extra(Path(path).suffix)):
             page = self.page(lens, view, width=wide, tolerance=tolerance, style=style, legend=legend)
             return page.save(path, size=pixels, transparent=transparent)
@@ -550,26 +633,36 @@ class Globe(Displayed):
             return units(as_directions(rows, name, points=True))
         return lonlat_to_xyz(as_lonlat(rows, name), latitude=self.latitude)
 
-    def _color_by(self, column: str, shapes: Shapes, scale: ColorScale | None, colors: FloatArray) -> None:
-        """Colour features (n, 4) by a property and add it to the legend."""
+    def _color_by(self, column: str, shapes: Shapes, scale: ScaleLike | None, legend: str) -> FloatArray:
+        """Colours of features (n, 4) by a property, which is added to the legend."""
         words = shapes.words(column)
-        if words is not None and scale is None:
-            shades = category_colors(sorted({word for word in words if word is not None}), f"column {column!r}")
-            for row, word in enumerate(words):
-                if word is not None:
-                    colors[row] = shades[word]
-            self.legend |= shades
-            return
-        values = shapes.column(column)
-        known = np.isfinite(values)
-        if known.any():
-            chosen = usual_scale(values[known]) if scale is None else scale
-            colors[known, :3], colors[known, 3] = chosen(values[known]), 1.0
-            self.legend[column] = chosen
+        values: Any = shapes.column(column) if words is None else words
+        colors, told = colors_of(values, len(shapes.properties), scale, legend)
+        self.legend |= told
+        return colors
 
-    def _add_lines(self, lines: Sequence[npt.ArrayLike], style: LineStyle, name: str, tags: Tags | None) -> None:
-        long = tags and tags.some(np.array([np.size(line) > 2 for line in lines], dtype=bool))
-        self.add(LineLayer(SphereLines.straight_in_lonlat(lines, self.latitude), style, name, long))
+    def _add_earth(self, what: str, resolution: str, look: LineStyle | ColorLike, name: str) -> None:
+        as_choice(resolution, (AUTO, *RESOLUTIONS), "resolution")
+        drawn = look if isinstance(look, LineStyle) else as_color(look)
+        self.add(OfEarth(what, self.latitude, drawn, name, resolution))
+
+    def _add_lines(
+        self,
+        lines: Sequence[npt.ArrayLike],
+        style: LineStyle,
+        name: str,
+        tags: Tags | None,
+        colors: FloatArray | None = None,
+    ) -> None:
+        """Lines in one colour, or in colours (n, 4), those of one colour together."""
+        several, which = np.unique(np.array([style.color]) if colors is None else colors, axis=0, return_inverse=True)
+        told = () if colors is None else ("color",)
+        long = np.array([np.size(line) > 2 for line in lines], dtype=bool)
+        for k, color in enumerate(several):
+            rows = np.flatnonzero(np.broadcast_to(which.ravel() == k, len(lines)))
+            some = SphereLines.straight_in_lonlat([lines[row] for row in rows.tolist()], self.latitude)
+            tagged = tags and tags.some(rows[long[rows]])
+            self.add(LineLayer(some, replace(style, color=as_color(color)), name, told, tagged))
 
     def _add_polygons(
         self,

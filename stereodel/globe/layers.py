@@ -4,23 +4,37 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
-from typing import Protocol
+from typing import Final, Protocol
 
 import numpy as np
 
 from stereodel._arrays import FloatArray
 from stereodel.curves.chart import Chart, Place
-from stereodel.drawing.page import Ball, Beziers, Dots, Fill, Item, Label, Picture, Polygons, Polylines, Stroke
+from stereodel.drawing.page import Ball, Beziers, Fill, Item, Label, Picture, Polygons, Polylines, Stroke
 from stereodel.drawing.page.colors import Color
 from stereodel.drawing.page.items import FEW_COLORS, Tags
 from stereodel.drawing.page.placing import Disc, Placer, Seats
-from stereodel.drawing.page.style import DotStyle, LineStyle, with_opacity
+from stereodel.drawing.page.style import LineStyle, with_opacity
+from stereodel.drawing.scene.by_value import DotLooks
 from stereodel.drawing.scene.graticule import LEAST_APART, WIDTHS_APART, Graticule, usual_spacing
 from stereodel.drawing.scene.space_curves import page_path
 from stereodel.drawing.scene.visibility import limb
-from stereodel.globe.outlines_on_sphere import SphereLines, SphereRegions
+from stereodel.earth import AUTHALIC_RADIUS_KM
+from stereodel.globe.outlines_on_sphere import SphereLines, SphereRegions, earth_lines, earth_regions
 from stereodel.globe.raster import Raster, RasterOnDisc
 from stereodel.sphere.latitudes import Latitude
+
+AUTO: Final = "auto"
+"""The resolution that suits the scale on the page."""
+
+RESOLUTIONS: Final = {"10m": 25e6, "50m": 130e6, "110m": np.inf}
+"""Resolutions of maps of the Earth, and the scale 1 : n from which on the next one is fine enough."""
+
+RADIUS_POINTS: Final = AUTHALIC_RADIUS_KM * 1e5 / 2.54 * 72
+"""Radius of the Earth in points."""
+
+FINE: Final = 0.02
+"""Tolerance in points of pages in print."""
 
 
 def outline(chart: Chart) -> Beziers:
@@ -31,6 +45,25 @@ def outline(chart: Chart) -> Beziers:
 def ball(chart: Chart) -> Ball | None:
     """The shading of a disc, if it is a ball."""
     return Ball(chart.at, chart.scale) if chart.view.round else None
+
+
+def suited(chart: Chart) -> str:
+    """The resolution of maps of the Earth that suits the scale of a chart where it is largest."""
+    peak, scale = chart.lens.peak
+    # The nearest that is seen to the place where the lens enlarges most, as an angle.
+    away = 2 * np.arcsin(min(1.0, float(np.sqrt(np.sum((chart.source.normal - peak) ** 2))) / 2)) - chart.source.radius
+    half = max(0.0, float(away)) / 2
+    flat = 1.0 if chart.view.round else 2 * float(np.tan(np.radians(chart.view.angular_radius) / 2))
+    largest = scale / (np.cos(half) ** 2 + (scale * np.sin(half)) ** 2) * chart.scale / flat
+    # Of a page with many pixels, whose curves are finer.
+    points = largest * chart.unit * max(1.0, FINE / (chart.tolerance * chart.unit))
+    return suited_to(points)
+
+
+def suited_to(points: float) -> str:
+    """The resolution that suits a map with so many points to a radian of the Earth."""
+    scale = RADIUS_POINTS / points
+    return next(name for name, least in RESOLUTIONS.items() if scale < least)
 
 
 class MapLayer(Protocol):
@@ -71,6 +104,7 @@ class LineLayer:
     lines: SphereLines
     style: LineStyle
     name: str
+    told: tuple[str, ...] = ()
     tags: Tags | None = None
 
     def lay(self, chart: Chart) -> Iterator[Item]:
@@ -78,7 +112,7 @@ class LineLayer:
         seen, line = self.lines.on(chart)
         if len(seen):
             look, tags = (self.style.color, self.style.width), self.tags and self.tags.some(line)
-            yield Polylines(seen.values, seen.offsets, *look, self.name, tags=tags)
+            yield Polylines(seen.values, seen.offsets, *look, self.name, self.told, tags=tags)
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,8 +153,9 @@ class Areas:
         loops, owner = self.regions.on(chart)
         if len(loops) == 0:
             return
+        told = ("color",) if (self.colors != self.colors[0]).any() else ()
         tags = self.tags and self.tags.some(owner)
-        whole = Polygons(loops.values, loops.offsets, owner, self.colors, ball(chart), self.name, tags=tags)
+        whole = Polygons(loops.values, loops.offsets, owner, self.colors, ball(chart), self.name, told, tags=tags)
         colors, number = whole.by_color
         if len(colors) > FEW_COLORS:
             yield whole
@@ -147,7 +182,7 @@ class Points:
     """Dots at unit vectors (n, 3)."""
 
     xyz: FloatArray
-    style: DotStyle
+    looks: DotLooks
     name: str
     tags: Tags | None = None
 
@@ -155,9 +190,32 @@ class Points:
         """Dots whose centres are visible."""
         places, seen = chart.points(self.xyz)
         if seen.any():
-            style = self.style
-            tags, look = self.tags and self.tags.some(seen), (style.radius, style.color, style.rim)
-            yield Dots(places[seen], *look, style.rim_width, self.name, tags=tags)
+            yield from self.looks.items(places, np.flatnonzero(seen), 1 / chart.unit, self.name, self.tags)
+
+
+@dataclass(frozen=True)
+class OfEarth:
+    """A layer made of a map of the Earth, at a resolution or, "auto", at that which suits the scale on each page.
+
+    look: a colour for land or lakes, or for the ocean, all but the land; a style for their outlines, or for lines.
+    """
+
+    what: str
+    latitude: Latitude
+    look: Color | LineStyle
+    name: str
+    resolution: str
+
+    def lay(self, chart: Chart) -> Iterator[Item]:
+        """As the layers do that are made of lines and regions."""
+        given = self.what, suited(chart) if self.resolution == AUTO else self.resolution, self.latitude
+        if not isinstance(self.look, LineStyle):
+            land = earth_regions(*given)
+            regions = land.complement if self.name == "ocean" else land
+            yield from Areas(regions, np.tile(self.look, (regions.count, 1)), self.name).lay(chart)
+        else:
+            lines = earth_regions(*given).outlines if self.what in ("land", "lakes") else earth_lines(*given)
+            yield from LineLayer(lines, self.look, self.name).lay(chart)
 
 
 Standing = tuple[int, int, float]
@@ -207,7 +265,8 @@ def disc_of(chart: Chart) -> Disc:
 def radii(globe: Layered) -> dict[bytes, float]:
     """The radius of the dot at each place that has one, by the bytes of its unit vector."""
     layers = (layer for layer in globe.layers if isinstance(layer, Points))
-    return {place.tobytes(): layer.style.radius for layer in layers for place in layer.xyz}
+    pairs = (zip(layer.xyz, layer.looks.radii(len(layer.xyz)), strict=True) for layer in layers)
+    return {place.tobytes(): radius for some in pairs for place, radius in some}
 
 
 class Layered(Protocol):

@@ -259,6 +259,8 @@ def shapes_of(source: Any) -> Shapes:
     geometry or a sequence of them, or anything with ``__geo_interface__``. Coordinates in another system (of GeoJSON,
     by a member ``crs``) are transformed; without one they are in degrees. Null and empty geometries have no shapes.
     """
+    if isinstance(source, Shapes):
+        return source
     if isinstance(source, str | os.PathLike):
         with naming(source):
             return _shapes_in(_content(source, Wanted())[0])

@@ -81,14 +81,15 @@ class Figure:
     in_space: Callable[[Any], Solid] | None = None
 
     def page(self) -> Page:
-        """The picture before rendering, with the script's title and description if it has none."""
+        """The picture before rendering, with the script's title if it has none, and description."""
         return self._page(self.geometry())
 
     def _page(self, geometry: Geometry) -> Page:
         page = self.draw(geometry)
         script = script_of(self.draw, self.name)
         title, description = caption_of(script) if script else ("", "")
-        return replace(page, title=page.title or title, description=page.description or description)
+        told = "\n\n".join(filter(None, [description, page.description]))
+        return replace(page, title=page.title or title, description=told)
 
     def styled(self, *styles: Style) -> Figure:
         """The same figure in other styles, see `stereodel.drawing.styled`."""

@@ -67,8 +67,6 @@ def test_the_middle_of_the_picture():
     points = lonlat_to_xyz([(170, 10), (-170, 10)])
     free = Aim(None, 1.0, None, "globe")
     assert free.views == (View(0, 0),)
-    sizes = {1.0: "50m", 4.0: "50m", 20.0: "10m", 0.1: "50m"}  # maps suit the magnification
-    assert [replace(free, magnification=size).resolution for size in sizes] == list(sizes.values())
     assert free.with_middle_of(points).place == pytest.approx((-180, 10), abs=0.2)
     focused = replace(free, focus=(1.0, 2.0))
     assert focused.with_middle_of(points).views == (View(1, 2),)
@@ -223,3 +221,44 @@ def test_styles_and_pixels(folder, run):
     picture = iio.imread(folder / "c.png")
     assert picture[0, 0].tolist() == [18, 18, 18]
     assert picture[33, 27, 0] > 150 > 30 > picture[33, 27, 1]
+
+
+BY_VALUE = ["cities.csv", "--point-size=people", "--point-color=people", "--show=points"]
+BY_VALUE += ["--legend-text=people=inhabitants", "--legend-text=people (size)=many"]
+
+
+def test_points_and_layers_by_value(folder, run):
+    """Areas and colours of a column, classes of a layer; what polygons replace is said, and they do so."""
+    run(
+        "globe",
+        "-o",
+        "a.svg",
+        *BY_VALUE,
+        "--show=points",
+        "--scale=log",
+        "--largest=10mm",
+        "--colors=magma_r",
+        "--legend-text=people (size)=many",
+    )
+    text = (folder / "a.svg").read_text(encoding="utf-8")
+    assert "inhabitants: colours, logarithmic from 100" in text
+    assert "many: areas of dots in proportion to the amount, 15.4" in text
+    squares = [[[10 * k, 0], [10 * k + 9, 0], [10 * k + 9, 9], [10 * k, 9], [10 * k, 0]] for k in range(6)]
+    features = [
+        {"type": "Feature", "properties": {"v": k or None}, "geometry": {"type": "Polygon", "coordinates": [ring]}}
+        for k, ring in enumerate(squares)
+    ]
+    (folder / "six.geojson").write_text(json.dumps({"type": "FeatureCollection", "features": features}))
+    layer = ["--layer=six.geojson,column=v", "--legend", "--resolution=110m"]
+    run("globe", "-o", "b.svg", *layer, "--classes=0,2,4,9", "--colors=#ff0000,#00ff00,#0000ff")
+    assert run.said.startswith(
+        "note: six.geojson: polygons replace the land and the coastlines of the package; --show="
+    )
+    text = (folder / "b.svg").read_text(encoding="utf-8")
+    assert 'id="land' not in text
+    assert 'id="coast' not in text
+    assert all(color in text for color in ("#ff0000", "#00ff00", "#0000ff"))
+    assert "v: colours of 3 classes with the limits 0, 2, 4, 9; no value in gray" in text
+    run("globe", "-o", "c.svg", *layer, "--show=land,coastlines", "--center=3")
+    assert run.said == ""
+    assert 'id="land' in (folder / "c.svg").read_text(encoding="utf-8")

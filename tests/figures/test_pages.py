@@ -32,11 +32,11 @@ def run(page, folder, monkeypatch, capsys, smaller=()):
 
 def test_drawing(tmp_path, monkeypatch, capsys):
     found = {id(names["page"]): names["page"] for names in run("drawing.md", tmp_path, monkeypatch, capsys)}
-    scene, sketch, legend, dark, globe, titled = found.values()
+    scene, sketch, legend, valued, dark, globe, titled = found.values()
     assert [item.name for item in scene.items if isinstance(item, Fill) and item.ball] == ["ball", "bubble"]
     assert [[label.text for label in page.labels] for page in (scene, sketch)] == [["a site"], ["$R$"]]
     assert [label.text for label in legend.labels] == ["Delaunay triangulation", "sites"]
-    assert [item.name for item in dark.items] == [item.name for item in legend.items]
+    assert [item.name for item in dark.items] == [item.name for item in valued.items]
     assert dark.background[0] < 0.1
     assert [round(item.radius**2, 9) for item in globe.items if isinstance(item, Dots)] == [11.2, 6.1, 6.8]
     assert [item.text for item in globe.items if isinstance(item, Label)] == ["11.2", "6.1", "6.8"]

@@ -11,7 +11,7 @@ import pytest
 from stereodel.drawing.page import Dots, Fill, Picture, Polygons, Polylines, Stroke
 from stereodel.drawing.page.colors import color_map, contrast, encoded, linear, luminance, to_oklab
 from stereodel.drawing.page.labels import label_box
-from stereodel.drawing.page.scales import usual_scale
+from stereodel.drawing.page.scales import USUAL
 from stereodel.drawing.page.style import DOTS, LINES, MAP_LINES, fainter
 from tests.figures.scripts import FIGURES, FOLDER, page, path_points, script
 from tests.tiers import by_day
@@ -214,7 +214,7 @@ SCALES["earth_airports"] = script("earth_airports")["scale_of"](np.array([1.0, 1
 
 def test_scales_are_told_by_lightness_and_have_two_ends_in_print():
     assert len(SCALES) == 4
-    for name in {scale.name for scale in SCALES.values()} | {usual_scale(np.arange(2.0)).name, "cividis"}:
+    for name in {scale.colors for scale in SCALES.values()} | {USUAL, "cividis"}:
         steps = np.diff(lightness(name))
         assert (steps > 0).all() or (steps < 0).all(), name
         assert abs(steps.sum()) > 0.55, name

@@ -10,6 +10,7 @@ from stereodel import SphericalVoronoi, lonlat_to_xyz
 from stereodel.drawing import View
 from stereodel.drawing.page import Label
 from stereodel.drawing.page.colors import to_oklab
+from stereodel.drawing.page.scales import MISSING
 from stereodel.globe import Globe
 from stereodel.globe.layers import Areas
 
@@ -44,7 +45,7 @@ def test_a_title_and_a_legend_are_around_the_picture():
 
 @pytest.mark.parametrize(
     ("values", "entries"),
-    [(["b", "a", "b", None], {"a", "b"}), ([1.0, 5.0, None, 2.0], {"kind"})],
+    [(["b", "a", "b", None], {"a", "b", "no value"}), ([1.0, 5.0, None, 2.0], {"kind"})],
     ids=["words", "numbers"],
 )
 def test_a_column_colours_polygons_and_enters_the_legend(values, entries):
@@ -53,14 +54,14 @@ def test_a_column_colours_polygons_and_enters_the_legend(values, entries):
     assert globe.legend.keys() == entries
     (areas,) = (layer for layer in globe.layers if isinstance(layer, Areas))
     by_value = dict(zip(values, map(tuple, areas.colors.tolist()), strict=True))
-    assert by_value[None] == (1.0, 0.0, 0.0, 1.0)
+    assert by_value[None] == MISSING
     assert len(set(by_value.values())) == len(by_value)
     for value in set(values) - {None}:
-        entry = globe.legend[value] if isinstance(value, str) else (*globe.legend["kind"](value).tolist(), 1.0)
+        entry = globe.legend[value] if isinstance(value, str) else globe.legend["kind"](value)
         assert by_value[value] == pytest.approx(entry)
     told = globe.page(legend=True)
     samples, words = (named(told, name) for name in ("legend-layer", "legend"))
-    assert (len(samples), len(words)) == ((2, 2) if entries == {"a", "b"} else (0, 0))
+    assert (len(samples), len(words)) == ((3, 3) if "a" in entries else (0, 0))
     with pytest.raises(ValueError, match="column 'kind' has 9 different words, but 8 colours are told apart at most"):
         globe.add_layer(squares("abcdefghi"), column="kind")
 

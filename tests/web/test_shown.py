@@ -193,7 +193,7 @@ def test_long_pages_are_pixels_and_longer_ones_a_line(monkeypatch):
     monkeypatch.setattr("stereodel._notebook.MOST_SHOWN_NUMBERS", 1000)
     assert "more than 1000 coordinates" in mimes(page)["text/plain"]
     globe = Globe()
-    globe.add_land(resolution="110m")  # is not even laid out
+    globe.add_lines([walk % 90])  # are not even laid out
     monkeypatch.setattr(Globe, "page", None)
     assert "more than 1000 coordinates" in mimes(globe)["text/plain"]
 

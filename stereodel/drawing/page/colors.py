@@ -83,7 +83,11 @@ def as_inks(value: ColorLike | tuple[ColorLike, ColorLike], name: str = "color")
 
 
 def as_colors(values: ColorLike | npt.ArrayLike, count: int, name: str = "colors") -> FloatArray:
-    """Colours (n, 4) of `count` items, from one for all or from red, green, blue and optionally opacity of each."""
+    """Colours (n, 4) of `count` items, from one for all, or from names or red, green, blue and opacity of each."""
+    if isinstance(values, list | tuple) and len(values) and all(isinstance(value, str) for value in values):
+        if len(values) != count:
+            raise ValueError(f"{name} has {len(values)} colours, but there are {count} items")
+        return np.array([as_color(cast(str, value), name) for value in values])
     if isinstance(values, str) or np.ndim(np.asarray(values, dtype=object)) < 2:
         return np.tile(as_color(cast(ColorLike, values), name), (count, 1))
     array = as_floats(cast(npt.ArrayLike, values), name)
@@ -101,10 +105,10 @@ def color_map(colors: str | Sequence[ColorLike]) -> Callable[[FloatArray], Float
         from matplotlib.colors import LinearSegmentedColormap
 
     if not isinstance(colors, str):
-        several = [as_color(color, "name") for color in colors]
+        several = [as_color(color, "colors") for color in colors]
         return LinearSegmentedColormap.from_list("colors", several if len(several) > 1 else 2 * several)
     if colors not in colormaps:
-        raise ValueError(f"name is {colors!r}, which is not a colour map of matplotlib; give such a name, or colours")
+        raise ValueError(f"colors is {colors!r}, which is not a colour map of matplotlib; give such a name, or colours")
     return colormaps[colors]
 
 

@@ -120,7 +120,7 @@ class Mark(Displayed):
 
     def restyled(self, looks: Mapping[str, Any]) -> Self:
         """The same with other values of its fields, those of its kind in a style file."""
-        return replace(self, **looks) if looks else self
+        return replace(self, **{key: value for key, value in looks.items() if key not in getattr(self, "told", ())})
 
     def colors_at(self, places: FloatArray) -> FloatArray | None:
         """Colours (n, 4) at places (n, 2) of the page, with opacity 0 outside; None if it covers no area."""
@@ -233,6 +233,8 @@ class Dots(Mark):
     rim: Color = WHITE
     rim_width: float = 0.0
     name: str = ""
+    told: tuple[str, ...] = ()
+    """Its fields that tell a value, which styles keep."""
 
     _kind = "dots"
     _inks = ("color", "rim")
@@ -353,6 +355,7 @@ class Polylines(Mark):
     width: float
     """In points."""
     name: str = ""
+    told: tuple[str, ...] = ()
 
     _kind = "lines"
 
@@ -402,6 +405,7 @@ class Polygons(Mark):
     """(k, 4): sRGB and opacity of each region."""
     ball: Ball | None = None
     name: str = ""
+    told: tuple[str, ...] = ()
 
     @property
     def loops(self) -> Ragged:
@@ -437,7 +441,7 @@ class Polygons(Mark):
 
     def restyled(self, looks: Mapping[str, Any]) -> Self:
         """In another colour; several colours, such as those of cells, are kept."""
-        if not looks or self._look is None:
+        if not looks or self._look is None or self.told:
             return self
         return replace(self, colors=np.tile(looks["color"], (len(self.colors), 1)))
 

@@ -1,21 +1,66 @@
-"""Colour scales for numbers: perceptually uniform, linear or logarithmic, and their legends."""
+"""Scales from numbers to colours and to areas of dots, and their legends."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from typing import Final
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import KW_ONLY, dataclass
+from typing import Any, Final
 
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import FloatArray, as_floats, as_scalar
+from stereodel._arrays import FloatArray, as_choice, as_floats, as_scalar
+from stereodel._numbers import as_doubles
 from stereodel.drawing.page.colors import Color, ColorLike, as_color, color_map
-from stereodel.drawing.page.items import Item, Label, Picture, Ramp, Stroke, straight
-from stereodel.drawing.page.style import BLACK, LABEL_SIZE
+from stereodel.drawing.page.items import Fill, Item, Label, Picture, Ramp, Stroke, straight
+from stereodel.drawing.page.style import BLACK, LABEL_SIZE, LengthLike, as_length
+from stereodel.drawing.page.ticks import (
+    KINDS,
+    MOST_TICKS,
+    Kind,
+    Scheme,
+    class_limits,
+    round_numbers,
+    rounded_ends,
+    to_digits,
+    written,
+)
 
 STEPS = 256
 """Number of steps of a legend."""
+
+MISSING: Final[Color] = (0.66, 0.66, 0.66, 1.0)
+"""Colour of missing values: a gray between those of sea and land and that of lines."""
+
+NO_VALUE: Final = "no value"
+"""Key of missing values."""
+
+USUAL, DIVERGING = "YlGnBu", "RdBu_r"
+"""Maps of colours by default, and by default on both sides of a centre."""
+
+APART: Final = 0.06
+"""Least distance of a tick from that of the centre, in lengths of the scale."""
+
+LARGEST: Final = 24.0
+"""Diameter in points of the dot of the largest value."""
+
+KEY: Final = (4.0, 2.5)
+"""Distance of the key of missing values from the bar, and its width, in heights of the bar."""
+
+SPREAD: Final[Mapping[Kind, Callable[[FloatArray, float], Any]]] = {
+    "linear": lambda numbers, _: numbers,
+    "log": lambda numbers, low: np.log(numbers / low),
+    "symlog": lambda numbers, bend: np.sign(numbers) * _bent(np.abs(numbers) / bend),
+    "sqrt": lambda numbers, _: np.sign(numbers) * np.sqrt(np.abs(numbers)),
+}
+"""How numbers are spread along a scale, by its lower end or its threshold."""
+
+SAID: Final[Mapping[Kind, str]] = {
+    "linear": "linear",
+    "log": "logarithmic",
+    "symlog": "symmetrically logarithmic",
+    "sqrt": "by square roots",
+}
 
 CATEGORIES: Final[Sequence[Color]] = (
     (0.902, 0.624, 0.000, 1.0),
@@ -29,9 +74,6 @@ CATEGORIES: Final[Sequence[Color]] = (
 )
 """Colours of categories in order: the hues of Okabe and Ito's palette, first those farthest from sea and land."""
 
-TICKS: Final = 5
-"""Default number of ticks of a legend."""
-
 
 @dataclass(frozen=True)
 class ColorScale:
@@ -39,65 +81,212 @@ class ColorScale:
 
     Parameters
     ----------
-    name : str or sequence of color-like
+    colors : str or sequence of color-like
         Name of a matplotlib colour map, such as "viridis", "magma" or "cividis", whose lightness increases uniformly;
-        or colours, between which others are mixed.
+        or colours, between which others are mixed. As many colours as there are classes are those of the
+        classes.
     low, high : float
         Numbers with the first and the last colour; numbers beyond them are clipped.
-    log : bool
-        Whether the scale is logarithmic.
+    kind : {"linear", "log", "symlog", "sqrt"}
+        How numbers are spread: evenly; by their logarithms; linearly up to a threshold and logarithmically beyond it,
+        with the same slope there; by the roots of their amounts.
+    center : float, optional
+        Number with the middle colour. Numbers as far above it as below have colours as far from the middle one.
+    threshold : float, optional
+        Of a symmetric logarithm, which needs one.
+    missing : color-like
+        Colour of missing values, NaN.
+    missing_key : str
+        Text of the key of missing values in a legend, which has none without it.
+    edges : sequence of float
+        Limits of classes, from `low` to `high`; see `ColorScale.classes`.
+    scheme : str
+        How the classes were made, for descriptions.
 
     Raises
     ------
     ValueError
-        If the map or a colour is unknown, the limits are out of order, or a logarithmic scale does not begin above 0.
+        If a map or colour is unknown, the limits are out of order or beyond a logarithm, the centre is outside of them,
+        or a threshold is given without a symmetric logarithm or lacks there.
 
     Examples
     --------
-    >>> scale = ColorScale("viridis", 1.0, 1e4, log=True)
-    >>> print(scale([1.0, 1e2, 1e9]).round(2))
+    >>> scale = ColorScale("viridis", 1.0, 1e4, "log")
+    >>> print(scale([1.0, 1e2, 1e9]).round(2)[:, :3])
     [[0.27 0.   0.33]
      [0.13 0.57 0.55]
      [0.99 0.91 0.14]]
+    >>> print(*scale.ticks.values())
+    1 10 100 1 000 10 000
     """
 
-    name: str | Sequence[ColorLike]
+    colors: str | Sequence[ColorLike]
     low: float
     high: float
-    log: bool = False
+    kind: Kind = "linear"
+    _: KW_ONLY
+    center: float | None = None
+    threshold: float | None = None
+    missing: ColorLike = MISSING
+    missing_key: str = ""
+    edges: Sequence[float] = ()
+    scheme: str = ""
 
     def __post_init__(self) -> None:
-        if not isinstance(self.name, str):
-            object.__setattr__(self, "name", tuple(as_color(color, "name") for color in self.name))
-        color_map(self.name)
-        as_scalar(self.low, "low", low=0.0 if self.log else -np.inf, open_low=True)
+        if not len(self.colors):
+            raise ValueError("colors is empty; give the name of a colour map of matplotlib, or colours")
+        if not isinstance(self.colors, str):
+            object.__setattr__(self, "colors", tuple(as_color(color, "colors") for color in self.colors))
+        color_map(self.colors)
+        object.__setattr__(self, "missing", as_color(self.missing, "missing"))
+        as_choice(self.kind, KINDS, "kind")
+        as_scalar(self.low, "low", low=0.0 if self.kind == "log" else -np.inf, open_low=True)
         as_scalar(self.high, "high", low=self.low, open_low=True)
+        if self.center is not None:
+            as_scalar(self.center, "center", low=self.low, high=self.high)
+        if (self.kind == "symlog") != (self.threshold is not None):
+            raise ValueError(f"kind is {self.kind!r} and threshold {self.threshold}; 'symlog' alone needs a threshold")
+        if self.threshold is not None:
+            as_scalar(self.threshold, "threshold", low=0.0, open_low=True)
+        if len(self.edges):
+            edges = tuple(class_limits(np.zeros(0), self.edges, 1).tolist())
+            if (edges[0], edges[-1]) != (self.low, self.high):
+                raise ValueError(f"edges lead from {edges[0]} to {edges[-1]}, not from {self.low} to {self.high}")
+            object.__setattr__(self, "edges", edges)
+
+    @classmethod
+    def of(
+        cls,
+        values: npt.ArrayLike,
+        colors: str | Sequence[ColorLike] | None = None,
+        kind: Kind = "linear",
+        *,
+        limits: tuple[float, float] | None = None,
+        center: float | None = None,
+        threshold: float | None = None,
+    ) -> ColorScale:
+        """A scale for values, NaN where one is missing, with round numbers about them as its limits.
+
+        Parameters
+        ----------
+        values : array_like
+            Logarithms take no notice of those that are not positive.
+        colors : str or sequence of color-like, optional
+            By default from light yellow to dark blue, and with a centre from blue to red.
+        kind, center, threshold
+            As for `ColorScale`.
+        limits : (float, float), optional
+            Numbers with the first and the last colour, as they are.
+
+        Examples
+        --------
+        >>> print(*ColorScale.of([5.3e6, 21e6]).ticks.values())
+        5 M 10 M 15 M 20 M 25 M
+        """
+        if limits is None:
+            numbers = as_doubles(values, "values")
+            numbers = numbers[np.isfinite(numbers) & ((numbers > 0) | (kind != "log"))]
+            if len(numbers) == 0:
+                raise ValueError(f"values has no {'positive ' * (kind == 'log')}number for a scale; give limits")
+            low, high = float(numbers.min()), float(numbers.max())
+            if center is not None:
+                as_scalar(center, "center", low=0.0 if kind == "log" else -np.inf, open_low=True)
+                low, high = min(low, center), max(high, center)
+            limits = rounded_ends(low, high if high > low else low + max(1.0, abs(low)), kind)
+        return cls(_usual(colors, center), *limits, kind, center=center, threshold=threshold)
+
+    @classmethod
+    def classes(
+        cls,
+        values: npt.ArrayLike,
+        scheme: Scheme | Sequence[float] = "quantiles",
+        count: int = 5,
+        colors: str | Sequence[ColorLike] | None = None,
+        *,
+        center: float | None = None,
+    ) -> ColorScale:
+        """A scale of classes, each in one colour.
+
+        A class contains its lower limit; the last one contains both.
+
+        Parameters
+        ----------
+        values : array_like
+            Numbers, NaN where one is missing.
+        scheme : {"equal", "quantiles", "natural"} or sequence of float
+            Classes of equal widths; of equal numbers of values; natural breaks, which make the sum of squared
+            deviations from the means of the classes as small as can be (Fisher and Jenks); or limits of your own.
+        count : int
+            Number of classes; fewer if limits would be equal.
+        colors, center
+            As for `ColorScale.of`. Classes beyond the centre have colours on its sides of the middle one.
+
+        Raises
+        ------
+        ValueError
+            If no two values differ, limits do not increase, or as for `ColorScale`.
+
+        Examples
+        --------
+        >>> ColorScale.classes([1, 2, 2, 3, 10, 11, 50], "natural", 3).edges
+        (1.0, 6.0, 30.0, 50.0)
+        """
+        numbers = as_doubles(values, "values")
+        limits = class_limits(numbers[np.isfinite(numbers)], scheme, count)
+        said = scheme if isinstance(scheme, str) else ""
+        return cls(_usual(colors, center), *limits[[0, -1]].tolist(), center=center, edges=limits.tolist(), scheme=said)
 
     def place(self, values: npt.ArrayLike) -> FloatArray:
-        """Positions of numbers between `low` (0) and `high` (1), clipped."""
-        numbers = np.clip(as_floats(values, "values"), self.low, self.high)
-        if self.log:
-            return np.asarray(np.log(numbers / self.low) / np.log(self.high / self.low))
-        return (numbers - self.low) / (self.high - self.low)
+        """Positions of numbers between `low` (0) and `high` (1), clipped; all classes are as long."""
+        numbers = np.clip(as_doubles(values, "values"), self.low, self.high)
+        if self.edges:
+            return np.interp(numbers, self.edges, np.linspace(0.0, 1.0, len(self.edges)))
+        spread, bend = SPREAD[self.kind], self.threshold or self.low
+        low, high = spread(np.array([self.low, self.high]), bend)
+        return np.asarray((spread(numbers, bend) - low) / (high - low))
 
     def __call__(self, values: npt.ArrayLike) -> FloatArray:
-        """Colours (..., 3), sRGB in [0, 1]."""
-        return np.asarray(color_map(self.name)(self.place(values)), dtype=np.float64)[..., :3]
+        """Colours (..., 4): red, green, blue and opacity in [0, 1]."""
+        numbers = as_doubles(values, "values")
+        known = np.isfinite(numbers)
+        colors = np.where(known[..., None], self._shades(np.where(known, numbers, self.low)), self.missing)
+        return np.asarray(colors, dtype=np.float64)
 
     @property
     def ticks(self) -> dict[float, str]:
-        """Numbers evenly spaced from about `low` to about `high`, of two or more digits, and their texts."""
-        numbers, digits = self._at(np.linspace(0.0, 1.0, TICKS)), 2
-        while len({f"{number:.{digits}g}" for number in numbers}) < TICKS and digits < 15:
-            digits += 1
-        written = [np.format_float_positional(float(f"{number:.{digits}g}"), trim="-") for number in numbers]
-        return {float(text): text for text in written}
+        """Round numbers on the scale, or the limits of its classes, and their texts."""
+        return self.at_most(max(MOST_TICKS, len(self.edges)))
+
+    def at_most(self, most: int) -> dict[float, str]:
+        """Ticks with at most so many texts; all limits of classes are ticks."""
+        if self.edges:
+            texts, stride = written(to_digits(self.edges), "log"), -(-len(self.edges) // most)
+            return {edge: "" if k % stride else texts[k] for k, edge in enumerate(self.edges)}
+        numbers = round_numbers(self.low, self.high, self.kind, self.threshold, most)
+        if self.center is not None:
+            away = np.abs(self.place(numbers) - self.place(self.center)) > APART
+            numbers = sorted([*np.array(numbers)[away].tolist(), float(self.center)])
+        return dict(zip(numbers, written(numbers, self.kind), strict=True))
+
+    @property
+    def description(self) -> str:
+        """What the scale does, in words."""
+        texts = list(self.ticks.values())
+        if self.edges:
+            how = f" ({self.scheme})" if self.scheme else ""
+            said = f"colours of {len(self.edges) - 1} classes{how} with the limits {', '.join(texts)}"
+        else:
+            low, high = written(to_digits([self.low, self.high]), self.kind)
+            said = f"colours, {SAID[self.kind]} from {low} to {high}"
+            said += f", linear up to {written([self.threshold])[0]}" if self.threshold is not None else ""
+        said += f", centred on {written([self.center])[0]}" if self.center is not None else ""
+        return said + (f"; {self.missing_key} in gray" if self.missing_key else "")
 
     def legend(
         self,
         corner: tuple[float, float],
         size: tuple[float, float],
-        ticks: Mapping[float, str],
+        ticks: Mapping[float, str] | None = None,
         *,
         title: str = "",
         ink: ColorLike = BLACK,
@@ -109,8 +298,8 @@ class ColorScale:
         ----------
         corner, size : (float, float)
             Lower left corner, width and height of the bar in page units.
-        ticks : mapping of float to str
-            Numbers and the texts below them.
+        ticks : mapping of float to str, optional
+            Numbers and the texts below them; by default `ticks`.
         title : str
             Text above the bar.
         ink : color-like
@@ -119,23 +308,117 @@ class ColorScale:
             Size of the text, points.
         """
         (x, y), (width, height), ink = corner, size, as_color(ink, "ink")
-        colors = np.insert(self(self._at((np.arange(STEPS) + 0.5) / STEPS)), 3, 1.0, axis=1)
         box = np.array([(x, y), (x + width, y), (x + width, y + height), (x, y + height), (x, y)])
-        bar = Picture((straight(box),), Ramp((x, x + width), colors), "scale")
+        steps = self._mixed(self._share((np.arange(STEPS) + 0.5) / STEPS))
+        bars: list[Item] = [Picture((straight(box),), Ramp((x, x + width), steps), "scale")]
+        if self.edges:
+            shades, wide = self._class_shades.tolist(), width / (len(self.edges) - 1)
+            bars = [_box(x + k * wide, x + (k + 1) * wide, y, y + height, as_color(c)) for k, c in enumerate(shades)]
         marks: list[Item] = []
-        for number, text in ticks.items():
-            at, foot = x + width * float(self.place(number)), y - 0.35 * height
+
+        def mark(at: float, text: str) -> None:
+            foot = y - 0.35 * height
             marks.append(Stroke(straight(np.array([(at, y), (at, foot)])), ink, 0.5, cap="butt", name="tick"))
-            marks.append(Label(text, (at, foot), (0.0, -2.0), "center", "top", type_size, ink))
+            if text:
+                marks.append(Label(text, (at, foot), (0.0, -2.0), "center", "top", type_size, ink))
+
+        for number, text in (self.ticks if ticks is None else ticks).items():
+            mark(x + width * float(self.place(number)), text)
+        if self.missing_key:
+            left = x + width + KEY[0] * height
+            bars.append(_box(left, left + KEY[1] * height, y, y + height, as_color(self.missing)))
+            mark(left + KEY[1] * height / 2, self.missing_key)
         if title:
             marks.append(Label(title, (x + width / 2, y + height), (0.0, 4.0), "center", "bottom", type_size, ink))
-        return (bar, *marks)
+        return (*bars, *marks)
 
-    def _at(self, place: FloatArray) -> FloatArray:
-        """The numbers at positions from 0 to 1."""
-        if self.log:
-            return np.asarray(self.low * (self.high / self.low) ** place)
-        return self.low + (self.high - self.low) * place
+    def _share(self, place: FloatArray) -> FloatArray:
+        """Where between the first colour (0) and the last (1) places on the scale have theirs."""
+        if self.center is None:
+            return place
+        middle = self.place(self.center)
+        return np.asarray(0.5 + 0.5 * (place - middle) / max(middle, 1 - middle))
+
+    def _shades(self, numbers: FloatArray) -> FloatArray:
+        if not self.edges:
+            return self._mixed(self._share(self.place(numbers)))
+        number = np.searchsorted(self.edges, numbers, "right") - 1
+        return np.asarray(self._class_shades[np.clip(number, 0, len(self.edges) - 2)])
+
+    @property
+    def _class_shades(self) -> FloatArray:
+        """Colours of the classes, (n, 4), those in the middle of as many parts of the map."""
+        count = len(self.edges) - 1
+        if not isinstance(self.colors, str) and len(self.colors) == count:
+            return np.array(self.colors)
+        if self.center is None:
+            return self._mixed((np.arange(count) + 0.5) / count)
+        below, above = (np.array(self.edges[1:]) <= self.center), (np.array(self.edges[:-1]) >= self.center)
+        steps: FloatArray = np.asarray(np.cumsum(above) - np.cumsum(below[::-1])[::-1], dtype=np.float64)
+        return self._mixed(0.5 + steps / (2 * np.abs(steps).max() + 1))
+
+    def _mixed(self, share: FloatArray) -> FloatArray:
+        """Colours (..., 4) at shares of the way from the first to the last."""
+        return np.asarray(color_map(self.colors)(share), dtype=np.float64)
+
+
+@dataclass(frozen=True)
+class SizeScale:
+    """A scale from amounts to diameters of dots, whose areas are in proportion to the amounts.
+
+    Parameters
+    ----------
+    high : float
+        Amount of the dot with the diameter `largest`, positive; larger amounts have larger dots.
+    largest : float or str
+        Diameter in points, or with a unit, such as "8mm".
+    color : color-like, optional
+        Colour of the dots in a legend; without it circles are empty.
+
+    Raises
+    ------
+    ValueError
+        If `high` or `largest` is not positive, or the colour is invalid.
+
+    Examples
+    --------
+    >>> scale = SizeScale(16e6, "8mm")
+    >>> print((scale([1e6, 4e6, 16e6]) / 72 * 25.4).round(9), *scale.ticks.values())
+    [2. 4. 8.] 10 M 2 M 0.5 M
+    """
+
+    high: float
+    largest: LengthLike = LARGEST
+    color: ColorLike | None = None
+
+    def __post_init__(self) -> None:
+        as_scalar(self.high, "high", low=0.0, open_low=True)
+        object.__setattr__(self, "largest", as_length(self.largest, "largest"))
+        if self.color is not None:
+            object.__setattr__(self, "color", as_color(self.color))
+
+    def __call__(self, amounts: npt.ArrayLike) -> FloatArray:
+        """Diameters in points of amounts (...) that are not negative."""
+        numbers = as_floats(amounts, "amounts")
+        if (numbers < 0).any():
+            raise ValueError(f"amounts has {numbers.min():g}; an area cannot be negative")
+        return np.asarray(as_length(self.largest, "largest") * np.sqrt(numbers / self.high))
+
+    @property
+    def ticks(self) -> dict[float, str]:
+        """The largest round number up to `high`, one of about a fifth and one of a twentieth of it, and their texts."""
+        numbers = round_numbers(self.high / 200, self.high, "log", None, 7)[::-2][:3]
+        return dict(zip(numbers, written(numbers), strict=True))
+
+    @property
+    def description(self) -> str:
+        """What the scale does, in words."""
+        return f"areas of dots in proportion to the amount, {written(to_digits([self.high]))[0]} the largest"
+
+
+def _bent(sizes: FloatArray) -> FloatArray:
+    """Linear up to 1, and logarithmic beyond with the same slope there."""
+    return np.minimum(sizes, 1 + np.log(np.maximum(sizes, 1.0)))
 
 
 def category_colors(words: Sequence[str], name: str) -> dict[str, Color]:
@@ -147,7 +430,10 @@ def category_colors(words: Sequence[str], name: str) -> dict[str, Color]:
     return dict(zip(words, CATEGORIES, strict=False))
 
 
-def usual_scale(values: FloatArray) -> ColorScale:
-    """Viridis from the smallest to the largest of one or more numbers."""
-    low, high = float(values.min()), float(values.max())
-    return ColorScale("viridis", low, high if high > low else low + 1.0)
+def _usual(colors: str | Sequence[ColorLike] | None, center: float | None) -> str | Sequence[ColorLike]:
+    return colors if colors is not None else USUAL if center is None else DIVERGING
+
+
+def _box(left: float, right: float, bottom: float, top: float, color: Color) -> Fill:
+    corners = np.array([(left, bottom), (right, bottom), (right, top), (left, top), (left, bottom)])
+    return Fill((straight(corners),), color, "scale")

@@ -206,6 +206,7 @@ MAP_LINES: Final[Mapping[str, LineStyle]] = {
     "graticule": LineStyle(GRID_GRAY, 0.25),
     "line": LineStyle(BLACK, 0.5),
     "outline": LineStyle(DARK_GRAY, 0.4),
+    "parting": LineStyle(WHITE, 0.4),  # of regions by value, of which some are dark
 }
 """Default line styles of globes."""
 

@@ -2,20 +2,25 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import as_lonlat
+from stereodel._arrays import BoolArray, FloatArray, as_lonlat
 from stereodel._notebook import drawn
 from stereodel._spaces import PLANE
 from stereodel.constants import MOST_SHOWN_POINTS, UNDECIDED
 from stereodel.curves.borders import frame_of
 from stereodel.curves.view import View
 from stereodel.drawing.page import Page
+from stereodel.drawing.page.style import DOTS
+from stereodel.drawing.scene.by_value import DotLooks
+from stereodel.drawing.scene.legend import with_legend
 from stereodel.drawing.scene.scene import Scene
 from stereodel.drawing.scene.sketch import Sketch
+from stereodel.sphere.vectors import units
 from stereodel.triangulation import PlanarDelaunay, PlanarVoronoi, SphericalDelaunay, SphericalVoronoi
 from stereodel.triangulation.delaunay import Triangulation
 from stereodel.triangulation.diagram import Diagram
@@ -26,7 +31,11 @@ MARGIN = 0.02
 
 
 def diagram_page(
-    mesh: Triangulation | Diagram[Any], *, view: npt.ArrayLike = (0.0, 20.0), bounds: npt.ArrayLike | None = None
+    mesh: Triangulation | Diagram[Any],
+    *,
+    view: npt.ArrayLike = (0.0, 20.0),
+    bounds: npt.ArrayLike | None = None,
+    **looks: Any,
 ) -> Page:
     """The ridges of a diagram, or the edges of a triangulation, with the points.
 
@@ -38,6 +47,9 @@ def diagram_page(
     bounds : (4,) array_like, optional
         (xmin, ymin, xmax, ymax) of the part of the plane to show; by default the bounding box of the points, extended
         on all sides by a tenth of its longer side.
+    **looks
+        How the points look, all alike or by value: `size`, `color`, `values`, `scale`, `legend`, `size_scale` and
+        `size_legend` as for `stereodel.globe.Globe.add_points`. Then there is a legend below.
 
     Raises
     ------
@@ -53,11 +65,19 @@ def diagram_page(
     """
     if not isinstance(mesh, Triangulation | Diagram):
         raise TypeError(f"mesh must be a triangulation or a Voronoi diagram of stereodel, not {type(mesh).__name__}")
+    dots = DotLooks.of(len(mesh.points), DOTS["sites"], **looks)
     given: Any = mesh
-    return _plane(given, bounds) if mesh.surface is PLANE else _globe(given, view)
+    page, centers, seen = _plane(given, bounds) if mesh.surface is PLANE else _globe(given, view)
+    shown = dots.items(centers, np.flatnonzero(seen), 1 / page.points_per_unit, "sites")
+    page = replace(page, items=(*page.items, *shown))
+    return with_legend(page, dots.entries) if dots.entries else page
 
 
-def _globe(mesh: SphericalDelaunay | SphericalVoronoi, view: npt.ArrayLike) -> Page:
+Shown = tuple[Page, FloatArray, BoolArray]
+"""A page without the points, where they are on it, and which of them are seen."""
+
+
+def _globe(mesh: SphericalDelaunay | SphericalVoronoi, view: npt.ArrayLike) -> Shown:
     scene = Scene()
     if isinstance(mesh, Diagram):
         chords = np.linalg.norm(np.diff(mesh.vertices[mesh.ridge_vertices], axis=1), axis=-1)
@@ -67,11 +87,11 @@ def _globe(mesh: SphericalDelaunay | SphericalVoronoi, view: npt.ArrayLike) -> P
             scene.add_arcs(mesh.ridge_arcs(), name="voronoi")
     else:
         scene.add_edges(mesh.points, edges_of(mesh.simplices[~mesh.closing]), name="delaunay")
-    scene.add_points(mesh.points, name="sites")
-    return scene.page(View(*as_lonlat(view, "view").tolist()), width=340.0)
+    seen, sites = View(*as_lonlat(view, "view").tolist()), units(mesh.points)
+    return scene.page(seen, width=340.0), seen.project(sites), seen.depth(sites) > 0
 
 
-def _plane(mesh: PlanarDelaunay | PlanarVoronoi, bounds: npt.ArrayLike | None) -> Page:
+def _plane(mesh: PlanarDelaunay | PlanarVoronoi, bounds: npt.ArrayLike | None) -> Shown:
     box = frame_of(mesh.points, bounds)
     sketch = Sketch()
     if isinstance(mesh, Diagram):
@@ -81,10 +101,10 @@ def _plane(mesh: PlanarDelaunay | PlanarVoronoi, bounds: npt.ArrayLike | None) -
         sketch.add_edges(mesh.points, mesh.edges, name="delaunay")
     low, high = np.array([box.left, box.bottom]), np.array([box.right, box.top])
     inside = ((low < mesh.points) & (mesh.points < high)).all(axis=1)
-    sketch.add_points(mesh.points[inside], name="sites")
     sketch.add_polyline(box.corners, closed=True, name="frame")
     pad = MARGIN * (box.right - box.left) / 2
-    return sketch.page((box.left - pad, box.right + pad, box.bottom - pad, box.top + pad))
+    page = sketch.page((box.left - pad, box.right + pad, box.bottom - pad, box.top + pad))
+    return page, mesh.points, np.asarray(inside)
 
 
 Triangulation._mimes = Diagram._mimes = drawn(diagram_page, MOST_SHOWN_POINTS)  # type: ignore[assignment]

@@ -1,8 +1,8 @@
-"""Legends: the meaning of lines, dots and tints, in rows below a picture."""
+"""Legends: the meaning of lines, dots and tints, and scales of colours and sizes, in rows below a picture."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
 from typing import Final
 
@@ -11,10 +11,12 @@ import numpy as np
 from stereodel._arrays import FloatArray, as_count
 from stereodel.drawing.page import Page
 from stereodel.drawing.page.colors import ColorLike, as_color
-from stereodel.drawing.page.items import LEGEND, Look
-from stereodel.drawing.page.scales import ColorScale
-from stereodel.drawing.page.style import LABEL_SIZE, DotStyle, LineStyle
-from stereodel.drawing.scene.sketch import Sketch
+from stereodel.drawing.page.items import LEGEND, Dots, Item, Label, Look, Stroke, straight
+from stereodel.drawing.page.labels import label_box
+from stereodel.drawing.page.scales import KEY, ColorScale, SizeScale
+from stereodel.drawing.page.style import DARK_GRAY, LABEL_SIZE, DotStyle, LineStyle
+from stereodel.drawing.page.ticks import MOST_TICKS
+from stereodel.drawing.scene.sketch import Sketch, arc_path
 
 SAMPLE: Final = (18.0, 7.0)
 """Length of a sample, and height of a tint sample, in points."""
@@ -31,7 +33,20 @@ BAR: Final = (0.4, 0.8)
 BAR_ROWS: Final = 3.2
 """Height of a scale with its title and numbers, in rows."""
 
-LegendEntry = LineStyle | DotStyle | ColorLike | ColorScale
+BETWEEN: Final = 30.0
+"""Least space between two scales side by side, in points."""
+
+APART: Final = 6.0
+"""Least space between the numbers of a scale, in points."""
+
+CIRCLE: Final = LineStyle(DARK_GRAY, 0.5)
+LEADER: Final = LineStyle(DARK_GRAY, 0.35)
+"""Circles of a legend of sizes, and the lines from them to their numbers."""
+
+LEADS: Final = 9.0
+"""Length of these lines beyond the largest circle, in points."""
+
+LegendEntry = LineStyle | DotStyle | ColorLike | ColorScale | SizeScale
 """Symbols of a legend."""
 
 
@@ -45,9 +60,9 @@ def with_legend(page: Page, entries: Mapping[str, LegendEntry], *, columns: int 
     ----------
     page : Page
         Page whose width is kept and which grows downwards.
-    entries : mapping of str to LineStyle, DotStyle, color-like or ColorScale
-        Texts and their symbols: a short line, a dot or a tinted box, row by row. Scales come last, each as a bar below
-        its title.
+    entries : mapping of str to LineStyle, DotStyle, color-like, ColorScale or SizeScale
+        Texts and their symbols: a short line, a dot or a tinted box, row by row. Scales come last, below their titles:
+        of colours as a bar, of sizes as circles inside each other. The description of the page names them, too.
     columns : int
         Number of columns of equal width, at least 1.
     indent : float
@@ -70,8 +85,8 @@ def with_legend(page: Page, entries: Mapping[str, LegendEntry], *, columns: int 
     point = 1 / page.points_per_unit
     row, step = ROW * size * point, (page.width - 2 * indent) * point / count
     sketch = Sketch()
-    scales = {text: style for text, style in entries.items() if isinstance(style, ColorScale)}
-    samples = {text: style for text, style in entries.items() if not isinstance(style, ColorScale)}
+    scales = {text: style for text, style in entries.items() if isinstance(style, ColorScale | SizeScale)}
+    samples = {text: style for text, style in entries.items() if not isinstance(style, ColorScale | SizeScale)}
     parts = [(item._look, item.name) for item in page.items]
     for number, (text, style) in enumerate(samples.items()):
         down, across = divmod(number, count)
@@ -82,13 +97,92 @@ def with_legend(page: Page, entries: Mapping[str, LegendEntry], *, columns: int 
         _add_sample(sketch, look, place, point, f"{LEGEND}{part}" if part else "legend")
         sketch.add_label(place, text, (SAMPLE[0] + GAP, 0.0), align="left", size=size, name="legend")
     foot = bottom - row * -(-len(samples) // count)
-    for text, scale in scales.items():
-        wide, high = BAR[0] * (right - left), BAR[1] * size * point
-        corner = ((left + right - wide) / 2, foot - 1.9 * row - high / 2)
-        sketch.add_items(scale.legend(corner, (wide, high), scale.ticks, title=text))
-        foot -= BAR_ROWS * row
+    room = page.width - 2 * indent
+    blocks = [BLOCKS[type(scale)](text, scale, room, page) for text, scale in scales.items()]
+    while blocks:
+        many = max(1, int(np.sum(np.cumsum([block[0] + BETWEEN for block in blocks]) <= room + BETWEEN)))
+        line, blocks = blocks[:many], blocks[many:]
+        start = (left + right - (sum(block[0] + BETWEEN for block in line) - BETWEEN) * point) / 2
+        for wide, _, draw in line:
+            sketch.add_items(draw(start, foot))
+            start += (wide + BETWEEN) * point
+        foot -= max(block[1] for block in line) * point
     extent = (left, right, foot - 0.5 * row, top)
-    return replace(page, extent=extent, items=(*page.items, *sketch.page(extent, width=page.width).items))
+    items = (*page.items, *sketch.page(extent, width=page.width).items)
+    return described(replace(page, extent=extent, items=items), scales)
+
+
+def described(page: Page, entries: Mapping[str, LegendEntry]) -> Page:
+    """The page with what its scales are in its description."""
+    scales = {text: each for text, each in entries.items() if isinstance(each, ColorScale | SizeScale)}
+    told = [f"{text}: {each.description}." for text, each in scales.items()]
+    return replace(page, description="\n".join(filter(None, [page.description, *told])))
+
+
+Block = tuple[float, float, Callable[[float, float], Iterator[Item]]]
+"""Width and height of a scale in a legend, points, and its items from its left upper corner on the page."""
+
+
+def _widths(texts: Iterable[str]) -> FloatArray:
+    """Widths of texts in points."""
+    return np.array([np.ptp(label_box(Label(text, (0.0, 0.0), size=LABEL_SIZE), 1.0)[:, 0]) for text in texts])
+
+
+def _needed(scale: ColorScale, ticks: Mapping[float, str]) -> float:
+    """Width in points at which the texts of ticks have room beside each other."""
+    shown = {number: text for number, text in ticks.items() if text}
+    needs, steps = _widths(shown.values()), np.diff(scale.place(list(shown)))
+    return float(np.max(((needs[1:] + needs[:-1]) / 2 + APART) / steps, initial=0.0))
+
+
+def _bar(title: str, scale: ColorScale, room: float, page: Page) -> Block:
+    """A bar with as many numbers as have room below it; of classes, wide enough for all limits."""
+    high, wide = BAR[1] * LABEL_SIZE, BAR[0] * page.width
+    key = KEY[0] * high + KEY[1] * high if scale.missing_key else 0.0
+    if scale.edges:
+        wide = min(max(wide, _needed(scale, scale.ticks)), room - key)
+    for most in range(max(MOST_TICKS, len(scale.edges)), 0, -1):
+        ticks = scale.at_most(most)
+        if _needed(scale, ticks) <= wide:
+            break
+    over = float(max(0.0, _widths([scale.missing_key])[0] - KEY[1] * high) / 2) if key else 0.0
+
+    def draw(left: float, top: float) -> Iterator[Item]:
+        point, row = 1 / page.points_per_unit, ROW * LABEL_SIZE / page.points_per_unit
+        corner = (left, top - 1.9 * row - high * point / 2)
+        yield from scale.legend(corner, (wide * point, high * point), ticks, title=title)
+
+    return wide + key + over, BAR_ROWS * ROW * LABEL_SIZE, draw
+
+
+def _circles(title: str, scale: SizeScale, _: float, page: Page) -> Block:
+    """Circles that touch at their feet, with lines from their tops to their numbers."""
+    ticks, row = scale.ticks, ROW * LABEL_SIZE
+    sizes = scale(list(ticks))
+    wide = float(max(sizes[0] + LEADS + 3 + _widths(ticks.values()).max(), _widths([title])[0]))
+    like = next((item.name for item in page.items if isinstance(item, Dots) and item.color == scale.color), "")
+
+    def draw(left: float, top: float) -> Iterator[Item]:
+        point, name = 1 / page.points_per_unit, f"{LEGEND}{like}" if like else "legend"
+        yield Label(title, (left + wide / 2 * point, top - 1.2 * row * point), valign="baseline", name="legend")
+        middle, foot, free = left + sizes[0] / 2 * point, top - (1.7 * row + sizes[0]) * point, np.inf
+        for size, text in zip(sizes.tolist(), ticks.values(), strict=True):
+            at, head = np.array([middle, foot + size / 2 * point]), foot + size * point
+            if scale.color is not None:
+                yield Dots(at[None], size / 2, as_color(scale.color), name=name, told=("radius",))
+            around = arc_path(at, (size - CIRCLE.width) / 2 * point, 0.0, 360.0)
+            yield Stroke(around, CIRCLE.color, CIRCLE.width, closed=True, name=f"{name}-outline")
+            free = min(head, free - LABEL_SIZE * point)
+            right = left + sizes[0] * point
+            ends = np.array([(middle, head), (right, head), (right + LEADS * point, free)])
+            yield Stroke(straight(ends), LEADER.color, LEADER.width, name="legend")
+            x, y = ends[-1].tolist()
+            yield Label(text, (x, y), (3.0, 0.0), "left", size=LABEL_SIZE, name="legend")
+
+    return wide, 2.2 * row + sizes[0], draw
+
+
+BLOCKS: Final[Mapping[type, Callable[..., Block]]] = {ColorScale: _bar, SizeScale: _circles}
 
 
 def _add_sample(sketch: Sketch, style: Look, place: FloatArray, point: float, name: str) -> None:

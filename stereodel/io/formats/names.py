@@ -12,6 +12,8 @@ from itertools import count
 from types import MappingProxyType
 from typing import Any, Final, TypeVar
 
+from stereodel._arrays import DataWarning as DataWarning
+
 T = TypeVar("T")
 
 NAMES_SHOWN, NAME_SHOWN = 30, 40  # number of columns, and characters of a name, that a message shows
@@ -98,10 +100,6 @@ def has_lonlat(names: Sequence[str]) -> bool:
 
 class NoPointError(ValueError):
     """A row has another geometry than a point."""
-
-
-class DataWarning(UserWarning):
-    """Data are read or written as they are, but may not be what was meant."""
 
 
 class RenamedColumnWarning(DataWarning):
