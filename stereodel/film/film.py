@@ -25,7 +25,7 @@ from stereodel.drawing.page.page import LARGEST_SIZE
 from stereodel.drawing.page.sheets import Style, StyledDraw
 from stereodel.drawing.page.style import WHITE
 from stereodel.film.frames import KeptFrames, frame_names, store_frame
-from stereodel.film.shots import GlobePages, Motion, Samples, Shot, steady
+from stereodel.film.shots import GlobePages, Motion, Samples, Shot
 from stereodel.film.writers import Reel, format_of, frame_seconds
 from stereodel.globe.globe import Globe
 from stereodel.render.figure import run_script, source_of
@@ -157,8 +157,7 @@ class Film(Generic[T], Displayed):
         width, height = (as_count(side, "size", high=LARGEST_SIZE) for side in size)
         as_frame_size(width, height)
         rate = as_scalar(fps, "fps", low=0.0, open_low=True)
-        of_film = steady(globe, motion, min(width, height))
-        pages = GlobePages(of_film, width, height, as_color(background, "background"), legend)
+        pages = GlobePages(globe, width, height, as_color(background, "background"), legend, motion)
         return Film(pages, Samples(motion, rate, pages), fps=rate, size=width)
 
     @classmethod

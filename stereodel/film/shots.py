@@ -86,6 +86,7 @@ class GlobePages:
     height: int
     background: Color
     legend: bool = False
+    motion: Motion | None = None
 
     @property
     def point(self) -> float:
@@ -102,6 +103,19 @@ class GlobePages:
         return across
 
     @cached_property
+    def steady(self) -> Globe:
+        """The globe with its maps of the Earth at one resolution, or coasts would change from one frame to the next."""
+        shots = map(self.motion, np.linspace(0.0, self.motion.seconds, SAMPLED).tolist()) if self.motion else ()
+        peak = max((lens.peak[1] for lens, _ in shots), default=1.0)
+        resolution = suited_to(peak * min(self.width, self.height) / 2 * SCREEN)
+        globe = copy(self.globe)
+        globe.layers = [
+            replace(layer, resolution=resolution) if isinstance(layer, OfEarth) and layer.resolution == AUTO else layer
+            for layer in globe.layers
+        ]
+        return globe
+
+    @cached_property
     def _below(self) -> float:
         """Height of the legend in points."""
         blank = Page((0.0, 1.0, 0.0, 1.0), width=self.width * self.point)
@@ -110,7 +124,7 @@ class GlobePages:
     def __call__(self, shot: Shot | NamedShot) -> Page:
         """The page of a shot, with names where they were placed for the whole film, or for this one alone."""
         (lens, view), names, point = shot[:2], shot[2:], self.point
-        globe = standing(self.globe, *names) if names else self.globe
+        globe = standing(self.steady, *names) if names else self.steady
         page = globe.page(lens, view, width=self.across, tolerance=FINE * point)
         left, right, bottom, top = page.extent
         x, y, half = (left + right) / 2, (bottom + top) / 2, 0.5 / page.points_per_unit
@@ -118,18 +132,6 @@ class GlobePages:
         extent = (x - half * wide, x + half * wide, y - half * high, y + half * high)
         page = replace(page, extent=extent, width=wide, background=self.background)
         return self.globe.told(page) if self.legend else page
-
-
-def steady(globe: Globe, motion: Motion, pixels: int) -> Globe:
-    """The globe with its maps of the Earth at one resolution, or coasts would change from one frame to the next."""
-    times = np.linspace(0.0, as_scalar(motion.seconds, "seconds of the motion", low=0.0), SAMPLED)
-    resolution = suited_to(max(motion(time)[0].peak[1] for time in times.tolist()) * pixels / 2 * SCREEN)
-    result = copy(globe)
-    result.layers = [
-        replace(layer, resolution=resolution) if isinstance(layer, OfEarth) and layer.resolution == AUTO else layer
-        for layer in globe.layers
-    ]
-    return result
 
 
 @dataclass(frozen=True, eq=False)
@@ -167,7 +169,7 @@ class Samples(Sequence[Shot]):
         """Where they stand, by frames; empty if there are none."""
         shots = (self.motion(number / self.rate) for number in range(len(self)))
         with of_extra("render"):  # which brings what sets type, too
-            return placed(self.pages.globe, shots, len(self), self.pages.across / (2 * (1 + MARGIN)))
+            return placed(self.pages.steady, shots, len(self), self.pages.across / (2 * (1 + MARGIN)))
 
 
 @dataclass(frozen=True)

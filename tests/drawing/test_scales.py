@@ -11,7 +11,8 @@ from matplotlib import colormaps
 from matplotlib.colors import LogNorm, PowerNorm, to_rgba
 
 from stereodel.drawing import ColorScale, Page, SizeScale, with_legend
-from stereodel.drawing.page.labels import label_box, meets
+from stereodel.drawing.page.labels import label_box
+from stereodel.drawing.page.placing import meets
 from stereodel.drawing.page.ticks import KINDS, MOST_TICKS, SCHEMES, natural_breaks, written
 from tests.refused import refused
 
