@@ -105,13 +105,13 @@ class GlobePages:
     @cached_property
     def steady(self) -> Globe:
         """The globe with its maps of the Earth at one resolution, or coasts would change from one frame to the next."""
-        auto = [isinstance(layer, OfEarth) and layer.resolution == AUTO for layer in self.globe.layers]
-        if self.motion is None or not any(auto):
+        auto = [layer for layer in self.globe.layers if isinstance(layer, OfEarth) and layer.resolution == AUTO]
+        if self.motion is None or not auto:
             return self.globe
         peak = max(self.motion(time)[0].peak[1] for time in np.linspace(0.0, self.motion.seconds, SAMPLED).tolist())
         resolution = suited_to(peak * min(self.width, self.height) / 2 * SCREEN)
-        globe, layers = copy(self.globe), zip(self.globe.layers, auto, strict=True)
-        globe.layers = [replace(layer, resolution=resolution) if change else layer for layer, change in layers]
+        globe, chosen = copy(self.globe), {id(layer): replace(layer, resolution=resolution) for layer in auto}
+        globe.layers = [chosen.get(id(layer), layer) for layer in globe.layers]
         return globe
 
     @cached_property
