@@ -21,7 +21,6 @@ from stereodel._arrays import Pixels
 from stereodel._tasks.whole_files import replacing, write_whole
 from stereodel.drawing.page import Page
 from stereodel.drawing.page.fonts import missing_characters, warn_of_missing
-from stereodel.drawing.page.page import OUTPUTS
 from stereodel.render.gl import OpenGLError
 from stereodel.render.pixel_rows import PixelDigest, Renderer, bare_rows, labelled, png_chunks
 from stereodel.render.vector.pdf import pdf
@@ -118,6 +117,3 @@ def save_vector(page: Page, path: str | os.PathLike[str], *, pictures: Sequence[
     target = Path(path)
     write_whole(target, (pdf if target.suffix.lower() == ".pdf" else svg)(page, pictures))
     return target
-
-
-OUTPUTS.update(save_page=save_page, draw_page=draw_page)

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from stereodel.render import gl
-from stereodel.render.gl import Door, OpenGLError, Triangles, choose, describe, trial_triangles
+from stereodel.render.gl import OpenGLError, Triangles, choose, describe, trial_triangles
 
 VARIABLES = ("STEREODEL_GL", "PYOPENGL_PLATFORM")
 SQUARE = [[-9, -9], [30, -9], [-9, 30]]
@@ -48,7 +48,7 @@ def test_without_any_library_the_message_names_the_packages(bare_environment):
     bare_environment.setattr(gl, "LIBRARIES", {"osmesa": ("libNothing.so",), "egl": ("libNothing.so",)})
     with pytest.raises(OpenGLError, match=r"libosmesa6 or apt-get install libegl1 libgl1-mesa-dri"):
         choose()
-    bare_environment.setattr(gl, "DOOR", Door())
+    bare_environment.setattr(gl, "context", gl.context.__wrapped__)
     assert "libosmesa6" in describe().problem
 
 
@@ -132,16 +132,8 @@ def test_describe_tells_of_what_dies_while_it_draws(monkeypatch):
     def dies(*given, **named):
         raise RuntimeError("no\nshader")
 
-    monkeypatch.setattr(gl.DOOR.context()._offscreen, "render", dies)
+    monkeypatch.setattr(gl.context()._offscreen, "render", dies)
     assert describe().problem.endswith("gives an OpenGL context but cannot draw (RuntimeError: no shader)")
-
-
-def test_closing_makes_room_for_a_new_context():
-    shape = triangles([[[0, 0], [3, 0], [0, 3]]], [[0, 0, 1, 1]], [0])
-    before = draw(shape, 4, 4)
-    gl.DOOR.close()
-    gl.DOOR.close()
-    assert np.array_equal(draw(shape, 4, 4), before)
 
 
 def test_shaders_are_compiled_once(monkeypatch):

@@ -93,7 +93,7 @@ def test_pixels_far_from_the_corner_are_those_near_it(far):
         for move in ((0, 0), far)
     )
     near, away = Window(0, 0, 40, 40), Window(*far, 40, 40)
-    door = gl.DOOR.context()
+    door = gl.context()
     expected = door.draw(pieces.within(near), near, (1.0, 1.0, 1.0, 1.0))
     assert len(np.unique(expected)) > 50
     assert np.array_equal(door.draw(moved.within(away), away, (1.0, 1.0, 1.0, 1.0)), expected)
@@ -219,7 +219,7 @@ def test_what_cannot_be_written_is_explained(tmp_path, name, options, error, mes
 
 
 def test_without_opengl_the_error_says_what_needs_none(tmp_path, monkeypatch):
-    monkeypatch.setattr(gl, "DOOR", gl.Door())
+    monkeypatch.setattr(gl, "context", gl.context.__wrapped__)
     monkeypatch.setattr(gl, "can_open", lambda platform: False)
     for variable in (gl.VARIABLE, "PYOPENGL_PLATFORM"):
         monkeypatch.delenv(variable, raising=False)

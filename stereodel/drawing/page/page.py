@@ -24,24 +24,16 @@ from stereodel.drawing.page.style import PRINT_DPI
 LARGEST_SIZE: Final = 2**16 - 1
 """Largest width in pixels, which is that of a canvas of Agg, which draws the labels."""
 
-OUTPUTS: Final[dict[str, str | Callable[..., Any]]] = {
+OUTPUTS: Final = {
     **dict.fromkeys(("save_page", "draw_page"), "stereodel.render.save"),
     **dict.fromkeys(("save_solid", "draw_solid", "to_trimesh"), "stereodel.render.space.save_solid"),
 }
-"""What draws and writes pages and scenes in space: a function, or the module that enters it here when it is loaded.
-
-So nothing below rendering imports it, and it is loaded on use, as matplotlib does with its backends.
-"""
+"""The module of each function that draws or writes pages and scenes, loaded on use: nothing below imports it."""
 
 
 def output(work: str) -> Callable[..., Any]:
     """A function of the table `OUTPUTS`."""
-    found = OUTPUTS[work]
-    if isinstance(found, str):
-        import_module(found)
-        found = OUTPUTS[work]
-    assert not isinstance(found, str), f"{found} does not enter {work}"
-    return found
+    return getattr(import_module(OUTPUTS[work]), work)
 
 
 @dataclass(frozen=True, eq=False)

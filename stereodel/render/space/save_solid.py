@@ -17,7 +17,6 @@ import numpy as np
 from stereodel._arrays import FloatArray, Pixels
 from stereodel._tasks.whole_files import write_whole
 from stereodel.drawing.page.colors import Color
-from stereodel.drawing.page.page import OUTPUTS
 from stereodel.drawing.scene.scene_items import Layer
 from stereodel.drawing.scene.solid import Solid
 from stereodel.render import gl
@@ -184,6 +183,3 @@ def _primitive(
     return pyrender.Primitive(
         mesh.vertices, normals=normals, color_0=tints, indices=faces, material=material, poses=poses
     )
-
-
-OUTPUTS.update(save_solid=save_solid, draw_solid=draw_solid, to_trimesh=to_trimesh)

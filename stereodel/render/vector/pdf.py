@@ -19,24 +19,9 @@ from stereodel.drawing.page import Ball, Label, Page
 from stereodel.drawing.page.colors import Color
 from stereodel.drawing.page.items import Ramp
 from stereodel.drawing.page.style import PRINT_DPI
-from stereodel.render.vector.outlines import (
-    CLOSE,
-    CURVE,
-    LINE,
-    MOVE,
-    Drawn,
-    Filled,
-    Outlines,
-    Shape,
-    Shown,
-    ground,
-    shapes,
-)
+from stereodel.render.vector.outlines import Drawn, Filled, Outlines, Shape, Shown, ground, shapes
 from stereodel.render.vector.paper import Paper, commands, exact, number, numbers, shades
 from stereodel.render.vector.type import Face, Line, Subset, lines_of, subsets
-
-PATH: Final = {MOVE: "%s %s m\n", LINE: "%s %s l\n", CURVE: "%s %s %s %s %s %s c\n", CLOSE: "h\n"}
-"""Operators of paths."""
 
 LEAST_STEP: Final = 0.05
 """Largest adjustment between letters that is left out, in thousandths of their size: rounding of the font's widths."""
@@ -133,7 +118,7 @@ class _PdfSheet:
         return f"/{self.named('ExtGState', settings)} gs\n"
 
     def path(self, outline: Outlines) -> str:
-        return commands(self.paper.placed(outline), PATH)
+        return commands(self.paper.placed(outline))
 
     def shape(self, shape: Shape) -> str:
         match shape:
@@ -182,7 +167,7 @@ class _PdfSheet:
         """A label: halo, lines of type and bars."""
         parts, lines = ["q\n"], list(lines)
         if label.halo:
-            halo = "".join(commands(line.outline, PATH) for line in lines)
+            halo = "".join(commands(line.outline) for line in lines)
             parts.append(
                 f"q\n{self.opacity(label.halo_color)}{_rgb(label.halo_color)} RG\n"
                 f"{exact(2 * label.halo)} w 1 j\n{halo}S\nQ\n"
@@ -195,7 +180,7 @@ class _PdfSheet:
                 shown = f"/Span << /ActualText <{_utf16(line.words, mark=True)}> >> BDC\n{shown}EMC\n"
             parts.append(shown)
             if line.bars:
-                parts.append(f"{commands(line.placed(line.bar_outline), PATH)}f\n")
+                parts.append(f"{commands(line.placed(line.bar_outline))}f\n")
         return "".join([*parts, "Q\n"])
 
 
