@@ -228,44 +228,30 @@ def describe() -> Description:
         found = Description(*choose())
         opengl = context()
         found = Description(opengl.platform, opengl.chosen_by, *opengl.strings())
-        problem = trial_problem(opengl.draw(trial_triangles(), Window(0, 0, TRIAL, TRIAL), (1.0, 1.0, 1.0, 1.0)))
-        return replace(found, problem=problem and f"{opengl.platform} draws wrongly: {problem}")
+        shapes, expected = trial()
+        picture = opengl.draw(shapes, Window(0, 0, TRIAL, TRIAL), (1.0, 1.0, 1.0, 1.0))
+        # Blending is rounded once, and the average of the samples once.
+        wrong = (np.abs(expected.astype(np.int16) - picture) > 2).any(axis=-1)
+        said = f"{opengl.platform} draws wrongly: {np.count_nonzero(wrong)} of {wrong.size} pixels of a trial picture"
+        return replace(found, problem=said if wrong.any() else "")
     except (OpenGLError, MissingExtraError, ValueError) as error:
         return replace(found, problem=str(error))
 
 
-def trial_triangles() -> Triangles:
-    """A texture of distinct colours behind a translucent rectangle of two triangles.
+def trial() -> tuple[Triangles, Pixels]:
+    """A texture of distinct colours behind a translucent rectangle of two triangles, and the pixels of that.
 
     So a misplaced texel, a missing triangle, an edge without four samples and a seam along the diagonal are detected.
     """
     corners = np.array([(0, 0), (8, 0), (8, 8), (0, 8), (1.25, 2), (6.5, 2), (6.5, 7), (1.25, 7)], dtype=float)
     colors = np.repeat([[1.0, 1.0, 1.0, 1.0], [0.0, 0.0, 0.0, 0.5]], 4, axis=0)
     faces = np.array([[0, 1, 2], [0, 2, 3], [4, 5, 6], [4, 6, 7]], dtype=np.int32)
-    texels = np.dstack([_texels(), np.full((TRIAL, TRIAL), 255, dtype=np.uint8)])
-    return Triangles(corners, colors, np.repeat(np.arange(2, dtype=np.int32), 4), faces, {0: texels})
-
-
-def trial_problem(picture: Pixels) -> str:
-    """Errors in the picture of `trial_triangles`, more than two levels of 255; empty if there are none.
-
-    Blending is rounded once, and the average of the samples once.
-    """
+    row, column = np.indices((TRIAL, TRIAL))
+    texels = np.stack([32 * column, 32 * row, 0 * row + 90, 0 * row + 255], axis=-1).astype(np.uint8)
     share = np.zeros((TRIAL, TRIAL, 1))
     share[1:6, :, 0] = [0.0, 0.75, 1.0, 1.0, 1.0, 1.0, 0.5, 0.0]  # of the samples of each column, in the veil's rows
-    expected = np.rint(_texels() * (1 - share / 2)).astype(np.uint8)
-    wrong = (np.abs(expected.astype(np.int16) - picture) > 2).any(axis=-1)
-    if not wrong.any():
-        return ""
-    found, wanted = (tuple(pixels[wrong][0].tolist()) for pixels in (picture, expected))
-    count = f"{np.count_nonzero(wrong)} of {wrong.size} pixels of a trial picture are wrong"
-    return f"{count}, the first is {found} in place of {wanted}"
-
-
-def _texels() -> Pixels:
-    """Red encodes the column, green the row."""
-    row, column = np.indices((TRIAL, TRIAL))
-    return np.stack([32 * column, 32 * row, np.full_like(row, 90)], axis=-1).astype(np.uint8)
+    expected = np.rint(texels[..., :3] * (1 - share / 2)).astype(np.uint8)
+    return Triangles(corners, colors, np.repeat(np.arange(2, dtype=np.int32), 4), faces, {0: texels}), expected
 
 
 @cache

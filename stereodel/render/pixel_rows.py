@@ -8,7 +8,6 @@ asked for, with the pixels of one for the whole page. PNG is written here, as Pi
 from __future__ import annotations
 
 import hashlib
-import math
 import struct
 import zlib
 from collections.abc import Iterable, Iterator, Mapping
@@ -147,7 +146,7 @@ class LabelLayer:
         """Rows (k, width, 3) of the picture, the first of them row `top`, with the labels on them; rounded half up."""
         if not self._texts(top, top + len(rows)):
             return rows
-        layer = self._drawn(top, top + len(rows))
+        layer = self.rows(top, top + len(rows))
         composed = rows.copy()
         for first in range(0, len(rows), ROWS):
             part = slice(first, first + ROWS)
@@ -159,17 +158,7 @@ class LabelLayer:
 
     def rows(self, top: int = 0, bottom: int | None = None) -> Pixels:
         """The labels in the rows from `top` to before `bottom`, (bottom − top, width, 4), colours not premultiplied."""
-        return self._drawn(top, self.height if bottom is None else bottom).copy()
-
-    @property
-    def span(self) -> tuple[int, int]:
-        """Range of rows that contains all labels on the page; empty if there are none."""
-        first = min((first for _, first, _ in self._placed), default=0.0)
-        last = max((last for _, _, last in self._placed), default=0.0)
-        return max(0, math.floor(first)), min(self.height, math.ceil(last))
-
-    def _drawn(self, top: int, bottom: int) -> Pixels:
-        """As for `rows`, valid until the next call."""
+        bottom = self.height if bottom is None else bottom
         # One canvas for all rows, since a text keeps a reference to its canvas.
         if self._canvas is None or self._canvas.height != bottom - top:
             self._canvas = _RowCanvas(self.width, bottom - top, self._dpi)  # type: ignore[no-untyped-call]
@@ -178,7 +167,7 @@ class LabelLayer:
         with matplotlib_settings():
             for text in self._texts(top, bottom):
                 text.draw(self._canvas)
-        return np.asarray(self._canvas.buffer_rgba(), dtype=np.uint8)
+        return np.array(self._canvas.buffer_rgba(), dtype=np.uint8)
 
     def _texts(self, top: int, bottom: int) -> list[Text]:
         return [text for text, first, last in self._placed if first < bottom and last > top]

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from stereodel.render import gl
-from stereodel.render.gl import OpenGLError, Triangles, choose, describe, trial_triangles
+from stereodel.render.gl import OpenGLError, Triangles, choose, describe, trial
 
 VARIABLES = ("STEREODEL_GL", "PYOPENGL_PLATFORM")
 SQUARE = [[-9, -9], [30, -9], [-9, 30]]
@@ -122,9 +122,9 @@ def test_describe_tells_of_wrong_pixels(monkeypatch, change):
 
 @pytest.mark.parametrize("missing", range(4))
 def test_describe_tells_of_a_missing_triangle(monkeypatch, missing):
-    shapes = trial_triangles()
+    shapes, expected = trial()
     fewer = replace(shapes, faces=np.delete(shapes.faces, missing, axis=0))
-    monkeypatch.setattr(gl, "trial_triangles", lambda: fewer)
+    monkeypatch.setattr(gl, "trial", lambda: (fewer, expected))
     assert "draws wrongly" in describe().problem
 
 

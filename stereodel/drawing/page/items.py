@@ -19,6 +19,7 @@ from stereodel._arrays import BoolArray, FloatArray, Indices, Pixels
 from stereodel._notebook import Displayed
 from stereodel.constants import GROUND_PIXEL
 from stereodel.curves.ragged import Ragged, spans
+from stereodel.curves.trace import sides_of
 from stereodel.drawing.page.colors import Color, as_color
 from stereodel.drawing.page.style import BLACK, WHITE, DotStyle, LineStyle
 
@@ -30,7 +31,6 @@ LEGEND: Final = "legend-"
 
 FEW_COLORS: Final = 64
 """Largest number of colours of `Polygons` written as paths in vector files; with more, they become an image."""
-
 
 INK_STEP, DOT_PLACES = 1.0, 19
 """Of the ink that names avoid: largest length of a piece of a line, in points, and number of places in a dot."""
@@ -367,9 +367,7 @@ class Polylines(Mark):
 
     def ink_at(self, points_per_unit: float) -> FloatArray:
         """Pieces of the lines, at most `INK_STEP` long."""
-        joined = np.ones(len(self.points), dtype=bool)
-        joined[self.offsets[1:] - 1] = False
-        first = np.flatnonzero(joined)
+        first, _ = sides_of(Ragged(self.points, self.offsets))
         start, way = points_per_unit * self.points[first], points_per_unit * np.diff(self.points, axis=0)[first]
         length = np.hypot(*way.T)
         count = np.maximum(np.ceil(length / INK_STEP), 1).astype(np.intp)
@@ -536,10 +534,8 @@ def painted(items: Iterable[Item], places: FloatArray, background: Color = WHITE
 
 def colors_within(loops: Ragged, owner: Indices, colors: FloatArray, places: FloatArray) -> FloatArray:
     """The colour of the region that contains each place, (n, 4); opacity 0 if none does."""
-    last = np.zeros(len(loops.values), dtype=bool)
-    last[loops.offsets[1:] - 1] = True
-    start, end = loops.values[~last], np.roll(loops.values, -1, axis=0)[~last]
-    owner = owner[loops.row[~last]]
+    first, sides = sides_of(loops)
+    start, end, owner = loops.values[first], loops.values[first + 1], owner[sides.row]
     low, high = np.minimum(start[:, 1], end[:, 1]), np.maximum(start[:, 1], end[:, 1])
     found = np.zeros((len(places), 4))
     for height in np.unique(places[:, 1]):  # only edges that cross it can wind around a place there

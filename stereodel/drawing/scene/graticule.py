@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
+from math import isqrt
 from typing import Final
 
 import numpy as np
@@ -413,13 +414,9 @@ def _quarter(steps: int) -> int:
 
 def _chain(whole: int) -> list[int]:
     """Strides 1, p, p·q … `whole`, by prime factors from the smallest on."""
-    chain, rest, factor = [1], whole, 2
-    while rest > 1:
-        while factor * factor <= rest and rest % factor:
-            factor += 1
-        prime = factor if rest % factor == 0 else rest
-        chain.append(chain[-1] * prime)
-        rest //= prime
+    chain = [1]
+    while (rest := whole // chain[-1]) > 1:
+        chain.append(chain[-1] * next((k for k in range(2, isqrt(rest) + 1) if rest % k == 0), rest))
     return chain
 
 

@@ -147,24 +147,14 @@ class SceneLines:
                     yield from self._piece(piece, place, layout, on_ball=on_ball)
 
     def _piece(self, piece: Curve, place: Place, layout: Layout, *, on_ball: bool) -> Iterator[Laid]:
-        style = self.style.hidden if place is Place.BEHIND else self.style
-        for part, beyond in self._by_sheets(piece, layout):
-            layer = _line_layer(place, on_ball) if beyond is None else beyond
-            layer = layer if self.layer is None or place is Place.BEHIND else self.layer
-            yield layer, _stroke(layout.path([part]), style, self.name, closed=part.closed)
-
-    def _by_sheets(self, curve: Curve, layout: Layout) -> list[tuple[Curve, Layer | None]]:
-        if not layout.sheets:
-            return [(curve, None)]
+        style, own = (self.style.hidden, None) if place is Place.BEHIND else (self.style, self.layer)
+        usual = {Place.OUTSIDE: Layer.BESIDE, Place.INSIDE: Layer.INSIDE_LINE, Place.BEHIND: Layer.FAR_LINE}
+        usual[Place.FRONT] = Layer.LINE if on_ball else Layer.FREE
         slack = ON_BALL * layout.radius
-        crossings = [curve.level_parameters(normal, level - slack) for normal, level, _ in layout.sheets]
-        return cut(curve, np.unique(np.concatenate(crossings)), layout.beyond_sheets)
-
-
-def _line_layer(place: Place, on_ball: bool) -> Layer:
-    if place is Place.FRONT:
-        return Layer.LINE if on_ball else Layer.FREE
-    return {Place.OUTSIDE: Layer.BESIDE, Place.INSIDE: Layer.INSIDE_LINE, Place.BEHIND: Layer.FAR_LINE}[place]
+        crossings = [piece.level_parameters(normal, level - slack) for normal, level, _ in layout.sheets]
+        for part, beyond in cut(piece, np.unique(np.concatenate([np.zeros(0), *crossings])), layout.beyond_sheets):
+            layer = next(layer for layer in (own, beyond, usual[place]) if layer is not None)
+            yield layer, _stroke(layout.path([part]), style, self.name, closed=part.closed)
 
 
 def _stroke(path: Beziers, style: LineStyle, name: str, *, closed: bool) -> Stroke:

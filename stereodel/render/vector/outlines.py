@@ -238,11 +238,9 @@ def _painted(picture: Picture, page: Page, dpi: float) -> Shown:
 
 def _dots(dots: Dots, points_per_unit: float) -> Iterator[Discs]:
     """A disc for each dot, with a smaller one on top if it has a rim."""
-    discs = [(dots.radius, dots.rim if dots.rim_width else dots.color)]
     if dots.rim_width:
-        discs.append((dots.radius - dots.rim_width, dots.color))
-    for radius, color in discs:
-        yield _discs(dots.centers, radius, points_per_unit, color, dots.name)
+        yield _discs(dots.centers, dots.radius, points_per_unit, dots.rim, dots.name)
+    yield _discs(dots.centers, dots.radius - dots.rim_width, points_per_unit, dots.color, dots.name)
 
 
 def _discs(centers: FloatArray, radius: float, points_per_unit: float, color: Color, name: str) -> Discs:
