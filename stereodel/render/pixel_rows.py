@@ -132,7 +132,7 @@ class LabelLayer:
     def __init__(self, page: Page, width_px: int) -> None:
         self._dpi, (self.width, self.height) = pixel_grid(page, width_px)
         self._canvas: Any = None
-        self._placed: list[tuple[Text, float, float]] = []
+        self.placed: list[tuple[Text, float, float]] = []
         if page.labels:
             with matplotlib_settings():
                 canvas = drawn(replace(page, items=page.labels), self._dpi, (self.width, self.height))
@@ -140,7 +140,7 @@ class LabelLayer:
                 for text in canvas.axes[0].texts:
                     # Ink may extend beyond the box of a line of type, but never by its height.
                     box, reach = text.get_window_extent(ruler), text.get_fontsize() * ruler.dpi / 72
-                    self._placed.append((text, self.height - box.y1 - reach, self.height - box.y0 + reach))
+                    self.placed.append((text, self.height - box.y1 - reach, self.height - box.y0 + reach))
 
     def over(self, rows: Pixels, top: int = 0) -> Pixels:
         """Rows (k, width, 3) of the picture, the first of them row `top`, with the labels on them; rounded half up."""
@@ -170,7 +170,7 @@ class LabelLayer:
         return np.array(self._canvas.buffer_rgba(), dtype=np.uint8)
 
     def _texts(self, top: int, bottom: int) -> list[Text]:
-        return [text for text, first, last in self._placed if first < bottom and last > top]
+        return [text for text, first, last in self.placed if first < bottom and last > top]
 
 
 class _RowCanvas(RendererAgg):

@@ -12,13 +12,11 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any, Final, Literal
 
-import numpy as np
-
 from stereodel._arrays import FloatArray, Pixels, as_count, as_scalar
 from stereodel._extras import of_extra
 from stereodel._notebook import Displayed, drawn
 from stereodel.drawing.page.colors import Color
-from stereodel.drawing.page.items import Arrays, Item, Label, Polygons
+from stereodel.drawing.page.items import Item, Label, Polygons
 from stereodel.drawing.page.style import PRINT_DPI
 
 LARGEST_SIZE: Final = 2**16 - 1
@@ -50,7 +48,7 @@ class Page(Displayed):
         Width of the extent in points (1/72 inch); the height follows, page units being square. 17 cm are 481.89 points.
     background : Color
     views : tuple of (3, 3) arrays
-        View matrices from which the page was made (rows right, up, toward), kept for the regression tests.
+        View matrices from which the page was made (rows right, up, toward), kept for tests.
     title, description : str
         Title in one line, and description in plain paragraphs. They are not drawn: files contain them for search and
         for readers who cannot see the picture.
@@ -187,17 +185,6 @@ class Page(Displayed):
         """
         with of_extra(picture_extra(".png", renderer)):
             return output("draw_page")(self, size=size, text=text, renderer=renderer)
-
-    def arrays(self) -> Arrays:
-        """Everything drawn as named arrays, for the regression tests: every visible change alters a number."""
-        named: Arrays = {
-            "page": np.array([*self.extent, self.width, *self.background]),
-            "views": np.array(self.views).reshape(-1, 3, 3),
-        }
-        for number, item in enumerate(self.items):
-            prefix = f"{number:04d}_{type(item).__name__.lower()}_{item.name}"
-            named.update({f"{prefix}_{key}": value for key, value in item.arrays().items()})
-        return named
 
 
 def picture_extra(kind: str, renderer: str = "gl") -> str:

@@ -8,7 +8,6 @@ every sixth and so on, with strides that divide the grid, so that the remaining 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import cached_property
 from math import isqrt
 from typing import Final
 
@@ -309,14 +308,21 @@ class _Window:
 
     def _room(self, apart: float, *, meeting: bool) -> _Box | None:
         """South, north, west, east of the part visible at this scale or a larger one; `meeting` is for meridians."""
-        box = self._seen
+        cap, view, focus = self.chart.source, self.chart.view, self.chart.turns[0][2]
+        peak = focus if self.chart.lens.magnification >= 1 else -focus  # where the scale of the lens is largest
+        edge = np.radians(view.angular_radius)  # where that of the view is
+        widest = float(view.breadth(np.array([np.sin(edge), 0.0, np.cos(edge)]), np.array([0.0, 1.0, 0.0])))
+        # The distance of the visible part from the peak, near which a box would reach round the sphere.
+        apart_rad = 2 * np.arcsin(min(1.0, float(np.sqrt(np.sum((cap.normal - peak) ** 2))) / 2)) - cap.radius
+        away = float(apart_rad) * (1 - REACH_MARGIN) - 8 * UNIT_ROUNDOFF
+        box = _box_around(xyz_to_lonlat(cap.normal), cap.radius)
         for _ in range(NARROWINGS if meeting else 1):
             nearest = 0.0 if box[0] <= 0 <= box[1] else min(abs(box[0]), abs(box[1]))
             breadth = float(np.cos(np.radians(nearest))) if meeting else 1.0
-            radius = self._reach(apart / max(breadth, UNIT_ROUNDOFF) / self._widest)
-            if radius is None or radius < self._away:
+            radius = self._reach(apart / max(breadth, UNIT_ROUNDOFF) / widest)
+            if radius is None or radius < away:
                 return None
-            around = _box_around(self._at_peak, radius)
+            around = _box_around(xyz_to_lonlat(peak), radius)
             south, north = max(box[0], around[0]), min(box[1], around[1])
             if south > north:
                 return None
@@ -333,36 +339,6 @@ class _Window:
         if larger == 1 or scale == 0:
             return float(np.pi)
         return float(2 * np.arcsin(np.sqrt(np.clip((larger / scale - 1) / (larger**2 - 1), 0.0, 1.0))))
-
-    @cached_property
-    def _seen(self) -> _Box:
-        cap = self.chart.source
-        return _box_around(xyz_to_lonlat(cap.normal), cap.radius)
-
-    @cached_property
-    def _away(self) -> float:
-        """Distance in radians of the visible part from the peak, near which a box would reach round the sphere."""
-        cap = self.chart.source
-        chord = float(np.sqrt(np.sum((cap.normal - self._peak) ** 2)))
-        apart = 2 * np.arcsin(min(1.0, chord / 2)) - cap.radius
-        return float(apart) * (1 - REACH_MARGIN) - 8 * UNIT_ROUNDOFF
-
-    @cached_property
-    def _widest(self) -> float:
-        """The largest scale of the view, reached at its edge."""
-        view, radius = self.chart.view, np.radians(self.chart.view.angular_radius)
-        edge = np.array([np.sin(radius), 0.0, np.cos(radius)])
-        return float(view.breadth(edge, np.array([0.0, 1.0, 0.0])))
-
-    @property
-    def _peak(self) -> FloatArray:
-        """The place where the scale is largest."""
-        focus = self.chart.turns[0][2]
-        return focus if self.chart.lens.magnification >= 1 else -focus
-
-    @cached_property
-    def _at_peak(self) -> FloatArray:
-        return xyz_to_lonlat(self._peak)
 
 
 def _meridians(lons: FloatArray) -> Arcs:

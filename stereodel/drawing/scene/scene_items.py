@@ -34,12 +34,9 @@ BallStyle = Literal["solid", "glass", "none"]
 class Layer(IntEnum):
     """Painter's order: later layers cover earlier ones; within a layer, items keep the order of their addition."""
 
-    UNDER = 0
-    """Lines seen through a sheet that lies below the ball."""
-    GROUND = 1
-    """Sheets that the ball covers."""
-    BESIDE = 2
-    """Lines outside the ball's disc."""
+    UNDER = 0  # lines seen through a sheet that lies below the ball
+    GROUND = 1  # sheets that the ball covers
+    BESIDE = 2  # lines outside the ball's disc
     FAR_TINT = 3
     FAR_LINE = 4
     FAR_DOT = 5
@@ -47,18 +44,13 @@ class Layer(IntEnum):
     INSIDE_LINE = 7
     INSIDE_DOT = 8
     BALL = 9
-    TINT = 10
-    """Regions on the near side."""
-    LINE = 11
-    """Lines on the near side."""
+    TINT = 10  # regions on the near side
+    LINE = 11  # lines on the near side
     LIMB = 12
-    FREE = 13
-    """Lines in front of the ball."""
+    FREE = 13  # lines in front of the ball
     DOT = 14
-    SHEET = 15
-    """Sheets that cover the ball."""
-    OVER = 16
-    """Lines on or above such a sheet."""
+    SHEET = 15  # sheets that cover the ball
+    OVER = 16  # lines on or above such a sheet
     OVER_DOT = 17
     LABEL = 18
 

@@ -73,7 +73,7 @@ class _PdfSheet:
 
     def __init__(self, page: Page) -> None:
         self.page, self.paper, self.objects = page, Paper.of(page, downward=False), _Objects()
-        # Resources that the content names, by kind and name.
+        # Names of resources in the content, by kind and resource.
         self.resources: dict[str, dict[str, str]] = {"Font": {}, "XObject": {}, "Pattern": {}, "ExtGState": {}}
 
     def file(self, pictures: Sequence[Pixels]) -> bytes:
@@ -87,7 +87,8 @@ class _PdfSheet:
             *(self.label(label, lines, fonts, named) for label, lines in lettering),
         ]
         content = self.objects.stream("".join(parts).encode("ascii"))
-        resources = " ".join(f"/{kind} {_dictionary(entries)}" for kind, entries in self.resources.items() if entries)
+        used = {kind: {name: body for body, name in known.items()} for kind, known in self.resources.items() if known}
+        resources = " ".join(f"/{kind} {_dictionary(entries)}" for kind, entries in used.items())
         box = f"[0 0 {number(page.width)} {number(page.height)}]"
         pages = f"{len(self.objects.bodies) + 2} 0 R"
         sheet = add(
@@ -104,12 +105,7 @@ class _PdfSheet:
     def named(self, kind: str, body: str) -> str:
         """The name of a resource in the content, the same for equal resources."""
         entries = self.resources[kind]
-        for name, known in entries.items():
-            if known == body:
-                return name
-        name = f"{kind[0]}{len(entries) + 1}"
-        entries[name] = body
-        return name
+        return entries.setdefault(body, f"{kind[0]}{len(entries) + 1}")
 
     def opacity(self, color: Color) -> str:
         if color[3] == 1:

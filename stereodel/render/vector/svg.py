@@ -26,7 +26,7 @@ from stereodel.drawing.page.items import LEGEND, Ramp, xml_name
 from stereodel.drawing.page.style import PRINT_DPI
 from stereodel.render.vector.outlines import Discs, Drawn, Filled, Outlines, Shape, Shown, ground, shapes
 from stereodel.render.vector.paper import Paper, exact, number, numbers, runs, shades
-from stereodel.render.vector.type import Face, Glyph, Line, ShapedSubset, Subset, advance_of, lines_of, subsets
+from stereodel.render.vector.type import Face, Glyph, Line, Subset, advance_of, lines_of, subsets
 
 with of_extra("draw"):
     from PIL import Image
@@ -70,7 +70,7 @@ class _SvgSheet:
         labels = f' role="img" aria-labelledby="{" ".join(name for name, _ in told)}"' if told else ""
         lettering = list(lines_of(page))
         fonts = subsets(line for _, lines in lettering for line in lines if not line.words)
-        shaped = subsets((line for _, lines in lettering for line in lines if line.words), ShapedSubset)
+        shaped = subsets((line for _, lines in lettering for line in lines if line.words), shaped=True)
         rest, layers = iter(pictures), groupby(page.without_labels().items, key=_layer)
         written = (line for label, its in lettering for line in self.label(label, its, fonts, shaped))
         lines = [
