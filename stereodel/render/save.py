@@ -31,9 +31,6 @@ ENDINGS: Final = (".png", ".svg", ".pdf")
 BAND: Final = 256
 """Rows in a block of a picture with transparent background."""
 
-FINEST_DPI: Final = 600
-"""Largest resolution of images in vector files in pixels per inch: no press reproduces more."""
-
 
 def draw_page(page: Page, *, size: int | None, text: bool, renderer: Renderer) -> Pixels:
     """Implementation of `Page.pixels`."""
@@ -85,7 +82,7 @@ def save_page(
 
 def region_pictures(page: Page, width: int) -> list[Pixels]:
     """An image of each item with too many colours for a vector file."""
-    size = min(width, page.pixels_in_print(FINEST_DPI))
+    size = min(width, page.pixels_in_print(dpi=600))  # no press reproduces more
     alone = [replace(page, items=(item,)) for item in page.pictured]
     return [draw_page(part, size=size, text=False, renderer="gl") for part in alone]
 

@@ -69,13 +69,6 @@ def test_colours_come_out_as_given():
     assert np.array_equal(picture[0, :, 1], np.arange(256)[::-1])
 
 
-def test_the_ground_is_exact_and_rows_come_from_the_top():
-    shape = triangles([[[0, 3], [9, 3], [0, 9]]], [[1, 0, 0, 1]], [0])
-    picture = draw(shape, 4, 4, background=(1.0, 0.2, 0.0, 1.0))
-    assert np.array_equal(picture[0], [[255, 0, 0]] * 4)
-    assert np.array_equal(picture[1:], [[[255, 51, 0]] * 4] * 3)
-
-
 def test_later_items_cover_earlier_ones_and_blend_over_them():
     black, red = [0.0, 0.0, 0.0, 1.0], [1.0, 0.0, 0.0, 1.0]
     half = [1.0, 1.0, 1.0, 0.5]
@@ -93,11 +86,6 @@ def test_the_last_slots_are_told_apart():
     for slot in (0, gl.SLOTS // 2, gl.SLOTS - 2):
         both = triangles([SQUARE, SQUARE], [[0, 0, 0, 1], [1, 1, 1, 1]], [slot, slot + 1])
         assert (draw(both, 2, 2) == 255).all()
-
-
-def test_four_samples_a_pixel():
-    edge = triangles([[[0, 0], [64, 0], [64, 5]]], [[0, 0, 0, 1]], [0])
-    assert np.unique(draw(edge, 64, 8)).tolist() == [0, 64, 128, 191, 255]
 
 
 def test_too_many_items_are_refused():

@@ -39,15 +39,6 @@ LINES_ACROSS: Final = 12
 SPACINGS: Final = (15.0, 10.0, 5.0, *(float(f"{digit}e-{power}") for power in range(12) for digit in (2, 1, 0.5)))
 """Suitable spacings in degrees, down to 1e-13 degrees, where double precision ends."""
 
-NARROWINGS: Final = 8
-"""Number of reductions of the part of the sphere in which lines have room, where meridians meet."""
-
-HALVINGS: Final = 40
-"""Number of halvings of the interval in which a line ends, down to a millionth of a millionth of it."""
-
-LINES_AT_ONCE: Final = 512
-"""Lines along which the spacing is computed at once, at two hundred places in three coordinates: arrays of 2.4 MB."""
-
 
 @dataclass(frozen=True, eq=False)
 class Graticule:
@@ -172,7 +163,8 @@ class Graticule:
         row = np.broadcast_to(np.arange(len(t))[:, None], t.shape)
         # Lines that always remain are drawn regardless of their neighbours.
         wanted = np.where(self.strides == 0, 0.0, need / np.maximum(self.strides, 1))
-        some = np.array_split(np.arange(len(t)), len(t) // LINES_AT_ONCE + 1)
+        # 512 lines at once, at two hundred places in three coordinates: arrays of 2.4 MB.
+        some = np.array_split(np.arange(len(t)), len(t) // 512 + 1)
         enough = np.concatenate([lines.spacing(row[rows], t[rows]) for rows in some]) >= wanted[:, None]
         line, cut, begins = lines.ends(t, enough, wanted)
         starts, stops = enough[:, 0], enough[:, -1]
@@ -255,7 +247,7 @@ class _GridLines:
         shown, hidden = t[line, at], t[line, at + 1]
         begins = enough[line, at + 1]
         shown[begins], hidden[begins] = hidden[begins], shown[begins]
-        for _ in range(HALVINGS):
+        for _ in range(40):  # down to a millionth of a millionth of the interval
             middle = (shown + hidden) / 2
             enough_there = self.spacing(line, middle) >= wanted[line]
             shown, hidden = np.where(enough_there, middle, shown), np.where(enough_there, hidden, middle)
@@ -316,7 +308,7 @@ class _Window:
         apart_rad = 2 * np.arcsin(min(1.0, float(np.sqrt(np.sum((cap.normal - peak) ** 2))) / 2)) - cap.radius
         away = float(apart_rad) * (1 - REACH_MARGIN) - 8 * UNIT_ROUNDOFF
         box = _box_around(xyz_to_lonlat(cap.normal), cap.radius)
-        for _ in range(NARROWINGS if meeting else 1):
+        for _ in range(8 if meeting else 1):  # where meridians meet, they have room in less and less of it
             nearest = 0.0 if box[0] <= 0 <= box[1] else min(abs(box[0]), abs(box[1]))
             breadth = float(np.cos(np.radians(nearest))) if meeting else 1.0
             radius = self._reach(apart / max(breadth, UNIT_ROUNDOFF) / widest)

@@ -46,9 +46,6 @@ NAMESPACES: Final = (
 )
 """Illustrator and older programs read links as those of XLink alone."""
 
-LEAST_SHIFT: Final = 0.02
-"""Distance in points from the end of one glyph of a formula to the next from which on that begins a run."""
-
 
 def svg(page: Page, pictures: Sequence[Pixels] = ()) -> str:
     """A page as the text of an SVG file; `pictures` hold the whole page for each of `page.pictured`, which clips it."""
@@ -243,7 +240,7 @@ class _SvgSheet:
         style, pen = None, 0.0
         for glyph in line.glyphs:
             own = (glyph.font, glyph.size, glyph.y)
-            if own != style or abs(glyph.x - pen) > LEAST_SHIFT:
+            if own != style or abs(glyph.x - pen) > 0.02:  # points
                 spans.append([])
                 style, pen = own, glyph.x
             spans[-1].append(glyph)

@@ -39,9 +39,6 @@ with of_extra("draw"):
 FINER: Final = 64
 """Pixels per point of the canvas on which type is set: matplotlib rounds sizes in formulas to whole pixels."""
 
-PRIVATE: Final = range(0xE000, 0xF900)
-"""Private use characters of Unicode, for glyphs without a character of their own."""
-
 LEFTWARD: Final = ("R", "AL")
 """Unicode's bidirectional classes of right-to-left letters."""
 
@@ -298,14 +295,10 @@ class Subset:
         for index, text in sorted(self.glyphs.items()):
             own = text if len(text) == 1 else _ligature(self.font, index, text)
             taken = codes.values()
-            free = (chr(code) for code in PRIVATE if chr(code) not in {*taken, *self.glyphs.values()})
+            # Private use characters of Unicode, for glyphs without a character of their own.
+            free = (chr(code) for code in range(0xE000, 0xF900) if chr(code) not in {*taken, *self.glyphs.values()})
             codes[index] = own if own and own not in taken else next(free)
         return codes
-
-    @property
-    def widths(self) -> dict[int, float]:
-        """Advance widths at size 1."""
-        return {index: advance_of(self.font, index) for index in self.glyphs}
 
     def file(self, flavor: Literal["woff"] | None = None) -> bytes:
         """The font file, TrueType or WOFF; glyphs keep their indices unless programs shape the text."""
