@@ -139,7 +139,7 @@ def test_drawing_asks_matplotlib_for_type_and_names_of_colours_alone():
     assert not {library for _, library in foreign} & {"OpenGL", "pyrender", "trimesh", "imageio"}
 
 
-def test_pages_and_scenes_are_drawn_by_what_enters_itself_in_their_table_on_use():
+def test_pages_and_scenes_are_drawn_by_the_modules_of_their_table_on_use():
     """A module's name stands as text in that table alone, so that no import is hidden from this file."""
     texts = {
         (name, node.value)

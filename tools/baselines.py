@@ -39,7 +39,8 @@ from matplotlib import ft2font
 from stereodel._arrays import FloatArray, Pixels
 from stereodel._extras import installed_version
 from stereodel._tasks.whole_files import write_whole
-from stereodel.drawing.page import Label, Page
+from stereodel.drawing.page import Dots, Fill, Item, Label, Page, Picture, Polygons, Polylines, Stroke
+from stereodel.drawing.page.items import Ramp
 from stereodel.film import Film
 from stereodel.render.figure import Figure
 from stereodel.render.pixel_rows import LabelLayer, pixel_hash
@@ -257,6 +258,50 @@ def _array_difference(expected: npt.NDArray[Any], actual: npt.NDArray[Any], tole
     return f"{count}, first at {first}: {expected[first]} expected, {actual[first]} found"
 
 
+def page_arrays(page: Page) -> dict[str, npt.NDArray[Any]]:
+    """Everything drawn as named arrays: every visible change alters a number."""
+    named = {
+        "page": np.array([*page.extent, page.width, *page.background]),
+        "views": np.array(page.views).reshape(-1, 3, 3),
+    }
+    for number, item in enumerate(page.items):
+        prefix = f"{number:04d}_{type(item).__name__.lower()}_{item.name}"
+        named.update({f"{prefix}_{key}": np.asarray(value) for key, value in item_arrays(item).items()})
+    return named
+
+
+def item_arrays(item: Item) -> dict[str, Any]:
+    """Everything that is drawn of an item."""
+    match item:
+        case Stroke():
+            style = [*item.color, item.width, *(item.dash or (0.0, 0.0)), item.cap == "round", item.closed]
+            return {"path": item.path, "style": style}
+        case Fill():
+            sizes = [len(path) for path in item.paths]
+            return {"path": np.concatenate(item.paths), "sizes": sizes, "style": item.color, **_light(item)}
+        case Dots():
+            return {"centers": item.centers, "style": [item.radius, *item.color, *item.rim, item.rim_width]}
+        case Picture(painter=Ramp() as ramp):
+            return {"outline": np.concatenate(item.outline), "ends": ramp.ends, "colors": ramp.colors}
+        case Picture():
+            return {"outline": np.concatenate(item.outline), **item.painter.arrays()}
+        case Polylines():
+            return {"points": item.points, "offsets": item.offsets, "style": [*item.color, item.width]}
+        case Polygons():
+            loops = {"points": item.points, "offsets": item.offsets, "owner": item.owner}
+            return {**loops, "colors": item.colors, **_light(item)}
+        case Label():
+            halo = [item.halo] if item.halo else []
+            if item.halo and item.halo_color != Label.halo_color:
+                halo += item.halo_color
+            told = [item.text, item.align, item.valign, *item.font, *([] if item.formulas else ["plain"])]
+            return {"place": [*item.anchor, *item.offset, item.size, *item.color, item.rotation, *halo], "text": told}
+
+
+def _light(item: Fill | Polygons) -> dict[str, Any]:
+    return {} if item.ball is None else {"ball": [*item.ball.center, item.ball.radius]}
+
+
 @dataclass(frozen=True, eq=False)
 class Case:
     """One picture to compare: a page, the geometry behind it, and what draws it."""
@@ -270,7 +315,7 @@ class Case:
     def arrays(self) -> dict[str, npt.NDArray[Any]]:
         """What T0 compares: the arrays of the page, and the geometry under names that begin with "geometry"."""
         return summarised(
-            {**self.page.arrays(), **{f"geometry_{key}": np.asarray(a) for key, a in self.geometry.items()}}
+            {**page_arrays(self.page), **{f"geometry_{key}": np.asarray(a) for key, a in self.geometry.items()}}
         )
 
     @cached_property
@@ -287,7 +332,8 @@ class Case:
         width_px = max(1, round(INK_PER_POINT * self.page.width))
         boxes = np.full((len(self.page.labels), 4), np.nan)
         for box, layer in zip(boxes, self._label_layers(width_px), strict=True):
-            top, bottom = layer.span
+            reach = [(max(0, math.floor(first)), math.ceil(last)) for _, first, last in layer.placed]
+            top, bottom = (min(layer.height, row) for row in (reach or [(0, 0)])[0])
             opacity = layer.rows(top, bottom)[..., 3] if top < bottom else np.zeros((0, 0), dtype=np.uint8)
             if opacity.any():
                 rows, columns = np.nonzero(opacity >= opacity.max() / 2)

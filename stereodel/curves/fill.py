@@ -11,6 +11,7 @@ from stereodel._extras import of_extra
 from stereodel.constants import TOUCHING
 from stereodel.curves.clip import signed_areas, with_first_again
 from stereodel.curves.ragged import Ragged, cycles, offsets_of, spans
+from stereodel.curves.trace import sides_of
 
 
 def triangles(loops: Ragged, owner: Indices) -> tuple[FloatArray, Indices]:
@@ -82,9 +83,8 @@ def union(loops: Ragged) -> Ragged:
 
 def _fans(loops: Ragged) -> tuple[BoolArray, FloatArray, Indices]:
     """Which loops wind monotonically once around the mean of their points; triangles to the mean, and their loops."""
-    inner = np.ones(len(loops.values), dtype=bool)
-    inner[loops.offsets[1:] - 1] = False
-    first, row, count = np.flatnonzero(inner), loops.row[inner], len(loops)
+    first, sides = sides_of(loops)
+    row, count = sides.row, len(loops)
     number = np.maximum(np.bincount(row, minlength=count), 1)
     middle = np.stack([np.bincount(row, loops.values[first, k], minlength=count) / number for k in (0, 1)], axis=1)[row]
     a, b = loops.values[first] - middle, loops.values[first + 1] - middle

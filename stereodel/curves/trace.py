@@ -275,8 +275,10 @@ class Edges:
         if not len(long):
             return self.arcs
         # The edges to be cut, from vertex to vertex.
-        cut = _Stretches.whole(self.take(long), long, wanted[long]).halved(lens, tolerance, self.latitude)
-        parts = cut.arcs(self.latitude)
+        some, zero = self.arcs.take(long), np.zeros(len(long))
+        a, b = self.lonlat[long].swapaxes(0, 1)
+        cut = _Stretches(long, zero, zero + 1, wanted[long], a, b, some.start, some.end)
+        parts = cut.halved(lens, tolerance, self.latitude).arcs(self.latitude)
         whole = np.ones(len(self), dtype=bool)
         whole[long] = False
         both = Arcs.joined(self.arcs.take(whole), parts)
@@ -297,12 +299,6 @@ class _Stretches(Rows):
     b: FloatArray
     p: FloatArray
     q: FloatArray
-
-    @classmethod
-    def whole(cls, edges: Edges, number: Indices, pieces: FloatArray) -> _Stretches:
-        """Edges from end to end."""
-        count, (a, b) = len(edges), edges.lonlat.swapaxes(0, 1)
-        return cls(number, np.zeros(count), np.ones(count), pieces, a, b, edges.arcs.start, edges.arcs.end)
 
     def halved(self, lens: MoebiusMap, tolerance: float, latitude: Latitude) -> _Stretches:
         """Parts halved, in order, until none needs more than `MOST_PIECES`: few where nothing is magnified."""

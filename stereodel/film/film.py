@@ -293,7 +293,7 @@ class Film(Generic[T], Displayed):
         run_script(self, argv, source_of(self.draw).stem, f"{self.size}")
 
     def _files(self, folder: Path, *, size: int | None, text: bool) -> list[str]:
-        """See `stereodel.render.figure.Drawing`."""
+        """See `stereodel.render.figure.run_script`."""
         folder.mkdir(parents=True, exist_ok=True)
         film = replace(self, size=self.size if size is None else size, text=text)
         jobs = None if main_script_here() else 1  # the documentation runs scripts as text

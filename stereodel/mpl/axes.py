@@ -136,7 +136,8 @@ class FisheyeAxes(GlobePlots):
             raise ValueError("lens was given together with focus or magnification; give one or the other")
         place = (0.0, 0.0) if focus is None else focus
         self._lens = lens or fisheye(place, magnification=1.0 if magnification is None else magnification)
-        self._view = _view_of(view, self._lens)
+        center = xyz_to_lonlat(self._lens(self._lens.focus)) if view is None else view
+        self._view = View(*as_lonlat(center, "view").tolist()) if isinstance(center, Sequence | np.ndarray) else center
         self._edges = as_choice(edges, EDGES, "edges")
         self._graticule: PathPatch | None = None
         super().__init__(*args, **kwargs)
@@ -343,14 +344,6 @@ class FisheyeAxes(GlobePlots):
         straight = as_choice(edges, EDGES, "edges") == "straight"
         transform = self.transStraight if straight else self.transGreatCircle
         return self._collection(paths, transform, {"edgecolor": "black", "linewidth": 0.5} | kwargs)
-
-
-def _view_of(view: MapView | Sequence[float] | None, lens: MoebiusMap) -> MapView:
-    if view is None:
-        return View(*xyz_to_lonlat(lens(lens.focus)).tolist())
-    if isinstance(view, Sequence | np.ndarray):
-        return View(*as_lonlat(view, "view").tolist())
-    return view
 
 
 def _path(of: data.EarthLines | data.EarthPolygons) -> Path:

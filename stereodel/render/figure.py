@@ -13,7 +13,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import Any, Final, Literal, Protocol, Self
+from typing import Any, Final, Literal
 
 from stereodel._arrays import Pixels
 from stereodel._extras import of_extra
@@ -152,26 +152,11 @@ class Figure:
         run_script(self, argv, self.name, "17 cm at 300 dpi")
 
     def _files(self, folder: Path, *, size: int | None, text: bool) -> list[str]:
-        """See `Drawing`."""
         return self.save(folder, size=size, text=text)["files"]
 
 
-class Drawing(Protocol):
-    """What a script draws: figures and films."""
-
-    @property
-    def draw(self) -> Callable[..., Any]:
-        """A function of the script."""
-
-    def styled(self, *styles: Style) -> Self:
-        """The same in other styles."""
-
-    def _files(self, folder: Path, *, size: int | None, text: bool) -> list[str]:
-        """Write the files into a folder, with the options of the script; their names."""
-
-
-def run_script(drawing: Drawing, argv: Sequence[str] | None, name: str, usual_size: str) -> None:
-    """Write the files, by default into `out` next to the script's folder."""
+def run_script(drawing: Any, argv: Sequence[str] | None, name: str, usual_size: str) -> None:
+    """Write the files of a figure or film, `_files`, by default into `out` next to the script's folder."""
     parser = argparse.ArgumentParser(description=f"Draw {name}.")
     out = default_folder(drawing.draw)
     parser.add_argument("--out", type=Path, help=f"folder to write to ({out}, and in it one for each style)")

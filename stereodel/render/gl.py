@@ -1,6 +1,6 @@
 """The only interface to OpenGL: triangles in, pixels out, through pyrender (the distribution pyrender2), windowless.
 
-PyOpenGL fixes its platform when it is first imported, so a process has one `Door`, which chooses before that: OSMesa,
+PyOpenGL fixes its platform when it is first imported, so a process has one `context`, chosen before that: OSMesa,
 or EGL on a software device as its equal; both are Mesa's llvmpipe and give the same pixels. Windows lie on a fixed grid
 from the upper left corner: OpenGL rounds where it clips triangles, so only then is a picture written row by row bitwise
 that drawn at once. All triangles of a window are one mesh in painter's order with one depth per item: transparent items
@@ -17,6 +17,7 @@ import types
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field, replace
+from functools import cache
 from itertools import pairwise
 from typing import Any, Final
 
@@ -159,8 +160,8 @@ def bands(
     background: its opacity is ignored.
     finish: function of the pixels of a window that returns those to yield.
     """
-    context = DOOR.context()
-    return _bands(lambda window: finish(context.draw(part(window), window, background)), width, height)
+    opengl = context()
+    return _bands(lambda window: finish(opengl.draw(part(window), window, background)), width, height)
 
 
 def space_bands(
@@ -177,12 +178,12 @@ def space_bands(
         their nodes' names, see `node_name`, which matters for transparent ones.
     box: left and right, bottom and top, smallest and largest z of the scene, viewed along −z from far away.
     """
-    context = DOOR.context()
-    scene = make(context.pyrender)
+    opengl = context()
+    scene = make(opengl.pyrender)
 
     def drawn(window: Window) -> Pixels:
-        camera = aim(context.pyrender, scene, box, width, height, window)
-        pixels = context.draw_scene(scene, window, context.pyrender.RenderFlags.NONE)
+        camera = aim(opengl.pyrender, scene, box, width, height, window)
+        pixels = opengl.draw_scene(scene, window, opengl.pyrender.RenderFlags.NONE)
         scene.remove_node(camera)
         return finish(pixels)
 
@@ -224,89 +225,48 @@ def describe() -> Description:
     """
     found = Description("", "")
     try:
-        found = Description(*DOOR.choice())
-        context = DOOR.context()
-        version, renderer = context.strings()
-        found = replace(found, version=version, renderer=renderer)
-        problem = trial_problem(context.draw(trial_triangles(), Window(0, 0, TRIAL, TRIAL), (1.0, 1.0, 1.0, 1.0)))
-        return replace(found, problem=problem and f"{context.platform} draws wrongly: {problem}")
+        found = Description(*choose())
+        opengl = context()
+        found = Description(opengl.platform, opengl.chosen_by, *opengl.strings())
+        shapes, expected = trial()
+        picture = opengl.draw(shapes, Window(0, 0, TRIAL, TRIAL), (1.0, 1.0, 1.0, 1.0))
+        # Blending is rounded once, and the average of the samples once.
+        wrong = (np.abs(expected.astype(np.int16) - picture) > 2).any(axis=-1)
+        said = f"{opengl.platform} draws wrongly: {np.count_nonzero(wrong)} of {wrong.size} pixels of a trial picture"
+        return replace(found, problem=said if wrong.any() else "")
     except (OpenGLError, MissingExtraError, ValueError) as error:
         return replace(found, problem=str(error))
 
 
-def trial_triangles() -> Triangles:
-    """A texture of distinct colours behind a translucent rectangle of two triangles.
+def trial() -> tuple[Triangles, Pixels]:
+    """A texture of distinct colours behind a translucent rectangle of two triangles, and the pixels of that.
 
     So a misplaced texel, a missing triangle, an edge without four samples and a seam along the diagonal are detected.
     """
     corners = np.array([(0, 0), (8, 0), (8, 8), (0, 8), (1.25, 2), (6.5, 2), (6.5, 7), (1.25, 7)], dtype=float)
     colors = np.repeat([[1.0, 1.0, 1.0, 1.0], [0.0, 0.0, 0.0, 0.5]], 4, axis=0)
     faces = np.array([[0, 1, 2], [0, 2, 3], [4, 5, 6], [4, 6, 7]], dtype=np.int32)
-    texels = np.dstack([_texels(), np.full((TRIAL, TRIAL), 255, dtype=np.uint8)])
-    return Triangles(corners, colors, np.repeat(np.arange(2, dtype=np.int32), 4), faces, {0: texels})
-
-
-def trial_problem(picture: Pixels) -> str:
-    """Errors in the picture of `trial_triangles`, more than two levels of 255; empty if there are none.
-
-    Blending is rounded once, and the average of the samples once.
-    """
+    row, column = np.indices((TRIAL, TRIAL))
+    texels = np.stack([32 * column, 32 * row, 0 * row + 90, 0 * row + 255], axis=-1).astype(np.uint8)
     share = np.zeros((TRIAL, TRIAL, 1))
     share[1:6, :, 0] = [0.0, 0.75, 1.0, 1.0, 1.0, 1.0, 0.5, 0.0]  # of the samples of each column, in the veil's rows
-    expected = np.rint(_texels() * (1 - share / 2)).astype(np.uint8)
-    wrong = (np.abs(expected.astype(np.int16) - picture) > 2).any(axis=-1)
-    if not wrong.any():
-        return ""
-    found, wanted = (tuple(pixels[wrong][0].tolist()) for pixels in (picture, expected))
-    count = f"{np.count_nonzero(wrong)} of {wrong.size} pixels of a trial picture are wrong"
-    return f"{count}, the first is {found} in place of {wanted}"
+    expected = np.rint(texels[..., :3] * (1 - share / 2)).astype(np.uint8)
+    return Triangles(corners, colors, np.repeat(np.arange(2, dtype=np.int32), 4), faces, {0: texels}), expected
 
 
-def _texels() -> Pixels:
-    """Red encodes the column, green the row."""
-    row, column = np.indices((TRIAL, TRIAL))
-    return np.stack([32 * column, 32 * row, np.full_like(row, 90)], axis=-1).astype(np.uint8)
-
-
-class Door:
-    """The OpenGL of a process: one platform, chosen once, and a context shared by all pictures.
-
-    The context is created on first use, released at exit, and created again after `close`.
-    """
-
-    def __init__(self) -> None:
-        self._context: _OpenGL | None = None
-        self._chosen: tuple[str, str] | None = None
-
-    def context(self) -> _OpenGL:
-        """The context; OpenGLError if there can be none."""
-        if self._context is None:
-            chosen = self.choice()
-            self._context = _OpenGL(chosen[0])
-            self._chosen = chosen
-            atexit.register(self.close)
-        return self._context
-
-    def choice(self) -> tuple[str, str]:
-        """As `choose`, but the first choice of a process is kept."""
-        return self._chosen or choose()
-
-    def close(self) -> None:
-        """Release the context."""
-        if self._context is not None:
-            self._context.close()
-            self._context = None
-
-
-DOOR: Final = Door()
-"""The instance of this process."""
+@cache
+def context() -> _OpenGL:
+    """The context of this process, created on first use and released at its end; OpenGLError if there can be none."""
+    made = _OpenGL(*choose())
+    atexit.register(made.close)
+    return made
 
 
 class _OpenGL:
     """A pyrender renderer on a platform."""
 
-    def __init__(self, platform: str) -> None:
-        self.platform = platform
+    def __init__(self, platform: str, chosen_by: str) -> None:
+        self.platform, self.chosen_by = platform, chosen_by
         with _environment(PYOPENGL_PLATFORM=platform):
             self.pyrender = _import_pyrender(platform)
             from OpenGL import GL

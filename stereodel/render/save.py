@@ -21,7 +21,6 @@ from stereodel._arrays import Pixels
 from stereodel._tasks.whole_files import replacing, write_whole
 from stereodel.drawing.page import Page
 from stereodel.drawing.page.fonts import missing_characters, warn_of_missing
-from stereodel.drawing.page.page import OUTPUTS
 from stereodel.render.gl import OpenGLError
 from stereodel.render.pixel_rows import PixelDigest, Renderer, bare_rows, labelled, png_chunks
 from stereodel.render.vector.pdf import pdf
@@ -31,9 +30,6 @@ ENDINGS: Final = (".png", ".svg", ".pdf")
 
 BAND: Final = 256
 """Rows in a block of a picture with transparent background."""
-
-FINEST_DPI: Final = 600
-"""Largest resolution of images in vector files in pixels per inch: no press reproduces more."""
 
 
 def draw_page(page: Page, *, size: int | None, text: bool, renderer: Renderer) -> Pixels:
@@ -86,7 +82,7 @@ def save_page(
 
 def region_pictures(page: Page, width: int) -> list[Pixels]:
     """An image of each item with too many colours for a vector file."""
-    size = min(width, page.pixels_in_print(FINEST_DPI))
+    size = min(width, page.pixels_in_print(dpi=600))  # no press reproduces more
     alone = [replace(page, items=(item,)) for item in page.pictured]
     return [draw_page(part, size=size, text=False, renderer="gl") for part in alone]
 
@@ -118,6 +114,3 @@ def save_vector(page: Page, path: str | os.PathLike[str], *, pictures: Sequence[
     target = Path(path)
     write_whole(target, (pdf if target.suffix.lower() == ".pdf" else svg)(page, pictures))
     return target
-
-
-OUTPUTS.update(save_page=save_page, draw_page=draw_page)

@@ -134,9 +134,12 @@ class _PixelMap:
 
     def _stroke(self, stroke: Stroke) -> Corners:
         points = flatten(self._place(stroke.path))
+        if stroke.closed:
+            points = np.concatenate([points, points[:1]])
         dash = stroke.dash and (stroke.dash[0] * self.pixels_per_point, stroke.dash[1] * self.pixels_per_point)
         width = stroke.width * self.pixels_per_point
-        return ribbon(points, width, closed=stroke.closed, round_caps=stroke.cap == "round", dash=dash or None)
+        options = {"closed": stroke.closed, "round_caps": stroke.cap == "round"}
+        return ribbons(points, np.array([0, len(points)]), width, dash=dash or None, **options)
 
     def _polygons(self, polygons: Polygons) -> Batch:
         loops = Ragged(self._place(polygons.points), polygons.offsets)
@@ -184,50 +187,37 @@ def flatten(path: Beziers, tolerance: float = FLATNESS) -> FloatArray:
     return np.concatenate([along(path[piece], s), path[-1:, 3]])
 
 
-def ribbon(
+def ribbons(
     points: FloatArray,
+    offsets: Indices,
     width: float,
     *,
-    closed: bool = False,
+    closed: bool = True,
     round_caps: bool = True,
     dash: tuple[float, float] | None = None,
 ) -> Corners:
-    """A polyline (m, 2) of constant width with round joins, as triangles that overlap.
-
-    closed: whether the end is joined to the start.
-    round_caps: whether ends, also of dashes, are semicircles, and a point is a disc; else they are cut straight.
-    dash: length of dash and gap; the first dash begins at the first point.
-    """
-    if closed:
-        points = np.concatenate([points, points[:1]])
-    points = points[_moves(points)]
-    if len(points) < 2:
-        return discs(points, width / 2) if round_caps else np.zeros((0, 3, 2))
-    drawn = np.ones(len(points) - 1, dtype=bool)
-    if dash is not None:
-        points, drawn = _dashed(points, *dash)
-    rings = np.array([[0, len(points) - 1]] if closed else np.zeros((0, 2)), dtype=np.intp)
-    return np.concatenate([_rectangles(points, drawn, width / 2), _bends(points, drawn, width / 2, rings, round_caps)])
-
-
-def ribbons(points: FloatArray, offsets: Indices, width: float) -> Corners:
-    """Polylines of one constant width, with round joins and ends, closed where their ends are equal; points are discs.
+    """Polylines of one constant width with round joins, as triangles that overlap.
 
     offsets: (m + 1,), line i is ``points[offsets[i]:offsets[i + 1]]``.
+    closed: whether lines are joined where their ends are equal.
+    round_caps: whether ends, also of dashes, are semicircles, and points are discs; else they are cut straight.
+    dash: length of dash and gap of the only line; the first dash begins at the first point.
     """
     line = np.repeat(np.arange(len(offsets) - 1), np.diff(offsets))
     kept = _moves(points) | (np.diff(line, prepend=-1) > 0)
     points, line = points[kept], line[kept]
     drawn = line[1:] == line[:-1]
-    first = np.flatnonzero(np.concatenate([[True], ~drawn])[: len(points)])
-    last = np.append(first[1:], len(points)) - 1 if len(points) else first
-    alone = first == last
-    ring = np.all(points[first] == points[last], axis=1) & ~alone
-    rings = np.stack([first[ring], last[ring]], axis=1)
     if not drawn.any():
-        return discs(points, width / 2)
-    bends = _bends(points, drawn, width / 2, rings, round_caps=True)
-    return np.concatenate([_rectangles(points, drawn, width / 2), bends, discs(points[first[alone]], width / 2)])
+        return discs(points[: len(points) * round_caps], width / 2)
+    first = np.flatnonzero(np.concatenate([[True], ~drawn]))
+    last = np.append(first[1:], len(points)) - 1
+    alone = points[first[(first == last) & round_caps]]
+    if dash is not None:
+        points, drawn = _dashed(points, *dash)
+        last = np.array([len(points) - 1])
+    ring = np.all(points[first] == points[last], axis=1) & (first < last) & closed
+    bends = _bends(points, drawn, width / 2, np.stack([first[ring], last[ring]], axis=1), round_caps)
+    return np.concatenate([_rectangles(points, drawn, width / 2), bends, discs(alone, width / 2)])
 
 
 def discs(centers: FloatArray, radius: float) -> Corners:

@@ -71,7 +71,8 @@ def test_the_first_matter_most(seed, leader):
         some = put(labels[:count], leader=leader)
         for one, other in zip(some, all_of_them, strict=False):
             assert type(one) is type(other)
-            assert_allclose(*(each.arrays()["path" if isinstance(each, Stroke) else "place"] for each in (one, other)))
+            drawn = (each.path if isinstance(each, Stroke) else (*each.anchor, *each.offset) for each in (one, other))
+            assert_allclose(*drawn)
 
 
 @pytest.mark.parametrize("seed", by_day(range(3), 1))

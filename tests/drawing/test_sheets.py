@@ -15,6 +15,7 @@ from stereodel.drawing.page import Ball, Dots, Fill, Label, Page, Picture, Polyg
 from stereodel.drawing.page.colors import contrast, luminance, to_oklab, with_luminance
 from stereodel.drawing.page.sheets import GROUND, StyledDraw, StyleSheet, dark_color, dark_page
 from stereodel.drawing.page.style import as_length
+from tools.baselines import page_arrays
 
 RED, BALL = (1.0, 0.0, 0.0, 1.0), Ball((0.0, 0.0), 1.0)
 LOOP = np.array([[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 0.0]]])
@@ -173,7 +174,7 @@ def test_a_file_changes_what_it_names(tmp_path):
 
 
 def test_an_empty_file_changes_nothing_and_dark_comes_first(tmp_path):
-    assert StyleSheet.of_file(write(tmp_path, ""))(page()).arrays().keys() == page().arrays().keys()
+    assert page_arrays(StyleSheet.of_file(write(tmp_path, ""))(page())).keys() == page_arrays(page()).keys()
     dark = styled(page(), write(tmp_path, '[fills]\nball = "lime"'), "dark")
     assert dark.background == styled(page(), "dark").background
     assert dark.items[0].color == (0.0, 1.0, 0.0, 1.0)
@@ -223,7 +224,7 @@ def test_the_file_of_the_page_on_drawing(tmp_path):
 
 def test_the_order_of_names_and_files_does_not_matter(tmp_path):
     file = write(tmp_path, '[fills]\nball = "lime"')
-    one, other = styled(page(), "dark", file).arrays(), styled(page(), file, "dark").arrays()
+    one, other = page_arrays(styled(page(), "dark", file)), page_arrays(styled(page(), file, "dark"))
     assert one.keys() == other.keys()
     for key, value in one.items():
         np.testing.assert_array_equal(value, other[key])

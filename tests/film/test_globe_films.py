@@ -174,7 +174,7 @@ def test_frames_show_names_where_they_were_placed_for_the_film(journey):
     boxes = np.array([label_box(label, unit) for label in page.labels])
     assert not any(meets(box, np.delete(boxes, k, axis=0)) for k, box in enumerate(boxes))
     other = pickle.loads(pickle.dumps(journey))
-    assert other.page(40).arrays().keys() == page.arrays().keys()
+    assert [item.name for item in other.page(40).items] == [item.name for item in page.items]
     # The first have priority: what comes later changes nothing of where they stand.
     fewer = Globe()
     fewer.layers = [*journey.draw.globe.layers[:-1], Names(*first_names(journey.draw.globe.layers[-1], 20))]

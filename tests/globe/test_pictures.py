@@ -139,5 +139,5 @@ def test_files_have_the_latitude_of_the_globe(tmp_path):
         globe.add_raster(tmp_path / "map.png")
         globe.add_raster(COLOURED.pixels)
         globe.add_raster(COLOURED)
-        kinds = [str(array) for name, array in globe.page(LENS).arrays().items() if name.endswith("_latitude")]
+        kinds = [item.painter.raster.latitude for item in globe.page(LENS).items if isinstance(item, Picture)]
         assert kinds == [latitude, latitude, "spherical"]

@@ -47,9 +47,6 @@ class Checks:
         odd = (np.floor(2 * x) + np.floor(2 * y)) % 2 == 1
         return np.stack([200 * odd, 20 * x * odd, 20 * y * odd, 255 * odd], axis=-1).astype(np.uint8)
 
-    def arrays(self):
-        return {}
-
 
 def fan(middle, turn, radius, **more):
     """A ring, or a part of one, of many points."""

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from stereodel.render import gl
-from stereodel.render.gl import Door, OpenGLError, Triangles, choose, describe, trial_triangles
+from stereodel.render.gl import OpenGLError, Triangles, choose, describe, trial
 
 VARIABLES = ("STEREODEL_GL", "PYOPENGL_PLATFORM")
 SQUARE = [[-9, -9], [30, -9], [-9, 30]]
@@ -48,7 +48,7 @@ def test_without_any_library_the_message_names_the_packages(bare_environment):
     bare_environment.setattr(gl, "LIBRARIES", {"osmesa": ("libNothing.so",), "egl": ("libNothing.so",)})
     with pytest.raises(OpenGLError, match=r"libosmesa6 or apt-get install libegl1 libgl1-mesa-dri"):
         choose()
-    bare_environment.setattr(gl, "DOOR", Door())
+    bare_environment.setattr(gl, "context", gl.context.__wrapped__)
     assert "libosmesa6" in describe().problem
 
 
@@ -69,13 +69,6 @@ def test_colours_come_out_as_given():
     assert np.array_equal(picture[0, :, 1], np.arange(256)[::-1])
 
 
-def test_the_ground_is_exact_and_rows_come_from_the_top():
-    shape = triangles([[[0, 3], [9, 3], [0, 9]]], [[1, 0, 0, 1]], [0])
-    picture = draw(shape, 4, 4, background=(1.0, 0.2, 0.0, 1.0))
-    assert np.array_equal(picture[0], [[255, 0, 0]] * 4)
-    assert np.array_equal(picture[1:], [[[255, 51, 0]] * 4] * 3)
-
-
 def test_later_items_cover_earlier_ones_and_blend_over_them():
     black, red = [0.0, 0.0, 0.0, 1.0], [1.0, 0.0, 0.0, 1.0]
     half = [1.0, 1.0, 1.0, 0.5]
@@ -93,11 +86,6 @@ def test_the_last_slots_are_told_apart():
     for slot in (0, gl.SLOTS // 2, gl.SLOTS - 2):
         both = triangles([SQUARE, SQUARE], [[0, 0, 0, 1], [1, 1, 1, 1]], [slot, slot + 1])
         assert (draw(both, 2, 2) == 255).all()
-
-
-def test_four_samples_a_pixel():
-    edge = triangles([[[0, 0], [64, 0], [64, 5]]], [[0, 0, 0, 1]], [0])
-    assert np.unique(draw(edge, 64, 8)).tolist() == [0, 64, 128, 191, 255]
 
 
 def test_too_many_items_are_refused():
@@ -122,9 +110,9 @@ def test_describe_tells_of_wrong_pixels(monkeypatch, change):
 
 @pytest.mark.parametrize("missing", range(4))
 def test_describe_tells_of_a_missing_triangle(monkeypatch, missing):
-    shapes = trial_triangles()
+    shapes, expected = trial()
     fewer = replace(shapes, faces=np.delete(shapes.faces, missing, axis=0))
-    monkeypatch.setattr(gl, "trial_triangles", lambda: fewer)
+    monkeypatch.setattr(gl, "trial", lambda: (fewer, expected))
     assert "draws wrongly" in describe().problem
 
 
@@ -132,16 +120,8 @@ def test_describe_tells_of_what_dies_while_it_draws(monkeypatch):
     def dies(*given, **named):
         raise RuntimeError("no\nshader")
 
-    monkeypatch.setattr(gl.DOOR.context()._offscreen, "render", dies)
+    monkeypatch.setattr(gl.context()._offscreen, "render", dies)
     assert describe().problem.endswith("gives an OpenGL context but cannot draw (RuntimeError: no shader)")
-
-
-def test_closing_makes_room_for_a_new_context():
-    shape = triangles([[[0, 0], [3, 0], [0, 3]]], [[0, 0, 1, 1]], [0])
-    before = draw(shape, 4, 4)
-    gl.DOOR.close()
-    gl.DOOR.close()
-    assert np.array_equal(draw(shape, 4, 4), before)
 
 
 def test_shaders_are_compiled_once(monkeypatch):

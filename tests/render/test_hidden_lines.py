@@ -67,7 +67,7 @@ def alone(placed, reach):
 def seen_numbers(page, layout, ball, lines):
     """Number of what is seen at each pixel, rows from the bottom: 0 nothing, 1 the ball, from 2 on the lines."""
     solid = Solid(page, (PlacedScene(layout, (ball, *lines)),))
-    scene, context = to_trimesh(solid), gl.DOOR.context()
+    scene, context = to_trimesh(solid), gl.context()
     nodes, pyrender = scene.graph.nodes_geometry, context.pyrender
     assert len(nodes) == 1 + len(lines)
     made, colors = pyrender.Scene(), {}

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from stereodel import render as rendering
-from stereodel.drawing.page import Ball, Dots, Fill, Label, Page, Polylines, Stroke
+from stereodel.drawing.page import Ball, Dots, Fill, Page, Polylines, Stroke
 from stereodel.render.vector import paper
 
 render, rasterize = Page.pixels, partial(Page.pixels, renderer="agg")
@@ -48,27 +48,6 @@ def circle(center, radius):
 
 def box(left, right, bottom, top):
     return lines((left, bottom), (right, bottom), (right, top), (left, top), (left, bottom))
-
-
-def test_many_lines_in_one_item_are_drawn_as_strokes_and_dots():
-    corners = np.array([(0.2, 0.2), (1.8, 0.3), (0.3, 0.5), (2.5, 0.5), (3.8, 0.5), (3.1, 1.8), (2.5, 0.5), (1.0, 1.5)])
-    ink = (0.0, 0.0, 0.0, 0.5)
-    together = Polylines(corners, np.array([0, 3, 7, 8], dtype=np.int32), ink, 8.0)
-    strokes = Stroke(lines(*corners[:3]), ink, 8.0), Stroke(lines(*corners[3:7]), ink, 8.0, closed=True)
-    strokes += (Dots(corners[7:], 4.0, ink),)
-    ours, theirs = (render(Page(EXTENT, items), size=200).astype(int) for items in ((together,), strokes))
-    # A dot and a round end are disc and sector of different corners.
-    apart = np.abs(ours - theirs)
-    assert apart[:, 60:].max() == 0
-    assert apart.max() <= 16
-
-
-def test_flat_colours_are_exact():
-    page = Page(EXTENT, (Fill((box(0, 2, 0, 2),), GRAY), Dots(np.array([[3.0, 1.0]]), 30.0, (1.0, 0.2, 0.0, 1.0))))
-    picture = render(page, size=200)
-    assert (picture[10:90, 5:95] == 128).all()
-    assert picture[50, 150].tolist() == [255, 51, 0]
-    assert picture[2, 198].tolist() == [255, 255, 255]
 
 
 def test_an_empty_page_is_its_ground_laid_over_white():
@@ -113,14 +92,6 @@ def test_dashes_are_in_points_whatever_the_width(draw, width):
     assert np.array_equal(inked, np.arange(500) % 100 < 60)
 
 
-def test_labels_come_last_and_can_be_left_out():
-    covered = Page(EXTENT, (Label("text", (2.0, 1.0), size=40.0), Fill((box(0, 4, 0, 2),), GRAY)))
-    bare = render(covered, size=300, text=False)
-    assert (bare == 128).all()
-    assert (render(covered, size=300)[60:90, 130:170] < 5).any()
-    assert np.array_equal(bare, render(covered.without_labels(), size=300))
-
-
 def test_rim_and_disc_part_a_dot_between_them():
     dot = Dots(np.array([[2.0, 1.0]]), 20.0, (1.0, 0.0, 0.0, 0.5), rim=BLACK, rim_width=5.0)
     picture = render(Page(EXTENT, (dot,), width=200.0), size=200)
@@ -152,14 +123,6 @@ def test_the_light_of_a_ball_is_that_of_its_normals(shape):
     apart = (picture - exact)[inside]
     assert np.abs(apart).max() < 1
     assert np.abs(apart.mean(axis=0)).max() < 0.2
-
-
-def test_a_ball_is_painted_in_its_turn():
-    ball = Fill((circle((2.0, 1.0), 0.9),), GRAY, ball=Ball((2.0, 1.0), 0.9))
-    line = Stroke(lines((1.0, 1.0), (3.0, 1.0)), BLACK, 12.0)
-    over, under = (render(Page(EXTENT, items), size=200) for items in ((ball, line), (line, ball)))
-    assert over[50, 100].tolist() == [0, 0, 0]
-    assert (under[50, 60:140] > 90).all()
 
 
 @pytest.mark.parametrize("radius", [0.05, 0.5, 1.0, 3.0])

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from stereodel.render.tessellation import FLATNESS, discs, flatten, region, ribbon, ribbons
+from stereodel.render.tessellation import FLATNESS, discs, flatten, region, ribbons
 from tests.globe.sights import distance, winding
 
 POINTS = arrays(np.float64, st.tuples(st.integers(3, 12), st.just(2)), elements=st.floats(0, 100, width=32))
@@ -25,6 +25,11 @@ def cross(u, v):
 
 def areas(triangles):
     return np.abs(cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])) / 2
+
+
+def ribbon(line, width, closed=False, **options):
+    line = np.concatenate([line, line[:closed]])
+    return ribbons(line, np.array([0, len(line)]), width, closed=closed, **options)
 
 
 def quarter_circle(radius):

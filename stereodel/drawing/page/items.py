@@ -13,12 +13,12 @@ from functools import cached_property
 from typing import Any, ClassVar, Final, Literal, Protocol, Self
 
 import numpy as np
-import numpy.typing as npt
 
 from stereodel._arrays import BoolArray, FloatArray, Indices, Pixels
 from stereodel._notebook import Displayed
 from stereodel.constants import GROUND_PIXEL
 from stereodel.curves.ragged import Ragged, spans
+from stereodel.curves.trace import sides_of
 from stereodel.drawing.page.colors import Color, as_color
 from stereodel.drawing.page.style import BLACK, WHITE, DotStyle, LineStyle
 
@@ -30,7 +30,6 @@ LEGEND: Final = "legend-"
 
 FEW_COLORS: Final = 64
 """Largest number of colours of `Polygons` written as paths in vector files; with more, they become an image."""
-
 
 INK_STEP, DOT_PLACES = 1.0, 19
 """Of the ink that names avoid: largest length of a piece of a line, in points, and number of places in a dot."""
@@ -44,8 +43,6 @@ NO_NAME: Final = re.compile(f"[^-.0-9\xb7\u0300-\u036f\u203f\u2040{_LETTERS}]+")
 """Characters that no name in XML has, of which a colon would be a prefix's (XML 1.0, fifth edition, productions 4)."""
 
 BEZIER_STEPS: Final = np.linspace(0.0, 1.0, 8, endpoint=False)
-
-Arrays = dict[str, npt.NDArray[np.generic]]
 
 Recolour = Callable[[FloatArray], FloatArray]
 """New colours (n, 4) of colours (n, 4)."""
@@ -106,10 +103,6 @@ class Mark(Displayed):
     _inks: ClassVar[tuple[str, ...]] = ("color",)
     """Its fields that are colours."""
 
-    def arrays(self) -> Arrays:
-        """Everything that is drawn, for the regression tests."""
-        raise NotImplementedError
-
     def recoloured(self, change: Recolour) -> Self:
         """The same in other colours."""
         if not self._inks:
@@ -163,12 +156,6 @@ class Stroke(Mark):
 
     _kind = "lines"
 
-    def arrays(self) -> Arrays:
-        """Path and style, for the regression tests."""
-        dash = self.dash or (0.0, 0.0)
-        style = np.array([*self.color, self.width, *dash, self.cap == "round", self.closed])
-        return {"path": self.path, "style": style}
-
     def ink_at(self, points_per_unit: float) -> FloatArray:
         """Short pieces of the line."""
         corners = np.concatenate([corners_along(self.path), self.path[-1:, 3]])
@@ -209,11 +196,6 @@ class Fill(Mark):
 
     _kind = "fills"
 
-    def arrays(self) -> Arrays:
-        """Paths, colour and ball, for the regression tests."""
-        sizes, style = np.array([len(path) for path in self.paths]), np.array(self.color)
-        return {"path": np.concatenate(self.paths), "sizes": sizes, "style": style, **_light(self.ball)}
-
     def colors_at(self, places: FloatArray) -> FloatArray:
         """Its colour inside, by the even-odd rule."""
         return np.where((winding(self.paths, places) % 2 != 0)[:, None], self.color, 0.0)
@@ -238,10 +220,6 @@ class Dots(Mark):
 
     _kind = "dots"
     _inks = ("color", "rim")
-
-    def arrays(self) -> Arrays:
-        """Centres and style, for the regression tests."""
-        return {"centers": self.centers, "style": np.array([self.radius, *self.color, *self.rim, self.rim_width])}
 
     def some(self, rows: BoolArray) -> Self:
         """The same of some dots."""
@@ -271,9 +249,6 @@ class Painter(Protocol):
         and rows. Pixels more than one pixel outside the outline are arbitrary.
         """
 
-    def arrays(self) -> Arrays:
-        """The arrays that define it, for the regression tests."""
-
 
 @dataclass(frozen=True, eq=False)
 class Ramp:
@@ -289,10 +264,6 @@ class Ramp:
         along = (place[0] + place[2] * (np.arange(pixels[0]) + 0.5) - self.ends[0]) / (self.ends[1] - self.ends[0])
         step = np.clip(along * len(self.colors), 0, len(self.colors) - 1).astype(np.intp)
         return np.tile(np.floor(255 * self.colors[step] + 0.5).astype(np.uint8), (pixels[1], 1, 1))
-
-    def arrays(self) -> Arrays:
-        """Ends and colours, for the regression tests."""
-        return {"ends": np.array(self.ends), "colors": self.colors}
 
     @property
     def stops(self) -> tuple[tuple[float, Color], ...]:
@@ -322,10 +293,6 @@ class Picture(Mark):
 
     _kind = ""
     _inks = ()
-
-    def arrays(self) -> Arrays:
-        """Outline, and what defines the painter, for the regression tests."""
-        return {"outline": np.concatenate(self.outline), **self.painter.arrays()}
 
     def recoloured(self, change: Recolour) -> Self:
         """With other colours of a ramp; rasters keep theirs."""
@@ -359,10 +326,6 @@ class Polylines(Mark):
 
     _kind = "lines"
 
-    def arrays(self) -> Arrays:
-        """Points and style, for the regression tests."""
-        return {"points": self.points, "offsets": self.offsets, "style": np.array([*self.color, self.width])}
-
     def some(self, rows: BoolArray) -> Self:
         """The same of some lines."""
         lines = Ragged(self.points, self.offsets).take(rows)
@@ -370,9 +333,7 @@ class Polylines(Mark):
 
     def ink_at(self, points_per_unit: float) -> FloatArray:
         """Pieces of the lines, at most `INK_STEP` long."""
-        joined = np.ones(len(self.points), dtype=bool)
-        joined[self.offsets[1:] - 1] = False
-        first = np.flatnonzero(joined)
+        first, _ = sides_of(Ragged(self.points, self.offsets))
         start, way = points_per_unit * self.points[first], points_per_unit * np.diff(self.points, axis=0)[first]
         length = np.hypot(*way.T)
         count = np.maximum(np.ceil(length / INK_STEP), 1).astype(np.intp)
@@ -430,11 +391,6 @@ class Polygons(Mark):
 
     _kind = "fills"
 
-    def arrays(self) -> Arrays:
-        """Loops, colours and ball, for the regression tests."""
-        loops = {"points": self.points, "offsets": self.offsets, "owner": self.owner}
-        return {**loops, "colors": self.colors, **_light(self.ball)}
-
     def recoloured(self, change: Recolour) -> Self:
         """With other colours of all regions."""
         return replace(self, colors=change(self.colors))
@@ -487,15 +443,6 @@ class Label(Mark):
     _kind = "labels"
     _inks = ("color", "halo_color")
 
-    def arrays(self) -> Arrays:
-        """Place, text and style, for the regression tests."""
-        halo = [self.halo] if self.halo else []
-        if self.halo and self.halo_color != Label.halo_color:
-            halo += self.halo_color
-        numbers = [*self.anchor, *self.offset, self.size, *self.color, self.rotation, *halo]
-        told = [self.text, self.align, self.valign, *self.font, *([] if self.formulas else ["plain"])]
-        return {"place": np.array(numbers), "text": np.array(told)}
-
     def restyled(self, looks: Mapping[str, Any]) -> Self:
         """With other values; the ground no longer decides a colour that they name."""
         inks = () if "color" in looks else self.inks
@@ -517,10 +464,6 @@ def straight(corners: FloatArray) -> Beziers:
 Item = Stroke | Polylines | Polygons | Fill | Dots | Picture | Label
 
 
-def _light(ball: Ball | None) -> Arrays:
-    return {} if ball is None else {"ball": np.array([*ball.center, ball.radius])}
-
-
 def alike(item: Item) -> Hashable:
     """Key of adjacent items that can be drawn as one path: opaque strokes of one style; other overlaps are darker."""
     if isinstance(item, Stroke) and item.color[3] == 1:
@@ -540,10 +483,8 @@ def painted(items: Iterable[Item], places: FloatArray, background: Color = WHITE
 
 def colors_within(loops: Ragged, owner: Indices, colors: FloatArray, places: FloatArray) -> FloatArray:
     """The colour of the region that contains each place, (n, 4); opacity 0 if none does."""
-    last = np.zeros(len(loops.values), dtype=bool)
-    last[loops.offsets[1:] - 1] = True
-    start, end = loops.values[~last], np.roll(loops.values, -1, axis=0)[~last]
-    owner = owner[loops.row[~last]]
+    first, sides = sides_of(loops)
+    start, end, owner = loops.values[first], loops.values[first + 1], owner[sides.row]
     low, high = np.minimum(start[:, 1], end[:, 1]), np.maximum(start[:, 1], end[:, 1])
     found = np.zeros((len(places), 4))
     for height in np.unique(places[:, 1]):  # only edges that cross it can wind around a place there

@@ -12,36 +12,26 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any, Final, Literal
 
-import numpy as np
-
 from stereodel._arrays import FloatArray, Pixels, as_count, as_scalar
 from stereodel._extras import of_extra
 from stereodel._notebook import Displayed, drawn
 from stereodel.drawing.page.colors import Color
-from stereodel.drawing.page.items import Arrays, Item, Label, Polygons
+from stereodel.drawing.page.items import Item, Label, Polygons
 from stereodel.drawing.page.style import PRINT_DPI
 
 LARGEST_SIZE: Final = 2**16 - 1
 """Largest width in pixels, which is that of a canvas of Agg, which draws the labels."""
 
-OUTPUTS: Final[dict[str, str | Callable[..., Any]]] = {
+OUTPUTS: Final = {
     **dict.fromkeys(("save_page", "draw_page"), "stereodel.render.save"),
     **dict.fromkeys(("save_solid", "draw_solid", "to_trimesh"), "stereodel.render.space.save_solid"),
 }
-"""What draws and writes pages and scenes in space: a function, or the module that enters it here when it is loaded.
-
-So nothing below rendering imports it, and it is loaded on use, as matplotlib does with its backends.
-"""
+"""The module of each function that draws or writes pages and scenes, loaded on use: nothing below imports it."""
 
 
 def output(work: str) -> Callable[..., Any]:
     """A function of the table `OUTPUTS`."""
-    found = OUTPUTS[work]
-    if isinstance(found, str):
-        import_module(found)
-        found = OUTPUTS[work]
-    assert not isinstance(found, str), f"{found} does not enter {work}"
-    return found
+    return getattr(import_module(OUTPUTS[work]), work)
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,7 +48,7 @@ class Page(Displayed):
         Width of the extent in points (1/72 inch); the height follows, page units being square. 17 cm are 481.89 points.
     background : Color
     views : tuple of (3, 3) arrays
-        View matrices from which the page was made (rows right, up, toward), kept for the regression tests.
+        View matrices from which the page was made (rows right, up, toward), kept for tests.
     title, description : str
         Title in one line, and description in plain paragraphs. They are not drawn: files contain them for search and
         for readers who cannot see the picture.
@@ -195,17 +185,6 @@ class Page(Displayed):
         """
         with of_extra(picture_extra(".png", renderer)):
             return output("draw_page")(self, size=size, text=text, renderer=renderer)
-
-    def arrays(self) -> Arrays:
-        """Everything drawn as named arrays, for the regression tests: every visible change alters a number."""
-        named: Arrays = {
-            "page": np.array([*self.extent, self.width, *self.background]),
-            "views": np.array(self.views).reshape(-1, 3, 3),
-        }
-        for number, item in enumerate(self.items):
-            prefix = f"{number:04d}_{type(item).__name__.lower()}_{item.name}"
-            named.update({f"{prefix}_{key}": value for key, value in item.arrays().items()})
-        return named
 
 
 def picture_extra(kind: str, renderer: str = "gl") -> str:

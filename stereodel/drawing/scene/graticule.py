@@ -8,7 +8,7 @@ every sixth and so on, with strides that divide the grid, so that the remaining 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import cached_property
+from math import isqrt
 from typing import Final
 
 import numpy as np
@@ -38,15 +38,6 @@ LINES_ACROSS: Final = 12
 
 SPACINGS: Final = (15.0, 10.0, 5.0, *(float(f"{digit}e-{power}") for power in range(12) for digit in (2, 1, 0.5)))
 """Suitable spacings in degrees, down to 1e-13 degrees, where double precision ends."""
-
-NARROWINGS: Final = 8
-"""Number of reductions of the part of the sphere in which lines have room, where meridians meet."""
-
-HALVINGS: Final = 40
-"""Number of halvings of the interval in which a line ends, down to a millionth of a millionth of it."""
-
-LINES_AT_ONCE: Final = 512
-"""Lines along which the spacing is computed at once, at two hundred places in three coordinates: arrays of 2.4 MB."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -172,7 +163,8 @@ class Graticule:
         row = np.broadcast_to(np.arange(len(t))[:, None], t.shape)
         # Lines that always remain are drawn regardless of their neighbours.
         wanted = np.where(self.strides == 0, 0.0, need / np.maximum(self.strides, 1))
-        some = np.array_split(np.arange(len(t)), len(t) // LINES_AT_ONCE + 1)
+        # 512 lines at once, at two hundred places in three coordinates: arrays of 2.4 MB.
+        some = np.array_split(np.arange(len(t)), len(t) // 512 + 1)
         enough = np.concatenate([lines.spacing(row[rows], t[rows]) for rows in some]) >= wanted[:, None]
         line, cut, begins = lines.ends(t, enough, wanted)
         starts, stops = enough[:, 0], enough[:, -1]
@@ -255,7 +247,7 @@ class _GridLines:
         shown, hidden = t[line, at], t[line, at + 1]
         begins = enough[line, at + 1]
         shown[begins], hidden[begins] = hidden[begins], shown[begins]
-        for _ in range(HALVINGS):
+        for _ in range(40):  # down to a millionth of a millionth of the interval
             middle = (shown + hidden) / 2
             enough_there = self.spacing(line, middle) >= wanted[line]
             shown, hidden = np.where(enough_there, middle, shown), np.where(enough_there, hidden, middle)
@@ -308,14 +300,21 @@ class _Window:
 
     def _room(self, apart: float, *, meeting: bool) -> _Box | None:
         """South, north, west, east of the part visible at this scale or a larger one; `meeting` is for meridians."""
-        box = self._seen
-        for _ in range(NARROWINGS if meeting else 1):
+        cap, view, focus = self.chart.source, self.chart.view, self.chart.turns[0][2]
+        peak = focus if self.chart.lens.magnification >= 1 else -focus  # where the scale of the lens is largest
+        edge = np.radians(view.angular_radius)  # where that of the view is
+        widest = float(view.breadth(np.array([np.sin(edge), 0.0, np.cos(edge)]), np.array([0.0, 1.0, 0.0])))
+        # The distance of the visible part from the peak, near which a box would reach round the sphere.
+        apart_rad = 2 * np.arcsin(min(1.0, float(np.sqrt(np.sum((cap.normal - peak) ** 2))) / 2)) - cap.radius
+        away = float(apart_rad) * (1 - REACH_MARGIN) - 8 * UNIT_ROUNDOFF
+        box = _box_around(xyz_to_lonlat(cap.normal), cap.radius)
+        for _ in range(8 if meeting else 1):  # where meridians meet, they have room in less and less of it
             nearest = 0.0 if box[0] <= 0 <= box[1] else min(abs(box[0]), abs(box[1]))
             breadth = float(np.cos(np.radians(nearest))) if meeting else 1.0
-            radius = self._reach(apart / max(breadth, UNIT_ROUNDOFF) / self._widest)
-            if radius is None or radius < self._away:
+            radius = self._reach(apart / max(breadth, UNIT_ROUNDOFF) / widest)
+            if radius is None or radius < away:
                 return None
-            around = _box_around(self._at_peak, radius)
+            around = _box_around(xyz_to_lonlat(peak), radius)
             south, north = max(box[0], around[0]), min(box[1], around[1])
             if south > north:
                 return None
@@ -332,36 +331,6 @@ class _Window:
         if larger == 1 or scale == 0:
             return float(np.pi)
         return float(2 * np.arcsin(np.sqrt(np.clip((larger / scale - 1) / (larger**2 - 1), 0.0, 1.0))))
-
-    @cached_property
-    def _seen(self) -> _Box:
-        cap = self.chart.source
-        return _box_around(xyz_to_lonlat(cap.normal), cap.radius)
-
-    @cached_property
-    def _away(self) -> float:
-        """Distance in radians of the visible part from the peak, near which a box would reach round the sphere."""
-        cap = self.chart.source
-        chord = float(np.sqrt(np.sum((cap.normal - self._peak) ** 2)))
-        apart = 2 * np.arcsin(min(1.0, chord / 2)) - cap.radius
-        return float(apart) * (1 - REACH_MARGIN) - 8 * UNIT_ROUNDOFF
-
-    @cached_property
-    def _widest(self) -> float:
-        """The largest scale of the view, reached at its edge."""
-        view, radius = self.chart.view, np.radians(self.chart.view.angular_radius)
-        edge = np.array([np.sin(radius), 0.0, np.cos(radius)])
-        return float(view.breadth(edge, np.array([0.0, 1.0, 0.0])))
-
-    @property
-    def _peak(self) -> FloatArray:
-        """The place where the scale is largest."""
-        focus = self.chart.turns[0][2]
-        return focus if self.chart.lens.magnification >= 1 else -focus
-
-    @cached_property
-    def _at_peak(self) -> FloatArray:
-        return xyz_to_lonlat(self._peak)
 
 
 def _meridians(lons: FloatArray) -> Arcs:
@@ -413,13 +382,9 @@ def _quarter(steps: int) -> int:
 
 def _chain(whole: int) -> list[int]:
     """Strides 1, p, p·q … `whole`, by prime factors from the smallest on."""
-    chain, rest, factor = [1], whole, 2
-    while rest > 1:
-        while factor * factor <= rest and rest % factor:
-            factor += 1
-        prime = factor if rest % factor == 0 else rest
-        chain.append(chain[-1] * prime)
-        rest //= prime
+    chain = [1]
+    while (rest := whole // chain[-1]) > 1:
+        chain.append(chain[-1] * next((k for k in range(2, isqrt(rest) + 1) if rest % k == 0), rest))
     return chain
 
 

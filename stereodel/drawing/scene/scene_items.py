@@ -34,12 +34,9 @@ BallStyle = Literal["solid", "glass", "none"]
 class Layer(IntEnum):
     """Painter's order: later layers cover earlier ones; within a layer, items keep the order of their addition."""
 
-    UNDER = 0
-    """Lines seen through a sheet that lies below the ball."""
-    GROUND = 1
-    """Sheets that the ball covers."""
-    BESIDE = 2
-    """Lines outside the ball's disc."""
+    UNDER = 0  # lines seen through a sheet that lies below the ball
+    GROUND = 1  # sheets that the ball covers
+    BESIDE = 2  # lines outside the ball's disc
     FAR_TINT = 3
     FAR_LINE = 4
     FAR_DOT = 5
@@ -47,18 +44,13 @@ class Layer(IntEnum):
     INSIDE_LINE = 7
     INSIDE_DOT = 8
     BALL = 9
-    TINT = 10
-    """Regions on the near side."""
-    LINE = 11
-    """Lines on the near side."""
+    TINT = 10  # regions on the near side
+    LINE = 11  # lines on the near side
     LIMB = 12
-    FREE = 13
-    """Lines in front of the ball."""
+    FREE = 13  # lines in front of the ball
     DOT = 14
-    SHEET = 15
-    """Sheets that cover the ball."""
-    OVER = 16
-    """Lines on or above such a sheet."""
+    SHEET = 15  # sheets that cover the ball
+    OVER = 16  # lines on or above such a sheet
     OVER_DOT = 17
     LABEL = 18
 
@@ -147,24 +139,14 @@ class SceneLines:
                     yield from self._piece(piece, place, layout, on_ball=on_ball)
 
     def _piece(self, piece: Curve, place: Place, layout: Layout, *, on_ball: bool) -> Iterator[Laid]:
-        style = self.style.hidden if place is Place.BEHIND else self.style
-        for part, beyond in self._by_sheets(piece, layout):
-            layer = _line_layer(place, on_ball) if beyond is None else beyond
-            layer = layer if self.layer is None or place is Place.BEHIND else self.layer
-            yield layer, _stroke(layout.path([part]), style, self.name, closed=part.closed)
-
-    def _by_sheets(self, curve: Curve, layout: Layout) -> list[tuple[Curve, Layer | None]]:
-        if not layout.sheets:
-            return [(curve, None)]
+        style, own = (self.style.hidden, None) if place is Place.BEHIND else (self.style, self.layer)
+        usual = {Place.OUTSIDE: Layer.BESIDE, Place.INSIDE: Layer.INSIDE_LINE, Place.BEHIND: Layer.FAR_LINE}
+        usual[Place.FRONT] = Layer.LINE if on_ball else Layer.FREE
         slack = ON_BALL * layout.radius
-        crossings = [curve.level_parameters(normal, level - slack) for normal, level, _ in layout.sheets]
-        return cut(curve, np.unique(np.concatenate(crossings)), layout.beyond_sheets)
-
-
-def _line_layer(place: Place, on_ball: bool) -> Layer:
-    if place is Place.FRONT:
-        return Layer.LINE if on_ball else Layer.FREE
-    return {Place.OUTSIDE: Layer.BESIDE, Place.INSIDE: Layer.INSIDE_LINE, Place.BEHIND: Layer.FAR_LINE}[place]
+        crossings = [piece.level_parameters(normal, level - slack) for normal, level, _ in layout.sheets]
+        for part, beyond in cut(piece, np.unique(np.concatenate([np.zeros(0), *crossings])), layout.beyond_sheets):
+            layer = next(layer for layer in (own, beyond, usual[place]) if layer is not None)
+            yield layer, _stroke(layout.path([part]), style, self.name, closed=part.closed)
 
 
 def _stroke(path: Beziers, style: LineStyle, name: str, *, closed: bool) -> Stroke:

@@ -20,15 +20,7 @@ from stereodel.drawing.scene.scene_items import Layout, SceneItem
 
 @dataclass(frozen=True, eq=False)
 class PlacedScene(Displayed):
-    """A scene at its position on a page.
-
-    Parameters
-    ----------
-    layout : Layout
-        View and position of the scene.
-    items : tuple of SceneItem
-        Items of the scene.
-    """
+    """The items of a scene, and its view and position on a page."""
 
     layout: Layout
     items: tuple[SceneItem, ...]

@@ -137,25 +137,18 @@ def split_by_ball(curves: Sequence[Curve], radius: float) -> list[list[tuple[Cur
 
 
 def _split_in_space(curve: Curve, radius: float) -> list[tuple[Curve, Place]]:
+    """A curve in pieces; those beside the ball are joined to one in front of it: no seam where it crosses the limb."""
     # A place changes where the curve goes through the surface, x² + y² + z² = r², and where it passes through the
     # cylinder of all that the limb covers or is covered by, x² + y² = r². The midpoint of each piece determines its
     # place.
     surface = curve.quadric_parameters(ALL_AXES, radius**2)
     outline = curve.quadric_parameters(PAGE_AXES, radius**2)
-    pieces = cut(curve, np.union1d(surface, outline), lambda point: place_of(point, radius))
-    if any(place is Place.FRONT for _, place in pieces):
-        return _joined_at_limb(pieces)
-    return pieces
-
-
-def _joined_at_limb(pieces: list[tuple[Curve, Place]]) -> list[tuple[Curve, Place]]:
-    """Pieces beside the ball joined to a neighbour in front of it, to avoid a seam where a line crosses the limb."""
     joined: list[tuple[Curve, Place]] = []
-    for curve, place in pieces:
+    for piece, place in cut(curve, np.union1d(surface, outline), lambda point: place_of(point, radius)):
         if joined and {place, joined[-1][1]} == {Place.FRONT, Place.OUTSIDE}:
             before, _ = joined.pop()
-            curve, place = before.part(before.start, curve.stop), Place.FRONT
-        joined.append((curve, place))
+            piece, place = before.part(before.start, piece.stop), Place.FRONT
+        joined.append((piece, place))
     return joined
 
 
@@ -212,19 +205,16 @@ class SphereRegion:
         ring = np.arange(len(self.boundary))
         runs = cut_at_limb(self.boundary, Ragged(ring, np.array([0, len(ring)])), self.radius)
         if runs[0].whole:
-            loops = self._with_limb(runs[0].arcs, seen=runs[0].seen)
+            # A ring on the near side has its region inside if it is counterclockwise on the page; one on the far side
+            # appears mirrored: if counterclockwise, the region contains the whole near side, and so the limb.
+            seen = runs[0].seen
+            around = (page_area(runs[0].arcs) > 0) != seen
+            loops = [runs[0].arcs] * seen + [[limb(self.radius)]] * around
         else:
             loops = _closed_along_limb([run.arcs for run in runs if run.seen], self.radius)
         # A part no wider than rounding errors is dropped: a boundary on the limb with the far side on its left.
         length = sum((arc.stop - arc.start) * np.sqrt(np.sum(arc.u**2)) for loop in loops for arc in loop)
         return loops if sum(map(page_area, loops)) > ON_BALL * self.radius * length else []
-
-    def _with_limb(self, ring: Loop, *, seen: bool) -> list[Loop]:
-        """A ring that does not cross the limb, with the limb itself if the region contains it."""
-        # A ring on the near side has its region inside if it is counterclockwise on the page; one on the far side
-        # appears mirrored: if counterclockwise, the region contains the whole near side.
-        shown = [ring] if seen else []
-        return [*shown, [limb(self.radius)]] if (page_area(ring) > 0) != seen else shown
 
 
 def _closed_along_limb(runs: list[Loop], radius: float) -> list[Loop]:

@@ -28,9 +28,6 @@ from stereodel.render.space import surfaces
 from stereodel.render.space.surfaces import CURVE_ERROR, TriangleMesh
 from stereodel.sphere.vectors import turned
 
-BALL_POINTS: Final = 0.1
-"""Largest distance of a ball from its triangles, in points on the page, so that even thin lines do not sink in."""
-
 ROUGHNESS: Final = 0.65
 """Roughness of all glTF materials, from 0 (mirror) to 1: a soft sheen without reflections of lamps."""
 
@@ -69,7 +66,9 @@ def bodies_of(placed: PlacedScene, points_per_unit: float) -> Iterator[Body]:
     above its predecessors.
     """
     layout, point = placed.layout, 1 / (points_per_unit * placed.layout.scale)
-    level = surfaces.ball_level(BALL_POINTS * point / layout.radius)
+    # Triangles of a ball are within a tenth of a point, so that even thin lines do not sink in.
+    levels, near = surfaces.BALL_LEVELS, 0.1 * point / layout.radius
+    level = next((level for level in levels if surfaces.ball(level).depth <= near), levels[-1])
     names = dict.fromkeys(item.name for item in placed.items if isinstance(item, SceneLines))
     heights = {name: 1 + CURVE_ERROR * number for number, name in enumerate(names)}
     above = 1.0

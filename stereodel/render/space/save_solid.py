@@ -17,7 +17,6 @@ import numpy as np
 from stereodel._arrays import FloatArray, Pixels
 from stereodel._tasks.whole_files import write_whole
 from stereodel.drawing.page.colors import Color
-from stereodel.drawing.page.page import OUTPUTS
 from stereodel.drawing.scene.scene_items import Layer
 from stereodel.drawing.scene.solid import Solid
 from stereodel.render import gl
@@ -50,9 +49,6 @@ LAMPS: Final = (((-0.35, 0.45, 0.82), 0.75), ((0.0, 0.0, 1.0), 0.25), ((-0.2, 0.
 """Directions toward the lamps and their shares of the remaining light: one from the upper left, as on pages; one from
 the viewer, which softens the edge of the first lamp's light; and one from above.
 """
-
-GLASS_RIM: Final = 3.0
-"""Exponent of the cosine by which glass becomes more opaque toward the limb, where the picture has no line."""
 
 
 def save_solid(solid: Solid, path: str | os.PathLike[str], *, size: int | None, text: bool) -> None:
@@ -163,7 +159,7 @@ def _parts(pyrender: Any, scene: Any, name: str, nodes: list[str]) -> Iterator[t
             # Toward the limb the path through glass is longer and more light is reflected.
             normals = mesh.vertex_normals @ pose[:3, :3].T
             facing = np.abs(normals[:, 2]) / np.sqrt(np.sum(normals**2, axis=1))
-            opacity = color[3] + (1 - color[3]) * (1 - facing) ** GLASS_RIM
+            opacity = color[3] + (1 - color[3]) * (1 - facing) ** 3.0
             yield layer, _primitive(pyrender, mesh, color, pose[None], opacity=opacity)
     else:
         if layer == Layer.TINT:
@@ -184,6 +180,3 @@ def _primitive(
     return pyrender.Primitive(
         mesh.vertices, normals=normals, color_0=tints, indices=faces, material=material, poses=poses
     )
-
-
-OUTPUTS.update(save_solid=save_solid, draw_solid=draw_solid, to_trimesh=to_trimesh)

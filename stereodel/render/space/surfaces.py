@@ -28,12 +28,6 @@ BALL_LEVELS: Final = (4, 5, 6)
 DOT_LEVEL: Final = 2
 """Subdivision level for dots, which are small: 320 triangles."""
 
-LEAST_SIDES: Final = 6
-"""Least number of sides of a tube's cross-section."""
-
-BISECTIONS: Final = 24
-"""Rounds of halving sides of a region that are missing in its triangulation, down to 1e-8 radii."""
-
 
 @dataclass(frozen=True, eq=False)
 class TriangleMesh:
@@ -66,11 +60,6 @@ def ball(level: int) -> TriangleMesh:
     return TriangleMesh(points, points, np.array(made.faces, dtype=np.intp))
 
 
-def ball_level(error: float) -> int:
-    """The smallest of `BALL_LEVELS` whose triangles are within `error` radii of the ball, or the last one."""
-    return next((level for level in BALL_LEVELS if ball(level).depth <= error), BALL_LEVELS[-1])
-
-
 # Tubes
 
 
@@ -84,7 +73,7 @@ def tube(curve: Curve, radius: float, error: float) -> TriangleMesh | None:
     if found is None:
         return None
     middle, along, side = found
-    sides = max(LEAST_SIDES, _pieces(2 * np.pi, radius, error))
+    sides = max(6, _pieces(2 * np.pi, radius, error))
     turn = 2 * np.pi * np.arange(sides)[:, None] / sides
     rings = np.cos(turn) * side[:, None] + np.sin(turn) * np.cross(along, side)[:, None]
     if not curve.closed:
@@ -188,7 +177,7 @@ def patch(region: SphereRegion, level: int) -> TriangleMesh:
     """
     arcs = [arc.scaled(1 / region.radius, np.zeros(3)) for arc in region.boundary]
     steps = [np.linspace(a.start, a.stop, _pieces(a.stop - a.start, _speed(a), CURVE_ERROR) + 1) for a in arcs]
-    for _ in range(BISECTIONS):
+    for _ in range(24):  # times sides missing in the triangulation are halved, down to 1e-8 radii
         rim = units(np.concatenate([arc.sample(t[:-1]) for arc, t in zip(arcs, steps, strict=True)]))
         mesh = SphericalDelaunay(np.concatenate([rim, _away_from(rim, ball(level).points)]))
         crossed = ~_has_edges(mesh.simplices, len(rim))

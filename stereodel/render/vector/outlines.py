@@ -21,9 +21,6 @@ from stereodel.drawing.page import Ball, Beziers, Dots, Fill, Label, Page, Pictu
 from stereodel.drawing.page.colors import Color, as_color
 from stereodel.drawing.page.items import Ramp, alike
 
-CIRCLE_KAPPA: Final = 4 / 3 * np.tan(np.pi / 16)
-"""Distance of the control points of a circle drawn as eight cubics, in radii."""
-
 STRAIGHTENED: Final = 4
 """Number of passes that drop every other point of a loop where it lies on the line of its neighbours."""
 
@@ -116,7 +113,10 @@ def shapes(page: Page, dpi: float, pictures: Iterable[Pixels] = (), *, gradients
                 border = thinned_loops(union(polygons.loops), FINEST_POINTS / scale)
                 yield Shown(next(rest), page.extent, _polygonal(border), polygons.name)
             case Polygons() as polygons:
-                yield from _by_color(polygons, FINEST_POINTS / scale)
+                colors, number = polygons.by_color
+                for k, color in enumerate(colors):
+                    loops = thinned_loops(polygons.loops.take(number == k), FINEST_POINTS / scale)
+                    yield Filled(_polygonal(loops), as_color(color), polygons.name, polygons.ball)
             case Fill() as fill:
                 runs = [(path, True) for path in fill.paths]
                 yield Filled(outline(runs, scale), fill.color, fill.name, fill.ball, even_odd=True)
@@ -186,14 +186,6 @@ def _lines(lines: Polylines, points_per_unit: float) -> Iterator[Shape]:
         yield _discs(alone, lines.width / 2, points_per_unit, lines.color, lines.name)
 
 
-def _by_color(polygons: Polygons, spacing: float) -> Iterator[Filled]:
-    """A path for each colour."""
-    colors, number = polygons.by_color
-    for k, color in enumerate(colors):
-        loops = thinned_loops(polygons.loops.take(number == k), spacing)
-        yield Filled(_polygonal(loops), as_color(color), polygons.name, polygons.ball)
-
-
 def thinned_loops(loops: Ragged, spacing: float) -> Ragged:
     """Loops with at most one point per interval of length `spacing`, without those that then enclose nothing.
 
@@ -238,11 +230,9 @@ def _painted(picture: Picture, page: Page, dpi: float) -> Shown:
 
 def _dots(dots: Dots, points_per_unit: float) -> Iterator[Discs]:
     """A disc for each dot, with a smaller one on top if it has a rim."""
-    discs = [(dots.radius, dots.rim if dots.rim_width else dots.color)]
     if dots.rim_width:
-        discs.append((dots.radius - dots.rim_width, dots.color))
-    for radius, color in discs:
-        yield _discs(dots.centers, radius, points_per_unit, color, dots.name)
+        yield _discs(dots.centers, dots.radius, points_per_unit, dots.rim, dots.name)
+    yield _discs(dots.centers, dots.radius - dots.rim_width, points_per_unit, dots.color, dots.name)
 
 
 def _discs(centers: FloatArray, radius: float, points_per_unit: float, color: Color, name: str) -> Discs:
@@ -250,7 +240,7 @@ def _discs(centers: FloatArray, radius: float, points_per_unit: float, color: Co
     t = np.arange(9) * (np.pi / 4)
     ends = np.stack([np.cos(t), np.sin(t)], axis=1)
     ends[-1] = ends[0]
-    reach = CIRCLE_KAPPA * np.stack([-ends[:, 1], ends[:, 0]], axis=1)
+    reach = 4 / 3 * np.tan(np.pi / 16) * np.stack([-ends[:, 1], ends[:, 0]], axis=1)
     unit = np.stack([ends[:-1], ends[:-1] + reach[:-1], ends[1:] - reach[1:], ends[1:]], axis=1)
     circles = [(center + radius / points_per_unit * unit, True) for center in centers]
     return Discs(outline(circles, points_per_unit), color, name, centers=centers, radius=radius)

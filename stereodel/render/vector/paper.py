@@ -7,7 +7,7 @@ and focus f and centre c, on the axis toward the light, are those with the small
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any, Final
 
@@ -25,6 +25,9 @@ PLACES = round(1 / FINEST_PLACE)
 
 LETTERS = {MOVE: "M", LINE: "l", CURVE: "c"}
 """Letters of commands in SVG."""
+
+OPERATORS = {MOVE: "%s %s m\n", LINE: "%s %s l\n", CURVE: "%s %s %s %s %s %s c\n", CLOSE: "h\n"}
+"""Operators of paths in PDF."""
 
 FOCUS: Final = (-0.5065010061498, 0.6512155793355)
 CENTER: Final = (-0.0755619216634, 0.0971510421386)
@@ -104,18 +107,15 @@ def _written(steps: int) -> str:
     return f"{sign}{whole or ''}.{rest:03d}".rstrip("0") if rest else f"{sign}{whole}"
 
 
-def commands(outline: Outlines, pattern: Mapping[int, str]) -> str:
-    """An outline in points as path commands, without pieces of length zero and those drawn by closing.
-
-    pattern: commands for `MOVE`, `LINE`, `CURVE` and `CLOSE`, with a placeholder for each number.
-    """
+def commands(outline: Outlines) -> str:
+    """An outline in points as the path of a PDF, without pieces of length zero and those drawn by closing."""
     steps, kinds, third = _seen(outline)  # the three points of a curve are one command
     begins = np.delete(np.arange(len(kinds)), np.concatenate([third - 1, third]))
     text = list(map(_written, steps.ravel().tolist()))
     parts = []
     for place, kind in zip((2 * begins).tolist(), kinds[begins].tolist(), strict=True):
         count = {CLOSE: 0, CURVE: 6}.get(kind, 2)
-        parts.append(pattern[kind] % tuple(text[place : place + count]))
+        parts.append(OPERATORS[kind] % tuple(text[place : place + count]))
     return "".join(parts)
 
 

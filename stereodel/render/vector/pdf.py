@@ -10,7 +10,6 @@ import hashlib
 import zlib
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import groupby, pairwise
-from typing import Final
 
 import numpy as np
 
@@ -19,30 +18,9 @@ from stereodel.drawing.page import Ball, Label, Page
 from stereodel.drawing.page.colors import Color
 from stereodel.drawing.page.items import Ramp
 from stereodel.drawing.page.style import PRINT_DPI
-from stereodel.render.vector.outlines import (
-    CLOSE,
-    CURVE,
-    LINE,
-    MOVE,
-    Drawn,
-    Filled,
-    Outlines,
-    Shape,
-    Shown,
-    ground,
-    shapes,
-)
+from stereodel.render.vector.outlines import Drawn, Filled, Outlines, Shape, Shown, ground, shapes
 from stereodel.render.vector.paper import Paper, commands, exact, number, numbers, shades
-from stereodel.render.vector.type import Face, Line, Subset, lines_of, subsets
-
-PATH: Final = {MOVE: "%s %s m\n", LINE: "%s %s l\n", CURVE: "%s %s %s %s %s %s c\n", CLOSE: "h\n"}
-"""Operators of paths."""
-
-LEAST_STEP: Final = 0.05
-"""Largest adjustment between letters that is left out, in thousandths of their size: rounding of the font's widths."""
-
-UPRIGHT: Final = 80
-"""Stem width of fonts in thousandths, which PDF requires but which is not used for embedded fonts."""
+from stereodel.render.vector.type import Face, Line, Subset, advance_of, lines_of, subsets
 
 
 def pdf(page: Page, pictures: Sequence[Pixels] = ()) -> bytes:
@@ -88,7 +66,7 @@ class _PdfSheet:
 
     def __init__(self, page: Page) -> None:
         self.page, self.paper, self.objects = page, Paper.of(page, downward=False), _Objects()
-        # Resources that the content names, by kind and name.
+        # Names of resources in the content, by kind and resource.
         self.resources: dict[str, dict[str, str]] = {"Font": {}, "XObject": {}, "Pattern": {}, "ExtGState": {}}
 
     def file(self, pictures: Sequence[Pixels]) -> bytes:
@@ -99,10 +77,11 @@ class _PdfSheet:
         parts = [
             *map(self.shape, ground(page)),
             *(self.shape(shape) for shape in shapes(page, PRINT_DPI, pictures)),
-            *(self.label(label, lines, fonts, named) for label, lines in lettering),
+            *(self.label(label, lines, named) for label, lines in lettering),
         ]
         content = self.objects.stream("".join(parts).encode("ascii"))
-        resources = " ".join(f"/{kind} {_dictionary(entries)}" for kind, entries in self.resources.items() if entries)
+        used = {kind: {name: body for body, name in known.items()} for kind, known in self.resources.items() if known}
+        resources = " ".join(f"/{kind} {_dictionary(entries)}" for kind, entries in used.items())
         box = f"[0 0 {number(page.width)} {number(page.height)}]"
         pages = f"{len(self.objects.bodies) + 2} 0 R"
         sheet = add(
@@ -119,12 +98,7 @@ class _PdfSheet:
     def named(self, kind: str, body: str) -> str:
         """The name of a resource in the content, the same for equal resources."""
         entries = self.resources[kind]
-        for name, known in entries.items():
-            if known == body:
-                return name
-        name = f"{kind[0]}{len(entries) + 1}"
-        entries[name] = body
-        return name
+        return entries.setdefault(body, f"{kind[0]}{len(entries) + 1}")
 
     def opacity(self, color: Color) -> str:
         if color[3] == 1:
@@ -133,7 +107,7 @@ class _PdfSheet:
         return f"/{self.named('ExtGState', settings)} gs\n"
 
     def path(self, outline: Outlines) -> str:
-        return commands(self.paper.placed(outline), PATH)
+        return commands(self.paper.placed(outline))
 
     def shape(self, shape: Shape) -> str:
         match shape:
@@ -178,43 +152,43 @@ class _PdfSheet:
             f"/Function {function} >> >>"
         )
 
-    def label(self, label: Label, lines: Iterable[Line], fonts: dict[Face, Subset], named: dict[Face, str]) -> str:
+    def label(self, label: Label, lines: Iterable[Line], named: dict[Face, str]) -> str:
         """A label: halo, lines of type and bars."""
         parts, lines = ["q\n"], list(lines)
         if label.halo:
-            halo = "".join(commands(line.outline, PATH) for line in lines)
+            halo = "".join(commands(line.outline) for line in lines)
             parts.append(
                 f"q\n{self.opacity(label.halo_color)}{_rgb(label.halo_color)} RG\n"
                 f"{exact(2 * label.halo)} w 1 j\n{halo}S\nQ\n"
             )
         parts.append(f"{self.opacity(label.color)}{_rgb(label.color)} rg\n")
         for line in lines:
-            shown = "".join(["BT\n", *_shows(line, fonts, named), "ET\n"])
+            shown = "".join(["BT\n", *_shows(line, named), "ET\n"])
             # Marks are not in the order of glyphs. Right-to-left letters are stored in reverse.
             if line.shaped and not line.leftward:
                 shown = f"/Span << /ActualText <{_utf16(line.words, mark=True)}> >> BDC\n{shown}EMC\n"
             parts.append(shown)
             if line.bars:
-                parts.append(f"{commands(line.placed(line.bar_outline), PATH)}f\n")
+                parts.append(f"{commands(line.placed(line.bar_outline))}f\n")
         return "".join([*parts, "Q\n"])
 
 
-def _shows(line: Line, fonts: dict[Face, Subset], named: dict[Face, str]) -> Iterator[str]:
+def _shows(line: Line, named: dict[Face, str]) -> Iterator[str]:
     """The operators of a line of type: runs of glyphs of one font, size and height, with adjustments between them."""
     matrix = line.matrix
     turned = exact(*matrix[:, :2].T.ravel())
     for (font, size, y), group in groupby(line.glyphs, key=lambda glyph: (glyph.font, glyph.size, glyph.y)):
-        glyphs, widths = list(group), fonts[font].widths
+        glyphs = list(group)
         begin: FloatArray = matrix @ [glyphs[0].x, y, 1.0]
         pen, shown = glyphs[0].x, ""
         for glyph in glyphs:
-            # Adjustments in thousandths of the size, relative to the accumulated position.
+            # Adjustments in thousandths of the size, relative to the accumulated position; widths are rounded by less.
             step = round(1000 * (pen - glyph.x) / size, 2)
-            if abs(step) >= LEAST_STEP:
+            if abs(step) >= 0.05:
                 shown += f">{exact(step)}<"
                 pen -= step * size / 1000
             shown += f"{glyph.index:04X}"
-            pen += widths[glyph.index] * size
+            pen += advance_of(font, glyph.index) * size
         yield f"/{named[font]} {exact(size)} Tf\n{turned} {numbers(begin)} Tm\n[<{shown}>] TJ\n"
 
 
@@ -225,13 +199,14 @@ def _font(objects: _Objects, font: Subset) -> str:
     scale = 1000 / head.unitsPerEm
     box = numbers(scale * side for side in (head.xMin, head.yMin, head.xMax, head.yMax))
     data = font.file()
+    # PDF requires a width of stems, which is not used for embedded fonts.
     descriptor = objects.add(
         f"<< /Type /FontDescriptor /FontName /{font.name} /Flags {4 + 32 * (head.macStyle & 2)} /FontBBox [{box}] "
         f"/ItalicAngle {number(face['post'].italicAngle)} /Ascent {number(scale * across.ascent)} "
-        f"/Descent {number(scale * across.descent)} /CapHeight {number(scale * across.ascent)} /StemV {UPRIGHT} "
+        f"/Descent {number(scale * across.descent)} /CapHeight {number(scale * across.ascent)} /StemV 80 "
         f"/FontFile2 {objects.stream(data, f'/Length1 {len(data)}')} >>"
     )
-    widths = " ".join(f"{index} [{exact(1000 * width)}]" for index, width in sorted(font.widths.items()))
+    widths = " ".join(f"{index} [{exact(1000 * advance_of(font.font, index))}]" for index in sorted(font.glyphs))
     glyphs = objects.add(
         f"<< /Type /Font /Subtype /CIDFontType2 /BaseFont /{font.name} /CIDToGIDMap /Identity /DW 0 /W [{widths}] "
         f"/CIDSystemInfo << /Registry (Adobe) /Ordering (Identity) /Supplement 0 >> /FontDescriptor {descriptor} >>"

@@ -26,7 +26,7 @@ from stereodel.drawing.page.items import LEGEND, Ramp, xml_name
 from stereodel.drawing.page.style import PRINT_DPI
 from stereodel.render.vector.outlines import Discs, Drawn, Filled, Outlines, Shape, Shown, ground, shapes
 from stereodel.render.vector.paper import Paper, exact, number, numbers, runs, shades
-from stereodel.render.vector.type import Face, Glyph, Line, ShapedSubset, Subset, advance_of, lines_of, subsets
+from stereodel.render.vector.type import Face, Glyph, Line, Subset, advance_of, lines_of, subsets
 
 with of_extra("draw"):
     from PIL import Image
@@ -45,9 +45,6 @@ NAMESPACES: Final = (
     'xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape"'
 )
 """Illustrator and older programs read links as those of XLink alone."""
-
-LEAST_SHIFT: Final = 0.02
-"""Distance in points from the end of one glyph of a formula to the next from which on that begins a run."""
 
 
 def svg(page: Page, pictures: Sequence[Pixels] = ()) -> str:
@@ -70,7 +67,7 @@ class _SvgSheet:
         labels = f' role="img" aria-labelledby="{" ".join(name for name, _ in told)}"' if told else ""
         lettering = list(lines_of(page))
         fonts = subsets(line for _, lines in lettering for line in lines if not line.words)
-        shaped = subsets((line for _, lines in lettering for line in lines if line.words), ShapedSubset)
+        shaped = subsets((line for _, lines in lettering for line in lines if line.words), shaped=True)
         rest, layers = iter(pictures), groupby(page.without_labels().items, key=_layer)
         written = (line for label, its in lettering for line in self.label(label, its, fonts, shaped))
         lines = [
@@ -243,7 +240,7 @@ class _SvgSheet:
         style, pen = None, 0.0
         for glyph in line.glyphs:
             own = (glyph.font, glyph.size, glyph.y)
-            if own != style or abs(glyph.x - pen) > LEAST_SHIFT:
+            if own != style or abs(glyph.x - pen) > 0.02:  # points
                 spans.append([])
                 style, pen = own, glyph.x
             spans[-1].append(glyph)

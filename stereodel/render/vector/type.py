@@ -39,9 +39,6 @@ with of_extra("draw"):
 FINER: Final = 64
 """Pixels per point of the canvas on which type is set: matplotlib rounds sizes in formulas to whole pixels."""
 
-PRIVATE: Final = range(0xE000, 0xF900)
-"""Private use characters of Unicode, for glyphs without a character of their own."""
-
 LEFTWARD: Final = ("R", "AL")
 """Unicode's bidirectional classes of right-to-left letters."""
 
@@ -264,9 +261,13 @@ class _Pen(BasePen):  # type: ignore[misc]
 
 @dataclass(frozen=True, eq=False)
 class Subset:
-    """The subset of a font used in a file, as a font; `glyphs` has the characters of each glyph by its index."""
+    """The subset of a font used in a file, as a font; `glyphs` has the characters of each glyph by its index.
+
+    shaped: whether programs shape its text, by the rules for joining and stacking letters, which it then includes.
+    """
 
     font: Face
+    shaped: bool = False
     glyphs: dict[int, str] = field(default_factory=dict)
 
     @property
@@ -294,41 +295,30 @@ class Subset:
         for index, text in sorted(self.glyphs.items()):
             own = text if len(text) == 1 else _ligature(self.font, index, text)
             taken = codes.values()
-            free = (chr(code) for code in PRIVATE if chr(code) not in {*taken, *self.glyphs.values()})
+            # Private use characters of Unicode, for glyphs without a character of their own.
+            free = (chr(code) for code in range(0xE000, 0xF900) if chr(code) not in {*taken, *self.glyphs.values()})
             codes[index] = own if own and own not in taken else next(free)
         return codes
 
-    @property
-    def widths(self) -> dict[int, float]:
-        """Advance widths at size 1."""
-        return {index: advance_of(self.font, index) for index in self.glyphs}
-
     def file(self, flavor: Literal["woff"] | None = None) -> bytes:
-        """The font file, TrueType or WOFF; glyphs keep their indices."""
-        options = Options(layout_features=[], hinting=False, notdef_outline=True, retain_gids=True)
+        """The font file, TrueType or WOFF; glyphs keep their indices unless programs shape the text."""
+        options = Options(hinting=False, notdef_outline=True)
+        if self.shaped:
+            options.drop_tables += (*VARIATIONS, "FFTM")
+            return _bytes(_subset(self.font, options, text="".join(self.glyphs.values())), flavor)
+        options.layout_features, options.retain_gids = [], True
         options.drop_tables += (*TABLES, *VARIATIONS)
         font = _subset(self.font, options, gids=sorted(self.glyphs))
         font["cmap"] = _character_map({ord(code): font.getGlyphName(index) for index, code in self.codes.items()})
         return _bytes(font, flavor)
 
 
-@dataclass(frozen=True, eq=False)
-class ShapedSubset(Subset):
-    """A subset for text that programs shape themselves, including the rules by which letters join and stack."""
-
-    def file(self, flavor: Literal["woff"] | None = None) -> bytes:
-        """The font file, TrueType or WOFF."""
-        options = Options(hinting=False, notdef_outline=True)
-        options.drop_tables += (*VARIATIONS, "FFTM")
-        return _bytes(_subset(self.font, options, text="".join(self.glyphs.values())), flavor)
-
-
-def subsets(lines: Iterable[Line], kind: type[Subset] = Subset) -> dict[Face, Subset]:
+def subsets(lines: Iterable[Line], *, shaped: bool = False) -> dict[Face, Subset]:
     """The subset of each font used by lines of type."""
     used: dict[Face, Subset] = {}
     for line in lines:
         for glyph in line.glyphs:
-            used.setdefault(glyph.font, kind(glyph.font)).glyphs.setdefault(glyph.index, glyph.text)
+            used.setdefault(glyph.font, Subset(glyph.font, shaped)).glyphs.setdefault(glyph.index, glyph.text)
     return used
 
 
