@@ -109,7 +109,5 @@ def strengths(sides: Indices) -> FloatArray:
 def standing(globe: Globe, names: Placed) -> Globe:
     """The globe with names where they were placed."""
     shown, found = copy(globe), iter(names)
-    shown.layers = [
-        replace(layer, standing=next(found)) if isinstance(layer, Names) else layer for layer in globe.layers
-    ]
+    shown.layers = [replace(each, standing=next(found)) if isinstance(each, Names) else each for each in globe.layers]
     return shown

@@ -13,7 +13,7 @@ from contextlib import contextmanager
 from dataclasses import replace
 from functools import cache, lru_cache
 from pathlib import Path
-from typing import Any, Final
+from typing import Any, Final, cast
 from warnings import catch_warnings, filterwarnings, warn
 
 from stereodel._extras import of_extra
@@ -43,9 +43,6 @@ FACES: Final = ("bold", "italic", "bold italic")
 
 NAMED: Final = 12
 """Largest number of characters that a warning names."""
-
-UNSEEN: Final = ("Cc", "Cf")
-"""Categories of characters that need no font."""
 
 
 class MissingCharactersWarning(UserWarning):
@@ -144,9 +141,7 @@ def _families(text: str, math: bool, font: tuple[str, ...]) -> tuple[tuple[str, 
     face = face_of(font)
     chosen = [family for family in font[bool(face) :] if _file(family)] + [str(TYPE["font.family"])]
     signs = set(FORMULA.sub("", text) if math else text)
-    left = {
-        sign for sign in signs if unicodedata.category(sign) not in {"Cc", "Cf"} and not "\ufe00" <= sign <= "\ufe0f"
-    }
+    left = {a for a in signs if unicodedata.category(a) not in {"Cc", "Cf"} and not "\ufe00" <= a <= "\ufe0f"}
     for family in chosen[:1] if math else chosen:  # matplotlib sets text next to a formula in one font
         left -= _had(family, left, face)
     others = [] if math or not left else [SHIPPED, *_others()]
@@ -181,8 +176,7 @@ def _font(family: str, face: str) -> Any:
         return None
     number = getattr(path, "face_index", 0)  # in a collection, which matplotlib reads since 3.11
     try:
-        open_font: Any = FT2Font
-        font = open_font(path, **({"face_index": number} if number else {}))
+        font = cast(Any, FT2Font)(path, **({"face_index": number} if number else {}))
     except (OSError, RuntimeError):
         return None
     return font if font.scalable else None

@@ -63,21 +63,16 @@ def haloed(page: Page) -> Page:
     """
     unit, items = page.points_per_unit, list(page.items)
     asking = {
-        row: _across(item, unit)
+        row: np.meshgrid(*map(np.linspace, *(label_box(item, unit) / unit), (ACROSS, UP)))
         for row, item in enumerate(items)
         if isinstance(item, Label) and (item.inks or (item.on_ground and item.halo))
     }
     if asking:
-        found = painted(page.items, np.concatenate(list(asking.values())), page.background).round(3)
+        places = np.moveaxis(np.array(list(asking.values())), 1, -1).reshape(-1, 2)
+        found = painted(page.items, places, page.background).round(3)
         for row, ground in zip(asking, np.split(found, len(asking)), strict=True):
             items[row] = _tinted(items[row], ground)
     return replace(page, items=tuple(items))
-
-
-def _across(label: Label, unit: float) -> FloatArray:
-    """Places all over a label (n, 2)."""
-    sides = map(np.linspace, *(label_box(label, unit) / unit), (ACROSS, UP))
-    return np.stack(np.meshgrid(*sides), axis=-1).reshape(-1, 2)
 
 
 def _tinted(label: Any, found: FloatArray) -> Label:
