@@ -1,7 +1,8 @@
 """The seven kinds of items on a page, each with all that differs by kind but its rendering.
 
 A new kind is one class here, and a case in each of the two renderers, `stereodel.render.vector.outlines` (outlines) and
-`stereodel.render.tessellation`, where the type checker finds a kind that is missing.
+`stereodel.render.tessellation`, where the type checker finds a kind that is missing; and one in
+`stereodel.drawing.page.placing.ink` if names avoid it.
 """
 
 from __future__ import annotations

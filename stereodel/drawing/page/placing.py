@@ -27,11 +27,8 @@ GAP: Final = 1.0
 SIDES: Final = np.exp(0.25j * np.pi * np.array([0, 4, 2, 6, 1, 7, 3, 5])).round(12)
 """Directions around a place, right and up, in the order in which they are tried; first those along the axes."""
 
-RISE: Final = 0.2
-"""How far lines of type may extend beyond the box of their letters, up or down, in units of their size."""
-
-SHIFTS: Final = (0.8, 1.6)
-"""How far a name moves that stands on its place, as that of a sea does, in units of its size."""
+RISE, SHIFTS = 0.2, (0.8, 1.6)
+"""In units of its size, how far type extends up or down beyond its box, and the name of a sea moves from its place."""
 
 FAR, STEPS = (14.0, 19.0, 26.0, 34.0, 42.0), 30
 """Distances of a name with a leader from its place, in points; number of boxes in a leader."""
