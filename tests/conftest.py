@@ -34,11 +34,9 @@ def no_other_fonts(monkeypatch):
     from stereodel.drawing.page import fonts
 
     monkeypatch.setattr(fonts, "_others", list)
-    for kept in (fonts._families, fonts._supplements):
-        kept.cache_clear()
+    fonts._families.cache_clear()
     yield
-    for kept in (fonts._families, fonts._supplements):
-        kept.cache_clear()
+    fonts._families.cache_clear()
 
 
 SCRIPT = re.compile(r"[\[-]((?:fig\d\d|claim|globe|earth|sky|anim)_\w+)")

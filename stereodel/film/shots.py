@@ -23,10 +23,10 @@ from stereodel.curves.view import MapView, View
 from stereodel.drawing.page import Page
 from stereodel.drawing.page.colors import Color
 from stereodel.drawing.page.labels import title_height
+from stereodel.drawing.page.placing import MARGIN
 from stereodel.film.standing import Placed, placed, standing
 from stereodel.globe.globe import Globe
 from stereodel.globe.layers import AUTO, OfEarth, suited_to
-from stereodel.globe.pages import MARGIN
 from stereodel.sphere import angular_distance, lonlat_to_xyz, xyz_to_lonlat
 
 Shot = tuple[MoebiusMap, MapView]

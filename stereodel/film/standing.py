@@ -21,7 +21,7 @@ from stereodel.curves.view import MapView
 from stereodel.drawing.page.placing import Placer, meets
 from stereodel.drawing.page.style import LineStyle
 from stereodel.globe.globe import Globe
-from stereodel.globe.layers import Areas, Ground, Image, Names, OfEarth, Standing, disc_of, radii
+from stereodel.globe.layers import Areas, Ground, Image, Names, Standing, radii
 
 LEAST: Final = 8
 """Least number of frames for which a name stands on a side, or is away; less where the film begins or ends."""
@@ -35,9 +35,6 @@ AWAY: Final = 30.0
 COMING, CHANGING = 110.0, 450.0
 """Prices of appearing or vanishing, and of another side: a little less than of vanishing and appearing again."""
 
-IMPOSSIBLE: Final = 1e6
-"""Price of a frame in a position that cannot be."""
-
 COARSE: Final = 0.5
 """Tolerance in points for lines that names avoid."""
 
@@ -48,39 +45,33 @@ Placed = tuple[tuple[Standing, ...], ...]
 def placed(globe: Globe, shots: Iterable[tuple[MoebiusMap, MapView]], count: int, unit: float) -> list[Placed]:
     """Where the names of a globe stand in each of the frames, `unit` points being its radius; [] if it has none."""
     layers = [replace(layer, leader=None) for layer in globe.layers if isinstance(layer, Names)]
+    others = [layer for layer in globe.layers if not isinstance(layer, Names | Ground | Areas | Image)]
+    others = [each for each in others if not isinstance(each, OfEarth) or isinstance(each.look, LineStyle)]
     dots = radii(globe)
-    seats = [[layer.seats(row, dots) for row in range(len(layer.xyz))] for layer in layers]
-    if not any(seats):
+    names = [(number, row) for number, layer in enumerate(layers) for row in range(len(layer.xyz))]
+    if not names:
         return []
-    # All names of a layer at once: they differ in their boxes alone.
-    whole = [replace(some[0], boxes=np.stack([each.boxes for each in some])) if some else None for some in seats]
-    at = [np.zeros((count, len(some), 2)) for some in seats]
-    prices = [np.full((count, *each.boxes.shape[:2]), np.inf) if each else np.zeros(0) for each in whole]
+    seats = [layers[number].seats(row, dots) for number, row in names]
+    at = np.zeros((count, len(names), 2))
+    prices = [np.full((count, len(each.boxes)), np.inf) for each in seats]
     for frame, (lens, view) in enumerate(shots):
         chart = Chart(lens, view, (0.0, 0.0), 1.0, COARSE / unit, unit)
-        bare = [layer for layer in globe.layers if not isinstance(layer, Names | Ground | Areas | Image)]
-        bare = [layer for layer in bare if not isinstance(layer, OfEarth) or isinstance(layer.look, LineStyle)]
-        placer = Placer(disc_of(chart), [item for layer in bare for item in layer.lay(chart)])
-        for layer, each, places, price in zip(layers, whole, at, prices, strict=True):
-            if each:
-                points, seen = chart.points(layer.xyz)
-                places[frame] = unit * points
-                found = each.prices(places[frame], placer.disc, placer.ink if each.movable else None)
-                blocked = ~seen[:, None] | meets(each.claimed(places[frame]), placer.boxes)
-                price[frame] = np.where(blocked, np.inf, found)
+        placer = Placer(chart, [item for layer in others for item in layer.lay(chart)])
+        places, seen = chart.points(np.concatenate([layer.xyz for layer in layers]))
+        at[frame] = unit * places
+        for name in np.flatnonzero(seen).tolist():
+            found = placer.prices(seats[name], at[frame, name])
+            prices[name][frame] = np.where(placer.taken(seats[name], at[frame, name]), np.inf, found)
     frames: list[list[list[Standing]]] = [[[] for _ in layers] for _ in range(count)]
     kept = np.zeros((count, 1, 0, 2, 2))
-    for number, (some, places, price) in enumerate(zip(seats, at, prices, strict=True)):
-        for row, each in enumerate(some):
-            room = np.where(meets(each.claimed(places[:, row]), kept), np.inf, price[:, row])
-            if not np.isfinite(room).any():
-                continue
-            sides = course(room)
-            for frame in np.flatnonzero(sides >= 0).tolist():
-                frames[frame][number].append((row, int(sides[frame]), strength(sides, frame)))
-            boxes = each.boxes[sides] + places[:, row, None]
-            boxes[sides < 0] = np.nan
-            kept = np.concatenate([kept, boxes[:, None, None]], axis=2)
+    for name, (number, row) in enumerate(names):
+        each, places = seats[name], at[:, name, None, None]
+        sides = course(np.where(meets(each.rooms + places, kept), np.inf, prices[name]))
+        strength = strengths(sides)
+        for frame in np.flatnonzero(sides >= 0).tolist():
+            frames[frame][number].append((row, int(sides[frame]), float(strength[frame])))
+        boxes = np.where(sides[:, None, None] < 0, np.nan, each.boxes[sides] + places[:, 0])
+        kept = np.concatenate([kept, boxes[:, None, None]], axis=2)
     return [tuple(map(tuple, frame)) for frame in frames]
 
 
@@ -90,42 +81,35 @@ def course(price: FloatArray) -> Indices:
     It stays on a side, or away, for `LEAST` frames or more, but where the film begins or ends.
     """
     count, sides = price.shape
-    per_frame = np.full((count, sides + 1), AWAY)  # away is the last state
-    per_frame[:, :-1] = np.where(np.isfinite(price), price, IMPOSSIBLE)
-    change = np.full((sides + 1,) * 2, CHANGING)
-    change[-1], change[:, -1] = COMING, COMING
-    total = np.concatenate([np.zeros((1, sides + 1)), per_frame.cumsum(axis=0)])
-    cost = total[1:].copy()  # of all frames up to each, in a state that has lasted long enough
-    link = np.zeros((*cost.shape, 2), dtype=np.intp)  # its first frame, and the state before
+    # States are sides, the last of which is away, with the number of frames since the change, at most `LEAST`.
+    side, age = np.divmod(np.arange((sides + 1) * LEAST), LEAST)
+    own = np.column_stack([price, np.full(count, AWAY)])[:, side]
+    before, since, away = side[:, None], age[:, None], side == sides
+    change = np.where(away | away[:, None], COMING, CHANGING)
+    change[(before == side) | (since < LEAST - 1) | (age > 0)] = np.inf
+    change[(before == side) & (age == np.minimum(since + 1, LEAST - 1))] = 0.0
+    total = np.where(age == LEAST - 1, own[0], np.inf)
+    links = []
     for frame in range(1, count):
-        cost[frame], link[frame] = cost[frame - 1] + per_frame[frame], link[frame - 1]
-        latest = frame if frame == count - 1 else frame - LEAST + 1
-        for first in range(max(frame - LEAST + 1, 1), latest + 1):
-            ways = cost[first - 1, :, None] + change
-            found = ways.min(axis=0) + total[frame + 1] - total[first]
-            better = found < cost[frame]
-            cost[frame][better] = found[better]
-            link[frame][better] = np.stack([np.full(sides + 1, first), ways.argmin(axis=0)], axis=1)[better]
-    way = np.zeros(count, dtype=np.intp)
-    end, state = count, int(cost[-1].argmin())
-    while end:
-        first, before = link[end - 1, state].tolist()
-        way[first:end] = state if state < sides else -1
-        end, state = first, before
-    return way
+        ways = total[:, None] + change
+        links.append(ways.argmin(axis=0))
+        total = ways.min(axis=0) + own[frame]
+    states = [int(total.argmin())]
+    for link in reversed(links):
+        states.append(int(link[states[-1]]))
+    found = side[states[::-1]]
+    return np.where(found < sides, found, -1)
 
 
-def strength(sides: Indices, frame: int) -> float:
-    """How strong a name is in a frame: it fades in and out where its side, if any, is another."""
-    padded = np.pad(sides, FADING, mode="edge")[frame : frame + 2 * FADING + 1]
-    away = np.abs(np.arange(-FADING, FADING + 1))[padded != sides[frame]]
-    return int(away.min(initial=FADING)) / FADING
+def strengths(sides: Indices) -> FloatArray:
+    """How strong a name is in each frame: it fades in and out where its side, if any, is another."""
+    changes = np.flatnonzero(np.diff(sides)) + 0.5
+    away = np.abs(np.arange(len(sides))[:, None] - changes).min(axis=1, initial=np.inf)
+    return np.minimum((away + 0.5) / FADING, 1.0)
 
 
 def standing(globe: Globe, names: Placed) -> Globe:
     """The globe with names where they were placed."""
     shown, found = copy(globe), iter(names)
-    shown.layers = [
-        replace(layer, standing=next(found)) if isinstance(layer, Names) else layer for layer in globe.layers
-    ]
+    shown.layers = [replace(each, standing=next(found)) if isinstance(each, Names) else each for each in globe.layers]
     return shown

@@ -13,7 +13,7 @@ from stereodel.curves.chart import Chart, Place
 from stereodel.drawing.page import Ball, Beziers, Fill, Item, Label, Picture, Polygons, Polylines, Stroke
 from stereodel.drawing.page.colors import Color
 from stereodel.drawing.page.items import FEW_COLORS, Tags
-from stereodel.drawing.page.placing import Disc, Placer, Seats
+from stereodel.drawing.page.placing import Placer, Seats
 from stereodel.drawing.page.style import LineStyle, with_opacity
 from stereodel.drawing.scene.by_value import DotLooks
 from stereodel.drawing.scene.graticule import LEAST_APART, WIDTHS_APART, Graticule, usual_spacing
@@ -237,7 +237,7 @@ class Names:
 
     def lay(self, chart: Chart) -> Iterator[Item]:
         """Labels whose places are visible, inside the disc where there is room."""
-        yield from self.beside(chart, Placer(disc_of(chart), ()), {})
+        yield from self.beside(chart, Placer(chart, ()), {})
 
     def beside(self, chart: Chart, placer: Placer, dots: Mapping[bytes, float]) -> Iterator[Item]:
         """As for `lay`, where items and earlier names leave room; `dots` as found by `radii`."""
@@ -255,11 +255,6 @@ class Names:
         """The positions of one of the names."""
         label, own = replace(self.labels[row], anchor=anchor), dots.get(self.xyz[row].tobytes(), 0.0)
         return Seats.of(label, self.distance, own, led=self.leader is not None and self.standing is None)
-
-
-def disc_of(chart: Chart) -> Disc:
-    """The disc of a chart."""
-    return chart.at, chart.scale, chart.unit
 
 
 def radii(globe: Layered) -> dict[bytes, float]:
@@ -280,7 +275,7 @@ def laid(globe: Layered, chart: Chart) -> tuple[Item, ...]:
     """The page items of a chart, in painter's order; names are placed when all else is there."""
     layers = (*globe.layers, globe.limb)
     items = [[] if isinstance(layer, Names) else list(layer.lay(chart)) for layer in layers]
-    placer, dots = Placer(disc_of(chart), [item for some in items for item in some]), radii(globe)
+    placer, dots = Placer(chart, [item for some in items for item in some]), radii(globe)
     for layer, some in zip(layers, items, strict=True):
         if isinstance(layer, Names):
             some += layer.beside(chart, placer, dots)

@@ -11,13 +11,10 @@ from stereodel.curves.chart import Chart
 from stereodel.curves.view import MapView, StereographicView, View
 from stereodel.drawing.page import Item, Label, Page
 from stereodel.drawing.page.labels import haloed
-from stereodel.drawing.page.placing import with_room
+from stereodel.drawing.page.placing import MARGIN
 from stereodel.drawing.page.style import BLACK, PRINT_WIDTH
 from stereodel.globe.layers import Layered, laid
 from stereodel.sphere import xyz_to_lonlat
-
-MARGIN = 0.03
-"""Margin around a disc, in its radii."""
 
 TITLE_HEIGHT = 14.0
 """Height of the title above a panel with its margin, in points."""
@@ -105,9 +102,8 @@ def panels(
         at = ((column + 0.5) * pitch, (rows - row) * pitch + (rows - row - 1) * head - pitch / 2)
         lens = MoebiusMap.identity() if panel.lens is None else panel.lens
         view = default_view(lens) if panel.view is None else panel.view
-        around = (at[0] - pitch / 2, at[0] + pitch / 2, at[1] - pitch / 2, at[1] + pitch / 2)
         chart = Chart(lens, view, at, 1.0, fine / unit, unit)
-        items += with_room(laid(panel.globe, chart), around, unit)
+        items += laid(panel.globe, chart)
         views.append(chart.matrix)
         if panel.title:
             items.append(Label(panel.title, (at[0], at[1] + pitch / 2), (0.0, 3.0), "center", "baseline", color=BLACK))

@@ -63,7 +63,6 @@ def test_the_fonts_of_the_machine_stand_in(monkeypatch, no_other_fonts):
 
     monkeypatch.setattr(fonts, "_others", lambda: ["DejaVu Serif", CJK])
     fonts._families.cache_clear()
-    fonts._supplements.cache_clear()
     assert families_of(Label(f"東京 {HEBREW}", (0.0, 0.0))) == [STIX, SHIPPED, CJK]
 
 
@@ -161,13 +160,6 @@ def test_pdf_holds_words_in_marks_and_letters_that_join(tmp_path):
     assert sheet.extract_text().splitlines()[-1] in {ARABIC, ARABIC[::-1]}  # as programs put them in order
 
 
-def test_boxes_have_the_size_of_their_font():
-    wide = [np.diff(label_box(Label("mmmm", (0, 0), font=font), 1.0)[:, 0])[0] for font in ((), ("DejaVu Sans",))]
-    assert wide[1] > 1.1 * wide[0]
-    one, two = (np.diff(label_box(Label(text, (0, 0), font=(CJK,)), 1.0)[:, 0])[0] for text in ("東", "東京"))
-    assert two - one == pytest.approx(9.0, abs=0.1)  # a square each
-
-
 @pytest.mark.parametrize("family", ["", SHIPPED])
 def test_each_face_is_another_font(family, tmp_path):
     """In boxes, pixels and files; characters that the face lacks come from where there are some, as in the upright."""
@@ -211,13 +203,6 @@ def test_dollars_are_formulas_only_where_asked():
     assert "".join(glyph.text for glyph in glyphs(r"\$5")) == "$5"
     assert "".join(glyph.text for glyph in glyphs("only $5")) == "only $5"
     assert "$" not in "".join(glyph.text for glyph in glyphs("$5 to $6"))
-    places = [(0.0, 0.0)]
-    for formulas in (False, True):
-        globe = Globe()
-        globe.add_labels(places, ["$x$"], formulas=formulas)
-        (label,) = globe.page().labels
-        assert label.formulas == formulas
-        assert label_box(label, 1.0)[1, 0] > 0
 
 
 def test_where_a_font_is_said():
@@ -231,9 +216,6 @@ def test_where_a_font_is_said():
     sketch = Sketch().add_label((0, 0), "a").add_label((0, 1), "b", font=("DejaVu Serif",))
     drawing = styled(sketch.page((-2, 2, -2, 2)), font=SHIPPED)
     assert [label.font for label in drawing.labels] == [(SHIPPED,), ("DejaVu Serif",)]
-    plain = Sketch().add_label((0, 0), "a").page((-2, 2, -2, 2))
-    assert styled(plain, "dark", font=SHIPPED).labels[0].font == (SHIPPED,)
-    assert styled(plain, "dark").labels[0].font == ()
 
 
 def test_figures_need_no_font_of_the_machine():

@@ -13,7 +13,6 @@ from stereodel.drawing.page.labels import label_box
 from stereodel.drawing.page.placing import meets
 from stereodel.film import Film, Flight, Spin, Stop, standing
 from stereodel.globe import Globe
-from stereodel.globe.layers import Names
 from tests.tiers import by_day
 
 PARIS = (2.35, 48.86)
@@ -177,13 +176,10 @@ def test_frames_show_names_where_they_were_placed_for_the_film(journey):
     assert [item.name for item in other.page(40).items] == [item.name for item in page.items]
     # The first have priority: what comes later changes nothing of where they stand.
     fewer = Globe()
-    fewer.layers = [*journey.draw.globe.layers[:-1], Names(*first_names(journey.draw.globe.layers[-1], 20))]
+    *others, all_names = journey.draw.globe.layers
+    fewer.layers = [*others, replace(all_names, xyz=all_names.xyz[:20], labels=all_names.labels[:20])]
     film = replace(journey, shots=replace(journey.shots, pages=replace(journey.draw, globe=fewer)))
     assert film.shots[40][2][0] == tuple(name for name in names if name[0] < 20)
-
-
-def first_names(layer, count):
-    return layer.xyz[:count], layer.labels[:count], layer.distance
 
 
 @pytest.mark.parametrize("seed", by_day(range(30), 0))

@@ -13,12 +13,11 @@ from contextlib import contextmanager
 from dataclasses import replace
 from functools import cache, lru_cache
 from pathlib import Path
-from typing import Any, Final
+from typing import Any, Final, cast
 from warnings import catch_warnings, filterwarnings, warn
 
 from stereodel._extras import of_extra
 from stereodel.drawing.page.items import Label
-from stereodel.drawing.page.page import Page
 from stereodel.drawing.page.style import TYPE
 
 FontLike = str | os.PathLike[str] | Sequence[str | os.PathLike[str]]
@@ -87,14 +86,6 @@ def filled(font: tuple[str, ...], other: tuple[str, ...]) -> tuple[str, ...]:
     return (*font, *other[bool(face_of(other)) :]) if font == (face_of(font),) else font or other
 
 
-def in_font(page: Page, font: tuple[str, ...]) -> Page:
-    """A page with `font` for all labels that have no font of their own."""
-    if not font:
-        return page
-    items = (replace(item, font=filled(item.font, font)) if isinstance(item, Label) else item for item in page.items)
-    return replace(page, items=tuple(items))
-
-
 def families_of(label: Label) -> list[str]:
     """The families in which a label is set, in matplotlib's form: each character uses the first that has it."""
     return list(_families(*set_text(label), label.font)[0])
@@ -114,11 +105,9 @@ def font_properties(families: Iterable[str], size: float, face: str = "") -> Any
     with of_extra("draw"):
         from matplotlib.font_manager import FontProperties
 
-    style: Any = "italic" if "italic" in face else "normal"
-    weight = "bold" if "bold" in face else "normal"
-    return FontProperties(
-        family=list(families), style=style, variant="normal", weight=weight, stretch="normal", size=size
-    )
+    style, weight = (word if word in face else "normal" for word in ("italic", "bold"))
+    look: dict[str, Any] = {"style": style, "variant": "normal", "weight": weight, "stretch": "normal"}
+    return FontProperties(family=list(families), size=size, **look)
 
 
 @contextmanager
@@ -136,58 +125,31 @@ def missing_characters(labels: Iterable[Label]) -> frozenset[str]:
 
 def warn_of_missing(characters: Iterable[str]) -> None:
     """Give one `MissingCharactersWarning` that names the missing characters, if any."""
-    missing = sorted(characters)
+    missing = [f"{sign} (U+{ord(sign):04X} {unicodedata.name(sign, 'without a name')})" for sign in sorted(characters)]
     if missing:
-        told = ", ".join(
-            f"{sign} (U+{ord(sign):04X} {unicodedata.name(sign, 'without a name')})" for sign in missing[:NAMED]
-        )
         more = f" and {len(missing) - NAMED} more" if len(missing) > NAMED else ""
-        warn(
-            f"no font here has {told}{more}; boxes stand in their place: install a font that has them (those called "
-            "Noto have most), or name its file with font=",
-            MissingCharactersWarning,
-            stacklevel=2,
+        told = (
+            f"no font here has {', '.join(missing[:NAMED])}{more}; boxes stand in their place: install a font that has "
+            "them (those called Noto have most), or name its file with font="
         )
+        warn(told, MissingCharactersWarning, stacklevel=2)
 
 
 @lru_cache(maxsize=4096)
 def _families(text: str, math: bool, font: tuple[str, ...]) -> tuple[tuple[str, ...], frozenset[str]]:
-    """Families in which a text is set, and the characters that none of them has."""
+    """Families in which a text is set, and the visible characters that none of them has."""
     face = face_of(font)
     chosen = [family for family in font[bool(face) :] if _file(family)] + [str(TYPE["font.family"])]
-    if math:  # matplotlib sets text next to a formula in one font
-        return tuple(chosen), _lacking(frozenset(FORMULA.sub("", text)), chosen[:1], face)
-    missing = _lacking(frozenset(text), chosen, face)
-    if missing:
-        more = _supplements(missing, face)
-        chosen, missing = chosen + list(more), _lacking(missing, more, face)
-    return tuple(chosen), missing
-
-
-def _lacking(text: frozenset[str], families: Iterable[str], face: str) -> frozenset[str]:
-    """The visible characters of a text that no family has."""
-    lacking = {
-        sign for sign in text if unicodedata.category(sign) not in {"Cc", "Cf"} and not "\ufe00" <= sign <= "\ufe0f"
-    }
-    for family in families:
-        if lacking:
-            lacking -= _had(family, lacking, face)
-    return frozenset(lacking)
-
-
-@lru_cache(maxsize=256)
-def _supplements(missing: frozenset[str], face: str) -> tuple[str, ...]:
-    """The fewest other families that supply all available characters of `missing`."""
-    chosen, left = [], set(missing)
-    others = [SHIPPED, *_others()]
-    while left:
-        most = max(others, key=lambda family: len(_had(family, left, face)))  # ties go to the first
-        found = _had(most, left, face)
-        if not found:
-            break
-        chosen.append(most)
+    signs = set(FORMULA.sub("", text) if math else text)
+    left = {a for a in signs if unicodedata.category(a) not in {"Cc", "Cf"} and not "\ufe00" <= a <= "\ufe0f"}
+    for family in chosen[:1] if math else chosen:  # matplotlib sets text next to a formula in one font
+        left -= _had(family, left, face)
+    others = [] if math or not left else [SHIPPED, *_others()]
+    for family in sorted(others, key=lambda family: -len(_had(family, left, face))):  # those with most of them first
+        found = _had(family, left, face)
         left -= found
-    return tuple(chosen)
+        chosen += [family] if found else []
+    return tuple(chosen), frozenset(left)
 
 
 def _others() -> list[str]:
@@ -214,8 +176,7 @@ def _font(family: str, face: str) -> Any:
         return None
     number = getattr(path, "face_index", 0)  # in a collection, which matplotlib reads since 3.11
     try:
-        open_font: Any = FT2Font
-        font = open_font(path, **({"face_index": number} if number else {}))
+        font = cast(Any, FT2Font)(path, **({"face_index": number} if number else {}))
     except (OSError, RuntimeError):
         return None
     return font if font.scalable else None

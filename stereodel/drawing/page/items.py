@@ -1,7 +1,8 @@
 """The seven kinds of items on a page, each with all that differs by kind but its rendering.
 
 A new kind is one class here, and a case in each of the two renderers, `stereodel.render.vector.outlines` (outlines) and
-`stereodel.render.tessellation`, where the type checker finds a kind that is missing.
+`stereodel.render.tessellation`, where the type checker finds a kind that is missing; and one in
+`stereodel.drawing.page.placing.ink` if names avoid it.
 """
 
 from __future__ import annotations
@@ -17,10 +18,10 @@ import numpy as np
 from stereodel._arrays import BoolArray, FloatArray, Indices, Pixels
 from stereodel._notebook import Displayed
 from stereodel.constants import GROUND_PIXEL
-from stereodel.curves.ragged import Ragged, spans
+from stereodel.curves.ragged import Ragged
 from stereodel.curves.trace import sides_of
 from stereodel.drawing.page.colors import Color, as_color
-from stereodel.drawing.page.style import BLACK, WHITE, DotStyle, LineStyle
+from stereodel.drawing.page.style import WHITE, DotStyle, LineStyle
 
 Beziers = FloatArray
 """A connected run of cubic Béziers, (k, 4, 2): row i ends where row i + 1 begins; straight: controls at thirds."""
@@ -31,11 +32,6 @@ LEGEND: Final = "legend-"
 FEW_COLORS: Final = 64
 """Largest number of colours of `Polygons` written as paths in vector files; with more, they become an image."""
 
-INK_STEP, DOT_PLACES = 1.0, 19
-"""Of the ink that names avoid: largest length of a piece of a line, in points, and number of places in a dot."""
-
-LARGE_DOT, BORDER_WEIGHT = 3.0, 1.5
-"""Radius in points from which dots weigh the same, as names may touch a bubble; width of a line like a border."""
 
 _LETTERS = "A-Z_a-z\xc0-\xd6\xd8-\xf6\xf8-\u02ff\u0370-\u037d\u037f-\u1fff\u200c\u200d\u2070-\u218f\u2c00-\u2fef"
 _LETTERS += "\u3001-\ud7ff\uf900-\ufdcf\ufdf0-\ufffd\U00010000-\U000effff"
@@ -129,10 +125,6 @@ class Mark(Displayed):
         """The same of some of its loops, lines or dots."""
         raise NotImplementedError
 
-    def ink_at(self, points_per_unit: float) -> FloatArray | None:
-        """Rows x, y, weight (n, 3) that stand for dots and lines where names are placed, in points; None for others."""
-        return None
-
     @property
     def _look(self) -> Look | None:
         """The entry of a legend that looks like it, if there is one."""
@@ -155,11 +147,6 @@ class Stroke(Mark):
     """Name of what is drawn: "delaunay", "voronoi", "limb" …; becomes its id in SVG."""
 
     _kind = "lines"
-
-    def ink_at(self, points_per_unit: float) -> FloatArray:
-        """Short pieces of the line."""
-        corners = np.concatenate([corners_along(self.path), self.path[-1:, 3]])
-        return Polylines(corners, np.array([0, len(corners)]), self.color, self.width).ink_at(points_per_unit)
 
     @property
     def _look(self) -> LineStyle:
@@ -224,15 +211,6 @@ class Dots(Mark):
     def some(self, rows: BoolArray) -> Self:
         """The same of some dots."""
         return replace(self, centers=self.centers[rows], tags=self.tags and self.tags.some(rows))
-
-    def ink_at(self, points_per_unit: float) -> FloatArray:
-        """Places all over each dot; their area, times its radius, as a dot says more than as much of a cloud."""
-        k = np.arange(DOT_PLACES)  # in a spiral
-        turn = np.sqrt((k + 0.5) / DOT_PLACES) * np.exp(1j * np.pi * (3 - 5**0.5) * k)
-        radius = np.broadcast_to(np.asarray(self.radius, dtype=np.float64), len(self.centers))[:, None, None]
-        places = points_per_unit * self.centers[:, None] + radius * np.c_[turn.real, turn.imag]
-        weight = np.pi * np.minimum(radius, LARGE_DOT) ** 3 / DOT_PLACES
-        return np.concatenate([places, np.broadcast_to(weight, (*places.shape[:2], 1))], axis=2).reshape(-1, 3)
 
     @property
     def _look(self) -> DotStyle:
@@ -331,16 +309,6 @@ class Polylines(Mark):
         lines = Ragged(self.points, self.offsets).take(rows)
         return replace(self, points=lines.values, offsets=lines.offsets, tags=self.tags and self.tags.some(rows))
 
-    def ink_at(self, points_per_unit: float) -> FloatArray:
-        """Pieces of the lines, at most `INK_STEP` long."""
-        first, _ = sides_of(Ragged(self.points, self.offsets))
-        start, way = points_per_unit * self.points[first], points_per_unit * np.diff(self.points, axis=0)[first]
-        length = np.hypot(*way.T)
-        count = np.maximum(np.ceil(length / INK_STEP), 1).astype(np.intp)
-        share = (spans(np.zeros_like(count), count) + 0.5) / np.repeat(count, count)
-        area = np.repeat(self.width * self.color[3] * length / count, count)
-        return np.c_[np.repeat(start, count, axis=0) + share[:, None] * np.repeat(way, count, axis=0), area]
-
     @property
     def _look(self) -> LineStyle:
         return LineStyle(self.color, self.width)
@@ -404,10 +372,6 @@ class Polygons(Mark):
     def colors_at(self, places: FloatArray) -> FloatArray:
         """The colour of the region around each place."""
         return colors_within(self.loops, self.owner, self.colors, places)
-
-    def ink_at(self, points_per_unit: float) -> FloatArray:
-        """Its borders, drawn or not, as type is worse to read on two grounds."""
-        return Polylines(self.points, self.offsets, BLACK, BORDER_WEIGHT).ink_at(points_per_unit)
 
     @property
     def _look(self) -> Color | None:

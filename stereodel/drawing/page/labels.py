@@ -16,8 +16,7 @@ from stereodel.drawing.page.items import Label, painted
 from stereodel.drawing.page.page import Page
 from stereodel.drawing.page.style import BLACK, HALO_OPACITY, TYPE, WHITE, with_opacity
 
-ACROSS: Final = 9
-UP: Final = 3
+ACROSS, UP = 9, 3
 """Places in the box of a label at which the ground is sampled."""
 
 MOST: Final = 0.85
@@ -29,11 +28,8 @@ VEIL: Final = 0.6
 LEGIBLE, LEGIBLE_ON_SEVERAL = 7.0, 4.5
 """Least contrast of type with one ground, and with each of several (Web Content Accessibility Guidelines, AAA, AA)."""
 
-TITLE_SIZE: Final = 12.0
-"""Type size of a title in points."""
-
-TITLE_GAP: Final = 5.0
-"""Space above and below the title in points."""
+TITLE_SIZE, TITLE_GAP = 12.0, 5.0
+"""Type size of a title, and the space above and below it, in points."""
 
 
 def label_box(label: Label, points_per_unit: float) -> FloatArray:
@@ -67,22 +63,16 @@ def haloed(page: Page) -> Page:
     """
     unit, items = page.points_per_unit, list(page.items)
     asking = {
-        row: _across(item, unit)
+        row: np.meshgrid(*map(np.linspace, *(label_box(item, unit) / unit), (ACROSS, UP)))
         for row, item in enumerate(items)
         if isinstance(item, Label) and (item.inks or (item.on_ground and item.halo))
     }
     if asking:
-        found = painted(page.items, np.concatenate(list(asking.values())), page.background).round(3)
+        places = np.moveaxis(np.array(list(asking.values())), 1, -1).reshape(-1, 2)
+        found = painted(page.items, places, page.background).round(3)
         for row, ground in zip(asking, np.split(found, len(asking)), strict=True):
             items[row] = _tinted(items[row], ground)
     return replace(page, items=tuple(items))
-
-
-def _across(label: Label, unit: float) -> FloatArray:
-    """Places all over a label (n, 2)."""
-    (left, bottom), (right, top) = label_box(label, unit) / unit
-    places = np.stack(np.meshgrid(np.linspace(left, right, ACROSS), np.linspace(bottom, top, UP)), axis=-1)
-    return places.reshape(-1, 2)
 
 
 def _tinted(label: Any, found: FloatArray) -> Label:
@@ -101,22 +91,15 @@ def _tinted(label: Any, found: FloatArray) -> Label:
     return replace(label, halo_color=(red, green, blue, opacity * label.color[3]))
 
 
-def away_from(ink: Color) -> tuple[float, float, float]:
-    """White or black, whichever contrasts more with the ink."""
-    return max(WHITE[:3], BLACK[:3], key=lambda far: float(contrast(far, ink[:3])))
-
-
 def legible(halo: FloatArray, ink: Color, ground: FloatArray, opacity: float, least: float) -> FloatArray:
     """A colour of a halo mixed with white or black, whichever is farther from the ink, until type on it is legible.
 
     The halo lies on a ground of colours (n, 3), and contrasts are to be at least `least`.
     """
-    away = away_from(ink)
-    for share in np.linspace(0.0, 1.0, 21):
-        mixed: FloatArray = halo + share * (away - halo)
-        if (contrast(ground + opacity * (mixed - ground), ink[:3]) >= least).all():
-            break
-    return mixed
+    away = max(WHITE[:3], BLACK[:3], key=lambda far: float(contrast(far, ink[:3])))
+    mixed: FloatArray = halo + np.linspace(0.0, 1.0, 21)[:, None] * (away - halo)
+    enough = (contrast(ground + opacity * (mixed[:, None] - ground), ink[:3]) >= least).all(axis=1)
+    return mixed[enough.argmax() if enough.any() else -1]
 
 
 def with_title(page: Page, title: str) -> Page:

@@ -18,8 +18,8 @@ import numpy as np
 
 from stereodel._arrays import FloatArray, as_scalar
 from stereodel.drawing.page.colors import FLARE, Color, as_color, contrast, luminance, with_luminance
-from stereodel.drawing.page.fonts import FontLike, as_font, in_font
-from stereodel.drawing.page.items import LEGEND, Item
+from stereodel.drawing.page.fonts import FontLike, as_font, filled
+from stereodel.drawing.page.items import LEGEND, Item, Label
 from stereodel.drawing.page.labels import haloed
 from stereodel.drawing.page.page import Page
 from stereodel.drawing.page.style import BLACK, WHITE, as_length
@@ -67,7 +67,9 @@ def styled(page: Page, *styles: Style, font: FontLike | None = None) -> Page:
     >>> [round(part, 2) for part in styled(page, "dark").background]
     [0.07, 0.07, 0.07, 1.0]
     """
-    page = in_font(page, as_font(font))
+    if own := as_font(font):
+        items = (replace(item, font=filled(item.font, own)) if isinstance(item, Label) else item for item in page.items)
+        page = replace(page, items=tuple(items))
     for style in as_styles(styles):
         page = dark_page(page) if style == DARK else StyleSheet.of_file(style)(page)
     return haloed(page) if styles else page
