@@ -21,7 +21,7 @@ from stereodel.curves.view import MapView
 from stereodel.drawing.page.placing import Placer, meets
 from stereodel.drawing.page.style import LineStyle
 from stereodel.globe.globe import Globe
-from stereodel.globe.layers import Areas, Ground, Image, Names, Standing, radii
+from stereodel.globe.layers import Areas, Ground, Image, Names, OfEarth, Standing, radii
 
 LEAST: Final = 8
 """Least number of frames for which a name stands on a side, or is away; less where the film begins or ends."""
