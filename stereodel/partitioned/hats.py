@@ -26,7 +26,7 @@ COORDINATES: Final = ("hats_col_ra", "hats_col_dec")
 
 
 def path_of(order: int, number: int, suffix: str = ".parquet") -> Path:
-    """Where the rows of a pixel are, in the folder of a catalogue: a file, or a folder of files if the suffix is "/"."""
+    """Where the rows of a pixel are in a catalogue: a file, or a folder of files if the suffix is "/"."""
     folder = number // 10_000 * 10_000
     return Path("dataset", f"Norder={order}", f"Dir={folder}", f"Npix={number}{suffix.rstrip('/')}")
 

@@ -6,7 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel import _kernel
-from stereodel._arrays import FloatArray, Indices, IntArray, as_bounds, as_scalar, locked
+from stereodel._arrays import FloatArray, Indices, as_bounds, as_scalar, locked
 from stereodel._docs import shared
 from stereodel._spaces import PLANE
 from stereodel.triangulation.diagram import FAMILY, Diagram
@@ -60,11 +60,11 @@ class PlanarVoronoi(Diagram[PlanarDelaunay], surface=PLANE):
     [[-1, 0], [-1, 0], [-1, 0], [-1, 0]]
     """
 
-    def _set_flat(self, order: IntArray) -> None:
-        self.vertices, self.simplex_vertex = locked(np.zeros((0, 2))), locked(np.zeros(0, dtype=np.int32))
-        cells, ridges = _kernel.plane.flat_diagram(self.points, order)
+    def _set_flat(self) -> FloatArray:
+        cells, ridges = _kernel.plane.flat_diagram(self.points, self._order)
         self._ridges = locked(ridges), locked(np.full_like(ridges, -1))
         self._set_cells(*cells)
+        return np.zeros((0, 2))
 
     def areas(self, *, radius: float = 1.0) -> FloatArray:
         """Area of each point's cell, (n,): 0 for duplicates, infinite for unbounded cells.
