@@ -17,7 +17,6 @@ from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
-import numpy.typing as npt
 
 from stereodel._arrays import as_count
 from stereodel._extras import optional
@@ -305,7 +304,10 @@ def write_file(store: Store, file: int, pieces: Iterable[tuple[RowRange, Columns
     options = {"compression": "none", "use_dictionary": list(plan.carried)}
     with replacing(path) as temporary, parquet.ParquetWriter(temporary, schema, **options) as out:
         for rows, columns in pieces:
-            arrays = {name: _array(column) for name, column in columns.items()}
+            arrays: dict[str, Any] = {}
+            for name, column in columns.items():  # rows with several numbers are lists of a fixed size
+                flat, lists = pyarrow.array(column.ravel()), pyarrow.FixedSizeListArray
+                arrays[name] = flat if column.ndim == 1 else lists.from_arrays(flat, column.shape[1])
             if plan.carried:
                 with unchanged(source) as content:
                     found = [table for _, table in slices(content, plan.carried, rows.first, rows.last)]
@@ -313,13 +315,6 @@ def write_file(store: Store, file: int, pieces: Iterable[tuple[RowRange, Columns
                 arrays |= {name: table[name] for name in plan.carried}
             out.write_table(pyarrow.table([arrays[name] for name in schema.names], schema=schema))
     return path
-
-
-def _array(column: npt.NDArray[Any]) -> Any:
-    """A column of Arrow; rows with several numbers are lists of a fixed size."""
-    pyarrow = optional("pyarrow", "partitioned")
-    flat = pyarrow.array(column.ravel())
-    return flat if column.ndim == 1 else pyarrow.FixedSizeListArray.from_arrays(flat, column.shape[1])
 
 
 Answer = tuple[dict[str, Any], list[Note]]

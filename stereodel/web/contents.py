@@ -36,12 +36,6 @@ SITE_DIGITS: Final = {"airports": 6, "cities": 5, "everywhere": 3, "gap": 3, "he
 MOST_POINTS: Final = 1_000_000
 """Largest number of points on a page."""
 
-LARGE_CITY: Final = 2_000_000
-"""Smallest population of the page's cities; its airports are those nearest to them."""
-
-BRIGHT_STAR: Final = 3.0
-"""The largest magnitude of the page's stars."""
-
 
 @dataclass(frozen=True, eq=False)
 class Given:
@@ -132,13 +126,13 @@ def land_rings(resolution: str) -> str:
 
 @cache
 def sites(name: str) -> str:
-    """One of the small sets, those of `SITE_DIGITS`."""
+    """One of the sets of `SITE_DIGITS`: stars are the bright ones, airports those nearest to the large cities."""
     if name in (drawn := scattered()):
         places = drawn[name]
     elif name == "stars":
-        places = stars().lonlat[stars().magnitude <= BRIGHT_STAR]
+        places = stars().lonlat[stars().magnitude <= 3.0]
     else:
-        places = cities().lonlat[cities().population >= LARGE_CITY]
+        places = cities().lonlat[cities().population >= 2_000_000]
     if name == "airports":
         near = SphericalDelaunay.from_lonlat(airports().lonlat).nearest(lonlat=places)
         places = airports().lonlat[np.unique(near)]
