@@ -339,7 +339,11 @@ class Passes:
         compact, parts = self._collected() if plan.size else (True, [])
         statistics, notes = self.results(self, parts)
         if plan.rows:
-            self._aligned()
+            self.do("align", align, range(len(plan.outputs)))
+            for number, file in enumerate(plan.files):
+                if not file.rows:
+                    write_file(store, number, [])
+            store.drop("stars")
         _write_files(store)
         partitions = [{"part": note["task"], **note} for note in notes]
         for each in partitions:
@@ -394,14 +398,6 @@ class Passes:
             return True
         self.do("sample", spread.sample, range(count))
         return spread.is_laid_out(self.store)
-
-    def _aligned(self) -> None:
-        store, plan = self.store, self.store.plan
-        self.do("align", align, range(len(plan.outputs)))
-        for number, file in enumerate(plan.files):
-            if not file.rows:
-                write_file(store, number, [])
-        store.drop("stars")
 
 
 def totals(notes: Sequence[Note]) -> dict[str, Any]:

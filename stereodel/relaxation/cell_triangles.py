@@ -13,10 +13,6 @@ from stereodel.constants import QUADRATURE_CHORD
 from stereodel.curves.ragged import Ragged, spans
 from stereodel.triangulation import PlanarVoronoi, SphericalVoronoi
 
-_SIGNS = np.array([[x, y, z] for x in (1.0, -1.0) for y in (1.0, -1.0) for z in (1.0, -1.0)])
-_OCTANTS = np.array([np.diag(s) if s.prod() > 0 else np.diag(s)[::-1] for s in _SIGNS])
-"""The sphere as eight counterclockwise triangles (8, 3, 3)."""
-
 
 def as_polygon(bounds: npt.ArrayLike | None) -> FloatArray:
     """Corners (k, 2), counterclockwise, of (xmin, ymin, xmax, ymax) or of a convex polygon."""
@@ -125,7 +121,9 @@ class RoundCells:
         No side is longer than QUADRATURE_CHORD. The cell of a single site is the whole sphere.
         """
         if len(self.sites) and not len(self.ridges):
-            return split_long(_OCTANTS, np.zeros(8, dtype=np.intp))
+            signs = np.array([[x, y, z] for x in (1.0, -1.0) for y in (1.0, -1.0) for z in (1.0, -1.0)])
+            octants = np.array([np.diag(s) if s.prod() > 0 else np.diag(s)[::-1] for s in signs])
+            return split_long(octants, np.zeros(8, dtype=np.intp))
         # Each ridge in pieces of equal angle, none longer than the chord: ridge by ridge, step 0, 1, … of each.
         pieces = np.ceil(self._angles / QUADRATURE_CHORD).astype(int)
         ridge = np.repeat(np.arange(len(pieces)), pieces)
