@@ -185,7 +185,12 @@ def execute(
         if not (folder / REPORT).exists():
             with Crew(execution.jobs, executor=execution.executor) as crew:
                 Passes(results, store, crew, execution.limit, execution.progress or (lambda *_: None)).run()
-            _publish(store)
+            if not (folder / NAME).exists():  # deleted meanwhile
+                plan.save(folder)
+            for path in store.made.rglob(f".*{ENDING}"):  # of processes that were killed
+                path.unlink(missing_ok=True)
+            for name in sorted(os.listdir(store.made), key=REPORT.__eq__):  # the report last: all are there
+                os.replace(store.made / name, folder / name)
         else:
             check_results(folder, plan, load_json(folder / REPORT)["partitions"])
         _clear(store)
@@ -225,16 +230,6 @@ def _delete(*paths: Path) -> None:
             shutil.rmtree(path)
         else:
             path.unlink(missing_ok=True)
-
-
-def _publish(store: Store) -> None:
-    """Move what was made into the folder of results, the report last: one that is there says that all are."""
-    if not (store.results / NAME).exists():  # deleted meanwhile
-        store.plan.save(store.results)
-    for path in store.made.rglob(f".*{ENDING}"):  # of processes that were killed
-        path.unlink(missing_ok=True)
-    for name in sorted(os.listdir(store.made), key=REPORT.__eq__):
-        os.replace(store.made / name, store.results / name)
 
 
 def _clear(store: Store) -> None:

@@ -271,19 +271,15 @@ def _check_single_cover(mesh: Mesh, signs: SphereSigns, vertex: int) -> None:
         t = int(away[np.argmax(sees)])
         raise InvalidTriangulation(f"point {vertex} lies in the bubble of simplex {t} = {mesh.simplices[t].tolist()}")
     link = link_of(mesh, vertex)
-    first, second = (signs.progress(link, vertex, along) for along in _tangents(signs, vertex))
+    # Two independent vectors orthogonal to the point: along one of them the link is not flat.
+    x, y, z = ray_integers(signs.points[vertex])
+    a, b, c = along = np.array([-y, x, 0] if x or y else [-z, 0, 0], dtype=object)
+    across = np.array([y * c - z * b, z * a - x * c, x * b - y * a], dtype=object)
+    first, second = (signs.progress(link, vertex, way) for way in (along, across))
     steps = first if first.any() else second
     steps = steps[steps != 0]
     if ((steps > 0) & (np.roll(steps, -1) < 0)).sum() != 1:
         raise InvalidTriangulation(f"the simplices around point {vertex} do not turn once: the sphere is covered twice")
-
-
-def _tangents(signs: SphereSigns, vertex: int) -> tuple[Any, Any]:
-    """Two independent integer vectors orthogonal to a point: along one of them the link is not flat."""
-    x, y, z = ray_integers(signs.points[vertex])
-    first = np.array([-y, x, 0] if x or y else [-z, 0, 0], dtype=object)
-    a, b, c = first
-    return first, np.array([y * c - z * b, z * a - x * c, x * b - y * a], dtype=object)
 
 
 def _check_two_sided(mesh: Mesh, signs: SphereSigns) -> None:

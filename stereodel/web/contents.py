@@ -150,12 +150,6 @@ def scattered() -> dict[str, FloatArray]:
     return {name: np.array(rows) for name, rows in json.loads(text).items()}
 
 
-def _shown(name: object) -> str:
-    """A name as text: empty where it is missing, and with a mark for halves of letters."""
-    missing = name is None or name != name
-    return "" if missing else str(name).encode("utf-8", "replace").decode()
-
-
 def contents(resolution: str, given: Given | None = None, *, latitude: Latitude | None) -> dict[str, str]:
     """All contents by name, as read by `script/contents.ts`; a widget has no sets and no latitude of places."""
     blocks = {"kernel": kernel()}
@@ -166,5 +160,8 @@ def contents(resolution: str, given: Given | None = None, *, latitude: Latitude 
         blocks["given-name"] = packed(json.dumps(given.name).encode())
         blocks["given"] = packed_doubles(given.lonlat)
         if given.names is not None:
-            blocks["given-names"] = packed(json.dumps(list(map(_shown, given.names))).encode())
+            # Empty where a name is missing, and with a mark for halves of letters.
+            texts = ["" if name is None or name != name else str(name) for name in given.names]
+            shown = [text.encode("utf-8", "replace").decode() for text in texts]
+            blocks["given-names"] = packed(json.dumps(shown).encode())
     return blocks
