@@ -32,8 +32,6 @@ BigIntegers = npt.NDArray[Any]
 Bytes = npt.NDArray[np.uint8]
 Pixels = npt.NDArray[np.uint8]
 Texts = npt.NDArray[np.str_]
-Codes = npt.NDArray[np.uint32]
-"""Unicode code points."""
 Column = npt.NDArray[np.generic]
 """One value per row, of any type."""
 Geometries = npt.NDArray[np.object_]
@@ -79,20 +77,15 @@ def as_values(values: npt.ArrayLike, size: int, name: str = "values", *, axis: i
 
     Masked values count as missing.
     """
-    array = _with_gaps(values, name)
+    masked = is_masked(values)
+    array = as_doubles(np.ma.filled(values, 0) if masked else values, name)
+    if masked:
+        array = np.where(np.ma.getmaskarray(np.ma.asarray(values)), np.nan, array)
     if not -array.ndim <= axis < array.ndim or array.shape[axis] != size:
         expected = f"({size}, ...)" if axis == 0 else f"(..., {size})" if axis == -1 else f"{size} along axis {axis}"
         raise ValueError(f"{name} must have shape {expected}, one entry for each point, got {array.shape}")
     _refuse(np.isinf(array), array, name, "every value must be finite, or NaN where it is not known")
     return array
-
-
-def _with_gaps(values: npt.ArrayLike, name: str) -> FloatArray:
-    """Doubles, with NaN in the place of masked values."""
-    if not is_masked(values):
-        return as_doubles(values, name)
-    array = as_doubles(np.ma.filled(values, 0), name)
-    return np.where(np.ma.getmaskarray(np.ma.asarray(values)), np.nan, array)
 
 
 def as_levels(values: npt.ArrayLike) -> FloatArray:
@@ -174,14 +167,6 @@ def _four(values: npt.ArrayLike, name: str, what: str) -> FloatArray:
     array = as_floats(values, name)
     if array.shape != (4,):
         raise ValueError(f"{name} must be {what}, got shape {array.shape}")
-    return array
-
-
-def as_quaternion(value: npt.ArrayLike, name: str) -> FloatArray:
-    """Four numbers (w, x, y, z), not all zero, shape (4,)."""
-    array = _four(value, name, "four numbers (w, x, y, z)")
-    if not array.any():
-        raise ValueError(f"{name} is the zero quaternion, which is not a rotation")
     return array
 
 

@@ -57,8 +57,14 @@ def command() -> None:
 
     Exit code 1 if no globe can be drawn.
     """
+    from stereodel.render import gl
+
     found = tried()
-    chosen, reason, problem = _choice(found)
+    try:
+        chosen, reason = gl.choose()
+        problem = found[chosen].problem if chosen in found else f"no library of {chosen} can be opened"
+    except gl.OpenGLError as error:
+        chosen, reason, problem = "", "", str(error)
     rendering = _rendering(found, chosen, reason)
     stop_if_interrupted()
     versions = [("stereodel", stereodel.__version__), ("python", platform.python_version())]
@@ -105,17 +111,6 @@ def _tried(name: str) -> gl.Description:
         problem = f"the process that drew on {name} ended with code {ran.returncode}: {last}"
         return gl.Description(name, gl.VARIABLE, problem=problem)
     return gl.Description(**json.loads(ran.stdout.splitlines()[-1]))
-
-
-def _choice(found: Mapping[str, gl.Description]) -> tuple[str, str, str]:
-    """The platform that a program would use, the reason, and any problem with it."""
-    from stereodel.render import gl
-
-    try:
-        name, reason = gl.choose()
-    except gl.OpenGLError as error:
-        return "", "", str(error)
-    return name, reason, found[name].problem if name in found else f"no library of {name} can be opened"
 
 
 def _extras() -> list[tuple[str, str, str]]:

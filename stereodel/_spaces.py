@@ -5,7 +5,6 @@ Triangulations and diagrams hold one of the two as `surface`; for points alone i
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
@@ -19,8 +18,8 @@ if TYPE_CHECKING:
     from stereodel._kernel.space import Space
 
 
-class PlaneOrSphere(ABC):
-    """What both have.
+class _Surface:
+    """What both have, beside the methods of the plane.
 
     name: as arguments and tables have it.
     width: numbers that make a point: (n, 2), or directions (n, 3).
@@ -37,42 +36,31 @@ class PlaneOrSphere(ABC):
     def __reduce__(self) -> str:  # copies and pickles are the value itself
         return self.name.upper()
 
-    @abstractmethod
-    def as_points(self, values: npt.ArrayLike, lonlat_door: str) -> FloatArray:
-        """Checked points (n, width); the message about those of the plane names the door for longitude and latitude."""
 
-    @abstractmethod
-    def as_queries(self, values: npt.ArrayLike) -> FloatArray:
-        """Checked queries of any leading shape."""
-
-    @abstractmethod
-    def distances(self, a: FloatArray, b: FloatArray) -> FloatArray:
-        """Between points row by row; on the sphere in degrees."""
-
-    @abstractmethod
-    def areas(self, a: FloatArray, b: FloatArray, c: FloatArray) -> FloatArray:
-        """Of triangles row by row, positive where counterclockwise; on the sphere in steradians."""
-
-
-class _Plane(PlaneOrSphere):
+class _Plane(_Surface):
     name, width, kernel = "plane", 2, _kernel.plane
 
     def as_points(self, values: npt.ArrayLike, lonlat_door: str) -> FloatArray:
+        """Checked points (n, width); the message about those of the plane names the door for longitude and latitude."""
         return as_points(values, 2, instead="triangulate directions by SphericalDelaunay")
 
     def as_queries(self, values: npt.ArrayLike) -> FloatArray:
+        """Checked queries of any leading shape."""
         return as_vectors(values, 2, "queries", instead="the points of this object are of the plane")
 
     def distances(self, a: FloatArray, b: FloatArray) -> FloatArray:
+        """Between points row by row; on the sphere in degrees."""
         return np.hypot(*np.moveaxis(b - a, -1, 0))
 
     def areas(self, a: FloatArray, b: FloatArray, c: FloatArray) -> FloatArray:
+        """Of triangles row by row, positive where counterclockwise; on the sphere in steradians."""
         (dx, dy), (ex, ey) = (b - a).T, (c - a).T
         return (dx * ey - dy * ex) / 2
 
 
-class _Sphere(PlaneOrSphere):
+class _Sphere(_Surface):
     name, width, kernel = "sphere", 3, _kernel.sphere
+    distances, areas = staticmethod(angular_distance), staticmethod(solid_angle)
 
     def as_points(self, values: npt.ArrayLike, lonlat_door: str) -> FloatArray:
         return as_directions(values, "points", points=True, instead=f"for longitude and latitude use {lonlat_door}")
@@ -80,13 +68,8 @@ class _Sphere(PlaneOrSphere):
     def as_queries(self, values: npt.ArrayLike) -> FloatArray:
         return as_directions(values, "queries", instead="for longitude and latitude write lonlat=…")
 
-    def distances(self, a: FloatArray, b: FloatArray) -> FloatArray:
-        return angular_distance(a, b)
 
-    def areas(self, a: FloatArray, b: FloatArray, c: FloatArray) -> FloatArray:
-        return solid_angle(a, b, c)
-
-
+PlaneOrSphere = _Plane | _Sphere
 PLANE, SPHERE = _Plane(), _Sphere()
 
 

@@ -49,7 +49,7 @@ ON_THE_SPHERE = [
     (lambda: EQUATOR.contains([0, 0, 0]), "xyz is the zero vector"),
     (lambda: EQUATOR.sample(0), "n is 0"),
     (lambda: Rotation((0, 0, 0, 0)), "zero quaternion"),
-    (lambda: Rotation((1, 0, 0)), "four numbers"),
+    (lambda: Rotation((1, 0, 0)), r"quaternion must have shape \(4,\)"),
     (lambda: Rotation.from_matrix(np.diag([1, 1, -1])), "not a rotation"),
     (lambda: Rotation.from_matrix(np.diag([1, 1, 2])), "not a rotation"),
     (lambda: Rotation.from_matrix(np.eye(4)), r"shape \(3, 3\)"),

@@ -20,7 +20,6 @@ from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExecutor, as_completed, wait
 from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass
-from functools import partial
 from multiprocessing import parent_process
 from multiprocessing.context import SpawnContext, SpawnProcess
 from typing import Any, Final, Generic, Literal, NoReturn, Self, TypeVar
@@ -99,7 +98,13 @@ class Crew:
         """
         count = min(len(tasks), self._jobs)
         if self._executor is not None:
-            yield from _elsewhere(self._executor, work, tasks)
+            numbers = {self._executor.submit(_attempt_there, work, task): number for number, task in enumerate(tasks)}
+            try:
+                for future in as_completed(numbers):
+                    yield numbers[future], _outcome(future)
+            finally:
+                for future in numbers:
+                    future.cancel()
         elif count <= 1:
             yield from ((number, _attempt(work, task)) for number, task in enumerate(tasks))
         else:
@@ -132,18 +137,6 @@ class Crew:
                     break
                 if outcome.error is None:
                     yield number, outcome
-
-
-def _elsewhere(
-    executor: Executor, work: Callable[[Any], Any], tasks: Sequence[Any]
-) -> Iterator[tuple[int, Outcome[Any]]]:
-    numbers = {executor.submit(_attempt_there, work, task): number for number, task in enumerate(tasks)}
-    try:
-        for future in as_completed(numbers):
-            yield numbers[future], _outcome(future)
-    finally:
-        for future in numbers:
-            future.cancel()
 
 
 def _outcome(future: Future[Outcome[Any]]) -> Outcome[Any]:
@@ -328,16 +321,14 @@ def _take(orders: bytes) -> None:
             _import_main(main_script)
         _work = pickle.loads(pickled)
     except Exception as error:
-        _work = partial(_fail, error)
+        failure = error
+
+        def _work(task: Any) -> NoReturn:
+            raise failure
 
 
 def _do(task: bytes) -> Outcome[Any]:
     return _attempt_there(lambda pickled: _work(pickle.loads(pickled)), task)
-
-
-def _fail(error: Exception, task: Any) -> NoReturn:
-    """Work that could not be taken up."""
-    raise error
 
 
 def _import_main(script: MainScript) -> None:

@@ -8,15 +8,12 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Final
+from typing import Any
 
 from stereodel._tasks.whole_files import write_whole
 
 Note = dict[str, Any]
 """What there was to say when something was done, and the sizes of the files that were written, by ``files``."""
-
-LOCK: Final = ".lock"
-"""Name of a file that says who writes to a folder, which stays there: another run may be about to open it."""
 
 
 @dataclass(frozen=True)
@@ -67,24 +64,19 @@ def save_json(path: Path, value: Mapping[str, Any]) -> None:
 def locked(folder: Path) -> Iterator[None]:
     """Keep other runs, on this machine or another one that shares the folder, from it.
 
-    The system takes the lock away from a process that ends, however it ends.
-    Raises RuntimeError where a run holds it.
+    The system takes the lock away from a process that ends, however it ends; its file stays, as another run may be
+    about to open it. Raises RuntimeError where a run holds it.
     """
-    with (folder / LOCK).open("a+b") as file:
+    with (folder / ".lock").open("a+b") as file:
         try:
-            _lock(file.fileno())
+            if os.name == "nt":
+                import msvcrt
+
+                msvcrt.locking(file.fileno(), msvcrt.LK_NBLCK, 1)  # type: ignore[attr-defined, unused-ignore]
+            else:
+                import fcntl
+
+                fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except OSError as error:
             raise RuntimeError(f"another run writes to {folder}; wait for it, or take another folder") from error
         yield
-
-
-def _lock(descriptor: int) -> None:
-    """Lock a file or raise an OSError; closing it unlocks it."""
-    if os.name == "nt":
-        import msvcrt
-
-        msvcrt.locking(descriptor, msvcrt.LK_NBLCK, 1)  # type: ignore[attr-defined, unused-ignore]
-    else:
-        import fcntl
-
-        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)

@@ -6,15 +6,12 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import Any, Final
+from typing import Any
 
 from stereodel._extras import of_extra
 
 Progress = Callable[[str, int, int], object]
 """Called with the name of a stage, how much of it is done and how much there is of it, 0 where that is not known."""
-
-PAUSE: Final = 10.0
-"""Seconds between two lines."""
 
 
 @contextmanager
@@ -24,7 +21,16 @@ def reporting(*, shown: bool = True, lines: bool = False) -> Iterator[Progress]:
         yield lambda stage, done, of: None
         return
     if not sys.stderr.isatty():
-        yield _PrintedLines()
+        begin = said = time.monotonic()
+
+        def say(stage: str, done: int, of: int) -> None:
+            nonlocal said
+            now = time.monotonic()
+            if done == of or now - said >= 10:  # now and then, and at the end of each stage
+                said = now
+                print(f"{stage} {done}/{of} ({now - begin:.0f} s)", file=sys.stderr, flush=True)
+
+        yield say
         return
     with of_extra("film"):  # the command has its own door
         from rich import progress
@@ -44,16 +50,3 @@ def reporting(*, shown: bool = True, lines: bool = False) -> Iterator[Progress]:
             bars.update(found[stage], **state)
 
         yield show
-
-
-class _PrintedLines:
-    """Prints a line now and then, and one at the end of each stage, with the seconds since the beginning."""
-
-    def __init__(self) -> None:
-        self.begin = self.said = time.monotonic()
-
-    def __call__(self, stage: str, done: int, of: int) -> None:
-        now = time.monotonic()
-        if done == of or now - self.said >= PAUSE:
-            self.said = now
-            print(f"{stage} {done}/{of} ({now - self.begin:.0f} s)", file=sys.stderr, flush=True)

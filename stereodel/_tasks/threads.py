@@ -43,18 +43,12 @@ def in_order(job: Callable[[Task], Result], tasks: Iterable[Task], threads: int)
             for task in tasks:
                 if len(waiting) == threads:
                     yield waiting.popleft().result()
-                waiting.append(_begun(pool, job, task))
+                try:
+                    waiting.append(pool.submit(job, task))
+                except RuntimeError:  # no thread could be started
+                    waiting.append(Future())
+                    waiting[-1].set_result(job(task))
             while waiting:
                 yield waiting.popleft().result()
         finally:
             pool.shutdown(wait=True, cancel_futures=True)
-
-
-def _begun(pool: ThreadPoolExecutor, job: Callable[[Task], Result], task: Task) -> Future[Result]:
-    """The future of a job that a thread of the pool does, or that is done already as no thread could be started."""
-    try:
-        return pool.submit(job, task)
-    except RuntimeError:
-        done: Future[Result] = Future()
-        done.set_result(job(task))
-        return done

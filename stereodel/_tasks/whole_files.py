@@ -14,14 +14,8 @@ from typing import Any, Final
 
 from stereodel._extras import optional
 
-NAME_LENGTH: Final = 32
-"""Number of characters of a file's name kept in its temporary name; file systems limit names to 255 bytes."""
-
 ENDING: Final = ".tmp"
 """Suffix of temporary names."""
-
-NEW: Final = os.O_CREAT | os.O_EXCL | os.O_WRONLY | getattr(os, "O_NOFOLLOW", 0)
-"""Flags to open a file that must not exist."""
 
 
 @contextmanager
@@ -92,8 +86,8 @@ def _streamed(target: Path) -> Iterator[Path]:
 @contextmanager
 def _beside(kept: Path) -> Iterator[Path]:
     """A file next to the target, which replaces it at the end."""
-    temporary = kept.with_name(f".{kept.name[:NAME_LENGTH]}.{secrets.token_hex(8)}{ENDING}")
-    os.close(os.open(temporary, NEW, 0o666))
+    temporary = kept.with_name(f".{kept.name[:32]}.{secrets.token_hex(8)}{ENDING}")  # names have at most 255 bytes
+    os.close(os.open(temporary, os.O_CREAT | os.O_EXCL | os.O_WRONLY | getattr(os, "O_NOFOLLOW", 0), 0o666))
     try:
         if kept.exists():
             shutil.copymode(kept, temporary)

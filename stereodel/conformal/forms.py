@@ -103,28 +103,19 @@ def stereographic_pipeline(left: Rotation, magnification: float, right: Rotation
     turn = left.exact_matrix.hi @ right.exact_matrix.hi
     # Images of east and north at the focus, in terms of east and north at its image.
     plane = tangent_frame(end).hi[:2] @ turn @ tangent_frame(start).hi[:2].T
+    entries = " ".join(f"+s{i + 1}{j + 1}={_number(plane[i, j])}" for i in (0, 1) for j in (0, 1))
+    # Equal frames may differ by two rounded rotations and two rounded centres, each within 2⁻⁵².
+    turned = [f"+step +proj=affine {entries}"] if np.abs(plane - np.eye(2)).max() > 4 * STORED_ERROR else []
+    first, last = (f"+lat_0={_number(lat)} +lon_0={_number(lon)}" for lon, lat in (start, end))
     steps = [
         "+proj=pipeline",
         "+step +proj=unitconvert +xy_in=deg +xy_out=rad",
-        f"+step +proj=stere {_place(start)} +k_0={_number(magnification)} +R=1",
-        *_turned(plane),
-        f"+step +inv +proj=stere {_place(end)} +k_0=1 +R=1",
+        f"+step +proj=stere {first} +k_0={_number(magnification)} +R=1",
+        *turned,
+        f"+step +inv +proj=stere {last} +k_0=1 +R=1",
         "+step +proj=unitconvert +xy_in=rad +xy_out=deg",
     ]
     return " ".join(steps)
-
-
-def _turned(plane: FloatArray) -> list[str]:
-    """The step of a rotation matrix (2, 2); none for the identity."""
-    # Equal frames may differ by two rounded rotations and two rounded centres, each within 2⁻⁵².
-    if np.abs(plane - np.eye(2)).max() <= 4 * STORED_ERROR:
-        return []
-    entries = " ".join(f"+s{i + 1}{j + 1}={_number(plane[i, j])}" for i in (0, 1) for j in (0, 1))
-    return [f"+step +proj=affine {entries}"]
-
-
-def _place(lonlat: FloatArray) -> str:
-    return f"+lat_0={_number(lonlat[1])} +lon_0={_number(lonlat[0])}"
 
 
 def _number(value: float) -> str:

@@ -201,7 +201,10 @@ def power(element: Biquaternion, exponent: float) -> Biquaternion:
         cosine, factor = 1 - z / 2 + z**2 / 24, ratio * (1 - z / 6 + z**2 / 120)
     else:
         sine = sine_of(element)
-        angle = exponent * _angle(element, sine)
+        # θ with c = cos θ and s = sin θ, from the logarithm of exp(iθ) = c + i s.
+        turned = element.scalar + sine.times_i()
+        value, excess = complex(turned), float((turned.square_size() - 1.0).round())
+        angle = exponent * complex(np.arctan2(value.imag, value.real), -0.5 * np.log1p(excess))
         if 2 * abs(angle.imag) > np.log(LARGEST_MAGNIFICATION):
             raise ValueError(f"exponent is {exponent:g}: the power has a magnification above {LARGEST_MAGNIFICATION:g}")
         cosine, factor = complex(np.cos(angle)), complex(np.sin(angle)) / complex(sine)
@@ -223,13 +226,6 @@ def sine_of(element: Biquaternion) -> Complex:
     # A quarter of the difference of the two squares: the smaller number itself would cancel.
     lead = element.scalar * root.times_i().conjugate()
     return root if float(lead.re.hi) >= 0 else -root
-
-
-def _angle(element: Biquaternion, sine: Complex) -> complex:
-    """θ with c = cos θ and s = sin θ, from the logarithm of exp(iθ) = c + i s."""
-    exponential = element.scalar + sine.times_i()
-    value, excess = complex(exponential), float((exponential.square_size() - 1.0).round())
-    return complex(np.arctan2(value.imag, value.real), -0.5 * np.log1p(excess))
 
 
 Kind = Literal["identity", "rotation", "boost", "parabolic", "loxodromic"]

@@ -232,7 +232,11 @@ def borders(resolution: str = "50m") -> Borders:
     if resolution == "10m":
         lonlat, offsets = _lines(columns)
         return Borders(lonlat, offsets, locked(np.full((len(offsets) - 1, 2), -1, dtype=np.int32)))
-    owners = _owners(columns)
+    # The country on the left of each arc, and of each arc backwards, ~i.
+    rings, polygons, sizes = (stored.integers(columns[f"country_{key}"]) for key in ("rings", "polygons", "sizes"))
+    ring_country = np.repeat(np.repeat(np.arange(len(sizes)), sizes), polygons)
+    used = stored.integers(columns["country_arcs"])
+    owners = dict(zip(used.tolist(), np.repeat(ring_country, rings).tolist(), strict=True))
     shared = [arc for arc in sorted(owners) if arc >= 0 and ~arc in owners]
     arcs = _arcs(columns, DEGREE_DIGITS)
     sides = np.array([(owners[arc], owners[~arc]) for arc in shared], dtype=np.int32)
@@ -326,11 +330,3 @@ def end_to_end(arcs: list[Any], used: list[int]) -> Any:
     """Arcs end to end; ~i stands for arc i from its end to its start."""
     parts = [arcs[i] if i >= 0 else arcs[~i][::-1] for i in used]
     return np.concatenate([*(part[:-1] for part in parts), parts[-1][-1:]])
-
-
-def _owners(columns: dict[str, Bytes]) -> dict[int, int]:
-    """The country on the left of each arc, and of each arc backwards, ~i."""
-    rings, polygons, sizes = (stored.integers(columns[f"country_{key}"]) for key in ("rings", "polygons", "sizes"))
-    ring_country = np.repeat(np.repeat(np.arange(len(sizes)), sizes), polygons)
-    used = stored.integers(columns["country_arcs"])
-    return dict(zip(used.tolist(), np.repeat(ring_country, rings).tolist(), strict=True))

@@ -27,9 +27,6 @@ SURFACES: Final[tuple[Surface, ...]] = ("sphere", "plane")
 Form = Literal["lonlat", "xyz", "xy", "wkb", "point"]
 """Columns of degrees, of a direction, of the plane; one of geometries, in binary or as pairs of numbers."""
 
-DEGREES: Final = ("EPSG:4326", "OGC:CRS84")
-"""Coordinate systems of geometries that are longitude and latitude in degrees without transformation."""
-
 FilesGiven = str | os.PathLike[str] | Sequence[str | os.PathLike[str]]
 """What names files of points: a file, a folder, a pattern with *, ? or [, or a list of files."""
 
@@ -113,7 +110,7 @@ def _of_geometries(column: Mapping[str, Any], name: str, surface: Surface, latit
         raise ValueError(f"the geometries {name!r} are {encoding}, but points are needed; take e.g. centroids")
     crs = column.get("crs") if surface == "sphere" else None
     known = crs.get("id", {}) if crs else {}
-    in_degrees = crs is None or f"{known.get('authority')}:{known.get('code')}" in DEGREES
+    in_degrees = crs is None or f"{known.get('authority')}:{known.get('code')}" in ("EPSG:4326", "OGC:CRS84")
     return PointColumns(form, (name,), surface, latitude, None if in_degrees else json.dumps(crs))
 
 
@@ -264,8 +261,8 @@ def paths_of(given: FilesGiven) -> list[tuple[Path, str]]:
     if not isinstance(given, str | os.PathLike):
         paths = [Path(os.path.abspath(path)) for path in given]
     elif (whole := Path(given)).is_dir():
-        within = (path for ending in ENDINGS for path in whole.rglob(f"*{ending}"))
-        root, paths = whole, sorted(path for path in within if not _is_hidden(path.relative_to(whole)))
+        root, within = whole, (path for ending in ENDINGS for path in whole.rglob(f"*{ending}"))
+        paths = sorted(path for path in within if not any(part[0] in "_." for part in path.relative_to(whole).parts))
     else:
         found = [whole] if whole.is_file() else map(Path, glob.glob(os.fspath(given), recursive=True))
         paths = sorted(path for path in found if path.is_file())
@@ -274,10 +271,6 @@ def paths_of(given: FilesGiven) -> list[tuple[Path, str]]:
         raise FileNotFoundError(f"{missing[0] if missing else given} is no file, folder or pattern of Parquet files")
     root = root or (Path(os.path.commonpath([path.parent for path in paths])) if paths else Path())
     return [(path, path.relative_to(root).as_posix()) for path in paths]
-
-
-def _is_hidden(path: Path) -> bool:
-    return any(part.startswith(("_", ".")) for part in path.parts)
 
 
 def parquet_source(given: FilesGiven, names: tuple[str, ...] | None, surface: Surface, latitude: Latitude) -> Source:

@@ -17,7 +17,6 @@ from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
-import numpy.typing as npt
 
 from stereodel._arrays import as_count
 from stereodel._extras import optional
@@ -186,7 +185,12 @@ def execute(
         if not (folder / REPORT).exists():
             with Crew(execution.jobs, executor=execution.executor) as crew:
                 Passes(results, store, crew, execution.limit, execution.progress or (lambda *_: None)).run()
-            _publish(store)
+            if not (folder / NAME).exists():  # deleted meanwhile
+                plan.save(folder)
+            for path in store.made.rglob(f".*{ENDING}"):  # of processes that were killed
+                path.unlink(missing_ok=True)
+            for name in sorted(os.listdir(store.made), key=REPORT.__eq__):  # the report last: all are there
+                os.replace(store.made / name, folder / name)
         else:
             check_results(folder, plan, load_json(folder / REPORT)["partitions"])
         _clear(store)
@@ -226,16 +230,6 @@ def _delete(*paths: Path) -> None:
             shutil.rmtree(path)
         else:
             path.unlink(missing_ok=True)
-
-
-def _publish(store: Store) -> None:
-    """Move what was made into the folder of results, the report last: one that is there says that all are."""
-    if not (store.results / NAME).exists():  # deleted meanwhile
-        store.plan.save(store.results)
-    for path in store.made.rglob(f".*{ENDING}"):  # of processes that were killed
-        path.unlink(missing_ok=True)
-    for name in sorted(os.listdir(store.made), key=REPORT.__eq__):
-        os.replace(store.made / name, store.results / name)
 
 
 def _clear(store: Store) -> None:
@@ -305,7 +299,10 @@ def write_file(store: Store, file: int, pieces: Iterable[tuple[RowRange, Columns
     options = {"compression": "none", "use_dictionary": list(plan.carried)}
     with replacing(path) as temporary, parquet.ParquetWriter(temporary, schema, **options) as out:
         for rows, columns in pieces:
-            arrays = {name: _array(column) for name, column in columns.items()}
+            arrays: dict[str, Any] = {}
+            for name, column in columns.items():  # rows with several numbers are lists of a fixed size
+                flat, lists = pyarrow.array(column.ravel()), pyarrow.FixedSizeListArray
+                arrays[name] = flat if column.ndim == 1 else lists.from_arrays(flat, column.shape[1])
             if plan.carried:
                 with unchanged(source) as content:
                     found = [table for _, table in slices(content, plan.carried, rows.first, rows.last)]
@@ -313,13 +310,6 @@ def write_file(store: Store, file: int, pieces: Iterable[tuple[RowRange, Columns
                 arrays |= {name: table[name] for name in plan.carried}
             out.write_table(pyarrow.table([arrays[name] for name in schema.names], schema=schema))
     return path
-
-
-def _array(column: npt.NDArray[Any]) -> Any:
-    """A column of Arrow; rows with several numbers are lists of a fixed size."""
-    pyarrow = optional("pyarrow", "partitioned")
-    flat = pyarrow.array(column.ravel())
-    return flat if column.ndim == 1 else pyarrow.FixedSizeListArray.from_arrays(flat, column.shape[1])
 
 
 Answer = tuple[dict[str, Any], list[Note]]
@@ -344,7 +334,11 @@ class Passes:
         compact, parts = self._collected() if plan.size else (True, [])
         statistics, notes = self.results(self, parts)
         if plan.rows:
-            self._aligned()
+            self.do("align", align, range(len(plan.outputs)))
+            for number, file in enumerate(plan.files):
+                if not file.rows:
+                    write_file(store, number, [])
+            store.drop("stars")
         _write_files(store)
         partitions = [{"part": note["task"], **note} for note in notes]
         for each in partitions:
@@ -399,14 +393,6 @@ class Passes:
             return True
         self.do("sample", spread.sample, range(count))
         return spread.is_laid_out(self.store)
-
-    def _aligned(self) -> None:
-        store, plan = self.store, self.store.plan
-        self.do("align", align, range(len(plan.outputs)))
-        for number, file in enumerate(plan.files):
-            if not file.rows:
-                write_file(store, number, [])
-        store.drop("stars")
 
 
 def totals(notes: Sequence[Note]) -> dict[str, Any]:

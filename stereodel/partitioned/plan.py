@@ -50,15 +50,6 @@ NAME: Final = "plan.json"
 BLOCK: Final = 256
 """Points of a block at most."""
 
-LARGE_BLOCK: Final = 1024
-"""The same where there are more than `LARGE` points: each worker knows the box of every block."""
-
-LARGE: Final = 1_000_000_000
-"""Points."""
-
-SHARE: Final = 256
-"""Tasks that read a whole set: more are more slices for each partition to collect, fewer are larger than memory."""
-
 LEAST_SHARE: Final = 100_000
 """Rows of a task that reads at least, where partitions are smaller."""
 
@@ -108,8 +99,10 @@ class Plan:
     def of(cls, source: Source, **options: Any) -> Plan:
         """The plan for a source."""
         plan = cls(stereodel.__version__, source.files, source.columns, source.carried, source.compact, **options)
-        share = min(max(plan.partition, plan.size // SHARE, LEAST_SHARE), LARGEST_SHARE)
-        return replace(plan, block=LARGE_BLOCK if plan.size > LARGE else BLOCK, share=share)
+        # More than 256 tasks are more slices for each partition to collect, fewer are larger than memory.
+        share = min(max(plan.partition, plan.size // 256, LEAST_SHARE), LARGEST_SHARE)
+        # Each worker knows the box of every block: of many points they are larger.
+        return replace(plan, block=1024 if plan.size > 1_000_000_000 else BLOCK, share=share)
 
     def save(self, folder: Path) -> None:
         """Write it into a folder."""

@@ -82,9 +82,8 @@ class Answers(Results):
     Attributes
     ----------
     statistics : dict
-        ``surface``, ``targets``, ``compact`` (whether their files served as partitions), ``partitions``, ``rounds``
-        (the most of one), ``read`` (points in all triangulations), ``largest`` (points of the largest), ``cpu``
-        (seconds of all workers in them).
+        ``targets``, and ``surface``, ``compact``, ``partitions``, ``rounds``, ``read``, ``largest`` and ``cpu`` as of
+        `Run`.
     partitions : list of dict
         The same of each partition that has targets, by its number, ``part``.
 
@@ -137,7 +136,7 @@ class TargetRounds(Rounds[tuple[Indices, Columns]]):
         if len(left) and not unread.all():
             core[sample.blocks[np.asarray(mesh.nearest(self.points[left], workers=1))]] = True
         final = pending[~is_open], {name: column[~is_open] for name, column in columns.items()}
-        return Verdict(final, left, depth, core & ~unread, len(left) * int(self.index.sizes.max(initial=0)))
+        return final, left, depth, core & ~unread, len(left) * int(self.index.sizes.max(initial=0))
 
     def _nearest(self, mesh: Mesh, numbers: LongArray, targets: FloatArray, unread: BoolArray) -> Certified:
         """A target is open if the disc around it through the last of its nearest points touches an unread block."""
@@ -180,17 +179,14 @@ class TargetRounds(Rounds[tuple[Indices, Columns]]):
             values[~is_open] = function(targets[~is_open], workers=1)
         return dict(zip(names, values.T, strict=True)), is_open, depth
 
-    @cached_property
-    def _firsts(self) -> LongArray:
-        return points_of(self.question).plan.share_firsts
-
     def _values(self, numbers: LongArray) -> FloatArray:
         """Values (n, k) of points whose numbers ascend."""
-        bounds = np.searchsorted(numbers, self._firsts)
+        firsts = points_of(self.question).plan.share_firsts
+        bounds = np.searchsorted(numbers, firsts)
         values = np.empty((len(numbers), len(self.question.values)))
         for share in np.flatnonzero(np.diff(bounds)).tolist():
             rows = slice(*bounds[share : share + 2])
-            values[rows] = self.store.load("values", share, "values")[numbers[rows] - self._firsts[share]]
+            values[rows] = self.store.load("values", share, "values")[numbers[rows] - firsts[share]]
         return values
 
 

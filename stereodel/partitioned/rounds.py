@@ -131,14 +131,10 @@ def triangulation(points: FloatArray) -> Mesh:
     return surface_of(points).delaunay(points, workers=1)
 
 
-class Verdict(NamedTuple, Generic[T]):
-    """What a round decides."""
-
-    answers: T  # that are final
-    pending: Indices  # what has no final answer yet
-    depth: FloatArray  # how deep its bubbles reach into each block that was not read
-    core: BoolArray  # blocks around it, which are read again
-    budget: int  # points that the first deepest blocks may have
+Verdict = tuple[T, Indices, FloatArray, BoolArray, int]
+"""Answers that are final; what has none yet, how deep its bubbles reach into each block that was not read, the blocks
+around it, which are read again, and how many points the first deepest blocks may have.
+"""
 
 
 @dataclass

@@ -319,7 +319,12 @@ def _stars(passes: Passes, parts: list[int]) -> tuple[dict[str, Any], list[Note]
         none = {name: np.empty(0, dtype=np.int64) for name in "abc"} | {"closing": np.empty(0, dtype=np.bool_)}
         store.write_table(store.folder("triangles") / f"{NONE['part']}.parquet", none)
     statistics = _statistics(plan, notes)
-    _check(plan, statistics)
+    # No input lets these differ.
+    triangles, euler, area, whole = *(statistics[name] for name in ("triangles", "euler", "area")), 4 * np.pi
+    if triangles != euler:
+        raise RuntimeError(f"there are {triangles} triangles, but {euler} by Euler's formula")
+    if plan.columns.surface == "sphere" and plan.size and abs(area - whole) > AREA_SUM_ERROR * whole:
+        raise RuntimeError(f"the areas of all cells add up to {area}, but the sphere's is {whole}")
     return statistics, notes
 
 
@@ -338,12 +343,3 @@ def _statistics(plan: Plan, notes: Sequence[Note]) -> dict[str, Any]:
         "area": area,
         **totals(notes),
     }
-
-
-def _check(plan: Plan, statistics: dict[str, Any]) -> None:
-    """Compare triangles with Euler's formula, and the areas of all cells with a sphere's; no input lets them differ."""
-    triangles, euler, area, whole = *(statistics[name] for name in ("triangles", "euler", "area")), 4 * np.pi
-    if triangles != euler:
-        raise RuntimeError(f"there are {triangles} triangles, but {euler} by Euler's formula")
-    if plan.columns.surface == "sphere" and plan.size and abs(area - whole) > AREA_SUM_ERROR * whole:
-        raise RuntimeError(f"the areas of all cells add up to {area}, but the sphere's is {whole}")

@@ -21,14 +21,8 @@ from stereodel.sphere.vectors import units
 GROUPS: Final = 512
 """Row groups that a sample reads in all, but one of each piece of a file at least: it need not read the whole input."""
 
-SMALL_PARTS: Final = 2**16
-"""Partitions that numbers of 16 bits count, which are sorted in one pass."""
-
 SAMPLE: Final = 100_000
-"""Rows of a sample, enough for leaves that differ in size by some per cent."""
-
-SAMPLE_OF_A_PART: Final = 64
-"""The least of them for each partition."""
+"""Rows of a sample, enough for leaves that differ in size by some per cent; 64 of each partition at least."""
 
 COMPACT: Final = 2.0
 """How many times as many edges may join two partitions of files as join two leaves of a tree; see `is_compact`."""
@@ -87,7 +81,7 @@ def sample(store: Store, part: int) -> None:
     plan = store.plan
     ranges = plan.parts[part]
     rows = sum(last - first for _, first, last in ranges)
-    total = max(SAMPLE, SAMPLE_OF_A_PART * len(plan.parts))
+    total = max(SAMPLE, 64 * len(plan.parts))
     groups = -(-GROUPS // len(plan.parts))
     found: list[FloatArray] = []
     for file, first, last in ranges:
@@ -128,7 +122,7 @@ def spread(store: Store, share: int) -> None:
     plan, tree = store.plan, load(store.scratch / "splits")
     points, first = points_of(plan, plan.shares[share]), plan.share_firsts[share]
     parts, leaves = leaves_of(points, tree), len(tree) + 1
-    order = np.argsort(parts.astype(np.uint16) if leaves <= SMALL_PARTS else parts, kind="stable")
+    order = np.argsort(parts.astype(np.uint16) if leaves <= 2**16 else parts, kind="stable")  # 16 bits take one pass
     numbers = (order + first).astype(plan.number_type)
     points, bounds = points[order], np.cumsum(np.bincount(parts, minlength=leaves))
     starts = starts_of(np.append(0, bounds), points, numbers)

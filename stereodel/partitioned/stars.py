@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Final, NamedTuple
@@ -23,9 +23,6 @@ from stereodel.triangulation import PlanarDelaunay, PlanarVoronoi, SphericalVoro
 
 REACH: Final = 0.15
 """What is read beside own blocks at first: what is nearer than so much of the smaller block's diagonal."""
-
-BUDGET: Final = 0.2
-"""How many more points the second round may read, in terms of the own ones."""
 
 CELLS: Final = ("kept", "degree", "area", "nearest", "distance")
 """Results for points in the order of the kernel."""
@@ -63,7 +60,7 @@ class StarRounds(Rounds[Solved]):
             )
 
     def decide(self, sample: Sample, pending: Indices, unread: BoolArray) -> Verdict[Solved]:
-        """The stars that are final: of duplicates all together."""
+        """The stars that are final, of duplicates all together; the second round may read a fifth more points."""
         mesh, numbers = triangulation(sample.points), sample.numbers
         here = np.flatnonzero(self.index.part[sample.blocks] == self.part)
         if len(here) > len(pending):
@@ -80,7 +77,7 @@ class StarRounds(Rounds[Solved]):
             near = np.unique(np.concatenate([around, sample.blocks[left]]))
             core = self._core(near[~unread[near]])
         solved = self._solved(mesh, numbers, final) if mesh.dimension == 2 else self._flat(sample, final)
-        return Verdict(solved, numbers[left], depth, core, int(BUDGET * self.size))
+        return solved, numbers[left], depth, core, int(0.2 * self.size)
 
     def _core(self, blocks: Indices) -> BoolArray:
         """Some blocks and those near them."""
@@ -197,10 +194,17 @@ def solve(store: Store, part: int, limit: int) -> None:
         table: Columns = {name: np.ascontiguousarray(corners[:, axis]) for axis, name in enumerate("abc")}
         table["closing"] = np.concatenate([each.closing for each in found])
         files.append(store.write_table(store.folder("triangles") / f"{part}.parquet", table))
-    cells = [each.cells for each in found if each.cells is not None]
-    if cells:
-        summary["cells"] = sum(map(len, cells))
-        files.append(_write_cells(store, part, cells))
+    layers = [each.cells for each in found if each.cells is not None]
+    if layers:
+        summary["cells"] = sum(map(len, layers))
+        cells = {name: np.concatenate([layer.columns[name] for layer in layers]) for name in ("point", "area")}
+        binary = np.concatenate([layer.binary for layer in layers])
+        whole = MapRows(cells, binary, layers[0].crs).take(np.argsort(cells["point"]))
+        path = store.folder("cells") / f"{part}.parquet"
+        path.parent.mkdir(parents=True, exist_ok=True)
+        with replacing(path) as temporary:
+            write_parquet(whole, temporary, metadata=plan.metadata)
+        files.append(path)
     store.notes.keep("solve", summary | measured(stars.sizes, began), files, task=part)
 
 
@@ -211,15 +215,3 @@ def write_rows(store: Store, part: int, columns: Columns, **more: Any) -> list[P
         rows[name] = columns[name]
     starts = starts_of(np.searchsorted(columns["number"], store.plan.share_firsts), rows)
     return store.save("stars", part, {"rows": rows, "starts": starts, **more})
-
-
-def _write_cells(store: Store, part: int, layers: Sequence[MapRows]) -> Path:
-    """The cells of a partition as GeoParquet, in the order of the points' numbers."""
-    columns = {name: np.concatenate([layer.columns[name] for layer in layers]) for name in ("point", "area")}
-    binary = np.concatenate([layer.binary for layer in layers])
-    whole = MapRows(columns, binary, layers[0].crs).take(np.argsort(columns["point"]))
-    path = store.folder("cells") / f"{part}.parquet"
-    path.parent.mkdir(parents=True, exist_ok=True)
-    with replacing(path) as temporary:
-        write_parquet(whole, temporary, metadata=store.plan.metadata)
-    return path

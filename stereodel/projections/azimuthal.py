@@ -14,6 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import (
+    BoolArray,
     FloatArray,
     IntArray,
     as_amounts,
@@ -80,7 +81,7 @@ class TangentPlane(ABC):
         return transform(transposed, local).round() + 0.0
 
 
-def nan_where(outside: np.ndarray[tuple[int, ...], np.dtype[np.bool_]], values: FloatArray) -> FloatArray:
+def nan_where(outside: BoolArray, values: FloatArray) -> FloatArray:
     """NaN in the rows outside the domain of a map."""
     return np.where(outside if values.ndim == outside.ndim else outside[..., None], np.nan, values)
 
@@ -122,13 +123,14 @@ class Gnomonic(TangentPlane):
 
     def scale_factors(self, xyz: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:
         """(radial, tangential) scale of `forward`, each (...): R / cos² χ and R / cos χ; NaN at 90° and beyond."""
-        scales = by_blocks(self._scales, as_directions(xyz, "xyz"))
-        return scales[..., 0], scales[..., 1]
 
-    def _scales(self, rows: FloatArray) -> FloatArray:
-        far, height = _guarded(self.local(rows)[..., 2])
-        secant = 1.0 / height
-        return nan_where(far, stack([secant * secant, secant]).round() * self.radius)
+        def scales(rows: FloatArray) -> FloatArray:
+            far, height = _guarded(self.local(rows)[..., 2])
+            secant = 1.0 / height
+            return nan_where(far, stack([secant * secant, secant]).round() * self.radius)
+
+        found = by_blocks(scales, as_directions(xyz, "xyz"))
+        return found[..., 0], found[..., 1]
 
     def image_of(self, circle: SphereCircle) -> Conic:
         """The image of the part of a circle that lies less than 90° from the centre.
@@ -144,7 +146,7 @@ class Gnomonic(TangentPlane):
         return _conic(kind, shift, sizes, basis, self.radius, form)
 
 
-def _guarded(height: DoubleDouble) -> tuple[np.ndarray[tuple[int, ...], np.dtype[np.bool_]], DoubleDouble]:
+def _guarded(height: DoubleDouble) -> tuple[BoolArray, DoubleDouble]:
     """Where cos χ ≤ 0, and cos χ with 1 in those places."""
     far = height.hi <= 0
     return far, DoubleDouble(np.where(far, 1.0, height.hi), np.where(far, 0.0, height.lo))

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 import numpy.typing as npt
 
@@ -12,10 +10,6 @@ from stereodel._arrays import AnyIndices, BoolArray, FloatArray, SignArray, as_b
 from stereodel.constants import QUADRATURE_CHORD
 from stereodel.curves.ragged import Ragged, spans
 from stereodel.triangulation import PlanarVoronoi, SphericalVoronoi
-
-_SIGNS = np.array([[x, y, z] for x in (1.0, -1.0) for y in (1.0, -1.0) for z in (1.0, -1.0)])
-_OCTANTS = np.array([np.diag(s) if s.prod() > 0 else np.diag(s)[::-1] for s in _SIGNS])
-"""The sphere as eight counterclockwise triangles (8, 3, 3)."""
 
 
 def as_polygon(bounds: npt.ArrayLike | None) -> FloatArray:
@@ -125,7 +119,9 @@ class RoundCells:
         No side is longer than QUADRATURE_CHORD. The cell of a single site is the whole sphere.
         """
         if len(self.sites) and not len(self.ridges):
-            return split_long(_OCTANTS, np.zeros(8, dtype=np.intp))
+            signs = np.array([[x, y, z] for x in (1.0, -1.0) for y in (1.0, -1.0) for z in (1.0, -1.0)])
+            octants = np.array([np.diag(s) if s.prod() > 0 else np.diag(s)[::-1] for s in signs])
+            return split_long(octants, np.zeros(8, dtype=np.intp))
         # Each ridge in pieces of equal angle, none longer than the chord: ridge by ridge, step 0, 1, … of each.
         pieces = np.ceil(self._angles / QUADRATURE_CHORD).astype(int)
         ridge = np.repeat(np.arange(len(pieces)), pieces)
@@ -142,14 +138,10 @@ class RoundCells:
         return start * np.cos(angle)[:, None] + np.cross(normal, start) * np.sin(angle)[:, None]
 
 
-class Rule(NamedTuple):
-    """Barycentric coordinates (k, 3) of nodes, and their weights (k,), which sum to one."""
+Rule = tuple[FloatArray, FloatArray]
+"""Barycentric coordinates (k, 3) of nodes, and their weights (k,), which sum to one."""
 
-    nodes: FloatArray
-    shares: FloatArray
-
-
-MIDPOINTS = Rule((np.ones((3, 3)) - np.eye(3)) / 2, np.full(3, 1 / 3))
+MIDPOINTS: Rule = ((np.ones((3, 3)) - np.eye(3)) / 2, np.full(3, 1 / 3))
 """Exact for polynomials of degree two."""
 
 
@@ -158,7 +150,7 @@ def _radon() -> Rule:
     equal = (np.array([6.0 - root, 6.0 + root]) / 21)[:, None, None]
     corners = equal + np.eye(3) * (1 - 3 * equal)
     nodes = np.vstack([np.full((1, 3), 1 / 3), corners.reshape(6, 3)])
-    return Rule(nodes, np.repeat([9 / 40, (155 - root) / 1200, (155 + root) / 1200], [1, 3, 3]))
+    return nodes, np.repeat([9 / 40, (155 - root) / 1200, (155 + root) / 1200], [1, 3, 3])
 
 
 RADON = _radon()
@@ -169,7 +161,7 @@ def flat_nodes(triangles: FloatArray, rule: Rule) -> tuple[FloatArray, FloatArra
     """Nodes (t, k, 2) and weights (t, k) for counterclockwise triangles (t, 3, 2) of the plane."""
     b, c = triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
     areas = (b[:, 0] * c[:, 1] - b[:, 1] * c[:, 0]) / 2
-    return np.einsum("kc,tcd->tkd", rule.nodes, triangles), areas[:, None] * rule.shares
+    return np.einsum("kc,tcd->tkd", rule[0], triangles), areas[:, None] * rule[1]
 
 
 def spherical_nodes(triangles: FloatArray, rule: Rule) -> tuple[FloatArray, FloatArray]:
@@ -180,9 +172,9 @@ def spherical_nodes(triangles: FloatArray, rule: Rule) -> tuple[FloatArray, Floa
     """
     a, b, c = (triangles[:, k] for k in range(3))
     determinant = np.einsum("ti,ti->t", a, np.cross(b - a, c - a))
-    flat = np.einsum("kc,tcd->tkd", rule.nodes, triangles)
+    flat = np.einsum("kc,tcd->tkd", rule[0], triangles)
     length = np.sqrt(np.einsum("tkd,tkd->tk", flat, flat))
-    return flat / length[..., None], (determinant / 2)[:, None] * rule.shares / length**3
+    return flat / length[..., None], (determinant / 2)[:, None] * rule[1] / length**3
 
 
 def split_long(triangles: FloatArray, number: AnyIndices) -> tuple[FloatArray, AnyIndices]:

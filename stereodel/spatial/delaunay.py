@@ -6,7 +6,6 @@ Qhull sees it as the lower hull of the points lifted to a paraboloid.
 from __future__ import annotations
 
 from functools import cached_property
-from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -18,49 +17,6 @@ from stereodel.constants import INSIDE_TOLERANCE
 from stereodel.spatial.barycentric import NearMisses, transforms
 from stereodel.spatial.compatibility import FAMILY, GrowingPoints, copied
 from stereodel.triangulation.topology import adjacency_of
-
-_INFINITY_ABOVE = 1.1
-"""With "Qz", Qhull puts a point at infinity at so many times the height of the highest point."""
-
-
-class Paraboloid(NamedTuple):
-    """The surface z = scale·(x² + y²) + shift."""
-
-    scale: float
-    shift: float
-
-    @classmethod
-    def over(cls, points: FloatArray, options: frozenset[str]) -> Paraboloid:
-        """Qhull's paraboloid: with "Qbb", heights run from 0 to the largest absolute coordinate."""
-        if "Qbb" not in options or len(points) == 0:
-            return cls(1.0, 0.0)
-        with np.errstate(over="ignore"):
-            heights = (points**2).sum(axis=1)
-        low, high = float(heights.min()), float(heights.max()) * (_INFINITY_ABOVE if "Qz" in options else 1.0)
-        if not low < high < np.inf:
-            return cls(1.0, 0.0)
-        scale = float(np.abs(points).max()) / (high - low)
-        return cls(scale, -low * scale)
-
-    def lift(self, points: FloatArray) -> FloatArray:
-        """Points (..., 2) with their heights, (..., 3)."""
-        heights = (points**2).sum(axis=-1) * self.scale + self.shift
-        return np.concatenate([points, heights[..., None]], axis=-1)
-
-    def equations(self, corners: FloatArray) -> FloatArray:
-        """Planes (m, 4) of lifted triangles (m, 3, 2): unit normal that points down, and offset.
-
-        With d = b − a, e = c − a and the doubled area A = d×e, the circumcentre is a + q/2A where
-        q = (e_y|d|² − d_y|e|², d_x|e|² − e_x|d|²), and the plane is that of the paraboloid's gradient there: its normal
-        is that of (scale·(q + 2Aa), −A). Nothing is divided by the area, so that slivers have planes as well.
-        """
-        a, d, e = corners[:, 0], corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-        dd, ee = (d * d).sum(axis=1), (e * e).sum(axis=1)
-        area = np.maximum(d[:, 0] * e[:, 1] - d[:, 1] * e[:, 0], 0.0)  # exactly positive, whatever rounding says
-        q = np.column_stack([e[:, 1] * dd - d[:, 1] * ee, d[:, 0] * ee - e[:, 0] * dd])
-        normals = np.column_stack([self.scale * (q + 2.0 * area[:, None] * a), -area])
-        normals /= np.linalg.norm(normals, axis=1, keepdims=True)
-        return np.column_stack([normals, -(normals * self.lift(a)).sum(axis=1)])
 
 
 @shared(**FAMILY)
@@ -126,23 +82,44 @@ class Delaunay(GrowingPoints, scipy.spatial.Delaunay):
         return adjacency_of(self._triangulation.edges, self.npoints)
 
     @cached_property
-    def _paraboloid(self) -> Paraboloid:
-        return Paraboloid.over(self._triangulation.points, self._options)
+    def _paraboloid(self) -> tuple[float, float]:
+        """Scale and shift: with "Qbb" heights run from 0 to the largest absolute coordinate."""
+        points = self._triangulation.points
+        if "Qbb" not in self._options or len(points) == 0:
+            return 1.0, 0.0
+        with np.errstate(over="ignore"):
+            heights = (points**2).sum(axis=1)
+        # With "Qz", Qhull puts a point at infinity at so many times the height of the highest point.
+        low, high = float(heights.min()), float(heights.max()) * (1.1 if "Qz" in self._options else 1.0)
+        if not low < high < np.inf:
+            return 1.0, 0.0
+        scale = float(np.abs(points).max()) / (high - low)
+        return scale, -low * scale
 
     @property
     def paraboloid_scale(self) -> float:
         """Heights are ``paraboloid_scale * (x**2 + y**2) + paraboloid_shift``."""
-        return self._paraboloid.scale
+        return self._paraboloid[0]
 
     @property
     def paraboloid_shift(self) -> float:
         """Height of the paraboloid at the origin."""
-        return self._paraboloid.shift
+        return self._paraboloid[1]
 
     @cached_property
     def equations(self) -> FloatArray:
         """Unit normal, which points down, and offset of each triangle's plane on the paraboloid, (nsimplex, 4)."""
-        return self._paraboloid.equations(self._corners)
+        # With d = b − a, e = c − a and the doubled area A = d×e, the circumcentre is a + q/2A where
+        # q = (e_y|d|² − d_y|e|², d_x|e|² − e_x|d|²), and the plane is that of the paraboloid's gradient there: its
+        # normal is that of (scale·(q + 2Aa), −A). Nothing is divided by the area, so that slivers have planes as well.
+        a, b, c = self._corners.transpose(1, 0, 2)
+        d, e = b - a, c - a
+        dd, ee = (d * d).sum(axis=1), (e * e).sum(axis=1)
+        area = np.maximum(d[:, 0] * e[:, 1] - d[:, 1] * e[:, 0], 0.0)  # exactly positive, whatever rounding says
+        q = np.column_stack([e[:, 1] * dd - d[:, 1] * ee, d[:, 0] * ee - e[:, 0] * dd])
+        normals = np.column_stack([self.paraboloid_scale * (q + 2.0 * area[:, None] * a), -area])
+        normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+        return np.column_stack([normals, -(normals * self.lift_points(a)).sum(axis=1)])
 
     @cached_property
     def transform(self) -> FloatArray:
@@ -153,7 +130,7 @@ class Delaunay(GrowingPoints, scipy.spatial.Delaunay):
         """
         return transforms(self._corners)
 
-    @property
+    @cached_property
     def _corners(self) -> FloatArray:
         return self._triangulation.points[self._triangulation.simplices]
 
@@ -163,14 +140,16 @@ class Delaunay(GrowingPoints, scipy.spatial.Delaunay):
 
     def lift_points(self, x: npt.ArrayLike) -> FloatArray:
         """Points (..., 2) on the paraboloid, (..., 3)."""
-        return self._paraboloid.lift(as_vectors(x, 2, "x"))
+        points = as_vectors(x, 2, "x")
+        heights = (points**2).sum(axis=-1) * self.paraboloid_scale + self.paraboloid_shift
+        return np.concatenate([points, heights[..., None]], axis=-1)
 
     def plane_distance(self, xi: npt.ArrayLike) -> FloatArray:
         """Signed distances (..., nsimplex) of lifted points from the planes of all triangles.
 
         They are positive where the triangle's circle holds the point (..., 2).
         """
-        return self._paraboloid.lift(as_vectors(xi, 2, "xi")) @ self.equations[:, :3].T + self.equations[:, 3]
+        return self.lift_points(as_vectors(xi, 2, "xi")) @ self.equations[:, :3].T + self.equations[:, 3]
 
     def find_simplex(self, xi: npt.ArrayLike, bruteforce: bool = False, tol: float | None = None) -> IntArray:
         """Triangle that contains each point.

@@ -13,8 +13,6 @@ from stereodel.constants import STORED_ERROR, UNDECIDED
 from stereodel.sphere.coordinates import as_direction, tangent_frame
 from stereodel.sphere.degrees import sin_cos_degrees
 
-_NEAR_POINT = 0.9  # |cos| of the angular radius beyond which 1 − n·x is taken from the chord
-
 
 @dataclass(frozen=True, eq=False)
 class SphereCircle(Keyed):
@@ -133,10 +131,10 @@ class SphereCircle(Keyed):
         return by_blocks(self._depth, as_directions(xyz, "xyz")) >= 0
 
     def _depth(self, rows: FloatArray) -> FloatArray:
-        """A number with the sign of n·x − offset; 1 − n·x = |x − n|²/2 keeps its digits in a tiny bubble."""
+        """A number with the sign of n·x − offset; beyond |cos| = 0.9 by 1 − n·x = |x − n|²/2, which keeps digits."""
         x = unit(rows)
         normal, cosine, sine = self.exact_parts()
-        if abs(self.offset) < _NEAR_POINT:
+        if abs(self.offset) < 0.9:
             return (dot(x, normal) - cosine).hi
         side = float(np.sign(self.offset))
         chord = x - normal * side

@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel import _kernel
-from stereodel._arrays import FloatArray, Keyed, as_quaternion, as_scalar, as_shaped, as_vectors
+from stereodel._arrays import FloatArray, Keyed, as_scalar, as_shaped, as_vectors, locked
 from stereodel._double_double import DoubleDouble, dot, scaled, stack, unit
 from stereodel.constants import MATRIX_ERROR
 from stereodel.sphere.coordinates import as_direction
@@ -89,9 +89,10 @@ class Rotation(Keyed):
     quaternion: FloatArray
 
     def __post_init__(self) -> None:
-        values = scaled(as_quaternion(self.quaternion, "quaternion"))[0]
-        values.flags.writeable = False
-        object.__setattr__(self, "quaternion", values)
+        values = as_shaped(self.quaternion, (4,), "quaternion")
+        if not values.any():
+            raise ValueError("quaternion is the zero quaternion, which is not a rotation")
+        object.__setattr__(self, "quaternion", locked(scaled(values)[0]))
 
     @classmethod
     def identity(cls) -> Rotation:

@@ -13,7 +13,7 @@ import numpy.typing as npt
 from stereodel import _kernel
 from stereodel._arrays import BoolArray, FloatArray, Indices, IntArray, locked
 from stereodel._notebook import Displayed
-from stereodel._spaces import PlaneOrSphere
+from stereodel._spaces import SPHERE, PlaneOrSphere
 from stereodel.sphere.latitudes import Latitude
 from stereodel.triangulation.delaunay import Triangulation, state_of, threads_of
 
@@ -84,15 +84,16 @@ class Diagram(Generic[_Mesh], Displayed):
         region[triangulation.duplicates[:, 0]] = triangulation.duplicates[:, 1]
         self.point_region = locked(region)
         if self._dimension == 2:
-            self._set_vertices(self._set_diagram(triangulation))
+            vertices = self._set_diagram(triangulation)
         else:
-            self._set_flat(state_of(triangulation).flat_order)
-
-    def _set_vertices(self, vertices: FloatArray) -> None:
+            self._order, self.simplex_vertex = state_of(triangulation).flat_order, locked(np.zeros(0, dtype=np.int32))
+            vertices = self._set_flat()
+        if self.surface is SPHERE and len(vertices) == 2:
+            vertices[1] = 0.0 - vertices[0]
         self.vertices = locked(vertices)
 
-    def _set_flat(self, order: IntArray) -> None:
-        """No triangles: the points in the order along their line or great circle."""
+    def _set_flat(self) -> FloatArray:
+        """Cells of points without triangles, in the order along their line or great circle; returns the vertices."""
         raise NotImplementedError
 
     @cached_property

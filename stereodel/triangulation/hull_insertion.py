@@ -1,8 +1,6 @@
 """The paper's pseudo-code: points one at a time, visible facets replaced by a fan over their horizon.
 
-One engine serves plane and sphere. Circles stay circles under stereographic projection, so a planar triangulation is a
-hull whose pole is a ghost vertex, and a hull is a planar triangulation whose pole is one of its own points. The sites
-answer what a point sees by the kernel's exact signs, ties decided.
+The sites answer what a point sees by the kernel's exact signs, ties decided; one engine serves plane and sphere.
 """
 
 from __future__ import annotations
@@ -16,8 +14,8 @@ import numpy.typing as npt
 
 from stereodel._arrays import FloatArray, IntArray, as_plane_or_sphere, read_only
 from stereodel._spaces import surface_of
-from stereodel.triangulation.sites import GHOST, SITES, InsertionSites
-from stereodel.triangulation.topology import Edge, Facet, Facets, as_rows
+from stereodel.triangulation.sites import GHOST, SITES, InsertionSites, end_with
+from stereodel.triangulation.topology import Edge, Facet, as_rows
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,7 +92,8 @@ class HullInsertion:
         array = as_plane_or_sphere(points)
         self.surface = surface_of(array)
         self._sites = SITES[self.surface]()
-        self._hull = Facets()
+        # Each directed edge u → v belongs to one facet, u v w counterclockwise; the one across it is that of v → u.
+        self._apex: dict[Edge, int] = {}
         self._first: dict[object, int] = {}
         self._duplicates: list[Edge] = []
         self._waiting: deque[int] = deque()
@@ -124,7 +123,8 @@ class HullInsertion:
 
         In the plane facets with -1 lie beyond the edges of the convex hull.
         """
-        return self._hull.rows()
+        rows = [(u, v, w) for (u, v), w in self._apex.items() if u < v and u < w]
+        return as_rows(sorted(rows), 3)
 
     @property
     def simplices(self) -> IntArray:
@@ -163,7 +163,7 @@ class HullInsertion:
         if len(self.start) < 3:
             return
         for facet in self._sites.begin(*self.start):
-            self._hull.add(*facet)
+            self._add(*facet)
             self._near = self._near or facet
         self._waiting = deque(p for p in self._waiting if p not in self.start)
 
@@ -172,12 +172,15 @@ class HullInsertion:
         while self._near and self._waiting:
             yield self._waiting.popleft()
 
+    def _add(self, u: int, v: int, w: int) -> None:
+        self._apex[u, v], self._apex[v, w], self._apex[w, u] = w, u, v
+
     def _insert(self, point: int) -> tuple[list[Facet], list[Edge]]:
         visible, horizon = self._conflict(point)
-        for facet in visible:
-            self._hull.remove(*facet)
+        for u, v, w in visible:
+            del self._apex[u, v], self._apex[v, w], self._apex[w, u]
         for u, v in horizon:
-            self._hull.add(u, v, point)
+            self._add(u, v, point)
         self._near = (*horizon[-1], point)
         return visible, horizon
 
@@ -186,7 +189,7 @@ class HullInsertion:
 
         No facet is reached twice: a second way to one would close a ring around a vertex and hide it.
         """
-        sees, apex = self._sites.sees, self._hull.apex
+        sees, apex = self._sites.sees, self._apex
         a, b, c = self._locate(p)
         visible, horizon = [(a, b, c)], []
         border = [(c, a), (b, c), (a, b)]
@@ -203,11 +206,11 @@ class HullInsertion:
     def _locate(self, p: int) -> Facet:
         """A facet that p sees: the one in which it lies as seen from the pole, or one at the pole."""
         assert self._near is not None
-        beyond, apex, pole = self._sites.beyond, self._hull.apex, self._sites.pole
+        beyond, apex, pole = self._sites.beyond, self._apex, self._sites.pole
         a, b, c = self._near
         while True:
             if pole in (a, b, c):
-                a, b, c = _end_with(pole, a, b, c)
+                a, b, c = end_with(pole, a, b, c)
                 if self._sites.sees(a, b, c, p):
                     return a, b, c
                 a, b, c = b, a, apex[b, a]
@@ -218,13 +221,6 @@ class HullInsertion:
                     break
             else:
                 return a, b, c
-
-
-def _end_with(last: int, a: int, b: int, c: int) -> Facet:
-    """The same facet, `last` as its third vertex."""
-    if c == last:
-        return a, b, c
-    return (b, c, a) if a == last else (c, a, b)
 
 
 def spanning_points(sites: InsertionSites, distinct: Sequence[int]) -> list[int]:

@@ -6,7 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel import _kernel
-from stereodel._arrays import FloatArray, Indices, IntArray, as_bounds, as_scalar, locked
+from stereodel._arrays import FloatArray, Indices, as_bounds, as_scalar, locked
 from stereodel._docs import shared
 from stereodel._spaces import PLANE
 from stereodel.triangulation.diagram import FAMILY, Diagram
@@ -60,11 +60,11 @@ class PlanarVoronoi(Diagram[PlanarDelaunay], surface=PLANE):
     [[-1, 0], [-1, 0], [-1, 0], [-1, 0]]
     """
 
-    def _set_flat(self, order: IntArray) -> None:
-        self.vertices, self.simplex_vertex = locked(np.zeros((0, 2))), locked(np.zeros(0, dtype=np.int32))
-        cells, ridges = _kernel.plane.flat_diagram(self.points, order)
+    def _set_flat(self) -> FloatArray:
+        cells, ridges = _kernel.plane.flat_diagram(self.points, self._order)
         self._ridges = locked(ridges), locked(np.full_like(ridges, -1))
         self._set_cells(*cells)
+        return np.zeros((0, 2))
 
     def areas(self, *, radius: float = 1.0) -> FloatArray:
         """Area of each point's cell, (n,): 0 for duplicates, infinite for unbounded cells.
@@ -143,7 +143,11 @@ class PlanarVoronoi(Diagram[PlanarDelaunay], surface=PLANE):
         along = np.column_stack([p[:, 1] - q[:, 1], q[:, 0] - p[:, 0]])
         along = np.ldexp(along, -np.frexp(np.abs(along).max(axis=1, keepdims=True))[1])
         # Two stretches of the line, of the ridge and of the rectangle; what both have is seen.
-        start, end = self._stretch(middle, along)
+        start, end = np.full(len(middle), -np.inf), np.full(len(middle), np.inf)
+        for k, t in enumerate((start, end)):
+            bounded = self.ridge_vertices[:, k] >= 0
+            offset = self.vertices[self.ridge_vertices[bounded, k]] - middle[bounded]
+            t[bounded] = (offset * along[bounded]).sum(axis=1) / (along[bounded] ** 2).sum(axis=1)
         enter, leave = _inside(np.array([left, bottom]), np.array([right, top]), middle, along)
         first, last = np.maximum(start, enter), np.minimum(end, leave)
         seen = np.flatnonzero(first < last)
@@ -152,17 +156,6 @@ class PlanarVoronoi(Diagram[PlanarDelaunay], surface=PLANE):
         whole = np.column_stack([first == start, last == end])[seen]
         ends[whole] = self.vertices[self.ridge_vertices[seen][whole]]
         return ends, seen
-
-    def _stretch(self, middle: FloatArray, along: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Parameters of both ends of each ridge on its line."""
-        ends = []
-        for k, infinity in ((0, -np.inf), (1, np.inf)):
-            bounded = self.ridge_vertices[:, k] >= 0
-            t = np.full(len(middle), infinity)
-            offset = self.vertices[self.ridge_vertices[bounded, k]] - middle[bounded]
-            t[bounded] = (offset * along[bounded]).sum(axis=1) / (along[bounded] ** 2).sum(axis=1)
-            ends.append(t)
-        return ends[0], ends[1]
 
 
 def _inside(low: FloatArray, high: FloatArray, middle: FloatArray, along: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -14,7 +14,7 @@ input changes a triangulation, and points in strictly convex position stay so: n
 
 from __future__ import annotations
 
-from collections.abc import Hashable
+from collections.abc import Callable, Hashable
 from fractions import Fraction
 from functools import cmp_to_key
 from typing import Any
@@ -29,6 +29,13 @@ GHOST = -1
 """The plane's point at infinity as a vertex."""
 
 
+def end_with(last: int, a: int, b: int, c: int) -> Facet:
+    """The same facet, `last` as its third vertex."""
+    if c == last:
+        return a, b, c
+    return (b, c, a) if a == last else (c, a, b)
+
+
 class _Sites:
     """Points by number, with the signs that the engine needs.
 
@@ -39,6 +46,9 @@ class _Sites:
 
     pole: int
     _kernel: Any
+    _key: Callable[..., Hashable]  # of the coordinates of a point
+    _compare: Callable[..., int]  # of two points, in the order of displacement: negative where the first comes before
+    _tie: Callable[..., int]  # sign of the cofactor of the point before three others of a circle, were it the first
 
     def __init__(self) -> None:
         self.keys: list[Any] = []
@@ -55,8 +65,8 @@ class _Sites:
         rows = self._rows
         return int(self._kernel.turn(rows[a], rows[b], rows[c])[0])
 
-    def _is_inside(self, a: int, b: int, c: int, p: int) -> bool:
-        """Whether p lies in the circle of a b c, after displacement if it lies on it."""
+    def sees(self, a: int, b: int, c: int, p: int) -> bool:
+        """Whether p sees the facet from outside: lies in its circle, after displacement if it lies on it."""
         rows = self._rows
         sign = int(self._kernel.in_circle(rows[a], rows[b], rows[c], rows[p])[0])
         if sign == 0:
@@ -65,17 +75,6 @@ class _Sites:
             first = four.index(min(four, key=cmp_to_key(self._compare)))
             sign = (-1) ** first * self._tie(*four[:first], *four[first + 1 :])
         return sign > 0
-
-    def _key(self, point: list[float]) -> Hashable:
-        raise NotImplementedError
-
-    def _compare(self, a: int, b: int) -> int:
-        """The order of displacement: negative where a comes before b."""
-        raise NotImplementedError
-
-    def _tie(self, a: int, b: int, c: int) -> int:
-        """Sign of the cofactor of the point before the three others of a circle, were it the first of the four."""
-        raise NotImplementedError
 
 
 class PlaneSites(_Sites):
@@ -90,16 +89,10 @@ class PlaneSites(_Sites):
         return [(a, b, c), (b, a, GHOST), (c, b, GHOST), (a, c, GHOST)]
 
     def sees(self, a: int, b: int, c: int, p: int) -> bool:
-        """Whether p sees the facet, inside its circle; if it has a ghost, beyond its edge or within the open edge."""
-        if c == GHOST:
-            return self._sees_edge(a, b, p)
-        if a == GHOST:
-            return self._sees_edge(b, c, p)
-        if b == GHOST:
-            return self._sees_edge(c, a, p)
-        return self._is_inside(a, b, c, p)
-
-    def _sees_edge(self, u: int, v: int, p: int) -> bool:
+        """The same; if the facet has a ghost, whether p lies beyond its edge or within the open edge."""
+        if GHOST not in (a, b, c):
+            return super().sees(a, b, c, p)
+        u, v, _ = end_with(GHOST, a, b, c)
         sign = self.turn(u, v, p)
         if sign == 0:
             self.ties += 1
@@ -135,10 +128,6 @@ class RaySites(_Sites):
         """The first surface, the triangle from both sides: any further point, displaced, sees exactly one of them."""
         self.pole = a
         return [(a, b, c), (a, c, b)]
-
-    def sees(self, a: int, b: int, c: int, p: int) -> bool:
-        """Whether p sees the facet from outside: whether it lies in its bubble."""
-        return self._is_inside(a, b, c, p)
 
     def beyond(self, u: int, v: int, p: int) -> bool:
         """Whether p is beyond an edge, seen from the pole: would see the facet that joins it, reversed, to the pole."""

@@ -6,7 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel import _kernel
-from stereodel._arrays import FloatArray, IntArray, as_scalar, locked
+from stereodel._arrays import FloatArray, as_scalar
 from stereodel._docs import by_name, shared
 from stereodel._spaces import SPHERE
 from stereodel.sphere import SphereArc, SphereCircle
@@ -119,17 +119,10 @@ class SphericalVoronoi(Diagram[SphericalDelaunay], surface=SPHERE):
         """Longitude and latitude of `vertices`, (v, 2) in degrees, if the points were given by them."""
         return as_told(self.vertices, self.latitude)
 
-    def _set_flat(self, order: IntArray) -> None:
-        self._order = order
-        self.simplex_vertex = locked(np.zeros(0, dtype=np.int32))
-        cells, vertices = _kernel.sphere.flat_diagram(self.points, order)
-        self._set_vertices(vertices)
+    def _set_flat(self) -> FloatArray:
+        cells, vertices = _kernel.sphere.flat_diagram(self.points, self._order)
         self._set_cells(*cells)
-
-    def _set_vertices(self, vertices: FloatArray) -> None:
-        if len(vertices) == 2:
-            vertices[1] = 0.0 - vertices[0]
-        self.vertices = locked(vertices)
+        return vertices
 
     def areas(self, *, radius: float = 1.0) -> FloatArray:
         """Area of each point's cell, (n,): 0 for duplicates; together 4π radius².

@@ -10,34 +10,6 @@ Facet = tuple[int, int, int]
 Edge = tuple[int, int]
 
 
-class Facets:
-    """A closed oriented surface of triangles that can be taken apart and put together.
-
-    Each directed edge u → v belongs to one facet, u v w counterclockwise; `apex` maps it to w. The facet across the
-    edge is the one of v → u.
-    """
-
-    __slots__ = ("apex",)
-
-    def __init__(self) -> None:
-        self.apex: dict[Edge, int] = {}
-
-    def add(self, u: int, v: int, w: int) -> None:
-        """Put in the facet u v w; its directed edges must be free."""
-        self.apex[u, v] = w
-        self.apex[v, w] = u
-        self.apex[w, u] = v
-
-    def remove(self, u: int, v: int, w: int) -> None:
-        """Take out the facet u v w."""
-        del self.apex[u, v], self.apex[v, w], self.apex[w, u]
-
-    def rows(self) -> IntArray:
-        """All facets in canonical order, (m, 3); a ghost vertex, -1, comes first in its rows."""
-        rows = [(u, v, w) for (u, v), w in self.apex.items() if u < v and u < w]
-        return as_rows(sorted(rows), 3)
-
-
 def as_rows(rows: list[Facet] | list[Edge], width: int) -> IntArray:
     """Tuples of indices as an int32 array (k, width), also for none."""
     return np.array(rows, dtype=np.int32).reshape(-1, width)

@@ -146,18 +146,13 @@ def first_occurrences(points: FloatArray) -> LongArray:
     starts[1:] = (keys[order[1:]] != keys[order[:-1]]).any(axis=1)
     kept = np.empty(len(points), dtype=np.int64)
     kept[order] = order[np.maximum.accumulate(np.where(starts, np.arange(len(points)), 0))]
-    if in_space:
-        _tell_apart(points, kept)
+    if in_space:  # within groups of one key same direction means same integers after division by their gcd
+        shared = np.flatnonzero(np.bincount(kept, minlength=len(kept))[kept] > 1)
+        seen: dict[tuple[int, ...], int] = {}
+        for index, ray in zip(shared.tolist(), ray_integers(points[shared]).tolist(), strict=True):
+            divisor = gcd(*ray)
+            kept[index] = seen.setdefault(tuple(k // divisor for k in ray), index)
     return kept
-
-
-def _tell_apart(points: FloatArray, kept: LongArray) -> None:
-    """Correct `kept` within groups of one key: same direction means same integers after division by their gcd."""
-    shared = np.flatnonzero(np.bincount(kept, minlength=len(kept))[kept] > 1)
-    seen: dict[tuple[int, ...], int] = {}
-    for index, ray in zip(shared.tolist(), ray_integers(points[shared]).tolist(), strict=True):
-        divisor = gcd(*ray)
-        kept[index] = seen.setdefault(tuple(k // divisor for k in ray), index)
 
 
 def _check_duplicates(kept_by: LongArray, duplicates: npt.ArrayLike | None) -> None:
@@ -182,17 +177,13 @@ def _check_flat(signs: PlaneSigns | SphereSigns, kept: LongArray) -> None:
         return
     base = kept[:2]
     if isinstance(signs, SphereSigns):  # the second point must not be the antipode of the first
-        base = kept[:2] if _independent(signs.points[kept[:2]]) else kept[[0, 2]]
+        a, b = ray_integers(signs.points[base])
+        base = base if any(a[i - 2] * b[i - 1] != a[i - 1] * b[i - 2] for i in range(3)) else kept[[0, 2]]
     rows = np.column_stack([np.broadcast_to(base, (len(kept), 2)), kept])
     off = signs.turn(rows) if isinstance(signs, PlaneSigns) else signs.side(rows)
     if off.any():
         point = kept[int(np.argmax(off != 0))]
         raise InvalidTriangulation(f"there are no simplices, but points {base[0]}, {base[1]} and {point} span one")
-
-
-def _independent(pair: FloatArray) -> bool:
-    a, b = ray_integers(pair)
-    return bool(np.any([a[i - 2] * b[i - 1] != a[i - 1] * b[i - 2] for i in range(3)]))
 
 
 def _check_plane(mesh: Mesh, signs: PlaneSigns, kept: LongArray) -> int:
@@ -280,19 +271,15 @@ def _check_single_cover(mesh: Mesh, signs: SphereSigns, vertex: int) -> None:
         t = int(away[np.argmax(sees)])
         raise InvalidTriangulation(f"point {vertex} lies in the bubble of simplex {t} = {mesh.simplices[t].tolist()}")
     link = link_of(mesh, vertex)
-    first, second = (signs.progress(link, vertex, along) for along in _tangents(signs, vertex))
+    # Two independent vectors orthogonal to the point: along one of them the link is not flat.
+    x, y, z = ray_integers(signs.points[vertex])
+    a, b, c = along = np.array([-y, x, 0] if x or y else [-z, 0, 0], dtype=object)
+    across = np.array([y * c - z * b, z * a - x * c, x * b - y * a], dtype=object)
+    first, second = (signs.progress(link, vertex, way) for way in (along, across))
     steps = first if first.any() else second
     steps = steps[steps != 0]
     if ((steps > 0) & (np.roll(steps, -1) < 0)).sum() != 1:
         raise InvalidTriangulation(f"the simplices around point {vertex} do not turn once: the sphere is covered twice")
-
-
-def _tangents(signs: SphereSigns, vertex: int) -> tuple[Any, Any]:
-    """Two independent integer vectors orthogonal to a point: along one of them the link is not flat."""
-    x, y, z = ray_integers(signs.points[vertex])
-    first = np.array([-y, x, 0] if x or y else [-z, 0, 0], dtype=object)
-    a, b, c = first
-    return first, np.array([y * c - z * b, z * a - x * c, x * b - y * a], dtype=object)
 
 
 def _check_two_sided(mesh: Mesh, signs: SphereSigns) -> None:

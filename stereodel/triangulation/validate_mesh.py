@@ -90,7 +90,12 @@ def build_mesh(simplices: LongArray, size: int) -> Mesh:
 
 def check_manifold(mesh: Mesh, kept: LongArray, euler: int) -> None:
     """One connected surface around single vertex fans, using exactly the points `kept`, V - E + F = `euler`."""
-    _check_used(mesh, kept)
+    used = np.unique(mesh.simplices)
+    missing, extra = (np.setdiff1d(*pair, assume_unique=True) for pair in ((kept, used), (used, kept)))
+    if len(missing):
+        raise InvalidTriangulation(f"point {missing[0]} is used by no simplex ({len(missing)} such points)")
+    if len(extra):
+        raise InvalidTriangulation(f"point {extra[0]} is used by a simplex although it repeats an earlier point")
     _check_fans(mesh)
     triangles = np.arange(len(mesh.twin)) // 3
     inner = mesh.inner
@@ -122,16 +127,6 @@ def link_of(mesh: Mesh, vertex: int) -> LongArray:
         edges.append((here, following[here]))
         here = following[here]
     return np.array(edges)
-
-
-def _check_used(mesh: Mesh, kept: LongArray) -> None:
-    used = np.unique(mesh.simplices)
-    missing = np.setdiff1d(kept, used, assume_unique=True)
-    if len(missing):
-        raise InvalidTriangulation(f"point {missing[0]} is used by no simplex ({len(missing)} such points)")
-    extra = np.setdiff1d(used, kept, assume_unique=True)
-    if len(extra):
-        raise InvalidTriangulation(f"point {extra[0]} is used by a simplex although it repeats an earlier point")
 
 
 def _check_fans(mesh: Mesh) -> None:

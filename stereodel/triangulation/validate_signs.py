@@ -15,10 +15,6 @@ from stereodel._double_double import scaled, two_prod
 from stereodel.constants import FILTER_RANGE, UNDERFLOW_FLOOR, UNIT_ROUNDOFF
 
 _BLOCK = 1 << 16  # rows at a time: the temporaries of one block stay in the cache
-_TURN_BOUND = 4 * UNIT_ROUNDOFF
-_CIRCLE_BOUND = 12 * UNIT_ROUNDOFF
-_BUBBLE_BOUND = 32 * UNIT_ROUNDOFF
-_RADIAL_BOUND = 300 * UNIT_ROUNDOFF**2
 
 
 class _Signs:
@@ -59,7 +55,7 @@ class PlaneSigns(_Signs):
 
     def _of_places(self, rows: LongArray, estimate: Any, exact: Any) -> SignArray:
         points = self.points
-        return self._decide(rows, lambda some: estimate(points[some]), lambda few: exact(common_integers(points[few])))
+        return self._decide(rows, lambda some: estimate(points[some]), lambda few: exact(_shifted(points[few], (1, 2))))
 
 
 def _turn_filter(p: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -68,7 +64,7 @@ def _turn_filter(p: FloatArray) -> tuple[FloatArray, FloatArray]:
     # that 3u and second-order terms remain: 4u covers them and the rounding of the bound.
     d = p[:, 1:] - p[:, :1]
     left, right = d[:, 0, 0] * d[:, 1, 1], d[:, 0, 1] * d[:, 1, 0]
-    return left - right, _outside_range(d) + _TURN_BOUND * (np.abs(left) + np.abs(right))
+    return left - right, _outside_range(d) + 4 * UNIT_ROUNDOFF * (np.abs(left) + np.abs(right))
 
 
 def _circle_filter(p: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -82,7 +78,7 @@ def _circle_filter(p: FloatArray) -> tuple[FloatArray, FloatArray]:
         left, right = x[:, j] * y[:, k], x[:, k] * y[:, j]
         value = value + lift * (left - right)
         bound = bound + lift * (np.abs(left) + np.abs(right))
-    return value, _outside_range(d) + _CIRCLE_BOUND * bound
+    return value, _outside_range(d) + 12 * UNIT_ROUNDOFF * bound
 
 
 def _outside_range(differences: FloatArray) -> FloatArray:
@@ -144,8 +140,10 @@ class SphereSigns(_Signs):
         Counterclockwise around the circle at most one of the three steps is a half-turn or more: of the products
         a×b, b×c, c×a two or three point along the normal, at most one is zero or points against it.
         """
-        p = ray_integers(self.points[rows])
-        return np.sign(sum(_product_signs(p[:, k - 1], p[:, k]) for k in range(3))).astype(np.int8)
+        a = ray_integers(self.points[rows])
+        b = np.roll(a, -1, axis=1)
+        products = np.roll(a, -1, axis=2) * np.roll(b, -2, axis=2) - np.roll(a, -2, axis=2) * np.roll(b, -1, axis=2)
+        return np.sign(_sign(products).sum(axis=1)).astype(np.int8)
 
     def _bubble_filter(self, rows: LongArray) -> tuple[FloatArray, FloatArray]:
         # With v = t·x (exactly high + low, | |v| − 1 | ≤ 8u) and W(x) = |x−a|² − (|x|−|a|)², multiples of a taken off
@@ -169,8 +167,9 @@ class SphereSigns(_Signs):
         wb, wc, wp = w.T
         value = wc * _triple(a, b, p) - wb * _triple(a, c, p) - wp * _triple(a, b, c)
         lb, lc, lp = np.sqrt(w).T
-        bound = _BUBBLE_BOUND * (lb * lc * lp) * (lb + lc + lp) + _RADIAL_BOUND * (lb * lc + lc * lp + lp * lb)
-        return value, bound + UNDERFLOW_FLOOR
+        bound = 32 * UNIT_ROUNDOFF * (lb * lc * lp) * (lb + lc + lp)
+        radial = 300 * UNIT_ROUNDOFF**2 * (lb * lc + lc * lp + lp * lb)
+        return value, bound + radial + UNDERFLOW_FLOOR
 
     def _bubble_integers(self, rows: LongArray) -> SignArray:
         """The 4×4 determinant expanded along its column of lengths, a sum of four square roots."""
@@ -208,11 +207,6 @@ def _triple(a: FloatArray, b: FloatArray, c: FloatArray) -> FloatArray:
     return a[:, 0] * x + a[:, 1] * y + a[:, 2] * z
 
 
-def common_integers(p: FloatArray) -> BigIntegers:
-    """Doubles (k, ...) as integers over one power of two for each row k."""
-    return _shifted(p, tuple(range(1, p.ndim)))
-
-
 def ray_integers(p: FloatArray) -> BigIntegers:
     """Vectors (..., 3) as integer vectors of the same directions, without a common factor of two."""
     return _shifted(p, (-1,))
@@ -235,12 +229,6 @@ def _shifted(p: FloatArray, axes: tuple[int, ...]) -> BigIntegers:
 def _determinant(a: BigIntegers, b: BigIntegers, c: BigIntegers) -> BigIntegers:
     (ax, ay, az), (bx, by, bz), (cx, cy, cz) = a.T, b.T, c.T
     return ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx)
-
-
-def _product_signs(a: BigIntegers, b: BigIntegers) -> SignArray:
-    """Signs of the components of a×b, (k, 3)."""
-    product = np.roll(a, -1, axis=1) * np.roll(b, -2, axis=1) - np.roll(a, -2, axis=1) * np.roll(b, -1, axis=1)
-    return _sign(product)
 
 
 def _squares(p: BigIntegers) -> list[BigIntegers]:

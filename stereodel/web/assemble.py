@@ -26,14 +26,6 @@ from stereodel._tasks.whole_files import write_whole
 from stereodel.sphere.latitudes import KINDS, Latitude
 from stereodel.web.contents import RESOLUTIONS, Given, built, contents, packed
 
-ENCODING: Final = r'<meta charset="utf-8"\s*/?>'
-STYLE: Final = r'<link rel="stylesheet" href="page\.css"\s*/?>'
-SCRIPT: Final = r'<script(?: type="module"| defer)? src="page\.js"></script>'
-"""Parts that the template contains once each, the encoding first: the policy precedes the style."""
-
-LATER: Final = ("exchange", "lift")
-"""Scripts that run when they are first needed: what files take, and a room that is not the first."""
-
 POLICY: Final = (
     "default-src 'none'; script-src 'wasm-unsafe-eval' {script}; style-src {style}; img-src data: blob:; "
     "base-uri 'none'; form-action 'none'"
@@ -100,16 +92,19 @@ def web(
 def html(resolution: str, given: Given | None = None, latitude: Latitude = "authalic") -> str:
     """The page as HTML, with land at a resolution, optional initial points, and the latitude of places."""
     script, style = (_inline(built(f"page.{kind}").decode("utf-8")) for kind in ("js", "css"))
-    later = {name: built(f"{name}.js") for name in LATER}
+    later = {name: built(f"{name}.js") for name in ("exchange", "lift")}  # what files take, and the second room
     sources = [_source(code) for code in (script, *(code.decode("utf-8") for code in later.values()))]
     policy = POLICY.format(script=" ".join(sources), style=_source(style))
     carried = contents(resolution, given, latitude=latitude) | {name: packed(code) for name, code in later.items()}
-    blocks = (f'<script type="text/plain" id="block-{name}">{text}</script>' for name, text in carried.items())
+    scripts = [f'<script type="text/plain" id="block-{name}">{text}</script>' for name, text in carried.items()]
+    scripts.append(f"<script>{script}</script>")
     page = template()
+    # The template has these once each, the encoding first: the policy precedes the style.
+    said = f'<meta charset="utf-8">\n<meta http-equiv="Content-Security-Policy" content="{policy}">'
     for place, part in (
-        (ENCODING, f'<meta charset="utf-8">\n<meta http-equiv="Content-Security-Policy" content="{policy}">'),
-        (STYLE, f"<style>{style}</style>"),
-        (SCRIPT, "\n".join([*blocks, f"<script>{script}</script>"])),
+        (r'<meta charset="utf-8"\s*/?>', said),
+        (r'<link rel="stylesheet" href="page\.css"\s*/?>', f"<style>{style}</style>"),
+        (r'<script(?: type="module"| defer)? src="page\.js"></script>', "\n".join(scripts)),
     ):
         if len(pieces := re.split(place, page)) != 2:
             raise ValueError("the template of the page must name its encoding, page.css and page.js, each once")

@@ -36,12 +36,6 @@ SITE_DIGITS: Final = {"airports": 6, "cities": 5, "everywhere": 3, "gap": 3, "he
 MOST_POINTS: Final = 1_000_000
 """Largest number of points on a page."""
 
-LARGE_CITY: Final = 2_000_000
-"""Smallest population of the page's cities; its airports are those nearest to them."""
-
-BRIGHT_STAR: Final = 3.0
-"""The largest magnitude of the page's stars."""
-
 
 @dataclass(frozen=True, eq=False)
 class Given:
@@ -132,13 +126,13 @@ def land_rings(resolution: str) -> str:
 
 @cache
 def sites(name: str) -> str:
-    """One of the small sets, those of `SITE_DIGITS`."""
+    """One of the sets of `SITE_DIGITS`: stars are the bright ones, airports those nearest to the large cities."""
     if name in (drawn := scattered()):
         places = drawn[name]
     elif name == "stars":
-        places = stars().lonlat[stars().magnitude <= BRIGHT_STAR]
+        places = stars().lonlat[stars().magnitude <= 3.0]
     else:
-        places = cities().lonlat[cities().population >= LARGE_CITY]
+        places = cities().lonlat[cities().population >= 2_000_000]
     if name == "airports":
         near = SphericalDelaunay.from_lonlat(airports().lonlat).nearest(lonlat=places)
         places = airports().lonlat[np.unique(near)]
@@ -156,12 +150,6 @@ def scattered() -> dict[str, FloatArray]:
     return {name: np.array(rows) for name, rows in json.loads(text).items()}
 
 
-def _shown(name: object) -> str:
-    """A name as text: empty where it is missing, and with a mark for halves of letters."""
-    missing = name is None or name != name
-    return "" if missing else str(name).encode("utf-8", "replace").decode()
-
-
 def contents(resolution: str, given: Given | None = None, *, latitude: Latitude | None) -> dict[str, str]:
     """All contents by name, as read by `script/contents.ts`; a widget has no sets and no latitude of places."""
     blocks = {"kernel": kernel()}
@@ -172,5 +160,8 @@ def contents(resolution: str, given: Given | None = None, *, latitude: Latitude 
         blocks["given-name"] = packed(json.dumps(given.name).encode())
         blocks["given"] = packed_doubles(given.lonlat)
         if given.names is not None:
-            blocks["given-names"] = packed(json.dumps(list(map(_shown, given.names))).encode())
+            # Empty where a name is missing, and with a mark for halves of letters.
+            texts = ["" if name is None or name != name else str(name) for name in given.names]
+            shown = [text.encode("utf-8", "replace").decode() for text in texts]
+            blocks["given-names"] = packed(json.dumps(shown).encode())
     return blocks

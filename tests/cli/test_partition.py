@@ -62,14 +62,13 @@ def test_another_input_is_not_mixed_with_what_is_there(folder, points, run):
 
 def test_an_interruption_keeps_what_is_done(folder, points, run, monkeypatch):
     """The same command goes on, with what was solved."""
+    from stereodel.partitioned import passes
     from stereodel.partitioned import run as running
-    from stereodel.partitioned.passes import Passes
 
-    whole = Passes._aligned
-    monkeypatch.setattr(Passes, "_aligned", lambda self: (_ for _ in ()).throw(KeyboardInterrupt))
-    message = run("partition", *FILES, "-o", "cells/", "--partition", 100, code=130)
+    with monkeypatch.context() as patch:
+        patch.setattr(passes, "_write_files", lambda store: (_ for _ in ()).throw(KeyboardInterrupt))
+        message = run("partition", *FILES, "-o", "cells/", "--partition", 100, code=130)
     assert message == "interrupted; what is done is kept, and the same command goes on from there\n"
-    monkeypatch.setattr(Passes, "_aligned", whole)
     solved = []
     monkeypatch.setattr(running, "solve", lambda *arguments, **options: solved.append(arguments))
     run("partition", *FILES, "-o", "cells/", "--partition", 100)

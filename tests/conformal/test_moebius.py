@@ -94,15 +94,6 @@ def test_known_complex_matrices():
     assert MoebiusMap.from_matrix([[1e6, 0], [0, 1]]).magnification == pytest.approx(1e6, rel=1e-14)
 
 
-def test_rotation_forms():
-    turn = Rotation.about((20, 30), 40)
-    assert MoebiusMap.rotation(turn) == MoebiusMap.rotation((20, 30), 40)
-    assert (
-        np.abs(MoebiusMap.rotation(turn)(POINTS) - turn(POINTS / np.linalg.norm(POINTS, axis=1)[:, None])).max() < 4e-16
-    )
-    assert (MoebiusMap.rotation(turn).scale_factor(POINTS) == 1).all()
-
-
 def proj_image(conformal, lonlat):
     transformer = pyproj.Transformer.from_pipeline(conformal.to_proj())
     return np.stack(transformer.transform(lonlat[:, 0], lonlat[:, 1]), axis=1)
@@ -235,13 +226,6 @@ def test_known_kinds(conformal, kind, multiplier):
     assert conformal.kind == kind
     assert conformal.multiplier == pytest.approx(multiplier, rel=1e-12, abs=1e-15)
     assert kind != "boost" or conformal.multiplier.imag == 0
-
-
-def test_fixed_points_come_in_order():
-    assert np.abs(fisheye((10, 20), magnification=3).fixed_points[0] - lonlat_to_xyz((10, 20))).max() < 4e-16
-    assert np.abs(fisheye((10, 20), magnification=0.3).fixed_points[1] - lonlat_to_xyz((10, 20))).max() < 4e-16
-    assert np.abs(MoebiusMap.rotation((10, 20), 70).fixed_points[0] - lonlat_to_xyz((10, 20))).max() < 4e-16
-    assert np.abs(MoebiusMap.rotation((10, 20), -70).fixed_points[1] - lonlat_to_xyz((10, 20))).max() < 4e-16
 
 
 TRIPLES = st.lists(BETWEEN_POLES, min_size=3, max_size=3).filter(

@@ -12,7 +12,7 @@ import shapely
 from hypothesis import given
 from hypothesis import strategies as st
 
-from stereodel import SphericalDelaunay, angular_distance, check_delaunay, data, lonlat_to_xyz
+from stereodel import angular_distance, data, lonlat_to_xyz
 from stereodel.data import stored
 from tests.examples import examples
 from tools.data_sets import dump
@@ -93,13 +93,6 @@ def test_a_known_row(name, columns, place):
     for column, value in columns.items():
         tolerance = {"magnitude": 0.3, "color_index": 0.1}.get(column)
         assert getattr(table, column)[row] == (value if tolerance is None else pytest.approx(value, abs=tolerance))
-
-
-def test_airports_can_be_triangulated():
-    triangulation = SphericalDelaunay.from_lonlat(data.airports().lonlat, latitude="geodetic")
-    check_delaunay(triangulation)
-    assert len(triangulation.duplicates) == 5
-    assert len(triangulation.simplices) == 2 * (28298 - 5) - 4
 
 
 def unpacked(columns):

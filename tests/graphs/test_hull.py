@@ -110,14 +110,6 @@ def test_cluster(space, spread):
     prove(space.cluster(np.random.default_rng(6), spread, 25))
 
 
-def test_same_as_the_plane_seen_from_the_centre():
-    """The gnomonic projection keeps hulls."""
-    flat = np.random.default_rng(7).normal(size=(200, 2))
-    lifted = np.column_stack([flat, np.ones(200)])
-    assert np.array_equal(hull(flat), hull(lifted))
-    assert len(hull(np.vstack([lifted, -lifted[:1]]))) == 0
-
-
 # Area and perimeter --------------------------------------------------------------------------------------------------
 
 

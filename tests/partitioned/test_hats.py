@@ -14,7 +14,7 @@ import pytest
 from stereodel import SphericalVoronoi
 from stereodel.interpolation import NaturalNeighborInterpolator
 from stereodel.partitioned.files import read
-from stereodel.partitioned.hats import Catalogue, Pixel, hats_source, is_catalogue
+from stereodel.partitioned.hats import catalogue, hats_source, is_catalogue, path_of, pixels
 from stereodel.sphere import lonlat_to_xyz
 from tests.partitioned.answers import executed, serially
 
@@ -91,14 +91,14 @@ def test_points_are_those_of_the_table_in_the_order_of_pixels(hats, collection, 
     assert source.compact
     assert all("sky/dataset" in file.path for file in source.files)  # not the margin
     assert source.columns.names == ("ra", "dec")
-    catalogue = Catalogue.read(collection)
-    assert len({pixel.order for pixel in catalogue.pixels}) > 2
+    ours = pixels(catalogue(collection)[0])
+    assert len({order for order, _ in ours}) > 2
     with quiet():
-        pixels = hats.read_hats(collection / "sky").get_healpix_pixels()
-    assert [(pixel.order, pixel.number) for pixel in catalogue.pixels] == [(p.order, p.pixel) for p in pixels]
+        theirs = hats.read_hats(collection / "sky").get_healpix_pixels()
+    assert ours == [(p.order, p.pixel) for p in theirs]
     found, expected = [], []
-    for file, pixel in zip(source.files, catalogue.pixels, strict=True):
-        assert file.name == pixel.path(".parquet").as_posix()
+    for file, pixel in zip(source.files, ours, strict=True):
+        assert file.name == path_of(*pixel).as_posix()
         found += read(file, source.columns, 0, file.rows)
         expected.append(pq.ParquetFile(file.path).read(columns=["source_id"])["source_id"].to_numpy())
     by_id = table.set_index("source_id").loc[np.concatenate(expected)]
@@ -164,9 +164,8 @@ def test_pixels_that_are_folders_of_files(copied, run, tmp_path):
 def test_properties(tmp_path, text, expected):
     (tmp_path / "hats.properties").write_bytes(text.encode())
     (tmp_path / "partition_info.csv").write_text("Norder,Npix\n")
-    catalogue = Catalogue.read(tmp_path)
-    assert catalogue.properties == {"hats_col_ra": "RA", "hats_col_dec": "DEC"} | expected
-    assert catalogue.pixels == ()
+    assert catalogue(tmp_path) == (tmp_path, {"hats_col_ra": "RA", "hats_col_dec": "DEC"} | expected)
+    assert pixels(tmp_path) == []
 
 
 def test_a_catalogue_that_is_made_by_hand(tmp_path):
@@ -177,12 +176,11 @@ def test_a_catalogue_that_is_made_by_hand(tmp_path):
     (sky / "partition_info.csv").write_text("Norder,Npix\n1,0\n1,1\n")
     lonlat = np.array([[[350.0, 5], [340, 10]], [[80, 15], [90, 20]]])
     for number, places in enumerate(lonlat):
-        path = sky / Pixel(1, number).path(".parquet")
+        path = sky / path_of(1, number)
         path.parent.mkdir(parents=True, exist_ok=True)
         names = [f"{number}a", f"{number}b"]
         pq.write_table(pa.table({"ra": places[:, 0], "dec": places[:, 1], "star": names}), path)
     source = source_of(sky)
-    assert Catalogue.read(sky).pixels == (Pixel(1, 0), Pixel(1, 1))
     found = [np.concatenate(list(read(file, source.columns, 0, file.rows))) for file in source.files]
     assert np.array_equal(found, lonlat_to_xyz(lonlat))
     run = serially(sky, out, rows=["area"], keep=["star"])
@@ -190,7 +188,7 @@ def test_a_catalogue_that_is_made_by_hand(tmp_path):
     expected = {"star": ["0a", "0b", "1a", "1b"], "area": plain.rows().to_table()["area"].to_pylist()}
     assert run.rows().to_table().to_pydict() == expected
     rows = sorted(path.relative_to(out / "rows") for path in (out / "rows").rglob("*") if path.is_file())
-    assert rows == [Pixel(1, number).path(".parquet") for number in (0, 1)]
+    assert rows == [path_of(1, number) for number in (0, 1)]
 
 
 @pytest.mark.thorough

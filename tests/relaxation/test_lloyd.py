@@ -203,14 +203,6 @@ def test_a_factor_takes_that_part_of_the_way_in_the_plane_and_stays_within_the_b
     assert np.allclose(part.points, np.where(outside[:, None], full.points, wanted), rtol=0, atol=1e-12)
 
 
-def test_a_point_that_would_leave_the_bounds_stops_at_the_centroid():
-    """A thin cell along a side of a triangle: its mass lies near one end, the point far beyond the other."""
-    corners = [[0, 0], [9, 0], [0, 9]]
-    relaxed = lloyd([[8.9, 0.05]], steps=1, bounds=corners, factor=1.9)
-    assert np.allclose(relaxed.points, [[3, 3]])
-    assert np.allclose(lloyd([[8.9, 0.05]], steps=1, bounds=corners, factor=1.2).points, [[1.82, 3.59]])
-
-
 def test_a_callback_hears_of_each_step():
     heard, points = [], np.random.default_rng(1).random((20, 2))
     relaxed = lloyd(points, steps=7, bounds=(0, 0, 1, 1), callback=heard.append)

@@ -8,7 +8,6 @@ from hypothesis import strategies as st
 
 from stereodel._double_double import DoubleDouble, stack, unit
 from stereodel.sphere import lonlat_to_xyz, xyz_to_lonlat
-from stereodel.sphere.coordinates import as_direction
 from stereodel.sphere.degrees import angle_degrees, sin_cos_degrees
 from tests.exact import direction
 
@@ -90,11 +89,6 @@ def test_mirror_symmetry_is_exact(lon, lat):
 )
 def test_special_directions(vector, lonlat):
     assert tuple(xyz_to_lonlat(vector)) == lonlat
-
-
-def test_as_direction_takes_both_forms():
-    assert (as_direction((0, 90)) == [0, 0, 1]).all()
-    assert as_direction((0, -3e-320, 0)).tolist() == [0, -3e-320, 0]
 
 
 @given(st.tuples(*[st.floats(-1, 1)] * 3).filter(any), st.sampled_from([1.0, 1e-9, 1e-30, 1e-200]), st.integers(0, 2))

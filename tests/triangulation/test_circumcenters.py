@@ -64,17 +64,6 @@ def test_needles(bits):
             assert_close(triangle, 120)
 
 
-@pytest.mark.parametrize("turn", range(3))
-def test_needles_a_few_units_in_the_last_place_apart(turn):
-    """What unit vectors in double-double leave of such a difference is not enough."""
-    rng = np.random.default_rng(turn)
-    for _ in range(60):
-        far, near = rng.normal(size=(2, 3))
-        pair = np.array([near, near + np.spacing(near) * rng.permutation([1, rng.integers(-2, 3), -1])])
-        triangle = np.roll(np.vstack([far, pair]), turn, axis=0)
-        assert_close(triangle, 60)
-
-
 @pytest.mark.parametrize("bits", range(40, 140, 3))
 @pytest.mark.parametrize("bend", [0.0, 0.3, 1.5])
 def test_three_close_directions_in_a_row(bits, bend):

@@ -12,7 +12,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import scipy.spatial
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -22,14 +21,12 @@ from stereodel.triangulation.hull_insertion import spanning_points
 from stereodel.triangulation.topology import neighbors_of
 from tests import sets
 from tests.spaces import BOTH, PLANE, SPHERE, asked, readable, rows, space_of
-from tests.spatial.oracle import as_sets
 
 FIXTURES = sorted((Path(__file__).parent.parent / "fixtures" / "delaunator").glob("*.json"))
 POLES = list(itertools.product(range(3), (-1, 1)))
 FINITE = st.floats(allow_nan=False, allow_infinity=False)
 GRID = sets.grid(7, 6)
 EQUATOR = np.array([[s * x, r * y, 0] for x, y in ((3, 4), (4, 3), (12, 5)) for s in (1, -1) for r in (1, -1)]) / 1.0
-HALF_CUBE = sets.cube_grid(3)[sets.cube_grid(3)[:, 2] >= 0]
 # Exact rotations: signed permutations of the axes with determinant 1.
 TURNS = {
     width: [
@@ -146,18 +143,6 @@ def test_repetition_and_length_change_no_simplex(space, data):
     assert rows(space.triangulated(twice * factors).simplices) == rows(space.triangulated(points).simplices)
 
 
-def test_against_scipy():
-    points = np.random.default_rng(0).random((2000, 2))
-    triangulation, hull = PLANE.triangulated(points), scipy.spatial.ConvexHull(points)
-    assert as_sets(triangulation.simplices) == as_sets(scipy.spatial.Delaunay(points).simplices)
-    assert as_sets(triangulation.convex_hull) == as_sets(hull.simplices)
-    points = sets.sphere("unit").drawn(1000)
-    triangulation = SPHERE.triangulated(points)
-    assert as_sets(triangulation.simplices) == as_sets(scipy.spatial.ConvexHull(points).simplices)
-    assert not triangulation.closing.any()
-    assert triangulation.convex_hull.shape == (0, 2)
-
-
 @pytest.mark.parametrize("path", FIXTURES, ids=lambda p: p.stem)
 def test_hard_fixtures(path):
     points = np.array(json.loads(path.read_text(encoding="utf-8")), dtype=float)
@@ -192,15 +177,6 @@ def test_a_facet_through_the_centre_is_closing():
     assert three.simplices.tolist() == [[0, 1, 2], [0, 2, 1]]
     assert three.closing.tolist() == [False, True]
     assert three.neighbors.tolist() == [[1, 1, 1], [0, 0, 0]]
-
-
-def test_closing_facets_are_asked_anew_after_a_change():
-    triangulation = SphericalDelaunay(HALF_CUBE)
-    assert triangulation.closing.any()
-    assert triangulation.find_simplex([0, 0, -1]) == -1
-    triangulation.insert(sets.AXES)
-    assert not triangulation.closing.any()
-    assert (triangulation.find_simplex(sets.AXES) >= 0).all()
 
 
 SPANNING = [

@@ -10,7 +10,6 @@ from hypothesis import strategies as st
 from mpmath import mp, workdps
 
 from stereodel import PlanarVoronoi, SphericalVoronoi, _kernel
-from stereodel.graphs import gabriel_graph, hull
 from stereodel.triangulation.diagram import polygons
 from tests import sets
 from tests.exact import cross, doubles, fractions, minus, turn, unit
@@ -169,12 +168,6 @@ def test_order_of_directions_that_differ_by_roundings(axis, scale):
         start = order.index(expected[0])
         around = order[start:] + order[:start]
         assert around in (expected, [expected[0], *expected[:0:-1]])
-
-
-def test_graphs_of_a_circle_take_the_same_order():
-    points = [[0, 1, 0], [1, 0, 0], [-1, 0, 0], [0, 2, 0], [1, -1, 0]]
-    assert gabriel_graph(points).tolist() == [[0, 1], [0, 2], [1, 4], [2, 4]]
-    assert hull(points).tolist() == []
 
 
 def about_one_direction(size):
