@@ -48,7 +48,7 @@ Placed = tuple[tuple[Standing, ...], ...]
 def placed(globe: Globe, shots: Iterable[tuple[MoebiusMap, MapView]], count: int, unit: float) -> list[Placed]:
     """Where the names of a globe stand in each of the frames, `unit` points being its radius; [] if it has none."""
     layers = [replace(layer, leader=None) for layer in globe.layers if isinstance(layer, Names)]
-    dots = radii(globe)
+    dots = radii(globe.layers)
     seats = [[layer.seats(row, dots) for row in range(len(layer.xyz))] for layer in layers]
     if not any(seats):
         return []

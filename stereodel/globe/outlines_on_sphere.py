@@ -25,9 +25,6 @@ from stereodel.triangulation import SphericalDelaunay, SphericalVoronoi
 Rings = Sequence[npt.ArrayLike]
 """An outer ring and its holes, (k, 2) each, in degrees; the first point may be repeated at the end."""
 
-HALF_OF_MAP = 360.0
-"""Square degrees of the equal-area map."""
-
 
 @dataclass(frozen=True, eq=False)
 class SphereLines:
@@ -103,8 +100,9 @@ class SphereRegions:
         count = int(region.max(initial=-1)) + 1
         lonlat, area = oriented(trace.unwrapped(Ragged.of(rings, np.zeros((0, 2)))), np.array(hole, dtype=bool))
         start, end, sides, owner = stitched(lonlat, region)
-        # A polygon that fills the map, with no border left once the map's seams are removed, is the whole sphere.
-        everywhere = np.bincount(region, area, minlength=count) > HALF_OF_MAP
+        # A polygon that fills the map, with no border left once the map's seams are removed, is the whole sphere: half
+        # of the equal-area map are 360 square degrees.
+        everywhere = np.bincount(region, area, minlength=count) > 360.0
         everywhere[owner[sides.sizes > 0]] = False
         return cls(trace.Edges.straight(start, end, latitude), sides, owner, everywhere)
 

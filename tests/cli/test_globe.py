@@ -15,7 +15,7 @@ from typer.testing import CliRunner
 from stereodel import fisheye, lonlat_to_xyz
 from stereodel.cli import app
 from stereodel.cli import globe as command
-from stereodel.cli.globe import Aim, layer_of, middle_of, motion_of
+from stereodel.cli.globe import Aim, layer_of, motion_of
 from stereodel.drawing import StereographicView, View
 from stereodel.drawing.page import Dots
 from stereodel.film import Film, FrameError
@@ -75,7 +75,7 @@ def test_the_middle_of_the_picture():
     assert flat.views == (StereographicView(1, 2),)
     both = replace(focused, projection="hemispheres").views
     assert both == (StereographicView(1, 2), StereographicView(-179, -2))
-    assert middle_of(lonlat_to_xyz([(0, 0), (180, 0)])) == (0.0, 0.0)
+    assert free.with_middle_of(lonlat_to_xyz([(0, 0), (180, 0)])).place == (0.0, 0.0)
 
 
 def test_textures(folder, run):
@@ -236,7 +236,6 @@ def test_points_and_layers_by_value(folder, run):
         *BY_VALUE,
         "--show=points",
         "--scale=log",
-        "--largest=10mm",
         "--colors=magma_r",
         "--legend-text=people (size)=many",
     )

@@ -131,7 +131,6 @@ globe --point-size=2mm → --point-size is for POINTS
 globe cities.csv --point-size=town → --point-size is 'town'; give a length with a unit, pt, mm, cm, in
 globe cities.csv --point-color=town → --point-color is 'town', which is not a colour; give a name such as
 globe cities.csv --show=cells --point-size=2mm → --point-size is for points; name them in --show, too
-globe cities.csv --largest=9mm → --largest is '9mm', but --point-size names no column of amounts
 globe cities.csv --point-color=people --scale=cube → --scale is 'cube'
 globe cities.csv --point-color=people --scale=symlog → --scale is 'symlog' and threshold None; 'symlog' alone needs
 globe cities.csv --point-color=people --scale=log --classes=equal:5 → --scale is for scales without --classes

@@ -2,6 +2,7 @@
 
 from fractions import Fraction
 from itertools import combinations
+from typing import get_args
 
 import numpy as np
 import pytest
@@ -13,7 +14,8 @@ from matplotlib.colors import LogNorm, PowerNorm, to_rgba
 from stereodel.drawing import ColorScale, Page, SizeScale, with_legend
 from stereodel.drawing.page.labels import label_box
 from stereodel.drawing.page.placing import meets
-from stereodel.drawing.page.ticks import KINDS, MOST_TICKS, SCHEMES, natural_breaks, written
+from stereodel.drawing.page.scales import KINDS
+from stereodel.drawing.page.ticks import MOST_TICKS, Scheme, natural_breaks, written
 from tests.refused import refused
 
 NBSP = "\N{NO-BREAK SPACE}"
@@ -46,7 +48,7 @@ def test_ticks_are_round_and_grouped(scale, texts):
     assert ", ".join(scale.ticks.values()).replace(NBSP, " ") == texts
 
 
-@given(st.sampled_from(KINDS), st.floats(1e-6, 1e9), st.floats(1e-3, 1e6))
+@given(st.sampled_from(list(KINDS)), st.floats(1e-6, 1e9), st.floats(1e-3, 1e6))
 def test_ticks_are_few_round_and_on_the_scale(kind, low, width):
     """Each is 1, 2 or 5 times a power of ten, or a multiple of their common step, which is."""
     scale = ColorScale("viridis", low, low + width, kind, threshold=1.0 if kind == "symlog" else None)
@@ -63,7 +65,7 @@ def test_ticks_are_few_round_and_on_the_scale(kind, low, width):
         assert leading <= set("125")
 
 
-@given(st.floats(-1e20, 1e20).filter(bool), st.sampled_from(KINDS))
+@given(st.floats(-1e20, 1e20).filter(bool), st.sampled_from(list(KINDS)))
 def test_what_is_written_is_the_number(number, kind):
     (text,) = written([number], kind)
     plain = text.replace(NBSP, "").replace("\N{MINUS SIGN}", "-").replace("·10", "e").translate(UNRAISED)
@@ -144,7 +146,7 @@ def test_natural_breaks_are_the_best_of_all_divisions(values, count):
     assert spread(runs) == min(map(spread, partitions(ordered, count)))
 
 
-@given(st.lists(st.floats(-1e6, 1e6), min_size=2, max_size=40), st.sampled_from(SCHEMES), st.integers(1, 8))
+@given(st.lists(st.floats(-1e6, 1e6), min_size=2, max_size=40), st.sampled_from(get_args(Scheme)), st.integers(1, 8))
 def test_rounded_limits_leave_every_value_in_its_class(values, scheme, count):
     """Classes of quantiles are those of NumPy's quantiles, and no limit has more digits than it needs to be there."""
     numbers = np.array(values)
