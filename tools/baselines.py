@@ -292,6 +292,8 @@ def item_arrays(item: Item) -> dict[str, Any]:
             digest = hashlib.sha256(f"{raster.pixels.shape}\n".encode() + raster.pixels.tobytes()).hexdigest()
             told = {"bounds": raster.bounds, "latitude": raster.latitude, "raster": digest}
             return {"outline": np.concatenate(item.outline), "map": np.concatenate([*parts, numbers]), **told}
+        case Picture():
+            return {"outline": np.concatenate(item.outline)}
         case Polylines():
             return {"points": item.points, "offsets": item.offsets, "style": [*item.color, item.width]}
         case Polygons():

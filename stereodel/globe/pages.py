@@ -49,7 +49,7 @@ class Panel:
 
 
 def hemispheres(lon: float, lat: float = 0.0, *, flat: bool = False) -> tuple[MapView, MapView]:
-    """Views of the hemisphere about a place in degrees, and of the opposite one: orthographic, or stereographic ones.
+    """Orthographic views, or `flat` stereographic ones, of the hemisphere about a place in degrees and of the opposite.
 
     Examples
     --------

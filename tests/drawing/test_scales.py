@@ -83,6 +83,10 @@ UNRAISED = str.maketrans(RAISED, "-0123456789")
 
 def test_numbers_stand_where_their_kind_says():
     """As matplotlib's norms have them; a symmetric logarithm is odd, linear up to its threshold, and has no kink."""
+    np.testing.assert_allclose(ColorScale("magma", 0, 1000).place([0, 250, 2000, -1]), [0, 0.25, 1, 0])
+    values = np.linspace(-1, 1, 20).reshape(4, 5)
+    np.testing.assert_array_equal(ColorScale("magma", -1, 1)(values), colormaps["magma"](values / 2 + 0.5))
+    assert np.array_equal(ColorScale("magma", 1, 10, "log")(0.0), colormaps["magma"](0.0))
     numbers = np.geomspace(2.0, 300.0, 50)
     np.testing.assert_allclose(ColorScale("magma", 2, 300, "log").place(numbers), LogNorm(2, 300)(numbers))
     np.testing.assert_allclose(ColorScale("magma", 0, 300, "sqrt").place(numbers), PowerNorm(0.5, 0, 300)(numbers))
@@ -211,19 +215,11 @@ def of_unit(**given):
 
 test_what_makes_no_scale_is_refused = refused(
     (ColorScale, ("viridis", 0.0, 1.0, "cubic"), "kind is 'cubic'"),
-    (
-        ColorScale,
-        ("viridis", 0.0, 1.0, "symlog"),
-        "kind is 'symlog' and threshold None; 'symlog' alone",
-    ),
+    (ColorScale, ("viridis", 0.0, 1.0, "symlog"), "kind is 'symlog' and threshold None; 'symlog' alone"),
     (ColorScale, ([], 0.0, 1.0), "colors is empty"),
     (ColorScale, (["red", "sky"], 0.0, 1.0), "colors is 'sky', which is not a colour"),
     (of_unit, {"center": 2.0}, r"center is 2.0, outside \[0, 1\]"),
-    (
-        lambda **given: ColorScale("viridis", 0, 1, **given),
-        {"edges": [0, 1, 2]},
-        "edges lead from 0.0 to 2.0, not from 0 to 1",
-    ),
+    (of_unit, {"edges": [0, 1, 2]}, "edges lead from 0.0 to 2.0, not from 0 to 1"),
     (ColorScale.classes, ([1, 2], [3, 3]), "limits of classes are two or more numbers that increase"),
     (ColorScale.classes, ([1, 2], "jenks"), "scheme is 'jenks'"),
     (ColorScale.classes, ([1, 1, np.nan], "natural"), "values has no two different numbers"),
