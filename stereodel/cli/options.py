@@ -177,6 +177,8 @@ class ValueOptions:
             if self.classes:
                 own: Any = scheme if scheme.isalpha() else numbers(self.classes, "--classes", "limits", "0,10,50")
                 (at,) = numbers(count or "5", "--classes", "SCHEME:N or limits", "quantiles:5", 1)
+                if at % 1:
+                    raise ValueError(f"count is {count}, but must be a whole number")
                 return ColorScale.classes(values, own, int(at), colors, center=self.center)
             ends: Any = self.limits and numbers(self.limits, "--limits", "LOW,HIGH", "0,100", 2)
             (threshold,) = numbers(bend, "--scale", "KIND", "symlog:1000", 1) if bend else (None,)

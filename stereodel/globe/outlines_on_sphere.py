@@ -162,16 +162,12 @@ class SphereRegions:
         """The visible parts, as closed loops on the page, interior on the left, and the region of each."""
 
         def around(shown: BoolArray) -> BoolArray:
-            asked = ~shown & self.may_hold(chart.source.normal)
+            center, reach = self._caps
+            chord = np.sqrt(np.sum((center - chart.source.normal) ** 2, axis=1))
+            asked = ~shown & (2 * np.arcsin(np.minimum(chord / 2, 1.0)) <= reach)  # not certainly elsewhere
             return self.everywhere | chart.surrounded(self.edges, self.rings, self.owner, self.left, asked)
 
         return chart.regions(self.edges, self.rings, self.owner, self.left, self.count, around)
-
-    def may_hold(self, place: FloatArray) -> BoolArray:
-        """Which regions may contain a place far from their rings, (n,): all that are not certainly elsewhere."""
-        center, reach = self._caps
-        chord = np.sqrt(np.sum((center - place) ** 2, axis=1))
-        return 2 * np.arcsin(np.minimum(chord / 2, 1.0)) <= reach
 
     @cached_property
     def _caps(self) -> tuple[FloatArray, FloatArray]:

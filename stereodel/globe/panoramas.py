@@ -9,21 +9,12 @@ from typing import Any, Final
 
 import numpy as np
 
-from stereodel._arrays import Pixels, as_choice
+from stereodel._arrays import Pixels
 from stereodel._extras import of_extra
 from stereodel._tasks.whole_files import replacing
 from stereodel.conformal import MoebiusMap
 from stereodel.curves.view import View
-from stereodel.globe.raster import (
-    FACES,
-    PLANET_RADIUS,
-    SHARES,
-    PanoramaForm,
-    Raster,
-    panorama_sides,
-    panorama_size,
-    read_photo,
-)
+from stereodel.globe.raster import FACES, PLANET_RADIUS, PanoramaForm, Raster, panorama_sides, read_photo
 
 WRITTEN: Final[Mapping[str, Mapping[str, Any]]] = {
     "JPEG": {"quality": 95, "subsampling": 0},
@@ -94,12 +85,10 @@ def save_panorama(
         )
     if faces and form != "cubemap":
         raise ValueError(f"faces are those of a cubemap, and form is {form!r}")
-    as_choice(form, tuple(SHARES), "form")
-    side = panorama_size(max(1, width // SHARES[form]) if size is None else size, form)
-    columns, rows = panorama_sides(side, form)
+    columns, rows = panorama_sides(form, size, width)
     opaque = bool((photo[..., 3] == 255).all())
-    check_photo(target.name, (side if faces else columns, rows), opaque=opaque)
-    pixels = Raster(photo).panorama(lens, form, view=view, size=side, angular_radius=angular_radius)
+    check_photo(target.name, (rows if faces else columns, rows), opaque=opaque)
+    pixels = Raster(photo).panorama(lens, form, view=view, size=size, angular_radius=angular_radius)
     if faces:
         return [write_photo(name, face, profile) for name, face in zip(face_paths(target), pixels, strict=True)]
     if form == "cubemap":

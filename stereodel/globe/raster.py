@@ -52,21 +52,20 @@ DAMAGED: Final = (OSError, SyntaxError, ValueError, EOFError, struct.error, Inde
 """Exceptions that Pillow's decoders raise on truncated or corrupt files."""
 
 
-def panorama_size(size: int, form: PanoramaForm) -> int:
-    """Check a size for `Raster.panorama`; ValueError if it is invalid."""
-    width = as_count(size, "size")
+def panorama_sides(form: PanoramaForm, size: int | None, whole: int) -> tuple[int, int]:
+    """Columns and rows of what `Raster.panorama` draws, of a cubemap those of its faces in a row.
+
+    `whole` is the width of an image of all directions at the same resolution, for which there is a default.
+    """
+    as_choice(form, tuple(SHARES), "form")
+    usual = whole + whole % 2 if form == "equirectangular" else max(1, whole // SHARES[form])
+    width = as_count(usual if size is None else size, "size")
     if form == "equirectangular" and width % 2:
         raise ValueError(f"size is {width}, but an equirectangular panorama is twice as wide as high; give an even one")
-    columns, rows = panorama_sides(width, form)
-    if columns * rows > MOST_TEXELS:
-        made = f"{columns * rows} pixels of its {form}"
-        raise ValueError(f"size is {width}, which makes {made}; at most {MOST_TEXELS} are drawn")
-    return width
-
-
-def panorama_sides(size: int, form: PanoramaForm) -> tuple[int, int]:
-    """Numbers of columns and rows, of a cubemap those of its faces in a row."""
-    return {"equirectangular": (size, size // 2), "cubemap": (6 * size, size), "planet": (size, size)}[form]
+    sides = {"equirectangular": (width, width // 2), "cubemap": (6 * width, width), "planet": (width, width)}[form]
+    if (count := sides[0] * sides[1]) > MOST_TEXELS:
+        raise ValueError(f"size is {width}, which makes {count} pixels of its {form}; at most {MOST_TEXELS} are drawn")
+    return sides
 
 
 def read_photo(path: str | os.PathLike[str]) -> tuple[Pixels, bytes]:
@@ -294,28 +293,25 @@ class Raster(Displayed):
         >>> stripes.panorama(fisheye((10, 0), magnification=3.0)).shape, stripes.panorama(form="cubemap").shape
         ((6, 12, 4), (6, 3, 3, 4))
         """
-        form = as_choice(form, tuple(SHARES), "form")
         west, _, east, _ = WHOLE if self.bounds is None else self.bounds
-        whole = max(4, round(self.pixels.shape[1] * 360.0 / (east - west)))
-        usual = whole + whole % 2 if form == "equirectangular" else whole // SHARES[form]
-        width = panorama_size(usual if size is None else size, form)
+        columns, rows = panorama_sides(form, size, max(4, round(self.pixels.shape[1] * 360.0 / (east - west))))
         seen = View(0.0, -90.0 if form == "planet" else 0.0) if view is None else view
         bend = MoebiusMap.identity() if lens is None else lens
-        square = (width, width)
+        square = (rows, rows)
         if form == "cubemap":
-            place = (-1.0, 1.0, 2.0 / width, 2.0 / width)
+            place = (-1.0, 1.0, 2.0 / rows, 2.0 / rows)
             faces = (face @ seen.matrix for face in FACES.values())
             return np.stack([self._warped(bend, f, "gnomonic", 0.0, place, square, workers=workers) for f in faces])
         if form == "planet":
             # Beyond 160° the corners are more than 166° from the centre, and their scale 67 times as large.
             radius = as_scalar(angular_radius, "angular_radius", low=0.0, high=160.0, open_low=True)
             # The square is centred in a disc twice as wide, which contains its corners.
-            reach, place = 2.0 * float(np.tan(np.radians(radius) / 2)), (-0.5, 0.5, 1.0 / width, 1.0 / width)
+            reach, place = 2.0 * float(np.tan(np.radians(radius) / 2)), (-0.5, 0.5, 1.0 / rows, 1.0 / rows)
             given = bend, seen.matrix, "stereographic", reach, place, square
             return self._warped(*given, covered=False, workers=workers)
-        step = 2 * np.pi / width
+        step = 2 * np.pi / columns
         place = (-np.pi, np.pi / 2, step, step)
-        return self._warped(bend, seen.matrix, "equirectangular", 0.0, place, (width, width // 2), workers=workers)
+        return self._warped(bend, seen.matrix, "equirectangular", 0.0, place, (columns, rows), workers=workers)
 
     def _warped(
         self,

@@ -137,6 +137,7 @@ globe cities.csv --point-color=people --scale=log --classes=equal:5 → --scale 
 globe cities.csv --point-color=people --classes=jenks:5 → --classes is 'jenks'
 globe cities.csv --point-color=people --classes=9,1 → --classes is [9.0, 1.0], but limits of classes are two or more
 globe cities.csv --point-color=people --classes=equal:x → --classes is 'x', but must be SCHEME:N or limits
+globe cities.csv --point-color=people --classes=equal:2.5 → --classes is 2.5, but must be a whole number
 globe cities.csv --point-color=people --colors=sunset → --colors is 'sunset', which is not a colour map of matplotlib
 globe cities.csv --point-color=people --limits=5,1 → --limits is 1.0, outside
 globe cities.csv --point-color=people --limits=5 → --limits is '5', but must be LOW,HIGH, e.g. --limits=0,100
