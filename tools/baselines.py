@@ -18,6 +18,7 @@ What each of them lets pass stands here and not among the tolerances of the libr
 from __future__ import annotations
 
 import argparse
+import hashlib
 import io
 import json
 import lzma
@@ -42,6 +43,7 @@ from stereodel._tasks.whole_files import write_whole
 from stereodel.drawing.page import Dots, Fill, Item, Label, Page, Picture, Polygons, Polylines, Stroke
 from stereodel.drawing.page.items import Ramp
 from stereodel.film import Film
+from stereodel.globe.raster import RasterOnDisc
 from stereodel.render.figure import Figure
 from stereodel.render.pixel_rows import LabelLayer, pixel_hash
 from tools.build import BuildError, find_scripts, load_drawing
@@ -283,8 +285,15 @@ def item_arrays(item: Item) -> dict[str, Any]:
             return {"centers": item.centers, "style": [item.radius, *item.color, *item.rim, item.rim_width]}
         case Picture(painter=Ramp() as ramp):
             return {"outline": np.concatenate(item.outline), "ends": ramp.ends, "colors": ramp.colors}
+        case Picture(painter=RasterOnDisc() as disc):
+            raster, chart, lens = disc.raster, disc.chart, disc.chart.lens
+            parts = lens.left.matrix.ravel(), lens.right.matrix.ravel(), chart.view.matrix.ravel()
+            numbers = [lens.magnification, chart.view.edge, *chart.at, chart.scale, disc.opacity]
+            digest = hashlib.sha256(f"{raster.pixels.shape}\n".encode() + raster.pixels.tobytes()).hexdigest()
+            told = {"bounds": raster.bounds, "latitude": raster.latitude, "raster": digest}
+            return {"outline": np.concatenate(item.outline), "map": np.concatenate([*parts, numbers]), **told}
         case Picture():
-            return {"outline": np.concatenate(item.outline), **item.painter.arrays()}
+            return {"outline": np.concatenate(item.outline)}
         case Polylines():
             return {"points": item.points, "offsets": item.offsets, "style": [*item.color, item.width]}
         case Polygons():

@@ -29,23 +29,12 @@ if TYPE_CHECKING:
 
 EXAMPLE = "stereodel globe --focus=2.35,48.86 --magnify 20 -o paris.png"
 
-PICTURES = ("png", "svg", "pdf")
 FILMS = ("gif", "webp", "apng", "mp4")
-WIDTH = "17cm"
-"""Of a page."""
 SECONDS: Final = 10.0
 """Duration of a film that flies nowhere."""
 FPS: Final = 25.0
 GIF_FPS: Final = 12.5
 """Frames per second; of a GIF, whose frames are large."""
-FILM_SPACING: Final = 15.0
-"""Of the graticule of films, in degrees: a spacing adapted to each frame would flicker."""
-KEPT = "interrupted; the same command draws the missing frames"
-CROWDED: Final = 500
-"""Number of points above which lines and dots become finer, so that cells stay visible."""
-FINEST: Final = 0.2
-"""The smallest factor for the usual widths."""
-OWN_TEXTURE = "blue-marble"
 MAPS = ("land", "lakes", "graticule", "rivers", "coastlines", "borders")
 """What `--show` may name of the Earth, from the bottom up."""
 OF_POINTS = ("triangles", "cells", "points")
@@ -53,9 +42,6 @@ OF_POINTS = ("triangles", "cells", "points")
 USUAL = "land,graticule,coastlines,cells,points"
 LAYER_KEYS = ("color", "width", "outline", "size", "column", "id")
 """Of `--layer FILE,key=…`."""
-
-REPLACED: Final = {"land", "coastlines"}
-"""What polygons of layers replace unless `--show` names it."""
 
 Resolution = Literal["auto", "10m", "50m", "110m"]
 Projection = Literal["globe", "stereographic", "hemispheres"]
@@ -98,7 +84,7 @@ def command(
 
     layers, styles = [layer_of(text) for text in layer or ()], picture.style or ()
     read_from = (points, texture, *(str(path) for path, _ in layers), *styles)
-    destination = output.of(PICTURES + FILMS, *read_from)
+    destination = output.of(("png", "svg", "pdf", *FILMS), *read_from)
     filming = destination.kind in FILMS
     if points is None:
         of_points = {"--labels": labels, "--point-size": valued.point_size, "--point-color": valued.point_color}
@@ -117,10 +103,11 @@ def command(
     with reporting("reading maps"):
         contents = [(path, shapes_of(path), looks) for path, looks in layers]
         if show is None and (own := [str(path) for path, shapes, _ in contents if len(shapes.polygon_feature)]):
-            shown -= REPLACED
+            shown -= {"land", "coastlines"}
             said = f"{', '.join(own)}: polygons replace the land and the coastlines of the package"
             warnings.warn(f"{said}; --show={USUAL} draws them, too", DataWarning, stacklevel=2)
-        drawing = new_globe(shown, resolution, FILM_SPACING if filming else None, texture)
+        # In films a graticule that suits each frame would flicker.
+        drawing = new_globe(shown, resolution, 15.0 if filming else None, texture)
         drawing.title = picture.title
         for path, shapes, looks in contents:
             with naming(str(path)):
@@ -144,11 +131,11 @@ def command(
         except FrameError as error:
             raise OSError(str(error)) from error
         except KeyboardInterrupt:  # what is drawn is kept next to the file
-            raise KeyboardInterrupt(KEPT) from None
+            raise KeyboardInterrupt("interrupted; the same command draws the missing frames") from None
         return
     with reporting("drawing"), destination.file() as target:
         size = picture.size or 1600
-        drawing.save(target, aim.lens, aim.views, style=styles, legend=legend, width=WIDTH, size=size)
+        drawing.save(target, aim.lens, aim.views, style=styles, legend=legend, size=size)
 
 
 @dataclass(frozen=True)
@@ -161,8 +148,17 @@ class Aim:
     projection: Projection
 
     def with_middle_of(self, points: FloatArray) -> Aim:
-        """The aim centred on unit vectors (n, 3), unless a centre or focus was given."""
-        return self if self.middle or self.focus else replace(self, middle=middle_of(points))
+        """The aim centred on the mean of unit vectors (n, 3), if they have one and no centre or focus was given."""
+        import numpy as np
+
+        from stereodel import xyz_to_lonlat
+        from stereodel.constants import NO_MIDDLE
+
+        mean = points.sum(axis=0)
+        if self.middle or self.focus or np.sqrt(np.sum(mean**2)) <= NO_MIDDLE * len(points):
+            return self
+        lon, lat = xyz_to_lonlat(mean)
+        return replace(self, middle=(float(lon), float(lat)))
 
     @property
     def place(self) -> options.Place:
@@ -190,20 +186,6 @@ class Aim:
         return (View(lon, lat) if self.projection == "globe" else StereographicView(lon, lat),)
 
 
-def middle_of(points: FloatArray) -> options.Place:
-    """Longitude and latitude of the mean of unit vectors (n, 3); (0, 0) if they have none."""
-    import numpy as np
-
-    from stereodel import xyz_to_lonlat
-    from stereodel.constants import NO_MIDDLE
-
-    mean = points.sum(axis=0)
-    if np.sqrt(np.sum(mean**2)) <= NO_MIDDLE * len(points):
-        return (0.0, 0.0)
-    lon, lat = xyz_to_lonlat(mean)
-    return (float(lon), float(lat))
-
-
 def shown_of(text: str | None, texture: str | None) -> frozenset[str]:
     """What `--show` names."""
     names = (USUAL if text is None else text).split(",") if text != "none" else []
@@ -220,7 +202,7 @@ def new_globe(shown: frozenset[str], resolution: str, spacing: float | None, tex
 
     globe = Globe(latitude="authalic")
     if texture is not None:
-        globe.add_raster(blue_marble() if texture == OWN_TEXTURE else texture)
+        globe.add_raster(blue_marble() if texture == "blue-marble" else texture)
     for name in (name for name in MAPS if name in shown):
         given: dict[str, Any] = {"spacing": spacing} if name == "graticule" else {"resolution": resolution}
         getattr(globe, f"add_{name}")(**given)
@@ -277,20 +259,13 @@ def of_column(table: PointTable, text: str, option: str, reader: Callable[[str, 
 
 def looks_of(table: PointTable, valued: options.ValueOptions, dots: DotStyle) -> dict[str, Any]:
     """How points look, as `Globe.add_points` takes it."""
-    import numpy as np
-
     from stereodel.drawing.page.colors import as_color
-    from stereodel.drawing.page.scales import SizeScale
     from stereodel.drawing.page.style import MAP_DOT, as_length
 
     looks: dict[str, Any] = {"style": dots, "legend": Path(table.name).stem}
     if valued.point_size is not None:
         size, title = of_column(table, valued.point_size, "--point-size", as_length)
         looks |= {"size": size, "size_legend": title} | ({"style": MAP_DOT, "legend": ""} if title else {})
-    if valued.largest is not None:
-        if not looks.get("size_legend"):
-            raise ValueError(f"--largest is {valued.largest!r}, but --point-size names no column of amounts")
-        looks["size_scale"] = SizeScale(float(np.nanmax(size)), as_length(valued.largest, "--largest"))
     if valued.point_color is not None:
         color, title = of_column(table, valued.point_color, "--point-color", as_color)
         scale = valued.of if valued.given else None
@@ -308,7 +283,7 @@ def add_points(
     from stereodel.drawing.page.style import DOTS, LINES
 
     places = table.points("authalic")
-    weight = max(FINEST, min(1.0, float(np.sqrt(CROWDED / max(1, len(places))))))
+    weight = max(0.2, min(1.0, float(np.sqrt(500 / max(1, len(places))))))  # so that cells stay visible
     triangulation = SphericalDelaunay(places)
     edges, ridges = (LINES[name].scaled(weight) for name in ("delaunay", "voronoi"))
     dots = DOTS["sites"].scaled(weight)
@@ -318,8 +293,8 @@ def add_points(
     if "cells" in shown:
         globe.add_cells(SphericalVoronoi(triangulation), style=ridges, name="voronoi")
         globe.legend["cells"] = ridges
-    given = {"--point-size": valued.point_size, "--point-color": valued.point_color, "--largest": valued.largest}
     if "points" not in shown:
+        given = {"--point-size": valued.point_size, "--point-color": valued.point_color}
         options.refuse(given, "points; name them in --show, too")
     else:
         globe.add_points(table.places, name="sites", **looks_of(table, valued, dots))

@@ -151,7 +151,6 @@ class ValueOptions:
 
     heading: ClassVar[str] = "By value"
     point_size: str | None = option("LENGTH|COLUMN", "Diameter of points, or amounts that their areas show.")
-    largest: str | None = option("LENGTH", "Diameter of the point of the largest amount; by default 24pt.")
     point_color: str | None = option("COLOR|COLUMN", "Colour of points, or numbers or words that it shows.")
     scale: str | None = option("KIND", "linear, log, sqrt, or symlog:THRESHOLD, linear up to there.")
     classes: str | None = option("SCHEME:N|LIMITS", "equal:5, quantiles:5, natural:5, or limits with commas.")
@@ -162,8 +161,8 @@ class ValueOptions:
     @property
     def given(self) -> dict[str, object]:
         """The options that say something of the scale."""
-        named = {name: getattr(self, name) for name in ("scale", "classes", "colors", "limits", "center")}
-        return {f"--{name}": True for name, value in named.items() if value is not None}
+        named = ("scale", "classes", "colors", "limits", "center")
+        return {f"--{name}": True for name in named if getattr(self, name) is not None}
 
     def of(self, values: FloatArray) -> ColorScale:
         """The colour scale of values that the options describe."""
@@ -178,6 +177,8 @@ class ValueOptions:
             if self.classes:
                 own: Any = scheme if scheme.isalpha() else numbers(self.classes, "--classes", "limits", "0,10,50")
                 (at,) = numbers(count or "5", "--classes", "SCHEME:N or limits", "quantiles:5", 1)
+                if at % 1:
+                    raise ValueError(f"count is {count}, but must be a whole number")
                 return ColorScale.classes(values, own, int(at), colors, center=self.center)
             ends: Any = self.limits and numbers(self.limits, "--limits", "LOW,HIGH", "0,100", 2)
             (threshold,) = numbers(bend, "--scale", "KIND", "symlog:1000", 1) if bend else (None,)

@@ -47,7 +47,7 @@ def placed(globe: Globe, shots: Iterable[tuple[MoebiusMap, MapView]], count: int
     layers = [replace(layer, leader=None) for layer in globe.layers if isinstance(layer, Names)]
     others = [layer for layer in globe.layers if not isinstance(layer, Names | Ground | Areas | Image)]
     others = [each for each in others if not isinstance(each, OfEarth) or isinstance(each.look, LineStyle)]
-    dots = radii(globe)
+    dots = radii(globe.layers)
     names = [(number, row) for number, layer in enumerate(layers) for row in range(len(layer.xyz))]
     if not names:
         return []

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
+from numbers import Real
 from pathlib import Path
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -28,12 +29,12 @@ from stereodel.conformal import MoebiusMap
 from stereodel.curves.chart import Chart
 from stereodel.curves.view import MapView
 from stereodel.drawing.page import Item, Label, Page, picture_extra
-from stereodel.drawing.page.colors import ColorLike, as_color, as_colors, as_inks
+from stereodel.drawing.page.colors import ColorLike, as_color, as_colors
 from stereodel.drawing.page.fonts import FontLike, as_font, filled
 from stereodel.drawing.page.items import Tags
 from stereodel.drawing.page.labels import with_title
 from stereodel.drawing.page.page import LARGEST_SIZE
-from stereodel.drawing.page.placing import placed_label
+from stereodel.drawing.page.placing import Placer, placed_label
 from stereodel.drawing.page.scales import SizeScale
 from stereodel.drawing.page.sheets import Style, styled
 from stereodel.drawing.page.style import (
@@ -51,7 +52,7 @@ from stereodel.drawing.page.style import (
     LineStyle,
     as_length,
 )
-from stereodel.drawing.scene.by_value import DotLooks, ScaleLike, colors_of
+from stereodel.drawing.scene.by_value import DotLooks, ScaleLike
 from stereodel.drawing.scene.legend import LegendEntry, described, with_legend
 from stereodel.globe.layers import (
     AUTO,
@@ -67,27 +68,17 @@ from stereodel.globe.layers import (
     Names,
     OfEarth,
     Points,
-    laid,
+    radii,
 )
 from stereodel.globe.outlines_on_sphere import Rings, SphereLines, SphereRegions
 from stereodel.globe.pages import Panel, default_view, panels
 from stereodel.globe.raster import Raster
-from stereodel.io.reading import Shapes, shapes_of
+from stereodel.io.reading import shapes_of
 from stereodel.io.rows_of import ridge_net
 from stereodel.sphere import SphereCircle, lonlat_to_xyz
 from stereodel.sphere.latitudes import KINDS, Latitude
 from stereodel.sphere.vectors import units
 from stereodel.triangulation import SphericalDelaunay, SphericalVoronoi
-
-SIZE: Final = 2000
-"""Default width of a picture in pixels."""
-
-FINE_PIXELS: Final = FINE * PRINT_DPI / 72
-"""Tolerance in pixels that is that of pages in print."""
-
-LEGEND_COLUMNS: Final = 3
-LEGEND_INDENT: Final = 24.0
-"""White space around a legend, in points."""
 
 
 class Globe(Displayed):
@@ -115,13 +106,6 @@ class Globe(Displayed):
     legend : dict of str to LineStyle, DotStyle, color-like, ColorScale or SizeScale
         Entries of the legend below pictures: descriptions with what they describe. What is coloured or sized by value
         is added automatically; other entries may be added.
-
-    Raises
-    ------
-    FileNotFoundError
-        If a font file does not exist.
-    ValueError
-        If `ocean` is not a colour, `latitude` is not a kind of latitude, or a font family is not installed.
 
     Examples
     --------
@@ -172,10 +156,9 @@ class Globe(Displayed):
             Layers below show through transparent pixels. Arrays and files use the kind of latitude of this globe, a
             `Raster` its own.
         bounds : tuple of float, optional
-            (west, south, east, north) of an array or file in degrees; without it, the image must be 2:1 and cover the
-            whole sphere.
+            Of an array or file, as for `Raster`.
         opacity : float
-            In [0, 1].
+            In [0, 1], multiplied with that of pixels.
         name : str
             Name of the image in vector files.
 
@@ -199,33 +182,29 @@ class Globe(Displayed):
 
         A resolution of the Earth's maps is "10m", "50m", "110m", or "auto", which suits the largest scale on each page.
         """
-        self._add_earth("land", resolution, color, "land")
-        if outline is not None:
-            self._add_earth("land", resolution, outline, "land-outline")
+        self._add_earth("land", resolution, {"land": color, "land-outline": outline})
 
     def add_ocean(self, *, color: ColorLike = MAP_FILLS["ocean"], resolution: str = AUTO) -> None:
         """Fill everything but the land of the Earth (Natural Earth); layers below then show on land only."""
-        self._add_earth("land", resolution, color, "ocean")
+        self._add_earth("land", resolution, {"ocean": color})
 
     def add_lakes(
         self, *, color: ColorLike = MAP_FILLS["ocean"], outline: LineStyle | None = None, resolution: str = AUTO
     ) -> None:
         """Fill the lakes of the Earth (Natural Earth)."""
-        self._add_earth("lakes", resolution, color, "lakes")
-        if outline is not None:
-            self._add_earth("lakes", resolution, outline, "lakes-outline")
+        self._add_earth("lakes", resolution, {"lakes": color, "lakes-outline": outline})
 
     def add_rivers(self, *, style: LineStyle = MAP_LINES["rivers"], resolution: str = AUTO) -> None:
         """Draw the large rivers of the Earth (Natural Earth)."""
-        self._add_earth("rivers", resolution, style, "rivers")
+        self._add_earth("rivers", resolution, {"rivers": style})
 
     def add_coastlines(self, *, style: LineStyle = MAP_LINES["coast"], resolution: str = AUTO) -> None:
         """Draw the coastlines of the Earth (Natural Earth)."""
-        self._add_earth("coastlines", resolution, style, "coast")
+        self._add_earth("coastlines", resolution, {"coast": style})
 
     def add_borders(self, *, style: LineStyle = MAP_LINES["borders"], resolution: str = AUTO) -> None:
         """Draw the borders between the countries of the Earth (Natural Earth)."""
-        self._add_earth("borders", resolution, style, "borders")
+        self._add_earth("borders", resolution, {"borders": style})
 
     def add_graticule(self, spacing: float | None = 15.0, *, style: LineStyle = MAP_LINES["graticule"]) -> None:
         """Draw meridians and parallels, `spacing` degrees apart, which must divide 180.
@@ -235,7 +214,7 @@ class Globe(Displayed):
         """
         if spacing is not None:
             as_steps(180.0, spacing, "spacing")
-        self.add(GridLines(spacing, self.latitude, style, "graticule"))
+        self.add(GridLines(spacing, self.latitude, style))
 
     def add_lines(
         self,
@@ -284,7 +263,8 @@ class Globe(Displayed):
             Name of the group in vector files.
         ids : iterable, optional
             A text for each polygon. In SVG polygons are then paths with these ids, in the form of names in XML and made
-            unique, and the texts as they are in ``data-id``; without, those of a colour are one path.
+            unique, and the texts as they are in ``data-id``; without, those of a colour are one path, and those of many
+            colours an image.
         """
         regions = SphereRegions.of_lonlat(polygons, latitude=self.latitude)
         self._add_polygons(regions, color, outline, name, Tags.of({"id": ids}, regions.count))
@@ -316,8 +296,8 @@ class Globe(Displayed):
         color : color-like, sequence of them or array, optional
             Colour of all dots, or of each; by default that of `style`.
         values : (n,) array_like, optional
-            Numbers that a scale turns into the colours of dots, NaN where one is missing; or words, at most eight
-            different ones.
+            In place of `color`: numbers that a scale turns into the colours of dots, NaN where one is missing; or
+            words, at most eight different ones.
         scale : ColorScale, or function of values that returns one, optional
             By default `ColorScale.of`.
         legend : str
@@ -332,11 +312,6 @@ class Globe(Displayed):
             Name of the dots in vector files.
         ids : iterable, optional
             Names of the dots in SVG, as for `add_polygons`.
-
-        Raises
-        ------
-        ValueError
-            If an array has not one entry for each place, both `color` and `values` are given, or no size is positive.
 
         Examples
         --------
@@ -382,7 +357,9 @@ class Globe(Displayed):
         "italic" or "bold italic". With `formulas`, text between two dollar signs is a formula in matplotlib's mathtext.
         """
         xyz = self._xyz(places, "places")
-        inks = as_inks(color)
+        given: Any = color
+        two = isinstance(given, tuple | list) and len(given) == 2 and not isinstance(given[1], Real)  # no opacity
+        inks = tuple(map(as_color, given if two else (given,)))
         paper = WHITE if halo_color is None else as_color(halo_color, "halo_color")
         bare = Label("", (0.0, 0.0), size=size, color=inks[0], halo=halo, halo_color=paper, formulas=formulas)
         bare = replace(bare, on_ground=halo_color is None, inks=inks if len(inks) > 1 else ())
@@ -455,10 +432,7 @@ class Globe(Displayed):
         color: ColorLike | None = MAP_FILLS["circle"],
         style: LineStyle = MAP_LINES["outline"],
     ) -> None:
-        """Draw Tissot's indicatrices: equal circles of `radius` degrees, centred `spacing` degrees apart.
-
-        The centres are on the parallels at multiples of `spacing`, about that distance apart.
-        """
+        """Draw Tissot's indicatrices: equal circles of `radius` degrees, on parallels `spacing` degrees apart."""
         steps = as_steps(180.0, spacing, "spacing")
         size = as_scalar(radius, "radius", low=0.0, high=90.0, open_low=True)
         places = []
@@ -492,10 +466,9 @@ class Globe(Displayed):
         color : color-like
             Colour of polygons without a column.
         column : str, optional
-            Property by which polygons, lines and points are coloured, which is added to the legend. Numbers use a
-            colour scale; text gets one colour for each value, at most eight. What lacks it has a colour of its own.
+            Property by which polygons, lines and points are coloured, numbers or words as the `values` of `add_points`.
         scale : ColorScale, or function of values that returns one, optional
-            Colour scale for numbers; by default `ColorScale.of`.
+            By default `ColorScale.of`.
         outline, style, dot_style : LineStyle, LineStyle, DotStyle
             Styles of the polygons' outlines (None for no outlines; by default white with a column), the lines and the
             points.
@@ -504,9 +477,8 @@ class Globe(Displayed):
         legend : str
             Entry in the legend; of a column of numbers the title of its scale, by default the name of the column.
         id_column : str, optional
-            Property by which SVG names the shapes: each is a path of its own with this `id`, in the form of names in
-            XML and made unique, and with the values of `id_column` and `column` as they are, in ``data-name`` of a
-            column NAME. Then polygons are never an image, however many colours they have.
+            Property by which SVG names the shapes, as by the `ids` of `add_polygons`; the values of `id_column` and
+            `column` are there as they are, in ``data-name`` of a column NAME.
 
         Raises
         ------
@@ -517,32 +489,39 @@ class Globe(Displayed):
             than eight different texts.
         """
         shapes = shapes_of(source)
-        colors = None if column is None else self._color_by(column, shapes, scale, legend or column)
+        count, entry = len(shapes.properties), legend or column or ""
+        values: Any = None if column is None else shapes.words(column) or shapes.column(column)
+        looks = DotLooks.of(count, dot_style, values=values, scale=scale, legend=entry)
+        colors = looks.colors
         keys = (id_column, column) if id_column is not None else ()
-        tags = Tags.of({key: shapes.values(key) for key in keys if key is not None}, len(shapes.properties))
+        tags = Tags.of({key: shapes.values(key) for key in keys if key is not None}, count)
         if len(shapes.polygon_feature):
             owners = shapes.polygon_feature
             polygons = SphereRegions.of_lonlat(shapes.polygons, owners=owners, latitude=self.latitude)
             if column is not None and outline == MAP_LINES["outline"]:
                 outline = MAP_LINES["parting"]
-            own = as_colors(color, len(shapes.properties), "color") if colors is None else colors
+            own = as_colors(color, count, "color") if colors is None else colors
             self._add_polygons(polygons, own[: polygons.count], outline, name, tags)
         if len(shapes.lines):
             of_lines = None if colors is None else colors[shapes.line_feature]
             self._add_lines(list(shapes.lines), style, name, tags and tags.some(shapes.line_feature), of_lines)
         if len(shapes.points):
             of_points = None if colors is None else colors[shapes.point_feature]
-            looks = DotLooks.of(len(shapes.points), dot_style, color=of_points)
             named = tags and tags.some(shapes.point_feature)
-            self.add(Points(self._xyz(shapes.points, "places"), looks, name, named))
-        if legend and colors is None:
-            self.legend[legend] = (
-                as_color(color) if len(shapes.polygon_feature) else style if len(shapes.lines) else dot_style
-            )
+            self.add(Points(self._xyz(shapes.points, "places"), replace(looks, colors=of_points), name, named))
+        self.legend |= looks.entries
+        if legend and colors is None and len(shapes.polygons) + len(shapes.lines):
+            self.legend[legend] = as_color(color) if len(shapes.polygons) else style
 
     def items(self, chart: Chart) -> tuple[Item, ...]:
-        """The page items of a chart, in painter's order; `panels` removes labels that would overlap others."""
-        return laid(self, chart)
+        """The page items of a chart, in painter's order; names are placed when all else is there."""
+        layers = (*self.layers, self.limb)
+        items = [[] if isinstance(layer, Names) else list(layer.lay(chart)) for layer in layers]
+        placer, dots = Placer(chart, [item for some in items for item in some]), radii(self.layers)
+        for layer, some in zip(layers, items, strict=True):
+            if isinstance(layer, Names):
+                some += layer.beside(chart, placer, dots)
+        return tuple(item for some in items for item in some)
 
     def page(
         self,
@@ -571,11 +550,6 @@ class Globe(Displayed):
             Styles for `stereodel.drawing.styled`: "dark", or TOML files.
         legend : bool
             Whether to draw `Globe.legend` below the picture.
-
-        Raises
-        ------
-        ValueError
-            If `width` or `tolerance` is not positive, or `style` is not a style.
         """
         bend = MoebiusMap.identity() if lens is None else lens
         views = view if isinstance(view, Sequence) else [default_view(bend) if view is None else view]
@@ -586,7 +560,7 @@ class Globe(Displayed):
 
     def told(self, page: Page) -> Page:
         """The page with `Globe.legend` below it."""
-        return with_legend(page, self.legend, columns=LEGEND_COLUMNS, indent=LEGEND_INDENT) if self.legend else page
+        return with_legend(page, self.legend, columns=3, indent=24.0) if self.legend else page
 
     def save(
         self,
@@ -594,7 +568,7 @@ class Globe(Displayed):
         lens: MoebiusMap | None = None,
         view: MapView | Sequence[MapView] | None = None,
         *,
-        size: int = SIZE,
+        size: int = 2000,
         width: LengthLike = PRINT_WIDTH,
         style: Style | Sequence[Style] = (),
         legend: bool = False,
@@ -621,7 +595,7 @@ class Globe(Displayed):
             If the extension is unknown; also as for `page`.
         """
         wide, pixels = as_length(width, "width"), as_count(size, "size", high=LARGEST_SIZE)
-        tolerance = min(FINE, FINE_PIXELS * wide / pixels)
+        tolerance = FINE * min(1.0, PRINT_DPI / 72 * wide / pixels)
         with of_extra(picture_extra(Path(path).suffix)):
             page = self.page(lens, view, width=wide, tolerance=tolerance, style=style, legend=legend)
             return page.save(path, size=pixels, transparent=transparent)
@@ -633,18 +607,12 @@ class Globe(Displayed):
             return units(as_directions(rows, name, points=True))
         return lonlat_to_xyz(as_lonlat(rows, name), latitude=self.latitude)
 
-    def _color_by(self, column: str, shapes: Shapes, scale: ScaleLike | None, legend: str) -> FloatArray:
-        """Colours of features (n, 4) by a property, which is added to the legend."""
-        words = shapes.words(column)
-        values: Any = shapes.column(column) if words is None else words
-        colors, told = colors_of(values, len(shapes.properties), scale, legend)
-        self.legend |= told
-        return colors
-
-    def _add_earth(self, what: str, resolution: str, look: LineStyle | ColorLike, name: str) -> None:
+    def _add_earth(self, what: str, resolution: str, looks: Mapping[str, LineStyle | ColorLike | None]) -> None:
         as_choice(resolution, (AUTO, *RESOLUTIONS), "resolution")
-        drawn = look if isinstance(look, LineStyle) else as_color(look)
-        self.add(OfEarth(what, self.latitude, drawn, name, resolution))
+        for name, look in looks.items():
+            if look is not None:
+                drawn = look if isinstance(look, LineStyle) else as_color(look)
+                self.add(OfEarth(what, self.latitude, drawn, name, resolution))
 
     def _add_lines(
         self,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Final, Protocol
 
@@ -30,9 +30,6 @@ AUTO: Final = "auto"
 RESOLUTIONS: Final = {"10m": 25e6, "50m": 130e6, "110m": np.inf}
 """Resolutions of maps of the Earth, and the scale 1 : n from which on the next one is fine enough."""
 
-RADIUS_POINTS: Final = AUTHALIC_RADIUS_KM * 1e5 / 2.54 * 72
-"""Radius of the Earth in points."""
-
 FINE: Final = 0.02
 """Tolerance in points of pages in print."""
 
@@ -56,13 +53,12 @@ def suited(chart: Chart) -> str:
     flat = 1.0 if chart.view.round else 2 * float(np.tan(np.radians(chart.view.angular_radius) / 2))
     largest = scale / (np.cos(half) ** 2 + (scale * np.sin(half)) ** 2) * chart.scale / flat
     # Of a page with many pixels, whose curves are finer.
-    points = largest * chart.unit * max(1.0, FINE / (chart.tolerance * chart.unit))
-    return suited_to(points)
+    return suited_to(largest * chart.unit * max(1.0, FINE / (chart.tolerance * chart.unit)))
 
 
 def suited_to(points: float) -> str:
     """The resolution that suits a map with so many points to a radian of the Earth."""
-    scale = RADIUS_POINTS / points
+    scale = AUTHALIC_RADIUS_KM * 1e5 / 2.54 * 72 / points
     return next(name for name, least in RESOLUTIONS.items() if scale < least)
 
 
@@ -78,11 +74,10 @@ class Ground:
     """The surface of the ball, or the disc of a flat map."""
 
     color: Color
-    name: str = "ball"
 
     def lay(self, chart: Chart) -> Iterator[Item]:
         """The whole disc, shaded if it is a ball."""
-        yield Fill((outline(chart),), self.color, self.name, ball(chart))
+        yield Fill((outline(chart),), self.color, "ball", ball(chart))
 
 
 @dataclass(frozen=True)
@@ -90,11 +85,10 @@ class Limb:
     """The edge of the disc."""
 
     style: LineStyle
-    name: str = "limb"
 
     def lay(self, chart: Chart) -> Iterator[Item]:
         """A circle."""
-        yield Stroke(outline(chart), self.style.color, self.style.width, closed=True, name=self.name)
+        yield Stroke(outline(chart), self.style.color, self.style.width, closed=True, name="limb")
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,23 +111,18 @@ class LineLayer:
 
 @dataclass(frozen=True, eq=False)
 class GridLines:
-    """Meridians and parallels, thinned where they would merge.
-
-    They are `spacing` degrees apart; None chooses a spacing that suits the chart.
-    """
+    """Meridians and parallels `spacing` degrees apart, or as suits the chart; thinned where they would merge."""
 
     spacing: float | None
     latitude: Latitude
     style: LineStyle
-    name: str
 
     def lay(self, chart: Chart) -> Iterator[Item]:
         """As for `LineLayer`; some lines end where they are less than `WIDTHS_APART` line widths apart."""
         spacing = usual_spacing(chart) if self.spacing is None else self.spacing
         least = max(WIDTHS_APART * self.style.width, LEAST_APART) / (chart.unit * chart.scale)
         grid = Graticule.shown(spacing, chart, least, latitude=self.latitude)
-        shown = SphereLines.alone(grid.thinned(chart, least))
-        yield from LineLayer(shown, self.style, self.name).lay(chart)
+        yield from LineLayer(SphereLines.alone(grid.thinned(chart, least)), self.style, "graticule").lay(chart)
 
 
 @dataclass(frozen=True, eq=False)
@@ -146,10 +135,7 @@ class Areas:
     tags: Tags | None = None
 
     def lay(self, chart: Chart) -> Iterator[Item]:
-        """One item for each colour, or one for all regions if there are too many colours.
-
-        With few colours, regions of different colours may overlap; later colours cover earlier ones.
-        """
+        """One item for each colour, later ones above, or one for all regions if there are too many colours."""
         loops, owner = self.regions.on(chart)
         if len(loops) == 0:
             return
@@ -159,9 +145,8 @@ class Areas:
         colors, number = whole.by_color
         if len(colors) > FEW_COLORS:
             yield whole
-            return
-        for color in range(len(colors)):
-            yield whole.some(number == color)
+        else:
+            yield from (whole.some(number == color) for color in range(len(colors)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -209,13 +194,13 @@ class OfEarth:
     def lay(self, chart: Chart) -> Iterator[Item]:
         """As the layers do that are made of lines and regions."""
         given = self.what, suited(chart) if self.resolution == AUTO else self.resolution, self.latitude
-        if not isinstance(self.look, LineStyle):
-            land = earth_regions(*given)
-            regions = land.complement if self.name == "ocean" else land
-            yield from Areas(regions, np.tile(self.look, (regions.count, 1)), self.name).lay(chart)
-        else:
+        if isinstance(self.look, LineStyle):
             lines = earth_regions(*given).outlines if self.what in ("land", "lakes") else earth_lines(*given)
             yield from LineLayer(lines, self.look, self.name).lay(chart)
+            return
+        land = earth_regions(*given)
+        regions = land.complement if self.name == "ocean" else land
+        yield from Areas(regions, np.tile(self.look, (regions.count, 1)), self.name).lay(chart)
 
 
 Standing = tuple[int, int, float]
@@ -257,26 +242,8 @@ class Names:
         return Seats.of(label, self.distance, own, led=self.leader is not None and self.standing is None)
 
 
-def radii(globe: Layered) -> dict[bytes, float]:
+def radii(layers: Iterable[MapLayer]) -> dict[bytes, float]:
     """The radius of the dot at each place that has one, by the bytes of its unit vector."""
-    layers = (layer for layer in globe.layers if isinstance(layer, Points))
-    pairs = (zip(layer.xyz, layer.looks.radii(len(layer.xyz)), strict=True) for layer in layers)
+    dots = (layer for layer in layers if isinstance(layer, Points))
+    pairs = (zip(layer.xyz, layer.looks.radii(len(layer.xyz)), strict=True) for layer in dots)
     return {place.tobytes(): radius for some in pairs for place, radius in some}
-
-
-class Layered(Protocol):
-    """Interface of what a panel shows, such as a `Globe`."""
-
-    layers: list[MapLayer]
-    limb: Limb
-
-
-def laid(globe: Layered, chart: Chart) -> tuple[Item, ...]:
-    """The page items of a chart, in painter's order; names are placed when all else is there."""
-    layers = (*globe.layers, globe.limb)
-    items = [[] if isinstance(layer, Names) else list(layer.lay(chart)) for layer in layers]
-    placer, dots = Placer(chart, [item for some in items for item in some]), radii(globe)
-    for layer, some in zip(layers, items, strict=True):
-        if isinstance(layer, Names):
-            some += layer.beside(chart, placer, dots)
-    return tuple(item for some in items for item in some)

@@ -25,9 +25,6 @@ from stereodel.triangulation import SphericalDelaunay, SphericalVoronoi
 Rings = Sequence[npt.ArrayLike]
 """An outer ring and its holes, (k, 2) each, in degrees; the first point may be repeated at the end."""
 
-HALF_OF_MAP = 360.0
-"""Square degrees of the equal-area map."""
-
 
 @dataclass(frozen=True, eq=False)
 class SphereLines:
@@ -103,8 +100,9 @@ class SphereRegions:
         count = int(region.max(initial=-1)) + 1
         lonlat, area = oriented(trace.unwrapped(Ragged.of(rings, np.zeros((0, 2)))), np.array(hole, dtype=bool))
         start, end, sides, owner = stitched(lonlat, region)
-        # A polygon that fills the map, with no border left once the map's seams are removed, is the whole sphere.
-        everywhere = np.bincount(region, area, minlength=count) > HALF_OF_MAP
+        # A polygon that fills the map, with no border left once the map's seams are removed, is the whole sphere: half
+        # of the equal-area map are 360 square degrees.
+        everywhere = np.bincount(region, area, minlength=count) > 360.0
         everywhere[owner[sides.sizes > 0]] = False
         return cls(trace.Edges.straight(start, end, latitude), sides, owner, everywhere)
 
@@ -164,16 +162,12 @@ class SphereRegions:
         """The visible parts, as closed loops on the page, interior on the left, and the region of each."""
 
         def around(shown: BoolArray) -> BoolArray:
-            asked = ~shown & self.may_hold(chart.source.normal)
+            center, reach = self._caps
+            chord = np.sqrt(np.sum((center - chart.source.normal) ** 2, axis=1))
+            asked = ~shown & (2 * np.arcsin(np.minimum(chord / 2, 1.0)) <= reach)  # not certainly elsewhere
             return self.everywhere | chart.surrounded(self.edges, self.rings, self.owner, self.left, asked)
 
         return chart.regions(self.edges, self.rings, self.owner, self.left, self.count, around)
-
-    def may_hold(self, place: FloatArray) -> BoolArray:
-        """Which regions may contain a place far from their rings, (n,): all that are not certainly elsewhere."""
-        center, reach = self._caps
-        chord = np.sqrt(np.sum((center - place) ** 2, axis=1))
-        return 2 * np.arcsin(np.minimum(chord / 2, 1.0)) <= reach
 
     @cached_property
     def _caps(self) -> tuple[FloatArray, FloatArray]:

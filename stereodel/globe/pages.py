@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Protocol
 
 from stereodel._arrays import as_count, as_scalar
 from stereodel.conformal import MoebiusMap
@@ -13,11 +14,15 @@ from stereodel.drawing.page import Item, Label, Page
 from stereodel.drawing.page.labels import haloed
 from stereodel.drawing.page.placing import MARGIN
 from stereodel.drawing.page.style import BLACK, PRINT_WIDTH
-from stereodel.globe.layers import Layered, laid
+from stereodel.globe.layers import FINE
 from stereodel.sphere import xyz_to_lonlat
 
-TITLE_HEIGHT = 14.0
-"""Height of the title above a panel with its margin, in points."""
+
+class Drawable(Protocol):
+    """Interface of what a panel shows, such as a `Globe`."""
+
+    def items(self, chart: Chart) -> tuple[Item, ...]:
+        """The page items of a chart, in painter's order."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,20 +39,14 @@ class Panel:
         Title above the disc; text between two dollar signs is a formula in matplotlib's mathtext.
     """
 
-    globe: Layered
+    globe: Drawable
     lens: MoebiusMap | None = None
     view: MapView | None = None
     title: str = ""
 
 
 def hemispheres(lon: float, lat: float = 0.0, *, flat: bool = False) -> tuple[MapView, MapView]:
-    """Views of the hemisphere centred on a point, in degrees, and of the opposite one, to be placed side by side.
-
-    Parameters
-    ----------
-    lon, lat : float
-    flat : bool
-        Whether the views are stereographic rather than orthographic.
+    """Orthographic views, or `flat` stereographic ones, of the hemisphere about a place in degrees and of the opposite.
 
     Examples
     --------
@@ -67,24 +66,20 @@ def default_view(lens: MoebiusMap) -> View:
 
 
 def panels(
-    contents: Sequence[Panel], *, columns: int | None = None, width: float = PRINT_WIDTH, tolerance: float = 0.02
+    contents: Sequence[Panel], *, columns: int | None = None, width: float = PRINT_WIDTH, tolerance: float = FINE
 ) -> Page:
     """Globes side by side, row by row.
 
     Parameters
     ----------
     contents : sequence of Panel
+        At least one.
     columns : int, optional
         Panels in a row; by default all.
     width : float
         Width of the page in points.
     tolerance : float
         Largest deviation of the drawing from the exact image, in points.
-
-    Raises
-    ------
-    ValueError
-        If there are no panels, or `width` or `tolerance` is not positive.
     """
     if not contents:
         raise ValueError("contents must have at least one panel")
@@ -93,7 +88,7 @@ def panels(
     fine = as_scalar(tolerance, "tolerance", low=0.0, open_low=True)
     pitch = 2 * (1 + MARGIN)
     unit = size / (across * pitch)  # points per radius of a disc
-    head = TITLE_HEIGHT / unit if any(panel.title for panel in contents) else 0.0
+    head = 14.0 / unit if any(panel.title for panel in contents) else 0.0  # height of titles with their margin
     rows = -(-len(contents) // across)
     items: list[Item] = []
     views = []
@@ -103,7 +98,7 @@ def panels(
         lens = MoebiusMap.identity() if panel.lens is None else panel.lens
         view = default_view(lens) if panel.view is None else panel.view
         chart = Chart(lens, view, at, 1.0, fine / unit, unit)
-        items += laid(panel.globe, chart)
+        items += panel.globe.items(chart)
         views.append(chart.matrix)
         if panel.title:
             items.append(Label(panel.title, (at[0], at[1] + pitch / 2), (0.0, 3.0), "center", "baseline", color=BLACK))

@@ -9,21 +9,12 @@ from typing import Any, Final
 
 import numpy as np
 
-from stereodel._arrays import Pixels, as_choice
+from stereodel._arrays import Pixels
 from stereodel._extras import of_extra
 from stereodel._tasks.whole_files import replacing
 from stereodel.conformal import MoebiusMap
 from stereodel.curves.view import View
-from stereodel.globe.raster import (
-    FACES,
-    PANORAMA_FORMS,
-    PLANET_RADIUS,
-    SHARES,
-    PanoramaForm,
-    Raster,
-    panorama_size,
-    read_photo,
-)
+from stereodel.globe.raster import FACES, PLANET_RADIUS, PanoramaForm, Raster, panorama_sides, read_photo
 
 WRITTEN: Final[Mapping[str, Mapping[str, Any]]] = {
     "JPEG": {"quality": 95, "subsampling": 0},
@@ -32,9 +23,6 @@ WRITTEN: Final[Mapping[str, Mapping[str, Any]]] = {
     "WEBP": {"quality": 92, "method": 4},
 }
 """Formats that are written, without visible loss, by Pillow's names of them and of its settings."""
-
-WEBP_SIDE: Final = 16_383
-"""Longest side of a WebP in pixels; the sides of the other formats are longer than `MOST_TEXELS` allows."""
 
 
 def save_panorama(
@@ -68,17 +56,10 @@ def save_panorama(
     list of Path
         The files.
 
-    Raises
-    ------
-    OSError
-        If a file is missing, or cannot be read or written.
-    ValueError
-        If the source is not an image, is damaged, is not 2:1 or has more than `MOST_TEXELS` pixels; if the extension is
-        unknown, `faces` is used without a cubemap, or a JPEG would have transparent pixels; and as for
-        `Raster.panorama`. All this is checked before drawing.
-
     Notes
     -----
+    What cannot be read or written, such as transparent pixels as JPEG, is refused before drawing.
+
     An equirectangular file holds its projection and size for viewers, as the XMP data of Google's "Photo Sphere";
     cubemaps and planets, which viewers do not treat as panoramas, do not. Colours stay in the file's own ICC profile.
     An image stored sideways is rotated upright by its EXIF data. No other metadata are kept.
@@ -104,12 +85,10 @@ def save_panorama(
         )
     if faces and form != "cubemap":
         raise ValueError(f"faces are those of a cubemap, and form is {form!r}")
-    as_choice(form, PANORAMA_FORMS, "form")
-    side = panorama_size(max(1, width // SHARES[form]) if size is None else size, form)
-    columns, rows = {"equirectangular": (side, side // 2), "cubemap": (6 * side, side), "planet": (side, side)}[form]
+    columns, rows = panorama_sides(form, size, width)
     opaque = bool((photo[..., 3] == 255).all())
-    check_photo(target.name, (side if faces else columns, rows), opaque=opaque)
-    pixels = Raster(photo).panorama(lens, form, view=view, size=side, angular_radius=angular_radius)
+    check_photo(target.name, (rows if faces else columns, rows), opaque=opaque)
+    pixels = Raster(photo).panorama(lens, form, view=view, size=size, angular_radius=angular_radius)
     if faces:
         return [write_photo(name, face, profile) for name, face in zip(face_paths(target), pixels, strict=True)]
     if form == "cubemap":
@@ -118,13 +97,7 @@ def save_panorama(
 
 
 def face_paths(path: Path) -> list[Path]:
-    """Paths of the six faces of a cubemap, in one folder.
-
-    Examples
-    --------
-    >>> [name.name for name in face_paths(Path("room.jpg"))][:2]
-    ['room_right.jpg', 'room_left.jpg']
-    """
+    """Paths of the six faces of a cubemap, such as room_right.jpg, in one folder."""
     return [path.with_name(f"{path.stem}_{face}{path.suffix}") for face in FACES]
 
 
@@ -136,8 +109,9 @@ def check_photo(name: str, size: tuple[int, int], *, opaque: bool) -> str:
     kind = Image.registered_extensions().get(Path(name).suffix.lower(), "")
     if kind not in WRITTEN:
         raise ValueError(f"path must end in .jpg, .png or .webp, got {name!r}")
-    if kind == "WEBP" and max(size) > WEBP_SIDE:
-        raise ValueError(f"{name} would have {size[0]} × {size[1]} pixels, but WebP has at most {WEBP_SIDE} a side")
+    # The sides of other formats are longer than `MOST_TEXELS` allows.
+    if kind == "WEBP" and max(size) > (most := 16_383):
+        raise ValueError(f"{name} would have {size[0]} × {size[1]} pixels, but WebP has at most {most} a side")
     if kind == "JPEG" and not opaque:
         raise ValueError(f"{name}: JPEG has no opacity, and the picture is transparent in parts; write .png or .webp")
     return kind
@@ -166,15 +140,10 @@ def _viewer_tag(width: int, height: int) -> str:
 
     See https://developers.google.com/streetview/spherical-metadata.
     """
-    told = {
-        "ProjectionType": "equirectangular",
-        "FullPanoWidthPixels": width,
-        "FullPanoHeightPixels": height,
-        "CroppedAreaImageWidthPixels": width,
-        "CroppedAreaImageHeightPixels": height,
-        "CroppedAreaLeftPixels": 0,
-        "CroppedAreaTopPixels": 0,
-    }
+    told: dict[str, object] = {"ProjectionType": "equirectangular"}
+    for name, pixels in (("Width", width), ("Height", height)):
+        told |= {f"FullPano{name}Pixels": pixels, f"CroppedAreaImage{name}Pixels": pixels}
+    told |= {"CroppedAreaLeftPixels": 0, "CroppedAreaTopPixels": 0}
     return (
         '<?xpacket begin="\ufeff" id="W5M0MpCehiHzreSzNTczkc9d"?><x:xmpmeta xmlns:x="adobe:ns:meta/">'
         '<rdf:RDF xmlns:rdf="http://www.w3.org/1999/02/22-rdf-syntax-ns#"><rdf:Description rdf:about="" '

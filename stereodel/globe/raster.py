@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import os
 import struct
 import warnings
@@ -12,7 +11,6 @@ from functools import cache, cached_property
 from typing import Any, Final, Literal
 
 import numpy as np
-import numpy.typing as npt
 
 from stereodel import _kernel
 from stereodel._arrays import FloatArray, Pixels, as_choice, as_count, as_edges, as_pixels, as_scalar, locked
@@ -31,16 +29,11 @@ WHOLE = (-180.0, -90.0, 180.0, 90.0)
 
 PanoramaForm = Literal["equirectangular", "cubemap", "planet"]
 
-PANORAMA_FORMS: Final = ("equirectangular", "cubemap", "planet")
-
-SHARES: Final[Mapping[str, int]] = {"equirectangular": 1, "cubemap": 4, "planet": 2}
+SHARES: Final[Mapping[PanoramaForm, int]] = {"equirectangular": 1, "cubemap": 4, "planet": 2}
 """Divisor of the panorama's width that gives the default width of each form."""
 
 PLANET_RADIUS: Final = 140.0
 """Default angular radius of a little planet in degrees: the horizon is a circle about a third as wide as the image."""
-
-MOST_PLANET_RADIUS: Final = 160.0
-"""Largest angular radius in degrees: the corners are then 166° from the centre, and their scale 67 times as large."""
 
 FACES: Final[Mapping[str, FloatArray]] = {
     "right": np.array([[0.0, 0.0, -1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]]),
@@ -52,9 +45,6 @@ FACES: Final[Mapping[str, FloatArray]] = {
 }
 """Faces of a cubemap in order: right, up and forward of each, as rows, in the axes of the front face."""
 
-SIXTEEN_BITS: Final = ("I", "I;16", "I;16B", "I;16L", "I;16N")
-"""Pillow's modes for 16-bit gray."""
-
 FORMATS: Final = ("PNG", "JPEG", "TIFF", "WEBP", "GIF", "BMP", "PPM", "TGA", "JPEG2000")
 """Formats that are opened: those that Pillow decodes itself. For others it starts programs such as Ghostscript."""
 
@@ -62,15 +52,20 @@ DAMAGED: Final = (OSError, SyntaxError, ValueError, EOFError, struct.error, Inde
 """Exceptions that Pillow's decoders raise on truncated or corrupt files."""
 
 
-def panorama_size(size: int, form: PanoramaForm) -> int:
-    """Check a size for `Raster.panorama`; ValueError if it is invalid."""
-    width = as_count(size, "size")
+def panorama_sides(form: PanoramaForm, size: int | None, whole: int) -> tuple[int, int]:
+    """Columns and rows of what `Raster.panorama` draws, of a cubemap those of its faces in a row.
+
+    `whole` is the width of an image of all directions at the same resolution, for which there is a default.
+    """
+    as_choice(form, tuple(SHARES), "form")
+    usual = whole + whole % 2 if form == "equirectangular" else max(1, whole // SHARES[form])
+    width = as_count(usual if size is None else size, "size")
     if form == "equirectangular" and width % 2:
         raise ValueError(f"size is {width}, but an equirectangular panorama is twice as wide as high; give an even one")
-    count = {"equirectangular": width * width // 2, "cubemap": 6 * width * width, "planet": width * width}[form]
-    if count > MOST_TEXELS:
+    sides = {"equirectangular": (width, width // 2), "cubemap": (6 * width, width), "planet": (width, width)}[form]
+    if (count := sides[0] * sides[1]) > MOST_TEXELS:
         raise ValueError(f"size is {width}, which makes {count} pixels of its {form}; at most {MOST_TEXELS} are drawn")
-    return width
+    return sides
 
 
 def read_photo(path: str | os.PathLike[str]) -> tuple[Pixels, bytes]:
@@ -87,32 +82,28 @@ def read_photo(path: str | os.PathLike[str]) -> tuple[Pixels, bytes]:
     with open(name, "rb") as file, warnings.catch_warnings():
         warnings.simplefilter("ignore", Image.DecompressionBombWarning)
         try:
-            opened = Image.open(file, formats=FORMATS)
+            with Image.open(file, formats=FORMATS) as image:
+                if image.width * image.height > MOST_TEXELS:
+                    raise Image.DecompressionBombError
+                boxes = [tile[1] or (0, 0, 0, 0) for tile in image.tile]
+                covered = sum((right - left) * (low - top) for left, top, right, low in boxes)
+                if image.format == "TIFF" and covered < image.width * image.height:
+                    raise EOFError("it has pixels of a part of its size alone")
+                image.load()
+                ImageOps.exif_transpose(image, in_place=True)
         except UnidentifiedImageError as error:
             raise ValueError(f"{name} is not a picture of a kind that is read: {', '.join(FORMATS)}") from error
         except Image.DecompressionBombError as error:
             raise ValueError(f"{name} has too many pixels: at most {MOST_TEXELS} are read; make it smaller") from error
         except DAMAGED as error:
             raise ValueError(f"{name} is damaged or cut off: {error}") from error
-        with opened as image:
-            if image.width * image.height > MOST_TEXELS:
-                raise ValueError(f"{name} has too many pixels: at most {MOST_TEXELS} are read; make it smaller")
-            boxes = [tile[1] or (0, 0, 0, 0) for tile in image.tile]
-            covered = sum((right - left) * (low - top) for left, top, right, low in boxes)
-            if image.format == "TIFF" and covered < image.width * image.height:
-                raise ValueError(f"{name} is damaged or cut off: it has pixels of a part of its size alone")
-            try:
-                image.load()
-                ImageOps.exif_transpose(image, in_place=True)
-            except DAMAGED as error:
-                raise ValueError(f"{name} is damaged or cut off: {error}") from error
-            # Profiles for gray or printing inks do not apply to the converted pixels.
-            profile = image.info.get("icc_profile") if image.mode in ("RGB", "RGBA", "P") else None
-            return _converted(name, image), profile or b""
+        # Profiles for gray or printing inks do not apply to the converted pixels.
+        profile = image.info.get("icc_profile") if image.mode in ("RGB", "RGBA", "P") else None
+        return _converted(name, image), profile or b""
 
 
 def _converted(name: str, image: Any) -> Pixels:
-    if image.mode not in ("F", *SIXTEEN_BITS):
+    if image.mode not in ("F", "I", "I;16", "I;16B", "I;16L", "I;16N"):
         return np.asarray(image.convert("RGBA"))
     gray = np.asarray(image)
     wrong = "floating-point numbers" if image.mode == "F" else "numbers beyond 16 bits"
@@ -136,13 +127,6 @@ class Raster(Displayed):
         whole globe from −180 to 180 and must be twice as wide as high.
     latitude : {"spherical", "geodetic", "authalic"}
         Kind of latitude of rows and bounds; see `stereodel.lonlat_to_xyz`.
-
-    Raises
-    ------
-    TypeError
-        If `pixels` is not uint8.
-    ValueError
-        If `pixels` has the wrong shape or too many pixels, is not 2:1 without `bounds`, or `bounds` are out of range.
 
     Notes
     -----
@@ -199,11 +183,8 @@ class Raster(Displayed):
 
         Raises
         ------
-        OSError
-            If the file is missing or cannot be read.
-        ValueError
-            If it is not an image, is damaged, has more than `MOST_TEXELS` pixels (checked before decoding), or is not
-            2:1 without `bounds`.
+        OSError, ValueError
+            As for `read_photo`, and as for `Raster`.
         """
         pixels, _ = read_photo(path)
         try:
@@ -212,7 +193,7 @@ class Raster(Displayed):
             raise ValueError(f"{os.fspath(path)}: {error}") from error
 
     def warp(self, lens: MoebiusMap, view: MapView, size: int, *, workers: int | None = None) -> Pixels:
-        """Image of the globe through a lens; `painted` gives a part of it.
+        """Image of the globe through a lens, (size, size, 4); `painted` gives a part of it.
 
         Parameters
         ----------
@@ -222,12 +203,11 @@ class Raster(Displayed):
         size : int
             Diameter of the globe in pixels, which touches all four sides of the image.
         workers : int, optional
-            Number of threads; −1 for all processors. By default all, except for very small images. Does not affect the
-            result.
+            As for `panorama`.
 
         Returns
         -------
-        (size, size, 4) uint8 array
+        uint8 array
             sRGB and opacity, not premultiplied, rows from the top. Opacity is that of the raster times the fraction of
             the pixel covered by the globe.
         """
@@ -302,14 +282,9 @@ class Raster(Displayed):
         Returns
         -------
         uint8 array
-            sRGB and opacity, not premultiplied, rows from the top: (size/2, size, 4), (6, size, size, 4) for a cubemap,
-            (size, size, 4) for a planet. Directions outside the raster are transparent.
-
-        Raises
-        ------
-        ValueError
-            If `form` is unknown, `size` is odd for "equirectangular" or gives more than `MOST_TEXELS` pixels, or
-            `angular_radius` is out of its range.
+            sRGB and opacity, not premultiplied, rows from the top, at most `MOST_TEXELS` pixels: (size/2, size, 4),
+            (6, size, size, 4) for a cubemap, (size, size, 4) for a planet. Directions outside the raster are
+            transparent.
 
         Examples
         --------
@@ -318,28 +293,25 @@ class Raster(Displayed):
         >>> stripes.panorama(fisheye((10, 0), magnification=3.0)).shape, stripes.panorama(form="cubemap").shape
         ((6, 12, 4), (6, 3, 3, 4))
         """
-        form = as_choice(form, PANORAMA_FORMS, "form")
-        width = self._whole_width // SHARES[form] if size is None else size
-        if form == "equirectangular" and size is None:
-            width += width % 2
-        width = panorama_size(width, form)
+        west, _, east, _ = WHOLE if self.bounds is None else self.bounds
+        columns, rows = panorama_sides(form, size, max(4, round(self.pixels.shape[1] * 360.0 / (east - west))))
         seen = View(0.0, -90.0 if form == "planet" else 0.0) if view is None else view
         bend = MoebiusMap.identity() if lens is None else lens
+        square = (rows, rows)
         if form == "cubemap":
-            place = (-1.0, 1.0, 2.0 / width, 2.0 / width)
+            place = (-1.0, 1.0, 2.0 / rows, 2.0 / rows)
             faces = (face @ seen.matrix for face in FACES.values())
-            square = (width, width)
             return np.stack([self._warped(bend, f, "gnomonic", 0.0, place, square, workers=workers) for f in faces])
         if form == "planet":
-            radius = as_scalar(angular_radius, "angular_radius", low=0.0, high=MOST_PLANET_RADIUS, open_low=True)
+            # Beyond 160° the corners are more than 166° from the centre, and their scale 67 times as large.
+            radius = as_scalar(angular_radius, "angular_radius", low=0.0, high=160.0, open_low=True)
             # The square is centred in a disc twice as wide, which contains its corners.
-            reach, place = 2.0 * float(np.tan(np.radians(radius) / 2)), (-0.5, 0.5, 1.0 / width, 1.0 / width)
-            return self._warped(
-                bend, seen.matrix, "stereographic", reach, place, (width, width), covered=False, workers=workers
-            )
-        step = 2 * np.pi / width
+            reach, place = 2.0 * float(np.tan(np.radians(radius) / 2)), (-0.5, 0.5, 1.0 / rows, 1.0 / rows)
+            given = bend, seen.matrix, "stereographic", reach, place, square
+            return self._warped(*given, covered=False, workers=workers)
+        step = 2 * np.pi / columns
         place = (-np.pi, np.pi / 2, step, step)
-        return self._warped(bend, seen.matrix, "equirectangular", 0.0, place, (width, width // 2), workers=workers)
+        return self._warped(bend, seen.matrix, "equirectangular", 0.0, place, (columns, rows), workers=workers)
 
     def _warped(
         self,
@@ -370,17 +342,6 @@ class Raster(Displayed):
             covered,
             thread_count(workers, pixels[0] * pixels[1]),
         )
-
-    @property
-    def _whole_width(self) -> int:
-        """Width of a raster of the whole sphere at the same resolution."""
-        west, _, east, _ = WHOLE if self.bounds is None else self.bounds
-        return max(4, round(self.pixels.shape[1] * 360.0 / (east - west)))
-
-    @cached_property
-    def digest(self) -> str:
-        """SHA-256 of shape and pixels, by which tests notice a changed image."""
-        return hashlib.sha256(f"{self.pixels.shape}\n".encode() + self.pixels.tobytes()).hexdigest()
 
     @cached_property
     def _texels(self) -> Pixels:
@@ -432,15 +393,3 @@ class RasterOnDisc:
         if self.opacity < 1:
             found[..., 3] = np.floor(found[..., 3] * self.opacity + 0.5)
         return found
-
-    def arrays(self) -> dict[str, npt.NDArray[np.generic]]:
-        """Lens, view, place, opacity, and a digest of the raster."""
-        lens, view = self.chart.lens, self.chart.view
-        parts = lens.left.matrix.ravel(), lens.right.matrix.ravel(), view.matrix.ravel()
-        numbers = [lens.magnification, view.edge, *self.chart.at, self.chart.scale, self.opacity]
-        return {
-            "map": np.concatenate([*parts, numbers]),
-            "bounds": np.array(self.raster.bounds),
-            "latitude": np.array(self.raster.latitude),
-            "raster": np.array(self.raster.digest),
-        }

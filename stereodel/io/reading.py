@@ -221,8 +221,9 @@ class Shapes:
 
     def column(self, name: str) -> FloatArray:
         """A property of each feature as a number, NaN if lacking; ValueError if none has it, or for other values."""
+        values = self.values(name)
         try:
-            return np.array([np.nan if value is None else float(value) for value in self.values(name)])
+            return np.array([np.nan if value is None else float(value) for value in values])
         except (TypeError, ValueError):
             raise ValueError(f"column {name!r} holds something that is not a number; name another") from None
 

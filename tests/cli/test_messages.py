@@ -131,13 +131,13 @@ globe --point-size=2mm → --point-size is for POINTS
 globe cities.csv --point-size=town → --point-size is 'town'; give a length with a unit, pt, mm, cm, in
 globe cities.csv --point-color=town → --point-color is 'town', which is not a colour; give a name such as
 globe cities.csv --show=cells --point-size=2mm → --point-size is for points; name them in --show, too
-globe cities.csv --largest=9mm → --largest is '9mm', but --point-size names no column of amounts
 globe cities.csv --point-color=people --scale=cube → --scale is 'cube'
 globe cities.csv --point-color=people --scale=symlog → --scale is 'symlog' and threshold None; 'symlog' alone needs
 globe cities.csv --point-color=people --scale=log --classes=equal:5 → --scale is for scales without --classes
 globe cities.csv --point-color=people --classes=jenks:5 → --classes is 'jenks'
 globe cities.csv --point-color=people --classes=9,1 → --classes is [9.0, 1.0], but limits of classes are two or more
 globe cities.csv --point-color=people --classes=equal:x → --classes is 'x', but must be SCHEME:N or limits
+globe cities.csv --point-color=people --classes=equal:2.5 → --classes is 2.5, but must be a whole number
 globe cities.csv --point-color=people --colors=sunset → --colors is 'sunset', which is not a colour map of matplotlib
 globe cities.csv --point-color=people --limits=5,1 → --limits is 1.0, outside
 globe cities.csv --point-color=people --limits=5 → --limits is '5', but must be LOW,HIGH, e.g. --limits=0,100

@@ -2,6 +2,7 @@
 
 from fractions import Fraction
 from itertools import combinations
+from typing import get_args
 
 import numpy as np
 import pytest
@@ -13,7 +14,8 @@ from matplotlib.colors import LogNorm, PowerNorm, to_rgba
 from stereodel.drawing import ColorScale, Page, SizeScale, with_legend
 from stereodel.drawing.page.labels import label_box
 from stereodel.drawing.page.placing import meets
-from stereodel.drawing.page.ticks import KINDS, MOST_TICKS, SCHEMES, natural_breaks, written
+from stereodel.drawing.page.scales import KINDS
+from stereodel.drawing.page.ticks import MOST_TICKS, Scheme, natural_breaks, written
 from tests.refused import refused
 
 NBSP = "\N{NO-BREAK SPACE}"
@@ -46,7 +48,7 @@ def test_ticks_are_round_and_grouped(scale, texts):
     assert ", ".join(scale.ticks.values()).replace(NBSP, " ") == texts
 
 
-@given(st.sampled_from(KINDS), st.floats(1e-6, 1e9), st.floats(1e-3, 1e6))
+@given(st.sampled_from(list(KINDS)), st.floats(1e-6, 1e9), st.floats(1e-3, 1e6))
 def test_ticks_are_few_round_and_on_the_scale(kind, low, width):
     """Each is 1, 2 or 5 times a power of ten, or a multiple of their common step, which is."""
     scale = ColorScale("viridis", low, low + width, kind, threshold=1.0 if kind == "symlog" else None)
@@ -63,7 +65,7 @@ def test_ticks_are_few_round_and_on_the_scale(kind, low, width):
         assert leading <= set("125")
 
 
-@given(st.floats(-1e20, 1e20).filter(bool), st.sampled_from(KINDS))
+@given(st.floats(-1e20, 1e20).filter(bool), st.sampled_from(list(KINDS)))
 def test_what_is_written_is_the_number(number, kind):
     (text,) = written([number], kind)
     plain = text.replace(NBSP, "").replace("\N{MINUS SIGN}", "-").replace("·10", "e").translate(UNRAISED)
@@ -81,6 +83,10 @@ UNRAISED = str.maketrans(RAISED, "-0123456789")
 
 def test_numbers_stand_where_their_kind_says():
     """As matplotlib's norms have them; a symmetric logarithm is odd, linear up to its threshold, and has no kink."""
+    np.testing.assert_allclose(ColorScale("magma", 0, 1000).place([0, 250, 2000, -1]), [0, 0.25, 1, 0])
+    values = np.linspace(-1, 1, 20).reshape(4, 5)
+    np.testing.assert_array_equal(ColorScale("magma", -1, 1)(values), colormaps["magma"](values / 2 + 0.5))
+    assert np.array_equal(ColorScale("magma", 1, 10, "log")(0.0), colormaps["magma"](0.0))
     numbers = np.geomspace(2.0, 300.0, 50)
     np.testing.assert_allclose(ColorScale("magma", 2, 300, "log").place(numbers), LogNorm(2, 300)(numbers))
     np.testing.assert_allclose(ColorScale("magma", 0, 300, "sqrt").place(numbers), PowerNorm(0.5, 0, 300)(numbers))
@@ -144,7 +150,7 @@ def test_natural_breaks_are_the_best_of_all_divisions(values, count):
     assert spread(runs) == min(map(spread, partitions(ordered, count)))
 
 
-@given(st.lists(st.floats(-1e6, 1e6), min_size=2, max_size=40), st.sampled_from(SCHEMES), st.integers(1, 8))
+@given(st.lists(st.floats(-1e6, 1e6), min_size=2, max_size=40), st.sampled_from(get_args(Scheme)), st.integers(1, 8))
 def test_rounded_limits_leave_every_value_in_its_class(values, scheme, count):
     """Classes of quantiles are those of NumPy's quantiles, and no limit has more digits than it needs to be there."""
     numbers = np.array(values)
@@ -209,19 +215,11 @@ def of_unit(**given):
 
 test_what_makes_no_scale_is_refused = refused(
     (ColorScale, ("viridis", 0.0, 1.0, "cubic"), "kind is 'cubic'"),
-    (
-        ColorScale,
-        ("viridis", 0.0, 1.0, "symlog"),
-        "kind is 'symlog' and threshold None; 'symlog' alone",
-    ),
+    (ColorScale, ("viridis", 0.0, 1.0, "symlog"), "kind is 'symlog' and threshold None; 'symlog' alone"),
     (ColorScale, ([], 0.0, 1.0), "colors is empty"),
     (ColorScale, (["red", "sky"], 0.0, 1.0), "colors is 'sky', which is not a colour"),
     (of_unit, {"center": 2.0}, r"center is 2.0, outside \[0, 1\]"),
-    (
-        lambda **given: ColorScale("viridis", 0, 1, **given),
-        {"edges": [0, 1, 2]},
-        "edges lead from 0.0 to 2.0, not from 0 to 1",
-    ),
+    (of_unit, {"edges": [0, 1, 2]}, "edges lead from 0.0 to 2.0, not from 0 to 1"),
     (ColorScale.classes, ([1, 2], [3, 3]), "limits of classes are two or more numbers that increase"),
     (ColorScale.classes, ([1, 2], "jenks"), "scheme is 'jenks'"),
     (ColorScale.classes, ([1, 1, np.nan], "natural"), "values has no two different numbers"),

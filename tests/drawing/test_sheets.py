@@ -30,9 +30,6 @@ colors = st.tuples(shares, shares, shares)
 class Painted:
     """A painter without pixels."""
 
-    def arrays(self):
-        return {}
-
 
 def page():
     """With an item of each kind, named after what maps have, in red."""

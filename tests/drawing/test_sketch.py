@@ -8,7 +8,6 @@ import pytest
 from stereodel.drawing import DotStyle, LineStyle, Scene, Sketch, View, styled, with_legend
 from stereodel.drawing.page import Dots, Fill, Label, Page, Polygons, Polylines, Stroke
 from stereodel.drawing.page.style import LABEL_SIZE, line
-from stereodel.drawing.scene.legend import GAP as SPACE
 from stereodel.drawing.scene.legend import ROW, SAMPLE
 from stereodel.drawing.scene.sketch import GAP, HEAD, TICK, arc_path, arc_through
 from tests.figures.scripts import path_points
@@ -161,7 +160,7 @@ def test_entries_are_read_row_by_row(page):
     row = LABEL_SIZE * ROW
     expected = [(8 + 42 * column, 50 + row * (down + 1)) for down in range(3) for column in range(2)][:5]
     assert np.allclose([in_points(grown, label.anchor) for label in words], expected)
-    assert {label.offset for label in words} == {(SAMPLE[0] + SPACE, 0.0)}
+    assert {label.offset for label in words} == {(SAMPLE[0] + 5.0, 0.0)}
     assert {(label.align, label.valign, label.size) for label in words} == {("left", "center", LABEL_SIZE)}
 
 

@@ -12,7 +12,6 @@ from stereodel.curves.fill import triangles
 from stereodel.drawing import StereographicView, View
 from stereodel.drawing.page import Dots, Polygons, Polylines, Stroke
 from stereodel.globe import Globe, Panel, Raster, hemispheres, panels
-from stereodel.render.pixel_rows import LabelLayer
 from stereodel.sphere import SphereCircle
 from tests.examples import examples
 from tests.globe.sights import places, sizes, views
@@ -169,14 +168,6 @@ def test_latitudes_are_those_of_the_globe():
         (dots,) = items_of(globe.page(view=View(0, 0)), Dots)
         expected = lonlat_to_xyz((0, 45), latitude=latitude)[2]
         assert dots.centers[0, 1] - 1.03 == pytest.approx(expected, abs=1e-12)
-
-
-def test_a_halo_has_the_colour_that_is_asked_for():
-    globe = Globe()
-    globe.add_labels([PARIS], ["Paris"], halo=3.0, halo_color=(0.0, 0.4, 0.0, 1.0))
-    page = globe.page()
-    letters = LabelLayer(page, 400).rows()
-    np.testing.assert_array_equal(np.median(letters[letters[..., 3] == 255], axis=0), [0, 102, 0, 255])
 
 
 def test_more_colours_than_paths_show_only_where_there_are_regions(tmp_path):

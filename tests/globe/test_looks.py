@@ -141,8 +141,9 @@ def test_shapes_have_ids_and_data_by_a_column(tmp_path):
     names_of_it = [path.get("data-name-of-it") for path in paths.values()]
     assert names_of_it == names
     assert [path.get("data-kind") for path in paths.values()] == [f"{k}.5" for k in range(70)]
-    with pytest.raises(ValueError, match=r"column 'nme' is not a property of the features; they have"):
-        globe.add_layer(shapes, id_column="nme")
+    for option in ("id_column", "column"):
+        with pytest.raises(ValueError, match=r"column 'nme' is not a property of the features; they have"):
+            globe.add_layer(shapes, **{option: "nme"})
 
 
 def test_lines_points_and_cells_have_ids(tmp_path):

@@ -34,16 +34,6 @@ def as_color(value: ColorLike, name: str = "color") -> Color:
     name : str
         Name of the argument, for messages.
 
-    Returns
-    -------
-    tuple of four floats
-        Red, green, blue, opacity.
-
-    Raises
-    ------
-    ValueError
-        If the colour is invalid, or a number is outside [0, 1].
-
     Examples
     --------
     >>> as_color((0.2, 0.4, 0.6)), as_color("#ff000080")[3] == 128 / 255
@@ -69,17 +59,6 @@ def as_color(value: ColorLike, name: str = "color") -> Color:
         kinds = 'give a name such as "tab:red", "#rrggbb", "0.5" or (red, green, blue)'
         raise ValueError(f"{name} is {value!r}, which is not a colour; {kinds}") from None
     return (red, green, blue, opacity)
-
-
-def as_inks(value: ColorLike | tuple[ColorLike, ColorLike], name: str = "color") -> tuple[Color, ...]:
-    """One colour, or two of them; a colour with an opacity is one.
-
-    >>> as_inks((0.0, 0.0, 0.0)), len(as_inks(((0.0, 0.0, 0.0), (1.0, 1.0, 1.0, 0.5))))
-    (((0.0, 0.0, 0.0, 1.0),), 2)
-    """
-    given: Any = value
-    several = isinstance(given, tuple | list) and len(given) == 2 and not isinstance(given[1], Real)
-    return tuple(as_color(ink, name) for ink in (given if several else (given,)))
 
 
 def as_colors(values: ColorLike | npt.ArrayLike, count: int, name: str = "colors") -> FloatArray:
@@ -136,12 +115,6 @@ OPPONENTS: Final = np.array(
 )
 """Cube roots of cone responses to OKLab: lightness, green to red, blue to yellow."""
 
-NEWTON_STEPS: Final = 8
-"""Newton steps for the lightness of a given luminance, a cubic: within sRGB doubles need at most five."""
-
-HALVINGS: Final = 24
-"""Bisections of the largest chroma in sRGB: to a thousandth of the smallest 8-bit step."""
-
 
 def linear(colors: npt.ArrayLike) -> FloatArray:
     """Linear light (...) of sRGB colours."""
@@ -177,7 +150,7 @@ def with_luminance(colors: FloatArray, target: FloatArray) -> FloatArray:
     hue = to_oklab(colors)[:, 1:]
     light = _with_chroma(hue, target)
     low, high = np.zeros(len(hue)), np.ones(len(hue))
-    for _ in range(HALVINGS):
+    for _ in range(24):  # halvings: to a thousandth of the smallest 8-bit step
         middle = (low + high) / 2
         holds = _displayable(_with_chroma(middle[:, None] * hue, target))
         low, high = np.where(holds, middle, low), np.where(holds, high, middle)
@@ -194,7 +167,7 @@ def _with_chroma(hue: FloatArray, target: FloatArray) -> FloatArray:
     roots = np.sum(hue[:, None, :] * np.linalg.inv(OPPONENTS)[:, 1:], axis=-1)
     share = np.sum(LUMINANCE[:, None] * from_cones, axis=0)
     lightness = np.cbrt(target)
-    for _ in range(NEWTON_STEPS):
+    for _ in range(8):  # Newton's: within sRGB doubles need at most five
         cones = lightness[:, None] + roots
         slope = 3 * np.sum(share * cones**2, axis=1)
         excess = np.sum(share * cones**3, axis=1) - target

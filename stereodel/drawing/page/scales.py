@@ -15,7 +15,6 @@ from stereodel.drawing.page.colors import Color, ColorLike, as_color, color_map
 from stereodel.drawing.page.items import Fill, Item, Label, Picture, Ramp, Stroke, straight
 from stereodel.drawing.page.style import BLACK, LABEL_SIZE, LengthLike, as_length
 from stereodel.drawing.page.ticks import (
-    KINDS,
     MOST_TICKS,
     Kind,
     Scheme,
@@ -26,53 +25,29 @@ from stereodel.drawing.page.ticks import (
     written,
 )
 
-STEPS = 256
-"""Number of steps of a legend."""
-
 MISSING: Final[Color] = (0.66, 0.66, 0.66, 1.0)
 """Colour of missing values: a gray between those of sea and land and that of lines."""
-
-NO_VALUE: Final = "no value"
-"""Key of missing values."""
 
 USUAL, DIVERGING = "YlGnBu", "RdBu_r"
 """Maps of colours by default, and by default on both sides of a centre."""
 
-APART: Final = 0.06
-"""Least distance of a tick from that of the centre, in lengths of the scale."""
-
-LARGEST: Final = 24.0
-"""Diameter in points of the dot of the largest value."""
-
 KEY: Final = (4.0, 2.5)
 """Distance of the key of missing values from the bar, and its width, in heights of the bar."""
 
-SPREAD: Final[Mapping[Kind, Callable[[FloatArray, float], Any]]] = {
-    "linear": lambda numbers, _: numbers,
-    "log": lambda numbers, low: np.log(numbers / low),
-    "symlog": lambda numbers, bend: np.sign(numbers) * _bent(np.abs(numbers) / bend),
-    "sqrt": lambda numbers, _: np.sign(numbers) * np.sqrt(np.abs(numbers)),
-}
-"""How numbers are spread along a scale, by its lower end or its threshold."""
 
-SAID: Final[Mapping[Kind, str]] = {
-    "linear": "linear",
-    "log": "logarithmic",
-    "symlog": "symmetrically logarithmic",
-    "sqrt": "by square roots",
-}
+def _bent(numbers: FloatArray, threshold: float) -> FloatArray:
+    """Linear up to the threshold, and logarithmic beyond with the same slope there."""
+    beyond = np.log(np.maximum(np.abs(numbers) / threshold, 1.0))
+    return np.clip(numbers / threshold, -1.0, 1.0) + np.sign(numbers) * beyond
 
-CATEGORIES: Final[Sequence[Color]] = (
-    (0.902, 0.624, 0.000, 1.0),
-    (0.000, 0.620, 0.451, 1.0),
-    (0.800, 0.475, 0.655, 1.0),
-    (0.000, 0.353, 0.580, 1.0),
-    (0.941, 0.894, 0.259, 1.0),
-    (0.776, 0.306, 0.000, 1.0),
-    (0.337, 0.706, 0.914, 1.0),
-    (0.480, 0.480, 0.480, 1.0),
-)
-"""Colours of categories in order: the hues of Okabe and Ito's palette, first those farthest from sea and land."""
+
+KINDS: Final[Mapping[Kind, tuple[str, Callable[[FloatArray, float], Any]]]] = {
+    "linear": ("linear", lambda numbers, _: numbers),
+    "log": ("logarithmic", lambda numbers, low: np.log(numbers / low)),
+    "symlog": ("symmetrically logarithmic", _bent),
+    "sqrt": ("by square roots", lambda numbers, _: np.sign(numbers) * np.sqrt(np.abs(numbers))),
+}
+"""How numbers are spread along a scale, in words and by its lower end or its threshold."""
 
 
 @dataclass(frozen=True)
@@ -83,8 +58,7 @@ class ColorScale:
     ----------
     colors : str or sequence of color-like
         Name of a matplotlib colour map, such as "viridis", "magma" or "cividis", whose lightness increases uniformly;
-        or colours, between which others are mixed. As many colours as there are classes are those of the
-        classes.
+        or colours, between which others are mixed. As many colours as there are classes are those of the classes.
     low, high : float
         Numbers with the first and the last colour; numbers beyond them are clipped.
     kind : {"linear", "log", "symlog", "sqrt"}
@@ -102,12 +76,6 @@ class ColorScale:
         Limits of classes, from `low` to `high`; see `ColorScale.classes`.
     scheme : str
         How the classes were made, for descriptions.
-
-    Raises
-    ------
-    ValueError
-        If a map or colour is unknown, the limits are out of order or beyond a logarithm, the centre is outside of them,
-        or a threshold is given without a symmetric logarithm or lacks there.
 
     Examples
     --------
@@ -139,7 +107,7 @@ class ColorScale:
             object.__setattr__(self, "colors", tuple(as_color(color, "colors") for color in self.colors))
         color_map(self.colors)
         object.__setattr__(self, "missing", as_color(self.missing, "missing"))
-        as_choice(self.kind, KINDS, "kind")
+        as_choice(self.kind, tuple(KINDS), "kind")
         as_scalar(self.low, "low", low=0.0 if self.kind == "log" else -np.inf, open_low=True)
         as_scalar(self.high, "high", low=self.low, open_low=True)
         if self.center is not None:
@@ -205,14 +173,12 @@ class ColorScale:
         *,
         center: float | None = None,
     ) -> ColorScale:
-        """A scale of classes, each in one colour.
-
-        A class contains its lower limit; the last one contains both.
+        """A scale of classes, each in one colour, which contain their lower limits, the last one both.
 
         Parameters
         ----------
         values : array_like
-            Numbers, NaN where one is missing.
+            Numbers, NaN where one is missing; at least two that differ.
         scheme : {"equal", "quantiles", "natural"} or sequence of float
             Classes of equal widths; of equal numbers of values; natural breaks, which make the sum of squared
             deviations from the means of the classes as small as can be (Fisher and Jenks); or limits of your own.
@@ -220,11 +186,6 @@ class ColorScale:
             Number of classes; fewer if limits would be equal.
         colors, center
             As for `ColorScale.of`. Classes beyond the centre have colours on its sides of the middle one.
-
-        Raises
-        ------
-        ValueError
-            If no two values differ, limits do not increase, or as for `ColorScale`.
 
         Examples
         --------
@@ -241,7 +202,7 @@ class ColorScale:
         numbers = np.clip(as_doubles(values, "values"), self.low, self.high)
         if self.edges:
             return np.interp(numbers, self.edges, np.linspace(0.0, 1.0, len(self.edges)))
-        spread, bend = SPREAD[self.kind], self.threshold or self.low
+        (_, spread), bend = KINDS[self.kind], self.threshold or self.low
         low, high = spread(np.array([self.low, self.high]), bend)
         return np.asarray((spread(numbers, bend) - low) / (high - low))
 
@@ -264,7 +225,7 @@ class ColorScale:
             return {edge: "" if k % stride else texts[k] for k, edge in enumerate(self.edges)}
         numbers = round_numbers(self.low, self.high, self.kind, self.threshold, most)
         if self.center is not None:
-            away = np.abs(self.place(numbers) - self.place(self.center)) > APART
+            away = np.abs(self.place(numbers) - self.place(self.center)) > 0.06  # as far as texts need
             numbers = sorted([*np.array(numbers)[away].tolist(), float(self.center)])
         return dict(zip(numbers, written(numbers, self.kind), strict=True))
 
@@ -277,7 +238,7 @@ class ColorScale:
             said = f"colours of {len(self.edges) - 1} classes{how} with the limits {', '.join(texts)}"
         else:
             low, high = written(to_digits([self.low, self.high]), self.kind)
-            said = f"colours, {SAID[self.kind]} from {low} to {high}"
+            said = f"colours, {KINDS[self.kind][0]} from {low} to {high}"
             said += f", linear up to {written([self.threshold])[0]}" if self.threshold is not None else ""
         said += f", centred on {written([self.center])[0]}" if self.center is not None else ""
         return said + (f"; {self.missing_key} in gray" if self.missing_key else "")
@@ -292,27 +253,16 @@ class ColorScale:
         ink: ColorLike = BLACK,
         type_size: float = LABEL_SIZE,
     ) -> tuple[Item, ...]:
-        """A horizontal bar with ticks.
+        """A horizontal bar with numbers, by default `ticks`, below it, and a title above.
 
-        Parameters
-        ----------
-        corner, size : (float, float)
-            Lower left corner, width and height of the bar in page units.
-        ticks : mapping of float to str, optional
-            Numbers and the texts below them; by default `ticks`.
-        title : str
-            Text above the bar.
-        ink : color-like
-            Colour of lines and text.
-        type_size : float
-            Size of the text, points.
+        `corner` is the lower left one of the bar, `size` its width and height, in page units; `type_size` is in points.
         """
         (x, y), (width, height), ink = corner, size, as_color(ink, "ink")
         box = np.array([(x, y), (x + width, y), (x + width, y + height), (x, y + height), (x, y)])
-        steps = self._mixed(self._share((np.arange(STEPS) + 0.5) / STEPS))
+        steps = self._mixed(self._share((np.arange(256) + 0.5) / 256))
         bars: list[Item] = [Picture((straight(box),), Ramp((x, x + width), steps), "scale")]
         if self.edges:
-            shades, wide = self._class_shades.tolist(), width / (len(self.edges) - 1)
+            shades, wide = self._class_shades, width / (len(self.edges) - 1)
             bars = [_box(x + k * wide, x + (k + 1) * wide, y, y + height, as_color(c)) for k, c in enumerate(shades)]
         marks: list[Item] = []
 
@@ -375,11 +325,6 @@ class SizeScale:
     color : color-like, optional
         Colour of the dots in a legend; without it circles are empty.
 
-    Raises
-    ------
-    ValueError
-        If `high` or `largest` is not positive, or the colour is invalid.
-
     Examples
     --------
     >>> scale = SizeScale(16e6, "8mm")
@@ -388,7 +333,7 @@ class SizeScale:
     """
 
     high: float
-    largest: LengthLike = LARGEST
+    largest: LengthLike = 24.0
     color: ColorLike | None = None
 
     def __post_init__(self) -> None:
@@ -414,20 +359,6 @@ class SizeScale:
     def description(self) -> str:
         """What the scale does, in words."""
         return f"areas of dots in proportion to the amount, {written(to_digits([self.high]))[0]} the largest"
-
-
-def _bent(sizes: FloatArray) -> FloatArray:
-    """Linear up to 1, and logarithmic beyond with the same slope there."""
-    return np.minimum(sizes, 1 + np.log(np.maximum(sizes, 1.0)))
-
-
-def category_colors(words: Sequence[str], name: str) -> dict[str, Color]:
-    """A colour for each word, distinguishable with any colour vision; ValueError if there are too many words."""
-    if len(words) > len(CATEGORIES):
-        raise ValueError(
-            f"{name} has {len(words)} different words, but {len(CATEGORIES)} colours are told apart at most"
-        )
-    return dict(zip(words, CATEGORIES, strict=False))
 
 
 def _usual(colors: str | Sequence[ColorLike] | None, center: float | None) -> str | Sequence[ColorLike]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from decimal import Decimal
 from math import ceil, floor, log10
-from typing import Any, Final, Literal
+from typing import Any, Final, Literal, get_args
 
 import numpy as np
 
@@ -14,12 +14,8 @@ from stereodel._arrays import FloatArray, Indices, as_choice, as_count, as_float
 Kind = Literal["linear", "log", "symlog", "sqrt"]
 """How numbers are spread along a scale."""
 
-KINDS: Final[tuple[Kind, ...]] = ("linear", "log", "symlog", "sqrt")
-
 Scheme = Literal["equal", "quantiles", "natural"]
 """How numbers are divided into classes: equal widths, equal counts, or natural breaks."""
-
-SCHEMES: Final[tuple[Scheme, ...]] = ("equal", "quantiles", "natural")
 
 MOST_TICKS: Final = 7
 
@@ -27,11 +23,8 @@ DIGITS: Final[tuple[tuple[int, ...], ...]] = ((1, 2, 5), (1, 5), (1,))
 """First digits of round numbers, on a logarithmic scale the finest that give few enough of them."""
 
 SPACE: Final = "\N{NO-BREAK SPACE}"
-WORDS: Final = ((12, "tn"), (9, "bn"), (6, "M"), (0, ""))
+WORDS: Final = ((12, f"{SPACE}tn"), (9, f"{SPACE}bn"), (6, f"{SPACE}M"), (0, ""))
 """Powers of ten that have a word, and the word."""
-
-SPELLED: Final = (-5, 15)
-"""Powers of ten between which numbers are written without one."""
 
 SUPERSCRIPTS: Final = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
@@ -80,7 +73,7 @@ def rounded_ends(low: float, high: float, kind: Kind) -> tuple[float, float]:
         ends = [float(f"{digit}e{power}") for power in (*powers, powers[1] + 1) for digit in DIGITS[0]]
         return max(end for end in ends if end <= low), min(end for end in ends if end >= high)
     step = _step(low, high, MOST_TICKS - 2)
-    first, last = (Decimal(repr(float(end))) / step for end in (low, high))
+    first, last = (Decimal(repr(end)) / step for end in (low, high))
     return float(floor(first) * step), float(ceil(last) * step)
 
 
@@ -99,14 +92,14 @@ def _written(number: float, like: float) -> str:
         return "0"
     shown, power = Decimal(repr(number)), Decimal(repr(like)).adjusted() if like else 0
     minus = "\N{MINUS SIGN}" if number < 0 else ""
-    if not SPELLED[0] <= power < SPELLED[1]:
+    if not -5 <= power < 15:
         own = shown.adjusted()
         factor = f"{abs(shown.scaleb(-own)).normalize():f}"
         ten = f"10{str(own).translate(SUPERSCRIPTS)}"
         return minus + (ten if factor == "1" else f"{factor}·{ten}")
     unit, word = next(each for each in WORDS if power >= each[0] or not each[0])
     whole = f"{abs(shown.scaleb(-unit)).normalize():,f}".replace(",", SPACE)
-    return f"{minus}{whole}{SPACE * bool(word)}{word}"
+    return f"{minus}{whole}{word}"
 
 
 def to_digits(numbers: Sequence[float], digits: int = 3) -> list[float]:
@@ -125,7 +118,7 @@ def class_limits(values: FloatArray, scheme: Scheme | Sequence[float], count: in
         if limits.ndim != 1 or len(limits) < 2 or (np.diff(limits) <= 0).any():
             raise ValueError(f"scheme is {scheme!r}, but limits of classes are two or more numbers that increase")
         return limits
-    as_choice(scheme, SCHEMES, "scheme")
+    as_choice(scheme, get_args(Scheme), "scheme")
     as_count(count, "count")
     known = np.unique(values)
     if len(known) < 2:
@@ -151,10 +144,9 @@ def _simplest(above: float, up_to: float, below: float) -> float:
 def natural_breaks(values: FloatArray, count: int) -> Indices:
     """Where, among different values in order, each class but the first begins, (count − 1,), of natural breaks.
 
-    They have the least sum of squared deviations from the means of the classes (Fisher 1958, Jenks 1977).
-
-    The least sums for the first j numbers in k classes follow from those in k − 1. As the best start of the last class
-    only moves up with j, the middle number of a range leaves less to its two halves: O(count · n · log n).
+    They have the least sum of squared deviations from the means of the classes (Fisher 1958, Jenks 1977). The least
+    sums for the first j numbers in k classes follow from those in k − 1. As the best start of the last class only moves
+    up with j, the middle number of a range leaves less to its two halves: O(count · n · log n).
     """
     known, weight = np.unique(values, return_counts=True)
     from_mean = known - np.mean(values)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Final, cast
 
@@ -14,27 +14,34 @@ from stereodel._arrays import DataWarning, FloatArray, Indices, as_values
 from stereodel.drawing.page import Dots, Item, Stroke
 from stereodel.drawing.page.colors import Color, ColorLike, as_color, as_colors
 from stereodel.drawing.page.items import Tags
-from stereodel.drawing.page.scales import MISSING, NO_VALUE, ColorScale, SizeScale, category_colors
+from stereodel.drawing.page.scales import MISSING, ColorScale, SizeScale
 from stereodel.drawing.page.style import DARK_GRAY, DotStyle, LengthLike, as_length, with_opacity
 from stereodel.drawing.page.ticks import to_digits, written
+from stereodel.drawing.scene.legend import EDGE, LegendEntry
 from stereodel.drawing.scene.sketch import arc_path
 
 ScaleLike = ColorScale | Callable[[FloatArray], ColorScale]
 """A scale, or what makes one of values, such as `ColorScale.of`."""
 
-TINT: Final = 0.6
-"""Opacity of dots by value in one colour, so that those below show."""
+NO_VALUE: Final = "no value"
+"""Key of missing values."""
 
-EDGE: Final = 0.5
-"""Width in points of the line around a dot by value; the dot's area is that inside it, the line included."""
-
-Entries = dict[str, DotStyle | Color | ColorScale | SizeScale]
-"""What a legend says of them."""
+CATEGORIES: Final[Sequence[Color]] = (
+    (0.902, 0.624, 0.000, 1.0),
+    (0.000, 0.620, 0.451, 1.0),
+    (0.800, 0.475, 0.655, 1.0),
+    (0.000, 0.353, 0.580, 1.0),
+    (0.941, 0.894, 0.259, 1.0),
+    (0.776, 0.306, 0.000, 1.0),
+    (0.337, 0.706, 0.914, 1.0),
+    (0.480, 0.480, 0.480, 1.0),
+)
+"""Colours of words in order: the hues of Okabe and Ito's palette, first those farthest from sea and land."""
 
 
 def colors_of(
     values: npt.ArrayLike, count: int, scale: ScaleLike | None, title: str
-) -> tuple[FloatArray, Mapping[str, ColorScale | Color]]:
+) -> tuple[FloatArray, Mapping[str, LegendEntry]]:
     """Colours (n, 4) of numbers or words, and their entries in a legend; each word has a colour of its own.
 
     Numbers beyond the scale are said in a `DataWarning`.
@@ -42,7 +49,11 @@ def colors_of(
     if (given := np.asarray(values)).dtype.kind in "OU" and given.shape == (count,):
         words = [word if word not in (None, "") else NO_VALUE for word in given.tolist()]
         if all(isinstance(word, str) for word in words):
-            shades = category_colors(sorted({*words} - {NO_VALUE}), f"column {title!r}") | {NO_VALUE: MISSING}
+            different, most = sorted({*words} - {NO_VALUE}), len(CATEGORIES)
+            if len(different) > most:
+                said = f"{len(different)} different words, but {most} colours are told apart at most"
+                raise ValueError(f"column {title!r} has {said}")
+            shades = dict(zip(different, CATEGORIES, strict=False)) | {NO_VALUE: MISSING}
             return np.array([shades[word] for word in words]), {word: shades[word] for word in shades if word in words}
     numbers = as_values(values, count, "values")
     known = numbers[np.isfinite(numbers)]
@@ -69,7 +80,7 @@ class DotLooks:
     style: DotStyle
     diameters: FloatArray | None = None
     colors: FloatArray | None = None
-    entries: Entries = field(default_factory=dict)
+    entries: dict[str, LegendEntry] = field(default_factory=dict)
 
     @classmethod
     def of(
@@ -87,7 +98,7 @@ class DotLooks:
         """The looks of so many dots, as `Globe.add_points` takes them."""
         if color is not None and values is not None:
             raise ValueError("color and values both say the colours of points; give one of them")
-        entries: Entries = {}
+        entries: dict[str, LegendEntry] = {}
         colors = diameters = None
         if values is not None:
             colors, told = colors_of(values, count, scale, legend or "value")
@@ -117,7 +128,7 @@ class DotLooks:
         diameters = np.full(count, np.nan)
         diameters[there] = chosen(amounts[there])
         if colors is None:
-            tint = with_opacity(style.color, TINT) if style.color[3] == 1 else style.color
+            tint = with_opacity(style.color, 0.6) if style.color[3] == 1 else style.color  # so that those below show
             style, chosen = replace(style, color=tint, rim=with_opacity(style.color, 1.0)), replace(chosen, color=tint)
         title = size_legend or "size"
         entries[f"{title} (size)" if title in entries else title] = chosen
@@ -131,25 +142,21 @@ class DotLooks:
         self, centers: FloatArray, rows: Indices, point: float, name: str, tags: Tags | None = None
     ) -> Iterator[Item]:
         """Dots of some rows at centres (n, 2), `point` being that length on the page; of sizes by value large first."""
-        style = self.style
-        if self.diameters is None:
-            look = (style.rim, style.rim_width, name)
-            if self.colors is None:
-                yield Dots(centers[rows], style.radius, style.color, *look, tags=tags and tags.some(rows))
-                return
-            several, which = np.unique(self.colors[rows], axis=0, return_inverse=True)
-            for k, color in enumerate(several.tolist()):
-                some = rows[which.ravel() == k]
-                named = tags and tags.some(some)
-                yield Dots(centers[some], style.radius, as_color(color), *look, told=("color",), tags=named)
+        style, diameters = self.style, self.diameters
+        colors = np.array([style.color]) if self.colors is None else self.colors[rows]
+        told = () if self.colors is None else ("color",)
+        if diameters is None:
+            several, which = np.unique(colors, axis=0, return_inverse=True)
+            for k, color in enumerate(several):
+                some = rows[np.broadcast_to(which.ravel() == k, rows.shape)]
+                look = style.radius, as_color(color), style.rim, style.rim_width
+                yield Dots(centers[some], *look, name, told=told, tags=tags and tags.some(some))
             return
-        diameters = self.diameters
         order = rows[np.argsort(-diameters[rows], kind="stable")]
-        told = ("radius",) if self.colors is None else ("radius", "color")
         for k in order[diameters[order] > 0].tolist():
             radius, edge = diameters[k] / 2, min(EDGE, diameters[k] / 4)
             color = style.color if self.colors is None else as_color(self.colors[k])
             named = tags and tags.some(np.array([k]))
-            yield Dots(centers[k : k + 1], radius, color, name=name, told=told, tags=named)
+            yield Dots(centers[k : k + 1], radius, color, name=name, told=("radius", *told), tags=named)
             around = arc_path(centers[k], (radius - edge / 2) * point, 0.0, 360.0)
             yield Stroke(around, style.rim, edge, closed=True, name=f"{name}-outline")

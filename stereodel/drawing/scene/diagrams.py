@@ -26,9 +26,6 @@ from stereodel.triangulation.delaunay import Triangulation
 from stereodel.triangulation.diagram import Diagram
 from stereodel.triangulation.topology import edges_of
 
-MARGIN = 0.02
-"""White space around the picture, in units of its half width."""
-
 
 def diagram_page(
     mesh: Triangulation | Diagram[Any],
@@ -50,11 +47,6 @@ def diagram_page(
     **looks
         How the points look, all alike or by value: `size`, `color`, `values`, `scale`, `legend`, `size_scale` and
         `size_legend` as for `stereodel.globe.Globe.add_points`. Then there is a legend below.
-
-    Raises
-    ------
-    ValueError, TypeError
-        If a latitude is outside [−90, 90], a rectangle is empty, or `mesh` is of another type.
 
     Examples
     --------
@@ -102,7 +94,7 @@ def _plane(mesh: PlanarDelaunay | PlanarVoronoi, bounds: npt.ArrayLike | None) -
     low, high = np.array([box.left, box.bottom]), np.array([box.right, box.top])
     inside = ((low < mesh.points) & (mesh.points < high)).all(axis=1)
     sketch.add_polyline(box.corners, closed=True, name="frame")
-    pad = MARGIN * (box.right - box.left) / 2
+    pad = 0.01 * (box.right - box.left)
     page = sketch.page((box.left - pad, box.right + pad, box.bottom - pad, box.top + pad))
     return page, mesh.points, np.asarray(inside)
 

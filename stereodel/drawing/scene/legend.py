@@ -21,30 +21,17 @@ from stereodel.drawing.scene.sketch import Sketch, arc_path
 SAMPLE: Final = (18.0, 7.0)
 """Length of a sample, and height of a tint sample, in points."""
 
-GAP: Final = 5.0
-"""Space between a sample and its text, in points."""
-
 ROW: Final = 1.5
 """Height of a row relative to that of type."""
-
-BAR: Final = (0.4, 0.8)
-"""Width of a scale's bar relative to the page, and its height relative to type."""
-
-BAR_ROWS: Final = 3.2
-"""Height of a scale with its title and numbers, in rows."""
 
 BETWEEN: Final = 30.0
 """Least space between two scales side by side, in points."""
 
-APART: Final = 6.0
-"""Least space between the numbers of a scale, in points."""
-
-CIRCLE: Final = LineStyle(DARK_GRAY, 0.5)
-LEADER: Final = LineStyle(DARK_GRAY, 0.35)
-"""Circles of a legend of sizes, and the lines from them to their numbers."""
+EDGE: Final = 0.5
+"""Width in points of the line around a dot by value; the dot's area is that inside it, the line included."""
 
 LEADS: Final = 9.0
-"""Length of these lines beyond the largest circle, in points."""
+"""Length of the lines from circles to their numbers beyond the largest circle, in points."""
 
 LegendEntry = LineStyle | DotStyle | ColorLike | ColorScale | SizeScale
 """Symbols of a legend."""
@@ -68,11 +55,6 @@ def with_legend(page: Page, entries: Mapping[str, LegendEntry], *, columns: int 
     indent : float
         Space to the left of the first column and to the right of the last, in points.
 
-    Raises
-    ------
-    ValueError
-        If `columns` is less than 1, or a colour is invalid.
-
     Examples
     --------
     >>> from stereodel.drawing import LineStyle
@@ -83,21 +65,20 @@ def with_legend(page: Page, entries: Mapping[str, LegendEntry], *, columns: int 
     count, size = as_count(columns, "columns"), LABEL_SIZE
     left, right, bottom, top = page.extent
     point = 1 / page.points_per_unit
-    row, step = ROW * size * point, (page.width - 2 * indent) * point / count
+    room, row = page.width - 2 * indent, ROW * size * point
     sketch = Sketch()
     scales = {text: style for text, style in entries.items() if isinstance(style, ColorScale | SizeScale)}
     samples = {text: style for text, style in entries.items() if not isinstance(style, ColorScale | SizeScale)}
     parts = [(item._look, item.name) for item in page.items]
     for number, (text, style) in enumerate(samples.items()):
         down, across = divmod(number, count)
-        place = np.array([left + indent * point + step * across, bottom - row * (down + 1)])
+        place = np.array([left + indent * point + room * point / count * across, bottom - row * (down + 1)])
         look = style if isinstance(style, LineStyle | DotStyle) else as_color(style)
         alike = [part for other, part in parts if part and other == look]
         part = text if text in alike else next(iter(alike), "")
         _add_sample(sketch, look, place, point, f"{LEGEND}{part}" if part else "legend")
-        sketch.add_label(place, text, (SAMPLE[0] + GAP, 0.0), align="left", size=size, name="legend")
+        sketch.add_label(place, text, (SAMPLE[0] + 5.0, 0.0), align="left", size=size, name="legend")
     foot = bottom - row * -(-len(samples) // count)
-    room = page.width - 2 * indent
     blocks = [BLOCKS[type(scale)](text, scale, room, page) for text, scale in scales.items()]
     while blocks:
         many = max(1, int(np.sum(np.cumsum([block[0] + BETWEEN for block in blocks]) <= room + BETWEEN)))
@@ -129,15 +110,15 @@ def _widths(texts: Iterable[str]) -> FloatArray:
 
 
 def _needed(scale: ColorScale, ticks: Mapping[float, str]) -> float:
-    """Width in points at which the texts of ticks have room beside each other."""
+    """Width in points at which the texts of ticks have room beside each other, with 6 points between them."""
     shown = {number: text for number, text in ticks.items() if text}
     needs, steps = _widths(shown.values()), np.diff(scale.place(list(shown)))
-    return float(np.max(((needs[1:] + needs[:-1]) / 2 + APART) / steps, initial=0.0))
+    return float(np.max(((needs[1:] + needs[:-1]) / 2 + 6.0) / steps, initial=0.0))
 
 
 def _bar(title: str, scale: ColorScale, room: float, page: Page) -> Block:
     """A bar with as many numbers as have room below it; of classes, wide enough for all limits."""
-    high, wide = BAR[1] * LABEL_SIZE, BAR[0] * page.width
+    high, wide = 0.8 * LABEL_SIZE, 0.4 * page.width
     key = KEY[0] * high + KEY[1] * high if scale.missing_key else 0.0
     if scale.edges:
         wide = min(max(wide, _needed(scale, scale.ticks)), room - key)
@@ -152,7 +133,7 @@ def _bar(title: str, scale: ColorScale, room: float, page: Page) -> Block:
         corner = (left, top - 1.9 * row - high * point / 2)
         yield from scale.legend(corner, (wide * point, high * point), ticks, title=title)
 
-    return wide + key + over, BAR_ROWS * ROW * LABEL_SIZE, draw
+    return wide + key + over, 3.2 * ROW * LABEL_SIZE, draw
 
 
 def _circles(title: str, scale: SizeScale, _: float, page: Page) -> Block:
@@ -170,12 +151,12 @@ def _circles(title: str, scale: SizeScale, _: float, page: Page) -> Block:
             at, head = np.array([middle, foot + size / 2 * point]), foot + size * point
             if scale.color is not None:
                 yield Dots(at[None], size / 2, as_color(scale.color), name=name, told=("radius",))
-            around = arc_path(at, (size - CIRCLE.width) / 2 * point, 0.0, 360.0)
-            yield Stroke(around, CIRCLE.color, CIRCLE.width, closed=True, name=f"{name}-outline")
+            around = arc_path(at, (size - EDGE) / 2 * point, 0.0, 360.0)
+            yield Stroke(around, DARK_GRAY, EDGE, closed=True, name=f"{name}-outline")
             free = min(head, free - LABEL_SIZE * point)
             right = left + sizes[0] * point
             ends = np.array([(middle, head), (right, head), (right + LEADS * point, free)])
-            yield Stroke(straight(ends), LEADER.color, LEADER.width, name="legend")
+            yield Stroke(straight(ends), DARK_GRAY, 0.35, name="legend")
             x, y = ends[-1].tolist()
             yield Label(text, (x, y), (3.0, 0.0), "left", size=LABEL_SIZE, name="legend")
 
