@@ -14,17 +14,23 @@ from tests.tiers import by_day
 
 
 def angle(a, b, latitude):
-    return float(np.radians(angular_distance(*(lonlat_to_xyz(p, latitude=latitude) for p in (a, b)))))
+    return np.radians(angular_distance(*(lonlat_to_xyz(p, latitude=latitude) for p in (a, b))))
 
 
-def least_along(place, a, b, latitude):
-    """The angle to the side from a to b, straight in degrees: a minimum next to the least of a hundred samples."""
+def least_along(place, a, b, latitude, most):
+    """The angle to the side from a to b, straight in degrees: a minimum next to the least of a hundred samples.
+
+    That sample itself, if no place half way to another one can be nearer than `most`.
+    """
     steps = np.linspace(0, 1, 101)
 
     def far(t):
         return angle(place, a + t * (b - a), latitude)
 
-    k = int(np.argmin([far(t) for t in steps]))
+    samples = far(steps[:, None])
+    k = int(np.argmin(samples))
+    if samples[k] - np.radians(np.abs(b - a).sum() / 100) > most:
+        return samples[k]
     low, high = steps[max(k - 1, 0)], steps[min(k + 1, 100)]
     return min(minimize_scalar(far, bounds=(low, high), method="bounded", options={"xatol": 1e-12}).fun, far(steps[k]))
 
@@ -36,7 +42,10 @@ def brute(place, geometry, latitude):
     rings = shapely.get_rings(geometry) if geometry.geom_type == "Polygon" else [geometry]
     lines = [shapely.get_coordinates(ring) for ring in rings]
     sides = (side for line in lines for side in zip(line, line[1:] if len(line) > 1 else line, strict=False))
-    return min(least_along(place, *side, latitude) for side in sides)
+    least = np.inf
+    for side in sides:
+        least = min(least, least_along(place, *side, latitude, least))
+    return least
 
 
 def random_shapes(rng, count):

@@ -53,7 +53,11 @@ def test_readings_by_the_decimal_mark(cells, values):
 @given(st.lists(st.one_of(st.integers(), st.floats(allow_nan=False, allow_infinity=False)), min_size=1, max_size=5))
 def test_what_is_written_comes_back(values):
     cells = [repr(value) for value in values]
-    for cell, found in zip(cells, next(iter(readings(np.array(cells)).values())).tolist(), strict=True):
+    numbers = next(iter(readings(np.array(cells)).values()), None)
+    if numbers is None:  # the column stays text, as the double of a whole number has other digits
+        assert any(Fraction(cell) != Fraction(repr(float(cell))) for cell in cells)
+        return
+    for cell, found in zip(cells, numbers.tolist(), strict=True):
         assert cell == found or Fraction(cell) == Fraction(repr(found))
 
 
