@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from dataclasses import replace
 from typing import Annotated, Any, Literal
 
@@ -42,7 +41,7 @@ def command(
     from stereodel import PlanarVoronoi, SphericalVoronoi
     from stereodel.cli.application import reporting, say
     from stereodel.earth import AUTHALIC_RADIUS_KM
-    from stereodel.io.formats.names import DataWarning, beside, naming
+    from stereodel.io.formats.names import beside, naming, note
     from stereodel.io.maps.dissolving import added, averaged, cell_columns, codes_of, grouped
     from stereodel.io.rows_of import rows_of
 
@@ -77,7 +76,7 @@ def command(
         point, area = drawn["point"], drawn["area"]
         shown, count = int(np.sum(drawn.get("cells", len(point)))), int(np.sum(diagram.is_kept))
         if clip is not None and shown < count:
-            warnings.warn(f"{count - shown} of {count} cells have no part inside --clip", DataWarning, stacklevel=2)
+            note(f"{count - shown} of {count} cells have no part inside --clip")
         if kind in options.FLAT and dissolve is None:  # all points have a row
             point, area = np.arange(len(table)), np.zeros(len(table))
             area[drawn["point"]] = drawn["area"]

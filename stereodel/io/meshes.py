@@ -19,7 +19,7 @@ from stereodel.curves.clip import points_along
 from stereodel.curves.ragged import Ragged, spans
 from stereodel.curves.trace import sides_of
 from stereodel.io.formats.columns import as_text, check_held, of_objects, plain_cells
-from stereodel.io.formats.names import DataWarning, beside
+from stereodel.io.formats.names import DataWarning, beside, note
 from stereodel.io.rows_of import (
     LARGEST_SEGMENT,
     Columns,
@@ -141,8 +141,7 @@ def to_polydata(mesh: Mesh, *, what: str | None = None, columns: Mapping[str, np
         if cells.dtype.kind != "U" or "".join(cells.tolist()).isascii():
             into[name] = cells
         else:
-            said = f"column {name!r} is left out, as it has text beyond ASCII, which PyVista does not hold"
-            warnings.warn(said, DataWarning, stacklevel=2)
+            note(f"column {name!r} is left out, as it has text beyond ASCII, which PyVista does not hold")
     return result
 
 

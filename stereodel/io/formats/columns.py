@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import json
 import re
-import warnings
 from collections.abc import Iterable, Mapping
 from datetime import timedelta
 from decimal import Decimal
@@ -20,7 +19,7 @@ import numpy as np
 
 from stereodel._arrays import BoolArray, Column, FloatArray
 from stereodel._extras import MissingExtraError, optional
-from stereodel.io.formats.names import DataWarning, listed, spelled
+from stereodel.io.formats.names import listed, note, spelled
 
 MISSING: Final = ("", "na", "n/a", "#n/a", "nan", "null", "none", "<na>", "-", "–")  # spellings of a missing value
 NUMBER: Final = re.compile(r"[-+]?(?:(?:[0-9]+[.,]?[0-9]*|[.,][0-9]+)(?:[eE][-+]?[0-9]+)?|inf|infinity)", re.IGNORECASE)
@@ -78,7 +77,7 @@ def decoded(content: bytes, encoding: str | None = None) -> tuple[str, str]:
         line = content[: getattr(error, "start", 0)].count(b"\n") + 1
         if encoding is None and not marked and (guess := _guessed(content)):
             said = f"line {line} is not text in UTF-8; the file is read in the encoding {guess}, which is a guess"
-            warnings.warn(f"{said}; {spelled('encoding', '=')} says which it is", DataWarning, stacklevel=2)
+            note(f"{said}; {spelled('encoding', '=')} says which it is")
             return content.decode(guess), guess
         advice = f"say which encoding the file has with {spelled('encoding', '=')}, such as cp1252"
         raise ValueError(f"line {line} is not text in {'UTF-8' if encoding is None else encoding}; {advice}") from error

@@ -21,7 +21,7 @@ from stereodel.io.formats import Content, FileFormat, Wanted, delimited, wkb
 from stereodel.io.formats.columns import as_text, check_held, plain
 from stereodel.io.formats.foreign import BINARY, SourceFile, check_crs, check_stored, self_contained
 from stereodel.io.formats.map_rows import Frame, MapRows, arrow, arrow_column
-from stereodel.io.formats.names import DataWarning, RenamedColumnWarning, beside, has_lonlat, listed, spelled
+from stereodel.io.formats.names import RenamedColumnWarning, beside, has_lonlat, listed, note, spelled
 
 pyogrio: Any = OnUse(lambda: optional("pyogrio", "geo"))
 
@@ -98,7 +98,7 @@ def _read_frame(path: Path, layer: str | None, **options: str) -> Any:
     for words in dict.fromkeys(shorten(each.replace(str(path), path.name), LETTERS, placeholder=" …") for each in own):
         if LOST.search(words):
             raise ValueError(f"the file cannot be read without loss; GDAL says: {words}")
-        warnings.warn(f"GDAL says of the file: {words}", DataWarning, stacklevel=2)
+        note(f"GDAL says of the file: {words}")
     return frame
 
 
