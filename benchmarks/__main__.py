@@ -14,7 +14,6 @@ import json
 import os
 import platform
 import re
-import sys
 import time
 from pathlib import Path
 
@@ -38,7 +37,7 @@ def machine() -> dict[str, str]:
     }
 
 
-def main() -> int:
+def main() -> None:
     """Measure, save after each experiment, write the page."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks", description="Compare stereodel with its peers.")
     parser.add_argument("--only", nargs="+", choices=list(EXPERIMENTS), default=list(EXPERIMENTS))
@@ -54,8 +53,7 @@ def main() -> int:
         print(f"{name}: {time.perf_counter() - begin:.0f} s", flush=True)
     if options.results == RESULTS and options.largest >= 1e6:
         pages.write("results")
-    return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

@@ -129,9 +129,7 @@ def voronoi(largest: int) -> Records:
     """Regions in order and areas of uniform points of the sphere, from the points, beside SciPy's."""
     found: Records = {}
     peer = [sys.executable, str(HERE / "peers" / "python_peer.py"), "scipy_voronoi"]
-    for n in (100_000, 1_000_000):
-        if n > largest:
-            continue
+    for n in (n for n in (100_000, 1_000_000) if n <= largest):
         with on_disk(make("sphere", "uniform", n)) as (file,):
             ours = [
                 Entry(f"{word} {workers}", [*stereodel("sphere", workers), file], word)

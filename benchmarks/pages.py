@@ -17,7 +17,7 @@ from typing import Any
 import matplotlib as mpl
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter
+from matplotlib.ticker import FixedLocator, FuncFormatter
 
 from benchmarks.engines import CONTENDERS, Contender
 from benchmarks.rounds import paired
@@ -362,7 +362,6 @@ def plot_sizes(measured: Results) -> None:
             axis.set_yscale("log")
             axis.yaxis.set_major_locator(FixedLocator([m * 10.0**k for k in range(1, 7) for m in (1, 2, 5)]))
             axis.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,.0f}".replace(",", "\u202f")))
-            axis.yaxis.set_minor_formatter(NullFormatter())
             _finish(axis, space, "uniform points")
             axis.minorticks_off()
         axes[0].set_ylabel("nanoseconds per point")

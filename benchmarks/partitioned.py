@@ -130,7 +130,7 @@ def in_memory(points: Path, folder: Path, workers: int) -> dict[str, float]:
     return found
 
 
-def main() -> int:
+def main() -> None:
     """Measure, and save after each set."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.partitioned")
     parser.add_argument("folder", type=Path)
@@ -157,8 +157,7 @@ def main() -> int:
             pages.record("partitioned", results)
             print(json.dumps(row), flush=True)
             shutil.rmtree(folder)
-    return 0
 
 
 if __name__ == "__main__":
-    raise SystemExit(main())
+    main()

@@ -124,9 +124,7 @@ class Watch(threading.Thread):
     def __init__(self, folder: Path) -> None:
         super().__init__(daemon=True)
         self._folder, self._ended = folder, threading.Event()
-        self._whole: dict[int, int] = {}
-        self._own: dict[int, int] = {}
-        self._cpu: dict[int, float] = {}
+        self._most: dict[int, tuple[float, ...]] = {}
         self._disk = 0
 
     def __enter__(self) -> Self:
@@ -146,18 +144,18 @@ class Watch(threading.Thread):
             for child in psutil.Process().children(recursive=True):
                 with suppress(psutil.Error):  # it has ended
                     memory, clock = child.memory_info(), child.cpu_times()
-                    self._whole[child.pid] = max(self._whole.get(child.pid, 0), memory.rss)
-                    self._own[child.pid] = max(self._own.get(child.pid, 0), memory.rss - memory.shared)
-                    self._cpu[child.pid] = clock.user + clock.system
+                    now = memory.rss, memory.rss - memory.shared, clock.user + clock.system
+                    self._most[child.pid] = tuple(map(max, now, self._most.get(child.pid, now)))
             self._disk = max(self._disk, size_of(self._folder))
 
     def found(self) -> dict[str, float]:
         """Seconds of wall and processors, megabytes of the largest process with and without pages of files, disk."""
+        whole, own, cpu = zip((0, 0, self.driver), *self._most.values(), strict=True)
         return {
             "wall": self.wall,
-            "cpu": self.driver + sum(self._cpu.values()),
-            "rss_mb": max(self._whole.values(), default=0) / 2**20,
-            "own_mb": max(self._own.values(), default=0) / 2**20,
+            "cpu": sum(cpu),
+            "rss_mb": max(whole) / 2**20,
+            "own_mb": max(own) / 2**20,
             "scratch_bytes": self._disk,
         }
 

@@ -134,11 +134,6 @@ def measure(name: str, raster: Pixels) -> Iterator[Row]:
         yield {"lens": name, "library": library, **times, **dict(zip(CHANNELS, ratios, strict=True))}
 
 
-def main() -> None:
-    """Measure, save, write the page."""
-    raster = sample_raster()
-    pages.record("rasters", [row for name in LENSES for row in measure(name, raster)])
-
-
 if __name__ == "__main__":
-    main()
+    shown = sample_raster()
+    pages.record("rasters", [row for name in LENSES for row in measure(name, shown)])

@@ -89,25 +89,12 @@ def seconds_until_ready(browser: Browser, page: Path) -> float:
     return statistics.median(found)
 
 
-def frames(browser: Browser, page: Path) -> Row:
-    """Frames a second while the globe turns, one a step, and the milliseconds for which one keeps the page busy."""
-    visit = Visit(browser, f"{page.as_uri()}#globe")
-    found = while_moved(visit, "#globe-plate", TURN)
-    visit.close()
-    return found
+def frames(browser: Browser, page: Path, room: str, plate: str, way: str, then: str = "true") -> Row:
+    """Frames a second while the mouse goes a way, one a step, and the milliseconds for which one keeps the page busy.
 
-
-def drag(browser: Browser, page: Path, count: int) -> Row:
-    """The same while the first site, in the middle of the ball, is dragged."""
-    visit = Visit(browser, f"{page.as_uri()}#v=1&room=sphere&set=given&turned=bubble")
-    found = while_moved(visit, "#sphere-ball", DRAG)
-    visit.until("location.hash.includes('file=')")  # the sites are the reader's own now: one has moved
-    visit.close()
-    return {"sites": count, **found}
-
-
-def while_moved(visit: Visit, plate: str, way: str) -> Row:
-    """Frames while the mouse, from the middle of a plate, goes a way that is written in JavaScript."""
+    From the middle of a plate of a room; afterwards what is said in JavaScript, as the way is, becomes true.
+    """
+    visit = Visit(browser, f"{page.as_uri()}#{room}")
     visit.until("document.documentElement.dataset.ready")
     visit.rest(seconds=60)
     x, y = visit.middle(plate)
@@ -117,6 +104,8 @@ def while_moved(visit: Visit, plate: str, way: str) -> Row:
     seconds = visit.page.evaluate(MOVE % way, {"plate": plate, "x": x, "y": y, "steps": STEPS})
     found = {"frames a second": STEPS / seconds, "ms": 1000 * (visit.busy() - busy) / STEPS}
     visit.page.mouse.up()
+    visit.until(then)
+    visit.close()
     return found
 
 
@@ -126,24 +115,21 @@ def sites(count: int) -> FloatArray:
 
 
 def speed() -> Row:
-    """How soon the page is ready, its frames by scene, and while a site is dragged."""
+    """How soon the page is ready, its frames by scene, and while the first site, in the middle, is dragged."""
     with tempfile.TemporaryDirectory() as folder, chromium() as browser:
         plain = web(Path(folder, "plain.html"), resolution="110m")
         rows = []
         for count, resolution in SCENES:
             page = web(Path(folder, "sites.html"), lonlat=sites(count), name="sites", resolution=resolution)
-            rows.append({"sites": count, "land": resolution, **frames(browser, page)})
+            turned = frames(browser, page, "globe", "#globe-plate", TURN)
+            rows.append({"sites": count, "land": resolution, **turned})
         lonlat = np.vstack([[0, 0], sites(DRAGGED - 1)])
         page = web(Path(folder, "dragged.html"), lonlat=lonlat, name="sites", resolution="110m")
-        dragged = drag(browser, page, DRAGGED)
+        # In the end the sites are the reader's own: one has moved.
+        ball = "v=1&room=sphere&set=given&turned=bubble", "#sphere-ball", DRAG, "location.hash.includes('file=')"
+        dragged = {"sites": DRAGGED, **frames(browser, page, *ball)}
         return {"ready, seconds": seconds_until_ready(browser, plain), "scenes": rows, "drag": dragged}
 
 
-def main() -> None:
-    """Measure, save, write the page."""
-    results = {"load": os.getloadavg()[0], "sizes": sizes(), **speed()}
-    pages.record("web", results)
-
-
 if __name__ == "__main__":
-    main()
+    pages.record("web", {"load": os.getloadavg()[0], "sizes": sizes(), **speed()})

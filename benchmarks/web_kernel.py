@@ -79,10 +79,5 @@ def ratios(rows: list[Row]) -> Row:
     return {name: rows[-1][one] / rows[-1][other] for name, (one, other) in pairs.items()}
 
 
-def main() -> None:
-    """Measure, save, write the page."""
-    pages.record("web_kernel", measure())
-
-
 if __name__ == "__main__":
-    main()
+    pages.record("web_kernel", measure())

@@ -18,7 +18,6 @@ What each of them lets pass stands here and not among the tolerances of the libr
 from __future__ import annotations
 
 import argparse
-import hashlib
 import io
 import json
 import lzma
@@ -40,10 +39,8 @@ from matplotlib import ft2font
 from stereodel._arrays import FloatArray, Pixels
 from stereodel._extras import installed_version
 from stereodel._tasks.whole_files import write_whole
-from stereodel.drawing.page import Dots, Fill, Item, Label, Page, Picture, Polygons, Polylines, Stroke
-from stereodel.drawing.page.items import Ramp
+from stereodel.drawing.page import Dots, Fill, Item, Label, Page, Picture, Polylines, Stroke
 from stereodel.film import Film
-from stereodel.globe.raster import RasterOnDisc
 from stereodel.render.figure import Figure
 from stereodel.render.pixel_rows import LabelLayer, pixel_hash
 from tools.build import BuildError, find_scripts, load_drawing
@@ -89,6 +86,9 @@ LARGE: Final = 500_000
 
 SAMPLES: Final = 1000
 """Numbers kept of each row of a summary."""
+
+WHOLE: Final = ("path", "centers", "points", "offsets", "owner", "colors", "ends")
+"""Fields of items and of what paints them that are stored as they are, each under its name."""
 
 PACKING: Final = [{"id": lzma.FILTER_LZMA2, "preset": 9, "lc": 0, "lp": 3, "pb": 3}]
 """Of stored arrays, for numbers of eight bytes: 3 % smaller than what is usual."""
@@ -273,42 +273,28 @@ def page_arrays(page: Page) -> dict[str, npt.NDArray[Any]]:
 
 
 def item_arrays(item: Item) -> dict[str, Any]:
-    """Everything that is drawn of an item."""
+    """Everything that is drawn of an item; of a raster, which no figure has, its outline alone."""
+    parts = (item, getattr(item, "painter", None))
+    told = {key: getattr(part, key) for part in parts for key in WHOLE if hasattr(part, key)}
+    if ball := getattr(item, "ball", None):
+        told["ball"] = [*ball.center, ball.radius]
     match item:
         case Stroke():
-            style = [*item.color, item.width, *(item.dash or (0.0, 0.0)), item.cap == "round", item.closed]
-            return {"path": item.path, "style": style}
+            told["style"] = [*item.color, item.width, *(item.dash or (0.0, 0.0)), item.cap == "round", item.closed]
         case Fill():
-            sizes = [len(path) for path in item.paths]
-            return {"path": np.concatenate(item.paths), "sizes": sizes, "style": item.color, **_light(item)}
+            told |= {"path": np.concatenate(item.paths), "sizes": [*map(len, item.paths)], "style": item.color}
         case Dots():
-            return {"centers": item.centers, "style": [item.radius, *item.color, *item.rim, item.rim_width]}
-        case Picture(painter=Ramp() as ramp):
-            return {"outline": np.concatenate(item.outline), "ends": ramp.ends, "colors": ramp.colors}
-        case Picture(painter=RasterOnDisc() as disc):
-            raster, chart, lens = disc.raster, disc.chart, disc.chart.lens
-            parts = lens.left.matrix.ravel(), lens.right.matrix.ravel(), chart.view.matrix.ravel()
-            numbers = [lens.magnification, chart.view.edge, *chart.at, chart.scale, disc.opacity]
-            digest = hashlib.sha256(f"{raster.pixels.shape}\n".encode() + raster.pixels.tobytes()).hexdigest()
-            told = {"bounds": raster.bounds, "latitude": raster.latitude, "raster": digest}
-            return {"outline": np.concatenate(item.outline), "map": np.concatenate([*parts, numbers]), **told}
-        case Picture():
-            return {"outline": np.concatenate(item.outline)}
+            told["style"] = [item.radius, *item.color, *item.rim, item.rim_width]
         case Polylines():
-            return {"points": item.points, "offsets": item.offsets, "style": [*item.color, item.width]}
-        case Polygons():
-            loops = {"points": item.points, "offsets": item.offsets, "owner": item.owner}
-            return {**loops, "colors": item.colors, **_light(item)}
+            told["style"] = [*item.color, item.width]
+        case Picture():
+            told["outline"] = np.concatenate(item.outline)
         case Label():
             halo = [item.halo] if item.halo else []
-            if item.halo and item.halo_color != Label.halo_color:
-                halo += item.halo_color
-            told = [item.text, item.align, item.valign, *item.font, *([] if item.formulas else ["plain"])]
-            return {"place": [*item.anchor, *item.offset, item.size, *item.color, item.rotation, *halo], "text": told}
-
-
-def _light(item: Fill | Polygons) -> dict[str, Any]:
-    return {} if item.ball is None else {"ball": [*item.ball.center, item.ball.radius]}
+            halo += item.halo_color if item.halo and item.halo_color != Label.halo_color else ()
+            told["place"] = [*item.anchor, *item.offset, item.size, *item.color, item.rotation, *halo]
+            told["text"] = [item.text, item.align, item.valign, *item.font, *([] if item.formulas else ["plain"])]
+    return told
 
 
 @dataclass(frozen=True, eq=False)

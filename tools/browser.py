@@ -15,7 +15,7 @@ import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any, Final
+from typing import Final
 
 import matplotlib as mpl
 import numpy as np
@@ -203,16 +203,13 @@ class Visit:
         for step in range(steps + 1):
             share = step / steps
             places = [np.add(np.multiply(start, 1 - share), np.multiply(end, share)) for start, end in fingers]
-            _touch(touch, "touchMove" if step else "touchStart", places)
+            # Chromium's gestures made of one command do not scroll without a window; touches step by step do.
+            points = [{"x": float(x), "y": float(y), "id": number} for number, (x, y) in enumerate(places)]
+            kind = "touchMove" if step else "touchStart"
+            touch.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
             self.page.wait_for_timeout(16)
-        _touch(touch, "touchEnd", [])
+        touch.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
         touch.detach()
-
-
-def _touch(session: CDPSession, kind: str, places: Sequence[Any]) -> None:
-    # Chromium's gestures made of one command do not scroll without a window; touches step by step do.
-    points = [{"x": float(x), "y": float(y), "id": number} for number, (x, y) in enumerate(places)]
-    session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
 
 
 def ink(pixels: Pixels) -> float:

@@ -12,7 +12,6 @@ from __future__ import annotations
 
 import argparse
 import hashlib
-import importlib.util
 import sys
 import time
 import traceback
@@ -20,6 +19,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 from stereodel._tasks.crew import Crew
@@ -157,12 +157,9 @@ def load_drawing(script: Path) -> Any:
     folder = str(script.resolve().parent)
     if folder not in sys.path:
         sys.path.insert(0, folder)
-    spec = importlib.util.spec_from_file_location(script.stem, script)
-    if spec is None or spec.loader is None:
-        raise BuildError(f"{script} cannot be loaded")
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[script.stem] = module
-    spec.loader.exec_module(module)
+    sys.modules[script.stem] = module = ModuleType(script.stem)
+    module.__file__ = str(script)
+    exec(compile(script.read_bytes(), str(script), "exec", dont_inherit=True), vars(module))
     if hasattr(module, "FIGURE"):
         return module.FIGURE
     if hasattr(module, "film"):

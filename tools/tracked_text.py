@@ -21,24 +21,19 @@ FORBIDDEN = {
     ),
     "unfinished work": re.compile(r"\b(?:TO[D]O|FIX[M]E|XX[X])\b"),
 }
-COLUMNS = 120
+LAYOUT = {"more than 120 characters, a tab, or a space at the end": re.compile(r".{121}|\t| $")}
 PINNED = re.compile(r"[A-Za-z0-9._-]+==[A-Za-z0-9._+!-]+")
 
 
 def problems(name: str, text: str) -> list[str]:
     """What is wrong with one file's text."""
+    forbidden = FORBIDDEN | (LAYOUT if name.endswith((".cpp", ".hpp")) else {})
     found = [
         f"{name}:{number}: {what}: {line.strip()[:100]}"
         for number, line in enumerate(text.splitlines(), 1)
-        for what, pattern in FORBIDDEN.items()
+        for what, pattern in forbidden.items()
         if pattern.search(line)
     ]
-    if name.endswith((".cpp", ".hpp")):
-        found += [
-            f"{name}:{number}: more than {COLUMNS} characters, a tab, or a space at the end"
-            for number, line in enumerate(text.splitlines(), 1)
-            if len(line) > COLUMNS or "\t" in line or line.endswith(" ")
-        ]
     if name == "constraints.txt":
         found += [f"{name}: not name==version: {line}" for line in text.splitlines() if not PINNED.fullmatch(line)]
     return found

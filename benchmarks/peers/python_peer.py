@@ -23,20 +23,19 @@ Call = Callable[[], np.ndarray]
 
 def prepared(name: str, values: np.ndarray) -> Call:
     """The call of a peer on doubles: it triangulates and returns the triangles (m, 3)."""
+    points = values.reshape(-1, 2 if name in ("scipy", "triangle", "triangular") else 3)
     if name == "scipy":  # with neighbours, by Qhull's paraboloid
         from scipy.spatial import Delaunay
 
-        points = values.reshape(-1, 2)
         return lambda: Delaunay(points).simplices
     if name == "scipy_hull":  # with neighbours, of mixed orientation
         from scipy.spatial import ConvexHull
 
-        points = values.reshape(-1, 3)
         return lambda: ConvexHull(points).simplices
     if name == "scipy_voronoi":  # the diagram with its regions sorted, as lists, and their areas
         from scipy.spatial import SphericalVoronoi
 
-        points = values.reshape(-1, 3) / np.linalg.norm(values.reshape(-1, 3), axis=1)[:, None]
+        points /= np.linalg.norm(points, axis=1)[:, None]
 
         def call() -> np.ndarray:
             diagram = SphericalVoronoi(points)
@@ -48,16 +47,14 @@ def prepared(name: str, values: np.ndarray) -> Call:
     if name == "triangle":  # with neighbours (option n)
         import triangle
 
-        vertices = {"vertices": values.reshape(-1, 2)}
-        return lambda: triangle.triangulate(vertices, "Qn")["triangles"]
+        return lambda: triangle.triangulate({"vertices": points}, "Qn")["triangles"]
     if name == "triangular":  # triangles alone: there are no neighbours to ask for
         import triangular
 
-        points = values.reshape(-1, 2)
         return lambda: triangular.delaunay(points)
     from stripy import sTriangulation  # with STRIPACK's adjacency lists, from longitude and latitude in radians
 
-    x, y, z = values.reshape(-1, 3).T
+    x, y, z = points.T
     lon, lat = np.arctan2(y, x), np.arctan2(z, np.hypot(x, y))
     return lambda: sTriangulation(lon, lat).simplices
 
