@@ -53,12 +53,8 @@ def examples():
     of_land = (data.coastlines, data.countries, data.lakes, data.land, data.rivers)
     yield from (load("110m") for load in of_land)
     yield from (drawing.Ball((0.0, 0.0), 1.0), drawing.CircleArc.great([1, 0, 0], [0, 1, 0]), scene, sketch)
-    yield from (
-        drawing.ColorScale("viridis", 1.0, 2.0),
-        drawing.SizeScale(2.0),
-        drawing.DotStyle("red", 1.0),
-        drawing.LineStyle("red", 1.0),
-    )
+    yield from (drawing.ColorScale("viridis", 1.0, 2.0), drawing.SizeScale(2.0))
+    yield from (drawing.DotStyle("red", 1.0), drawing.LineStyle("red", 1.0))
     yield from (drawing.Graticule.regular(10), drawing.Label("a", (0, 0)), drawing.Segment.between(*BALLS[:2]))
     yield from (drawing.View(1, 2, 3), drawing.StereographicView(1, 2), solid, *solid.scenes, solid.page)
     yield from (*solid.page.items, *sketch.page((0, 1, 0, 1)).items, *earth.page(None, drawing.View(0, 0)).items)

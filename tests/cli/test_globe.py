@@ -18,9 +18,10 @@ from stereodel.cli import globe as command
 from stereodel.cli.globe import Aim, layer_of, motion_of
 from stereodel.drawing import StereographicView, View
 from stereodel.film import Film, FrameError
+from tests.globe.test_looks import squares
+from tests.render.test_vector import SVG
 from tools.baselines import read_picture
 
-SVG = "{http://www.w3.org/2000/svg}"
 BARE = ["--show=graticule"]
 
 
@@ -149,8 +150,9 @@ def test_a_legend_shows_what_the_map_shows_in_a_style_of_ones_own(folder, run):
     (folder / "v.toml").write_text(
         '[lines]\nvoronoi = {color = "red", width = 2}\n[dots.sites]\ncolor = "#00aa00"\n', encoding="utf-8"
     )
-    run("globe", "towns.csv", "-o", "a.svg", "--view=10,50", "--legend", "--style=v.toml")
+    run("globe", "towns.csv", "-o", "a.svg", "--view=10,50", "--legend", "--style=v.toml", "--style=dark")
     looks = {path.get("id"): path.attrib for path in ET.parse(folder / "a.svg").getroot().iter(f"{SVG}path")}
+    assert looks["ground"]["fill"] == "#121212"
     for name in ("voronoi", "legend-voronoi"):
         assert (looks[name]["stroke"], looks[name]["stroke-width"]) == ("#ff0000", "2"), name
     assert looks["sites-2"]["fill"] == looks["legend-sites-2"]["fill"] == "#00aa00"
@@ -187,15 +189,6 @@ def test_layers_of_points_lines_and_polygons(folder, run):
     assert layer_of("a,color=b.geojson")[0].name == "a,color=b.geojson"
 
 
-def test_styles_and_pixels(folder, run):
-    (folder / "red.toml").write_text('[fills]\nball = "red"\n', encoding="utf-8")
-    run("globe", "-o", "c.png", "--style=red.toml", "--style=dark", "--size=67", *BARE)
-    picture = iio.imread(folder / "c.png")
-    assert picture.shape == (67, 67, 3)
-    assert picture[0, 0].tolist() == [18, 18, 18]
-    assert picture[33, 27, 0] > 150 > 30 > picture[33, 27, 1]
-
-
 BY_VALUE = ["cities.csv", "--point-size=people", "--point-color=people", "--show=points"]
 BY_VALUE += ["--legend-text=people=inhabitants", "--legend-text=people (size)=many"]
 
@@ -206,13 +199,8 @@ def test_points_and_layers_by_value(folder, run):
     text = (folder / "a.svg").read_text(encoding="utf-8")
     assert "inhabitants: colours, logarithmic from 100" in text
     assert "many: areas of dots in proportion to the amount, 15.4" in text
-    squares = [[[10 * k, 0], [10 * k + 9, 0], [10 * k + 9, 9], [10 * k, 9], [10 * k, 0]] for k in range(6)]
-    features = [
-        {"type": "Feature", "properties": {"v": k or None}, "geometry": {"type": "Polygon", "coordinates": [ring]}}
-        for k, ring in enumerate(squares)
-    ]
-    (folder / "six.geojson").write_text(json.dumps({"type": "FeatureCollection", "features": features}))
-    layer = ["--layer=six.geojson,column=v", "--legend", "--resolution=110m"]
+    (folder / "six.geojson").write_text(json.dumps(squares([None, *range(1, 6)])))
+    layer = ["--layer=six.geojson,column=kind", "--legend", "--resolution=110m"]
     run("globe", "-o", "b.svg", *layer, "--classes=0,2,4,9", "--colors=#ff0000,#00ff00,#0000ff")
     assert run.said.startswith(
         "note: six.geojson: polygons replace the land and the coastlines of the package; --show="
@@ -221,7 +209,7 @@ def test_points_and_layers_by_value(folder, run):
     assert 'id="land' not in text
     assert 'id="coast' not in text
     assert all(color in text for color in ("#ff0000", "#00ff00", "#0000ff"))
-    assert "v: colours of 3 classes with the limits 0, 2, 4, 9; no value in gray" in text
+    assert "kind: colours of 3 classes with the limits 0, 2, 4, 9; no value in gray" in text
     run("globe", "-o", "c.svg", *layer, "--show=land,coastlines", "--center=3")
     assert run.said == ""
     assert 'id="land' in (folder / "c.svg").read_text(encoding="utf-8")

@@ -21,12 +21,12 @@ from stereodel.globe import Globe
 from stereodel.globe.pages import Panel, panels
 from stereodel.render.vector.svg import svg
 from stereodel.render.vector.type import lines_of
+from tests.render.test_vector import SVG
 
 STIX, SHIPPED = "STIXGeneral", "DejaVu Sans"
 CJK = str(Path(__file__).resolve().parents[1] / "fixtures" / "fonts" / "noto-sans-cjk-subset.otf")
 """東京한국港 in the outlines of Noto Sans CJK TC; see tests/fixtures/README.md."""
 ARABIC, HEBREW, MARKED = "العربية", "עברית", "q\u0323\u0302"
-SVG = "{http://www.w3.org/2000/svg}"
 
 
 def page(*texts, **options):

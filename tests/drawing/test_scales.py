@@ -1,6 +1,7 @@
 """Scales of colours and sizes: where numbers stand, classes, round ticks and how they are written, what is refused."""
 
 from fractions import Fraction
+from functools import partial
 from itertools import combinations
 from typing import get_args
 
@@ -99,13 +100,10 @@ def test_numbers_stand_where_their_kind_says():
 
 
 def test_colours_beside_a_centre_are_as_strong_on_both_sides():
-    for scale, step in (
-        (ColorScale("RdBu_r", -2, 10, center=0), np.add),
-        (ColorScale("RdBu_r", 0.5, 8, "log", center=1), np.multiply),
+    for scale, middle, one, other in (
+        (ColorScale("RdBu_r", -2, 10, center=0), 0.0, 2.0, -2.0),
+        (ColorScale("RdBu_r", 0.5, 8, "log", center=1), 1.0, 2.0, 0.5),
     ):
-        middle = 0.0 if step is np.add else 1.0
-        one = step(middle, 2.0)
-        other = 2 * middle - one if step is np.add else middle / one
         np.testing.assert_allclose(scale(middle), colormaps["RdBu_r"](0.5))
         np.testing.assert_array_equal(scale(scale.high), colormaps["RdBu_r"](1.0))
         share = 0.5 * float(scale.place(one) - scale.place(middle)) / float(1 - scale.place(middle))
@@ -209,23 +207,19 @@ def test_numbers_have_room_beside_each_other(width):
     assert not any(meets(box, np.delete(boxes, k, axis=0)) for k, box in enumerate(boxes))
 
 
-def of_unit(**given):
-    return ColorScale("viridis", 0, 1, **given)
-
-
 test_what_makes_no_scale_is_refused = refused(
     (ColorScale, ("viridis", 0.0, 1.0, "cubic"), "kind is 'cubic'"),
     (ColorScale, ("viridis", 0.0, 1.0, "symlog"), "kind is 'symlog' and threshold None; 'symlog' alone"),
     (ColorScale, ([], 0.0, 1.0), "colors is empty"),
     (ColorScale, (["red", "sky"], 0.0, 1.0), "colors is 'sky', which is not a colour"),
-    (of_unit, {"center": 2.0}, r"center is 2.0, outside \[0, 1\]"),
-    (of_unit, {"edges": [0, 1, 2]}, "edges lead from 0.0 to 2.0, not from 0 to 1"),
+    (partial(ColorScale, "viridis", 0, 1), {"center": 2.0}, r"center is 2.0, outside \[0, 1\]"),
+    (partial(ColorScale, "viridis", 0, 1), {"edges": [0, 1, 2]}, "edges lead from 0.0 to 2.0, not from 0 to 1"),
     (ColorScale.classes, ([1, 2], [3, 3]), "limits of classes are two or more numbers that increase"),
     (ColorScale.classes, ([1, 2], "jenks"), "scheme is 'jenks'"),
     (ColorScale.classes, ([1, 1, np.nan], "natural"), "values has no two different numbers"),
     (ColorScale.classes, ([1, 2], "equal", 0), "count is 0"),
     (ColorScale.of, ([-1, 0], None, "log"), "values has no positive number for a scale; give limits"),
-    (lambda **given: ColorScale.of([1, 2], **given), {"kind": "log", "center": 0.0}, "center is 0.0, outside"),
+    (partial(ColorScale.of, [1, 2]), {"kind": "log", "center": 0.0}, "center is 0.0, outside"),
     (SizeScale, (0.0,), "high is 0.0"),
     (SizeScale, (1.0, "2 km"), "largest is '2 km'; give a length"),
     (SizeScale(1.0), ([-1.0],), "amounts has -1; an area cannot be negative"),

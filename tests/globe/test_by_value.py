@@ -15,13 +15,14 @@ from stereodel.drawing.page.scales import MISSING
 from stereodel.film import Film, Spin
 from stereodel.globe import Globe, hemispheres
 from stereodel.globe.layers import suited
+from tests.globe.test_looks import SQUARE
+from tests.io.test_shapes import feature
 from tests.refused import refused
 
 PLACES = [(-40.0, 0.0), (0.0, 0.0), (40.0, 0.0), (0.0, 40.0)]
 AMOUNTS = [1e6, 4e6, 9e6, 16e6]
 VALUES = [1.0, 10.0, np.nan, 1000.0]
 LOG = ColorScale("viridis", 1.0, 1000.0, "log")
-SQUARE = np.array([[0, 0], [5, 0], [5, 5], [0, 0]])
 
 
 def of(page, kind, name):
@@ -115,14 +116,11 @@ def test_looks_of_dots_without_values():
     assert [len(of(page, Dots, "words")), *globe.legend] == [3, "places", "a", "b", "no value"]
 
 
-def feature(kind, coordinates, value):
-    return {"type": "Feature", "properties": {"v": value}, "geometry": {"type": kind, "coordinates": coordinates}}
-
-
 def test_a_column_colours_polygons_lines_and_points():
     """Isolines and places as regions, and what has no value in gray; a style changes none."""
-    parts = [("Polygon", [SQUARE.tolist()]), ("LineString", [[0, 9], [9, 9]]), ("Point", [20, 0])]
-    features = [feature(*part, value) for part in parts for value in (1.0, 4.0, None)]
+    parts = [("Polygon", [SQUARE]), ("LineString", [[0, 9], [9, 9]]), ("Point", [20, 0])]
+    shapes = [{"type": kind, "coordinates": coordinates} for kind, coordinates in parts]
+    features = [feature(shape, v=value) for shape in shapes for value in (1.0, 4.0, None)]
     globe = Globe()
     classes = partial(ColorScale.classes, scheme=[0, 2, 5], colors=["navy", "gold"])
     globe.add_layer({"type": "FeatureCollection", "features": features}, column="v", scale=classes)
@@ -177,10 +175,6 @@ def test_frames_of_films_have_the_legend_and_one_resolution(globe):
     assert {layer.resolution for layer in film.draw.steady.layers if hasattr(layer, "resolution")} == {"110m"}
 
 
-def points(**looks):
-    Globe().add_points(PLACES, **looks)
-
-
 test_what_has_no_look_is_refused = refused(
     ({"size": [1.0, 2.0]}, r"size must have shape \(4, ...\)"),
     ({"size": [0.0, 0.0, 0.0, 0.0], "size_legend": "v"}, "size has no positive value"),
@@ -189,5 +183,5 @@ test_what_has_no_look_is_refused = refused(
     ({"color": ["red", "blue"]}, "color has 2 colours, but there are 4 items"),
     ({"values": [1.0]}, "values must have shape"),
     ({"values": [np.nan] * 4}, "values has no number for a scale"),
-    call=lambda looks: points(**looks),
+    call=lambda looks: Globe().add_points(PLACES, **looks),
 )

@@ -32,10 +32,8 @@ def test_what_is_painted_is_what_is_drawn(layers):
     size = 1000
     picture = page.pixels(size=size, renderer="agg") / 255
     places = np.random.default_rng(4).uniform(0.1, 1.9, size=(300, 2))
-    row, column = (
-        ((page.extent[3] - places[:, 1]) / page.extent[1] * size).astype(int),
-        (places[:, 0] / page.extent[1] * size).astype(int),
-    )
+    row = ((page.extent[3] - places[:, 1]) / page.extent[1] * size).astype(int)
+    column = (places[:, 0] / page.extent[1] * size).astype(int)
     items = [item for item in page.items if not isinstance(item, Label)]
     off = np.abs(painted(items, places) - picture[row, column]).max(axis=1)
     # A few places lie on a border, or on the limb.

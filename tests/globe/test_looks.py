@@ -1,7 +1,5 @@
 """How globes look: titles, legends, names, colours of layers, sizes, paper."""
 
-import xml.etree.ElementTree as ET
-
 import imageio.v3 as iio
 import numpy as np
 import pytest
@@ -13,17 +11,17 @@ from stereodel.drawing.page.colors import to_oklab
 from stereodel.drawing.page.scales import MISSING
 from stereodel.globe import Globe
 from stereodel.globe.layers import Areas
+from tests.io.test_shapes import feature
+from tests.render.test_vector import SVG, tree_of
 
 SQUARE = [[0, 0], [5, 0], [5, 5], [0, 0]]
 
 
 def squares(values):
     """A layer whose column `kind` has these values."""
-    rings = [[[[10 * k + x, y] for x, y in SQUARE]] for k in range(len(values))]
-    features = [
-        {"type": "Feature", "properties": {"kind": value}, "geometry": {"type": "Polygon", "coordinates": ring}}
-        for value, ring in zip(values, rings, strict=True)
-    ]
+    rings = [[[6 * (k % 10) + x, 6 * (k // 10) + y] for x, y in SQUARE] for k in range(len(values))]
+    shapes = [{"type": "Polygon", "coordinates": [ring]} for ring in rings]
+    features = [feature(shape, kind=value) for shape, value in zip(shapes, values, strict=True)]
     return {"type": "FeatureCollection", "features": features}
 
 
@@ -117,20 +115,11 @@ def test_transparent_paper(tmp_path):
     assert 'id="ground"' not in (tmp_path / "1.svg").read_text(encoding="utf-8")
 
 
-SVG = "{http://www.w3.org/2000/svg}"
-
-
-def tree_of(page, folder):
-    return ET.parse(page.save(folder / "page.svg")).getroot()
-
-
 def test_shapes_have_ids_and_data_by_a_column(tmp_path):
     """One element each, however many colours there are; missing ids are the layer’s, equal ones are numbered."""
-    names, shapes = ["Ulm", "Ulm", None, *map(str, range(67))], squares(range(70))
-    for k, (feature, name) in enumerate(zip(shapes["features"], names, strict=True)):
-        corners = [[6 * (k % 10) + x, 6 * (k // 10) + y] for x, y in SQUARE]
-        feature |= {"properties": {"kind": k + 0.5, "Name of it": name}}
-        feature["geometry"] = {"type": "Polygon", "coordinates": [corners]}
+    names, shapes = ["Ulm", "Ulm", None, *map(str, range(67))], squares(np.arange(70) + 0.5)
+    for shape, name in zip(shapes["features"], names, strict=True):
+        shape["properties"]["Name of it"] = name
     globe = Globe()
     globe.add_layer(shapes, column="kind", id_column="Name of it", name="squares", outline=None)
     page = globe.page(None, View(0, 0))

@@ -72,10 +72,6 @@ def checkerboard(left, bottom):
     return polygons(loops, count, np.stack([count / 100, 1 - count / 100, 0 * count, 0 * count + 1], axis=1))
 
 
-def fading(count):
-    return np.linspace([0.9, 0.9, 0.2, 1.0], [0.3, 0.3, 0.5, 1.0], count)
-
-
 def everything():
     """A page with each kind of item in each of its ways, large, so that a small change of it shows."""
     bent = np.array(
@@ -85,12 +81,12 @@ def everything():
     many = np.array([(0.0, 0.1), (1.2, 0.15), (0.1, 0.3), (0.2, 0.5), (1.2, 0.5), (0.7, 0.9), (0.2, 0.5), (0.05, 0.8)])
     offsets = np.array([0, 3, 7, 8])
     ring = (box(0, 0.8, 0, 0.8), box(0.2, 0.6, 0.2, 0.6))
-    veil = (0.0, 0.3, 0.0, 0.5)
+    veil, fading = (0.0, 0.3, 0.0, 0.5), np.linspace([0.9, 0.9, 0.2, 1.0], [0.3, 0.3, 0.5, 1.0], 200)
     items = (
         Fill(tuple(part + [0.1, 1.1] for part in ring), (0.9, 0.6, 0.1, 0.4)),
         Fill((*(part + [0.3, 1.0] for part in ring), box(0.6, 0.8, 1.3, 1.5)), RED),
         checkerboard(2.3, 2.0),
-        Picture((box(4.2, 5.4, 3.5, 3.7),), Ramp((4.2, 5.4), fading(200) ** [[1, 2, 1, 1]])),
+        Picture((box(4.2, 5.4, 3.5, 3.7),), Ramp((4.2, 5.4), fading ** [[1, 2, 1, 1]])),
         Picture((circle((3.6, 2.4), 0.4),), Checks()),
         fan((1.8, 1.5), 1.5 * np.pi, 0.35),
         fan((1.9, 1.5), 2.0 * np.pi, 0.4),
