@@ -46,7 +46,7 @@ def test_drawing(tmp_path, monkeypatch, capsys):
 @pytest.mark.thorough
 def test_globes(tmp_path, monkeypatch, capsys):
     *_, names = run("globes.md", tmp_path, monkeypatch, capsys)
-    written = {"paris.png", "marble.png", "airports.svg", "halves.pdf", "paper.png"}
+    written = {"paris.png", "cities.svg", "marble.png", "airports.svg", "halves.pdf", "paper.png"}
     assert {path.name for path in tmp_path.iterdir()} == written
     assert len(names["page"].views) == 3
 
