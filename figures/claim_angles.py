@@ -5,8 +5,8 @@ Claim P22: the least angles of Delaunay's triangles and of others
 The points of the terrain and their heights, with three triangulations: that of Delaunay; that of Delaunay after the map
 was stretched to twice its width, as longitudes and latitudes are at 60° N; and one that sweeps over the map and joins
 each point to those on its left. Narrow triangles join heights that are far apart, and the relief is torn. Below, the
-share of triangles that have an angle smaller than a given one. No triangulation of
-the points has a larger least angle than that of Delaunay.
+share of triangles that have an angle smaller than a given one. No triangulation of the points has a larger least angle
+than that of Delaunay.
 
 Chosen by us: the relief, and the other triangulations.
 """
