@@ -37,6 +37,8 @@ GIF_FPS: Final = 12.5
 """Frames per second; of a GIF, whose frames are large."""
 MAPS = ("land", "lakes", "graticule", "rivers", "coastlines", "borders")
 """What `--show` may name of the Earth, from the bottom up."""
+GROUND = frozenset(MAPS[:2])
+"""What of it fills regions."""
 OF_POINTS = ("triangles", "cells", "points")
 """What it may name of the points."""
 USUAL = "land,graticule,coastlines,cells,points"
@@ -106,12 +108,14 @@ def command(
             shown -= {"land", "coastlines"}
             said = f"{', '.join(own)}: polygons replace the land and the coastlines of the package"
             warnings.warn(f"{said}; --show={USUAL} draws them, too", DataWarning, stacklevel=2)
-        # In films a graticule that suits each frame would flicker.
-        drawing = new_globe(shown, resolution, 15.0 if filming else None, texture)
+        drawing = new_globe(texture)
         drawing.title = picture.title
-        for path, shapes, looks in contents:
-            with naming(str(path)):
-                drawing.add_layer(shapes, scale=valued.of if valued.given else None, **looks)
+        for ground in (True, False):  # regions of layers lie on land and water, below all lines and points
+            add_maps(drawing, shown & GROUND if ground else shown - GROUND, resolution, 15.0 if filming else None)
+            for path, shapes, looks in contents:
+                if ground == (len(shapes.polygon_feature) > 0):
+                    with naming(str(path)):
+                        drawing.add_layer(shapes, scale=valued.of if valued.given else None, **looks)
         if table is not None:
             aim = aim.with_middle_of(table.points("authalic"))
             add_points(drawing, table, shown, labels, valued)
@@ -195,18 +199,22 @@ def shown_of(text: str | None, texture: str | None) -> frozenset[str]:
     return frozenset(names) - ({"land"} if text is None and texture else set())
 
 
-def new_globe(shown: frozenset[str], resolution: str, spacing: float | None, texture: str | None) -> Globe:
-    """A globe with an image and maps of the Earth, drawn from the bottom up; the spacing None suits the picture."""
+def new_globe(texture: str | None) -> Globe:
+    """A globe, with an image if there is one."""
     from stereodel.data import blue_marble
     from stereodel.globe import Globe
 
     globe = Globe(latitude="authalic")
     if texture is not None:
         globe.add_raster(blue_marble() if texture == "blue-marble" else texture)
+    return globe
+
+
+def add_maps(globe: Globe, shown: frozenset[str], resolution: str, spacing: float | None) -> None:
+    """Maps of the Earth from the bottom up; a graticule that suited each frame of a film, by None, would flicker."""
     for name in (name for name in MAPS if name in shown):
         given: dict[str, Any] = {"spacing": spacing} if name == "graticule" else {"resolution": resolution}
         getattr(globe, f"add_{name}")(**given)
-    return globe
 
 
 def layer_of(text: str) -> tuple[Path, dict[str, Any]]:
