@@ -237,7 +237,7 @@ def _chunk(kind: bytes, data: bytes) -> bytes:
 
 def _text_chunk(key: bytes, text: str) -> bytes:
     """A text chunk: Latin-1 if possible, which every program reads, otherwise UTF-8."""
-    if max(text) <= "\xff":
+    if all(letter <= "\xff" for letter in text):
         return _chunk(b"tEXt", key + b"\0" + text.encode("latin-1"))
     # Not compressed, no language, no translated keyword.
     return _chunk(b"iTXt", key + b"\0\0\0\0\0" + text.encode())
