@@ -82,7 +82,8 @@ class Seats:
         near = SIDES[:4] * complex(*label.offset) if distance is None else SIDES * max(distance, own + label.halo)
         if distance == 0:
             near = label.size * np.append(0.0, np.outer(SHIFTS, SIDES))
-        far = np.outer(own + np.array(FAR[: len(FAR) * led]), SIDES).ravel()
+        around = np.exp(0.125j * np.pi * np.arange(16)).round(12)  # between the sides, too: more names have room
+        far = np.outer(own + np.array(FAR[: len(FAR) * led]), around).ravel()
         labels = [placed_label(label, (at.real, at.imag)) for at in (*near.tolist(), *far.tolist())]
         if distance == 0:
             labels[: len(near)] = [replace(label, offset=each.offset) for each in labels[: len(near)]]
