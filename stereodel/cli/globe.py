@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import re
 import sys
-import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -81,7 +80,7 @@ def command(
     """
     from stereodel.cli.application import reporting
     from stereodel.drawing import ColorScale
-    from stereodel.io.formats.names import DataWarning, naming
+    from stereodel.io.formats.names import naming, note
     from stereodel.io.reading import shapes_of
 
     layers, styles = [layer_of(text) for text in layer or ()], picture.style or ()
@@ -107,7 +106,7 @@ def command(
         if show is None and (own := [str(path) for path, shapes, _ in contents if len(shapes.polygon_feature)]):
             shown -= {"land", "coastlines"}
             said = f"{', '.join(own)}: polygons replace the land and the coastlines of the package"
-            warnings.warn(f"{said}; --show={USUAL} draws them, too", DataWarning, stacklevel=2)
+            note(f"{said}; --show={USUAL} draws them, too")
         drawing = new_globe(texture)
         drawing.title = picture.title
         for ground in (True, False):  # regions of layers lie on land and water, below all lines and points
