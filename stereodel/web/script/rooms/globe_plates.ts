@@ -62,6 +62,11 @@ abstract class GlobePlate implements Turnable {
     return this.room.switches.isOn("north");
   }
 
+  /** Whether there is a circle at the pointer. */
+  get isPointed(): boolean {
+    return this.pointed !== null && lenses.imageOf(this.map, this.room.shown.pointer)[2] > 0;
+  }
+
   protected change(change: Partial<GlobeState>): void {
     this.motion.stop();
     this.room.set(change, "hand");

@@ -9,6 +9,7 @@ import type { SiteSet } from "../sets.ts";
 import { SiteTable, type Rows } from "../table.ts";
 import { counted } from "../words.ts";
 import { Switches, tellNamed } from "./controls.ts";
+import type { Origin } from "./python.ts";
 import type { Place } from "./sphere_state.ts";
 
 /** The name of sites that are no set of the list: opened, or changed by hand. */
@@ -161,6 +162,13 @@ export abstract class SiteRoom extends TableRoom {
     return exchange.openPoints(file, this.#kind, this.host.messages, (points) =>
       this.#begin({ ...ownSites(points.places, points.names), file: points.file }),
     );
+  }
+
+  /** Where the lines of Python have the sites from. */
+  protected get origin(): Origin {
+    const { set, file } = this.named;
+    const given = this.sets.find(({ name }) => name === set && name === "given");
+    return { set, file: file ?? given?.words ?? "stereodel-sites.csv" };
   }
 
   protected get title(): string {
