@@ -125,7 +125,11 @@ def html(
     later = {name: built(f"{name}.js") for name in ("exchange", "lift")}  # what files take, and the second room
     sources = [_source(code) for code in (script, *(code.decode("utf-8") for code in later.values()))]
     policy = POLICY.format(script=" ".join(sources), style=_source(style))
-    carried = contents(resolution, given, latitude=latitude) | dict(own) | {name: packed(code) for name, code in later.items()}
+    carried = (
+        contents(resolution, given, latitude=latitude)
+        | dict(own)
+        | {name: packed(code) for name, code in later.items()}
+    )
     scripts = [f'<script type="text/plain" id="block-{name}">{text}</script>' for name, text in carried.items()]
     scripts.append(f"<script>{script}</script>")
     page = template()

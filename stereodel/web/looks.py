@@ -1,13 +1,13 @@
 """What the owner of a page says of its places: title, source, values, colours, sizes, isolines, legend.
 
-Colours, sizes and legends are those of pictures, by the same scales, worked out here; `script/rooms/owner.ts` reads them.
+Colours, sizes and legends are those of pictures, by the same scales; `script/rooms/owner.ts` reads them.
 """
 
 from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Final
 
 import numpy as np
@@ -17,7 +17,7 @@ from stereodel._arrays import FloatArray
 from stereodel.curves.ragged import Ragged
 from stereodel.drawing.page.colors import ColorLike, as_color
 from stereodel.drawing.page.scales import ColorScale, SizeScale
-from stereodel.drawing.page.style import MAP_DOT, LengthLike
+from stereodel.drawing.page.style import MAP_DOT, DotStyle, LengthLike, LineStyle
 from stereodel.drawing.page.ticks import MOST_TICKS
 from stereodel.drawing.scene.by_value import DotLooks, ScaleLike
 from stereodel.drawing.scene.legend import LegendEntry
@@ -31,6 +31,9 @@ PIXELS: Final = 96 / 72
 
 BAR, LETTER = 270.0, 7.5
 """Width of a legend's bar, and of a letter of its numbers, in pixels of CSS."""
+
+BY_VALUE: Final = 3.0
+"""Radius in points of dots whose colours are to be told apart, where it is not given."""
 
 SHADES: Final = 64
 """Steps of a bar without classes."""
@@ -58,7 +61,9 @@ class Looks:
     @property
     def said(self) -> list[str]:
         """Names of what is said."""
-        return [name for name, part in vars(self).items() if part is not None and not (isinstance(part, str) and not part)]
+        return [
+            name for name, part in vars(self).items() if part is not None and not (isinstance(part, str) and not part)
+        ]
 
     def blocks(self, lonlat: FloatArray, latitude: Latitude) -> dict[str, str]:
         """Contents of the page by name; none where nothing is said."""
@@ -68,7 +73,7 @@ class Looks:
         lines: dict[str, str] = {}
         if self.size is not None or self.color is not None or self.values is not None:
             given = (self.size, self.color, self.values, self.scale, self.legend, None, self.size_legend)
-            dots = DotLooks.of(len(lonlat), MAP_DOT, *given)
+            dots = DotLooks.of(len(lonlat), replace(MAP_DOT, radius=BY_VALUE), *given)
             colors = np.array([dots.style.color]) if dots.colors is None else dots.colors
             inks, number = np.unique(np.round(colors * 255) / 255, axis=0, return_inverse=True)
             told |= {
@@ -116,17 +121,22 @@ def _entry(title: str, entry: LegendEntry) -> dict[str, Any]:
     if isinstance(entry, ColorScale):
         ticks = [[round(float(entry.place(at)), 4), text] for at, text in _fitting(entry).items()]
         missing = entry.missing_key and [entry.missing_key, _css(entry.missing)]
-        return {"title": title, "bar": [_css(tuple(shade)) for shade in entry.shades(SHADES)], "ticks": ticks, "missing": missing}
+        return {
+            "title": title,
+            "bar": [_css(tuple(shade)) for shade in entry.shades(SHADES)],
+            "ticks": ticks,
+            "missing": missing,
+        }
     if isinstance(entry, SizeScale):
         circles = [[round(float(entry(at)) * PIXELS / 2, 2), text] for at, text in entry.ticks.items()]
         return {"title": title, "circles": circles, "ink": None if entry.color is None else _css(entry.color)}
-    return {"title": title, "ink": _css(entry if not hasattr(entry, "color") else entry.color)}
+    return {"title": title, "ink": _css(entry.color if isinstance(entry, LineStyle | DotStyle) else entry)}
 
 
 def _fitting(scale: ColorScale) -> Mapping[float, str]:
     """As many ticks as have room for their texts below the bar."""
     for most in range(max(MOST_TICKS, len(scale.edges)), 1, -1):
-        ticks = {at: text for at, text in scale.at_most(most).items()}
+        ticks = scale.at_most(most)
         shown = {at: len(text) * LETTER for at, text in ticks.items() if text}
         widths = np.array([*shown.values()])
         if (np.diff(scale.place([*shown])) * BAR >= (widths[1:] + widths[:-1]) / 2 + LETTER).all():

@@ -1,6 +1,6 @@
 /** The page: head and foot, rooms by the fragment of the address, files that are dropped, exports, states. */
 
-import { Contents } from "./contents.ts";
+import { Contents, type Given } from "./contents.ts";
 import { field, find } from "./dom.ts";
 import type { Exchange } from "./exchange.ts";
 import { load } from "./kernel/instance.ts";
@@ -25,13 +25,17 @@ class Page {
   readonly #messages = new Messages(find(document, "#messages"));
   readonly #announcer = new Announcer(find(document, "#status"));
   readonly #rooms = new Map<RoomName, Room>();
+  /** The room of an address that names none, and what its maker calls the page. */
+  readonly #begin: RoomName;
+  readonly #title: string;
   #name: RoomName = "sphere";
   #timer: ReturnType<typeof setTimeout> | undefined;
   #isStep = false;
 
-  constructor(contents: Contents, makers: Makers) {
+  constructor(contents: Contents, makers: Makers, given: Given | null) {
     this.#contents = contents;
     this.#makers = makers;
+    [this.#begin, this.#title] = [given === null ? "sphere" : "globe", given?.owner?.title ?? ""];
     this.#exchange = laterScript(contents, "exchange");
   }
 
@@ -75,7 +79,7 @@ class Page {
   async #follow(): Promise<void> {
     clearTimeout(this.#timer);
     const link = this.#read(
-      () => readLink(location.hash),
+      () => readLink(location.hash || this.#begin),
       () => ({ room: this.#name, values: new LinkValues() }),
     );
     this.#enter(link.room);
@@ -109,7 +113,8 @@ class Page {
     for (const link of document.querySelectorAll<HTMLAnchorElement>(".rooms a")) {
       link.ariaCurrent = link.hash === `#${name}` ? "page" : null;
     }
-    document.title = `${name[0].toUpperCase()}${name.slice(1)} · stereodel`;
+    const title = name === "globe" && this.#title;
+    document.title = title || `${name[0].toUpperCase()}${name.slice(1)} · stereodel`;
   }
 
   /** The address and the Python lines follow the state once the hand rests. */
@@ -230,20 +235,27 @@ function placeMarks(): void {
 
 async function main(): Promise<void> {
   placeMarks();
+  // The drawing alone, in a frame of another page.
+  if (new URLSearchParams(location.search).has("frame")) document.documentElement.classList.add("framed");
   const contents = Contents.ofDocument();
   const loaded = contents.kernel().then(load);
   const stored: Record<string, Float64Array> = {}; // before the rooms are made, so that links can name them
   for (const name of ["gap", "everywhere", "hemisphere", "cities", "airports", "stars", "sheet"])
     stored[name] = await contents.set(name);
   const given = await contents.given();
+  const latitude = await contents.latitude();
   const lift = laterScript<LiftRoomMaker>(contents, "lift");
   await loaded;
   document.body.classList.remove("loading");
-  const page = new Page(contents, {
-    sphere: (host) => sphereRoom(host, stored, given),
-    lift: async (host) => (await lift())(host, stored["sheet"]),
-    globe: globeRoom,
-  });
+  const page = new Page(
+    contents,
+    {
+      sphere: (host) => sphereRoom(host, stored, given),
+      lift: async (host) => (await lift())(host, stored["sheet"]),
+      globe: (host) => globeRoom(host, given, latitude),
+    },
+    given,
+  );
   await page.start();
   document.documentElement.dataset["ready"] = "true";
 }

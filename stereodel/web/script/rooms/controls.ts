@@ -88,6 +88,19 @@ export class Switches {
     this.#inputs.get(name)!.checked = isOn;
   }
 
+  /** The way the room begins. */
+  begin(name: string, isOn: boolean): void {
+    const input = this.#inputs.get(name)!;
+    input.checked = input.defaultChecked = isOn;
+  }
+
+  /** Whether there is anything to switch. */
+  offer(name: string, isThere: boolean): void {
+    const input = this.#inputs.get(name)!;
+    input.disabled = !isThere;
+    input.closest<HTMLElement>(".switch")!.hidden = !isThere && name !== "cells";
+  }
+
   isOn(name: string): boolean {
     return this.#inputs.get(name)!.checked;
   }

@@ -50,6 +50,7 @@ export const PRESETS: Readonly<Record<string, Partial<GlobeState>>> = {
     to: { center: NEW_YORK, radius: 90 },
     before: ABOVE_NEW_YORK,
     after: ABOVE_NEW_YORK,
+    pointer: BEGINNING.pointer,
   },
 };
 
@@ -86,8 +87,7 @@ export function toValues({ lens, sight, pointer, from, to, before, after }: Glob
 }
 
 /** @throws LinkError where a value cannot be read. */
-export function fromValues(values: LinkValues): GlobeState {
-  const begin = BEGINNING;
+export function fromValues(values: LinkValues, begin = BEGINNING): GlobeState {
   const place = (name: string, otherwise: Vector): Vector =>
     values.has(`${name}lon`) || values.has(`${name}lat`)
       ? directionOf(...values.place(name, lonLatOf(otherwise)))
