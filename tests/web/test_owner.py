@@ -152,7 +152,7 @@ def test_pictures_have_title_legend_and_source_and_no_handle(page):
     assert (foot < 100).sum() > 500  # letters of the legend and of the source
 
 
-@pytest.mark.parametrize("size", [(900, 500), (360, 640)])
+@pytest.mark.parametrize("size", [(900, 500), pytest.param((360, 640), marks=pytest.mark.thorough)])
 def test_a_frame_has_the_drawing_alone(towns, visit, tmp_path, size):
     host = tmp_path / "host.html"
     width, height = size
@@ -175,10 +175,11 @@ def test_a_frame_has_the_drawing_alone(towns, visit, tmp_path, size):
 
 
 def test_cells_and_lines_by_value(page):
-    shown = page("#v=1&room=globe&turned=fills,graticule")
+    shown = page("#v=1&room=globe&on=land,fills,north")
     pairs = np.random.default_rng(3).integers(0, len(LONLAT), (500, 2))
     asked = LONLAT[pairs].mean(axis=1)
-    (_, dots), (_, seen) = (seen_in(shown, places) for places in (LONLAT, asked))
+    seen = seen_in(shown, np.vstack([LONLAT, asked]))[1]
+    dots, seen = seen[: len(LONLAT)], seen[len(LONLAT) :]
     radii = np.array(told(**GIVEN)["radii"])
     free = (np.linalg.norm(seen[:, None] - dots, axis=2) - radii).min(axis=1) > 2  # not under a dot
     asked, (x, y) = asked[free], np.rint(seen[free]).astype(int).T
@@ -191,6 +192,7 @@ def test_cells_and_lines_by_value(page):
     assert shown.digest("#globe-plate") != before
 
 
+@pytest.mark.thorough
 def test_the_owner_is_silent_about_other_places(page, tmp_path):
     shown = page()
     (tmp_path / "two.csv").write_text("lon,lat\n100,10\n101,11\n", encoding="utf-8")

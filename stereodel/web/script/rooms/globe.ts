@@ -11,16 +11,16 @@ import type { Painted } from "../panorama.ts";
 import type { Room, RoomHost } from "../room.ts";
 import { angle, directionOf, lonLatOf, type Vector } from "../space.ts";
 import { fitted } from "../view/fit.ts";
-import { capToCap, lensMap, MOST, scaleAt } from "../view/lens.ts";
+import { capToCap, lensMap, scaleAt } from "../view/lens.ts";
 import { View } from "../view/view.ts";
 import { counted, latitude, longitude, scale } from "../words.ts";
 import { Choice, mark, NumberField, PlaceFields, tellNamed } from "./controls.ts";
 import { BubbleGlobe, FisheyeGlobe, FiveViews } from "./globe_plates.ts";
 import { GlobeScene, type Places } from "./globe_scene.ts";
-import { BEGINNING, fromValues, LEAST_RADIUS, MOST_RADIUS, PRESETS, sideView, toValues } from "./globe_state.ts";
+import { BEGINNING, GLOBE, PRESETS, sideView } from "./globe_state.ts";
 import type { GlobeState } from "./globe_state.ts";
 import { framed, legendBlock, legendWords, placeSentence, valueWords, type Owner } from "./owner.ts";
-import { heldValues, TableRoom } from "./site_room.ts";
+import { TableRoom, tableOf, tableValues } from "./site_room.ts";
 
 /** Files that are pictures, by the ends of their names. */
 const PICTURES = /\.(jpe?g|png|webp|avif)$/i;
@@ -28,13 +28,13 @@ const PICTURES = /\.(jpe?g|png|webp|avif)$/i;
 /** Steps of the slider for a magnification of ten times. */
 const SLIDER_TEN = 50;
 
-/** Degrees by which a pointer of a link may be off the one that it names. */
+/** Degrees by which a pointer may be off the one that it was. */
 const UNMOVED = 1e-6;
 
 /** Places up to which their cells are drawn from the beginning. */
 const MOST_WITH_CELLS = 2000;
 
-/** @param given The places that the page was made for. */
+/** @param given The points that the page was made for. */
 export function globeRoom(host: RoomHost, given: Places | null, latitude: Latitude): Room {
   return new GlobeRoom(host, given, latitude);
 }
@@ -45,7 +45,6 @@ export class GlobeRoom extends TableRoom implements Room {
   readonly isFramed = document.documentElement.classList.contains("framed");
   /** What the room begins with: places that are there, fitted. */
   beginning = BEGINNING;
-  readonly #given: Places | null;
   readonly #heading: string;
   #state = BEGINNING;
   #legend!: Plate;
@@ -56,9 +55,9 @@ export class GlobeRoom extends TableRoom implements Room {
   /** The focus, or the middle of the bubble. */
   #focus!: PlaceFields;
   #radii!: { readonly from: NumberField; readonly to: NumberField };
-  /** The cells' voice: the places of a link stand until others are opened. */
-  #isGiven = false;
-  /** The picture that was opened last: a step back is one without it, and the next step forward shows it again. */
+  readonly #given: Places | null;
+  /** The places and the picture that were opened last: a step back is one without, the next one forward shows them. */
+  #opened: Places | null = null;
   #picture: Painted | null = null;
   /** The lens that was announced last. */
   #said = BEGINNING.sight.lens;
@@ -107,30 +106,35 @@ export class GlobeRoom extends TableRoom implements Room {
     const paint = (pen: Pen): void => legendBlock(this.#entries, 0).draw(pen, 0, 0);
     this.#legend = new Plate(legend, paint, guarded);
     for (const button of views) on(button, () => this.#flyToSide(button));
-    if (this.#given === null) this.#write();
-    else this.#show(this.#given, true);
+    this.#show(this.#given);
     void this.#load();
   }
 
-  state(): Record<string, string> {
+  state(isWhole: boolean): Record<string, string> {
     const { places, picture } = this.scene;
+    const { from, to, before, after, ...fisheye } = this.#state;
+    const { lonlat, name, names = null } = places ?? NO_PLACES;
     return {
-      ...toValues(this.#state),
-      ...(places === null || this.#isGiven ? {} : heldValues(places.lonlat, places.name, { name: places.name })),
+      ...GLOBE.write(fisheye.lens === "fisheye" ? fisheye : this.#state),
+      ...(places === null || places === this.#given ? {} : tableValues({ places: lonlat, name, names }, isWhole)),
       ...this.switches.values,
       ...(picture === null ? {} : { picture: picture.name }),
     };
   }
 
   restore(values: LinkValues): void {
-    const lonlat = values.lonlat("sites");
-    if (lonlat !== null) this.#show({ name: values.text("name", "sites"), lonlat }, false);
-    const state = fromValues(values, this.beginning);
+    GLOBE.read(values, BEGINNING); // throws before anything is changed
+    const table = tableOf(values, "lonlat");
+    const again = values.get("file") === this.#opened?.name ? this.#opened : null;
+    this.#show(
+      table === null ? (again ?? this.#given) : { ...table, name: table.name ?? "sites", lonlat: table.places },
+    );
+    const state = GLOBE.read(values, this.beginning);
     this.switches.restore(values);
     if (this.scene.places === null) this.switches.set("cells", false);
     this.#globe.motion.stop();
     const { messages } = this.host;
-    if (this.scene.places?.name !== values.text("file", "")) tellNamed(messages, values, "file");
+    if (again === null) tellNamed(messages, values, "file");
     this.scene.picture = values.text("picture", "") === this.#picture?.name ? this.#picture : null;
     if (this.scene.picture === null) tellNamed(messages, values, "picture");
     this.set(state, "state");
@@ -152,7 +156,7 @@ export class GlobeRoom extends TableRoom implements Room {
     }
     return exchange.openPoints(file, "lonlat", messages, ({ places: lonlat, names }) => {
       guarded(() => {
-        this.#show({ name: file.name, lonlat, names }, false);
+        this.#show({ name: file.name, lonlat, names });
         this.set(this.beginning, "state", true);
       });
     });
@@ -207,31 +211,30 @@ export class GlobeRoom extends TableRoom implements Room {
     document.documentElement.style.setProperty("--legend", legend.hidden ? "0px" : height);
   }
 
-  #show(places: Places, isGiven: boolean): void {
+  /** The room begins with places, if there are any, in sight. */
+  #fit({ lonlat, owner }: Places, hasPlaces: boolean): void {
+    this.switches.begin("cells", hasPlaces && lonlat.length <= 2 * MOST_WITH_CELLS && !owner?.columns);
+    this.switches.begin("tissot", !hasPlaces);
+    const sight = fitted(lonlat);
+    if (sight === null) return void (this.beginning = BEGINNING);
+    const [{ view }, center] = [sight, sight.lens.focus];
+    const [from, to] = [BEGINNING.from, BEGINNING.to].map(({ radius }) => ({ center, radius }));
+    this.beginning = { ...BEGINNING, sight, from, to, before: view, after: view };
+  }
+
+  #show(places: Places | null): void {
+    if (places !== null && places === this.scene.places) return;
     this.scene.show(places);
-    this.#isGiven = isGiven;
-    const { lonlat, names, owner } = places;
-    const count = lonlat.length / 2;
+    if (places !== this.#given) this.#opened = places ?? this.#opened;
+    this.switches.offer("cells", places !== null);
+    for (const part of ["[data-show=places]", "[value=places]"]) find(this.section, part).hidden = places === null;
+    const { lonlat, names, name, owner } = places ?? NO_PLACES;
+    this.#fit(places ?? NO_PLACES, places !== null);
+    this.#tell(places ?? NO_PLACES);
     const columns = owner?.columns ?? [];
-    this.switches.offer("cells", true);
-    this.switches.begin("cells", count <= MOST_WITH_CELLS && columns.length === 0);
-    this.switches.begin("tissot", false);
-    const sight = fitted(lonlat) ?? BEGINNING.sight;
-    const { view } = sight;
-    const from = { ...BEGINNING.from, center: sight.lens.focus };
-    this.beginning = {
-      ...BEGINNING,
-      sight,
-      from,
-      to: { ...BEGINNING.to, ...from, radius: BEGINNING.to.radius },
-      before: view,
-      after: view,
-    };
-    find(this.section, "[value=places]").hidden = false;
-    this.#tell(places);
-    find(this.section, "[data-show=places]").hidden = false;
+    const count = lonlat.length / 2;
     const words = count === 0 ? "No places in" : count === 1 ? "The place of" : `The ${counted(count)} places of`;
-    this.out("places").textContent = `${words} ${places.name}`;
+    this.out("places").textContent = `${words} ${name}`;
     this.out("latitude").textContent = AREAS[this.scene.latitude];
     this.table.show({
       count,
@@ -274,7 +277,7 @@ export class GlobeRoom extends TableRoom implements Room {
 
   /** Another state: the drawings, the words, the controls and the link follow. */
   set(change: Partial<GlobeState>, reason: Reason, isStep = false): void {
-    this.#state = { ...this.#state, ...change };
+    this.#state = GLOBE.settle({ ...this.#state, ...change }, this.#state);
     this.redraw(reason);
     this.#write();
     this.host.changed(isStep);
@@ -284,13 +287,11 @@ export class GlobeRoom extends TableRoom implements Room {
   #magnify(magnification: number): void {
     const { sight } = this.#state;
     this.#globe.motion.stop();
-    const kept = Math.max(1, Math.min(MOST, magnification));
-    this.set({ sight: { ...sight, lens: { ...sight.lens, magnification: kept } } }, "hand");
+    this.set({ sight: { ...sight, lens: { ...sight.lens, magnification } } }, "hand");
   }
 
   #setRadius(which: "from" | "to", radius: number): void {
-    if (!(radius >= LEAST_RADIUS && radius <= MOST_RADIUS)) this.#write();
-    else this.set({ [which]: { ...this.#state[which], radius } }, "state");
+    this.set({ [which]: { ...this.#state[which], radius } }, "state");
   }
 
   #begin(preset: Partial<GlobeState> | undefined): void {
@@ -393,6 +394,8 @@ export class GlobeRoom extends TableRoom implements Room {
     this.#said = sight.lens;
   }
 }
+
+const NO_PLACES: Places = { name: "", lonlat: new Float64Array(0) };
 
 /** What the areas of cells are, by the kind of latitude. */
 const AREAS: Record<Latitude, string> = {
