@@ -2,6 +2,7 @@
 
 import { find } from "../dom.ts";
 import type { IsOn, Switch } from "../drawing/parts.ts";
+import type { Reason } from "../drawing/plate.ts";
 import type { Exchange } from "../exchange.ts";
 import { MOST_SITES, packPlaces, type LinkValues } from "../link.ts";
 import type { RoomHost } from "../room.ts";
@@ -101,11 +102,11 @@ export abstract class SiteRoom extends TableRoom {
 
   /** Other sites are there: a set of the list, or a file. */
   protected abstract begin(named: NamedSites): void;
-  abstract redraw(): void;
+  abstract redraw(reason?: Reason): void;
 
   protected override pointed(site: number | null): void {
     this.lit = site;
-    this.redraw();
+    this.redraw("pointer");
   }
 
   override attach(section: HTMLElement): void {
@@ -177,8 +178,12 @@ export abstract class SiteRoom extends TableRoom {
 
 /** The sites with one of them elsewhere, one more at the end, or, without a place, one less: its number is the next one's. */
 export function edited({ places, names }: NamedSites, site: number, place: Place | null): NamedSites {
-  const [numbers, words] = [[...places], names && [...names]];
-  numbers.splice(2 * site, 2, ...(place ?? []));
-  words?.splice(site, 1, ...(place === null ? [] : [words[site] ?? ""]));
-  return ownSites(Float64Array.from(numbers), words);
+  const isMove = place !== null && 2 * site < places.length;
+  const words = isMove || !names ? names : [...names.slice(0, site), ...(place ? [""] : names.slice(site + 1))];
+  const [begin, end] = [places.subarray(0, 2 * site), places.subarray(2 * site + 2)];
+  const numbers = new Float64Array(begin.length + end.length + (place?.length ?? 0));
+  numbers.set(begin);
+  numbers.set(place ?? [], begin.length);
+  numbers.set(end, numbers.length - end.length);
+  return ownSites(numbers, words);
 }
