@@ -51,12 +51,14 @@ export class SphereSites {
     return [latitude(this.lonlat[2 * site + 1]), longitude(this.lonlat[2 * site])];
   }
 
-  /** How many edges each site has. */
+  /** How many cells lie beside that of each site: across edges, or across the ridges of sites on one great circle. */
   get neighborCounts(): Int32Array {
     if (this.#neighborCounts === null) {
       this.#neighborCounts = new Int32Array(this.count);
-      // As many facets meet at a site as edges do, where there are any.
-      const ends = this.delaunay.dimension === 2 ? this.delaunay.simplices : this.delaunay.edges;
+      const { delaunay } = this;
+      // As many facets meet at a site as edges do, where there are any; on one circle it has the two next to it.
+      const ends =
+        delaunay.dimension === 2 ? delaunay.simplices : delaunay.dimension === 1 ? this.voronoi.ridgePoints : [];
       for (const k of ends) ++this.#neighborCounts[k];
     }
     return this.#neighborCounts;
