@@ -3,6 +3,7 @@
 import { find } from "../dom.ts";
 import type { IsOn, Switch } from "../drawing/parts.ts";
 import type { Exchange } from "../exchange.ts";
+import type { Points } from "../files.ts";
 import { MOST_SITES, packPlaces, type LinkValues } from "../link.ts";
 import type { RoomHost } from "../room.ts";
 import type { SiteSet } from "../sets.ts";
@@ -22,6 +23,8 @@ export interface NamedSites {
   readonly names: readonly string[] | null;
   readonly set: string;
   readonly file: string | null;
+  /** Columns of numbers of that file. */
+  readonly values?: ReadonlyMap<string, Float64Array>;
 }
 
 /** Sites of no file, of a link or changed by hand. */
@@ -157,10 +160,14 @@ export abstract class SiteRoom extends TableRoom {
     this.table.show({ ...rows, names: named.names });
   }
 
-  open(file: File, exchange: Exchange): Promise<void> {
-    return exchange.openPoints(file, this.#kind, this.host.messages, (points) =>
-      this.#begin({ ...ownSites(points.places, points.names), file: points.file }),
-    );
+  open(file: File, exchange: Exchange, columns?: [string, string]): Promise<void> {
+    const opened = ({ places, names, values, file }: Points): void =>
+      this.#begin({ ...ownSites(places, names), values, file });
+    return exchange.openPoints(file, this.#kind, this.host, opened, columns);
+  }
+
+  csv(exchange: Exchange): string {
+    return exchange.csv(this.#kind === "plane" ? ["x", "y"] : ["lon", "lat"], this.named);
   }
 
   protected get title(): string {
