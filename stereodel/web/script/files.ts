@@ -136,7 +136,7 @@ function decoded(bytes: Uint8Array, file: string): { text: string; guess: string
   const head = String.fromCharCode(...bytes.subarray(0, 64));
   const others = OTHERS.find(([, ending]) => ending.test(file)) ?? OTHERS.find(([, , mark]) => mark.test(head));
   const typed = /^[\w.-]+$/.test(file) ? file : `"${file}"`;
-  const advice = `type: stereodel web ${typed} --open`;
+  const advice = `type: stereodel web ${typed}`;
   if (others !== undefined) throw new TableError(`this is ${others[0]}; to make a page of it, ${advice}`);
   const utf16 = /^(\xff\xfe|[^\0]\0)/.test(head) ? "utf-16le" : /^(\xfe\xff|\0)/.test(head) ? "utf-16be" : null;
   try {
