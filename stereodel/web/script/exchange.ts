@@ -9,6 +9,7 @@ import { isPicture, openPoints } from "./files.ts";
 import { geojson } from "./geojson.ts";
 import { openPanorama } from "./panorama.ts";
 import { globePython, liftPython, spherePython } from "./rooms/python.ts";
+import { savedPage } from "./saved_page.ts";
 import { writeTable } from "./tables/delimited.ts";
 
 /** Saves a file under the reader's downloads. */
@@ -47,6 +48,7 @@ const exchange = {
   liftPython,
   openPanorama,
   openPoints,
+  savedPage,
   sheetPng,
   sheetSvg,
   spherePython,

@@ -10,7 +10,7 @@ import type { LabelStyle } from "../drawing/styles.ts";
 import { MoebiusMap, Rotation } from "../kernel/api.ts";
 import { angle, cross, directionOf, lonLatOf, row, type Vector } from "../space.ts";
 import { arrowed, grabBall, type Turnable } from "../view/ball_hand.ts";
-import { distance, follow, type Gestures, type Hold, type Pinch, type Place } from "../view/hand.ts";
+import { distance, follow, isCommand, type Gestures, type Hold, type Pinch, type Place } from "../view/hand.ts";
 import * as lenses from "../view/lens.ts";
 import type { Cap, Lens, Sight } from "../view/lens.ts";
 import { Motion } from "../view/motion.ts";
@@ -18,7 +18,7 @@ import { pointUnder, type View } from "../view/view.ts";
 import { fixed, scale } from "../words.ts";
 import type { GlobeRoom } from "./globe.ts";
 import { CIRCLE_RADIUS, STEP } from "./globe_scene.ts";
-import { BEGINNING, LEAST_RADIUS, MOST_RADIUS, sideView, type GlobeState } from "./globe_state.ts";
+import { BEGINNING, sideView, type GlobeState } from "./globe_state.ts";
 
 const LABEL: LabelStyle = { ink: "accent-text", halo: "halo", size: 14 };
 const LETTER: LabelStyle = { ...LABEL, size: 15, italic: true };
@@ -159,7 +159,7 @@ export class FisheyeGlobe extends GlobePlate {
       key: (event) => {
         const view = arrowed(this, event);
         const sight = view === null ? this.#keyed(event.key) : { ...this.#sight, view };
-        if (sight === null || event.ctrlKey) return false;
+        if (sight === null || isCommand(event)) return false;
         this.change({ sight });
         return true;
       },
@@ -198,7 +198,7 @@ export class FisheyeGlobe extends GlobePlate {
   #keyed(key: string): Sight | null {
     const { lens, view } = this.#sight;
     const sized = (factor: number): Sight => ({
-      lens: { ...lens, magnification: Math.max(1, Math.min(lenses.MOST, lens.magnification * factor)) },
+      lens: { ...lens, magnification: lens.magnification * factor },
       view,
     });
     if (key === "+" || key === "=") return sized(KEY_FACTOR);
@@ -260,7 +260,7 @@ export class BubbleGlobe extends GlobePlate {
   }
 
   #setCap(cap: Cap): void {
-    this.change({ [this.#end]: { ...cap, radius: Math.max(LEAST_RADIUS, Math.min(MOST_RADIUS, cap.radius)) } });
+    this.change({ [this.#end]: cap });
   }
 
   protected paintHeld(pen: Pen): void {
