@@ -39,6 +39,8 @@ export interface Places {
   readonly lonlat: Float64Array;
   /** Of the places, where their file has such a column. */
   readonly names?: readonly string[] | null;
+  /** Its columns of numbers. */
+  readonly values?: ReadonlyMap<string, Float64Array>;
 }
 
 /** Places are drawn at their latitudes as they stand; their cells are those of the sphere that `latitude` names. */

@@ -4,6 +4,7 @@ import { find } from "../dom.ts";
 import type { IsOn, Switch } from "../drawing/parts.ts";
 import type { Reason } from "../drawing/plate.ts";
 import type { Exchange } from "../exchange.ts";
+import type { Points } from "../files.ts";
 import type { Place } from "../fields.ts";
 import { LETTERS, MOST_SITES, packPlaces, type LinkValues } from "../link.ts";
 import type { RoomHost } from "../room.ts";
@@ -29,6 +30,8 @@ export interface Table {
 export interface NamedSites extends Table {
   readonly set: string;
   readonly file: string | null;
+  /** Columns of numbers of that file. */
+  readonly values?: ReadonlyMap<string, Float64Array>;
 }
 
 /** Sites of no file, of a link or changed by hand. */
@@ -178,10 +181,14 @@ export abstract class SiteRoom extends TableRoom {
     this.table.show({ ...rows, names: named.names });
   }
 
-  open(file: File, exchange: Exchange): Promise<void> {
-    return exchange.openPoints(file, this.#kind, this.host.messages, (points) =>
-      this.#begin({ ...ownSites({ ...points, name: points.file }), file: points.file }),
-    );
+  open(file: File, exchange: Exchange, columns?: [string, string]): Promise<void> {
+    const opened = ({ places, names, values, file }: Points): void =>
+      this.#begin({ ...ownSites({ places, names, name: file }), values, file });
+    return exchange.openPoints(file, this.#kind, this.host, opened, columns);
+  }
+
+  csv(exchange: Exchange): string {
+    return exchange.csv(this.#kind === "plane" ? ["x", "y"] : ["lon", "lat"], this.named);
   }
 
   protected get title(): string {

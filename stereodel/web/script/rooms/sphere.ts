@@ -554,7 +554,10 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
     };
   }
 
+  /** Of a step of the insertion, its triangles. */
   geojson(exchange: Exchange): string {
+    const { step } = this.#state;
+    if (step !== null) return exchange.geojson(new SphereSites(this.#sites.lonlat.subarray(0, 2 * step)).triangles());
     return exchange.geojson(regionsOf(sphereParts(this.#scene(false)), this.isOn));
   }
 

@@ -81,7 +81,7 @@ interface Picture extends Surface {
   opening(path: Path, insertion: Insertion, isThere: (k: number) => boolean): void;
 }
 
-/** What both pictures show. Python and GeoJSON have the diagram of all sites, whatever is drawn of it, at any step. */
+/** What both pictures show. Python has the diagram of all sites, whatever is drawn of it, at any step, and GeoJSON else. */
 export function sphereParts({ sites, seeing, bubble, aim, held, step }: SphereScene): Part<Picture>[] {
   const isThere = step === "done";
   const outline = sites.outline(seeing);

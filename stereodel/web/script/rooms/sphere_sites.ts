@@ -222,7 +222,7 @@ export function withoutTriangles(sites: SphereSites): string | null {
   if (dimension === 0) return "All sites lie at one place: its cell is the whole sphere, and there are no triangles.";
   return sites.count === 2
     ? "Two sites: each has half of the sphere, and there are no triangles."
-    : "All sites lie on one circle: there are no triangles.";
+    : "All sites lie on one great circle: there are no triangles.";
 }
 
 /** What the circle round a triangle is on the sphere and in the plane. */
@@ -244,7 +244,7 @@ export function ofBubble(bubble: Bubble, sites: SphereSites, twin: Twin): string
 /** What inserting a site does. */
 export function ofStep(step: Insertion | null, site: number): string {
   if (step === null)
-    return `Site _${site + 1}_ is one of the first: all before it lie on one circle and have no facets.`;
+    return `Site _${site + 1}_ is one of the first: all before it lie on one great circle and have no facets.`;
   if (step.seeing.length === 0)
     return `Site _${site + 1}_ sees no facet: it lies exactly on one before it, or on their bubbles.`;
   return (
