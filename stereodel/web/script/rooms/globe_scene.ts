@@ -41,6 +41,8 @@ export interface Places {
   readonly lonlat: Float64Array;
   /** Of the places, where their file has such a column. */
   readonly names?: readonly string[] | null;
+  /** Its columns of numbers. */
+  readonly values?: ReadonlyMap<string, Float64Array>;
   /** What their owner says of them, and lines of equal values. */
   readonly owner?: Owner | null;
   readonly isolines?: Rings | null;
