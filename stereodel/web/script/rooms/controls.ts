@@ -1,10 +1,10 @@
 /** Native inputs of a room: numbers in fields, switches, sets. */
 
 import { field, find } from "../dom.ts";
+import type { Place } from "../fields.ts";
 import type { LinkValues } from "../link.ts";
 import type { Messages } from "../messages.ts";
 import { counted } from "../words.ts";
-import type { Place } from "./sphere_state.ts";
 
 /** While the reader types, or at the end. */
 type When = "input" | "change";
@@ -84,24 +84,35 @@ export class Switches {
     for (const [name, input] of this.#inputs) input.addEventListener("change", () => changed(name));
   }
 
+  /** Is on, or off, where a link says nothing of it. */
+  begin(name: string, isOn: boolean): void {
+    Object.assign(this.#inputs.get(name)!, { checked: isOn, defaultChecked: isOn });
+  }
+
   set(name: string, isOn: boolean): void {
     this.#inputs.get(name)!.checked = isOn;
+  }
+
+  /** Whether there is anything to switch. */
+  offer(name: string, isThere: boolean): void {
+    const input = this.#inputs.get(name)!;
+    input.disabled = !isThere;
+    input.closest<HTMLElement>(".switch")!.hidden = !isThere && name !== "cells";
   }
 
   isOn(name: string): boolean {
     return this.#inputs.get(name)!.checked;
   }
 
-  /** What a link says: names of those that differ from the way the room begins. */
+  /** What a link says: names of those that are on. */
   get values(): Record<string, string> {
-    const turned = [...this.#inputs].filter(([, { checked, defaultChecked }]) => checked !== defaultChecked);
-    return turned.length === 0 ? {} : { turned: turned.map(([name]) => name).join(",") };
+    return { on: [...this.#inputs.keys()].filter((name) => this.isOn(name)).join(",") };
   }
 
-  /** Turns those of a link, and all others back. */
+  /** As a link says, or as the room begins. */
   restore(values: LinkValues): void {
-    const turned = values.text("turned", "").split(",");
-    for (const [name, input] of this.#inputs) input.checked = input.defaultChecked !== turned.includes(name);
+    const on = values.get("on")?.split(",");
+    for (const [name, input] of this.#inputs) input.checked = on?.includes(name) ?? input.defaultChecked;
   }
 }
 

@@ -10,7 +10,7 @@ import type { LabelStyle } from "../drawing/styles.ts";
 import { MoebiusMap, Rotation } from "../kernel/api.ts";
 import { angle, cross, directionOf, lonLatOf, row, type Vector } from "../space.ts";
 import { arrowed, grabBall, type Turnable } from "../view/ball_hand.ts";
-import { distance, follow, type Gestures, type Hold, type Pinch, type Place } from "../view/hand.ts";
+import { distance, follow, isCommand, type Gestures, type Hold, type Pinch, type Place } from "../view/hand.ts";
 import * as lenses from "../view/lens.ts";
 import type { Cap, Lens, Sight } from "../view/lens.ts";
 import { Motion } from "../view/motion.ts";
@@ -18,7 +18,10 @@ import { pointUnder, type View } from "../view/view.ts";
 import { fixed, scale } from "../words.ts";
 import type { GlobeRoom } from "./globe.ts";
 import { CIRCLE_RADIUS, STEP } from "./globe_scene.ts";
-import { BEGINNING, LEAST_RADIUS, MOST_RADIUS, sideView, type GlobeState } from "./globe_state.ts";
+import { BEGINNING, sideView, type GlobeState } from "./globe_state.ts";
+
+/** Pixels beyond a dot within which the pointer is on it. */
+const REACHED = 8;
 
 const LABEL: LabelStyle = { ink: "accent-text", halo: "halo", size: 14 };
 const LETTER: LabelStyle = { ...LABEL, size: 15, italic: true };
@@ -36,6 +39,8 @@ abstract class GlobePlate implements Turnable {
       pen.draw("limb", (path) => traceDisc(path, this.disc));
     };
     const overlay = (pen: Pen): void => {
+      drawLayers(pen, this.disc, this.map, [room.scene.held]);
+      if (room.isFramed) return;
       this.#paintPointer(pen);
       this.paintHeld(pen);
     };
@@ -82,8 +87,12 @@ abstract class GlobePlate implements Turnable {
 
   /** The circle goes to the pointer. */
   protected point(at: Place | null): void {
-    if (at === null || !this.isOnBall(at)) return;
-    this.room.set({ pointer: lenses.sourceOf(this.map, this.under(at)) }, "pointer");
+    if (at === null || !this.isOnBall(at)) return this.room.hover(null);
+    const pointer = lenses.sourceOf(this.map, this.under(at));
+    this.room.set({ pointer }, "pointer");
+    const near = this.room.scene.nearest(pointer);
+    const isOver = near && distance(at, placeOf(this.disc, lenses.imageOf(this.map, near.at))) <= near.radius + REACHED;
+    this.room.hover(isOver ? near.place : null);
   }
 
   /** The circle at the pointer; its scale stands below it, or above it near the lower limb. */
@@ -110,7 +119,10 @@ const KEY_FACTOR = 1.25;
 
 /** The large globe through the fisheye: turned, magnified and focused by hand. */
 export class FisheyeGlobe extends GlobePlate {
-  protected readonly pointed = "scale";
+  /** Over places of the reader's own, nothing before anybody has pointed. */
+  protected get pointed(): "scale" | null {
+    return this.room.scene.places === null || this.room.hasPointed ? "scale" : null;
+  }
 
   get view(): View {
     return this.#sight.view;
@@ -164,7 +176,7 @@ export class FisheyeGlobe extends GlobePlate {
       key: (event) => {
         const view = arrowed(this, event);
         const sight = view === null ? this.#keyed(event.key) : { ...this.#sight, view };
-        if (sight === null || event.ctrlKey) return false;
+        if (sight === null || isCommand(event)) return false;
         this.change({ sight });
         return true;
       },
@@ -203,12 +215,12 @@ export class FisheyeGlobe extends GlobePlate {
   #keyed(key: string): Sight | null {
     const { lens, view } = this.#sight;
     const sized = (factor: number): Sight => ({
-      lens: { ...lens, magnification: Math.max(1, Math.min(lenses.MOST, lens.magnification * factor)) },
+      lens: { ...lens, magnification: lens.magnification * factor },
       view,
     });
     if (key === "+" || key === "=") return sized(KEY_FACTOR);
     if (key === "-") return sized(1 / KEY_FACTOR);
-    if (key === "0") return BEGINNING.sight;
+    if (key === "0") return this.room.beginning.sight;
     return key === "f" || key === "F" ? this.#focusedAt([0, 0, 1]) : null;
   }
 }
@@ -218,9 +230,6 @@ const TOWARD = [0.8, -1] as const;
 
 /** Points of a rim that are tried for the handle. */
 const TRIED = 180;
-
-/** Degrees by which a pointer of a link may be off the one that it names. */
-const UNMOVED = 1e-6;
 
 /** The bubble that is taken, or the one that it fills; rims and insides are dragged in either. */
 export class BubbleGlobe extends GlobePlate {
@@ -242,7 +251,7 @@ export class BubbleGlobe extends GlobePlate {
 
   /** Nothing before anybody has pointed. */
   protected get pointed(): "scale" | "circle" | null {
-    if (angle(this.room.shown.pointer, BEGINNING.pointer) <= UNMOVED) return null;
+    if (!this.room.hasPointed) return null;
     return this.#which === "after" ? "scale" : "circle";
   }
 
@@ -265,7 +274,7 @@ export class BubbleGlobe extends GlobePlate {
   }
 
   #setCap(cap: Cap): void {
-    this.change({ [this.#end]: { ...cap, radius: Math.max(LEAST_RADIUS, Math.min(MOST_RADIUS, cap.radius)) } });
+    this.change({ [this.#end]: cap });
   }
 
   protected paintHeld(pen: Pen): void {

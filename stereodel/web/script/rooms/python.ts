@@ -79,7 +79,7 @@ export function liftPython(scene: LiftScene, picture: LiftPicture, origin: Origi
       sites.places,
       `np.loadtxt(${JSON.stringify(origin.file)}, delimiter=",", skiprows=1, usecols=(0, 1))`,
     ),
-    corners: sides ? `np.array([[-1, -1], [1, 1]]) * [${numbers(box)}] / 2` : "points.min(axis=0), points.max(axis=0)",
+    corners: box ? `np.array([[-1, -1], [1, 1]]) * [${numbers(box)}] / 2` : "points.min(axis=0), points.max(axis=0)",
     view: numbers(view.middle),
     width: picture.width,
     height,
