@@ -1,6 +1,6 @@
 /** Drawings of the Globe room: the Earth through a fisheye, two globes with bubbles, and the fisheye from five sides. */
 
-import { arcThrough, circle, pointAt, traceCap, type Circle } from "../drawing/arcs.ts";
+import { arcThrough, circle, pointAt, traceCap, traceCircle, type Circle } from "../drawing/arcs.ts";
 import { arcLayer, circlePoints, drawLayers, graticuleArcs, placeOf, regionLayer } from "../drawing/ball.ts";
 import type { Layer } from "../drawing/ball.ts";
 import { drawParts } from "../drawing/parts.ts";
@@ -104,7 +104,8 @@ abstract class GlobePlate implements Turnable {
     const rim = arcThrough(images, 0, 1, 2, true);
     const at = lenses.imageOf(map, pointer);
     if (rim === null || at[2] <= 0) return;
-    pen.draw("bubble", (path) => traceCap(path, disc, rim));
+    pen.draw("seen", (path) => traceCap(path, disc, rim));
+    pen.draw("bubble-open", (path) => traceCircle(path, disc, rim));
     if (pointed === "circle") return;
     const [x, y] = placeOf(disc, at);
     const away = rim.r * disc.r;
@@ -280,7 +281,8 @@ export class BubbleGlobe extends GlobePlate {
   protected paintHeld(pen: Pen): void {
     const { disc } = this;
     const rim = this.#rim;
-    pen.draw(this.#which === "before" ? "bubble" : "bubble-open", (path) => traceCap(path, disc, rim));
+    if (this.#which === "before") pen.draw("seen", (path) => traceCap(path, disc, rim));
+    pen.draw("bubble-open", (path) => traceCircle(path, disc, rim));
     const handle = this.#handle();
     if (handle === null) return;
     const [x, y] = placeOf(disc, handle);
