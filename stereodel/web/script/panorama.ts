@@ -2,8 +2,10 @@
 
 import { make } from "./dom.ts";
 import type { Disc, Pen } from "./drawing/pen.ts";
+import type { LabelStyle } from "./drawing/styles.ts";
 import { Raster, type MoebiusMap } from "./kernel/api.ts";
 import type { Messages } from "./messages.ts";
+import { lonLatOf, type Vector } from "./space.ts";
 
 /** Widest picture that is kept, pixels; larger ones are made smaller. */
 const WIDEST = 4096;
@@ -11,6 +13,13 @@ const WIDEST = 4096;
 /** Pixels of the kernel's picture for one of the screen, at rest and, without a graphics processor, while it moves. */
 const SHARP = 2;
 const ROUGH = 0.25;
+
+/** Tones of a picture along its equator. */
+const TONES = 64;
+
+/** Brightness of a tone, of 255, from which on letters are dark; and how much its halo is darker or lighter. */
+const BRIGHT = 120;
+const CONTRAST = 0.45;
 
 /** How far width and height may be from two to one. */
 const RATIO_ERROR = 0.01;
@@ -29,7 +38,11 @@ export async function openPanorama(file: File, messages: Messages, opened: (pict
   context.drawImage(bitmap, 0, 0, canvas.width, canvas.height);
   bitmap.close();
   messages.close();
-  opened(new Painted(file.name, context.getImageData(0, 0, canvas.width, canvas.height)));
+  const tones = make("canvas", { width: TONES, height: TONES / 2 }).getContext("2d")!;
+  tones.imageSmoothingQuality = "high";
+  tones.drawImage(canvas, 0, 0, TONES, TONES / 2);
+  const [pixels, tone] = [context, tones].map((each) => each.getImageData(0, 0, each.canvas.width, each.canvas.height));
+  opened(new Painted(file.name, pixels, tone));
 }
 
 export class Painted {
@@ -37,10 +50,31 @@ export class Painted {
   readonly #raster: Raster;
   readonly #shader: Shader | null;
 
-  constructor(name: string, pixels: ImageData) {
+  readonly #tones: ImageData;
+
+  constructor(name: string, pixels: ImageData, tones: ImageData) {
+    this.#tones = tones;
     this.name = name;
     this.#raster = new Raster(pixels.data, pixels.width);
     this.#shader = shaderOf(pixels);
+  }
+
+  /** Inks of a label at a direction: a halo of the picture's tone there, letters that are read on it. */
+  letters(direction: Vector, isBlack: boolean): Pick<LabelStyle, "ink" | "halo"> {
+    const [lon, lat] = lonLatOf(direction);
+    const at = (part: number, count: number): number => Math.max(0, Math.min(count - 1, Math.floor(part * count)));
+    const pixel = at((90 - lat) / 180, TONES / 2) * TONES + at((lon + 180) / 360, TONES);
+    const [red, green, blue] = this.#tones.data.subarray(4 * pixel);
+    const isBright = 0.3 * red + 0.59 * green + 0.11 * blue > BRIGHT;
+    const tone = [red, green, blue].map((level) => level + CONTRAST * ((isBright ? 255 : 0) - level));
+    const ink = isBright
+      ? isBlack
+        ? "rgb(27, 27, 27)"
+        : "rgb(171, 67, 0)"
+      : isBlack
+        ? "rgb(255, 255, 255)"
+        : "rgb(245, 160, 98)";
+    return { ink, halo: `rgb(${tone.map(Math.round).join(", ")})` };
   }
 
   draw(pen: Pen, disc: Disc, map: MoebiusMap, isMoving: boolean): void {

@@ -92,17 +92,23 @@ export class Switches {
     return this.#inputs.get(name)!.checked;
   }
 
-  /** What a link says: names of those that differ from the way the room begins. */
+  /** What a link says: names of those that differ from what links take for granted. */
   get values(): Record<string, string> {
-    const turned = [...this.#inputs].filter(([, { checked, defaultChecked }]) => checked !== defaultChecked);
+    const turned = [...this.#inputs].filter(([, input]) => input.checked !== isOnInLinks(input));
     return turned.length === 0 ? {} : { turned: turned.map(([name]) => name).join(",") };
   }
 
-  /** Turns those of a link, and all others back. */
+  /** Turns those of a link; without one all are as the room begins. */
   restore(values: LinkValues): void {
     const turned = values.text("turned", "").split(",");
-    for (const [name, input] of this.#inputs) input.checked = input.defaultChecked !== turned.includes(name);
+    for (const [name, input] of this.#inputs)
+      input.checked = values.size === 0 ? input.defaultChecked : isOnInLinks(input) !== turned.includes(name);
   }
+}
+
+/** Rooms may begin otherwise than links take for granted, so that older ones keep their meaning. */
+function isOnInLinks({ dataset, defaultChecked }: HTMLInputElement): boolean {
+  return dataset["links"] === undefined ? defaultChecked : dataset["links"] === "on";
 }
 
 /** What a link may name and does not hold: a file of sites, a picture. */

@@ -164,6 +164,7 @@ export class GlobeRoom extends TableRoom implements Room {
     this.#isGiven = isGiven;
     field(this.section, "cells").disabled = false;
     const { lonlat, names } = places;
+    this.hasNames = Boolean(names);
     const count = lonlat.length / 2;
     find(this.section, "[data-show=places]").hidden = false;
     const words = count === 0 ? "No places in" : count === 1 ? "The place of" : `The ${counted(count)} places of`;

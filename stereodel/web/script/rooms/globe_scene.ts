@@ -3,13 +3,15 @@
 import type { Contents } from "../contents.ts";
 import * as balls from "../drawing/ball.ts";
 import type { Layer } from "../drawing/ball.ts";
+import { drawNames, Ground, type Box, type Standing } from "../drawing/names.ts";
 import { cellOf, type Part, type Region } from "../drawing/parts.ts";
 import type { Disc } from "../drawing/pen.ts";
+import type { LabelStyle } from "../drawing/styles.ts";
 import { lonlatToXyz, SphericalVoronoi, xyzToLonlat, type Latitude, type MoebiusMap } from "../kernel/api.ts";
 import { tableLonlat } from "../kernel/coordinates.ts";
 import { lazy } from "../kernel/lazy.ts";
 import type { Painted } from "../panorama.ts";
-import { directionOf } from "../space.ts";
+import { directionOf, row, type Vector } from "../space.ts";
 
 /** The radius of the equal circles on Earth, kilometres, and in degrees of a sphere with the Earth's mean radius. */
 const CIRCLE_KILOMETRES = 150;
@@ -30,7 +32,12 @@ interface Ball {
   readonly disc: Disc;
   readonly map: MoebiusMap;
   readonly isMoving: boolean;
+  readonly standing: Standing;
+  /** Where names would lie on a handle or on its word. */
+  readonly taken: readonly Box[];
 }
+
+const NAME: LabelStyle = { ink: "ink", halo: "halo", size: 13 };
 
 /** The reader's own places. */
 export interface Places {
@@ -69,6 +76,11 @@ export class GlobeScene {
   /** The area of a place's cell, square kilometres. */
   area(place: number): number {
     return this.#made?.areas[place] ?? 0;
+  }
+
+  /** Inks of labels, at a direction of the sphere: on a picture they are made for its tone there. */
+  lettersAt(direction: Vector, style: LabelStyle): LabelStyle {
+    return this.picture === null ? style : { ...style, ...this.picture.letters(direction, style.ink === "ink") };
   }
 
   get parts(): Part<Ball>[] {
@@ -110,6 +122,18 @@ export class GlobeScene {
       { isThere: hasPlaces, ...drawn(() => this.#made!.dots), python: { globe: "globe.add_points(places)" } },
       { isThere: hasPlaces && lit !== null, ...held },
       { draw: (pen, { disc }) => pen.shade(disc) },
+      {
+        layer: "names",
+        isThere: hasPlaces && Boolean(places?.names),
+        draw: (pen, { disc, map, isMoving, standing, taken }) => {
+          const { directions } = this.#made!.dots;
+          const ground = new Ground(pen, disc, taken);
+          const named = { names: places!.names!, standing, isMoving };
+          drawNames(pen, ground, disc, named, map.apply(directions), (k) =>
+            this.lettersAt(row(directions.xyz, k), NAME),
+          );
+        },
+      },
     ];
   }
 }
@@ -130,7 +154,7 @@ function madeOf({ lonlat }: Places, latitude: Latitude): Made {
   const made: Made = lazy({
     dots: () => balls.dotLayer("site", lonlatToXyz(lonlat)),
     voronoi: () => SphericalVoronoi.fromLonlat(lonlat, latitude),
-    cells: () => balls.arcLayer("voronoi", drawn(balls.ridgeArcs(made.voronoi))),
+    cells: () => balls.arcLayer("cell", drawn(balls.ridgeArcs(made.voronoi))),
     areas: () => made.voronoi.areas(OF_EQUAL_AREA),
     regions: () =>
       Array.from({ length: lonlat.length / 2 }, (_, site) => {

@@ -3,7 +3,8 @@
 import type { Given } from "../contents.ts";
 import { find, say } from "../dom.ts";
 import { placeOf } from "../drawing/ball.ts";
-import { regionsOf } from "../drawing/parts.ts";
+import type { Named } from "../drawing/names.ts";
+import { regionsOf, type Switch } from "../drawing/parts.ts";
 import type { Pen, Sheet } from "../drawing/pen.ts";
 import { Plate, type Reason } from "../drawing/plate.ts";
 import type { Exchange } from "../exchange.ts";
@@ -19,7 +20,8 @@ import { counted, latitude, longitude, ofFacets, wrap } from "../words.ts";
 import { Choice, PlaceFields, siteForm, stepControl } from "./controls.ts";
 import { edited, SiteRoom, type NamedSites } from "./site_room.ts";
 import { ballLayers, drawBall, drawPlane, sphereParts, type SphereScene, type Step } from "./sphere_drawing.ts";
-import { ofBubble, ofDuplicates, ofSite, ofStep, SphereSites, withoutTriangles, type Bubble } from "./sphere_sites.ts";
+import { ofBubble, ofDuplicates, ofPictures, ofSite, ofStep, SphereSites, withoutTriangles } from "./sphere_sites.ts";
+import type { Bubble } from "./sphere_sites.ts";
 import { directionAt, fromValues, handPlace, toValues, VIEW, viewPlace } from "./sphere_state.ts";
 import type { Click, Place, SphereState } from "./sphere_state.ts";
 import { planeFrame, reachAround, Twin, type PlaneFrame } from "./twin.ts";
@@ -74,6 +76,7 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
   // What follows from the state; made anew when it changes.
   #sites = new SphereSites(new Float64Array(0));
   #layers = ballLayers(this.#sites);
+  readonly #standing: Named["standing"] = new Map();
   #twin = new Twin([0, 0, 1]);
   #seeing: Uint8Array = new Uint8Array(0);
   #step: Step | "done" = "done";
@@ -199,6 +202,7 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
     return {
       sites: this.#sites,
       layers: this.#layers,
+      named: this.named.names && { names: this.named.names, standing: this.#standing, isMoving },
       view: this.view,
       twin: this.#twin,
       seeing: this.#seeing,
@@ -218,6 +222,16 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
     say(this.out("sentence"), words.filter(Boolean).join(" "));
     say(this.out("sum"), alone === null ? ofFacets(sites.facetCount - this.#seeingCount, this.#seeingCount, SUM) : "");
     this.out("sum").hidden = step !== "done" || alone !== null;
+    const isDrawn = (layer: Switch): boolean => alone === null && step === "done" && this.isOn(layer);
+    const steps = step !== "done" && step.insertion !== null;
+    const [onBall, inPlane] = ofPictures({
+      triangles: steps || isDrawn("triangles"),
+      cells: isDrawn("cells") || (sites.delaunay.dimension === 1 && step === "done" && this.isOn("cells")),
+      seeing: isDrawn("seeing") && this.#seeingCount > 0,
+      steps,
+    });
+    say(this.out("on-ball"), onBall);
+    say(this.out("in-plane"), inPlane);
     const side = dot(this.#twin.pole, directionAt(this.#state.view)) < 0 ? "behind" : "in front";
     say(this.out("pole-side"), `*P*, the pole of projection, lies ${side}.`);
     this.#showStep(this.#state.step, sites.count);

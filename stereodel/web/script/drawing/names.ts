@@ -1,0 +1,165 @@
+/** Names beside dots, none over another: set one after the other, each on the first side where there is room. */
+
+import { make } from "../dom.ts";
+import type { Disc, Pen, Point } from "./pen.ts";
+import { SERIF, type LabelStyle } from "./styles.ts";
+
+/** Right and down of a dot, as signs. */
+type Side = readonly [number, number];
+
+/** In the order in which they are tried. */
+const SIDES: readonly Side[] = ["1 -1", "1 1", "-1 -1", "-1 1", "1 0", "-1 0", "0 -1", "0 1"].map((side) => {
+  const [u, v] = side.split(" ").map(Number);
+  return [u, v];
+});
+
+/** Left, top, right and bottom. */
+export type Box = readonly [number, number, number, number];
+
+/** Side of the squares of which it is known who takes them, pixels. */
+const SQUARE = 3;
+
+/** Above and below the baseline, in sizes of the type. */
+const ASCENT = 0.7;
+const DESCENT = 0.22;
+
+/** Distance of a name from the middle of its dot, pixels; off the axes it is nearer, as the corner of its box is bare. */
+const AWAY = 6;
+const NEARER = 0.6;
+
+/** Free on either side of a name, pixels. */
+const APART = 4;
+
+/** Letters of the longest name. */
+const LONGEST = 40;
+
+/** Names that are tried in a frame while the globe moves, beyond those that stood before, and at rest. */
+const TRIED_MOVING = 150;
+const TRIED = 2000;
+
+/** Square pixels of a ball for one name at the least: more would hide what they name. */
+const ROOM = 3000;
+
+/** Height above the picture, ball radii, below which a name would be cut by the limb. */
+const LEAST_HEIGHT = 0.12;
+
+/** Square pixels of the ground for one dot below which dots are too many, and too small, to be kept clear of names. */
+const CROWD = 150;
+
+let context: CanvasRenderingContext2D | null = null;
+
+/** Of a label, pixels. */
+export function widthOf(text: string, { size, italic }: LabelStyle): number {
+  context ??= make("canvas").getContext("2d")!;
+  context.font = `${italic ? "italic " : ""}${size}px ${SERIF}`;
+  return context.measureText(text.replaceAll("*", "")).width;
+}
+
+/** The ground of a drawing: which of its squares are taken. */
+export class Ground {
+  readonly #disc: Disc;
+  readonly #columns: number;
+  readonly #rows: number;
+  /** The number of the dot, from 1 on, −1 for what no name may touch, 0 where it is free. */
+  readonly #taken: Int32Array;
+
+  /** @param disc In which names stay. */
+  constructor({ width, height }: Pen, disc: Disc = { x: 0, y: 0, r: Infinity }, taken: readonly Box[] = []) {
+    [this.#disc, this.#columns, this.#rows] = [disc, Math.floor(width / SQUARE), Math.floor(height / SQUARE)];
+    this.#taken = new Int32Array(this.#columns * this.#rows);
+    for (const box of taken) this.take(box);
+  }
+
+  take(box: Box, owner = -1): void {
+    this.#every(box, (at) => {
+      this.#taken[at] = this.#taken[at] === 0 ? owner : -1;
+      return true;
+    });
+  }
+
+  takeDot([x, y]: Point, radius: number, owner?: number): void {
+    this.take([x - radius, y - radius, x + radius, y + radius], owner);
+  }
+
+  /** Sets a label on the first side with room, which is then taken; undefined where there is none. */
+  set(pen: Pen, text: string, dot: Point, style: LabelStyle, owner = -1, sides = SIDES): Side | undefined {
+    const width = widthOf(text, style);
+    const side = sides.find((each) => this.#isFree(boxOf(dot, each, width, style.size), owner));
+    if (side === undefined) return undefined;
+    const box = boxOf(dot, side, width, style.size);
+    this.take([box[0] - APART, box[1], box[2] + APART, box[3]]);
+    pen.label(text, box[0], box[3] - DESCENT * style.size, style);
+    return side;
+  }
+
+  #isFree(box: Box, owner: number): boolean {
+    const [left, top, right, bottom] = box;
+    const { x, y, r } = this.#disc;
+    if (Math.hypot(Math.max(x - left, right - x), Math.max(y - top, bottom - y)) > r) return false;
+    if (left < 0 || top < 0 || right > this.#columns * SQUARE || bottom > this.#rows * SQUARE) return false;
+    return this.#every(box, (at) => this.#taken[at] === 0 || this.#taken[at] === owner);
+  }
+
+  /** Whether something holds of all squares of a box. */
+  #every(box: Box, holds: (at: number) => boolean): boolean {
+    const [left, top, right, bottom] = box.map((side) => Math.floor(side / SQUARE));
+    for (let row = Math.max(0, top); row <= Math.min(this.#rows - 1, bottom); ++row) {
+      for (let column = Math.max(0, left); column <= Math.min(this.#columns - 1, right); ++column)
+        if (!holds(row * this.#columns + column)) return false;
+    }
+    return true;
+  }
+}
+
+/** Sides of a dot, the one toward (right, down) first. */
+export function sidesToward(right: number, down: number): Side[] {
+  const along = ([u, v]: Side): number => (u * right + v * down) / Math.hypot(u, v);
+  return [...SIDES].sort((a, b) => along(b) - along(a));
+}
+
+function boxOf([x, y]: Point, [u, v]: Side, width: number, size: number): Box {
+  const [across, down] = u === 0 ? [0, AWAY] : v === 0 ? [AWAY, 0] : [NEARER * AWAY, 0.2 * AWAY];
+  const left = x + u * across - (width * (1 - u)) / 2;
+  const top = y + v * down - (ASCENT * size * (1 - v)) / 2 - (v < 0 ? DESCENT * size : 0);
+  return [left, top, left + width, top + (ASCENT + DESCENT) * size];
+}
+
+/** Sides of the names that stand in a drawing, by the numbers of their dots. */
+export type Standing = Map<number, Side>;
+
+/** Names of dots, some of them empty, and those that stand in the drawing. */
+export interface Named {
+  readonly names: readonly string[];
+  readonly standing: Standing;
+  readonly isMoving: boolean;
+}
+
+/**
+ * Draws names on a ball, the first ones first. At rest they follow from the picture alone; while it moves, those that
+ * stand keep their places as long as they can.
+ * @param images Of their dots, axes of the view.
+ */
+export function drawNames(
+  pen: Pen,
+  ground: Ground,
+  disc: Disc,
+  { names, standing, isMoving }: Named,
+  images: ArrayLike<number>,
+  styleOf: (dot: number) => LabelStyle,
+): void {
+  const place = (k: number): Point => [disc.x + disc.r * images[3 * k], disc.y - disc.r * images[3 * k + 1]];
+  const front = Array.from(names.keys()).filter((k) => images[3 * k + 2] >= LEAST_HEIGHT);
+  if (front.length * CROWD < Math.PI * disc.r * disc.r) for (const k of front) ground.takeDot(place(k), 2, k + 1);
+  const before = new Map(isMoving ? standing : []);
+  standing.clear();
+  const rest = front.filter((k) => names[k] !== "" && !before.has(k)).slice(0, isMoving ? TRIED_MOVING : TRIED);
+  for (const k of [...before.keys(), ...rest]) {
+    if (standing.size * ROOM > Math.PI * disc.r * disc.r) break;
+    if (!(images[3 * k + 2] >= LEAST_HEIGHT)) continue;
+    const name = names[k].length > LONGEST ? `${names[k].slice(0, LONGEST - 1)}…` : names[k];
+    const kept = before.get(k);
+    const sides = kept === undefined ? SIDES : [kept, ...SIDES];
+    const side = ground.set(pen, name.replaceAll("*", "∗"), place(k), styleOf(k), k + 1, sides);
+    if (side !== undefined) standing.set(k, side);
+  }
+}
