@@ -17,7 +17,7 @@ import { Plate } from "./drawing/plate.ts";
 import { lonlatToXyz, MoebiusMap, SphericalVoronoi } from "./kernel/api.ts";
 import { lonLatOf, row, type Vector } from "./space.ts";
 import { arrowStep, grabBall, type Turnable } from "./view/ball_hand.ts";
-import { distance, follow, type Gestures, type Place } from "./view/hand.ts";
+import { distance, follow, isCommand, type Gestures, type Place } from "./view/hand.ts";
 import { seenThrough, sourceOf } from "./view/lens.ts";
 import { Motion } from "./view/motion.ts";
 import { pointUnder, View } from "./view/view.ts";
@@ -176,7 +176,7 @@ export class NotebookGlobe implements Turnable {
   }
 
   #key(event: KeyboardEvent): boolean {
-    if (event.ctrlKey) return false;
+    if (isCommand(event)) return false;
     const step = arrowStep(event);
     const acts: Record<string, () => void> = {
       "+": () => this.#magnify(STEP),

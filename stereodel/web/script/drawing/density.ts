@@ -11,11 +11,14 @@ const MOST_DOTS = 0.07;
 
 /** A step weaker has this part of the ink; the weakest is so many steps down. */
 const STEP = 0.8;
-const STEPS = 30;
+const STEPS = 50;
 
 /** The finest lines and the smallest dots as parts of the usual ones: what must be weaker than they are is fainter. */
 const FINEST = 0.55;
 const SMALLEST = 0.4;
+
+/** Least opacity of dots: of those that would be fainter some are left out, as eight bits a colour tell no fainter ones. */
+const FAINTEST = 0.1;
 
 /** How things are drawn, as parts of the usual: their width, and how they cover the ground. */
 export interface Strength {
@@ -100,9 +103,11 @@ export function eachDots(
   for (let k = 0; k < places.length; k += 2) ink.add(places[k], places[k + 1], area);
   eachStep(ink.steps(places, MOST_DOTS), (part, numbers) => {
     const size = Math.max(SMALLEST, Math.sqrt(part));
-    const those = new Float64Array(2 * numbers.length);
-    for (let at = 0; at < those.length; ++at) those[at] = places[2 * numbers[at >> 1] + (at & 1)];
-    visit({ size, opacity: part / size ** 2 }, those);
+    const opacity = Math.max(FAINTEST, part / size ** 2);
+    const stride = Math.round((opacity * size ** 2) / part); // one of so many
+    const those = new Float64Array(2 * Math.ceil(numbers.length / stride));
+    for (let at = 0; at < those.length; ++at) those[at] = places[2 * numbers[stride * (at >> 1)] + (at & 1)];
+    visit({ size, opacity }, those);
   });
 }
 

@@ -11,7 +11,7 @@ import type { LabelStyle } from "../drawing/styles.ts";
 import { MoebiusMap, Rotation } from "../kernel/api.ts";
 import { angle, cross, directionOf, lonLatOf, row, type Vector } from "../space.ts";
 import { arrowed, grabBall, type Turnable } from "../view/ball_hand.ts";
-import { distance, follow, type Gestures, type Hold, type Pinch, type Place } from "../view/hand.ts";
+import { distance, follow, isCommand, type Gestures, type Hold, type Pinch, type Place } from "../view/hand.ts";
 import * as lenses from "../view/lens.ts";
 import type { Cap, Lens, Sight } from "../view/lens.ts";
 import { Motion } from "../view/motion.ts";
@@ -179,7 +179,7 @@ export class FisheyeGlobe extends GlobePlate {
       key: (event) => {
         const view = arrowed(this, event);
         const sight = view === null ? this.#keyed(event.key) : { ...this.#sight, view };
-        if (sight === null || event.ctrlKey) return false;
+        if (sight === null || isCommand(event)) return false;
         this.change({ sight });
         return true;
       },

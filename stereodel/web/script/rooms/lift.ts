@@ -7,7 +7,7 @@ import type { Exchange } from "../exchange.ts";
 import { writeNumber, type LinkValues } from "../link.ts";
 import type { Room, RoomHost } from "../room.ts";
 import { arrowStep } from "../view/ball_hand.ts";
-import { distance, follow, type Gestures, type Hold } from "../view/hand.ts";
+import { distance, follow, isCommand, type Gestures, type Hold } from "../view/hand.ts";
 import { View } from "../view/view.ts";
 import { counted, fixed, ofFacets, wrap } from "../words.ts";
 import { mark, NumberField } from "./controls.ts";
@@ -296,7 +296,7 @@ class LiftRoom extends SiteRoom implements Room {
   }
 
   #key(event: KeyboardEvent): boolean {
-    if (event.ctrlKey) return false;
+    if (isCommand(event)) return false;
     const step = arrowStep(event);
     const actions: Record<string, () => void> = {
       "0": () => this.#turn(BEGINNING.side, BEGINNING.height),

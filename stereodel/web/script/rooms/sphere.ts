@@ -13,7 +13,7 @@ import type { Room, RoomHost } from "../room.ts";
 import { sphereSets, type Stored } from "../sets.ts";
 import { dot, lonLatOf, type Vector } from "../space.ts";
 import { arrowed, arrowStep, grabBall, type Turnable } from "../view/ball_hand.ts";
-import { distance, follow, type Gestures, type Hold, type Place as Point } from "../view/hand.ts";
+import { distance, follow, isCommand, type Gestures, type Hold, type Place as Point } from "../view/hand.ts";
 import { Motion } from "../view/motion.ts";
 import { pointUnder, View } from "../view/view.ts";
 import { counted, latitude, longitude, ofFacets, wrap } from "../words.ts";
@@ -482,7 +482,7 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
   /** What a key does that does not turn the ball; without sites there is only to add one. */
   #keyed(event: KeyboardEvent): (() => void) | null {
     const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
-    if (event.ctrlKey) {
+    if (isCommand(event)) {
       const step = arrowStep(event);
       if (key === "z") return () => this.#undo();
       return step === null ? null : () => this.#nudge(...step);

@@ -51,11 +51,12 @@ export class SphereSites {
     return [latitude(this.lonlat[2 * site + 1]), longitude(this.lonlat[2 * site])];
   }
 
-  /** How many edges each site has. */
+  /** How many cells lie beside that of each site: across edges, or across the ridges of sites on one great circle. */
   get neighborCounts(): Int32Array {
     if (this.#neighborCounts === null) {
       this.#neighborCounts = new Int32Array(this.count);
-      for (const k of this.delaunay.edges) ++this.#neighborCounts[k];
+      const { delaunay } = this;
+      for (const k of delaunay.dimension === 1 ? this.voronoi.ridgePoints : delaunay.edges) ++this.#neighborCounts[k];
     }
     return this.#neighborCounts;
   }

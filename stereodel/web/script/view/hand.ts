@@ -88,7 +88,7 @@ class Hand {
     });
     on("wheel", (event) => this.#wheel(event));
     on("keydown", (event) => {
-      if (!event.altKey && !event.metaKey && this.#gestures.key?.(event)) event.preventDefault();
+      if (!event.altKey && this.#gestures.key?.(event)) event.preventDefault();
     });
     return () => abort.abort();
   }
@@ -165,6 +165,11 @@ class Hand {
     const middle: Place = [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2];
     return { middle, spread: Math.max(1, distance(a, b)), turn: Math.atan2(b[1] - a[1], b[0] - a[0]) };
   }
+}
+
+/** Whether the key of commands is held: Ctrl, or ⌘ on a Mac. */
+export function isCommand(event: KeyboardEvent): boolean {
+  return event.ctrlKey || event.metaKey;
 }
 
 /** Of two places of a drawing, pixels. */
