@@ -181,6 +181,29 @@ def test_without_triangles_the_sentence_says_so(room, state, sentence):
     assert page.ink(BALL) > 0.001
 
 
+def test_captions_follow_what_is_drawn_and_links_say_what_they_said(room):
+    page = room("sphere")
+
+    def captions():
+        return output(page, "on-ball"), output(page, "in-plane")
+
+    hatched, cells = "Hatched is where the facets go that see P.", "Cells differ: centres are not sent to centres."
+    assert captions() == ("Delaunay triangles.", f"The same triangles. {hatched}")
+    page.page.locator(f"{ROOM} [name=cells]").check()
+    strong = "Delaunay triangles in strong lines, Voronoi cells in thin ones."
+    assert captions() == (strong, f"The same triangles. {hatched} {cells}")
+    assert "turned" not in link(page)  # where links say nothing cells are drawn, as when the room began with them
+    page.page.locator(f"{ROOM} [name=triangles]").uncheck()
+    page.page.locator(f"{ROOM} [name=seeing]").uncheck()
+    assert captions() == ("Voronoi cells.", cells)
+    page.page.locator("#step").fill("34")
+    assert captions() == ("Delaunay triangles, new ones dashed.", "The same triangles.")
+    page.page.evaluate("location.hash = 'v=1&room=sphere&sites=0,0'")
+    page.until(f"document.querySelector('{ROOM} [data-out=on-ball]').textContent === ''")
+    assert captions() == ("", "")
+    assert page.page.locator(f"{ROOM} [name=cells]").is_checked()
+
+
 def test_names_stand_in_the_table_are_said_and_follow_the_hand_and_undo(room, tmp_path):
     file = tmp_path / "towns.csv"
     file.write_text("name,lat,lon\nUlm,48.4,10\nQuito,-0.2,-78.5\n<b>Lagos</b>,6.5,3.4\nPerth,-31.9,115.9\n")

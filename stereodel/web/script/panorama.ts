@@ -19,7 +19,7 @@ const TONES = 64;
 
 /** Brightness of a tone, of 255, from which on letters are dark; and how much its halo is darker or lighter. */
 const BRIGHT = 120;
-const CONTRAST = 0.45;
+const CONTRAST = 0.6;
 
 /** How far width and height may be from two to one. */
 const RATIO_ERROR = 0.01;

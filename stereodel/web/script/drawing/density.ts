@@ -17,8 +17,8 @@ const STEPS = 50;
 const FINEST = 0.55;
 const SMALLEST = 0.4;
 
-/** Least opacity of dots: of those that would be fainter some are left out, as eight bits a colour tell no fainter ones. */
-const FAINTEST = 0.1;
+/** Least opacity: eight bits a colour tell no fainter ones. Of dots that would have less, some are left out. */
+const FAINTEST = 0.07;
 
 /** How things are drawn, as parts of the usual: their width, and how they cover the ground. */
 export interface Strength {
@@ -122,9 +122,7 @@ export function eachLines(
   trace(lines);
   eachStep(lines.ink.steps(lines.middles, MOST_LINES), (part, numbers) => {
     const size = Math.max(FINEST, Math.sqrt(part));
-    // Lines of one path are not seen twice where they lie on each other: so much of the ground they cover.
-    const covered = 1 - Math.exp((-MOST_LINES * size) / part);
-    visit({ size, opacity: Math.min(1, MOST_LINES / covered) }, (path) => lines.lay(path, numbers));
+    visit({ size, opacity: Math.max(FAINTEST, part / size) }, (path) => lines.lay(path, numbers));
   });
 }
 

@@ -299,6 +299,13 @@ export class BubbleGlobe extends GlobePlate {
     pen.label(`${fixed(this.#cap.radius, 1)}°`, x + (isRight ? 9 : -9), y + (isLow ? -6 : 14), style);
   }
 
+  protected override get taken(): Box[] {
+    const handle = this.#handle();
+    if (handle === null) return [];
+    const [x, y] = placeOf(this.disc, handle);
+    return [[x - 48, y - 20, x + 48, y + 18]]; // on either side
+  }
+
   /** The handle's point of the view, or null while the rim is behind. */
   #handle(): Vector | null {
     const rim = this.#rim;
