@@ -2,10 +2,8 @@
 
 import { make } from "./dom.ts";
 import type { Disc, Pen } from "./drawing/pen.ts";
-import type { LabelStyle } from "./drawing/styles.ts";
 import { Raster, type MoebiusMap } from "./kernel/api.ts";
 import type { Messages } from "./messages.ts";
-import { lonLatOf, type Vector } from "./space.ts";
 
 /** Widest picture that is kept, pixels; larger ones are made smaller. */
 const WIDEST = 4096;
@@ -14,12 +12,8 @@ const WIDEST = 4096;
 const SHARP = 2;
 const ROUGH = 0.25;
 
-/** Tones of a picture along its equator. */
-const TONES = 64;
-
-/** Brightness of a tone, of 255, from which on letters are dark; and how much its halo is darker or lighter. */
-const BRIGHT = 120;
-const CONTRAST = 0.6;
+/** How much lighter or darker than a picture the halo of labels on it is; brightness, of 255, where that changes. */
+const [CONTRAST, BRIGHT] = [0.6, 120];
 
 /** How far width and height may be from two to one. */
 const RATIO_ERROR = 0.01;
@@ -38,43 +32,29 @@ export async function openPanorama(file: File, messages: Messages, opened: (pict
   context.drawImage(bitmap, 0, 0, canvas.width, canvas.height);
   bitmap.close();
   messages.close();
-  const tones = make("canvas", { width: TONES, height: TONES / 2 }).getContext("2d")!;
-  tones.imageSmoothingQuality = "high";
-  tones.drawImage(canvas, 0, 0, TONES, TONES / 2);
-  const [pixels, tone] = [context, tones].map((each) => each.getImageData(0, 0, each.canvas.width, each.canvas.height));
-  opened(new Painted(file.name, pixels, tone));
+  opened(new Painted(file.name, context.getImageData(0, 0, canvas.width, canvas.height)));
 }
 
 export class Painted {
   readonly name: string;
   readonly #raster: Raster;
   readonly #shader: Shader | null;
+  /** Inks of labels: a halo of the picture's mean tone, and what is read on it. */
+  readonly letters: Readonly<Record<"ink" | "accent" | "halo", `rgb(${string})`>>;
 
-  readonly #tones: ImageData;
-
-  constructor(name: string, pixels: ImageData, tones: ImageData) {
-    this.#tones = tones;
+  constructor(name: string, pixels: ImageData) {
     this.name = name;
     this.#raster = new Raster(pixels.data, pixels.width);
     this.#shader = shaderOf(pixels);
-  }
-
-  /** Inks of a label at a direction: a halo of the picture's tone there, letters that are read on it. */
-  letters(direction: Vector, isBlack: boolean): Pick<LabelStyle, "ink" | "halo"> {
-    const [lon, lat] = lonLatOf(direction);
-    const at = (part: number, count: number): number => Math.max(0, Math.min(count - 1, Math.floor(part * count)));
-    const pixel = at((90 - lat) / 180, TONES / 2) * TONES + at((lon + 180) / 360, TONES);
-    const [red, green, blue] = this.#tones.data.subarray(4 * pixel);
-    const isBright = 0.3 * red + 0.59 * green + 0.11 * blue > BRIGHT;
-    const tone = [red, green, blue].map((level) => level + CONTRAST * ((isBright ? 255 : 0) - level));
-    const ink = isBright
-      ? isBlack
-        ? "rgb(27, 27, 27)"
-        : "rgb(171, 67, 0)"
-      : isBlack
-        ? "rgb(255, 255, 255)"
-        : "rgb(245, 160, 98)";
-    return { ink, halo: `rgb(${tone.map(Math.round).join(", ")})` };
+    const sums = [0, 0, 0];
+    for (let k = 0; k < pixels.data.length; ++k) if (k % 4 < 3) sums[k % 4] += pixels.data[k];
+    const tone = sums.map((sum) => (4 * sum) / pixels.data.length);
+    const isBright = 0.3 * tone[0] + 0.59 * tone[1] + 0.11 * tone[2] > BRIGHT;
+    const halo = tone.map((level) => Math.round(level + CONTRAST * ((isBright ? 255 : 0) - level)));
+    const [ink, accent] = isBright
+      ? (["27, 27, 27", "171, 67, 0"] as const)
+      : (["255, 255, 255", "245, 160, 98"] as const);
+    this.letters = { ink: `rgb(${ink})`, accent: `rgb(${accent})`, halo: `rgb(${halo.join(", ")})` };
   }
 
   draw(pen: Pen, disc: Disc, map: MoebiusMap, isMoving: boolean): void {

@@ -7,44 +7,29 @@ import { SERIF, type LabelStyle } from "./styles.ts";
 /** Right and down of a dot, as signs. */
 type Side = readonly [number, number];
 
-/** In the order in which they are tried. */
-const SIDES: readonly Side[] = ["1 -1", "1 1", "-1 -1", "-1 1", "1 0", "-1 0", "0 -1", "0 1"].map((side) => {
-  const [u, v] = side.split(" ").map(Number);
-  return [u, v];
-});
+/** In the order in which they are tried: off the axes, beside, above and below. */
+const SIDES = [1, 1, -1, -1, 1, -1, 0, 0].map((right, k): Side => [right, [-1, 1, -1, 1, 0, 0, -1, 1][k]]);
 
 /** Left, top, right and bottom. */
 export type Box = readonly [number, number, number, number];
 
-/** Side of the squares of which it is known who takes them, pixels. */
-const SQUARE = 3;
+/** Side of the squares of which it is known who takes them; from a dot to its name, between names, pixels. */
+const [SQUARE, AWAY, APART] = [3, 6, 4];
 
 /** Above and below the baseline, in sizes of the type. */
-const ASCENT = 0.7;
-const DESCENT = 0.22;
-
-/** Distance of a name from the middle of its dot, pixels; off the axes it is nearer, as the corner of its box is bare. */
-const AWAY = 6;
-const NEARER = 0.6;
-
-/** Free on either side of a name, pixels. */
-const APART = 4;
+const [ASCENT, DESCENT] = [0.7, 0.22];
 
 /** Letters of the longest name. */
 const LONGEST = 40;
 
-/** Names that are tried in a frame while the globe moves, beyond those that stood before, and at rest. */
-const TRIED_MOVING = 150;
-const TRIED = 2000;
+/** Names that are tried in a frame: while the globe moves, beyond those that stood before, and at rest. */
+const [TRIED_MOVING, TRIED] = [150, 2000];
 
-/** Square pixels of a ball for one name at the least: more would hide what they name. */
-const ROOM = 3000;
+/** Square pixels of a ball for one name, and of the front for one dot: if they have less, names hide tiny dots. */
+const [ROOM, CROWD] = [3000, 150];
 
 /** Height above the picture, ball radii, below which a name would be cut by the limb. */
 const LEAST_HEIGHT = 0.12;
-
-/** Square pixels of the ground for one dot below which dots are too many, and too small, to be kept clear of names. */
-const CROWD = 150;
 
 let context: CanvasRenderingContext2D | null = null;
 
@@ -77,19 +62,20 @@ export class Ground {
     });
   }
 
-  takeDot([x, y]: Point, radius: number, owner?: number): void {
+  takeDot([x, y]: Point, radius: number, owner: number): void {
     this.take([x - radius, y - radius, x + radius, y + radius], owner);
   }
 
-  /** Sets a label on the first side with room, which is then taken; undefined where there is none. */
-  set(pen: Pen, text: string, dot: Point, style: LabelStyle, owner = -1, sides = SIDES): Side | undefined {
+  /** Sets the label of a dot on the first side with room, which is then taken; undefined where there is none. */
+  set(pen: Pen, text: string, dot: Point, style: LabelStyle, owner: number, sides = SIDES): Side | undefined {
     const width = widthOf(text, style);
-    const side = sides.find((each) => this.#isFree(boxOf(dot, each, width, style.size), owner));
-    if (side === undefined) return undefined;
-    const box = boxOf(dot, side, width, style.size);
-    this.take([box[0] - APART, box[1], box[2] + APART, box[3]]);
-    pen.label(text, box[0], box[3] - DESCENT * style.size, style);
-    return side;
+    return sides.find((side) => {
+      const box = boxOf(dot, side, width, style.size);
+      if (!this.#isFree(box, owner)) return false;
+      this.take([box[0] - APART, box[1], box[2] + APART, box[3]]);
+      pen.label(text, box[0], box[3] - DESCENT * style.size, style);
+      return true;
+    });
   }
 
   #isFree(box: Box, owner: number): boolean {
@@ -118,19 +104,16 @@ export function sidesToward(right: number, down: number): Side[] {
 }
 
 function boxOf([x, y]: Point, [u, v]: Side, width: number, size: number): Box {
-  const [across, down] = u === 0 ? [0, AWAY] : v === 0 ? [AWAY, 0] : [NEARER * AWAY, 0.2 * AWAY];
+  const [across, down] = u === 0 ? [0, AWAY] : v === 0 ? [AWAY, 0] : [0.6 * AWAY, 0.2 * AWAY];
   const left = x + u * across - (width * (1 - u)) / 2;
   const top = y + v * down - (ASCENT * size * (1 - v)) / 2 - (v < 0 ? DESCENT * size : 0);
   return [left, top, left + width, top + (ASCENT + DESCENT) * size];
 }
 
-/** Sides of the names that stand in a drawing, by the numbers of their dots. */
-export type Standing = Map<number, Side>;
-
-/** Names of dots, some of them empty, and those that stand in the drawing. */
+/** Names of dots, some of them empty, and on which sides of which dots they stand in the drawing. */
 export interface Named {
   readonly names: readonly string[];
-  readonly standing: Standing;
+  readonly standing: Map<number, Side>;
   readonly isMoving: boolean;
 }
 
@@ -145,21 +128,21 @@ export function drawNames(
   disc: Disc,
   { names, standing, isMoving }: Named,
   images: ArrayLike<number>,
-  styleOf: (dot: number) => LabelStyle,
+  style: LabelStyle,
 ): void {
   const place = (k: number): Point => [disc.x + disc.r * images[3 * k], disc.y - disc.r * images[3 * k + 1]];
   const front = Array.from(names.keys()).filter((k) => images[3 * k + 2] >= LEAST_HEIGHT);
-  if (front.length * CROWD < Math.PI * disc.r * disc.r) for (const k of front) ground.takeDot(place(k), 2, k + 1);
+  const size = Math.PI * disc.r * disc.r;
+  if (front.length * CROWD < size) for (const k of front) ground.takeDot(place(k), 2, k + 1);
   const before = new Map(isMoving ? standing : []);
   standing.clear();
   const rest = front.filter((k) => names[k] !== "" && !before.has(k)).slice(0, isMoving ? TRIED_MOVING : TRIED);
   for (const k of [...before.keys(), ...rest]) {
-    if (standing.size * ROOM > Math.PI * disc.r * disc.r) break;
+    if (standing.size * ROOM > size) break;
     if (!(images[3 * k + 2] >= LEAST_HEIGHT)) continue;
     const name = names[k].length > LONGEST ? `${names[k].slice(0, LONGEST - 1)}…` : names[k];
     const kept = before.get(k);
-    const sides = kept === undefined ? SIDES : [kept, ...SIDES];
-    const side = ground.set(pen, name.replaceAll("*", "∗"), place(k), styleOf(k), k + 1, sides);
+    const side = ground.set(pen, name.replaceAll("*", "∗"), place(k), style, k + 1, kept ? [kept, ...SIDES] : SIDES);
     if (side !== undefined) standing.set(k, side);
   }
 }

@@ -65,7 +65,7 @@ export abstract class Pen {
     const style: Style = STYLES[name];
     if (!style.isNet) return this.path(name, style, trace);
     const { width = 1 } = style;
-    eachLines(trace, width * this.weight, this, ({ size, opacity }, part) =>
+    eachLines(trace, width * this.weight, this, (size, opacity, part) =>
       this.path(name, { ...style, width: size * width, strokeOpacity: opacity }, part),
     );
   }
@@ -76,7 +76,7 @@ export abstract class Pen {
   /** Dots at x, y in turn; where they are dense, smaller and weaker. */
   dots(name: DotName, places: ArrayLike<number>): void {
     const { radius, rimWidth, ...inks }: DotStyle = DOTS[name];
-    eachDots(places, Math.PI * radius * radius, this, ({ size, opacity }, those) =>
+    eachDots(places, Math.PI * radius * radius, this, (size, opacity, those) =>
       this.discs(name, { ...inks, radius: size * radius, rimWidth: size * rimWidth, opacity }, those),
     );
   }

@@ -105,7 +105,7 @@ abstract class GlobePlate implements Turnable {
     const words = `${scale(lenses.scaleAt(map, pointer))}×`;
     const half = widthOf(words, LABEL) / 2 + 2;
     const inward = Math.max(half, Math.min(pen.width - half, disc.x + (x - disc.x) * 0.98));
-    const style = this.room.scene.lettersAt(pointer, LABEL);
+    const style = this.room.scene.lettered(LABEL);
     pen.label(words, inward, isBelow ? y + away + 17 : y - away - 7, { ...style, align: "center" });
   }
 }
@@ -145,7 +145,7 @@ export class FisheyeGlobe extends GlobePlate {
     const { focus } = this.#sight.lens;
     const seen = this.view.seen(focus);
     const [isFront, isRight, [x, y]] = [seen[2] >= 0, seen[0] <= 0.75, placeOf(this.disc, seen)];
-    const style: LabelStyle = { ...this.room.scene.lettersAt(focus, LETTER), align: isRight ? "left" : "right" };
+    const style: LabelStyle = { ...this.room.scene.lettered(LETTER), align: isRight ? "left" : "right" };
     return { x, y, isFront, isRight, words: isFront ? "focus" : "focus*, behind*", style };
   }
 
@@ -294,8 +294,7 @@ export class BubbleGlobe extends GlobePlate {
     const isRight = handle[0] < 0.55;
     // Near the lower limb the label stands above its handle: below there is no drawing.
     const isLow = handle[1] < -0.5 && handle[2] < 0.4;
-    const letters = this.room.scene.lettersAt(this.#cap.center, LABEL);
-    const style: LabelStyle = { ...letters, align: isRight ? "left" : "right" };
+    const style: LabelStyle = { ...this.room.scene.lettered(LABEL), align: isRight ? "left" : "right" };
     pen.label(`${fixed(this.#cap.radius, 1)}°`, x + (isRight ? 9 : -9), y + (isLow ? -6 : 14), style);
   }
 

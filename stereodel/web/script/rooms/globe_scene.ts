@@ -3,7 +3,7 @@
 import type { Contents } from "../contents.ts";
 import * as balls from "../drawing/ball.ts";
 import type { Layer } from "../drawing/ball.ts";
-import { drawNames, Ground, type Box, type Standing } from "../drawing/names.ts";
+import { drawNames, Ground, type Box, type Named } from "../drawing/names.ts";
 import { cellOf, type Part, type Region } from "../drawing/parts.ts";
 import type { Disc } from "../drawing/pen.ts";
 import type { LabelStyle } from "../drawing/styles.ts";
@@ -11,7 +11,7 @@ import { lonlatToXyz, SphericalVoronoi, xyzToLonlat, type Latitude, type Moebius
 import { tableLonlat } from "../kernel/coordinates.ts";
 import { lazy } from "../kernel/lazy.ts";
 import type { Painted } from "../panorama.ts";
-import { directionOf, row, type Vector } from "../space.ts";
+import { directionOf } from "../space.ts";
 
 /** The radius of the equal circles on Earth, kilometres, and in degrees of a sphere with the Earth's mean radius. */
 const CIRCLE_KILOMETRES = 150;
@@ -32,7 +32,7 @@ interface Ball {
   readonly disc: Disc;
   readonly map: MoebiusMap;
   readonly isMoving: boolean;
-  readonly standing: Standing;
+  readonly standing: Named["standing"];
   /** Where names would lie on a handle or on its word. */
   readonly taken: readonly Box[];
 }
@@ -78,9 +78,11 @@ export class GlobeScene {
     return this.#made?.areas[place] ?? 0;
   }
 
-  /** Inks of labels, at a direction of the sphere: on a picture they are made for its tone there. */
-  lettersAt(direction: Vector, style: LabelStyle): LabelStyle {
-    return this.picture === null ? style : { ...style, ...this.picture.letters(direction, style.ink === "ink") };
+  /** A style of labels, on a picture in inks for its tone. */
+  lettered(style: LabelStyle): LabelStyle {
+    if (this.picture === null) return style;
+    const { ink, accent, halo } = this.picture.letters;
+    return { ...style, ink: style.ink === "ink" ? ink : accent, halo };
   }
 
   get parts(): Part<Ball>[] {
@@ -126,12 +128,9 @@ export class GlobeScene {
         layer: "names",
         isThere: hasPlaces && Boolean(places?.names),
         draw: (pen, { disc, map, isMoving, standing, taken }) => {
-          const { directions } = this.#made!.dots;
-          const ground = new Ground(pen, disc, taken);
+          const images = map.apply(this.#made!.dots.directions);
           const named = { names: places!.names!, standing, isMoving };
-          drawNames(pen, ground, disc, named, map.apply(directions), (k) =>
-            this.lettersAt(row(directions.xyz, k), NAME),
-          );
+          drawNames(pen, new Ground(pen, disc, taken), disc, named, images, this.lettered(NAME));
         },
       },
     ];

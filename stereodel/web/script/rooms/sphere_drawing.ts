@@ -166,7 +166,7 @@ export function drawBall(pen: Pen, disc: Disc, scene: SphereScene): void {
       pen.draw("triangle", (path) => surface.ring(path, bubble.sites));
     },
     dots: () => balls.drawLayers(pen, disc, map, [layers.dots]),
-    names: (named) => drawNames(pen, ground, disc, named, map.apply(layers.dots.directions), () => NAME),
+    names: (named) => drawNames(pen, ground, disc, named, map.apply(layers.dots.directions), NAME),
     side(bubble, site) {
       const [point, middle] = [look(site), view.seen(bubble.center)];
       return point[2] >= LEAST_HEIGHT ? [point[0] - middle[0], point[1] - middle[1]] : null;
