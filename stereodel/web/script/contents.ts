@@ -74,6 +74,11 @@ export class Contents {
     };
   }
 
+  /** The state of a page that was saved by its reader, as a link without its `#`; empty on any other page. */
+  async state(): Promise<string> {
+    return (await this.#text("state")) ?? "";
+  }
+
   /** What latitudes of places are on this page: those of the ellipsoid with equal areas, if it does not say. */
   async latitude(): Promise<Latitude> {
     return ((await this.#text("latitude")) as Latitude | null) ?? "authalic";

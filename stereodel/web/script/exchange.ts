@@ -9,6 +9,7 @@ import { openPoints } from "./files.ts";
 import { geojson } from "./geojson.ts";
 import { openPanorama } from "./panorama.ts";
 import { globePython, liftPython, spherePython } from "./rooms/python.ts";
+import { savedPage } from "./saved_page.ts";
 
 /** Saves a file under the reader's downloads. */
 function download(name: string, content: Blob | string, type = "text/plain"): void {
@@ -44,6 +45,7 @@ const exchange = {
   liftPython,
   openPanorama,
   openPoints,
+  savedPage,
   sheetPng,
   sheetSvg,
   spherePython,

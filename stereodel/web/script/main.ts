@@ -6,15 +6,22 @@ import type { Exchange } from "./exchange.ts";
 import { load } from "./kernel/instance.ts";
 import { laterScript } from "./later_script.ts";
 import type { LiftRoomMaker } from "./lift.ts";
-import { LinkError, LinkValues, readLink, ROOMS, writeLink, type RoomName } from "./link.ts";
+import { LinkError, LinkValues, readLink, ROOMS, writeLink, type Link, type RoomName } from "./link.ts";
 import { Announcer, Messages } from "./messages.ts";
 import type { Room, RoomHost } from "./room.ts";
-import { NAMED } from "./rooms/controls.ts";
+import { Choice, NAMED } from "./rooms/controls.ts";
 import { globeRoom } from "./rooms/globe.ts";
 import { sphereRoom } from "./rooms/sphere.ts";
 
 /** Milliseconds of rest after which the address tells the state. */
 const REST = 300;
+
+/** What the colours may be; without a word those of the system. */
+const COLOURS = ["", "light", "dark"] as const;
+type Colours = (typeof COLOURS)[number];
+
+/** What a link says of a table. */
+const TABLE = ["sites", "names", "name"];
 
 type Makers = Record<RoomName, (host: RoomHost) => Room | Promise<Room>>;
 
@@ -25,13 +32,24 @@ class Page {
   readonly #messages = new Messages(find(document, "#messages"));
   readonly #announcer = new Announcer(find(document, "#status"));
   readonly #rooms = new Map<RoomName, Room>();
+  readonly #colours = new Choice<Colours>(document, "colours", () => {
+    this.#paint(this.#colours.value);
+    this.#guarded(() => this.#room?.redraw());
+    this.#changed(false);
+  });
+  /** The document as it came. */
+  readonly #source: Node;
+  /** What a page that was saved shows before anything else; its table is there for links that name it. */
+  readonly #saved: Link | null;
   #name: RoomName = "sphere";
   #timer: ReturnType<typeof setTimeout> | undefined;
   #isStep = false;
 
-  constructor(contents: Contents, makers: Makers) {
+  constructor(contents: Contents, makers: Makers, source: Node, saved: string) {
     this.#contents = contents;
     this.#makers = makers;
+    this.#source = source;
+    this.#saved = saved === "" ? null : readLink(saved, Infinity);
     this.#exchange = laterScript(contents, "exchange");
   }
 
@@ -75,15 +93,21 @@ class Page {
   async #follow(): Promise<void> {
     clearTimeout(this.#timer);
     const link = this.#read(
-      () => readLink(location.hash),
+      () => (location.hash === "" && this.#rooms.size === 0 ? this.#saved : null) ?? readLink(location.hash),
       () => ({ room: this.#name, values: new LinkValues() }),
     );
+    const saved = this.#saved?.values;
+    if (saved?.has("name") && saved.get("name") === link.values.get("file"))
+      for (const name of TABLE) if (saved.has(name)) link.values.set(name, saved.get(name)!);
     this.#enter(link.room);
     const isNew = link.values.size > 0 || !this.#rooms.has(link.room);
     try {
       const room = this.#room ?? (await this.#made(link.room));
       if (this.#name !== link.room) return; // the reader is in another room by now
-      const [restore, anew] = [link.values, new LinkValues()].map((values) => () => room.restore(values));
+      const [restore, anew] = [link.values, new LinkValues()].map((values) => () => {
+        if (values.size > 0) this.#paint(values.word("colours", COLOURS, ""));
+        room.restore(values);
+      });
       this.#guarded(() => isNew && this.#read(restore, anew));
       this.#python();
     } catch (error) {
@@ -118,11 +142,21 @@ class Page {
     clearTimeout(this.#timer);
     this.#timer = setTimeout(() => {
       if (this.#room === undefined) return;
-      const hash = `#${writeLink(this.#name, this.#room.state())}`;
+      const hash = `#${this.#link(this.#room.state(false))}`;
       if (hash !== location.hash) history[this.#isStep ? "pushState" : "replaceState"](null, "", hash);
       this.#isStep = false;
       this.#python();
     }, REST);
+  }
+
+  /** The fragment of a state of the room, with the colours where they are not those of the system. */
+  #link(state: Record<string, string>): string {
+    const colours = this.#colours.value;
+    return writeLink(this.#name, colours === "" ? state : { ...state, colours });
+  }
+
+  #paint(colours: Colours): void {
+    document.documentElement.dataset["colours"] = this.#colours.value = colours;
   }
 
   #guarded(body: () => void): void {
@@ -169,12 +203,6 @@ class Page {
         this.#exchanging((...both) => this.#export(button.dataset["export"] ?? "", ...both)),
       );
     }
-    for (const choice of foot.querySelectorAll<HTMLInputElement>("input[name=colours]")) {
-      choice.addEventListener("change", () => {
-        document.documentElement.dataset["colours"] = choice.value;
-        this.#guarded(() => this.#room?.redraw());
-      });
-    }
     find(foot, "details").addEventListener("toggle", () => this.#python());
   }
 
@@ -199,13 +227,15 @@ class Page {
     } else if (kind === "geojson") {
       const text = room.geojson(exchange);
       if (text !== null) exchange.download(`${name}.geojson`, text, "application/geo+json");
+    } else if (kind === "page") {
+      exchange.download(`${name}.html`, await exchange.savedPage(this.#source, this.#link(room.state(true))));
     } else {
-      const state = room.state();
-      const link = `${location.href.split("#")[0]}#${writeLink(this.#name, state)}`;
+      const state = room.state(false);
+      const link = `${location.href.split("#")[0]}#${this.#link(state)}`;
       const copied = Promise.resolve(link).then((text) => navigator.clipboard.writeText(text));
       const problem: unknown = await copied.catch(String);
       const what = "file" in state ? "file" : "picture";
-      const left = `The link names the ${what} but does not hold its ${NAMED[what]}; send the file along.`;
+      const left = `The link names the ${what} but does not hold its ${NAMED[what]}; ${what === "file" ? "save the page" : "send the file along"}.`;
       const words = problem ? "Nothing can be copied here; the link is the page's address." : "Link copied.";
       this.#messages.show("", what in state && !problem ? left : words);
     }
@@ -229,21 +259,23 @@ function placeMarks(): void {
 }
 
 async function main(): Promise<void> {
+  const source = document.documentElement.cloneNode(true);
   placeMarks();
   const contents = Contents.ofDocument();
   const loaded = contents.kernel().then(load);
   const stored: Record<string, Float64Array> = {}; // before the rooms are made, so that links can name them
   for (const name of ["gap", "everywhere", "hemisphere", "cities", "airports", "stars", "sheet"])
     stored[name] = await contents.set(name);
-  const given = await contents.given();
+  const [given, saved] = [await contents.given(), await contents.state()];
   const lift = laterScript<LiftRoomMaker>(contents, "lift");
   await loaded;
   document.body.classList.remove("loading");
-  const page = new Page(contents, {
+  const makers: Makers = {
     sphere: (host) => sphereRoom(host, stored, given),
     lift: async (host) => (await lift())(host, stored["sheet"]),
-    globe: globeRoom,
-  });
+    globe: (host) => globeRoom(host, given),
+  };
+  const page = new Page(contents, makers, source, saved);
   await page.start();
   document.documentElement.dataset["ready"] = "true";
 }

@@ -21,8 +21,11 @@ export interface RoomHost {
 export interface Room {
   /** Takes the room's section of the page, once. */
   attach(section: HTMLElement): void;
-  /** The state by name, as the link has it; what is as in the beginning may be left out. */
-  state(): Record<string, string>;
+  /**
+   * The state by name, as the link has it.
+   * @param isWhole With a table of any length; otherwise one that is too long for a link is only named.
+   */
+  state(isWhole: boolean): Record<string, string>;
   /**
    * Shows a state; what it leaves out is as in the beginning.
    * @throws LinkError where a value cannot be read; the state before stays.

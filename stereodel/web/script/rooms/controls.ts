@@ -1,10 +1,10 @@
 /** Native inputs of a room: numbers in fields, switches, sets. */
 
 import { field, find } from "../dom.ts";
+import type { Place } from "../fields.ts";
 import type { LinkValues } from "../link.ts";
 import type { Messages } from "../messages.ts";
 import { counted } from "../words.ts";
-import type { Place } from "./sphere_state.ts";
 
 /** While the reader types, or at the end. */
 type When = "input" | "change";
@@ -84,6 +84,11 @@ export class Switches {
     for (const [name, input] of this.#inputs) input.addEventListener("change", () => changed(name));
   }
 
+  /** Is on where a link says nothing of it. */
+  begin(name: string): void {
+    Object.assign(this.#inputs.get(name)!, { checked: true, defaultChecked: true });
+  }
+
   set(name: string, isOn: boolean): void {
     this.#inputs.get(name)!.checked = isOn;
   }
@@ -92,23 +97,16 @@ export class Switches {
     return this.#inputs.get(name)!.checked;
   }
 
-  /** What a link says: names of those that differ from what links take for granted. */
+  /** What a link says: names of those that are on. */
   get values(): Record<string, string> {
-    const turned = [...this.#inputs].filter(([, input]) => input.checked !== isOnInLinks(input));
-    return turned.length === 0 ? {} : { turned: turned.map(([name]) => name).join(",") };
+    return { on: [...this.#inputs.keys()].filter((name) => this.isOn(name)).join(",") };
   }
 
-  /** Turns those of a link; without one all are as the room begins. */
+  /** As a link says, or as the room begins. */
   restore(values: LinkValues): void {
-    const turned = values.text("turned", "").split(",");
-    for (const [name, input] of this.#inputs)
-      input.checked = values.size === 0 ? input.defaultChecked : isOnInLinks(input) !== turned.includes(name);
+    const on = values.get("on")?.split(",");
+    for (const [name, input] of this.#inputs) input.checked = on?.includes(name) ?? input.defaultChecked;
   }
-}
-
-/** Rooms may begin otherwise than links take for granted, so that older ones keep their meaning. */
-function isOnInLinks({ dataset, defaultChecked }: HTMLInputElement): boolean {
-  return dataset["links"] === undefined ? defaultChecked : dataset["links"] === "on";
 }
 
 /** What a link may name and does not hold: a file of sites, a picture. */

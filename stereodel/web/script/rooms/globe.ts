@@ -10,15 +10,15 @@ import type { LinkValues } from "../link.ts";
 import type { Painted } from "../panorama.ts";
 import type { Room, RoomHost } from "../room.ts";
 import { directionOf, lonLatOf, type Vector } from "../space.ts";
-import { capToCap, lensMap, MOST, scaleAt } from "../view/lens.ts";
+import { capToCap, lensMap, scaleAt } from "../view/lens.ts";
 import { View } from "../view/view.ts";
 import { counted, latitude, longitude, scale } from "../words.ts";
 import { Choice, mark, NumberField, PlaceFields, tellNamed } from "./controls.ts";
 import { BubbleGlobe, FisheyeGlobe, FiveViews } from "./globe_plates.ts";
 import { GlobeScene, type Places } from "./globe_scene.ts";
-import { BEGINNING, fromValues, LEAST_RADIUS, MOST_RADIUS, PRESETS, sideView, toValues } from "./globe_state.ts";
+import { BEGINNING, GLOBE, PRESETS, sideView } from "./globe_state.ts";
 import type { GlobeState } from "./globe_state.ts";
-import { heldValues, TableRoom } from "./site_room.ts";
+import { TableRoom, tableOf, tableValues } from "./site_room.ts";
 
 /** Files that are pictures, by the ends of their names. */
 const PICTURES = /\.(jpe?g|png|webp|avif)$/i;
@@ -26,8 +26,9 @@ const PICTURES = /\.(jpe?g|png|webp|avif)$/i;
 /** Steps of the slider for a magnification of ten times. */
 const SLIDER_TEN = 50;
 
-export function globeRoom(host: RoomHost): Room {
-  return new GlobeRoom(host);
+/** @param given The points that the page was made for. */
+export function globeRoom(host: RoomHost, given: Places | null): Room {
+  return new GlobeRoom(host, given);
 }
 
 export class GlobeRoom extends TableRoom implements Room {
@@ -40,12 +41,17 @@ export class GlobeRoom extends TableRoom implements Room {
   /** The focus, or the middle of the bubble. */
   #focus!: PlaceFields;
   #radii!: { readonly from: NumberField; readonly to: NumberField };
-  /** The cells' voice: the places of a link stand until others are opened. */
-  #isGiven = false;
-  /** The picture that was opened last: a step back is one without it, and the next step forward shows it again. */
+  readonly #given: Places | null;
+  /** The places and the picture that were opened last: a step back is one without, the next one forward shows them. */
+  #opened: Places | null = null;
   #picture: Painted | null = null;
   /** The lens that was announced last. */
   #said = BEGINNING.sight.lens;
+
+  constructor(host: RoomHost, given: Places | null) {
+    super(host);
+    this.#given = given;
+  }
 
   get shown(): GlobeState {
     return this.#state;
@@ -53,6 +59,7 @@ export class GlobeRoom extends TableRoom implements Room {
 
   override attach(section: HTMLElement): void {
     super.attach(section);
+    if (this.#given !== null) this.switches.begin("cells");
     const { guarded } = this.host;
     const canvas = (id: string): HTMLCanvasElement => find(section, `#${id}`);
     this.#globe = new FisheyeGlobe(canvas("globe-plate"), this);
@@ -80,25 +87,30 @@ export class GlobeRoom extends TableRoom implements Room {
     void this.#load();
   }
 
-  state(): Record<string, string> {
+  state(isWhole: boolean): Record<string, string> {
     const { places, picture } = this.scene;
+    const { from, to, before, after, ...fisheye } = this.#state;
+    const { lonlat, name, names = null } = places ?? NO_PLACES;
     return {
-      ...toValues(this.#state),
-      ...(places === null || this.#isGiven ? {} : heldValues(places.lonlat, places.name, { name: places.name })),
+      ...GLOBE.write(fisheye.lens === "fisheye" ? fisheye : this.#state),
+      ...(places === null || places === this.#given ? {} : tableValues({ places: lonlat, name, names }, isWhole)),
       ...this.switches.values,
       ...(picture === null ? {} : { picture: picture.name }),
     };
   }
 
   restore(values: LinkValues): void {
-    const state = fromValues(values);
-    const lonlat = values.lonlat("sites");
-    if (lonlat !== null) this.#show({ name: values.text("name", "sites"), lonlat }, false);
+    const state = GLOBE.read(values, BEGINNING);
+    const table = tableOf(values, "lonlat");
+    const again = values.get("file") === this.#opened?.name ? this.#opened : null;
+    this.#show(
+      table === null ? (again ?? this.#given) : { ...table, name: table.name ?? "sites", lonlat: table.places },
+    );
     this.switches.restore(values);
     if (this.scene.places === null) this.switches.set("cells", false);
     this.#globe.motion.stop();
     const { messages } = this.host;
-    if (this.scene.places?.name !== values.text("file", "")) tellNamed(messages, values, "file");
+    if (again === null) tellNamed(messages, values, "file");
     this.scene.picture = values.text("picture", "") === this.#picture?.name ? this.#picture : null;
     if (this.scene.picture === null) tellNamed(messages, values, "picture");
     this.set(state, "state");
@@ -123,7 +135,7 @@ export class GlobeRoom extends TableRoom implements Room {
     }
     return exchange.openPoints(file, "lonlat", messages, ({ places: lonlat, names }) => {
       guarded(() => {
-        this.#show({ name: file.name, lonlat, names }, false);
+        this.#show({ name: file.name, lonlat, names });
         this.switches.set("cells", true);
         this.set({}, "state", true);
       });
@@ -149,26 +161,20 @@ export class GlobeRoom extends TableRoom implements Room {
   /** Unpacks what the page carries; until then the globe is water. */
   async #load(): Promise<void> {
     await this.scene.load(this.host.contents);
-    if (this.scene.places !== null) this.#show(this.scene.places, this.#isGiven); // cells of the page's latitude
-    const given = await this.host.contents.given();
-    if (given !== null && this.scene.places === null) {
-      this.#show(given, true);
-      this.switches.set("cells", true);
-      this.set({}, "state");
-    }
+    this.#show(this.scene.places); // cells of the page's latitude
     this.redraw();
   }
 
-  #show(places: Places, isGiven: boolean): void {
+  #show(places: Places | null): void {
     this.scene.show(places);
-    this.#isGiven = isGiven;
-    field(this.section, "cells").disabled = false;
-    const { lonlat, names } = places;
+    if (places !== this.#given) this.#opened = places ?? this.#opened;
+    field(this.section, "cells").disabled = places === null;
+    find(this.section, "[data-show=places]").hidden = places === null;
+    const { lonlat, names, name } = places ?? NO_PLACES;
     this.hasNames = Boolean(names);
     const count = lonlat.length / 2;
-    find(this.section, "[data-show=places]").hidden = false;
     const words = count === 0 ? "No places in" : count === 1 ? "The place of" : `The ${counted(count)} places of`;
-    this.out("places").textContent = `${words} ${places.name}`;
+    this.out("places").textContent = `${words} ${name}`;
     this.out("latitude").textContent = AREAS[this.scene.latitude];
     this.table.show({
       count,
@@ -198,7 +204,7 @@ export class GlobeRoom extends TableRoom implements Room {
 
   /** Another state: the drawings, the words, the controls and the link follow. */
   set(change: Partial<GlobeState>, reason: Reason, isStep = false): void {
-    this.#state = { ...this.#state, ...change };
+    this.#state = GLOBE.settle({ ...this.#state, ...change }, this.#state);
     this.redraw(reason);
     this.#write();
     this.host.changed(isStep);
@@ -208,13 +214,11 @@ export class GlobeRoom extends TableRoom implements Room {
   #magnify(magnification: number): void {
     const { sight } = this.#state;
     this.#globe.motion.stop();
-    const kept = Math.max(1, Math.min(MOST, magnification));
-    this.set({ sight: { ...sight, lens: { ...sight.lens, magnification: kept } } }, "hand");
+    this.set({ sight: { ...sight, lens: { ...sight.lens, magnification } } }, "hand");
   }
 
   #setRadius(which: "from" | "to", radius: number): void {
-    if (!(radius >= LEAST_RADIUS && radius <= MOST_RADIUS)) this.#write();
-    else this.set({ [which]: { ...this.#state[which], radius } }, "state");
+    this.set({ [which]: { ...this.#state[which], radius } }, "state");
   }
 
   #begin(preset: Partial<GlobeState> | undefined): void {
@@ -306,6 +310,8 @@ export class GlobeRoom extends TableRoom implements Room {
     this.#said = sight.lens;
   }
 }
+
+const NO_PLACES: Places = { name: "", lonlat: new Float64Array(0) };
 
 /** What the areas of cells are, by the kind of latitude. */
 const AREAS: Record<Latitude, string> = {

@@ -19,7 +19,7 @@ import { pointUnder, type View } from "../view/view.ts";
 import { fixed, scale } from "../words.ts";
 import type { GlobeRoom } from "./globe.ts";
 import { CIRCLE_RADIUS, STEP } from "./globe_scene.ts";
-import { BEGINNING, LEAST_RADIUS, MOST_RADIUS, sideView, type GlobeState } from "./globe_state.ts";
+import { BEGINNING, sideView, type GlobeState } from "./globe_state.ts";
 
 const LABEL: LabelStyle = { ink: "accent-text", halo: "halo", size: 14 };
 const LETTER: LabelStyle = { ...LABEL, size: 15, italic: true };
@@ -218,7 +218,7 @@ export class FisheyeGlobe extends GlobePlate {
   #keyed(key: string): Sight | null {
     const { lens, view } = this.#sight;
     const sized = (factor: number): Sight => ({
-      lens: { ...lens, magnification: Math.max(1, Math.min(lenses.MOST, lens.magnification * factor)) },
+      lens: { ...lens, magnification: lens.magnification * factor },
       view,
     });
     if (key === "+" || key === "=") return sized(KEY_FACTOR);
@@ -280,7 +280,7 @@ export class BubbleGlobe extends GlobePlate {
   }
 
   #setCap(cap: Cap): void {
-    this.change({ [this.#end]: { ...cap, radius: Math.max(LEAST_RADIUS, Math.min(MOST_RADIUS, cap.radius)) } });
+    this.change({ [this.#end]: cap });
   }
 
   protected paintHeld(pen: Pen): void {

@@ -69,8 +69,8 @@ export class GlobeScene {
     if (fine !== null) this.#fine = balls.landLayer(fine);
   }
 
-  show(places: Places): void {
-    [this.places, this.lit, this.#made] = [places, null, madeOf(places, this.latitude)];
+  show(places: Places | null): void {
+    [this.places, this.lit, this.#made] = [places, null, places && madeOf(places, this.latitude)];
   }
 
   /** The area of a place's cell, square kilometres. */

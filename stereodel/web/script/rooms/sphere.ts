@@ -8,7 +8,8 @@ import { regionsOf, type Switch } from "../drawing/parts.ts";
 import type { Pen, Sheet } from "../drawing/pen.ts";
 import { Plate, type Reason } from "../drawing/plate.ts";
 import type { Exchange } from "../exchange.ts";
-import { LinkValues } from "../link.ts";
+import type { Place } from "../fields.ts";
+import type { LinkValues } from "../link.ts";
 import type { Room, RoomHost } from "../room.ts";
 import { sphereSets, type Stored } from "../sets.ts";
 import { dot, lonLatOf, type Vector } from "../space.ts";
@@ -22,8 +23,7 @@ import { edited, SiteRoom, type NamedSites } from "./site_room.ts";
 import { ballLayers, drawBall, drawPlane, sphereParts, type SphereScene, type Step } from "./sphere_drawing.ts";
 import { ofBubble, ofDuplicates, ofPictures, ofSite, ofStep, SphereSites, withoutTriangles } from "./sphere_sites.ts";
 import type { Bubble } from "./sphere_sites.ts";
-import { directionAt, fromValues, handPlace, toValues, VIEW, viewPlace } from "./sphere_state.ts";
-import type { Click, Place, SphereState } from "./sphere_state.ts";
+import { BEGINNING, directionAt, handPlace, sphereFields, type Click, type SphereState } from "./sphere_state.ts";
 import { planeFrame, reachAround, Twin, type PlaneFrame } from "./twin.ts";
 
 /** Sites from which on cells are left out while something moves. */
@@ -69,8 +69,7 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
   #poleFields!: PlaceFields;
   #viewFields!: PlaceFields;
 
-  #state = fromValues(new LinkValues(), 0);
-  #held: number | null = null;
+  #state = BEGINNING;
   #reach = 1;
 
   // What follows from the state; made anew when it changes.
@@ -108,14 +107,28 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
 
   // State
 
-  state(): Record<string, string> {
-    return { ...this.siteValues(), ...toValues({ ...this.#state, click: this.#click.value }) };
+  state(isWhole: boolean): Record<string, string> {
+    const state = { ...this.#state, click: this.#click.value };
+    return { ...this.siteValues(isWhole), ...sphereFields(this.#sites.count).write(state) };
+  }
+
+  /** The state goes on, as a link tells it. */
+  #put(change: Partial<SphereState>): void {
+    this.#state = sphereFields(this.#sites.count).settle({ ...this.#state, ...change }, this.#state);
+  }
+
+  get #held(): number | null {
+    return this.#state.held;
+  }
+
+  set #held(held: number | null) {
+    this.#state = { ...this.#state, held };
   }
 
   override restore(values: LinkValues): void {
     const named = this.sitesOf(values);
-    this.#state = fromValues(values, named.places.length / 2);
-    [this.#history, this.#held] = [[], null];
+    this.#state = sphereFields(named.places.length / 2).read(values, BEGINNING);
+    this.#history = [];
     this.#click.value = this.#state.click;
     super.restore(values);
     this.#take(named);
@@ -124,7 +137,7 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
   /** Other sites, seen as the last ones were. */
   protected override begin(named: NamedSites): void {
     this.#history = [];
-    this.#state.step = this.#held = null;
+    this.#put({ step: null, held: null });
     this.#take(named);
   }
 
@@ -133,7 +146,7 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
     const sites = new SphereSites(named.places);
     this.#sites = sites;
     this.#layers = ballLayers(sites);
-    if (this.#state.step !== null && this.#state.step >= sites.count) this.#state.step = null;
+    if (this.#state.step !== null && this.#state.step >= sites.count) this.#put({ step: null });
     this.show(named, {
       count: sites.count,
       heads: ["Latitude", "Longitude", "Neighbours"],
@@ -335,8 +348,10 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
   #hover(direction: Vector): void {
     if (this.#state.isPinned || this.#state.step !== null) return;
     const before = this.#bubble?.facet ?? null;
-    this.#state.aim = direction;
-    if (this.#sites.facetAt(direction) !== before) this.host.guarded(() => this.#update());
+    this.#put({ aim: direction });
+    if (this.#sites.facetAt(this.#state.aim) === before) return;
+    this.host.guarded(() => this.#update());
+    this.host.changed();
   }
 
   /** A click. @param site The one within reach. */
@@ -362,7 +377,7 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
 
   /** Shows another view. */
   #see(place: Place, reason: Reason): void {
-    this.#state.view = viewPlace(place);
+    this.#put({ view: place });
     this.#say();
     this.#ball.redraw(reason);
     this.host.changed();
@@ -384,7 +399,7 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
   }
 
   #movePole(place: Place, rests = true): void {
-    this.#state.pole = handPlace(place);
+    this.#put({ pole: place });
     this.#project();
     if (rests) this.#rescale();
     this.#update(rests ? "state" : "hand");
@@ -394,8 +409,7 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
   }
 
   #set(change: Partial<SphereState>, held: number | null): void {
-    Object.assign(this.#state, change);
-    this.#held = held;
+    this.#put({ ...change, held });
     this.#update();
     this.host.changed();
   }
@@ -416,7 +430,7 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
 
   #moveSite(site: number, direction: Vector, reason: Reason = "state"): void {
     const [lon, lat] = handPlace(lonLatOf(direction));
-    this.#state.aim = direction;
+    this.#put({ aim: direction });
     const words = (): string => `Site ${site + 1}: ${latitude(lat)}, ${longitude(lon)}`;
     this.#edit(edited(this.named, site, [lon, lat]), site, words, reason);
   }
@@ -457,8 +471,7 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
 
   /** Brings a site to the middle of the ball, and holds it. */
   protected override chosen(site: number): void {
-    this.#held = site;
-    this.#state.aim = this.#sites.site(site);
+    this.#put({ held: site, aim: this.#sites.site(site) });
     this.#fly([this.#sites.lonlat[2 * site], this.#sites.lonlat[2 * site + 1]]);
     this.host.guarded(() => this.#update());
     this.changed(ofSite(this.#sites, site, this.named.names?.[site]));
@@ -488,7 +501,7 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
       return step === null ? null : () => this.#nudge(...step);
     }
     const middle = directionAt(this.#state.view);
-    if (key === "0") return () => this.#turn(VIEW);
+    if (key === "0") return () => this.#turn(BEGINNING.view);
     if (key === "n") return () => this.#add(middle);
     const withSites: Record<string, () => void> = {
       ",": () => this.#walk(-1),

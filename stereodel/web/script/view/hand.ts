@@ -104,6 +104,7 @@ class Hand {
     this.#fingers.set(event.pointerId, { at, start: at, by, hold, isDrag: false, track });
     if (this.#fingers.size === 2 && this.#gestures.pinch !== undefined) {
       for (const finger of this.#fingers.values()) {
+        if (finger.isDrag) finger.hold?.end?.([0, 0]);
         finger.hold = null;
         finger.isDrag = true;
       }
