@@ -11,8 +11,8 @@ from .rooms import downloaded, opened
 ask = asking(f"""
 const context = {{ measureText: (text) => ({{ width: 6 * text.length }}) }};
 globalThis.document = {{ createElement: () => ({{ append() {{}}, getContext: () => context }}) }};
-const {{ drawNames, Ground }} = await import("{SCRIPT}/drawing/names.ts");
-const {{ eachDots, eachLines }} = await import("{SCRIPT}/drawing/density.ts");
+const {{ drawNames, Seats }} = await import("{SCRIPT}/drawing/names.ts");
+const {{ eachDots, eachLines, Ink }} = await import("{SCRIPT}/drawing/density.ts");
 """)
 
 R, SIZE = 300.0, 13
@@ -30,7 +30,7 @@ def frames(node, names, turned, moving):
             const label = (text, x, y) => {{ if (text in labels) throw new Error("twice"); labels[text] = [x, y]; }};
             const pen = {{ width: {2 * R}, height: {2 * R}, label }};
             const named = {{ names: given.names, standing, isMoving: given.moving[at] }};
-            drawNames(pen, new Ground(pen, disc), disc, named, images, {STYLE});
+            drawNames(pen, new Seats(pen, disc), disc, named, images, {STYLE});
             return labels;
           }});
         }})()""",
@@ -78,7 +78,7 @@ def test_lines_and_dots_are_weaker_only_where_they_are_dense(node):
       };
       const found = [];
       const net = (path) => each((x, y) => { path.moveTo(x, y); path.lineTo(x + 2, y); });
-      eachLines(net, 1.1, size, (size, opacity, part) => {
+      eachLines(net, 1.1, new Ink(size), (size, opacity, part) => {
         const count = [[0, 0], [0, 0]];
         part({ moveTo: (x) => ++count[0][x < 300 ? 0 : 1], lineTo: (x) => ++count[1][x < 302 ? 0 : 1] });
         found.push([size * opacity, ...count]);
@@ -86,7 +86,7 @@ def test_lines_and_dots_are_weaker_only_where_they_are_dense(node):
       const places = [];
       each((x, y) => places.push(x, y));
       const dots = [];
-      eachDots(places, 15, size, (size, opacity, those) => dots.push([size ** 2 * opacity, those.length / 2]));
+      eachDots(places, 15, new Ink(size), (size, opacity, those) => dots.push([size ** 2 * opacity, those.length / 2]));
       return { found, dots };
     })()"""
     answer = ask(node, expression)

@@ -82,6 +82,7 @@ class Page {
       messages: this.#messages,
       changed: (isStep = false) => this.#changed(isStep),
       guarded: (body) => this.#guarded(body),
+      pass: (...what) => this.#pass(...what),
     });
     const room = this.#rooms.get(name) ?? made; // it may have been entered twice meanwhile
     if (!this.#rooms.has(name)) room.attach(find(document, `#room-${name}`));
@@ -214,8 +215,14 @@ class Page {
     done.catch((error: unknown) => this.#failed(error));
   }
 
-  #open(file: File | undefined): void {
-    if (file !== undefined) this.#exchanging((room, exchange) => room.open(file, exchange));
+  #open(file: File | undefined, columns?: [string, string]): void {
+    if (file !== undefined) this.#exchanging((room, exchange) => room.open(file, exchange, columns));
+  }
+
+  async #pass(name: RoomName, file: File, columns?: [string, string]): Promise<void> {
+    history.pushState(null, "", `#${name}`);
+    await this.#follow();
+    this.#open(file, columns);
   }
 
   async #export(kind: string, room: Room, exchange: Exchange): Promise<void> {
@@ -227,6 +234,9 @@ class Page {
     } else if (kind === "geojson") {
       const text = room.geojson(exchange);
       if (text !== null) exchange.download(`${name}.geojson`, text, "application/geo+json");
+    } else if (kind === "csv") {
+      const text = room.csv(exchange);
+      if (text !== null) exchange.download("sites.csv", text, "text/csv"); // as the lines of Python call it
     } else if (kind === "page") {
       exchange.download(`${name}.html`, await exchange.savedPage(this.#source, this.#link(room.state(true))));
     } else {

@@ -15,10 +15,11 @@ const [FINEST, SMALLEST, FAINTEST] = [0.55, 0.4, 0.07];
 type Size = Readonly<Record<"width" | "height", number>>;
 
 /** Ink by squares of a drawing, with a row and a column round it that have none. */
-class Ink {
+export class Ink {
   readonly #size: Size;
   readonly #columns: number;
   readonly #ink: Float64Array;
+  #steps: Float64Array | null = null;
 
   constructor(size: Size) {
     [this.#size, this.#columns] = [size, Math.ceil(size.width / SQUARE) + 2];
@@ -34,11 +35,11 @@ class Ink {
 
   add(x: number, y: number, squarePixels: number): void {
     const { width, height } = this.#size;
-    if (x >= 0 && y >= 0 && x < width && y < height) this.#ink[this.#at(x, y)] += squarePixels;
+    if (this.#steps === null && x >= 0 && y >= 0 && x < width && y < height) this.#ink[this.#at(x, y)] += squarePixels;
   }
 
   /** Steps by which squares are weaker: by the mean of nine, of those with ink, as beyond the limb there is none. */
-  #steps(most: number): Float64Array {
+  #measured(most: number): Float64Array {
     const [columns, ink] = [this.#columns, this.#ink];
     return ink.map((_, at) => {
       let [sum, inked] = [0, 0];
@@ -51,9 +52,12 @@ class Ink {
     });
   }
 
-  /** Calls back with places by the parts of their ink that they keep, the weakest first. */
+  /** Calls back with places by the parts of their ink that they keep, the weakest first; from then on all is measured. */
   each(places: ArrayLike<number>, most: number, visit: (part: number, numbers: readonly number[]) => void): void {
-    const [steps, groups] = [this.#steps(most), Array.from({ length: STEPS + 1 }, (): number[] => [])];
+    const [steps, groups] = [
+      (this.#steps ??= this.#measured(most)),
+      Array.from({ length: STEPS + 1 }, (): number[] => []),
+    ];
     for (let k = 0; 2 * k < places.length; ++k) {
       // Between the middles of four squares, so that these are not seen.
       const [x, y] = [places[2 * k] - SQUARE / 2, places[2 * k + 1] - SQUARE / 2];
@@ -69,10 +73,9 @@ class Ink {
 export function eachDots(
   places: ArrayLike<number>,
   area: number,
-  on: Size,
+  ink: Ink,
   visit: (size: number, opacity: number, places: ArrayLike<number>) => void,
 ): void {
-  const ink = new Ink(on);
   for (let k = 0; k < places.length; k += 2) ink.add(places[k], places[k + 1], area);
   ink.each(places, MOST_DOTS, (part, numbers) => {
     const size = Math.max(SMALLEST, Math.sqrt(part));
@@ -88,10 +91,10 @@ export function eachDots(
 export function eachLines(
   trace: Trace,
   width: number,
-  on: Size,
+  ink: Ink,
   visit: (size: number, opacity: number, trace: Trace) => void,
 ): void {
-  const [ink, middles, lines] = [new Ink(on), [] as number[], [] as number[][][]];
+  const [middles, lines] = [[] as number[], [] as number[][][]];
   let from: Point = [0, 0];
   const ends = ([x, y]: Point, step: number[]): void => {
     lines[lines.length - 1].push(step);

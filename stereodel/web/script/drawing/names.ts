@@ -33,15 +33,23 @@ const LEAST_HEIGHT = 0.12;
 
 let context: CanvasRenderingContext2D | null = null;
 
+const widths = new Map<string, number>();
+
 /** Of a label, pixels. */
 export function widthOf(text: string, { size, italic }: LabelStyle): number {
   context ??= make("canvas").getContext("2d")!;
-  context.font = `${italic ? "italic " : ""}${size}px ${SERIF}`;
-  return context.measureText(text.replaceAll("*", "")).width;
+  const font = `${italic ? "italic " : ""}${size}px ${SERIF}`;
+  const key = `${font} ${text}`;
+  const known = widths.get(key);
+  if (known !== undefined) return known;
+  context.font = font;
+  const { width } = context.measureText(text.replaceAll("*", ""));
+  widths.set(key, width);
+  return width;
 }
 
-/** The ground of a drawing: which of its squares are taken. */
-export class Ground {
+/** The squares of a drawing: which of them are taken. */
+export class Seats {
   readonly #disc: Disc;
   readonly #columns: number;
   readonly #rows: number;
@@ -124,7 +132,7 @@ export interface Named {
  */
 export function drawNames(
   pen: Pen,
-  ground: Ground,
+  seats: Seats,
   disc: Disc,
   { names, standing, isMoving }: Named,
   images: ArrayLike<number>,
@@ -133,7 +141,7 @@ export function drawNames(
   const place = (k: number): Point => [disc.x + disc.r * images[3 * k], disc.y - disc.r * images[3 * k + 1]];
   const front = Array.from(names.keys()).filter((k) => images[3 * k + 2] >= LEAST_HEIGHT);
   const size = Math.PI * disc.r * disc.r;
-  if (front.length * CROWD < size) for (const k of front) ground.takeDot(place(k), 2, k + 1);
+  if (front.length * CROWD < size) for (const k of front) seats.takeDot(place(k), 2, k + 1);
   const before = new Map(isMoving ? standing : []);
   standing.clear();
   const rest = front.filter((k) => names[k] !== "" && !before.has(k)).slice(0, isMoving ? TRIED_MOVING : TRIED);
@@ -142,7 +150,7 @@ export function drawNames(
     if (!(images[3 * k + 2] >= LEAST_HEIGHT)) continue;
     const name = names[k].length > LONGEST ? `${names[k].slice(0, LONGEST - 1)}…` : names[k];
     const kept = before.get(k);
-    const side = ground.set(pen, name.replaceAll("*", "∗"), place(k), style, k + 1, kept ? [kept, ...SIDES] : SIDES);
+    const side = seats.set(pen, name.replaceAll("*", "∗"), place(k), style, k + 1, kept ? [kept, ...SIDES] : SIDES);
     if (side !== undefined) standing.set(k, side);
   }
 }

@@ -24,6 +24,8 @@ export interface Part<Surface> {
   readonly layer?: Switch;
   /** Whether the picture has it in this state, as it has unless this is false. */
   readonly isThere?: boolean;
+  /** Whether it lies over all others and follows the pointer, so that it is drawn alone. */
+  readonly isOver?: boolean;
   /** Where it is written although the picture does not show it. */
   readonly always?: readonly Outlet[];
   draw?(pen: Pen, surface: Surface): void;

@@ -1,6 +1,6 @@
 /** The one interface through which rooms draw: the same trace becomes pixels or SVG. Pixels of the screen, y down. */
 
-import { eachDots, eachLines } from "./density.ts";
+import { eachDots, eachLines, Ink } from "./density.ts";
 import { DOTS, HANDLE_CROSS, HANDLE_RADIUS, STYLES } from "./styles.ts";
 import type { Colours, DotName, DotStyle, LabelStyle, Style, StyleName, Token } from "./styles.ts";
 
@@ -54,6 +54,9 @@ export abstract class Pen {
   readonly height: number;
   protected readonly colours: Colours;
   protected readonly weight: number;
+  /** How densely nets and dots lie, by their styles; what is drawn of a part of a picture takes what is known of the whole. */
+  readonly inks = new Map<string, Ink>();
+  known: ReadonlyMap<string, Ink> | null = null;
 
   /** @param weight Factor of the widths of lines. */
   constructor(width: number, height: number, colours: Colours, weight: number) {
@@ -65,7 +68,7 @@ export abstract class Pen {
     const style: Style = STYLES[name];
     if (!style.isNet) return this.path(name, style, trace);
     const { width = 1 } = style;
-    eachLines(trace, width * this.weight, this, (size, opacity, part) =>
+    eachLines(trace, width * this.weight, this.#ink(name), (size, opacity, part) =>
       this.path(name, { ...style, width: size * width, strokeOpacity: opacity }, part),
     );
   }
@@ -76,7 +79,7 @@ export abstract class Pen {
   /** Dots at x, y in turn; where they are dense, smaller and weaker. */
   dots(name: DotName, places: ArrayLike<number>): void {
     const { radius, rimWidth, ...inks }: DotStyle = DOTS[name];
-    eachDots(places, Math.PI * radius * radius, this, (size, opacity, those) =>
+    eachDots(places, Math.PI * radius * radius, this.#ink(name), (size, opacity, those) =>
       this.discs(name, { ...inks, radius: size * radius, rimWidth: size * rimWidth, opacity }, those),
     );
   }
@@ -84,6 +87,12 @@ export abstract class Pen {
   abstract label(text: string, x: number, y: number, style: LabelStyle): void;
   /** A picture, fitted into a rectangle. */
   abstract picture(picture: Picture, x: number, y: number, width: number, height: number): void;
+  #ink(name: string): Ink {
+    const ink = this.known?.get(name) ?? new Ink(this);
+    this.inks.set(name, ink);
+    return ink;
+  }
+
   protected inkOf(colour: LabelStyle["ink"]): string {
     return this.colours[colour as Token] ?? colour;
   }

@@ -18,6 +18,7 @@ export interface Style {
 }
 
 export const STYLES = {
+  paper: { fill: "paper" },
   graticule: { stroke: "graticule", width: 0.5 },
   coast: { stroke: "coast", width: 0.7 },
   land: { fill: "land" },

@@ -20,9 +20,6 @@ import { BEGINNING, GLOBE, PRESETS, sideView } from "./globe_state.ts";
 import type { GlobeState } from "./globe_state.ts";
 import { TableRoom, tableOf, tableValues } from "./site_room.ts";
 
-/** Files that are pictures, by the ends of their names. */
-const PICTURES = /\.(jpe?g|png|webp|avif)$/i;
-
 /** Steps of the slider for a magnification of ten times. */
 const SLIDER_TEN = 50;
 
@@ -126,16 +123,16 @@ export class GlobeRoom extends TableRoom implements Room {
 
   open(file: File, exchange: Exchange): Promise<void> {
     const { messages, guarded } = this.host;
-    if (file.type.startsWith("image/") || PICTURES.test(file.name)) {
+    if (exchange.isPicture(file)) {
       return exchange.openPanorama(file, messages, (picture) => {
         this.scene.picture = this.#picture = picture;
         this.redraw();
         this.host.changed(true);
       });
     }
-    return exchange.openPoints(file, "lonlat", messages, ({ places: lonlat, names }) => {
+    return exchange.openPoints(file, "lonlat", this.host, ({ places: lonlat, names, values }) => {
       guarded(() => {
-        this.#show({ name: file.name, lonlat, names });
+        this.#show({ name: file.name, lonlat, names, values });
         this.switches.set("cells", true);
         this.set({}, "state", true);
       });
@@ -148,9 +145,17 @@ export class GlobeRoom extends TableRoom implements Room {
   }
 
   geojson(exchange: Exchange): string | null {
+    const { places, parts, latitude } = this.scene;
+    return places === null ? this.#noPlaces() : exchange.geojson(regionsOf(parts, this.isOn), latitude);
+  }
+
+  csv(exchange: Exchange): string | null {
     const { places } = this.scene;
-    if (places !== null) return exchange.geojson(regionsOf(this.scene.parts, this.isOn), this.scene.latitude);
-    this.host.messages.show("", "There are no cells yet: open a file with places of your own.");
+    return places === null ? this.#noPlaces() : exchange.csv(["lon", "lat"], { ...places, places: places.lonlat });
+  }
+
+  #noPlaces(): null {
+    this.host.messages.show("", "There are no places and no cells yet: open a file of your own.");
     return null;
   }
 

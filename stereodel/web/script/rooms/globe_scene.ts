@@ -3,7 +3,7 @@
 import type { Contents } from "../contents.ts";
 import * as balls from "../drawing/ball.ts";
 import type { Layer } from "../drawing/ball.ts";
-import { drawNames, Ground, type Box, type Named } from "../drawing/names.ts";
+import { drawNames, Seats, type Box, type Named } from "../drawing/names.ts";
 import { cellOf, type Part, type Region } from "../drawing/parts.ts";
 import type { Disc } from "../drawing/pen.ts";
 import type { LabelStyle } from "../drawing/styles.ts";
@@ -46,6 +46,8 @@ export interface Places {
   readonly lonlat: Float64Array;
   /** Of the places, where their file has such a column. */
   readonly names?: readonly string[] | null;
+  /** Its columns of numbers. */
+  readonly values?: ReadonlyMap<string, Float64Array>;
 }
 
 /** Places are drawn at their latitudes as they stand; their cells are those of the sphere that `latitude` names. */
@@ -130,7 +132,7 @@ export class GlobeScene {
         draw: (pen, { disc, map, isMoving, standing, taken }) => {
           const images = map.apply(this.#made!.dots.directions);
           const named = { names: places!.names!, standing, isMoving };
-          drawNames(pen, new Ground(pen, disc, taken), disc, named, images, this.lettered(NAME));
+          drawNames(pen, new Seats(pen, disc, taken), disc, named, images, this.lettered(NAME));
         },
       },
     ];
