@@ -49,7 +49,7 @@ def kilobytes(text):
 
 def test_sizes():
     assert kilobytes(assemble.html("110m")) <= 234
-    for name, most in {"page.js": 40, "exchange.js": 20, "lift.js": 8, "stereodel.wasm": 144}.items():
+    for name, most in {"page.js": 45, "exchange.js": 20, "lift.js": 8, "stereodel.wasm": 144}.items():
         assert kilobytes(built(name)) <= most
 
 

@@ -14,10 +14,13 @@ const SIDES = [1, 1, -1, -1, 1, -1, 0, 0].map((right, k): Side => [right, [-1, 1
 export type Box = readonly [number, number, number, number];
 
 /** Side of the squares of which it is known who takes them; from a dot to its name, between names, pixels. */
-const [SQUARE, AWAY, APART] = [3, 6, 4];
+const [SQUARE, GAP, APART] = [3, 4, 4];
 
 /** Above and below the baseline, in sizes of the type. */
 const [ASCENT, DESCENT] = [0.7, 0.22];
+
+/** Radius of a usual dot, pixels. */
+const USUAL = 2;
 
 /** Letters of the longest name. */
 const LONGEST = 40;
@@ -75,10 +78,18 @@ export class Seats {
   }
 
   /** Sets the label of a dot on the first side with room, which is then taken; undefined where there is none. */
-  set(pen: Pen, text: string, dot: Point, style: LabelStyle, owner: number, sides = SIDES): Side | undefined {
+  set(
+    pen: Pen,
+    text: string,
+    dot: Point,
+    style: LabelStyle,
+    owner: number,
+    sides: readonly Side[],
+    radius = USUAL,
+  ): Side | undefined {
     const width = widthOf(text, style);
     return sides.find((side) => {
-      const box = boxOf(dot, side, width, style.size);
+      const box = boxOf(dot, radius, side, width, style.size);
       if (!this.#isFree(box, owner)) return false;
       this.take([box[0] - APART, box[1], box[2] + APART, box[3]]);
       pen.label(text, box[0], box[3] - DESCENT * style.size, style);
@@ -111,8 +122,9 @@ export function sidesToward(right: number, down: number): Side[] {
   return [...SIDES].sort((a, b) => along(b) - along(a));
 }
 
-function boxOf([x, y]: Point, [u, v]: Side, width: number, size: number): Box {
-  const [across, down] = u === 0 ? [0, AWAY] : v === 0 ? [AWAY, 0] : [0.6 * AWAY, 0.2 * AWAY];
+function boxOf([x, y]: Point, radius: number, [u, v]: Side, width: number, size: number): Box {
+  const away = GAP + radius;
+  const [across, down] = u === 0 ? [0, away] : v === 0 ? [away, 0] : [0.5 * GAP + 0.75 * radius, 0.5 * radius];
   const left = x + u * across - (width * (1 - u)) / 2;
   const top = y + v * down - (ASCENT * size * (1 - v)) / 2 - (v < 0 ? DESCENT * size : 0);
   return [left, top, left + width, top + (ASCENT + DESCENT) * size];
@@ -121,6 +133,8 @@ function boxOf([x, y]: Point, [u, v]: Side, width: number, size: number): Box {
 /** Names of dots, some of them empty, and on which sides of which dots they stand in the drawing. */
 export interface Named {
   readonly names: readonly string[];
+  /** Of the dots, pixels, where they differ. */
+  readonly radii?: readonly number[];
   readonly standing: Map<number, Side>;
   readonly isMoving: boolean;
 }
@@ -134,14 +148,15 @@ export function drawNames(
   pen: Pen,
   seats: Seats,
   disc: Disc,
-  { names, standing, isMoving }: Named,
+  { names, radii, standing, isMoving }: Named,
   images: ArrayLike<number>,
   style: LabelStyle,
 ): void {
   const place = (k: number): Point => [disc.x + disc.r * images[3 * k], disc.y - disc.r * images[3 * k + 1]];
   const front = Array.from(names.keys()).filter((k) => images[3 * k + 2] >= LEAST_HEIGHT);
   const size = Math.PI * disc.r * disc.r;
-  if (front.length * CROWD < size) for (const k of front) seats.takeDot(place(k), 2, k + 1);
+  const radius = (k: number): number => Math.max(USUAL, radii?.[k] ?? 0);
+  if (front.length * CROWD < size) for (const k of front) seats.takeDot(place(k), radius(k), k + 1);
   const before = new Map(isMoving ? standing : []);
   standing.clear();
   const rest = front.filter((k) => names[k] !== "" && !before.has(k)).slice(0, isMoving ? TRIED_MOVING : TRIED);
@@ -150,7 +165,15 @@ export function drawNames(
     if (!(images[3 * k + 2] >= LEAST_HEIGHT)) continue;
     const name = names[k].length > LONGEST ? `${names[k].slice(0, LONGEST - 1)}…` : names[k];
     const kept = before.get(k);
-    const side = seats.set(pen, name.replaceAll("*", "∗"), place(k), style, k + 1, kept ? [kept, ...SIDES] : SIDES);
+    const side = seats.set(
+      pen,
+      name.replaceAll("*", "∗"),
+      place(k),
+      style,
+      k + 1,
+      kept ? [kept, ...SIDES] : SIDES,
+      radius(k),
+    );
     if (side !== undefined) standing.set(k, side);
   }
 }

@@ -6,7 +6,18 @@ import type { Pen } from "./pen.ts";
 
 /** What the reader can switch on and off. */
 export type Switch =
-  "bubble" | "cells" | "closing" | "graticule" | "land" | "names" | "rays" | "seeing" | "tissot" | "triangles";
+  | "bubble"
+  | "cells"
+  | "closing"
+  | "fills"
+  | "graticule"
+  | "isolines"
+  | "land"
+  | "names"
+  | "rays"
+  | "seeing"
+  | "tissot"
+  | "triangles";
 
 type Outlet = "picture" | "python" | "geojson";
 

@@ -63,13 +63,13 @@ export abstract class Pen {
     [this.width, this.height, this.colours, this.weight] = [width, height, colours, weight];
   }
 
-  /** Draws a path in a style; regions are those about which the path winds, and dense nets are weaker. */
-  draw(name: StyleName, trace: Trace): void {
+  /** Draws a path in a style, or in an ink of the data; regions are those about which the path winds, and dense nets are weaker. */
+  draw(name: StyleName, trace: Trace, ink?: string): void {
     const style: Style = STYLES[name];
-    if (!style.isNet) return this.path(name, style, trace);
+    if (!style.isNet) return this.path(name, style, trace, ink);
     const { width = 1 } = style;
     eachLines(trace, width * this.weight, this.#ink(name), (size, opacity, part) =>
-      this.path(name, { ...style, width: size * width, strokeOpacity: opacity }, part),
+      this.path(name, { ...style, width: size * width, strokeOpacity: opacity }, part, ink),
     );
   }
   /** Draws what lies behind, faintly. */
@@ -83,6 +83,10 @@ export abstract class Pen {
       this.discs(name, { ...inks, radius: size * radius, rimWidth: size * rimWidth, opacity }, those),
     );
   }
+  /** Dots with radii and inks of their own, x, y, r in turn, the lowest first, each with a line around it. */
+  abstract spots(places: ArrayLike<number>, inks: readonly string[]): void;
+  /** Draws something so many pixels lower. */
+  abstract lowered(by: number, body: () => void): void;
   /** Text at a point of its baseline. */
   abstract label(text: string, x: number, y: number, style: LabelStyle): void;
   /** A picture, fitted into a rectangle. */
@@ -97,7 +101,7 @@ export abstract class Pen {
     return this.colours[colour as Token] ?? colour;
   }
 
-  protected abstract path(name: StyleName, style: Style, trace: Trace): void;
+  protected abstract path(name: StyleName, style: Style, trace: Trace, ink?: string): void;
   /** First all rims: where dots lie close, none is hidden by the rim of another. */
   protected abstract discs(name: DotName, style: DotStyle, places: ArrayLike<number>): void;
   protected abstract fillDisc(disc: Disc, fill: string | Gradient): void;

@@ -100,11 +100,6 @@ export abstract class TableRoom {
     return find(this.section, `[data-out=${name}]`);
   }
 
-  /** Their switch is there only with them. */
-  protected set hasNames(has: boolean) {
-    this.section.querySelector("[data-show=names]")?.toggleAttribute("hidden", !has);
-  }
-
   /** The state has changed; a screen reader hears what. */
   protected changed(words: string): void {
     this.host.changed();
@@ -177,7 +172,7 @@ export abstract class SiteRoom extends TableRoom {
   /** Shows what the sites are called, how many there are, and the table. */
   protected show(named: NamedSites, rows: Omit<Rows, "names">): void {
     this.named = named;
-    this.hasNames = named.names !== null;
+    if (this.#kind === "lonlat") this.switches.offer("names", named.names !== null);
     // Sites of the reader's own have an entry while they are there.
     this.#select.querySelector(`option[value=${OWN}]`)?.remove();
     if (named.set === OWN) this.#select.prepend(new Option(named.name ?? "Your own sites", OWN));
