@@ -42,7 +42,7 @@ def test_the_bubble_follows_the_pointer_until_a_click_keeps_it(room):
     page.rest()
     assert output(page, "sentence") != sentence
     assert page.digest(BALL) != on_ball
-    assert output(page, "sentence").endswith("Other sites inside: 0\u00a0and\u00a00.")
+    assert output(page, "sentence").endswith("Other sites inside, counted exactly: 0\u00a0and\u00a00.")
 
     page.page.mouse.click(x + 60, y + 60)
     kept = output(page, "sentence")

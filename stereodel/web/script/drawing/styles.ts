@@ -15,6 +15,7 @@ export interface Style {
 }
 
 export const STYLES = {
+  paper: { fill: "paper" },
   graticule: { stroke: "graticule", width: 0.5 },
   coast: { stroke: "coast", width: 0.7 },
   land: { fill: "land" },
@@ -41,6 +42,11 @@ export const STYLES = {
   side: { stroke: "voronoi", width: 1.3 },
   touch: { stroke: "ink", width: 1 },
   tissot: { fill: "tissot", stroke: "coast", width: 0.6 },
+  tint: { fill: "paper", stroke: "paper", width: 0.6 },
+  swatch: { fill: "paper" },
+  tick: { stroke: "ink-2", width: 0.7 },
+  isoline: { stroke: "ink", width: 0.8 },
+  "spot-line": { stroke: "limb", width: 0.6 },
   "patch-line": { stroke: "accent", width: 1 },
   handle: { stroke: "accent", width: 1.8, fill: "paper" },
   "handle-behind": { stroke: "accent", width: 1.2 },

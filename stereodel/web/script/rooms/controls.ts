@@ -104,13 +104,20 @@ export class Switches {
     for (const [name, input] of this.#inputs) input.addEventListener("change", () => changed(name));
   }
 
-  /** Is on where a link says nothing of it. */
-  begin(name: string): void {
-    Object.assign(this.#inputs.get(name)!, { checked: true, defaultChecked: true });
+  /** Is on, or off, where a link says nothing of it. */
+  begin(name: string, isOn: boolean): void {
+    Object.assign(this.#inputs.get(name)!, { checked: isOn, defaultChecked: isOn });
   }
 
   set(name: string, isOn: boolean): void {
     this.#inputs.get(name)!.checked = isOn;
+  }
+
+  /** Whether there is anything to switch. */
+  offer(name: string, isThere: boolean): void {
+    const input = this.#inputs.get(name)!;
+    input.disabled = !isThere;
+    input.closest<HTMLElement>(".switch")!.hidden = !isThere && name !== "cells";
   }
 
   isOn(name: string): boolean {

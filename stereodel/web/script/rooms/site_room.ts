@@ -2,7 +2,9 @@
 
 import { find } from "../dom.ts";
 import type { IsOn, Switch } from "../drawing/parts.ts";
+import type { Reason } from "../drawing/plate.ts";
 import type { Exchange } from "../exchange.ts";
+import type { Points } from "../files.ts";
 import type { Place } from "../fields.ts";
 import { LETTERS, MOST_SITES, packPlaces, type LinkValues } from "../link.ts";
 import type { RoomHost } from "../room.ts";
@@ -28,6 +30,8 @@ export interface Table {
 export interface NamedSites extends Table {
   readonly set: string;
   readonly file: string | null;
+  /** Columns of numbers of that file. */
+  readonly values?: ReadonlyMap<string, Float64Array>;
 }
 
 /** Sites of no file, of a link or changed by hand. */
@@ -121,11 +125,11 @@ export abstract class SiteRoom extends TableRoom {
 
   /** Other sites are there: a set of the list, or a file. */
   protected abstract begin(named: NamedSites): void;
-  abstract redraw(): void;
+  abstract redraw(reason?: Reason): void;
 
   protected override pointed(site: number | null): void {
     this.lit = site;
-    this.redraw();
+    this.redraw("pointer");
   }
 
   override attach(section: HTMLElement): void {
@@ -177,10 +181,14 @@ export abstract class SiteRoom extends TableRoom {
     this.table.show({ ...rows, names: named.names });
   }
 
-  open(file: File, exchange: Exchange): Promise<void> {
-    return exchange.openPoints(file, this.#kind, this.host.messages, (points) =>
-      this.#begin({ ...ownSites({ ...points, name: points.file }), file: points.file }),
-    );
+  open(file: File, exchange: Exchange, columns?: [string, string]): Promise<void> {
+    const opened = ({ places, names, values, file }: Points): void =>
+      this.#begin({ ...ownSites({ places, names, name: file }), values, file });
+    return exchange.openPoints(file, this.#kind, this.host, opened, columns);
+  }
+
+  csv(exchange: Exchange): string {
+    return exchange.csv(this.#kind === "plane" ? ["x", "y"] : ["lon", "lat"], this.named);
   }
 
   protected get title(): string {
@@ -197,8 +205,12 @@ export abstract class SiteRoom extends TableRoom {
 
 /** The sites with one of them elsewhere, one more at the end, or, without a place, one less: its number is the next one's. */
 export function edited({ places, names, name }: NamedSites, site: number, place: Place | null): NamedSites {
-  const [numbers, words] = [[...places], names && [...names]];
-  numbers.splice(2 * site, 2, ...(place ?? []));
-  words?.splice(site, 1, ...(place === null ? [] : [words[site] ?? ""]));
-  return ownSites({ places: Float64Array.from(numbers), names: words, name });
+  const isMove = place !== null && 2 * site < places.length;
+  const words = isMove || !names ? names : [...names.slice(0, site), ...(place ? [""] : names.slice(site + 1))];
+  const [begin, end] = [places.subarray(0, 2 * site), places.subarray(2 * site + 2)];
+  const numbers = new Float64Array(begin.length + end.length + (place?.length ?? 0));
+  numbers.set(begin);
+  numbers.set(place ?? [], begin.length);
+  numbers.set(end, numbers.length - end.length);
+  return ownSites({ places: numbers, names: words, name });
 }

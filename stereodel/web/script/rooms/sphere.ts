@@ -8,6 +8,7 @@ import type { Pen, Sheet } from "../drawing/pen.ts";
 import { Plate, type Reason } from "../drawing/plate.ts";
 import type { Exchange } from "../exchange.ts";
 import type { Place } from "../fields.ts";
+import { lazy } from "../kernel/lazy.ts";
 import type { LinkValues } from "../link.ts";
 import type { Room, RoomHost } from "../room.ts";
 import { sphereSets, type Stored } from "../sets.ts";
@@ -19,13 +20,17 @@ import { pointUnder, View } from "../view/view.ts";
 import { counted, latitude, longitude, ofFacets, wrap } from "../words.ts";
 import { Choice, PlaceFields, siteForm, stepControl } from "./controls.ts";
 import { edited, SiteRoom, type NamedSites } from "./site_room.ts";
-import { ballLayers, drawBall, drawPlane, sphereParts, type SphereScene, type Step } from "./sphere_drawing.ts";
+import { ballDrawing, ballLayers, drawMoved, planeDrawing, sphereParts } from "./sphere_drawing.ts";
+import type { Drawing, Ground, SphereScene, Step } from "./sphere_drawing.ts";
 import { ofBubble, ofDuplicates, ofSite, ofStep, SphereSites, withoutTriangles, type Bubble } from "./sphere_sites.ts";
 import { BEGINNING, directionAt, handPlace, sphereFields, type Click, type SphereState } from "./sphere_state.ts";
 import { planeFrame, reachAround, Twin, type PlaneFrame } from "./twin.ts";
 
 /** Sites from which on cells are left out while something moves. */
 const MANY = 3_000;
+
+/** Of the table. */
+const HEADS = ["Latitude", "Longitude", "Neighbours"];
 
 /** What the sum of facets is made of. */
 const SUM = ["on the sphere", "in the plane", "\u00a0*P*"] as const;
@@ -81,10 +86,8 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
   override attach(section: HTMLElement): void {
     super.attach(section);
     const { guarded } = this.host;
-    const plate = (which: string, paint: (pen: Pen, scene: SphereScene) => void): Plate =>
-      new Plate(find(section, `#sphere-${which}`), (pen, moving) => paint(pen, this.#scene(moving)), guarded);
-    this.#ball = plate("ball", (pen, scene) => drawBall(pen, this.disc, scene));
-    this.#plane = plate("plane", (pen, scene) => drawPlane(pen, this.#frame, scene));
+    this.#ball = this.#plate("ball", () => ballDrawing(this.disc));
+    this.#plane = this.#plate("plane", () => planeDrawing(this.#frame));
     this.#poleFields = new PlaceFields(section, "pole", (place) => guarded(() => this.#movePole(place)));
     this.#viewFields = new PlaceFields(section, "view", (place) => guarded(() => this.#turn(place)));
     this.#click = new Choice(section, "click", () => this.host.changed());
@@ -100,6 +103,23 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
     const take = (): Hold => ({ move: () => {} });
     follow(this.#plane, this.#gestures({ under, place, take, isOn: () => true }));
     follow(this.#ball, this.#gestures(this.#onBall));
+  }
+
+  /** A picture whose ground stays where only the pointer or one site moves. */
+  #plate(which: string, drawing: () => Drawing): Plate {
+    let ground: Ground;
+    const paint = (pen: Pen, isMoving: boolean): void => {
+      const scene = this.#scene(isMoving);
+      ground = lazy<Ground>({ sites: () => scene.sites, round: () => drawing().round(scene) });
+      drawing().draw(pen, scene, "ground");
+    };
+    const over = (pen: Pen, isMoving: boolean): void => {
+      const scene = this.#scene(isMoving);
+      if (ground.sites !== scene.sites) drawMoved(pen, drawing(), scene, ground, this.#held!);
+      drawing().draw(pen, scene, "over");
+    };
+    const canvas = find<HTMLCanvasElement>(this.section, `#sphere-${which}`);
+    return new Plate(canvas, paint, this.host.guarded, document.documentElement, over);
   }
 
   // State
@@ -146,14 +166,14 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
     if (this.#state.step !== null && this.#state.step >= sites.count) this.#put({ step: null });
     this.show(named, {
       count: sites.count,
-      heads: ["Latitude", "Longitude", "Neighbours"],
+      heads: HEADS,
       cells: (site) => [...sites.words(site), String(sites.neighborCounts[site])],
     });
     find(this.section, "[data-show=closing]").hidden = !sites.hasClosing;
     const label = `Sphere with ${counted(sites.count)} ${sites.count === 1 ? "site" : "sites"}`;
     this.#ball.canvas.setAttribute("aria-label", label);
     this.#project();
-    if (reason !== "hand") this.#rescale();
+    if (reason === "state") this.#rescale();
     this.#update(reason);
   }
 
@@ -308,7 +328,7 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
       move: (to) => {
         if (isFirst) this.#note();
         isFirst = false;
-        this.host.guarded(() => this.#moveSite(site, this.#onBall.under(to), "hand"));
+        this.host.guarded(() => this.#moveSite(site, this.#onBall.under(to), "pointer"));
       },
       end: () => this.#rest(),
     };
@@ -336,7 +356,7 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
     const before = this.#bubble?.facet ?? null;
     this.#put({ aim: direction });
     if (this.#sites.facetAt(this.#state.aim) === before) return;
-    this.host.guarded(() => this.#update());
+    this.host.guarded(() => this.#update("pointer"));
     this.host.changed();
   }
 
@@ -528,13 +548,16 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
       height: size,
       weight: 1,
       paint: (pen) => {
-        drawBall(pen, disc, scene);
-        drawPlane(pen, frame, scene);
+        for (const drawing of [ballDrawing(disc), planeDrawing(frame)])
+          for (const stratum of ["ground", "over"] as const) drawing.draw(pen, scene, stratum);
       },
     };
   }
 
+  /** Of a step of the insertion, its triangles. */
   geojson(exchange: Exchange): string {
+    const { step } = this.#state;
+    if (step !== null) return exchange.geojson(new SphereSites(this.#sites.lonlat.subarray(0, 2 * step)).triangles());
     return exchange.geojson(regionsOf(sphereParts(this.#scene(false)), this.isOn));
   }
 

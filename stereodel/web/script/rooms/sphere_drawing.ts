@@ -14,6 +14,7 @@ import { cross, dot, lonLatOf, type Vector } from "../space.ts";
 import type { View } from "../view/view.ts";
 import type { Bubble, Insertion, SphereSites } from "./sphere_sites.ts";
 import type { PlaneFrame, Twin } from "./twin.ts";
+import { roundInPlane, roundOnBall, sitesIn, united, windowOf, type RoundFacet, type Window } from "./window.ts";
 
 /** A step of the insertion: what it does, and which facets before it and of its fan see the pole. */
 export interface Step {
@@ -80,7 +81,7 @@ interface Picture extends Surface {
   opening(path: Path, insertion: Insertion, isThere: (k: number) => boolean): void;
 }
 
-/** What both pictures show. Python and GeoJSON have the diagram of all sites, whatever is drawn of it, at any step. */
+/** What both pictures show. Python has the diagram of all sites, whatever is drawn of it, at any step, and GeoJSON else. */
 export function sphereParts({ sites, seeing, bubble, aim, held, step }: SphereScene): Part<Picture>[] {
   const isThere = step === "done";
   const outline = sites.outline(seeing);
@@ -110,8 +111,16 @@ export function sphereParts({ sites, seeing, bubble, aim, held, step }: SphereSc
     },
     { layer: "seeing", isThere, draw: (pen, on) => pen.draw("hull", (path) => on.ring(path, outline)) },
     {
+      isThere,
+      always: ["python"],
+      draw: (_, on) => on.dots(),
+      python: { ball: 'ball.add_points(delaunay.points, name="sites")', plane: 'plane.add_points(flat, name="sites")' },
+    },
+    { isThere: !isThere, draw: (pen, on) => drawStep(pen, on, step as Step) },
+    {
       layer: "bubble",
       isThere: isAimed,
+      isOver: true,
       draw: (_, on) => on.bubble(bubble!),
       python: {
         ball: [
@@ -121,20 +130,65 @@ export function sphereParts({ sites, seeing, bubble, aim, held, step }: SphereSc
         ],
       },
     },
-    {
-      isThere,
-      always: ["python"],
-      draw: (_, on) => on.dots(),
-      python: { ball: 'ball.add_points(delaunay.points, name="sites")', plane: 'plane.add_points(flat, name="sites")' },
-    },
-    { isThere, draw: (pen, on) => balls.drawDots(pen, on, "held", [...(bubble?.sites ?? []), ...held]) },
-    { layer: "bubble", isThere: isAimed, draw: (pen, on) => drawNumbers(pen, on, bubble!) },
-    { isThere: !isThere, draw: (pen, on) => drawStep(pen, on, step as Step) },
+    { isThere, isOver: true, draw: (pen, on) => balls.drawDots(pen, on, "held", [...(bubble?.sites ?? []), ...held]) },
+    { layer: "bubble", isThere: isAimed, isOver: true, draw: (pen, on) => drawNumbers(pen, on, bubble!) },
   ];
 }
 
-/** Draws the ball into a disc. */
-export function drawBall(pen: Pen, disc: Disc, scene: SphereScene): void {
+/** What stays where only the pointer moves, and what lies over it. */
+export type Stratum = "ground" | "over";
+
+/** The one picture or the other. */
+export interface Drawing {
+  draw(pen: Pen, scene: SphereScene, stratum: Stratum): void;
+  /** Where circles round facets are seen. */
+  round(scene: SphereScene): RoundFacet;
+}
+
+/** A drawing's ground as it was painted. */
+export interface Ground {
+  readonly sites: SphereSites;
+  readonly round: RoundFacet;
+}
+
+/** Brings a ground up to date where one site has moved since: where it was, and where it is now. */
+export function drawMoved(pen: Pen, drawing: Drawing, scene: SphereScene, ground: Ground, site: number): void {
+  const { sites, twin } = scene;
+  const round = drawing.round(scene);
+  const window = (of: Ground): Window => windowOf(of.sites, site, of.round, pen.width, pen.height);
+  for (const each of united(window(ground), window({ sites, round }))) {
+    const seen = sitesIn(sites, each, round);
+    const trace = (path: Path): void => traceCorners(path, cornersOf(...each));
+    pen.clipped(trace, () => {
+      pen.draw("paper", trace);
+      drawing.draw(pen, { ...scene, sites: seen, layers: ballLayers(seen), seeing: seen.seeing(twin.pole) }, "ground");
+    });
+  }
+}
+
+/** The ball in a disc. */
+export function ballDrawing(disc: Disc): Drawing {
+  return {
+    draw: (pen, scene, stratum) => drawBall(pen, disc, scene, stratum),
+    round: ({ sites, layers, view }) =>
+      roundOnBall(disc, MoebiusMap.rotation(view.rotation).apply(layers.dots.directions), sites),
+  };
+}
+
+/** The plane in its frame. */
+export function planeDrawing(frame: PlaneFrame): Drawing {
+  return {
+    draw: (pen, scene, stratum) => drawPlane(pen, frame, scene, stratum),
+    round({ sites, twin, seeing }) {
+      const places = new Float64Array(2 * sites.count);
+      for (let k = 0; k < sites.count; ++k)
+        [places[2 * k], places[2 * k + 1]] = frame.place(twin.forward(sites.site(k)));
+      return roundInPlane(places, seeing, sites);
+    },
+  };
+}
+
+function drawBall(pen: Pen, disc: Disc, scene: SphereScene, stratum: Stratum): void {
   const { sites, layers, view, seeing } = scene;
   const look = (k: number): Vector => view.seen(sites.site(k));
   const surface = balls.ballSurface(disc, look);
@@ -166,14 +220,18 @@ export function drawBall(pen: Pen, disc: Disc, scene: SphereScene): void {
     },
     opening: (path, step) => surface.region(path, step.outline, holdsDirection(step, sites, hidden)),
   };
-  pen.ball(disc, "ball");
-  drawParts(pen, ball, sphereParts(scene), scene.isOn);
-  pen.draw("limb", (path) => traceDisc(path, disc));
-  drawPole(pen, disc, scene);
+  if (stratum === "ground") pen.ball(disc, "ball");
+  drawStratum(pen, ball, scene, stratum);
+  if (stratum === "ground") pen.draw("limb", (path) => traceDisc(path, disc));
+  else drawPole(pen, disc, scene);
 }
 
-/** Draws the plane into its frame. */
-export function drawPlane(pen: Pen, frame: PlaneFrame, scene: SphereScene): void {
+function drawStratum(pen: Pen, on: Picture, scene: SphereScene, stratum: Stratum): void {
+  const parts = sphereParts(scene).filter(({ isOver = false }) => isOver === (stratum === "over"));
+  drawParts(pen, on, parts, scene.isOn);
+}
+
+function drawPlane(pen: Pen, frame: PlaneFrame, scene: SphereScene, stratum: Stratum): void {
   const { sites, twin, seeing } = scene;
   const { x, y, size } = frame;
   const flat = (k: number): Point => frame.place(twin.forward(sites.site(k)));
@@ -228,8 +286,8 @@ export function drawPlane(pen: Pen, frame: PlaneFrame, scene: SphereScene): void
       });
     },
   };
-  pen.clipped(whole, () => drawParts(pen, plane, sphereParts(scene), scene.isOn));
-  pen.draw("frame", whole);
+  pen.clipped(whole, () => drawStratum(pen, plane, scene, stratum));
+  if (stratum === "ground") pen.draw("frame", whole);
 }
 
 /** The numbers of a bubble's sites. */
