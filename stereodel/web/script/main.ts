@@ -9,7 +9,7 @@ import type { LiftRoomMaker } from "./lift.ts";
 import { LinkError, LinkValues, readLink, ROOMS, writeLink, type Link, type RoomName } from "./link.ts";
 import { Announcer, Messages } from "./messages.ts";
 import type { Room, RoomHost } from "./room.ts";
-import { Choice, NAMED } from "./rooms/controls.ts";
+import { Choice, NAMED, NumberField } from "./rooms/controls.ts";
 import { globeRoom } from "./rooms/globe.ts";
 import { sphereRoom } from "./rooms/sphere.ts";
 
@@ -210,6 +210,7 @@ class Page {
         this.#exchanging((...both) => this.#export(button.dataset["export"] ?? "", ...both)),
       );
     }
+    new NumberField(foot, "png-scale", 0, () => {});
     find(foot, "details").addEventListener("toggle", () => this.#python());
   }
 
@@ -236,7 +237,7 @@ class Page {
     if (kind === "svg") exchange.download(`${name}.svg`, exchange.sheetSvg(room.sheet()), "image/svg+xml");
     else if (kind === "png") {
       const scale = field(document, "png-scale").valueAsNumber;
-      exchange.download(`${name}.png`, await exchange.sheetPng(room.sheet(), scale >= 1 && scale <= 8 ? scale : 2));
+      exchange.download(`${name}.png`, await exchange.sheetPng(room.sheet(), scale));
     } else if (kind === "geojson") {
       const text = room.geojson(exchange);
       if (text !== null) exchange.download(`${name}.geojson`, text, "application/geo+json");
