@@ -1,8 +1,7 @@
 """`stereodel/delaunator` and `stereodel/d3-delaunay` beside the packages whose names they bear.
 
-Both are asked the same, method by method. Orders must be the same where a peer's documentation settles them, and where it
-is by its sweep that anybody can tell (the hull). Elsewhere numbers of triangles, and the places where rings of inner sites
-begin, are taken out.
+Both are asked the same, method by method. Orders must be the same where a peer's documentation settles them, or its
+sweep shows (the hull). Elsewhere numbers of triangles, and where the rings of inner sites begin, are taken out.
 """
 
 import re
@@ -27,35 +26,45 @@ DESCRIBED = """(Delaunator, { Delaunay, Voronoi }) => given.map((points) => {
     const v = new Voronoi(d, [10, 10, 90, 90]);
     const sites = points.map((_, k) => k);
     const near = points.map(([x, y], k) => [(k * 37) % 100, (x + 2 * y) % 100]);
-    const traced = (draw) => { const said = []; const note = (name) => (...all) => { said.push([name, ...all]); };
+    const traced = (draw) => {
+        const said = [];
+        const note = (name) => (...all) => { said.push([name, ...all]); };
         const names = ["moveTo", "lineTo", "closePath", "arc", "rect"];
         const answer = draw(Object.fromEntries(names.map((name) => [name, note(name)])));
-        return [said, answer === undefined]; };
+        return [said, answer === undefined];
+    };
     const corners = Array.from(made.triangles.keys()).filter((k) => k % 3 === 0);
     const moved = new Delaunay(Float64Array.from(flat));
     const later = moved.voronoi([10, 10, 90, 90]);
     flat.forEach((value, k) => { moved.points[k] = 100 - value; });
+    const arrays = [made.triangles, made.halfedges, made.hull, d.points, d.triangles, d.halfedges, d.hull, d.inedges];
+    const row = (array, k, end = k + 3) => [...array.slice(k, end)];
     return {
-        same: { coords: made.coords, count: made.trianglesLen, types: [made.triangles, made.halfedges, made.hull, d.points,
-            d.triangles, d.halfedges, d.hull, d.inedges, v.circumcenters, v.vectors].map((a) => a.constructor.name),
+        same: {
+            coords: made.coords, count: made.trianglesLen, vectors: [...v.vectors], collinear: d.collinear ?? null,
+            types: [...arrays, v.circumcenters, v.vectors].map((a) => a.constructor.name),
             hull: [made.hull, d.hull, d.hullPolygon(), d.renderHull(), traced((c) => d.renderHull(c))].map(String),
             points: [d.renderPoints(), d.renderPoints(3), traced((c) => d.renderPoints(c, "4"))],
             bounds: [v.renderBounds(), v.xmin, v.ymin, v.xmax, v.ymax, traced((c) => v.renderBounds(c))],
-            vectors: [...v.vectors], of: v.delaunay === d, collinear: d.collinear ?? null,
             find: near.map(([x, y], k) => [d.find(x, y), d.find(x, y, k)]), nowhere: d.find(NaN, 1),
             contains: near.flatMap(([x, y], k) => [d.find(x, y), k].map((site) => v.contains(site, x, y))),
             around: Array.from(d.hull, (k) => [...d.neighbors(k)]),
             within: Array.from(d.hull, (k) => [...v.neighbors(k)]),
-            cells: Array.from(v.cellPolygons(), (cell) => cell.index), chained: [later.update() === later, moved.update() === moved] },
-        turned: { triangles: corners.map((k) => [...made.triangles.slice(k, k + 3)]), d3: corners.map((k) => [...d.triangles.slice(k, k + 3)]),
+            cells: Array.from(v.cellPolygons(), (cell) => cell.index),
+            chained: [later.update() === later, moved.update() === moved, v.delaunay === d],
+        },
+        turned: {
+            triangles: corners.map((k) => row(made.triangles, k)), d3: corners.map((k) => row(d.triangles, k)),
             around: sites.map((k) => [...d.neighbors(k)]), within: sites.map((k) => [...v.neighbors(k)]),
-            polygons: Array.from(d.trianglePolygons(), (ring) => ring.slice(1)), later: [[...later.delaunay.hull]] },
-        cells: [...sites.map((k) => v.cellPolygon(k)), ...v.cellPolygons(), ...later.cellPolygons()].filter((cell) => cell),
-        paths: sites.map((k) => v.renderCell(k)), meshes: [d.render(), v.render()], triangle: d.renderTriangle(0),
+            polygons: Array.from(d.trianglePolygons(), (ring) => ring.slice(1)), later: [[...later.delaunay.hull]],
+        },
+        cells: [...sites.map((k) => v.cellPolygon(k)), ...v.cellPolygons(), ...later.cellPolygons()].filter(Boolean),
+        paths: sites.map((k) => v.renderCell(k)), meshes: [d.render(), v.render()],
+        triangle: d.renderTriangle(0) === `M${d.trianglePolygon(0).slice(0, 3).join("L")}Z`,
         twins: [made, d].every((t) => t.halfedges.every((twin, k) => twin < 0 || t.halfedges[twin] === k)),
         into: d.inedges.every((edge, k) => d.triangles[edge - (edge % 3) + ((edge + 1) % 3)] === k),
-        centers: corners.map((k) => [...[...d.triangles.slice(k, k + 3)].sort((i, j) => i - j),
-            ...v.circumcenters.slice((2 * k) / 3, (2 * k) / 3 + 2)]),
+        centers: corners.map((k) => [...row(d.triangles, k).sort((i, j) => i - j),
+            ...row(v.circumcenters, (2 * k) / 3, (2 * k) / 3 + 2)]),
         outside: [[...v.neighbors(-1)], v.contains(-1, 1, 1)],
     };
 })"""
@@ -104,6 +113,7 @@ def test_every_method_on_twenty_sets(both):
         assert [*map(numbers, own["paths"])] == [*map(numbers, other["paths"])]
         assert [*map(segments, own["meshes"])] == [*map(segments, other["meshes"])]
         assert np.allclose(sorted(own["centers"]), sorted(other["centers"]), rtol=1e-6)
+        assert own["triangle"]
         assert own["twins"]
         assert own["into"]
         assert own["outside"] == [[], False]  # as its pages say, and it does not
@@ -113,7 +123,8 @@ CELLS = """(Delaunator, { Delaunay }) => {
     const v = Delaunay.from(given).voronoi([-3, -3, 9, 9]);
     const cells = [...v.cellPolygons()];
     const within = given.map((_, k) => [...v.neighbors(k)].sort((i, j) => i - j));
-    return { cells, index: cells.map((cell) => cell.index), within, found: given.map(([x, y]) => v.delaunay.find(x, y)) };
+    const found = given.map(([x, y]) => v.delaunay.find(x, y));
+    return { cells, index: cells.map((cell) => cell.index), within, found };
 }"""
 
 
@@ -150,8 +161,10 @@ def test_a_border_is_where_it_is_however_far_its_ends(both):
 
 
 def test_what_is_refused(both):
-    ask = """(Delaunator, { Delaunay }) => given.map((code) => { try {
-        return String(new Function("Delaunator", "Delaunay", code)(Delaunator, Delaunay)); } catch (error) { return error.message; } })"""
+    ask = """(Delaunator, { Delaunay }) => given.map((code) => {
+        const made = new Function("Delaunator", "Delaunay", code);
+        try { return String(made(Delaunator, Delaunay)); } catch (error) { return error.message; }
+    })"""
     wrong = [
         "new Delaunator([[0, 0], [1, 1]])",
         "new Delaunator({ length: -1 })",

@@ -7,7 +7,8 @@
  * border is in the cell of the lower site. `render` of a diagram draws the borders in the order of the sites.
  */
 
-import Delaunator, { following } from "./delaunator.ts";
+import Delaunator from "./delaunator.ts";
+import { following } from "./topology.ts";
 
 /** What draws: a context of a canvas, a path, or whatever has these methods. */
 export interface PathContext {
@@ -141,7 +142,7 @@ export class Delaunay {
 
   /** Draws a triangle. */
   renderTriangle(i: number, context?: PathContext | null): Drawing {
-    return drawn(context, (to) => trace(to, this.trianglePolygon(i).slice(1)));
+    return drawn(context, (to) => trace(to, this.trianglePolygon(i).slice(0, 3)));
   }
 
   /** The hull as a closed ring. */

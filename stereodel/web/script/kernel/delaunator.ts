@@ -108,9 +108,6 @@ export default class Delaunator<Coords extends ArrayLike<number> = ArrayLike<num
   }
 }
 
-/** The next edge of the same triangle. */
-export const following = (edge: number): number => (edge % 3 === 2 ? edge - 2 : edge + 1);
-
 /** Numbers in the order of their keys below `size`; in the order given where these are equal. */
 function sorted(numbers: Uint32Array, keys: Uint32Array, size: number): Uint32Array {
   const next = new Uint32Array(size + 1);
