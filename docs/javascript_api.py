@@ -1,10 +1,10 @@
-"""The page `javascript_api`: what the npm package offers, from the comments of its sources."""
+"""The page `api/generated/javascript`: what the npm package offers, from the comments of its sources."""
 
 import re
 from pathlib import Path
 
 KERNEL = Path(__file__).resolve().parent.parent / "stereodel" / "web" / "script" / "kernel"
-PAGE = Path(__file__).resolve().parent / "javascript_api.md"
+PAGE = Path(__file__).resolve().parent / "api" / "generated" / "javascript.md"
 
 MODULES = {"stereodel": ["index.ts", "api.ts"], "stereodel/inline": ["inline.ts"]} | {
     f"stereodel/{name}": [f"{name.replace('-', '_')}.ts"] for name in ("d3", "delaunator", "d3-delaunay")
@@ -12,7 +12,7 @@ MODULES = {"stereodel": ["index.ts", "api.ts"], "stereodel/inline": ["inline.ts"
 """Files of the modules that users import."""
 
 HEADING = (
-    "# JavaScript, name by name\n\n{doc}`javascript` says how to begin. Members of base classes are theirs, too.\n"
+    "# JavaScript, name by name\n\n{doc}`/javascript` says how to begin. Members of base classes are theirs, too.\n"
 )
 
 
@@ -81,6 +81,5 @@ def javascript_api():
 
 def write_javascript_api(_app):
     """Before Sphinx reads."""
-    text = javascript_api()
-    if not PAGE.exists() or PAGE.read_text(encoding="utf-8") != text:
-        PAGE.write_text(text, encoding="utf-8")
+    PAGE.parent.mkdir(parents=True, exist_ok=True)
+    PAGE.write_text(javascript_api(), encoding="utf-8")
