@@ -66,7 +66,7 @@ def javascript_api():
             is_told = False
             for signature, text, is_member in declarations(file):
                 if is_member and is_told:
-                    page.append(f"`{signature}`\n: {text or '…'}\n".replace("\n\n", "\n\n  "))
+                    page.append(f"`{signature}`\n" + f": {text}\n".replace("\n\n", "\n\n  ") * bool(text))
                 if is_member:
                     continue
                 name = re.sub(r"^(abstract )?\w+ |[^\w$].*", "", signature)

@@ -26,8 +26,6 @@ export type Polygon = Place[];
 export type Bounds = readonly [xmin: number, ymin: number, xmax: number, ymax: number];
 /** Nothing if a context was given; else the path as SVG writes it, null if it is empty. */
 export type Drawing = string | null | undefined;
-type Points<Point> = ArrayLike<Point> | Iterable<Point>;
-type Accessor<Point> = (point: Point, index: number, points: Points<Point>) => number;
 
 function drawn(context: PathContext | null | undefined, draw: (to: PathContext) => void): Drawing {
   let path = "";
@@ -50,44 +48,36 @@ function trace(to: PathContext, places: Place[], closed = true): void {
 const closed = (ring: Place[]): Polygon => [...ring, ...ring.slice(0, 1)];
 
 /** The triangulation of sites of the plane. */
-export class Delaunay {
-  /** The sites x0, y0, x1, y1, … as given; `update` reads them again. */
-  readonly points: ArrayLike<number>;
-  /** As those of `Delaunator`. */
-  triangles!: Uint32Array;
-  halfedges!: Int32Array;
-  hull!: Uint32Array;
+export class Delaunay extends Delaunator {
   /** Of each site a half-edge that ends there, on the hull for those on it; -1 without triangles and for duplicates. */
-  inedges!: Int32Array;
+  declare inedges: Int32Array;
   /** The different sites in order, if there are more than two and all on one line. */
-  collinear: Int32Array | undefined;
-  /** @internal */
-  readonly made: Delaunator;
+  declare collinear: Int32Array | undefined;
   /** @internal Without triangles, where in the hull each site is. */
-  line = new Map<number, number>();
+  declare line: Map<number, number>;
 
-  /** The triangulation of points [x, y], or, with accessors, of anything. */
-  static from<Point>(
-    points: Points<Point>,
-    fx: Accessor<Point> = (point) => (point as ArrayLike<number>)[0],
-    fy: Accessor<Point> = (point) => (point as ArrayLike<number>)[1],
-    that?: unknown,
-  ): Delaunay {
-    const at = (point: Point, k: number): Place => [fx.call(that, point, k, points), fy.call(that, point, k, points)];
-    return new Delaunay(Float64Array.from(Array.from(points, at).flat()));
-  }
-
-  /** @param points Finite numbers x0, y0, x1, y1, …; not copied. */
-  constructor(points: ArrayLike<number>) {
-    this.points = points;
-    this.made = new Delaunator(points);
-    this.prepare();
+  /** The sites x0, y0, x1, y1, … as given; `update` reads them again. */
+  get points(): ArrayLike<number> {
+    return this.coords;
   }
 
   /** Triangulates anew, after changes of `points` in place. */
-  update(): this {
-    this.made.update();
-    this.prepare();
+  override update(): this {
+    super.update();
+    const { points, size, dimension } = this.exact;
+    if (dimension === 2 && isLine(points, this.triangles)) {
+      const before = (i: number, j: number): number => points[i] - points[j] || points[i + 1] - points[j + 1];
+      this.hull = Uint32Array.from(new Set(this.triangles)).sort((i, j) => before(2 * i, 2 * j));
+      [this.triangles, this.halfedges] = [new Uint32Array(0), new Int32Array(0)];
+    }
+    this.inedges = new Int32Array(size).fill(-1);
+    for (let edge = 0; edge < this.halfedges.length; ++edge) {
+      const to = this.triangles[following(edge)];
+      if (this.halfedges[edge] < 0 || this.inedges[to] < 0) this.inedges[to] = edge;
+    }
+    const isFlat = this.triangles.length === 0;
+    this.line = new Map(isFlat ? Array.from(this.hull, (site, at) => [site, at]) : []);
+    this.collinear = isFlat && this.hull.length > 2 ? Int32Array.from(this.hull) : undefined;
     return this;
   }
 
@@ -109,7 +99,7 @@ export class Delaunay {
   /** The site nearest to a place, exactly, without a start; the lowest of equally near ones, -1 if there is none. */
   find(x: number, y: number, _start?: number): number {
     const place = [+x, +y];
-    return this.made.exact.size > 0 && place.every(Number.isFinite) ? this.made.exact.nearest(place)[0] : -1;
+    return this.exact.size > 0 && place.every(Number.isFinite) ? this.exact.nearest(place)[0] : -1;
   }
 
   /** Draws the edges. */
@@ -128,7 +118,7 @@ export class Delaunay {
     const isContext = typeof context === "object" && context !== null;
     const r = +((isContext ? radius : (radius ?? context)) ?? 2);
     return drawn(isContext ? context : null, (to) => {
-      for (const [x, y] of this.places(Array(this.made.exact.size).keys())) {
+      for (const [x, y] of this.places(Array(this.exact.size).keys())) {
         to.moveTo(x + r, y);
         to.arc?.(x, y, r, 0, 2 * Math.PI);
       }
@@ -173,25 +163,6 @@ export class Delaunay {
   places(sites: Iterable<number>): Place[] {
     return Array.from(sites, (site) => [this.points[2 * site], this.points[2 * site + 1]]);
   }
-
-  private prepare(): void {
-    const { exact } = this.made;
-    ({ triangles: this.triangles, halfedges: this.halfedges, hull: this.hull } = this.made);
-    if (exact.dimension === 2 && isLine(exact.points, this.triangles)) {
-      const order = (i: number, j: number): number =>
-        exact.points[i] - exact.points[j] || exact.points[i + 1] - exact.points[j + 1];
-      this.hull = Uint32Array.from(new Set(this.triangles)).sort((i, j) => order(2 * i, 2 * j));
-      [this.triangles, this.halfedges] = [new Uint32Array(0), new Int32Array(0)];
-    }
-    this.inedges = new Int32Array(exact.size).fill(-1);
-    for (let edge = 0; edge < this.halfedges.length; ++edge) {
-      const to = this.triangles[following(edge)];
-      if (this.halfedges[edge] < 0 || this.inedges[to] < 0) this.inedges[to] = edge;
-    }
-    const isFlat = this.triangles.length === 0;
-    this.line = new Map(isFlat ? Array.from(this.hull, (site, at) => [site, at]) : []);
-    this.collinear = isFlat && this.hull.length > 2 ? Int32Array.from(this.hull) : undefined;
-  }
 }
 
 /** Whether triangles are flat but for the rounding of their corners. */
@@ -207,12 +178,7 @@ function isLine(points: Float64Array, triangles: Uint32Array): boolean {
 }
 
 /** A corner of a cell: a place, or with w = 0 instead of 1 a direction; and the site beyond the side that leaves it. */
-interface Corner {
-  x: number;
-  y: number;
-  w: number;
-  beyond: number;
-}
+type Corner = [x: number, y: number, w: number, beyond: number];
 
 /** The cells of sites, cut by bounds. */
 export class Voronoi {
@@ -244,9 +210,9 @@ export class Voronoi {
   render(context?: PathContext | null): Drawing {
     return drawn(context, (to) => {
       for (const i of this.delaunay.inedges.keys()) {
-        this.cell(i).forEach(({ x, y, beyond }, k, ring) => {
+        this.cell(i).forEach(([x, y, , beyond], k, ring) => {
           const next = ring[(k + 1) % ring.length];
-          if (beyond > i) trace(to, [[x, y], [next.x, next.y]], false); // prettier-ignore
+          if (beyond > i) trace(to, [[x, y], next.slice(0, 2) as Place], false); // prettier-ignore
         });
       }
     });
@@ -283,15 +249,15 @@ export class Voronoi {
 
   /** The sites whose cells share a side with that of one within the bounds. */
   *neighbors(i: number): Generator<number> {
-    const beyond = new Set(this.cell(i).map((corner) => corner.beyond));
+    const beyond = new Set(this.cell(i).map((corner) => corner[3]));
     for (const j of this.delaunay.neighbors(i)) if (beyond.has(j)) yield j;
   }
 
   private prepare(): void {
-    const { points, triangles, halfedges, made, inedges } = this.delaunay;
-    const centers = made.exact.circumcenters;
+    const { points, triangles, halfedges, exact, rows, inedges } = this.delaunay;
+    const centers = exact.circumcenters;
     this.circumcenters = new Float64Array((2 * triangles.length) / 3).map(
-      (_, k) => centers[2 * made.rows[k >> 1] + (k % 2)],
+      (_, k) => centers[2 * rows[k >> 1] + (k % 2)],
     );
     this.vectors = new Float64Array(4 * inedges.length);
     halfedges.forEach((other, edge) => {
@@ -305,37 +271,37 @@ export class Voronoi {
 
   /** The cell of a site within the bounds, counterclockwise where y points up; nothing for duplicates. */
   private cell(i: number): Corner[] {
-    const { delaunay, circumcenters, vectors } = this;
+    const { delaunay, circumcenters, vectors, xmin, ymin, xmax, ymax } = this;
     const { triangles, halfedges, inedges } = delaunay;
     if (triangles.length === 0) return this.strip(delaunay.line.get(i) ?? -1);
     let ring: Corner[] = [];
     const isOpen = halfedges[inedges[i]] < 0;
-    if (isOpen) ring.push({ x: vectors[4 * i], y: vectors[4 * i + 1], w: 0, beyond: triangles[inedges[i]] });
+    if (isOpen) ring.push([vectors[4 * i], vectors[4 * i + 1], 0, triangles[inedges[i]]]);
     let isWithin = !isOpen;
     for (const edge of delaunay.around(i)) {
       const k = 2 * Math.floor(edge / 3);
       const [x, y] = [circumcenters[k], circumcenters[k + 1]];
-      ring.push({ x, y, w: 1, beyond: triangles[following(following(edge))] });
-      isWithin &&= x >= this.xmin && x <= this.xmax && y >= this.ymin && y <= this.ymax;
+      ring.push([x, y, 1, triangles[following(following(edge))]]);
+      isWithin &&= x >= xmin && x <= xmax && y >= ymin && y <= ymax;
     }
     if (isWithin) return different(ring);
     if (isOpen) {
       const [a, b, c, d] = vectors.subarray(4 * i, 4 * i + 4);
-      ring.push({ x: c, y: d, w: 0, beyond: -1 }, { x: a + c, y: b + d, w: 0, beyond: -1 });
+      ring.push([c, d, 0, -1], [a + c, b + d, 0, -1]);
     }
-    /** Where the border towards another site meets a bound: not from its corners, which may be far away. */
-    const meet = (j: number, axis: 0 | 1, bound: number): number => {
-      const [p, q] = delaunay.places([i, j]);
-      const along = (p[axis] + q[axis]) / 2 - bound;
-      return (p[1 - axis] + q[1 - axis]) / 2 + (along * (p[axis] - q[axis])) / (p[1 - axis] - q[1 - axis]);
-    };
-    ring = cut(ring, 1, 0, this.xmin, -1, (j) => meet(j, 0, this.xmin));
-    ring = cut(ring, -1, 0, -this.xmax, -1, (j) => meet(j, 0, this.xmax));
-    ring = cut(ring, 0, 1, this.ymin, -1, (j) => meet(j, 1, this.ymin));
-    ring = different(cut(ring, 0, -1, -this.ymax, -1, (j) => meet(j, 1, this.ymax)));
+    [xmin, ymin, xmax, ymax].forEach((bound, side) => {
+      const [axis, sign] = [side % 2, side < 2 ? 1 : -1];
+      ring = cut(ring, [sign * (1 - axis), sign * axis, sign * bound], -1, (site) => {
+        // A border meets a bound where its sites say, not its ends, which may be far away.
+        const [p, q] = delaunay.places([i, site]);
+        const slope = (p[axis] - q[axis]) / (p[1 - axis] - q[1 - axis]);
+        return (p[1 - axis] + q[1 - axis]) / 2 + ((p[axis] + q[axis]) / 2 - bound) * slope;
+      });
+    });
+    ring = different(ring);
     // Corners of the bounds stand before the side that comes in.
-    const last = ring.map(({ beyond }) => beyond >= 0).lastIndexOf(true);
-    return isOpen && ring[0]?.beyond >= 0 ? from(ring, last + 2) : ring;
+    const last = ring.map(([, , , beyond]) => beyond >= 0).lastIndexOf(true);
+    return isOpen && ring[0]?.[3] >= 0 ? begun(ring, last + 2) : ring;
   }
 
   /** The cell of the site at a place of a line: the bounds, cut by the borders towards those beside it. */
@@ -343,34 +309,28 @@ export class Voronoi {
     const { xmin, ymin, xmax, ymax, delaunay } = this;
     const { hull } = delaunay;
     if (at < 0) return [];
-    const bounds: Place[] = [[xmin, ymax], [xmin, ymin], [xmax, ymin], [xmax, ymax]]; // prettier-ignore
-    let ring = bounds.map(([x, y]): Corner => ({ x, y, w: 1, beyond: -1 }));
+    let ring: Corner[] = [[xmin, ymax, 1, -1], [xmin, ymin, 1, -1], [xmax, ymin, 1, -1], [xmax, ymax, 1, -1]]; // prettier-ignore
     for (const other of [at - 1, at + 1]) {
       if (!(other in hull)) continue;
       const [[x, y], [u, v]] = delaunay.places([hull[at], hull[other]]);
-      ring = cut(ring, x - u, y - v, (x - u) * (x - (x - u) / 2) + (y - v) * (y - (y - v) / 2), hull[other]);
+      const [a, b] = [x - u, y - v];
+      ring = cut(ring, [a, b, a * (x - a / 2) + b * (y - b / 2)], hull[other]);
     }
     ring = different(ring);
     // The border towards the middle of the line begins; at the ends what is behind it.
     const inner = hull[2 * at < hull.length ? at + 1 : at - 1];
-    const isEnd = at === 0 || at === hull.length - 1;
-    return from(
-      ring,
-      Math.max(
-        0,
-        ring.findIndex(({ beyond }) => beyond === inner),
-      ) + (isEnd ? 2 : 0),
-    );
+    const border = ring.map(([, , , beyond]) => beyond).indexOf(inner);
+    return begun(ring, Math.max(0, border) + (at === 0 || at === hull.length - 1 ? 2 : 0));
   }
 }
 
-const from = (ring: Corner[], k: number): Corner[] => ring.map((_, at) => ring[(at + k) % ring.length]);
+const begun = (ring: Corner[], k: number): Corner[] => ring.map((_, at) => ring[(at + k) % ring.length]);
 
 /** A ring without repetitions; nothing of what is no more than a side. */
 function different(ring: Corner[]): Corner[] {
   const left = ring.filter((corner, k) => {
     const next = k + 1 < ring.length ? ring[k + 1] : ring[0];
-    return corner.x !== next.x || corner.y !== next.y;
+    return corner[0] !== next[0] || corner[1] !== next[1];
   });
   return left.length > 2 ? left : [];
 }
@@ -379,22 +339,15 @@ function different(ring: Corner[]): Corner[] {
 function outline(ring: Corner[]): Place[] {
   const places: Place[] = [];
   for (let k = 0; k < ring.length; ++k) {
-    const [{ x, y }, before, after] = [ring[k], ring[(k || ring.length) - 1], ring[k + 1 < ring.length ? k + 1 : 0]];
-    if ((x !== before.x || x !== after.x) && (y !== before.y || y !== after.y)) places.push([x, y]);
+    const [[x, y], p, q] = [ring[k], ring[(k || ring.length) - 1], ring[k + 1 < ring.length ? k + 1 : 0]];
+    if ((x !== p[0] || x !== q[0]) && (y !== p[1] || y !== q[1])) places.push([x, y]);
   }
   return places;
 }
 
-/** The part of a convex ring where ax + by is at least c, with the site beyond that border. */
-function cut(
-  ring: Corner[],
-  a: number,
-  b: number,
-  c: number,
-  beyond: number,
-  meet?: (site: number) => number,
-): Corner[] {
-  const depths = ring.map(({ x, y, w }) => a * x + b * y - c * w);
+/** The part of a convex ring where ax + by is at least c, with the site beyond that border; `meet` as it says above. */
+function cut(ring: Corner[], [a, b, c]: number[], beyond: number, meet?: (site: number) => number): Corner[] {
+  const depths = ring.map(([x, y, w]) => a * x + b * y - c * w);
   if (depths.every((depth) => depth >= 0)) return ring;
   const left: Corner[] = [];
   ring.forEach((corner, k) => {
@@ -402,17 +355,18 @@ function cut(
     const isInside = depths[k] >= 0;
     if (isInside) left.push(corner);
     if (isInside === depths[next] >= 0) return;
-    const [inside, outside] = isInside ? [corner, ring[next]] : [ring[next], corner];
-    const [near, far] = [Math.max(depths[k], depths[next]), -Math.min(depths[k], depths[next])];
-    const w = inside.w * far + outside.w * near;
-    const between = (axis: "x" | "y"): number => {
-      if (w > 0 && inside[axis] === outside[axis]) return inside[axis];
-      const value = (inside[axis] * far + outside[axis] * near) / (w || 1);
-      const met = meet === undefined || corner.beyond < 0 ? NaN : meet(corner.beyond);
-      return Number.isFinite(met) && w > 0 ? met : value;
+    const [p, q] = [corner, ring[next]];
+    const [near, far] = [Math.abs(depths[next]), Math.abs(depths[k])];
+    const w = p[2] * near + q[2] * far;
+    const between = (axis: 0 | 1): number => {
+      if (w === 0) return p[axis] * near + q[axis] * far;
+      const met = corner[3] < 0 ? NaN : (meet?.(corner[3]) ?? NaN);
+      const value = Number.isFinite(met) ? met : (p[axis] * near + q[axis] * far) / w;
+      const isPart = p[2] > 0 && q[2] > 0;
+      return isPart ? Math.max(Math.min(p[axis], q[axis]), Math.min(Math.max(p[axis], q[axis]), value)) : value;
     };
-    const [x, y] = [b === 0 && w > 0 ? c / a : between("x"), a === 0 && w > 0 ? c / b : between("y")];
-    left.push({ x, y, w: Math.sign(w), beyond: isInside ? beyond : corner.beyond });
+    const [x, y] = [w > 0 && b === 0 ? c / a : between(0), w > 0 && a === 0 ? c / b : between(1)];
+    left.push([x, y, Math.sign(w), isInside ? beyond : corner[3]]);
   });
   return left;
 }

@@ -9,6 +9,9 @@
 
 import { PlanarDelaunay } from "./delaunay.ts";
 
+type Points<Point> = ArrayLike<Point> | Iterable<Point>;
+type Accessor<Point> = (point: Point, index: number, points: Points<Point>) => number;
+
 /** Triangles of points of the plane and their half-edges; rows and hull run clockwise where y points up. */
 export default class Delaunator<Coords extends ArrayLike<number> = ArrayLike<number>> {
   /** The points x0, y0, x1, y1, … as given; `update` reads them again. */
@@ -24,15 +27,16 @@ export default class Delaunator<Coords extends ArrayLike<number> = ArrayLike<num
   /** @internal Of each triangle, the row of the triangulation that it is. */
   rows!: Uint32Array;
 
-  /** The triangulation of points [x, y], or, with accessors, of anything. */
-  static from<Point>(
-    points: ArrayLike<Point>,
-    getX: (point: Point) => number = (point) => (point as ArrayLike<number>)[0],
-    getY: (point: Point) => number = (point) => (point as ArrayLike<number>)[1],
-  ): Delaunator<Float64Array> {
-    const coords = new Float64Array(2 * points.length);
-    for (let k = 0; k < points.length; ++k) [coords[2 * k], coords[2 * k + 1]] = [getX(points[k]), getY(points[k])];
-    return new Delaunator(coords);
+  /** The triangulation of points [x, y], or, with accessors, which may ask for `this`, of anything. */
+  static from<Made, Point>(
+    this: new (coords: Float64Array) => Made,
+    points: Points<Point>,
+    getX: Accessor<Point> = (point) => (point as ArrayLike<number>)[0],
+    getY: Accessor<Point> = (point) => (point as ArrayLike<number>)[1],
+    that?: unknown,
+  ): Made {
+    const place = (point: Point, k: number): number[] => [getX, getY].map((at) => at.call(that, point, k, points));
+    return new this(Float64Array.from(Array.from(points, place).flat()));
   }
 
   /** @param coords Finite numbers x0, y0, x1, y1, …; not copied. */
@@ -51,7 +55,7 @@ export default class Delaunator<Coords extends ArrayLike<number> = ArrayLike<num
   }
 
   /** Triangulates anew, after changes of `coords` in place. */
-  update(): void {
+  update(): this {
     this.exact = new PlanarDelaunay(Float64Array.from(this.coords).subarray(0, this.coords.length & ~1));
     const { points, size, simplices, neighbors, dimension, flatOrder } = this.exact;
     const triangles = (this.triangles = new Uint32Array(simplices.length));
@@ -61,7 +65,7 @@ export default class Delaunator<Coords extends ArrayLike<number> = ArrayLike<num
       this.hull = Uint32Array.from(flatOrder);
       const [first, last] = [2 * flatOrder[0], 2 * flatOrder[flatOrder.length - 1]];
       if ((points[first] - points[last] || points[first + 1] - points[last + 1]) > 0) this.hull.reverse();
-      return;
+      return this;
     }
 
     const swept = sweep(this.exact);
@@ -105,6 +109,7 @@ export default class Delaunator<Coords extends ArrayLike<number> = ArrayLike<num
     let point = rows.length === 1 ? triangles[1] : swept[farthest];
     this.hull = new Uint32Array(after.size).map(() => (point = after.get(point)!));
     this.hull = Uint32Array.from([...this.hull.subarray(-2), ...this.hull.subarray(0, -2)]);
+    return this;
   }
 }
 
