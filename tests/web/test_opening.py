@@ -50,10 +50,11 @@ BROKEN = {
     "nowhere.csv": ("lon,lat\nx,1\n", "row 1: the longitude 'x' is not a number"),
     # Not even these have one word of Python in what is said.
     "cyrillic.csv": (rows(",48.1,Москва").encode("cp1251"), "stereodel web cyrillic.csv"),
-    "my book.xlsx": (b"PK\x03\x04xl/workbook.xml", 'stereodel web "my book.xlsx"'),
+    "my book.xlsx": (b"PK\x03\x04\x14\0\x06\0", 'stereodel web "my book.xlsx"'),
     "towns.gpkg": (b"SQLite format 3\0", "stereodel web towns.gpkg"),
     "rivers.shp": (b"\0\0\x27\x0a", "stereodel web rivers.shp"),
-    "a.parquet": (b"PAR1\x15", "stereodel web a.parquet"),
+    "walk.gpx": ("<?xml version='1.0'?>\n<gpx></gpx>", "stereodel web walk.gpx"),
+    "a.parquet": (b"PAR1\x15\0\x15", "stereodel web a.parquet"),
 }
 ALERT = "[role=alert]"
 
