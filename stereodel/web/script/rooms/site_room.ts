@@ -2,6 +2,7 @@
 
 import { find } from "../dom.ts";
 import type { IsOn, Switch } from "../drawing/parts.ts";
+import type { Reason } from "../drawing/plate.ts";
 import type { Exchange } from "../exchange.ts";
 import type { Points } from "../files.ts";
 import type { Place } from "../fields.ts";
@@ -124,11 +125,11 @@ export abstract class SiteRoom extends TableRoom {
 
   /** Other sites are there: a set of the list, or a file. */
   protected abstract begin(named: NamedSites): void;
-  abstract redraw(): void;
+  abstract redraw(reason?: Reason): void;
 
   protected override pointed(site: number | null): void {
     this.lit = site;
-    this.redraw();
+    this.redraw("pointer");
   }
 
   override attach(section: HTMLElement): void {
@@ -171,6 +172,7 @@ export abstract class SiteRoom extends TableRoom {
   /** Shows what the sites are called, how many there are, and the table. */
   protected show(named: NamedSites, rows: Omit<Rows, "names">): void {
     this.named = named;
+    if (this.#kind === "lonlat") this.switches.offer("names", named.names !== null);
     // Sites of the reader's own have an entry while they are there.
     this.#select.querySelector(`option[value=${OWN}]`)?.remove();
     if (named.set === OWN) this.#select.prepend(new Option(named.name ?? "Your own sites", OWN));
@@ -204,8 +206,12 @@ export abstract class SiteRoom extends TableRoom {
 
 /** The sites with one of them elsewhere, one more at the end, or, without a place, one less: its number is the next one's. */
 export function edited({ places, names, name }: NamedSites, site: number, place: Place | null): NamedSites {
-  const [numbers, words] = [[...places], names && [...names]];
-  numbers.splice(2 * site, 2, ...(place ?? []));
-  words?.splice(site, 1, ...(place === null ? [] : [words[site] ?? ""]));
-  return ownSites({ places: Float64Array.from(numbers), names: words, name });
+  const isMove = place !== null && 2 * site < places.length;
+  const words = isMove || !names ? names : [...names.slice(0, site), ...(place ? [""] : names.slice(site + 1))];
+  const [begin, end] = [places.subarray(0, 2 * site), places.subarray(2 * site + 2)];
+  const numbers = new Float64Array(begin.length + end.length + (place?.length ?? 0));
+  numbers.set(begin);
+  numbers.set(place ?? [], begin.length);
+  numbers.set(end, numbers.length - end.length);
+  return ownSites({ places: numbers, names: words, name });
 }

@@ -3,11 +3,13 @@
 import type { Given } from "../contents.ts";
 import { find, say } from "../dom.ts";
 import { placeOf } from "../drawing/ball.ts";
-import { regionsOf } from "../drawing/parts.ts";
+import type { Named } from "../drawing/names.ts";
+import { regionsOf, type Switch } from "../drawing/parts.ts";
 import type { Pen, Sheet } from "../drawing/pen.ts";
 import { Plate, type Reason } from "../drawing/plate.ts";
 import type { Exchange } from "../exchange.ts";
 import type { Place } from "../fields.ts";
+import { lazy } from "../kernel/lazy.ts";
 import type { LinkValues } from "../link.ts";
 import type { Room, RoomHost } from "../room.ts";
 import { sphereSets, type Stored } from "../sets.ts";
@@ -19,13 +21,18 @@ import { pointUnder, View } from "../view/view.ts";
 import { counted, latitude, longitude, ofFacets, wrap } from "../words.ts";
 import { Choice, PlaceFields, siteForm, stepControl } from "./controls.ts";
 import { edited, SiteRoom, type NamedSites } from "./site_room.ts";
-import { ballLayers, drawBall, drawPlane, sphereParts, type SphereScene, type Step } from "./sphere_drawing.ts";
-import { ofBubble, ofDuplicates, ofSite, ofStep, SphereSites, withoutTriangles, type Bubble } from "./sphere_sites.ts";
+import { ballDrawing, ballLayers, drawMoved, planeDrawing, sphereParts } from "./sphere_drawing.ts";
+import type { Drawing, Ground, SphereScene, Step } from "./sphere_drawing.ts";
+import { ofBubble, ofDuplicates, ofPictures, ofSite, ofStep, SphereSites, withoutTriangles } from "./sphere_sites.ts";
+import type { Bubble } from "./sphere_sites.ts";
 import { BEGINNING, directionAt, handPlace, sphereFields, type Click, type SphereState } from "./sphere_state.ts";
 import { planeFrame, reachAround, Twin, type PlaneFrame } from "./twin.ts";
 
 /** Sites from which on cells are left out while something moves. */
 const MANY = 3_000;
+
+/** Of the table. */
+const HEADS = ["Latitude", "Longitude", "Neighbours"];
 
 /** What the sum of facets is made of. */
 const SUM = ["on the sphere", "in the plane", "\u00a0*P*"] as const;
@@ -73,6 +80,7 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
   // What follows from the state; made anew when it changes.
   #sites = new SphereSites(new Float64Array(0));
   #layers = ballLayers(this.#sites);
+  readonly #standing: Named["standing"] = new Map();
   #twin = new Twin([0, 0, 1]);
   #seeing: Uint8Array = new Uint8Array(0);
   #step: Step | "done" = "done";
@@ -81,10 +89,8 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
   override attach(section: HTMLElement): void {
     super.attach(section);
     const { guarded } = this.host;
-    const plate = (which: string, paint: (pen: Pen, scene: SphereScene) => void): Plate =>
-      new Plate(find(section, `#sphere-${which}`), (pen, moving) => paint(pen, this.#scene(moving)), guarded);
-    this.#ball = plate("ball", (pen, scene) => drawBall(pen, this.disc, scene));
-    this.#plane = plate("plane", (pen, scene) => drawPlane(pen, this.#frame, scene));
+    this.#ball = this.#plate("ball", () => ballDrawing(this.disc));
+    this.#plane = this.#plate("plane", () => planeDrawing(this.#frame));
     this.#poleFields = new PlaceFields(section, "pole", (place) => guarded(() => this.#movePole(place)));
     this.#viewFields = new PlaceFields(section, "view", (place) => guarded(() => this.#turn(place)));
     this.#click = new Choice(section, "click", () => this.host.changed());
@@ -100,6 +106,23 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
     const take = (): Hold => ({ move: () => {} });
     follow(this.#plane, this.#gestures({ under, place, take, isOn: () => true }));
     follow(this.#ball, this.#gestures(this.#onBall));
+  }
+
+  /** A picture whose ground stays where only the pointer or one site moves. */
+  #plate(which: string, drawing: () => Drawing): Plate {
+    let ground: Ground;
+    const paint = (pen: Pen, isMoving: boolean): void => {
+      const scene = this.#scene(isMoving);
+      ground = lazy<Ground>({ sites: () => scene.sites, round: () => drawing().round(scene), inks: () => pen.inks });
+      drawing().draw(pen, scene, "ground");
+    };
+    const over = (pen: Pen, isMoving: boolean): void => {
+      const scene = this.#scene(isMoving);
+      if (ground.sites !== scene.sites) drawMoved(pen, drawing(), scene, ground, this.#held!);
+      drawing().draw(pen, scene, "over");
+    };
+    const canvas = find<HTMLCanvasElement>(this.section, `#sphere-${which}`);
+    return new Plate(canvas, paint, this.host.guarded, document.documentElement, over);
   }
 
   // State
@@ -146,14 +169,14 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
     if (this.#state.step !== null && this.#state.step >= sites.count) this.#put({ step: null });
     this.show(named, {
       count: sites.count,
-      heads: ["Latitude", "Longitude", "Neighbours"],
+      heads: HEADS,
       cells: (site) => [...sites.words(site), String(sites.neighborCounts[site])],
     });
     find(this.section, "[data-show=closing]").hidden = !sites.hasClosing;
     const label = `Sphere with ${counted(sites.count)} ${sites.count === 1 ? "site" : "sites"}`;
     this.#ball.canvas.setAttribute("aria-label", label);
     this.#project();
-    if (reason !== "hand") this.#rescale();
+    if (reason === "state") this.#rescale();
     this.#update(reason);
   }
 
@@ -212,6 +235,7 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
     return {
       sites: this.#sites,
       layers: this.#layers,
+      named: this.named.names && { names: this.named.names, standing: this.#standing, isMoving },
       view: this.view,
       twin: this.#twin,
       seeing: this.#seeing,
@@ -231,6 +255,16 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
     say(this.out("sentence"), words.filter(Boolean).join(" "));
     say(this.out("sum"), alone === null ? ofFacets(sites.facetCount - this.#seeingCount, this.#seeingCount, SUM) : "");
     this.out("sum").hidden = step !== "done" || alone !== null;
+    const isDrawn = (layer: Switch): boolean => alone === null && step === "done" && this.isOn(layer);
+    const steps = step !== "done" && step.insertion !== null;
+    const [onBall, inPlane] = ofPictures({
+      triangles: steps || isDrawn("triangles"),
+      cells: isDrawn("cells") || (sites.delaunay.dimension === 1 && step === "done" && this.isOn("cells")),
+      seeing: isDrawn("seeing") && this.#seeingCount > 0,
+      steps,
+    });
+    say(this.out("on-ball"), onBall);
+    say(this.out("in-plane"), inPlane);
     const side = dot(this.#twin.pole, directionAt(this.#state.view)) < 0 ? "behind" : "in front";
     say(this.out("pole-side"), `*P*, the pole of projection, lies ${side}.`);
     this.#showStep(this.#state.step, sites.count);
@@ -308,7 +342,7 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
       move: (to) => {
         if (isFirst) this.#note();
         isFirst = false;
-        this.host.guarded(() => this.#moveSite(site, this.#onBall.under(to), "hand"));
+        this.host.guarded(() => this.#moveSite(site, this.#onBall.under(to), "pointer"));
       },
       end: () => this.#rest(),
     };
@@ -336,7 +370,7 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
     const before = this.#bubble?.facet ?? null;
     this.#put({ aim: direction });
     if (this.#sites.facetAt(this.#state.aim) === before) return;
-    this.host.guarded(() => this.#update());
+    this.host.guarded(() => this.#update("pointer"));
     this.host.changed();
   }
 
@@ -528,8 +562,8 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
       height: size,
       weight: 1,
       paint: (pen) => {
-        drawBall(pen, disc, scene);
-        drawPlane(pen, frame, scene);
+        for (const drawing of [ballDrawing(disc), planeDrawing(frame)])
+          for (const stratum of ["ground", "over"] as const) drawing.draw(pen, scene, stratum);
       },
     };
   }
