@@ -68,7 +68,7 @@ def test_sites_come_back_to_the_bit(node, rng):
 
 def test_sites_that_are_none_are_refused(node):
     hostile = ["x", "1", "1,", ",", "1,2,3", "1;2", "1,0x2", "1, 2", "1,NaN", "1,1e999", "1,Infinity", "1,2," * 5000]
-    assert ask(node, UNPACKED, [*hostile, "0," * 4001 + "0"]) == ["refused"] * (len(hostile) + 1)
+    assert ask(node, UNPACKED, hostile) == ["refused"] * len(hostile)
 
 
 def test_random_letters_are_refused_or_read_and_never_anything_else(node):

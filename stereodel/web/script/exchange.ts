@@ -5,10 +5,12 @@ import { CanvasPen } from "./drawing/canvas_pen.ts";
 import type { Sheet } from "./drawing/pen.ts";
 import { colours } from "./drawing/styles.ts";
 import { SvgPen } from "./drawing/svg_pen.ts";
-import { openPoints } from "./files.ts";
+import { isPicture, openPoints } from "./files.ts";
 import { geojson } from "./geojson.ts";
 import { openPanorama } from "./panorama.ts";
 import { globePython, liftPython, spherePython } from "./rooms/python.ts";
+import { savedPage } from "./saved_page.ts";
+import { writeTable } from "./tables/delimited.ts";
 
 /** Saves a file under the reader's downloads. */
 function download(name: string, content: Blob | string, type = "text/plain"): void {
@@ -38,12 +40,15 @@ function sheetPng({ width, height, weight, paint }: Sheet, scale: number): Promi
 }
 
 const exchange = {
+  csv: writeTable,
   download,
   geojson,
   globePython,
+  isPicture,
   liftPython,
   openPanorama,
   openPoints,
+  savedPage,
   sheetPng,
   sheetSvg,
   spherePython,

@@ -10,8 +10,11 @@ export type RoomName = (typeof ROOMS)[number];
 /** Sites that a link holds; more are named but not held. */
 export const MOST_SITES = 2000;
 
-/** Letters of the longest link that is read: 2 000 places with all digits, and room for everything else. */
-const LONGEST = 131072;
+/** Letters of a table that a link holds: 2 000 places with all digits and a name of thirty letters each. */
+export const LETTERS = 120_000;
+
+/** Letters of the longest link that is read. */
+const LONGEST = 131_072;
 
 /** A link that says nothing that can be shown. */
 export class LinkError extends Error {}
@@ -62,8 +65,8 @@ export class LinkValues extends Map<string, string> {
     const text = this.get(name);
     if (text === undefined) return null;
     const places = Float64Array.from(text === "" ? [] : text.split(","), numberOf);
-    if (places.length % 2 !== 0 || places.length > 2 * MOST_SITES || !places.every(Number.isFinite))
-      throw new LinkError("the link holds half a site, too many, or one that is nowhere");
+    if (places.length % 2 !== 0 || !places.every(Number.isFinite))
+      throw new LinkError("the link holds half a site, or one that is nowhere");
     return places;
   }
 
@@ -79,11 +82,12 @@ export class LinkValues extends Map<string, string> {
 
 /**
  * Reads the fragment of an address, with or without its `#`.
+ * @param longest Letters that it may have.
  * @throws LinkError where it is neither empty, nor the name of a room, nor a state of this version.
  */
-export function readLink(hash: string): Link {
+export function readLink(hash: string, longest = LONGEST): Link {
   const text = hash.replace(/^#/, "");
-  if (text.length > LONGEST) throw new LinkError("the link is too long");
+  if (text.length > longest) throw new LinkError("the link is too long");
   const alone = ROOMS.find((room) => room === (text || "sphere"));
   if (alone !== undefined) return { room: alone, values: new LinkValues() };
   const values = valuesOf(text.split("&"));

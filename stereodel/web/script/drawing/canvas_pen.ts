@@ -3,49 +3,58 @@
 import { LIGHT, Pen, textParts, traceDisc } from "./pen.ts";
 import type { Disc, Gradient, Path, Picture, Trace } from "./pen.ts";
 import * as styles from "./styles.ts";
-import type { Colours, DotName, LabelStyle, Style, StyleName } from "./styles.ts";
+import type { Colours, DotName, DotStyle, LabelStyle, Style, StyleName } from "./styles.ts";
 
 /** Arcs of ellipses that are stroked at once: browsers need quadratic time for paths of thousands. */
 const MOST_ARCS = 256;
 
-/** Dots beyond which they are squares, which are filled in a tenth of the time. */
-const MANY_DOTS = 20_000;
+/** Dots beyond which they are squares, which are filled in a tenth of the time: at rest, and while they move. */
+const MANY_DOTS = { rest: 20_000, moving: 4_000 };
 
 type Context = CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D;
 
 export class CanvasPen extends Pen {
   readonly #context: Context;
+  readonly #mostDots: number;
 
   /** @param scale Pixels of the canvas for one of the drawing. */
-  constructor(context: Context, width: number, height: number, scale: number, colours: Colours, weight: number) {
+  constructor(
+    context: Context,
+    width: number,
+    height: number,
+    scale: number,
+    colours: Colours,
+    weight: number,
+    isMoving = false,
+  ) {
     super(width, height, colours, weight);
     this.#context = context;
+    this.#mostDots = MANY_DOTS[isMoving ? "moving" : "rest"];
     context.setTransform(scale, 0, 0, scale, 0, 0);
     context.lineCap = context.lineJoin = "round";
     context.imageSmoothingQuality = "high";
   }
 
-  draw(name: StyleName, trace: Trace): void {
-    const style: Style = styles.STYLES[name];
+  protected path(_: StyleName, style: Style, trace: Trace, ink?: string): void {
     const context = this.#context;
     if (style.fill === undefined && style.hatch === undefined) {
       this.#line(style);
       const path = strokedPath(context);
-      trace(path);
-      path.flush();
+      this.#faint(style.strokeOpacity, () => {
+        trace(path);
+        path.flush();
+      });
       return;
     }
     context.beginPath();
     trace(context);
     if (style.hatch !== undefined) this.#hatch(style.hatch === "crossed");
     if (style.fill !== undefined) {
-      context.fillStyle = this.colours[style.fill];
-      context.globalAlpha *= style.fillOpacity ?? 1;
-      context.fill();
-      context.globalAlpha /= style.fillOpacity ?? 1;
+      context.fillStyle = ink ?? this.colours[style.fill];
+      this.#faint(style.fillOpacity, () => context.fill());
     }
     if (style.stroke !== undefined) {
-      this.#line(style);
+      this.#line(style, ink);
       context.stroke();
     }
   }
@@ -66,16 +75,24 @@ export class CanvasPen extends Pen {
     });
   }
 
-  dots(name: DotName, places: ArrayLike<number>): void {
-    const { radius: r, fill, rim, rimWidth } = styles.DOTS[name];
+  protected discs(_: DotName, { radius: r, fill, rim, rimWidth, opacity }: DotStyle, places: ArrayLike<number>): void {
     const context = this.#context;
-    if (places.length > 2 * MANY_DOTS) {
-      context.fillStyle = this.colours[fill];
-      for (let k = 0; k < places.length; k += 2) context.fillRect(places[k] - r / 2, places[k + 1] - r / 2, r, r);
-      return;
-    }
-    this.#discs(places, r + rimWidth / 2, this.colours[rim]);
-    this.#discs(places, r - rimWidth / 2, this.colours[fill]);
+    this.#faint(opacity, () => {
+      if (places.length > 2 * this.#mostDots) {
+        context.fillStyle = this.colours[fill];
+        for (let k = 0; k < places.length; k += 2) context.fillRect(places[k] - r / 2, places[k + 1] - r / 2, r, r);
+        return;
+      }
+      this.#discs(places, r + rimWidth / 2, this.colours[rim]);
+      this.#discs(places, r - rimWidth / 2, this.colours[fill]);
+    });
+  }
+
+  #faint(opacity = 1, body: () => void): void {
+    const before = this.#context.globalAlpha;
+    this.#context.globalAlpha *= opacity;
+    body();
+    this.#context.globalAlpha = before;
   }
 
   /** Discs about places; some at a time, as a call for each takes longer than the discs. */
@@ -90,6 +107,29 @@ export class CanvasPen extends Pen {
       }
       context.fill();
     }
+  }
+
+  spots(places: ArrayLike<number>, inks: readonly string[]): void {
+    const context = this.#context;
+    this.#line(styles.STYLES["spot-line"]);
+    inks.forEach((ink, k) => {
+      // Of one opaque ink some at a time, as dots() has them.
+      if (k % MOST_ARCS === 0 || ink !== inks[k - 1] || !ink.endsWith("/ 1)")) context.beginPath();
+      const [x, y, r] = [places[3 * k], places[3 * k + 1], places[3 * k + 2]];
+      context.moveTo(x + r, y);
+      context.arc(x, y, r, 0, 2 * Math.PI);
+      if ((k + 1) % MOST_ARCS !== 0 && inks[k + 1] === ink && ink.endsWith("/ 1)")) return;
+      context.fillStyle = ink;
+      context.fill();
+      context.stroke();
+    });
+  }
+
+  lowered(by: number, body: () => void): void {
+    this.#kept(() => {
+      this.#context.translate(0, by);
+      body();
+    });
   }
 
   label(text: string, x: number, y: number, style: LabelStyle): void {
@@ -112,8 +152,8 @@ export class CanvasPen extends Pen {
     context.textAlign = "left";
     context.setLineDash([]);
     context.lineWidth = styles.HALO_WIDTH;
-    context.strokeStyle = this.colours[style.halo];
-    context.fillStyle = this.colours[style.ink];
+    context.strokeStyle = this.inkOf(style.halo);
+    context.fillStyle = this.inkOf(style.ink);
     each((words, at) => context.strokeText(words, at, y));
     each((words, at) => context.fillText(words, at, y));
   }
@@ -122,8 +162,8 @@ export class CanvasPen extends Pen {
     this.#context.drawImage(picture, x, y, width, height);
   }
 
-  #line(style: Style): void {
-    this.#context.strokeStyle = this.colours[style.stroke ?? "ink"];
+  #line(style: Style, ink = this.colours[style.stroke ?? "ink"]): void {
+    this.#context.strokeStyle = ink;
     this.#context.lineWidth = (style.width ?? 1) * this.weight;
     this.#context.setLineDash([...(style.dash ?? [])]);
   }

@@ -5,7 +5,19 @@ import { row, type Vector } from "../space.ts";
 import type { Pen } from "./pen.ts";
 
 /** What the reader can switch on and off. */
-export type Switch = "bubble" | "cells" | "closing" | "graticule" | "land" | "rays" | "seeing" | "tissot" | "triangles";
+export type Switch =
+  | "bubble"
+  | "cells"
+  | "closing"
+  | "fills"
+  | "graticule"
+  | "isolines"
+  | "land"
+  | "names"
+  | "rays"
+  | "seeing"
+  | "tissot"
+  | "triangles";
 
 type Outlet = "picture" | "python" | "geojson";
 
@@ -23,6 +35,8 @@ export interface Part<Surface> {
   readonly layer?: Switch;
   /** Whether the picture has it in this state, as it has unless this is false. */
   readonly isThere?: boolean;
+  /** Whether it lies over all others and follows the pointer, so that it is drawn alone. */
+  readonly isOver?: boolean;
   /** Where it is written although the picture does not show it. */
   readonly always?: readonly Outlet[];
   draw?(pen: Pen, surface: Surface): void;

@@ -83,11 +83,11 @@ export class Plate {
     return [event.clientX - box.left, event.clientY - box.top];
   }
 
-  /** The whole drawing, as a picture to take along. */
-  sheet(title: string): Sheet {
+  /** The whole drawing, as a picture to take along. @param isBare Without what only the hand needs. */
+  sheet(title: string, isBare = false): Sheet {
     const paint = (pen: Pen): void => {
       this.#paint(pen, false);
-      this.#overlay?.(pen, false);
+      if (!isBare) this.#overlay?.(pen, false);
     };
     return { title, width: this.width, height: this.height, weight: this.#weight, paint };
   }
@@ -140,17 +140,18 @@ export class Plate {
     if (!this.#isKept || reason !== "pointer") {
       this.#isKept = false; // should the painter fail
       cleared(ground);
-      const pen = this.#pen(ground, scale);
+      const pen = this.#pen(ground, scale, isMoving);
       this.#paint(pen, isMoving);
       if (isMoving) overlay?.(pen, isMoving);
       else this.#isKept = overlay !== null;
     }
     cleared(canvas).drawImage(ground, 0, 0);
-    if (!isMoving) overlay?.(this.#pen(canvas, scale), false);
+    if (!isMoving) overlay?.(this.#pen(canvas, scale, false), false);
   }
 
-  #pen(canvas: HTMLCanvasElement, scale: number): CanvasPen {
-    return new CanvasPen(canvas.getContext("2d")!, this.width, this.height, scale, colours(this.#place), this.#weight);
+  #pen(canvas: HTMLCanvasElement, scale: number, isMoving: boolean): CanvasPen {
+    const [context, inks] = [canvas.getContext("2d")!, colours(this.#place)];
+    return new CanvasPen(context, this.width, this.height, scale, inks, this.#weight, isMoving);
   }
 }
 

@@ -3,6 +3,7 @@
 import { circle, traceCap, traceCircle } from "../drawing/arcs.ts";
 import * as balls from "../drawing/ball.ts";
 import type { Layer, Surface } from "../drawing/ball.ts";
+import { drawNames, Seats, sidesToward, widthOf, type Box, type Named } from "../drawing/names.ts";
 import { drawParts, type IsOn, type Part } from "../drawing/parts.ts";
 import { cornersOf, drawHandle, traceCorners, traceDisc, traceSegment } from "../drawing/pen.ts";
 import type { Disc, Path, Pen, Point } from "../drawing/pen.ts";
@@ -14,6 +15,7 @@ import { cross, dot, lonLatOf, type Vector } from "../space.ts";
 import type { View } from "../view/view.ts";
 import type { Bubble, Insertion, SphereSites } from "./sphere_sites.ts";
 import type { PlaneFrame, Twin } from "./twin.ts";
+import { roundInPlane, roundOnBall, sitesIn, united, windowOf, type RoundFacet, type Window } from "./window.ts";
 
 /** A step of the insertion: what it does, and which facets before it and of its fan see the pole. */
 export interface Step {
@@ -27,6 +29,7 @@ export interface Step {
 export interface SphereScene {
   readonly sites: SphereSites;
   readonly layers: BallLayers;
+  readonly named: Named | null;
   readonly view: View;
   readonly twin: Twin;
   /** One byte a facet: 1 where it sees the pole. */
@@ -42,15 +45,13 @@ export interface SphereScene {
 }
 
 const BALL_LABEL: LabelStyle = { ink: "accent-text", halo: "ball", size: 15 };
+const NAME: LabelStyle = { ink: "ink", halo: "ball", size: 13 };
 
 /** Height above the picture, ball radii, below which a site's number would be cut by the limb. */
 const LEAST_HEIGHT = 0.2;
 
 /** Radius of a circle of the plane, px, below which the numbers of its sites would lie on each other. */
 const LEAST_CIRCLE = 12;
-
-/** Distance of a site's number from its dot, px. */
-const AWAY = 12;
 
 /** What is drawn of sites on the ball, whose directions stay in the kernel while the ball turns. */
 export type BallLayers = Readonly<Record<"edges" | "ridges" | "dots", Layer>>;
@@ -67,6 +68,8 @@ export function ballLayers(sites: SphereSites): BallLayers {
 interface Picture extends Surface {
   readonly isPlane: boolean;
   readonly label: LabelStyle;
+  /** Where numbers and names are set. */
+  readonly seats: Seats;
   /** The region of the facets that see the pole, with the outline on whose left they are. */
   hatch(outline: readonly number[]): void;
   closing?(): void;
@@ -74,14 +77,15 @@ interface Picture extends Surface {
   cells(): void;
   bubble(bubble: Bubble): void;
   dots(): void;
+  names?(named: Named): void;
   /** The side of its dot on which the number of a bubble's site stands, y up; null where it is left out. */
   side(bubble: Bubble, site: number): Point | null;
   /** The facets that see the new site of a step, or those of its fan. */
   opening(path: Path, insertion: Insertion, isThere: (k: number) => boolean): void;
 }
 
-/** What both pictures show. Python and GeoJSON have the diagram of all sites, whatever is drawn of it, at any step. */
-export function sphereParts({ sites, seeing, bubble, aim, held, step }: SphereScene): Part<Picture>[] {
+/** What both pictures show. Python has the diagram of all sites, whatever is drawn of it, at any step, and GeoJSON else. */
+export function sphereParts({ sites, named, seeing, bubble, aim, held, step }: SphereScene): Part<Picture>[] {
   const isThere = step === "done";
   const outline = sites.outline(seeing);
   const isAimed = isThere && bubble !== null;
@@ -110,8 +114,16 @@ export function sphereParts({ sites, seeing, bubble, aim, held, step }: SphereSc
     },
     { layer: "seeing", isThere, draw: (pen, on) => pen.draw("hull", (path) => on.ring(path, outline)) },
     {
+      isThere,
+      always: ["python"],
+      draw: (_, on) => on.dots(),
+      python: { ball: 'ball.add_points(delaunay.points, name="sites")', plane: 'plane.add_points(flat, name="sites")' },
+    },
+    { isThere: !isThere, draw: (pen, on) => drawStep(pen, on, step as Step) },
+    {
       layer: "bubble",
       isThere: isAimed,
+      isOver: true,
       draw: (_, on) => on.bubble(bubble!),
       python: {
         ball: [
@@ -121,29 +133,82 @@ export function sphereParts({ sites, seeing, bubble, aim, held, step }: SphereSc
         ],
       },
     },
-    {
-      isThere,
-      always: ["python"],
-      draw: (_, on) => on.dots(),
-      python: { ball: 'ball.add_points(delaunay.points, name="sites")', plane: 'plane.add_points(flat, name="sites")' },
-    },
-    { isThere, draw: (pen, on) => balls.drawDots(pen, on, "held", [...(bubble?.sites ?? []), ...held]) },
-    { layer: "bubble", isThere: isAimed, draw: (pen, on) => drawNumbers(pen, on, bubble!) },
-    { isThere: !isThere, draw: (pen, on) => drawStep(pen, on, step as Step) },
+    { isThere, isOver: true, draw: (pen, on) => balls.drawDots(pen, on, "held", [...(bubble?.sites ?? []), ...held]) },
+    // Names first: they stay while the bubble follows the pointer.
+    { layer: "names", isThere: isThere && named !== null, isOver: true, draw: (_, on) => on.names?.(named!) },
+    { layer: "bubble", isThere: isAimed, isOver: true, draw: (pen, on) => drawNumbers(pen, on, bubble!) },
   ];
 }
 
-/** Draws the ball into a disc. */
-export function drawBall(pen: Pen, disc: Disc, scene: SphereScene): void {
+/** What stays where only the pointer moves, and what lies over it. */
+export type Stratum = "ground" | "over";
+
+/** The one picture or the other. */
+export interface Drawing {
+  draw(pen: Pen, scene: SphereScene, stratum: Stratum): void;
+  /** Where circles round facets are seen. */
+  round(scene: SphereScene): RoundFacet;
+}
+
+/** A drawing's ground as it was painted. */
+export interface Ground {
+  readonly sites: SphereSites;
+  readonly round: RoundFacet;
+  readonly inks: Pen["inks"];
+}
+
+/** Brings a ground up to date where one site has moved since: where it was, and where it is now. */
+export function drawMoved(pen: Pen, drawing: Drawing, scene: SphereScene, ground: Ground, site: number): void {
+  const { sites, twin } = scene;
+  const round = drawing.round(scene);
+  pen.known = ground.inks;
+  const window = (of: Pick<Ground, "sites" | "round">): Window =>
+    windowOf(of.sites, site, of.round, pen.width, pen.height);
+  for (const each of united(window(ground), window({ sites, round }))) {
+    const seen = sitesIn(sites, each, round);
+    const trace = (path: Path): void => traceCorners(path, cornersOf(...each));
+    pen.clipped(trace, () => {
+      pen.draw("paper", trace);
+      drawing.draw(pen, { ...scene, sites: seen, layers: ballLayers(seen), seeing: seen.seeing(twin.pole) }, "ground");
+    });
+  }
+  pen.known = null;
+}
+
+/** The ball in a disc. */
+export function ballDrawing(disc: Disc): Drawing {
+  return {
+    draw: (pen, scene, stratum) => drawBall(pen, disc, scene, stratum),
+    round: ({ sites, layers, view }) =>
+      roundOnBall(disc, MoebiusMap.rotation(view.rotation).apply(layers.dots.directions), sites),
+  };
+}
+
+/** The plane in its frame. */
+export function planeDrawing(frame: PlaneFrame): Drawing {
+  return {
+    draw: (pen, scene, stratum) => drawPlane(pen, frame, scene, stratum),
+    round({ sites, twin, seeing }) {
+      const places = new Float64Array(2 * sites.count);
+      for (let k = 0; k < sites.count; ++k)
+        [places[2 * k], places[2 * k + 1]] = frame.place(twin.forward(sites.site(k)));
+      return roundInPlane(places, seeing, sites);
+    },
+  };
+}
+
+function drawBall(pen: Pen, disc: Disc, scene: SphereScene, stratum: Stratum): void {
   const { sites, layers, view, seeing } = scene;
   const look = (k: number): Vector => view.seen(sites.site(k));
   const surface = balls.ballSurface(disc, look);
   const map = MoebiusMap.rotation(view.rotation);
   const hidden = view.onBall([0, 0, -1]);
+  const seats = new Seats(pen, disc, [poleLabel(disc, scene).box]);
   const ball: Picture = {
     ...surface,
     isPlane: false,
     label: BALL_LABEL,
+    seats,
     hatch(outline) {
       pen.draw("hatch", (path) => surface.region(path, outline, sites.regionHolds(seeing, hidden)));
     },
@@ -160,20 +225,25 @@ export function drawBall(pen: Pen, disc: Disc, scene: SphereScene): void {
       pen.draw("triangle", (path) => surface.ring(path, bubble.sites));
     },
     dots: () => balls.drawLayers(pen, disc, map, [layers.dots]),
+    names: (named) => drawNames(pen, seats, disc, named, map.apply(layers.dots.directions), NAME),
     side(bubble, site) {
       const [point, middle] = [look(site), view.seen(bubble.center)];
       return point[2] >= LEAST_HEIGHT ? [point[0] - middle[0], point[1] - middle[1]] : null;
     },
     opening: (path, step) => surface.region(path, step.outline, holdsDirection(step, sites, hidden)),
   };
-  pen.ball(disc, "ball");
-  drawParts(pen, ball, sphereParts(scene), scene.isOn);
-  pen.draw("limb", (path) => traceDisc(path, disc));
-  drawPole(pen, disc, scene);
+  if (stratum === "ground") pen.ball(disc, "ball");
+  drawStratum(pen, ball, scene, stratum);
+  if (stratum === "ground") pen.draw("limb", (path) => traceDisc(path, disc));
+  else drawPole(pen, disc, scene);
 }
 
-/** Draws the plane into its frame. */
-export function drawPlane(pen: Pen, frame: PlaneFrame, scene: SphereScene): void {
+function drawStratum(pen: Pen, on: Picture, scene: SphereScene, stratum: Stratum): void {
+  const parts = sphereParts(scene).filter(({ isOver = false }) => isOver === (stratum === "over"));
+  drawParts(pen, on, parts, scene.isOn);
+}
+
+function drawPlane(pen: Pen, frame: PlaneFrame, scene: SphereScene, stratum: Stratum): void {
   const { sites, twin, seeing } = scene;
   const { x, y, size } = frame;
   const flat = (k: number): Point => frame.place(twin.forward(sites.site(k)));
@@ -183,6 +253,7 @@ export function drawPlane(pen: Pen, frame: PlaneFrame, scene: SphereScene): void
     ...surface,
     isPlane: true,
     label: { ...BALL_LABEL, halo: "halo" },
+    seats: new Seats(pen),
     // The outline runs clockwise on the picture, as the frame does: turned round, the path winds once between them.
     hatch: (outline) => pen.draw("hatch", (path) => surface.region(path, [...outline].reverse(), true)),
     triangles: () =>
@@ -228,19 +299,17 @@ export function drawPlane(pen: Pen, frame: PlaneFrame, scene: SphereScene): void
       });
     },
   };
-  pen.clipped(whole, () => drawParts(pen, plane, sphereParts(scene), scene.isOn));
-  pen.draw("frame", whole);
+  pen.clipped(whole, () => drawStratum(pen, plane, scene, stratum));
+  if (stratum === "ground") pen.draw("frame", whole);
 }
 
 /** The numbers of a bubble's sites. */
 function drawNumbers(pen: Pen, on: Picture, bubble: Bubble): void {
+  for (const site of bubble.sites) on.seats.takeDot(on.place(site), 3, site + 1);
   for (const site of bubble.sites) {
     const out = on.side(bubble, site);
     if (out === null) continue;
-    const [x, y] = on.place(site);
-    const [u, v] = out.map((part) => part / (Math.hypot(...out) || 1));
-    const align = u > 0.35 ? "left" : u < -0.35 ? "right" : "center";
-    pen.label(String(site + 1), x + 0.6 * AWAY * u, y - AWAY * v + 5, { ...on.label, align });
+    on.seats.set(pen, String(site + 1), on.place(site), on.label, site + 1, sidesToward(out[0], -out[1]));
   }
 }
 
@@ -274,13 +343,20 @@ function holdsDirection({ before, seeing }: Insertion, sites: SphereSites, direc
 }
 
 /** The handle of the pole of projection, and its name. */
-function drawPole(pen: Pen, disc: Disc, { view, twin }: SphereScene): void {
+function drawPole(pen: Pen, disc: Disc, scene: SphereScene): void {
+  const { x, y, isFront, text, isLeft } = poleLabel(disc, scene);
+  drawHandle(pen, x, y, isFront ? "front" : "behind");
+  pen.label(text, x + (isLeft ? -11 : 11), y + 5, { ...BALL_LABEL, align: isLeft ? "right" : "left" });
+}
+
+/** What stands beside the pole, towards the middle, where there is room; and the box of both. */
+function poleLabel(disc: Disc, { view, twin }: SphereScene) {
   const pole = view.seen(twin.pole);
-  const [x, y] = balls.placeOf(disc, pole);
-  drawHandle(pen, x, y, pole[2] >= 0 ? "front" : "behind");
-  const text = pole[2] >= 0 ? "*P*" : "*P*, behind";
-  const left = x > disc.x; // towards the middle, where there is room
-  pen.label(text, x + (left ? -11 : 11), y + 5, { ...BALL_LABEL, align: left ? "right" : "left" });
+  const [isFront, [x, y]] = [pole[2] >= 0, balls.placeOf(disc, pole)];
+  const [text, isLeft] = [isFront ? "*P*" : "*P*, behind", x > disc.x];
+  const width = 11 + widthOf(text, BALL_LABEL);
+  const box: Box = [x - (isLeft ? width : 7), y - 7, x + (isLeft ? 7 : width), y + 9];
+  return { x, y, isFront, text, isLeft, box };
 }
 
 /** Ridges between the triangles of the plane, and rays where one has no neighbour: the centres are those of its circles. */

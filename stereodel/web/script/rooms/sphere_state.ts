@@ -1,72 +1,52 @@
 /** The state of the Sphere room but for its sites, and how a link tells it. */
 
+import { direction, fields, flag, place, whole, word, type Fields, type Place } from "../fields.ts";
 import { lonlatToXyz } from "../kernel/api.ts";
-import { writePlace, type LinkValues } from "../link.ts";
-import { lonLatOf, row, type Vector } from "../space.ts";
+import { directionOf, row, type Vector } from "../space.ts";
 import { wrap } from "../words.ts";
-
-/** Longitude and latitude, degrees. */
-export type Place = readonly [number, number];
 
 export const CLICKS = ["keep", "add", "remove"] as const;
 
 /** What a click does. */
 export type Click = (typeof CLICKS)[number];
 
-/** How the room begins: degrees. */
-const POLE: Place = [-150, 53.1];
-export const VIEW: Place = [0, 0];
-const AIM: Place = [-9.94, 3.49];
-
-/** Decimals of a degree to which the view is held: what they leave out is invisible, so a link shows the same pixels. */
-const VIEW_DECIMALS = 4;
-
-/** Decimals of a degree to which the hand moves things. */
+/** Decimals of a degree to which the hand moves sites and the pole. */
 const HAND_DECIMALS = 3;
 
 export interface SphereState {
-  pole: Place;
-  view: Place;
+  readonly pole: Place;
+  readonly view: Place;
   /** Where the pointer was last, and whether the bubble there is kept. */
-  aim: Vector;
-  isPinned: boolean;
+  readonly aim: Vector;
+  readonly isPinned: boolean;
   /** Sites that are inserted; null for all of them, drawn as what they are in the end. */
-  step: number | null;
+  readonly step: number | null;
+  /** The site that is held. */
+  readonly held: number | null;
   readonly click: Click;
 }
 
-/** The values of a link; what is as in the beginning is left out. */
-export function toValues({ pole, view, aim, isPinned, step, click }: SphereState): Record<string, string> {
-  const values: Record<string, string> = {};
-  const put = (name: string, value: Place, otherwise: Place): void => {
-    if (value[0] === otherwise[0] && value[1] === otherwise[1]) return;
-    Object.assign(values, writePlace(`${name}-`, value, VIEW_DECIMALS));
-  };
-  put("pole", pole, POLE);
-  put("view", view, VIEW);
-  if (isPinned) {
-    put("aim", handPlace(lonLatOf(aim)), AIM);
-    values["pin"] = "1";
-  }
-  if (step !== null) values["step"] = String(step);
-  if (click !== "keep") values["click"] = click;
-  return values;
-}
+export const BEGINNING: SphereState = {
+  pole: [-150, 53.1],
+  view: [0, 0],
+  aim: directionOf(-9.94, 3.49),
+  isPinned: false,
+  step: null,
+  held: null,
+  click: "keep",
+};
 
-/**
- * The state that a link tells of `count` sites.
- * @throws LinkError where it cannot be read.
- */
-export function fromValues(values: LinkValues, count: number): SphereState {
-  const step = values.whole("step", 1, count, 0);
-  return {
-    pole: values.place("pole-", POLE),
-    view: values.place("view-", VIEW),
-    aim: directionAt(values.place("aim-", AIM)),
-    isPinned: values.has("pin"),
-    step: step === 0 || step === count ? null : step,
-    click: values.word("click", CLICKS, "keep"),
-  };
+/** Of so many sites. */
+export function sphereFields(count: number): Fields<SphereState> {
+  return fields<SphereState>({
+    pole: place("pole-", HAND_DECIMALS),
+    view: place("view-"),
+    aim: direction("aim-"),
+    isPinned: flag("pin"),
+    step: whole("step", count),
+    held: whole("held", count, 1),
+    click: word("click", CLICKS),
+  });
 }
 
 /** The direction of a place, as the kernel and Python have it. */
@@ -75,15 +55,6 @@ export function directionAt([lon, lat]: Place): Vector {
 }
 
 /** A place as the hand sets it. */
-export function handPlace(place: Place): Place {
-  return rounded(place, HAND_DECIMALS);
-}
-
-/** A view as a link holds it. */
-export function viewPlace(place: Place): Place {
-  return rounded(place, VIEW_DECIMALS);
-}
-
-function rounded([lon, lat]: Place, decimals: number): Place {
-  return [Number(wrap(lon).toFixed(decimals)), Number(lat.toFixed(decimals))];
+export function handPlace([lon, lat]: Place): Place {
+  return [Number(wrap(lon).toFixed(HAND_DECIMALS)), Number(lat.toFixed(HAND_DECIMALS))];
 }

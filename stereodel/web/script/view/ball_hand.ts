@@ -1,7 +1,7 @@
 /** The hand that turns a ball: the grabbed point stays under the pointer, a fast drag runs out. */
 
 import type { Disc } from "../drawing/pen.ts";
-import type { Hold, Place } from "./hand.ts";
+import { isCommand, type Hold, type Place } from "./hand.ts";
 import { Motion } from "./motion.ts";
 import { pointUnder, View } from "./view.ts";
 
@@ -45,7 +45,7 @@ export function grabBall(ball: Turnable, motion: Motion, at: Place): Hold | null
 
 /** What an arrow key makes of a view, or null for other keys. */
 export function arrowed(ball: Turnable, event: KeyboardEvent): View | null {
-  const step = event.ctrlKey ? null : arrowStep(event);
+  const step = isCommand(event) ? null : arrowStep(event);
   return step === null ? null : ball.view.stepped(...step, ball.isNorthUp);
 }
 
