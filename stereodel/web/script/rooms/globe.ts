@@ -110,10 +110,12 @@ export class GlobeRoom extends TableRoom implements Room {
   state(isWhole: boolean): Record<string, string> {
     const { places, picture } = this.scene;
     const { from, to, before, after, ...fisheye } = this.#state;
-    const { lonlat, name, names = null } = places ?? NO_PLACES;
+    const { lonlat, name, names = null, values = new Map() } = places ?? NO_PLACES;
     return {
       ...GLOBE.write(fisheye.lens === "fisheye" ? fisheye : this.#state),
-      ...(places === null || places === this.#given ? {} : tableValues({ places: lonlat, name, names }, isWhole)),
+      ...(places === null || places === this.#given
+        ? {}
+        : tableValues({ places: lonlat, name, names, values }, isWhole)),
       ...this.switches.values,
       ...(picture === null ? {} : { picture: picture.name }),
     };
@@ -232,6 +234,7 @@ export class GlobeRoom extends TableRoom implements Room {
     this.scene.show(places);
     if (places !== this.#given) this.#opened = places ?? this.#opened;
     this.switches.offer("cells", places !== null);
+    this.switches.offer("names", !!places?.names);
     for (const part of ["[data-show=places]", "[value=places]"]) find(this.section, part).hidden = places === null;
     const { lonlat, names, name } = places ?? NO_PLACES;
     this.#fit(places ?? NO_PLACES, places !== null);

@@ -3,7 +3,8 @@
 import type { Given } from "../contents.ts";
 import { find, say } from "../dom.ts";
 import { placeOf } from "../drawing/ball.ts";
-import { regionsOf } from "../drawing/parts.ts";
+import type { Named } from "../drawing/names.ts";
+import { regionsOf, type Switch } from "../drawing/parts.ts";
 import type { Pen, Sheet } from "../drawing/pen.ts";
 import { Plate, type Reason } from "../drawing/plate.ts";
 import type { Exchange } from "../exchange.ts";
@@ -22,7 +23,8 @@ import { Choice, PlaceFields, siteForm, stepControl } from "./controls.ts";
 import { edited, SiteRoom, type NamedSites } from "./site_room.ts";
 import { ballDrawing, ballLayers, drawMoved, planeDrawing, sphereParts } from "./sphere_drawing.ts";
 import type { Drawing, Ground, SphereScene, Step } from "./sphere_drawing.ts";
-import { ofBubble, ofDuplicates, ofSite, ofStep, SphereSites, withoutTriangles, type Bubble } from "./sphere_sites.ts";
+import { ofBubble, ofDuplicates, ofPictures, ofSite, ofStep, SphereSites, withoutTriangles } from "./sphere_sites.ts";
+import type { Bubble } from "./sphere_sites.ts";
 import { BEGINNING, directionAt, handPlace, sphereFields, type Click, type SphereState } from "./sphere_state.ts";
 import { planeFrame, reachAround, Twin, type PlaneFrame } from "./twin.ts";
 
@@ -78,6 +80,7 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
   // What follows from the state; made anew when it changes.
   #sites = new SphereSites(new Float64Array(0));
   #layers = ballLayers(this.#sites);
+  readonly #standing: Named["standing"] = new Map();
   #twin = new Twin([0, 0, 1]);
   #seeing: Uint8Array = new Uint8Array(0);
   #step: Step | "done" = "done";
@@ -110,7 +113,7 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
     let ground: Ground;
     const paint = (pen: Pen, isMoving: boolean): void => {
       const scene = this.#scene(isMoving);
-      ground = lazy<Ground>({ sites: () => scene.sites, round: () => drawing().round(scene) });
+      ground = lazy<Ground>({ sites: () => scene.sites, round: () => drawing().round(scene), inks: () => pen.inks });
       drawing().draw(pen, scene, "ground");
     };
     const over = (pen: Pen, isMoving: boolean): void => {
@@ -232,6 +235,7 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
     return {
       sites: this.#sites,
       layers: this.#layers,
+      named: this.named.names && { names: this.named.names, standing: this.#standing, isMoving },
       view: this.view,
       twin: this.#twin,
       seeing: this.#seeing,
@@ -251,6 +255,16 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
     say(this.out("sentence"), words.filter(Boolean).join(" "));
     say(this.out("sum"), alone === null ? ofFacets(sites.facetCount - this.#seeingCount, this.#seeingCount, SUM) : "");
     this.out("sum").hidden = step !== "done" || alone !== null;
+    const isDrawn = (layer: Switch): boolean => alone === null && step === "done" && this.isOn(layer);
+    const steps = step !== "done" && step.insertion !== null;
+    const [onBall, inPlane] = ofPictures({
+      triangles: steps || isDrawn("triangles"),
+      cells: isDrawn("cells") || (sites.delaunay.dimension === 1 && step === "done" && this.isOn("cells")),
+      seeing: isDrawn("seeing") && this.#seeingCount > 0,
+      steps,
+    });
+    say(this.out("on-ball"), onBall);
+    say(this.out("in-plane"), inPlane);
     const side = dot(this.#twin.pole, directionAt(this.#state.view)) < 0 ? "behind" : "in front";
     say(this.out("pole-side"), `*P*, the pole of projection, lies ${side}.`);
     this.#showStep(this.#state.step, sites.count);

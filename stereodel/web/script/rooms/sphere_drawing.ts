@@ -3,6 +3,7 @@
 import { circle, traceCap, traceCircle } from "../drawing/arcs.ts";
 import * as balls from "../drawing/ball.ts";
 import type { Layer, Surface } from "../drawing/ball.ts";
+import { drawNames, Seats, sidesToward, widthOf, type Box, type Named } from "../drawing/names.ts";
 import { drawParts, type IsOn, type Part } from "../drawing/parts.ts";
 import { cornersOf, drawHandle, traceCorners, traceDisc, traceSegment } from "../drawing/pen.ts";
 import type { Disc, Path, Pen, Point } from "../drawing/pen.ts";
@@ -28,6 +29,7 @@ export interface Step {
 export interface SphereScene {
   readonly sites: SphereSites;
   readonly layers: BallLayers;
+  readonly named: Named | null;
   readonly view: View;
   readonly twin: Twin;
   /** One byte a facet: 1 where it sees the pole. */
@@ -43,15 +45,13 @@ export interface SphereScene {
 }
 
 const BALL_LABEL: LabelStyle = { ink: "accent-text", halo: "ball", size: 15 };
+const NAME: LabelStyle = { ink: "ink", halo: "ball", size: 13 };
 
 /** Height above the picture, ball radii, below which a site's number would be cut by the limb. */
 const LEAST_HEIGHT = 0.2;
 
 /** Radius of a circle of the plane, px, below which the numbers of its sites would lie on each other. */
 const LEAST_CIRCLE = 12;
-
-/** Distance of a site's number from its dot, px. */
-const AWAY = 12;
 
 /** What is drawn of sites on the ball, whose directions stay in the kernel while the ball turns. */
 export type BallLayers = Readonly<Record<"edges" | "ridges" | "dots", Layer>>;
@@ -68,6 +68,8 @@ export function ballLayers(sites: SphereSites): BallLayers {
 interface Picture extends Surface {
   readonly isPlane: boolean;
   readonly label: LabelStyle;
+  /** Where numbers and names are set. */
+  readonly seats: Seats;
   /** The region of the facets that see the pole, with the outline on whose left they are. */
   hatch(outline: readonly number[]): void;
   closing?(): void;
@@ -75,6 +77,7 @@ interface Picture extends Surface {
   cells(): void;
   bubble(bubble: Bubble): void;
   dots(): void;
+  names?(named: Named): void;
   /** The side of its dot on which the number of a bubble's site stands, y up; null where it is left out. */
   side(bubble: Bubble, site: number): Point | null;
   /** The facets that see the new site of a step, or those of its fan. */
@@ -82,7 +85,7 @@ interface Picture extends Surface {
 }
 
 /** What both pictures show. Python has the diagram of all sites, whatever is drawn of it, at any step, and GeoJSON else. */
-export function sphereParts({ sites, seeing, bubble, aim, held, step }: SphereScene): Part<Picture>[] {
+export function sphereParts({ sites, named, seeing, bubble, aim, held, step }: SphereScene): Part<Picture>[] {
   const isThere = step === "done";
   const outline = sites.outline(seeing);
   const isAimed = isThere && bubble !== null;
@@ -131,6 +134,8 @@ export function sphereParts({ sites, seeing, bubble, aim, held, step }: SphereSc
       },
     },
     { isThere, isOver: true, draw: (pen, on) => balls.drawDots(pen, on, "held", [...(bubble?.sites ?? []), ...held]) },
+    // Names first: they stay while the bubble follows the pointer.
+    { layer: "names", isThere: isThere && named !== null, isOver: true, draw: (_, on) => on.names?.(named!) },
     { layer: "bubble", isThere: isAimed, isOver: true, draw: (pen, on) => drawNumbers(pen, on, bubble!) },
   ];
 }
@@ -149,13 +154,16 @@ export interface Drawing {
 export interface Ground {
   readonly sites: SphereSites;
   readonly round: RoundFacet;
+  readonly inks: Pen["inks"];
 }
 
 /** Brings a ground up to date where one site has moved since: where it was, and where it is now. */
 export function drawMoved(pen: Pen, drawing: Drawing, scene: SphereScene, ground: Ground, site: number): void {
   const { sites, twin } = scene;
   const round = drawing.round(scene);
-  const window = (of: Ground): Window => windowOf(of.sites, site, of.round, pen.width, pen.height);
+  pen.known = ground.inks;
+  const window = (of: Pick<Ground, "sites" | "round">): Window =>
+    windowOf(of.sites, site, of.round, pen.width, pen.height);
   for (const each of united(window(ground), window({ sites, round }))) {
     const seen = sitesIn(sites, each, round);
     const trace = (path: Path): void => traceCorners(path, cornersOf(...each));
@@ -164,6 +172,7 @@ export function drawMoved(pen: Pen, drawing: Drawing, scene: SphereScene, ground
       drawing.draw(pen, { ...scene, sites: seen, layers: ballLayers(seen), seeing: seen.seeing(twin.pole) }, "ground");
     });
   }
+  pen.known = null;
 }
 
 /** The ball in a disc. */
@@ -194,10 +203,12 @@ function drawBall(pen: Pen, disc: Disc, scene: SphereScene, stratum: Stratum): v
   const surface = balls.ballSurface(disc, look);
   const map = MoebiusMap.rotation(view.rotation);
   const hidden = view.onBall([0, 0, -1]);
+  const seats = new Seats(pen, disc, [poleLabel(disc, scene).box]);
   const ball: Picture = {
     ...surface,
     isPlane: false,
     label: BALL_LABEL,
+    seats,
     hatch(outline) {
       pen.draw("hatch", (path) => surface.region(path, outline, sites.regionHolds(seeing, hidden)));
     },
@@ -214,6 +225,7 @@ function drawBall(pen: Pen, disc: Disc, scene: SphereScene, stratum: Stratum): v
       pen.draw("triangle", (path) => surface.ring(path, bubble.sites));
     },
     dots: () => balls.drawLayers(pen, disc, map, [layers.dots]),
+    names: (named) => drawNames(pen, seats, disc, named, map.apply(layers.dots.directions), NAME),
     side(bubble, site) {
       const [point, middle] = [look(site), view.seen(bubble.center)];
       return point[2] >= LEAST_HEIGHT ? [point[0] - middle[0], point[1] - middle[1]] : null;
@@ -241,6 +253,7 @@ function drawPlane(pen: Pen, frame: PlaneFrame, scene: SphereScene, stratum: Str
     ...surface,
     isPlane: true,
     label: { ...BALL_LABEL, halo: "halo" },
+    seats: new Seats(pen),
     // The outline runs clockwise on the picture, as the frame does: turned round, the path winds once between them.
     hatch: (outline) => pen.draw("hatch", (path) => surface.region(path, [...outline].reverse(), true)),
     triangles: () =>
@@ -292,13 +305,11 @@ function drawPlane(pen: Pen, frame: PlaneFrame, scene: SphereScene, stratum: Str
 
 /** The numbers of a bubble's sites. */
 function drawNumbers(pen: Pen, on: Picture, bubble: Bubble): void {
+  for (const site of bubble.sites) on.seats.takeDot(on.place(site), 3, site + 1);
   for (const site of bubble.sites) {
     const out = on.side(bubble, site);
     if (out === null) continue;
-    const [x, y] = on.place(site);
-    const [u, v] = out.map((part) => part / (Math.hypot(...out) || 1));
-    const align = u > 0.35 ? "left" : u < -0.35 ? "right" : "center";
-    pen.label(String(site + 1), x + 0.6 * AWAY * u, y - AWAY * v + 5, { ...on.label, align });
+    on.seats.set(pen, String(site + 1), on.place(site), on.label, site + 1, sidesToward(out[0], -out[1]));
   }
 }
 
@@ -332,13 +343,20 @@ function holdsDirection({ before, seeing }: Insertion, sites: SphereSites, direc
 }
 
 /** The handle of the pole of projection, and its name. */
-function drawPole(pen: Pen, disc: Disc, { view, twin }: SphereScene): void {
+function drawPole(pen: Pen, disc: Disc, scene: SphereScene): void {
+  const { x, y, isFront, text, isLeft } = poleLabel(disc, scene);
+  drawHandle(pen, x, y, isFront ? "front" : "behind");
+  pen.label(text, x + (isLeft ? -11 : 11), y + 5, { ...BALL_LABEL, align: isLeft ? "right" : "left" });
+}
+
+/** What stands beside the pole, towards the middle, where there is room; and the box of both. */
+function poleLabel(disc: Disc, { view, twin }: SphereScene) {
   const pole = view.seen(twin.pole);
-  const [x, y] = balls.placeOf(disc, pole);
-  drawHandle(pen, x, y, pole[2] >= 0 ? "front" : "behind");
-  const text = pole[2] >= 0 ? "*P*" : "*P*, behind";
-  const left = x > disc.x; // towards the middle, where there is room
-  pen.label(text, x + (left ? -11 : 11), y + 5, { ...BALL_LABEL, align: left ? "right" : "left" });
+  const [isFront, [x, y]] = [pole[2] >= 0, balls.placeOf(disc, pole)];
+  const [text, isLeft] = [isFront ? "*P*" : "*P*, behind", x > disc.x];
+  const width = 11 + widthOf(text, BALL_LABEL);
+  const box: Box = [x - (isLeft ? width : 7), y - 7, x + (isLeft ? 7 : width), y + 9];
+  return { x, y, isFront, text, isLeft, box };
 }
 
 /** Ridges between the triangles of the plane, and rays where one has no neighbour: the centres are those of its circles. */
