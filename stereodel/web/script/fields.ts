@@ -103,8 +103,8 @@ function hasPlace(values: LinkValues, name: string): boolean {
   return values.has(`${name}lon`) || values.has(`${name}lat`);
 }
 
-export function direction(name: string): Field<Vector> {
-  const { write } = place(name);
+export function direction(name: string, digits = DIGITS): Field<Vector> {
+  const { write } = place(name, digits);
   return field<Vector>(
     (value) => write(lonLatOf(value)),
     (values, otherwise) =>
