@@ -101,16 +101,19 @@ def test_a_link_shows_the_same_pixels(room, page_file, name, states):
     rng, hands = np.random.default_rng(states), 6 if states == 1 else 3
     if states > 1:
         states = int(os.environ.get("STEREODEL_TEST_HANDS", states))
-    page, fresh, different = room(name, height=1200), room(name, height=1200), []
+    page, fresh, different = room(name, height=1200), None, []
     pictures = {str(shown(page, name))}
     for state in range(states):
         for _ in range(hands):
             hand(page, name, rng)
         here = shown(page, name)
         pictures.add(str(here))
-        fresh.page.goto("about:blank")
-        fresh.page.goto(f"{page_file.as_uri()}#{page.link}")
-        fresh.until("document.documentElement.dataset.ready")
+        if fresh is None:
+            fresh = room(page.link, height=1200)
+        else:
+            fresh.page.goto("about:blank")
+            fresh.page.goto(f"{page_file.as_uri()}#{page.link}")
+            fresh.until("document.documentElement.dataset.ready")
         there = shown(fresh, name)
         if there != here:
             pairs = zip(map(pixels, here), map(pixels, there), strict=True)

@@ -5,6 +5,7 @@
  */
 
 import type { Latitude } from "./kernel/api.ts";
+import type { Owner } from "./rooms/owner.ts";
 
 /** Regions by rings that have them on their left; joined where maps are cut, at ±180° and along the poles. */
 export interface Rings {
@@ -16,6 +17,10 @@ export interface Rings {
 
 /** Points that the page's maker gave. */
 export interface Given {
+  /** What the maker says of them. */
+  readonly owner: Owner | null;
+  /** Lines of equal values, rows of places. */
+  readonly isolines: Rings | null;
   /** What they are called, such as "cities.csv". */
   readonly name: string;
   /** Longitude and latitude in turn, degrees, to the bit. */
@@ -49,14 +54,17 @@ export class Contents {
 
   /** Land for maps of 1 : 50 or 1 : 110 million; null where the page does not have it, which may be so of the former. */
   async land(resolution: "50m" | "110m"): Promise<Rings | null> {
-    const bytes = await this.#bytes(`land-${resolution}`);
-    return bytes === null ? null : places(bytes);
+    return this.#rings(`land-${resolution}`);
+  }
+
+  async #rings(name: string): Promise<Rings | null> {
+    const bytes = await this.#bytes(name);
+    return bytes && places(bytes);
   }
 
   /** The points of a set: longitude and latitude in turn, degrees, or x and y of the sheet. */
   async set(name: string): Promise<Float64Array> {
-    const bytes = await this.#bytes(name);
-    return bytes === null ? new Float64Array(0) : places(bytes).lonlat;
+    return (await this.#rings(name))?.lonlat ?? new Float64Array(0);
   }
 
   /** The points that the page was made for, or null. */
@@ -71,6 +79,8 @@ export class Contents {
       name: String(JSON.parse(name)),
       lonlat: doubles(bytes),
       names: JSON.parse(names ?? "null") as string[] | null,
+      owner: JSON.parse((await this.#text("owner")) ?? "null") as Owner | null,
+      isolines: await this.#rings("isolines"),
     };
   }
 

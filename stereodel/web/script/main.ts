@@ -1,6 +1,6 @@
 /** The page: head and foot, rooms by the fragment of the address, files that are dropped, exports, states. */
 
-import { Contents } from "./contents.ts";
+import { Contents, type Given } from "./contents.ts";
 import { field, find } from "./dom.ts";
 import type { Exchange } from "./exchange.ts";
 import { load } from "./kernel/instance.ts";
@@ -9,7 +9,7 @@ import type { LiftRoomMaker } from "./lift.ts";
 import { LinkError, LinkValues, readLink, ROOMS, writeLink, type Link, type RoomName } from "./link.ts";
 import { Announcer, Messages } from "./messages.ts";
 import type { Room, RoomHost } from "./room.ts";
-import { Choice, NAMED } from "./rooms/controls.ts";
+import { Choice, NAMED, NumberField } from "./rooms/controls.ts";
 import { globeRoom } from "./rooms/globe.ts";
 import { sphereRoom } from "./rooms/sphere.ts";
 
@@ -41,13 +41,17 @@ class Page {
   readonly #source: Node;
   /** What a page that was saved shows before anything else; its table is there for links that name it. */
   readonly #saved: Link | null;
+  /** The room of an address that names none, and what its maker calls the page. */
+  readonly #begin: RoomName;
+  readonly #title: string;
   #name: RoomName = "sphere";
   #timer: ReturnType<typeof setTimeout> | undefined;
   #isStep = false;
 
-  constructor(contents: Contents, makers: Makers, source: Node, saved: string) {
+  constructor(contents: Contents, makers: Makers, source: Node, saved: string, given: Given | null) {
     this.#contents = contents;
     this.#makers = makers;
+    [this.#begin, this.#title] = [given === null ? "sphere" : "globe", given?.owner?.title ?? ""];
     this.#source = source;
     this.#saved = saved === "" ? null : readLink(saved, Infinity);
     this.#exchange = laterScript(contents, "exchange");
@@ -94,7 +98,8 @@ class Page {
   async #follow(): Promise<void> {
     clearTimeout(this.#timer);
     const link = this.#read(
-      () => (location.hash === "" && this.#rooms.size === 0 ? this.#saved : null) ?? readLink(location.hash),
+      () =>
+        (location.hash === "" && this.#rooms.size === 0 ? this.#saved : null) ?? readLink(location.hash || this.#begin),
       () => ({ room: this.#name, values: new LinkValues() }),
     );
     const saved = this.#saved?.values;
@@ -134,7 +139,8 @@ class Page {
     for (const link of document.querySelectorAll<HTMLAnchorElement>(".rooms a")) {
       link.ariaCurrent = link.hash === `#${name}` ? "page" : null;
     }
-    document.title = `${name[0].toUpperCase()}${name.slice(1)} · stereodel`;
+    const title = name === "globe" && this.#title;
+    document.title = title || `${name[0].toUpperCase()}${name.slice(1)} · stereodel`;
   }
 
   /** The address and the Python lines follow the state once the hand rests. */
@@ -204,6 +210,7 @@ class Page {
         this.#exchanging((...both) => this.#export(button.dataset["export"] ?? "", ...both)),
       );
     }
+    new NumberField(foot, "png-scale", 0, () => {});
     find(foot, "details").addEventListener("toggle", () => this.#python());
   }
 
@@ -230,7 +237,7 @@ class Page {
     if (kind === "svg") exchange.download(`${name}.svg`, exchange.sheetSvg(room.sheet()), "image/svg+xml");
     else if (kind === "png") {
       const scale = field(document, "png-scale").valueAsNumber;
-      exchange.download(`${name}.png`, await exchange.sheetPng(room.sheet(), scale >= 1 && scale <= 8 ? scale : 2));
+      exchange.download(`${name}.png`, await exchange.sheetPng(room.sheet(), scale));
     } else if (kind === "geojson") {
       const text = room.geojson(exchange);
       if (text !== null) exchange.download(`${name}.geojson`, text, "application/geo+json");
@@ -271,21 +278,24 @@ function placeMarks(): void {
 async function main(): Promise<void> {
   const source = document.documentElement.cloneNode(true);
   placeMarks();
+  // The drawing alone, in a frame of another page.
+  if (new URLSearchParams(location.search).has("frame")) document.documentElement.classList.add("framed");
   const contents = Contents.ofDocument();
   const loaded = contents.kernel().then(load);
   const stored: Record<string, Float64Array> = {}; // before the rooms are made, so that links can name them
   for (const name of ["gap", "everywhere", "hemisphere", "cities", "airports", "stars", "sheet"])
     stored[name] = await contents.set(name);
   const [given, saved] = [await contents.given(), await contents.state()];
+  const latitude = await contents.latitude();
   const lift = laterScript<LiftRoomMaker>(contents, "lift");
   await loaded;
   document.body.classList.remove("loading");
   const makers: Makers = {
     sphere: (host) => sphereRoom(host, stored, given),
     lift: async (host) => (await lift())(host, stored["sheet"]),
-    globe: (host) => globeRoom(host, given),
+    globe: (host) => globeRoom(host, given, latitude),
   };
-  const page = new Page(contents, makers, source, saved);
+  const page = new Page(contents, makers, source, saved, given);
   await page.start();
   document.documentElement.dataset["ready"] = "true";
 }

@@ -19,6 +19,8 @@ export interface Layer {
   readonly directions: Directions;
   /** Draws images of the directions under a map, in the axes of the view. */
   draw(pen: Pen, disc: Disc, images: Float64Array, map: MoebiusMap): void;
+  /** The outlines of its regions alone. */
+  readonly outlines?: Layer;
 }
 
 /** Draws layers one over the other; `map` takes them to the axes of the view: x right, y up, z toward the reader. */
@@ -63,10 +65,25 @@ export function dotLayer(style: DotName, points: Float64Array): Layer {
   });
 }
 
+/** Dots with radii and inks of their own: the largest lowest, and those of one ink together. */
+export function spotLayer(points: Float64Array, radii: ArrayLike<number>, inks: readonly string[]): Layer {
+  const order = Array.from(inks.keys()).filter((k) => radii[k] > 0);
+  order.sort((a, b) => radii[b] - radii[a] || (inks[a] < inks[b] ? -1 : inks[a] > inks[b] ? 1 : a - b));
+  return layerOf(Float64Array.from(order.flatMap((k) => row(points, k))), (pen, disc, images) => {
+    const seen = order.map((_, i) => i).filter((i) => images[3 * i + 2] >= 0);
+    const places = seen.flatMap((i) => [...placeOf(disc, row(images, i)), radii[order[i]]]);
+    pen.spots(
+      places,
+      seen.map((i) => inks[order[i]]),
+    );
+  });
+}
+
 /**
  * Regions on the left of rings, filled and outlined, such as land with its coast.
  * @param outline Style of the rings as lines, if they are drawn.
  * @param place A direction far from all rings, and whether it is in the regions.
+ * @param ink Of the data, in place of that of the style.
  */
 export function regionLayer(
   fill: StyleName,
@@ -75,16 +92,21 @@ export function regionLayer(
   offsets: ArrayLike<number>,
   place: Vector,
   inside: boolean,
+  ink?: string,
 ): Layer {
   const withPlace = new Float64Array(points.length + 3);
   withPlace.set(points);
   withPlace.set(place, points.length);
-  return layerOf(withPlace, (pen, disc, images, map) => {
-    const rings = bentRings(points, { points: images.subarray(0, points.length), offsets }, map, disc.r);
-    const holds = holdsHidden(rings, row(images, points.length / 3), inside);
-    pen.draw(fill, (path) => traceRegions(path, disc, rings, holds));
-    if (outline !== null) pen.draw(outline, (path) => traceOutlines(path, disc, rings));
-  });
+  const directions = new Directions(withPlace);
+  const drawn = (isFilled: boolean): Layer["draw"] => {
+    return (pen, disc, images, map) => {
+      const rings = bentRings(points, { points: images.subarray(0, points.length), offsets }, map, disc.r);
+      const holds = holdsHidden(rings, row(images, points.length / 3), inside);
+      if (isFilled) pen.draw(fill, (path) => traceRegions(path, disc, rings, holds), ink);
+      if (outline !== null) pen.draw(outline, (path) => traceOutlines(path, disc, rings));
+    };
+  };
+  return { directions, draw: drawn(true), outlines: { directions, draw: drawn(false) } };
 }
 
 /** Land with its coast. */
@@ -158,6 +180,19 @@ export function circlePoints(center: Vector, radius: number): Vector[] {
 
 /** Degrees between points along the side of a region. */
 const FINE = 1;
+
+/** Lines through places, rows of longitude and latitude in degrees, as arcs. */
+export function lineArcs({ lonlat, offsets }: Places): Float64Array {
+  const points = lonlatToXyz(lonlat);
+  const arcs: number[] = [];
+  for (let line = 0; line + 1 < offsets.length; ++line) {
+    for (let k = offsets[line] + 1; k < offsets[line + 1]; ++k) {
+      const [a, b] = [row(points, k - 1), row(points, k)];
+      pushAll(arcs, a, unit([a[0] + b[0], a[1] + b[1], a[2] + b[2]]), b);
+    }
+  }
+  return Float64Array.from(arcs);
+}
 
 /** Where a direction is on the picture. */
 export function placeOf(disc: Disc, point: Vector): [number, number] {

@@ -35,7 +35,7 @@ export class CanvasPen extends Pen {
     context.imageSmoothingQuality = "high";
   }
 
-  draw(name: StyleName, trace: Trace): void {
+  draw(name: StyleName, trace: Trace, ink?: string): void {
     const style: Style = styles.STYLES[name];
     const context = this.#context;
     if (style.fill === undefined && style.hatch === undefined) {
@@ -49,13 +49,13 @@ export class CanvasPen extends Pen {
     trace(context);
     if (style.hatch !== undefined) this.#hatch(style.hatch === "crossed");
     if (style.fill !== undefined) {
-      context.fillStyle = this.colours[style.fill];
+      context.fillStyle = ink ?? this.colours[style.fill];
       context.globalAlpha *= style.fillOpacity ?? 1;
       context.fill();
       context.globalAlpha /= style.fillOpacity ?? 1;
     }
     if (style.stroke !== undefined) {
-      this.#line(style);
+      this.#line(style, ink);
       context.stroke();
     }
   }
@@ -102,6 +102,29 @@ export class CanvasPen extends Pen {
     }
   }
 
+  spots(places: ArrayLike<number>, inks: readonly string[]): void {
+    const context = this.#context;
+    this.#line(styles.STYLES["spot-line"]);
+    inks.forEach((ink, k) => {
+      // Of one opaque ink some at a time, as dots() has them.
+      if (k % MOST_ARCS === 0 || ink !== inks[k - 1] || !ink.endsWith("/ 1)")) context.beginPath();
+      const [x, y, r] = [places[3 * k], places[3 * k + 1], places[3 * k + 2]];
+      context.moveTo(x + r, y);
+      context.arc(x, y, r, 0, 2 * Math.PI);
+      if ((k + 1) % MOST_ARCS !== 0 && inks[k + 1] === ink && ink.endsWith("/ 1)")) return;
+      context.fillStyle = ink;
+      context.fill();
+      context.stroke();
+    });
+  }
+
+  lowered(by: number, body: () => void): void {
+    this.#kept(() => {
+      this.#context.translate(0, by);
+      body();
+    });
+  }
+
   label(text: string, x: number, y: number, style: LabelStyle): void {
     const context = this.#context;
     const parts = textParts(text, style.italic ?? false).map((part) => {
@@ -132,8 +155,8 @@ export class CanvasPen extends Pen {
     this.#context.drawImage(picture, x, y, width, height);
   }
 
-  #line(style: Style): void {
-    this.#context.strokeStyle = this.colours[style.stroke ?? "ink"];
+  #line(style: Style, ink = this.colours[style.stroke ?? "ink"]): void {
+    this.#context.strokeStyle = ink;
     this.#context.lineWidth = (style.width ?? 1) * this.weight;
     this.#context.setLineDash([...(style.dash ?? [])]);
   }

@@ -5,7 +5,18 @@ import { row, type Vector } from "../space.ts";
 import type { Pen } from "./pen.ts";
 
 /** What the reader can switch on and off. */
-export type Switch = "bubble" | "cells" | "closing" | "graticule" | "land" | "rays" | "seeing" | "tissot" | "triangles";
+export type Switch =
+  | "bubble"
+  | "cells"
+  | "closing"
+  | "fills"
+  | "graticule"
+  | "isolines"
+  | "land"
+  | "rays"
+  | "seeing"
+  | "tissot"
+  | "triangles";
 
 type Outlet = "picture" | "python" | "geojson";
 

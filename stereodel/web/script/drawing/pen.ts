@@ -58,14 +58,18 @@ export abstract class Pen {
     [this.width, this.height, this.colours, this.weight] = [width, height, colours, weight];
   }
 
-  /** Draws a path in a style; regions are those about which the path winds. */
-  abstract draw(style: StyleName, trace: Trace): void;
+  /** Draws a path in a style, or in an ink of the data; regions are those about which the path winds. */
+  abstract draw(style: StyleName, trace: Trace, ink?: string): void;
   /** Draws what lies behind, faintly. */
   abstract behind(body: () => void): void;
   /** Draws only inside a region. */
   abstract clipped(trace: Trace, body: () => void): void;
   /** Dots at x, y in turn. First all rims: where dots lie close, none is hidden by the rim of another. */
   abstract dots(style: DotName, places: ArrayLike<number>): void;
+  /** Dots with radii and inks of their own, x, y, r in turn, the lowest first, each with a line around it. */
+  abstract spots(places: ArrayLike<number>, inks: readonly string[]): void;
+  /** Draws something so many pixels lower. */
+  abstract lowered(by: number, body: () => void): void;
   /** Text at a point of its baseline. */
   abstract label(text: string, x: number, y: number, style: LabelStyle): void;
   /** A picture, fitted into a rectangle. */

@@ -29,14 +29,14 @@ export class SvgPen extends Pen {
     return `${lines.join("\n")}\n</g>\n</svg>\n`;
   }
 
-  draw(name: StyleName, trace: Trace): void {
+  draw(name: StyleName, trace: Trace, ink?: string): void {
     const d = pathData(trace);
     if (d === "") return;
     const style: Style = STYLES[name];
     const looks: string[] = [];
     if (style.hatch !== undefined) looks.push(`fill="url(#${this.#hatch(style.hatch)})"`);
-    if (style.fill !== undefined) looks.push(paint("fill", this.colours[style.fill], style.fillOpacity));
-    if (style.stroke !== undefined) looks.push(this.#line(style));
+    if (style.fill !== undefined) looks.push(paint("fill", ink ?? this.colours[style.fill], style.fillOpacity));
+    if (style.stroke !== undefined) looks.push(this.#line(style, ink));
     this.#parts.push(`<path class="${name}" ${looks.join(" ")} d="${d}"/>`);
   }
 
@@ -65,6 +65,19 @@ export class SvgPen extends Pen {
     this.#parts.push(`<use class="${name}" href="#${id}" ${paint("fill", this.colours[fill])}/>`);
   }
 
+  spots(places: ArrayLike<number>, inks: readonly string[]): void {
+    const line = this.#line(STYLES["spot-line"]);
+    inks.forEach((ink, k) => {
+      const [x, y, r] = [places[3 * k], places[3 * k + 1], places[3 * k + 2]].map(number);
+      const fill = ink === "transparent" ? "" : ` ${paint("fill", ink)}`;
+      this.#parts.push(`<circle class="spot" cx="${x}" cy="${y}" r="${r}"${fill} ${line}/>`);
+    });
+  }
+
+  lowered(by: number, body: () => void): void {
+    this.#group(`transform="translate(0 ${number(by)})"`, body);
+  }
+
   label(text: string, x: number, y: number, style: LabelStyle): void {
     const anchor = { left: "start", center: "middle", right: "end" }[style.align ?? "left"];
     const words = textParts(text, style.italic ?? false)
@@ -83,10 +96,10 @@ export class SvgPen extends Pen {
     this.#parts.push(`<image ${place} preserveAspectRatio="none" href="${canvas.toDataURL("image/png")}"/>`);
   }
 
-  #line(style: Style): string {
+  #line(style: Style, ink = this.colours[style.stroke ?? "ink"]): string {
     const dash = style.dash === undefined ? "" : ` stroke-dasharray="${style.dash.join(" ")}"`;
     const width = number((style.width ?? 1) * this.weight);
-    return `${paint("stroke", this.colours[style.stroke ?? "ink"])} stroke-width="${width}"${dash}`;
+    return `${paint("stroke", ink)} stroke-width="${width}"${dash}`;
   }
 
   #group(attributes: string, body: () => void): void {

@@ -2,14 +2,15 @@
 
 import { field, find, say } from "../dom.ts";
 import { regionsOf } from "../drawing/parts.ts";
-import type { Sheet } from "../drawing/pen.ts";
-import type { Reason } from "../drawing/plate.ts";
+import type { Pen, Sheet } from "../drawing/pen.ts";
+import { Plate, type Reason } from "../drawing/plate.ts";
 import type { Exchange } from "../exchange.ts";
 import type { Latitude } from "../kernel/api.ts";
 import type { LinkValues } from "../link.ts";
 import type { Painted } from "../panorama.ts";
 import type { Room, RoomHost } from "../room.ts";
-import { directionOf, lonLatOf, type Vector } from "../space.ts";
+import { angle, directionOf, lonLatOf, type Vector } from "../space.ts";
+import { fitted } from "../view/fit.ts";
 import { capToCap, lensMap, scaleAt } from "../view/lens.ts";
 import { View } from "../view/view.ts";
 import { counted, latitude, longitude, scale } from "../words.ts";
@@ -18,19 +19,32 @@ import { BubbleGlobe, FisheyeGlobe, FiveViews } from "./globe_plates.ts";
 import { GlobeScene, type Places } from "./globe_scene.ts";
 import { BEGINNING, GLOBE, PRESETS, sideView } from "./globe_state.ts";
 import type { GlobeState } from "./globe_state.ts";
+import { framed, legendBlock, legendWords, placeSentence, valueWords, type Owner } from "./owner.ts";
 import { TableRoom, tableOf, tableValues } from "./site_room.ts";
 
 /** Steps of the slider for a magnification of ten times. */
 const SLIDER_TEN = 50;
 
+/** Degrees by which a pointer may be off the one that it was. */
+const UNMOVED = 1e-6;
+
+/** Places up to which their cells are drawn from the beginning. */
+const MOST_WITH_CELLS = 2000;
+
 /** @param given The points that the page was made for. */
-export function globeRoom(host: RoomHost, given: Places | null): Room {
-  return new GlobeRoom(host, given);
+export function globeRoom(host: RoomHost, given: Places | null, latitude: Latitude): Room {
+  return new GlobeRoom(host, given, latitude);
 }
 
 export class GlobeRoom extends TableRoom implements Room {
-  readonly scene = new GlobeScene();
-  #state: GlobeState = BEGINNING;
+  readonly scene: GlobeScene;
+  /** The drawing stands alone in a frame of another page. */
+  readonly isFramed = document.documentElement.classList.contains("framed");
+  /** What the room begins with: places that are there, fitted. */
+  beginning = BEGINNING;
+  readonly #heading: string;
+  #state = BEGINNING;
+  #legend!: Plate;
   #globe!: FisheyeGlobe;
   #views!: FiveViews;
   #bubbles!: readonly BubbleGlobe[];
@@ -45,9 +59,15 @@ export class GlobeRoom extends TableRoom implements Room {
   /** The lens that was announced last. */
   #said = BEGINNING.sight.lens;
 
-  constructor(host: RoomHost, given: Places | null) {
+  constructor(host: RoomHost, given: Places | null, latitude: Latitude) {
     super(host);
-    this.#given = given;
+    [this.scene, this.#given] = [new GlobeScene(latitude), given];
+    this.#heading = find(document, "#globe-title").textContent ?? "";
+  }
+
+  /** Whether anybody has pointed at the globe. */
+  get hasPointed(): boolean {
+    return angle(this.#state.pointer, BEGINNING.pointer) > UNMOVED;
   }
 
   get shown(): GlobeState {
@@ -56,7 +76,6 @@ export class GlobeRoom extends TableRoom implements Room {
 
   override attach(section: HTMLElement): void {
     super.attach(section);
-    if (this.#given !== null) this.switches.begin("cells");
     const { guarded } = this.host;
     const canvas = (id: string): HTMLCanvasElement => find(section, `#${id}`);
     this.#globe = new FisheyeGlobe(canvas("globe-plate"), this);
@@ -65,7 +84,7 @@ export class GlobeRoom extends TableRoom implements Room {
     this.#bubbles = (["before", "after"] as const).map(
       (which) => new BubbleGlobe(canvas(`globe-${which}`), which, this),
     );
-    const lens = (): void => this.set({ lens: this.#lens.value }, "state", true);
+    const lens = (): void => this.set({ lens: this.#lens.value, pointer: BEGINNING.pointer }, "state", true);
     this.#lens = new Choice(section, "lens", () => guarded(lens));
     const center = (place: readonly [number, number]): void => this.#center(directionOf(...place));
     this.#focus = new PlaceFields(section, "focus", (place) => guarded(() => center(place)), "change");
@@ -77,10 +96,14 @@ export class GlobeRoom extends TableRoom implements Room {
     const slider = field(section, "mag");
     on(slider, () => this.#magnify(10 ** (slider.valueAsNumber / SLIDER_TEN)), "input");
     for (const button of section.querySelectorAll<HTMLButtonElement>(".presets button")) {
-      on(button, () => this.#begin(PRESETS[button.value]));
+      on(button, () => this.#begin(button.value === "places" ? this.beginning : PRESETS[button.value]));
     }
+    on(find(section, "[data-do=earth]"), () => this.#paintedBy(null));
+    const legend = find<HTMLCanvasElement>(section, ".legend canvas");
+    const paint = (pen: Pen): void => legendBlock(this.#entries, 0).draw(pen, 0, 0);
+    this.#legend = new Plate(legend, paint, guarded);
     for (const button of views) on(button, () => this.#flyToSide(button));
-    this.#write();
+    this.#show(this.#given);
     void this.#load();
   }
 
@@ -97,12 +120,13 @@ export class GlobeRoom extends TableRoom implements Room {
   }
 
   restore(values: LinkValues): void {
-    const state = GLOBE.read(values, BEGINNING);
+    GLOBE.read(values, BEGINNING); // throws before anything is changed
     const table = tableOf(values, "lonlat");
     const again = values.get("file") === this.#opened?.name ? this.#opened : null;
     this.#show(
       table === null ? (again ?? this.#given) : { ...table, name: table.name ?? "sites", lonlat: table.places },
     );
+    const state = GLOBE.read(values, this.beginning);
     this.switches.restore(values);
     if (this.scene.places === null) this.switches.set("cells", false);
     this.#globe.motion.stop();
@@ -114,6 +138,7 @@ export class GlobeRoom extends TableRoom implements Room {
   }
 
   redraw(reason: Reason = "state"): void {
+    if (reason === "state") this.#legend.redraw(reason);
     if (this.#state.lens === "bubble") for (const bubble of this.#bubbles) bubble.plate.redraw(reason);
     else {
       this.#globe.plate.redraw(reason);
@@ -124,24 +149,20 @@ export class GlobeRoom extends TableRoom implements Room {
   open(file: File, exchange: Exchange): Promise<void> {
     const { messages, guarded } = this.host;
     if (exchange.isPicture(file)) {
-      return exchange.openPanorama(file, messages, (picture) => {
-        this.scene.picture = this.#picture = picture;
-        this.redraw();
-        this.host.changed(true);
-      });
+      return exchange.openPanorama(file, messages, (picture) => this.#paintedBy((this.#picture = picture)));
     }
     return exchange.openPoints(file, "lonlat", this.host, ({ places: lonlat, names, values }) => {
       guarded(() => {
         this.#show({ name: file.name, lonlat, names, values });
-        this.switches.set("cells", true);
-        this.set({}, "state", true);
+        this.set(this.beginning, "state", true);
       });
     });
   }
 
   sheet(): Sheet {
     const { plate } = this.#state.lens === "bubble" ? this.#bubbles[1] : this.#globe;
-    return plate.sheet(this.#label());
+    const { places } = this.scene;
+    return framed(plate.sheet(this.#label(), !!places?.owner), places?.owner);
   }
 
   geojson(exchange: Exchange): string | null {
@@ -166,16 +187,56 @@ export class GlobeRoom extends TableRoom implements Room {
   /** Unpacks what the page carries; until then the globe is water. */
   async #load(): Promise<void> {
     await this.scene.load(this.host.contents);
-    this.#show(this.scene.places); // cells of the page's latitude
     this.redraw();
   }
 
+  get #entries(): NonNullable<Owner["legend"]> {
+    return this.scene.places?.owner?.legend ?? [];
+  }
+
+  /** A picture covers the Earth, or no longer. */
+  #paintedBy(picture: Painted | null): void {
+    this.scene.picture = picture;
+    this.set({}, "state", true);
+  }
+
+  /** What the owner says of the places stands beside the drawing; without an owner the room has its own words. */
+  #tell({ owner, isolines }: Places): void {
+    find(this.section, "h1").textContent = owner?.title || this.#heading;
+    find(this.section, ".lead").hidden = !!owner?.title;
+    this.out("source").textContent = owner?.source ?? "";
+    this.switches.offer("fills", owner?.inks !== undefined);
+    this.switches.offer("isolines", !!isolines);
+    const legend = find(this.section, ".legend");
+    legend.hidden = this.#entries.length === 0;
+    const [canvas] = legend.children as HTMLCollectionOf<HTMLElement>;
+    canvas.ariaLabel = legendWords(this.#entries);
+    const height = `${legendBlock(this.#entries, 0).height}px`;
+    canvas.style.height = height;
+    document.documentElement.style.setProperty("--legend", legend.hidden ? "0px" : height);
+  }
+
+  /** The room begins with places, if there are any, in sight. */
+  #fit({ lonlat, owner }: Places, hasPlaces: boolean): void {
+    this.switches.begin("cells", hasPlaces && lonlat.length <= 2 * MOST_WITH_CELLS && !owner?.columns);
+    this.switches.begin("tissot", !hasPlaces);
+    const sight = fitted(lonlat);
+    if (sight === null) return void (this.beginning = BEGINNING);
+    const [{ view }, center] = [sight, sight.lens.focus];
+    const [from, to] = [BEGINNING.from, BEGINNING.to].map(({ radius }) => ({ center, radius }));
+    this.beginning = { ...BEGINNING, sight, from, to, before: view, after: view };
+  }
+
   #show(places: Places | null): void {
+    if (places !== null && places === this.scene.places) return;
     this.scene.show(places);
     if (places !== this.#given) this.#opened = places ?? this.#opened;
-    field(this.section, "cells").disabled = places === null;
-    find(this.section, "[data-show=places]").hidden = places === null;
-    const { lonlat, names, name } = places ?? NO_PLACES;
+    this.switches.offer("cells", places !== null);
+    for (const part of ["[data-show=places]", "[value=places]"]) find(this.section, part).hidden = places === null;
+    const { lonlat, names, name, owner } = places ?? NO_PLACES;
+    this.#fit(places ?? NO_PLACES, places !== null);
+    this.#tell(places ?? NO_PLACES);
+    const columns = owner?.columns ?? [];
     const count = lonlat.length / 2;
     const words = count === 0 ? "No places in" : count === 1 ? "The place of" : `The ${counted(count)} places of`;
     this.out("places").textContent = `${words} ${name}`;
@@ -184,14 +245,27 @@ export class GlobeRoom extends TableRoom implements Room {
       count,
       noun: "Place",
       names: names ?? null,
-      heads: ["Latitude", "Longitude", "Cell, km²"],
-      cells: (place) => [latitude(lonlat[2 * place + 1]), longitude(lonlat[2 * place]), area(this.scene.area(place))],
+      heads: ["Latitude", "Longitude", ...columns.map(({ title }) => title), "Cell, km²"],
+      cells: (place) => [
+        latitude(lonlat[2 * place + 1]),
+        longitude(lonlat[2 * place]),
+        ...columns.map(({ values }) => valueWords(values[place])),
+        area(this.scene.area(place)),
+      ],
     });
   }
 
   protected override pointed(place: number | null): void {
+    if (place !== null) this.host.announcer.say(placeSentence(this.scene, place, area(this.scene.area(place))));
+    this.hover(place);
+  }
+
+  /** The pointer is on a place, or on none. */
+  hover(place: number | null): void {
+    if (this.scene.lit === place) return;
     this.scene.lit = place;
-    this.redraw();
+    this.redraw("pointer");
+    this.#write();
   }
 
   /** Brings a place to the middle, and the lens to it. */
@@ -254,12 +328,21 @@ export class GlobeRoom extends TableRoom implements Room {
     this.out("mag").textContent = scale(magnification);
     this.#focus.value = lonLatOf(this.#state.lens === "bubble" ? from.center : sight.lens.focus);
     [this.#radii.from.value, this.#radii.to.value] = [from.radius, to.radius];
+    this.out("tissot").hidden = !this.switches.isOn("tissot");
+    find(this.section, "[data-show=picture]").hidden = this.scene.picture === null;
+    this.switches.offer("land", this.scene.picture === null);
     if (this.#state.lens === "bubble") {
       const [middle, rim] = this.#bubbleScales();
       const words = `In the middle of the bubble everything is _${middle}_ times as large, at its rim _${rim}_ times.`;
-      say(this.out("bubbles"), words);
+      this.#say("bubbles", words);
     } else this.#writeFisheye();
     find(this.section, "#globe-plate").setAttribute("aria-label", this.#label());
+  }
+
+  /** A sentence below the globe: that of the place which is lit, if there is one. */
+  #say(name: string, words: string): void {
+    const { lit } = this.scene;
+    say(this.out(name), lit === null ? words : placeSentence(this.scene, lit, area(this.scene.area(lit))));
   }
 
   #writeFisheye(): void {
@@ -267,11 +350,13 @@ export class GlobeRoom extends TableRoom implements Room {
     const { magnification, focus } = sight.lens;
     const map = lensMap(sight.lens);
     const [here, there] = [scaleAt(map, pointer), scaleAt(map, [-focus[0], -focus[1], -focus[2]])];
-    say(
-      this.out("pointer"),
-      `At the pointer, _${placeWords(pointer)}_, everything is _${scale(here)}_ times as large as on a plain globe; ` +
-        `at the focus _${scale(magnification)}_ times, on the far side _${scale(there)}_ times.`,
-    );
+    const [plain, far] = ["times as large as on a plain globe", `on the far side _${scale(there)}_ times`];
+    const strength = scale(magnification);
+    const words =
+      this.scene.places === null || this.hasPointed
+        ? `At the pointer, _${placeWords(pointer)}_, everything is _${scale(here)}_ ${plain}; at the focus _${strength}_ times, ${far}.`
+        : `At the focus, _${placeWords(focus)}_, everything is _${strength}_ ${plain}, ${far}.`;
+    this.#say("pointer", words);
     const ruler = this.out("scale");
     const share = magnification > 1 ? Math.log(here) / Math.log(magnification) : 0;
     const [first, last] = ends(magnification);

@@ -20,6 +20,9 @@ import type { GlobeRoom } from "./globe.ts";
 import { CIRCLE_RADIUS, STEP } from "./globe_scene.ts";
 import { BEGINNING, sideView, type GlobeState } from "./globe_state.ts";
 
+/** Pixels beyond a dot within which the pointer is on it. */
+const REACHED = 8;
+
 const LABEL: LabelStyle = { ink: "accent-text", halo: "halo", size: 14 };
 const LETTER: LabelStyle = { ...LABEL, size: 15, italic: true };
 
@@ -36,6 +39,8 @@ abstract class GlobePlate implements Turnable {
       pen.draw("limb", (path) => traceDisc(path, this.disc));
     };
     const overlay = (pen: Pen): void => {
+      drawLayers(pen, this.disc, this.map, [room.scene.held]);
+      if (room.isFramed) return;
       this.#paintPointer(pen);
       this.paintHeld(pen);
     };
@@ -77,8 +82,12 @@ abstract class GlobePlate implements Turnable {
 
   /** The circle goes to the pointer. */
   protected point(at: Place | null): void {
-    if (at === null || !this.isOnBall(at)) return;
-    this.room.set({ pointer: lenses.sourceOf(this.map, this.under(at)) }, "pointer");
+    if (at === null || !this.isOnBall(at)) return this.room.hover(null);
+    const pointer = lenses.sourceOf(this.map, this.under(at));
+    this.room.set({ pointer }, "pointer");
+    const near = this.room.scene.nearest(pointer);
+    const isOver = near && distance(at, placeOf(this.disc, lenses.imageOf(this.map, near.at))) <= near.radius + REACHED;
+    this.room.hover(isOver ? near.place : null);
   }
 
   /** The circle at the pointer; its scale stands below it, or above it near the lower limb. */
@@ -104,7 +113,11 @@ abstract class GlobePlate implements Turnable {
 /** The large globe through the fisheye: turned, magnified and focused by hand. */
 export class FisheyeGlobe extends GlobePlate implements Magnifiable {
   readonly most = lenses.MOST;
-  protected readonly pointed = "scale";
+
+  /** Over places of the reader's own, nothing before anybody has pointed. */
+  protected get pointed(): "scale" | null {
+    return this.room.scene.places === null || this.room.hasPointed ? "scale" : null;
+  }
 
   get view(): View {
     return this.sight.view;
@@ -181,7 +194,7 @@ export class FisheyeGlobe extends GlobePlate implements Magnifiable {
     const { lens, view } = this.sight;
     const factor = keyFactor(key);
     if (factor !== null) return { lens: { ...lens, magnification: lens.magnification * factor }, view };
-    if (key === "0") return BEGINNING.sight;
+    if (key === "0") return this.room.beginning.sight;
     return key === "f" || key === "F" ? this.#focusedAt([0, 0, 1]) : null;
   }
 }
@@ -191,9 +204,6 @@ const TOWARD = [0.8, -1] as const;
 
 /** Points of a rim that are tried for the handle. */
 const TRIED = 180;
-
-/** Degrees by which a pointer of a link may be off the one that it names. */
-const UNMOVED = 1e-6;
 
 /** The bubble that is taken, or the one that it fills; rims and insides are dragged in either. */
 export class BubbleGlobe extends GlobePlate {
@@ -215,7 +225,7 @@ export class BubbleGlobe extends GlobePlate {
 
   /** Nothing before anybody has pointed. */
   protected get pointed(): "scale" | "circle" | null {
-    if (angle(this.room.shown.pointer, BEGINNING.pointer) <= UNMOVED) return null;
+    if (!this.room.hasPointed) return null;
     return this.#which === "after" ? "scale" : "circle";
   }
 

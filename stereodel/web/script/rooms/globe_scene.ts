@@ -1,15 +1,17 @@
 /** What the globes of the room show: land, graticule, circles, the reader's places, a picture of the whole sphere. */
 
-import type { Contents } from "../contents.ts";
+import type { Contents, Rings } from "../contents.ts";
 import * as balls from "../drawing/ball.ts";
 import type { Layer } from "../drawing/ball.ts";
 import { cellOf, type Part, type Region } from "../drawing/parts.ts";
 import type { Disc } from "../drawing/pen.ts";
-import { lonlatToXyz, SphericalVoronoi, xyzToLonlat, type Latitude, type MoebiusMap } from "../kernel/api.ts";
+import { lonlatToXyz, SphericalDelaunay, SphericalVoronoi, xyzToLonlat } from "../kernel/api.ts";
+import type { Latitude, MoebiusMap } from "../kernel/api.ts";
 import { tableLonlat } from "../kernel/coordinates.ts";
 import { lazy } from "../kernel/lazy.ts";
 import type { Painted } from "../panorama.ts";
-import { directionOf } from "../space.ts";
+import { angle, directionOf, lonLatOf, row, type Vector } from "../space.ts";
+import type { Owner } from "./owner.ts";
 
 /** The radius of the equal circles on Earth, kilometres, and in degrees of a sphere with the Earth's mean radius. */
 const CIRCLE_KILOMETRES = 150;
@@ -41,15 +43,30 @@ export interface Places {
   readonly names?: readonly string[] | null;
   /** Its columns of numbers. */
   readonly values?: ReadonlyMap<string, Float64Array>;
+  /** What their owner says of them, and lines of equal values. */
+  readonly owner?: Owner | null;
+  readonly isolines?: Rings | null;
+}
+
+/** What lies around a place: how many cells share a side with its own, and which place is nearest. */
+interface Around {
+  readonly neighbours: number;
+  readonly nearest: number | null;
+  readonly kilometres: number;
 }
 
 /** Places are drawn at their latitudes as they stand; their cells are those of the sphere that `latitude` names. */
 export class GlobeScene {
   places: Places | null = null;
-  latitude: Latitude = "authalic";
+  latitude: Latitude;
   picture: Painted | null = null;
   /** The place whose row the pointer or the focus is on. */
   lit: number | null = null;
+
+  constructor(latitude: Latitude) {
+    this.latitude = latitude;
+  }
+
   readonly #graticule = balls.arcLayer("graticule", balls.graticuleArcs(STEP));
   readonly #tissot = balls.capLayer("tissot", equalCircles());
   #coarse: Layer | null = null;
@@ -58,7 +75,6 @@ export class GlobeScene {
 
   /** Unpacks the land that the page carries. */
   async load(contents: Contents): Promise<void> {
-    this.latitude = await contents.latitude();
     const [coarse, fine] = await Promise.all([contents.land("110m"), contents.land("50m")]);
     if (coarse !== null) this.#coarse = balls.landLayer(coarse);
     if (fine !== null) this.#fine = balls.landLayer(fine);
@@ -73,8 +89,35 @@ export class GlobeScene {
     return this.#made?.areas[place] ?? 0;
   }
 
+  around(place: number): Around {
+    const { voronoi, points } = this.#made!;
+    const { pointRegion, ridgePoints } = voronoi;
+    const neighbours = ridgePoints.reduce((sum, site) => sum + (site === pointRegion[place] ? 1 : 0), 0);
+    const at = row(points, place);
+    const two = points.length > 3 ? this.#made!.delaunay.nearest(at, 2) : [];
+    const nearest = [...two].find((site) => site !== place) ?? null;
+    const kilometres = nearest === null ? 0 : (angle(at, row(points, nearest)) * Math.PI * EARTH) / 180;
+    return { neighbours, nearest, kilometres };
+  }
+
+  /** The place that is nearest to a direction, where it is drawn, and the radius of its dot; null without places. */
+  nearest(to: Vector): { place: number; at: Vector; radius: number } | null {
+    const { places, latitude } = this;
+    if (places === null || places.lonlat.length === 0) return null;
+    const [place] = this.#made!.delaunay.nearest(lonlatToXyz(lonLatOf(to), latitude));
+    const at = row(lonlatToXyz(places.lonlat.subarray(2 * place, 2 * place + 2)), 0);
+    return { place, at, radius: places.owner?.radii?.[place] ?? 0 };
+  }
+
+  /** What is drawn of the place that is lit. */
+  get held(): balls.Layer | null {
+    const { places, lit } = this;
+    if (places === null || lit === null) return null;
+    return balls.dotLayer("held", lonlatToXyz(places.lonlat.subarray(2 * lit, 2 * lit + 2)));
+  }
+
   get parts(): Part<Ball>[] {
-    const { picture, places, lit, latitude } = this;
+    const { picture, places, latitude } = this;
     const lonlat = places?.lonlat ?? new Float64Array(0);
     const [hasPicture, hasPlaces] = [picture !== null, places !== null];
     const kind = latitude === "spherical" ? "" : `, latitude="${latitude}"`;
@@ -82,7 +125,7 @@ export class GlobeScene {
       draw: (pen, { disc, map, isMoving }) => balls.drawLayers(pen, disc, map, [layer(isMoving)]),
     });
     const land = drawn((isMoving) => (isMoving ? this.#coarse : (this.#fine ?? this.#coarse)));
-    const held = drawn(() => balls.dotLayer("held", lonlatToXyz(lonlat.subarray(2 * lit!, 2 * lit! + 2))));
+    const hasInks = hasPlaces && places?.owner?.inks !== undefined;
     const isMuch = lonlat.length > 2 * MANY_PLACES;
     return [
       { draw: (pen, { disc }) => pen.ball(disc, "ocean") },
@@ -92,6 +135,16 @@ export class GlobeScene {
         python: { globe: `globe.add_raster(${JSON.stringify(picture?.name)})` },
       },
       { layer: "land", isThere: !hasPicture, ...land, python: { globe: 'globe.add_land(resolution="50m")' } },
+      {
+        layer: "fills",
+        isThere: hasInks,
+        draw: (pen, { disc, map, isMoving }) => {
+          if (isMoving && isMuch) return;
+          balls.drawLayers(pen, disc, map, this.#made!.fills);
+          const land = isMoving ? this.#coarse : (this.#fine ?? this.#coarse);
+          balls.drawLayers(pen, disc, map, [land?.outlines ?? null]);
+        },
+      },
       { layer: "graticule", ...drawn(() => this.#graticule), python: { globe: `globe.add_graticule(${STEP}.0)` } },
       // The page draws coasts with the land.
       { layer: "land", isThere: !hasPicture, python: { globe: 'globe.add_coastlines(resolution="50m")' } },
@@ -109,8 +162,8 @@ export class GlobeScene {
         python: { globe: `globe.add_cells(SphericalVoronoi.from_lonlat(places${kind}))` },
         regions: () => this.#made?.regions ?? [],
       },
+      { layer: "isolines", isThere: !!places?.isolines, ...drawn(() => this.#made!.isolines) },
       { isThere: hasPlaces, ...drawn(() => this.#made!.dots), python: { globe: "globe.add_points(places)" } },
-      { isThere: hasPlaces && lit !== null, ...held },
       { draw: (pen, { disc }) => pen.shade(disc) },
     ];
   }
@@ -119,25 +172,64 @@ export class GlobeScene {
 /** What is made of places when it is first asked for: their dots, their cells, the areas of these. */
 interface Made {
   readonly dots: Layer;
+  /** Of the cells' sphere. */
+  readonly points: Float64Array;
+  readonly delaunay: SphericalDelaunay;
   readonly voronoi: SphericalVoronoi;
+  readonly fills: readonly Layer[];
+  readonly isolines: Layer;
   readonly cells: Layer;
   readonly areas: Float64Array;
   readonly regions: readonly Region[];
 }
 
-function madeOf({ lonlat }: Places, latitude: Latitude): Made {
+function madeOf({ lonlat, names, owner, isolines }: Places, latitude: Latitude): Made {
   // Points of the cells' sphere are where the globe shows them: at the latitudes of a table.
   const drawn = (xyz: Float64Array): Float64Array =>
     latitude === "spherical" ? xyz : lonlatToXyz(tableLonlat(xyzToLonlat(xyz), latitude));
+  /** The cells of one ink, as one region. */
+  const tint = (ink: string, number: number): Layer[] => {
+    const { voronoi } = made;
+    const sites = [...voronoi.pointRegion.keys()].filter(
+      (k) => owner?.ink?.[k] === number && voronoi.region(k).length > 2,
+    );
+    if (sites.length === 0) return [];
+    const offsets = [0];
+    const corners = sites.flatMap((site) => {
+      const region = [...voronoi.region(site)];
+      offsets.push(offsets[offsets.length - 1] + region.length);
+      return region.flatMap((vertex) => row(voronoi.vertices, vertex));
+    });
+    const place = row(lonlatToXyz(lonlat.subarray(2 * sites[0], 2 * sites[0] + 2)), 0);
+    return [balls.regionLayer("tint", null, drawn(Float64Array.from(corners)), offsets, place, true, ink)];
+  };
   const made: Made = lazy({
-    dots: () => balls.dotLayer("site", lonlatToXyz(lonlat)),
-    voronoi: () => SphericalVoronoi.fromLonlat(lonlat, latitude),
+    dots: () => {
+      const { inks, ink = [], radii = [] } = owner ?? {};
+      if (inks === undefined) return balls.dotLayer("site", lonlatToXyz(lonlat));
+      return balls.spotLayer(
+        lonlatToXyz(lonlat),
+        radii,
+        ink.map((number) => inks[number]),
+      );
+    },
+    points: () => lonlatToXyz(lonlat, latitude),
+    delaunay: () => new SphericalDelaunay(made.points),
+    voronoi: () => new SphericalVoronoi(made.delaunay),
+    fills: () => (owner?.inks ?? []).flatMap((ink, number) => tint(ink, number)),
+    isolines: () =>
+      balls.arcLayer(
+        "isoline",
+        balls.lineArcs(isolines ?? { lonlat: new Float64Array(0), offsets: new Uint32Array(1) }),
+      ),
     cells: () => balls.arcLayer("voronoi", drawn(balls.ridgeArcs(made.voronoi))),
     areas: () => made.voronoi.areas(OF_EQUAL_AREA),
     regions: () =>
       Array.from({ length: lonlat.length / 2 }, (_, site) => {
         const [longitude, latitude] = lonlat.subarray(2 * site, 2 * site + 2);
-        return cellOf(made.voronoi, site, { site: site + 1, longitude, latitude });
+        const own = (owner?.columns ?? []).map(({ title, values }) => [title, values[site]]);
+        const name = names ? { name: names[site] } : {};
+        return cellOf(made.voronoi, site, { site: site + 1, ...name, longitude, latitude, ...Object.fromEntries(own) });
       }).flat(),
   });
   return made;

@@ -50,6 +50,7 @@ export const PRESETS: Readonly<Record<string, Partial<GlobeState>>> = {
     to: { center: NEW_YORK, radius: 90 },
     before: ABOVE_NEW_YORK,
     after: ABOVE_NEW_YORK,
+    pointer: BEGINNING.pointer,
   },
 };
 
