@@ -93,7 +93,7 @@ export class NotebookGlobe implements Turnable {
     if (sites !== undefined) {
       const bytes = sites.buffer.slice(sites.byteOffset, sites.byteOffset + sites.byteLength);
       this.#sites = lonlatToXyz(new Float64Array(bytes));
-      this.#cells = arcLayer("voronoi", ridgeArcs(new SphericalVoronoi(this.#sites)));
+      this.#cells = arcLayer("cell", ridgeArcs(new SphericalVoronoi(this.#sites)));
       this.#dots = dotLayer("site", this.#sites);
       this.#walked = -1;
     }

@@ -137,7 +137,7 @@ export class SiteTable {
       "tr",
       { className: this.#held.has(site) ? "on" : "", ariaRowIndex: String(site + 2) },
       head,
-      ...(name === undefined ? [] : [make("td", "name", name)]),
+      ...(name === undefined ? [] : [make("td", { className: "name", title: name }, name)]),
       ...this.#rows.cells(site).map((cell) => make("td", "", cell)),
     );
     row.dataset["site"] = String(site);

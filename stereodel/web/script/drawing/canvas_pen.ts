@@ -3,7 +3,7 @@
 import { LIGHT, Pen, textParts, traceDisc } from "./pen.ts";
 import type { Disc, Gradient, Path, Picture, Trace } from "./pen.ts";
 import * as styles from "./styles.ts";
-import type { Colours, DotName, LabelStyle, Style, StyleName } from "./styles.ts";
+import type { Colours, DotName, DotStyle, LabelStyle, Style, StyleName } from "./styles.ts";
 
 /** Arcs of ellipses that are stroked at once: browsers need quadratic time for paths of thousands. */
 const MOST_ARCS = 256;
@@ -35,14 +35,15 @@ export class CanvasPen extends Pen {
     context.imageSmoothingQuality = "high";
   }
 
-  draw(name: StyleName, trace: Trace, ink?: string): void {
-    const style: Style = styles.STYLES[name];
+  protected path(_: StyleName, style: Style, trace: Trace, ink?: string): void {
     const context = this.#context;
     if (style.fill === undefined && style.hatch === undefined) {
       this.#line(style);
       const path = strokedPath(context);
-      trace(path);
-      path.flush();
+      this.#faint(style.strokeOpacity, () => {
+        trace(path);
+        path.flush();
+      });
       return;
     }
     context.beginPath();
@@ -50,9 +51,7 @@ export class CanvasPen extends Pen {
     if (style.hatch !== undefined) this.#hatch(style.hatch === "crossed");
     if (style.fill !== undefined) {
       context.fillStyle = ink ?? this.colours[style.fill];
-      context.globalAlpha *= style.fillOpacity ?? 1;
-      context.fill();
-      context.globalAlpha /= style.fillOpacity ?? 1;
+      this.#faint(style.fillOpacity, () => context.fill());
     }
     if (style.stroke !== undefined) {
       this.#line(style, ink);
@@ -76,16 +75,24 @@ export class CanvasPen extends Pen {
     });
   }
 
-  dots(name: DotName, places: ArrayLike<number>): void {
-    const { radius: r, fill, rim, rimWidth } = styles.DOTS[name];
+  protected discs(_: DotName, { radius: r, fill, rim, rimWidth, opacity }: DotStyle, places: ArrayLike<number>): void {
     const context = this.#context;
-    if (places.length > 2 * this.#mostDots) {
-      context.fillStyle = this.colours[fill];
-      for (let k = 0; k < places.length; k += 2) context.fillRect(places[k] - r / 2, places[k + 1] - r / 2, r, r);
-      return;
-    }
-    this.#discs(places, r + rimWidth / 2, this.colours[rim]);
-    this.#discs(places, r - rimWidth / 2, this.colours[fill]);
+    this.#faint(opacity, () => {
+      if (places.length > 2 * this.#mostDots) {
+        context.fillStyle = this.colours[fill];
+        for (let k = 0; k < places.length; k += 2) context.fillRect(places[k] - r / 2, places[k + 1] - r / 2, r, r);
+        return;
+      }
+      this.#discs(places, r + rimWidth / 2, this.colours[rim]);
+      this.#discs(places, r - rimWidth / 2, this.colours[fill]);
+    });
+  }
+
+  #faint(opacity = 1, body: () => void): void {
+    const before = this.#context.globalAlpha;
+    this.#context.globalAlpha *= opacity;
+    body();
+    this.#context.globalAlpha = before;
   }
 
   /** Discs about places; some at a time, as a call for each takes longer than the discs. */
@@ -145,8 +152,8 @@ export class CanvasPen extends Pen {
     context.textAlign = "left";
     context.setLineDash([]);
     context.lineWidth = styles.HALO_WIDTH;
-    context.strokeStyle = this.colours[style.halo];
-    context.fillStyle = this.colours[style.ink];
+    context.strokeStyle = this.inkOf(style.halo);
+    context.fillStyle = this.inkOf(style.ink);
     each((words, at) => context.strokeText(words, at, y));
     each((words, at) => context.fillText(words, at, y));
   }

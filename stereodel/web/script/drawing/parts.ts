@@ -13,6 +13,7 @@ export type Switch =
   | "graticule"
   | "isolines"
   | "land"
+  | "names"
   | "rays"
   | "seeing"
   | "tissot"

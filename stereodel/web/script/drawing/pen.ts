@@ -1,6 +1,8 @@
 /** The one interface through which rooms draw: the same trace becomes pixels or SVG. Pixels of the screen, y down. */
 
-import { HANDLE_CROSS, HANDLE_RADIUS, type Colours, type DotName, type LabelStyle, type StyleName } from "./styles.ts";
+import { eachDots, eachLines, Ink } from "./density.ts";
+import { DOTS, HANDLE_CROSS, HANDLE_RADIUS, STYLES } from "./styles.ts";
+import type { Colours, DotName, DotStyle, LabelStyle, Style, StyleName, Token } from "./styles.ts";
 
 /** What a trace is laid into: a part of the canvas's own interface. */
 export interface Path {
@@ -52,20 +54,35 @@ export abstract class Pen {
   readonly height: number;
   protected readonly colours: Colours;
   protected readonly weight: number;
+  /** How densely nets and dots lie, by their styles; what is drawn of a part of a picture takes what is known of the whole. */
+  readonly inks = new Map<string, Ink>();
+  known: ReadonlyMap<string, Ink> | null = null;
 
   /** @param weight Factor of the widths of lines. */
   constructor(width: number, height: number, colours: Colours, weight: number) {
     [this.width, this.height, this.colours, this.weight] = [width, height, colours, weight];
   }
 
-  /** Draws a path in a style, or in an ink of the data; regions are those about which the path winds. */
-  abstract draw(style: StyleName, trace: Trace, ink?: string): void;
+  /** Draws a path in a style, or in an ink of the data; regions are those about which the path winds, and dense nets are weaker. */
+  draw(name: StyleName, trace: Trace, ink?: string): void {
+    const style: Style = STYLES[name];
+    if (!style.isNet) return this.path(name, style, trace, ink);
+    const { width = 1 } = style;
+    eachLines(trace, width * this.weight, this.#ink(name), (size, opacity, part) =>
+      this.path(name, { ...style, width: size * width, strokeOpacity: opacity }, part, ink),
+    );
+  }
   /** Draws what lies behind, faintly. */
   abstract behind(body: () => void): void;
   /** Draws only inside a region. */
   abstract clipped(trace: Trace, body: () => void): void;
-  /** Dots at x, y in turn. First all rims: where dots lie close, none is hidden by the rim of another. */
-  abstract dots(style: DotName, places: ArrayLike<number>): void;
+  /** Dots at x, y in turn; where they are dense, smaller and weaker. */
+  dots(name: DotName, places: ArrayLike<number>): void {
+    const { radius, rimWidth, ...inks }: DotStyle = DOTS[name];
+    eachDots(places, Math.PI * radius * radius, this.#ink(name), (size, opacity, those) =>
+      this.discs(name, { ...inks, radius: size * radius, rimWidth: size * rimWidth, opacity }, those),
+    );
+  }
   /** Dots with radii and inks of their own, x, y, r in turn, the lowest first, each with a line around it. */
   abstract spots(places: ArrayLike<number>, inks: readonly string[]): void;
   /** Draws something so many pixels lower. */
@@ -74,6 +91,19 @@ export abstract class Pen {
   abstract label(text: string, x: number, y: number, style: LabelStyle): void;
   /** A picture, fitted into a rectangle. */
   abstract picture(picture: Picture, x: number, y: number, width: number, height: number): void;
+  #ink(name: string): Ink {
+    const ink = this.known?.get(name) ?? new Ink(this);
+    this.inks.set(name, ink);
+    return ink;
+  }
+
+  protected inkOf(colour: LabelStyle["ink"]): string {
+    return this.colours[colour as Token] ?? colour;
+  }
+
+  protected abstract path(name: StyleName, style: Style, trace: Trace, ink?: string): void;
+  /** First all rims: where dots lie close, none is hidden by the rim of another. */
+  protected abstract discs(name: DotName, style: DotStyle, places: ArrayLike<number>): void;
   protected abstract fillDisc(disc: Disc, fill: string | Gradient): void;
 
   /** The ground of a ball, lit from the upper left: the pale one of geometry, or water. */

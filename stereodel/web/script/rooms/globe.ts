@@ -232,6 +232,7 @@ export class GlobeRoom extends TableRoom implements Room {
     this.scene.show(places);
     if (places !== this.#given) this.#opened = places ?? this.#opened;
     this.switches.offer("cells", places !== null);
+    this.switches.offer("names", !!places?.names);
     for (const part of ["[data-show=places]", "[value=places]"]) find(this.section, part).hidden = places === null;
     const { lonlat, names, name, owner } = places ?? NO_PLACES;
     this.#fit(places ?? NO_PLACES, places !== null);

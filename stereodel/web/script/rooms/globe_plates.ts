@@ -3,6 +3,7 @@
 import { arcThrough, circle, pointAt, traceCap, type Circle } from "../drawing/arcs.ts";
 import { arcLayer, circlePoints, drawLayers, graticuleArcs, placeOf, regionLayer } from "../drawing/ball.ts";
 import type { Layer } from "../drawing/ball.ts";
+import { widthOf, type Box } from "../drawing/names.ts";
 import { drawParts } from "../drawing/parts.ts";
 import { cornersOf, drawHandle, traceDisc, type Disc, type Pen } from "../drawing/pen.ts";
 import { Plate, type Reason } from "../drawing/plate.ts";
@@ -34,8 +35,10 @@ abstract class GlobePlate implements Turnable {
 
   constructor(canvas: HTMLCanvasElement, room: GlobeRoom) {
     this.room = room;
+    const standing = new Map();
     const paint = (pen: Pen, isMoving: boolean): void => {
-      drawParts(pen, { disc: this.disc, map: this.map, isMoving }, room.scene.parts, room.isOn);
+      const { disc, map, taken } = this;
+      drawParts(pen, { disc, map, isMoving, standing, taken }, room.scene.parts, room.isOn);
       pen.draw("limb", (path) => traceDisc(path, this.disc));
     };
     const overlay = (pen: Pen): void => {
@@ -57,6 +60,10 @@ abstract class GlobePlate implements Turnable {
   protected abstract get pointed(): "scale" | "circle" | null;
   /** What there is to drag. */
   protected abstract paintHeld(pen: Pen): void;
+  /** Where that keeps names away. */
+  protected get taken(): readonly Box[] {
+    return [];
+  }
   protected abstract gestures(): Gestures;
 
   get disc(): Disc {
@@ -105,8 +112,10 @@ abstract class GlobePlate implements Turnable {
     const away = rim.r * disc.r;
     const isBelow = y + away + 20 < disc.y + disc.r * Math.sqrt(Math.max(0, 1 - at[0] ** 2));
     const words = `${scale(lenses.scaleAt(map, pointer))}×`;
-    const inward = disc.x + (x - disc.x) * 0.98;
-    pen.label(words, inward, isBelow ? y + away + 17 : y - away - 7, { ...LABEL, align: "center" });
+    const half = widthOf(words, LABEL) / 2 + 2;
+    const inward = Math.max(half, Math.min(pen.width - half, disc.x + (x - disc.x) * 0.98));
+    const style = this.room.scene.lettered(LABEL);
+    pen.label(words, inward, isBelow ? y + away + 17 : y - away - 7, { ...style, align: "center" });
   }
 }
 
@@ -148,13 +157,24 @@ export class FisheyeGlobe extends GlobePlate implements Magnifiable {
     });
   }
 
+  get #focus() {
+    const { focus } = this.sight.lens;
+    const seen = this.view.seen(focus);
+    const [isFront, isRight, [x, y]] = [seen[2] >= 0, seen[0] <= 0.75, placeOf(this.disc, seen)];
+    const style: LabelStyle = { ...this.room.scene.lettered(LETTER), align: isRight ? "left" : "right" };
+    return { x, y, isFront, isRight, words: isFront ? "focus" : "focus*, behind*", style };
+  }
+
+  protected override get taken(): Box[] {
+    const { x, y, isRight, words, style } = this.#focus;
+    const width = widthOf(words, style) + 11;
+    return [[x - (isRight ? 7 : width), y - 20, x + (isRight ? width : 7), y + 7]];
+  }
+
   protected paintHeld(pen: Pen): void {
-    const focus = this.view.seen(this.sight.lens.focus);
-    const [x, y] = placeOf(this.disc, focus);
-    drawHandle(pen, x, y, focus[2] >= 0 ? "front" : "behind");
-    const isRight = focus[0] <= 0.75;
-    const words = focus[2] >= 0 ? "focus" : "focus*, behind*";
-    pen.label(words, x + (isRight ? 9 : -9), y - 7, { ...LETTER, align: isRight ? "left" : "right" });
+    const { x, y, isFront, isRight, words, style } = this.#focus;
+    drawHandle(pen, x, y, isFront ? "front" : "behind");
+    pen.label(words, x + (isRight ? 9 : -9), y - 7, style);
   }
 
   protected gestures(): Gestures {
@@ -262,8 +282,15 @@ export class BubbleGlobe extends GlobePlate {
     const isRight = handle[0] < 0.55;
     // Near the lower limb the label stands above its handle: below there is no drawing.
     const isLow = handle[1] < -0.5 && handle[2] < 0.4;
-    const style: LabelStyle = { ...LABEL, align: isRight ? "left" : "right" };
+    const style: LabelStyle = { ...this.room.scene.lettered(LABEL), align: isRight ? "left" : "right" };
     pen.label(`${fixed(this.#cap.radius, 1)}°`, x + (isRight ? 9 : -9), y + (isLow ? -6 : 14), style);
+  }
+
+  protected override get taken(): Box[] {
+    const handle = this.#handle();
+    if (handle === null) return [];
+    const [x, y] = placeOf(this.disc, handle);
+    return [[x - 48, y - 20, x + 48, y + 18]]; // on either side
   }
 
   /** The handle's point of the view, or null while the rim is behind. */

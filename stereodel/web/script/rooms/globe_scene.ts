@@ -3,9 +3,11 @@
 import type { Contents, Rings } from "../contents.ts";
 import * as balls from "../drawing/ball.ts";
 import type { Layer } from "../drawing/ball.ts";
+import { drawNames, Seats, type Box, type Named } from "../drawing/names.ts";
 import { cellOf, type Part, type Region } from "../drawing/parts.ts";
 import type { Disc } from "../drawing/pen.ts";
-import { lonlatToXyz, SphericalDelaunay, SphericalVoronoi, xyzToLonlat } from "../kernel/api.ts";
+import type { LabelStyle } from "../drawing/styles.ts";
+import { Directions, lonlatToXyz, SphericalDelaunay, SphericalVoronoi, xyzToLonlat } from "../kernel/api.ts";
 import type { Latitude, MoebiusMap } from "../kernel/api.ts";
 import { tableLonlat } from "../kernel/coordinates.ts";
 import { lazy } from "../kernel/lazy.ts";
@@ -32,7 +34,12 @@ interface Ball {
   readonly disc: Disc;
   readonly map: MoebiusMap;
   readonly isMoving: boolean;
+  readonly standing: Named["standing"];
+  /** Where names would lie on a handle or on its word. */
+  readonly taken: readonly Box[];
 }
+
+const NAME: LabelStyle = { ink: "ink", halo: "halo", size: 13 };
 
 /** The reader's own places. */
 export interface Places {
@@ -87,6 +94,13 @@ export class GlobeScene {
   /** The area of a place's cell, square kilometres. */
   area(place: number): number {
     return this.#made?.areas[place] ?? 0;
+  }
+
+  /** A style of labels, on a picture in inks for its tone. */
+  lettered(style: LabelStyle): LabelStyle {
+    if (this.picture === null) return style;
+    const { ink, accent, halo } = this.picture.letters;
+    return { ...style, ink: style.ink === "ink" ? ink : accent, halo };
   }
 
   around(place: number): Around {
@@ -165,6 +179,15 @@ export class GlobeScene {
       { layer: "isolines", isThere: !!places?.isolines, ...drawn(() => this.#made!.isolines) },
       { isThere: hasPlaces, ...drawn(() => this.#made!.dots), python: { globe: "globe.add_points(places)" } },
       { draw: (pen, { disc }) => pen.shade(disc) },
+      {
+        layer: "names",
+        isThere: hasPlaces && Boolean(places?.names),
+        draw: (pen, { disc, map, isMoving, standing, taken }) => {
+          const { directions, ...named } = this.#made!.named;
+          const seats = new Seats(pen, disc, taken);
+          drawNames(pen, seats, disc, { ...named, standing, isMoving }, map.apply(directions), this.lettered(NAME));
+        },
+      },
     ];
   }
 }
@@ -172,6 +195,7 @@ export class GlobeScene {
 /** What is made of places when it is first asked for: their dots, their cells, the areas of these. */
 interface Made {
   readonly dots: Layer;
+  readonly named: Pick<Named, "names" | "radii"> & { readonly directions: Directions };
   /** Of the cells' sphere. */
   readonly points: Float64Array;
   readonly delaunay: SphericalDelaunay;
@@ -213,6 +237,14 @@ function madeOf({ lonlat, names, owner, isolines }: Places, latitude: Latitude):
         ink.map((number) => inks[number]),
       );
     },
+    named: () => {
+      const radii = owner?.radii ?? [];
+      const order = [...(names ?? []).keys()].filter((k) => radii[k] !== 0);
+      order.sort((a, b) => (radii[b] ?? 0) - (radii[a] ?? 0)); // the largest first, else as they come
+      const points = order.flatMap((k) => row(lonlatToXyz(lonlat.subarray(2 * k, 2 * k + 2)), 0));
+      const of = <T>(all: ArrayLike<T>): T[] => order.map((k) => all[k]);
+      return { names: of(names ?? []), radii: of(radii), directions: new Directions(Float64Array.from(points)) };
+    },
     points: () => lonlatToXyz(lonlat, latitude),
     delaunay: () => new SphericalDelaunay(made.points),
     voronoi: () => new SphericalVoronoi(made.delaunay),
@@ -222,7 +254,7 @@ function madeOf({ lonlat, names, owner, isolines }: Places, latitude: Latitude):
         "isoline",
         balls.lineArcs(isolines ?? { lonlat: new Float64Array(0), offsets: new Uint32Array(1) }),
       ),
-    cells: () => balls.arcLayer("voronoi", drawn(balls.ridgeArcs(made.voronoi))),
+    cells: () => balls.arcLayer("cell", drawn(balls.ridgeArcs(made.voronoi))),
     areas: () => made.voronoi.areas(OF_EQUAL_AREA),
     regions: () =>
       Array.from({ length: lonlat.length / 2 }, (_, site) => {

@@ -172,6 +172,7 @@ export abstract class SiteRoom extends TableRoom {
   /** Shows what the sites are called, how many there are, and the table. */
   protected show(named: NamedSites, rows: Omit<Rows, "names">): void {
     this.named = named;
+    if (this.#kind === "lonlat") this.switches.offer("names", named.names !== null);
     // Sites of the reader's own have an entry while they are there.
     this.#select.querySelector(`option[value=${OWN}]`)?.remove();
     if (named.set === OWN) this.#select.prepend(new Option(named.name ?? "Your own sites", OWN));

@@ -3,7 +3,8 @@
 import type { Given } from "../contents.ts";
 import { find, plain, say } from "../dom.ts";
 import { placeOf } from "../drawing/ball.ts";
-import { regionsOf } from "../drawing/parts.ts";
+import type { Named } from "../drawing/names.ts";
+import { regionsOf, type Switch } from "../drawing/parts.ts";
 import type { Pen, Sheet } from "../drawing/pen.ts";
 import { Plate, type Reason } from "../drawing/plate.ts";
 import type { Exchange } from "../exchange.ts";
@@ -28,6 +29,7 @@ import {
   ofBubble,
   ofDuplicates,
   ofLens,
+  ofPictures,
   ofSite,
   ofStep,
   SphereSites,
@@ -100,6 +102,7 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
   // What follows from the state; made anew when it changes.
   #sites = new SphereSites(new Float64Array(0));
   #layers = ballLayers(this.#sites);
+  readonly #standing: Named["standing"] = new Map();
   #twin = new Twin([0, 0, 1]);
   #seeing: Uint8Array = new Uint8Array(0);
   #step: Step | "done" = "done";
@@ -132,7 +135,7 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
     let ground: Ground;
     const paint = (pen: Pen, isMoving: boolean): void => {
       const scene = this.#scene(isMoving);
-      ground = lazy<Ground>({ sites: () => scene.sites, round: () => drawing().round(scene) });
+      ground = lazy<Ground>({ sites: () => scene.sites, round: () => drawing().round(scene), inks: () => pen.inks });
       drawing().draw(pen, scene, "ground");
     };
     const over = (pen: Pen, isMoving: boolean): void => {
@@ -255,6 +258,7 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
     return {
       sites: this.#sites,
       layers: this.#layers,
+      named: this.named.names && { names: this.named.names, standing: this.#standing, isMoving },
       view: this.view,
       map: this.#map,
       twin: this.#twin,
@@ -275,6 +279,16 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
     say(this.out("sentence"), words.filter(Boolean).join(" "));
     say(this.out("sum"), alone === null ? ofFacets(sites.facetCount - this.#seeingCount, this.#seeingCount, SUM) : "");
     this.out("sum").hidden = step !== "done" || alone !== null;
+    const isDrawn = (layer: Switch): boolean => alone === null && step === "done" && this.isOn(layer);
+    const steps = step !== "done" && step.insertion !== null;
+    const [onBall, inPlane] = ofPictures({
+      triangles: steps || isDrawn("triangles"),
+      cells: isDrawn("cells") || (sites.delaunay.dimension === 1 && step === "done" && this.isOn("cells")),
+      seeing: isDrawn("seeing") && this.#seeingCount > 0,
+      steps,
+    });
+    say(this.out("on-ball"), onBall);
+    say(this.out("in-plane"), inPlane);
     const side = imageOf(this.#map, this.#twin.pole)[2] < 0 ? "behind" : "in front";
     say(this.out("pole-side"), `*P*, the pole of projection, lies ${side}.`);
     say(this.out("lens"), ofLens(this.#state.lens));

@@ -3,6 +3,7 @@
 import { arcThrough, traceCap, traceCircle, type Circle } from "../drawing/arcs.ts";
 import * as balls from "../drawing/ball.ts";
 import type { Layer, Surface } from "../drawing/ball.ts";
+import { drawNames, Seats, sidesToward, widthOf, type Box, type Named } from "../drawing/names.ts";
 import { drawParts, type IsOn, type Part } from "../drawing/parts.ts";
 import { cornersOf, drawHandle, traceCorners, traceDisc, traceSegment } from "../drawing/pen.ts";
 import type { Disc, Path, Pen, Point } from "../drawing/pen.ts";
@@ -29,6 +30,7 @@ export interface Step {
 export interface SphereScene {
   readonly sites: SphereSites;
   readonly layers: BallLayers;
+  readonly named: Named | null;
   readonly view: View;
   /** Through the lens, to the axes of the view. */
   readonly map: MoebiusMap;
@@ -46,15 +48,13 @@ export interface SphereScene {
 }
 
 const BALL_LABEL: LabelStyle = { ink: "accent-text", halo: "ball", size: 15 };
+const NAME: LabelStyle = { ink: "ink", halo: "ball", size: 13 };
 
 /** Height above the picture, ball radii, below which a site's number would be cut by the limb. */
 const LEAST_HEIGHT = 0.2;
 
 /** Radius of a circle of the plane, px, below which the numbers of its sites would lie on each other. */
 const LEAST_CIRCLE = 12;
-
-/** Distance of a site's number from its dot, px. */
-const AWAY = 12;
 
 /** What is drawn of sites on the ball, whose directions stay in the kernel while the ball turns. */
 export type BallLayers = Readonly<Record<"edges" | "ridges" | "dots", Layer>>;
@@ -71,6 +71,8 @@ export function ballLayers(sites: SphereSites): BallLayers {
 interface Picture extends Surface {
   readonly isPlane: boolean;
   readonly label: LabelStyle;
+  /** Where numbers and names are set. */
+  readonly seats: Seats;
   /** The region of the facets that see the pole, with the outline on whose left they are. */
   hatch(outline: readonly number[]): void;
   closing?(): void;
@@ -78,6 +80,7 @@ interface Picture extends Surface {
   cells(): void;
   bubble(bubble: Bubble): void;
   dots(): void;
+  names?(named: Named): void;
   /** The side of its dot on which the number of a bubble's site stands, y up; null where it is left out. */
   side(bubble: Bubble, site: number): Point | null;
   /** The facets that see the new site of a step, or those of its fan. */
@@ -85,7 +88,7 @@ interface Picture extends Surface {
 }
 
 /** What both pictures show. Python has the diagram of all sites, whatever is drawn of it, at any step, and GeoJSON else. */
-export function sphereParts({ sites, seeing, bubble, aim, held, step }: SphereScene): Part<Picture>[] {
+export function sphereParts({ sites, named, seeing, bubble, aim, held, step }: SphereScene): Part<Picture>[] {
   const isThere = step === "done";
   const outline = sites.outline(seeing);
   const isAimed = isThere && bubble !== null;
@@ -134,6 +137,8 @@ export function sphereParts({ sites, seeing, bubble, aim, held, step }: SphereSc
       },
     },
     { isThere, isOver: true, draw: (pen, on) => balls.drawDots(pen, on, "held", [...(bubble?.sites ?? []), ...held]) },
+    // Names first: they stay while the bubble follows the pointer.
+    { layer: "names", isThere: isThere && named !== null, isOver: true, draw: (_, on) => on.names?.(named!) },
     { layer: "bubble", isThere: isAimed, isOver: true, draw: (pen, on) => drawNumbers(pen, on, bubble!) },
   ];
 }
@@ -152,13 +157,16 @@ export interface Drawing {
 export interface Ground {
   readonly sites: SphereSites;
   readonly round: RoundFacet;
+  readonly inks: Pen["inks"];
 }
 
 /** Brings a ground up to date where one site has moved since: where it was, and where it is now. */
 export function drawMoved(pen: Pen, drawing: Drawing, scene: SphereScene, ground: Ground, site: number): void {
   const { sites, twin } = scene;
   const round = drawing.round(scene);
-  const window = (of: Ground): Window => windowOf(of.sites, site, of.round, pen.width, pen.height);
+  pen.known = ground.inks;
+  const window = (of: Pick<Ground, "sites" | "round">): Window =>
+    windowOf(of.sites, site, of.round, pen.width, pen.height);
   for (const each of united(window(ground), window({ sites, round }))) {
     const seen = sitesIn(sites, each, round);
     const trace = (path: Path): void => traceCorners(path, cornersOf(...each));
@@ -167,6 +175,7 @@ export function drawMoved(pen: Pen, drawing: Drawing, scene: SphereScene, ground
       drawing.draw(pen, { ...scene, sites: seen, layers: ballLayers(seen), seeing: seen.seeing(twin.pole) }, "ground");
     });
   }
+  pen.known = null;
 }
 
 /** The ball in a disc. */
@@ -199,10 +208,13 @@ function drawBall(pen: Pen, disc: Disc, scene: SphereScene, stratum: Stratum): v
   // Through its sites: of a small circle a centre and a radius say less.
   const rimOf = (bubble: Bubble): Circle | null =>
     arcThrough(map.apply(bubble.sites.flatMap((k) => [...site(k)])), 0, 1, 2, true);
+  const pole = poleLabel(disc, scene);
+  const seats = new Seats(pen, disc, pole === null ? [] : [pole.box]);
   const ball: Picture = {
     ...surface,
     isPlane: false,
     label: BALL_LABEL,
+    seats,
     hatch(outline) {
       pen.draw("hatch", (path) => surface.region(path, outline, sites.regionHolds(seeing, hidden)));
     },
@@ -220,6 +232,7 @@ function drawBall(pen: Pen, disc: Disc, scene: SphereScene, stratum: Stratum): v
       pen.draw("triangle", (path) => surface.ring(path, bubble.sites));
     },
     dots: () => balls.drawLayers(pen, disc, map, [layers.dots]),
+    names: (named) => drawNames(pen, seats, disc, named, map.apply(layers.dots.directions), NAME),
     side(bubble, site) {
       const [point, rim] = [imageOf(map, sites.site(site)), rimOf(bubble)];
       if (rim === null || point[2] < LEAST_HEIGHT) return null;
@@ -230,7 +243,7 @@ function drawBall(pen: Pen, disc: Disc, scene: SphereScene, stratum: Stratum): v
   if (stratum === "ground") pen.ball(disc, "ball");
   drawStratum(pen, ball, scene, stratum);
   if (stratum === "ground") pen.draw("limb", (path) => traceDisc(path, disc));
-  else drawPole(pen, disc, scene);
+  else if (pole !== null) drawPole(pen, pole);
 }
 
 function drawStratum(pen: Pen, on: Picture, scene: SphereScene, stratum: Stratum): void {
@@ -248,6 +261,7 @@ function drawPlane(pen: Pen, frame: PlaneFrame, scene: SphereScene, stratum: Str
     ...surface,
     isPlane: true,
     label: { ...BALL_LABEL, halo: "halo" },
+    seats: new Seats(pen),
     // The outline runs clockwise on the picture, as the frame does: turned round, the path winds once between them.
     hatch: (outline) => pen.draw("hatch", (path) => surface.region(path, [...outline].reverse(), true)),
     triangles: () =>
@@ -299,13 +313,11 @@ function drawPlane(pen: Pen, frame: PlaneFrame, scene: SphereScene, stratum: Str
 
 /** The numbers of a bubble's sites. */
 function drawNumbers(pen: Pen, on: Picture, bubble: Bubble): void {
+  for (const site of bubble.sites) on.seats.takeDot(on.place(site), 3, site + 1);
   for (const site of bubble.sites) {
     const out = on.side(bubble, site);
     if (out === null) continue;
-    const [x, y] = on.place(site);
-    const [u, v] = out.map((part) => part / (Math.hypot(...out) || 1));
-    const align = u > 0.35 ? "left" : u < -0.35 ? "right" : "center";
-    pen.label(String(site + 1), x + 0.6 * AWAY * u, y - AWAY * v + 5, { ...on.label, align });
+    on.seats.set(pen, String(site + 1), on.place(site), on.label, site + 1, sidesToward(out[0], -out[1]));
   }
 }
 
@@ -348,14 +360,20 @@ export function poleSeen(map: MoebiusMap, twin: Twin): Vector | null {
 }
 
 /** The handle of the pole of projection, and its name. */
-function drawPole(pen: Pen, disc: Disc, { map, twin }: SphereScene): void {
+function drawPole(pen: Pen, { x, y, isFront, text, isLeft }: NonNullable<ReturnType<typeof poleLabel>>): void {
+  drawHandle(pen, x, y, isFront ? "front" : "behind");
+  pen.label(text, x + (isLeft ? -11 : 11), y + 5, { ...BALL_LABEL, align: isLeft ? "right" : "left" });
+}
+
+/** What stands beside the pole, towards the middle, where there is room; and the box of both. */
+function poleLabel(disc: Disc, { map, twin }: SphereScene) {
   const pole = poleSeen(map, twin);
-  if (pole === null) return;
-  const [x, y] = balls.placeOf(disc, pole);
-  drawHandle(pen, x, y, pole[2] >= 0 ? "front" : "behind");
-  const text = pole[2] >= 0 ? "*P*" : "*P*, behind";
-  const left = x > disc.x; // towards the middle, where there is room
-  pen.label(text, x + (left ? -11 : 11), y + 5, { ...BALL_LABEL, align: left ? "right" : "left" });
+  if (pole === null) return null;
+  const [isFront, [x, y]] = [pole[2] >= 0, balls.placeOf(disc, pole)];
+  const [text, isLeft] = [isFront ? "*P*" : "*P*, behind", x > disc.x];
+  const width = 11 + widthOf(text, BALL_LABEL);
+  const box: Box = [x - (isLeft ? width : 7), y - 7, x + (isLeft ? 7 : width), y + 9];
+  return { x, y, isFront, text, isLeft, box };
 }
 
 /** Ridges between the triangles of the plane, and rays where one has no neighbour: the centres are those of its circles. */

@@ -226,6 +226,26 @@ export function withoutTriangles(sites: SphereSites): string | null {
     : "All sites lie on one great circle: there are no triangles.";
 }
 
+/** What the pictures show, below each: of the ball, and of the plane. */
+export function ofPictures(
+  has: Readonly<Record<"triangles" | "cells" | "seeing" | "steps", boolean>>,
+): [string, string] {
+  const lines = has.cells ? "Delaunay triangles in strong lines, Voronoi cells in thin ones." : "Delaunay triangles.";
+  const ball = has.steps
+    ? "Delaunay triangles, new ones dashed."
+    : has.triangles
+      ? lines
+      : has.cells
+        ? "Voronoi cells."
+        : "";
+  const plane = [
+    has.triangles && "The same triangles.",
+    has.seeing && "Hatched is where the facets go that see *P*.",
+    has.cells && "Cells differ: centres are not sent to centres.",
+  ];
+  return [ball, plane.filter(Boolean).join(" ")];
+}
+
 /** What the circle round a triangle is on the sphere and in the plane. */
 export function ofBubble(bubble: Bubble, sites: SphereSites, twin: Twin): string {
   const radius = `The circle round _${numbers(bubble.sites)}_ has the radius _${sized(angle(bubble.center, sites.site(bubble.sites[0])), 2)}°_ on the sphere`;
