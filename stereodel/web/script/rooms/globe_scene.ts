@@ -29,6 +29,9 @@ export const STEP = 10;
 /** Places beyond which their cells are left out while the globe moves. */
 const MANY_PLACES = 10_000;
 
+/** Places of which dots are drawn at the most while the globe moves: of more, every second, third and so on. */
+const MOST_MOVING = 25_000;
+
 /** A globe; `map` takes the Earth to the axes of the view. */
 interface Ball {
   readonly disc: Disc;
@@ -79,6 +82,7 @@ export class GlobeScene {
   #coarse: Layer | null = null;
   #fine: Layer | null = null;
   #made: Made | null = null;
+  #around: { place: number; made: Made | null; found: Around } | null = null;
 
   /** Unpacks the land that the page carries. */
   async load(contents: Contents): Promise<void> {
@@ -103,7 +107,14 @@ export class GlobeScene {
     return { ...style, ink: style.ink === "ink" ? ink : accent, halo };
   }
 
+  /** What surrounds a place, found once for the one that is looked at. */
   around(place: number): Around {
+    if (this.#around?.place !== place || this.#around.made !== this.#made)
+      this.#around = { place, made: this.#made, found: this.#surroundings(place) };
+    return this.#around.found;
+  }
+
+  #surroundings(place: number): Around {
     const { voronoi, points } = this.#made!;
     const { pointRegion, ridgePoints } = voronoi;
     const neighbours = ridgePoints.reduce((sum, site) => sum + (site === pointRegion[place] ? 1 : 0), 0);
@@ -177,7 +188,11 @@ export class GlobeScene {
         regions: () => this.#made?.regions ?? [],
       },
       { layer: "isolines", isThere: !!places?.isolines, ...drawn(() => this.#made!.isolines) },
-      { isThere: hasPlaces, ...drawn(() => this.#made!.dots), python: { globe: "globe.add_points(places)" } },
+      {
+        isThere: hasPlaces,
+        ...drawn((isMoving) => this.#made![isMoving ? "sparse" : "dots"]),
+        python: { globe: "globe.add_points(places)" },
+      },
       { draw: (pen, { disc }) => pen.shade(disc) },
       {
         layer: "names",
@@ -195,6 +210,8 @@ export class GlobeScene {
 /** What is made of places when it is first asked for: their dots, their cells, the areas of these. */
 interface Made {
   readonly dots: Layer;
+  /** Those that are drawn while the globe moves. */
+  readonly sparse: Layer;
   readonly named: Pick<Named, "names" | "radii"> & { readonly directions: Directions };
   /** Of the cells' sphere. */
   readonly points: Float64Array;
@@ -227,16 +244,18 @@ function madeOf({ lonlat, names, owner, isolines }: Places, latitude: Latitude):
     const place = row(lonlatToXyz(lonlat.subarray(2 * sites[0], 2 * sites[0] + 2)), 0);
     return [balls.regionLayer("tint", null, drawn(Float64Array.from(corners)), offsets, place, true, ink)];
   };
+  /** Dots of one place of so many. */
+  const dots = (of: number): Layer => {
+    const { inks, ink = [], radii = [] } = owner ?? {};
+    const some = <T>(all: readonly T[]): readonly T[] => (of === 1 ? all : all.filter((_, k) => k % of === 0));
+    const xyz = lonlatToXyz(of === 1 ? lonlat : lonlat.filter((_, k) => (k >> 1) % of === 0));
+    if (inks === undefined) return balls.dotLayer("site", xyz);
+    const colours = some(ink).map((number) => inks[number]);
+    return balls.spotLayer(xyz, some(radii), colours);
+  };
   const made: Made = lazy({
-    dots: () => {
-      const { inks, ink = [], radii = [] } = owner ?? {};
-      if (inks === undefined) return balls.dotLayer("site", lonlatToXyz(lonlat));
-      return balls.spotLayer(
-        lonlatToXyz(lonlat),
-        radii,
-        ink.map((number) => inks[number]),
-      );
-    },
+    dots: () => dots(1),
+    sparse: () => (lonlat.length > 2 * MOST_MOVING ? dots(Math.ceil(lonlat.length / (2 * MOST_MOVING))) : made.dots),
     named: () => {
       const radii = owner?.radii ?? [];
       const order = [...(names ?? []).keys()].filter((k) => radii[k] !== 0);
