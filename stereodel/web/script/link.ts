@@ -64,7 +64,7 @@ export class LinkValues extends Map<string, string> {
   places(name: string): Float64Array | null {
     const text = this.get(name);
     if (text === undefined) return null;
-    const places = Float64Array.from(text === "" ? [] : text.split(","), numberOf);
+    const places = text === "" ? new Float64Array(0) : numbersOf(text);
     if (places.length % 2 !== 0 || !places.every(Number.isFinite))
       throw new LinkError("the link holds half a site, or one that is nowhere");
     return places;
@@ -135,6 +135,11 @@ export function writePlace(name: string, place: readonly [number, number], decim
 /** Pairs of coordinates as `LinkValues.places` reads them: numbers with all their digits. */
 export function packPlaces(places: Float64Array): string {
   return places.join(",");
+}
+
+/** Numbers between commas. */
+export function numbersOf(text: string): Float64Array {
+  return Float64Array.from(text.split(","), numberOf);
 }
 
 /** NaN for what is no plain number. */

@@ -110,10 +110,12 @@ export class GlobeRoom extends TableRoom implements Room {
   state(isWhole: boolean): Record<string, string> {
     const { places, picture } = this.scene;
     const { from, to, before, after, ...fisheye } = this.#state;
-    const { lonlat, name, names = null } = places ?? NO_PLACES;
+    const { lonlat, name, names = null, values = new Map() } = places ?? NO_PLACES;
     return {
       ...GLOBE.write(fisheye.lens === "fisheye" ? fisheye : this.#state),
-      ...(places === null || places === this.#given ? {} : tableValues({ places: lonlat, name, names }, isWhole)),
+      ...(places === null || places === this.#given
+        ? {}
+        : tableValues({ places: lonlat, name, names, values }, isWhole)),
       ...this.switches.values,
       ...(picture === null ? {} : { picture: picture.name }),
     };
