@@ -1,6 +1,6 @@
 /** The Globe room: the Earth through a fisheye, or one bubble of it sent onto another. */
 
-import { field, find, say } from "../dom.ts";
+import { field, find, plain, say } from "../dom.ts";
 import { regionsOf } from "../drawing/parts.ts";
 import type { Pen, Sheet } from "../drawing/pen.ts";
 import { Plate, type Reason } from "../drawing/plate.ts";
@@ -19,7 +19,7 @@ import { BubbleGlobe, FisheyeGlobe, FiveViews } from "./globe_plates.ts";
 import { GlobeScene, type Places } from "./globe_scene.ts";
 import { BEGINNING, GLOBE, PRESETS, sideView } from "./globe_state.ts";
 import type { GlobeState } from "./globe_state.ts";
-import { framed, legendBlock, legendWords, placeSentence, valueWords, type Owner } from "./owner.ts";
+import { columnsOf, framed, legendBlock, legendWords, placeSentence, valueWords, type Owner } from "./owner.ts";
 import { TableRoom, tableOf, tableValues } from "./site_room.ts";
 
 /** Steps of the slider for a magnification of ten times. */
@@ -236,10 +236,10 @@ export class GlobeRoom extends TableRoom implements Room {
     this.switches.offer("cells", places !== null);
     this.switches.offer("names", !!places?.names);
     for (const part of ["[data-show=places]", "[value=places]"]) find(this.section, part).hidden = places === null;
-    const { lonlat, names, name, owner } = places ?? NO_PLACES;
+    const { lonlat, names, name } = places ?? NO_PLACES;
     this.#fit(places ?? NO_PLACES, places !== null);
     this.#tell(places ?? NO_PLACES);
-    const columns = owner?.columns ?? [];
+    const columns = columnsOf(places ?? NO_PLACES);
     const count = lonlat.length / 2;
     const words = count === 0 ? "No places in" : count === 1 ? "The place of" : `The ${counted(count)} places of`;
     this.out("places").textContent = `${words} ${name}`;
@@ -345,7 +345,10 @@ export class GlobeRoom extends TableRoom implements Room {
   /** A sentence below the globe: that of the place which is lit, if there is one. */
   #say(name: string, words: string): void {
     const { lit } = this.scene;
-    say(this.out(name), lit === null ? words : placeSentence(this.scene, lit, area(this.scene.area(lit))));
+    const told = lit === null ? words : placeSentence(this.scene, lit, area(this.scene.area(lit)));
+    say(this.out(name), told);
+    // In a frame there is no room for it but where the pointer is.
+    if (this.isFramed) find(this.section, ".globe-spread canvas").title = lit === null ? "" : plain(told);
   }
 
   #writeFisheye(): void {
