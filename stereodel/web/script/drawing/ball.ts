@@ -6,7 +6,16 @@ import type { MoebiusMap, SphericalDelaunay, SphericalVoronoi } from "../kernel/
 import { angle, cross, DEGREE, directionOf, dot, row, unit, type Vector } from "../space.ts";
 import { arcThrough, bentRings, holdsHidden, traceArc, traceCap, traceOutlines, traceRegions } from "./arcs.ts";
 import type { Side } from "./arcs.ts";
-import { traceCorners, traceSegment, type Disc, type Path, type Pen, type Point, type Trace } from "./pen.ts";
+import {
+  traceCorners,
+  traceDisc,
+  traceSegment,
+  type Disc,
+  type Path,
+  type Pen,
+  type Point,
+  type Trace,
+} from "./pen.ts";
 import type { DotName, StyleName } from "./styles.ts";
 
 /** The longest arc of a circle that is drawn by three points, radians: they are well apart, and tell its sense. */
@@ -72,10 +81,11 @@ export function spotLayer(points: Float64Array, radii: ArrayLike<number>, inks: 
   return layerOf(Float64Array.from(order.flatMap((k) => row(points, k))), (pen, disc, images) => {
     const seen = order.map((_, i) => i).filter((i) => images[3 * i + 2] >= 0);
     const places = seen.flatMap((i) => [...placeOf(disc, row(images, i)), radii[order[i]]]);
-    pen.spots(
-      places,
-      seen.map((i) => inks[order[i]]),
-    );
+    const shown = seen.map((i) => inks[order[i]]);
+    pen.clipped(
+      (path) => traceDisc(path, disc),
+      () => pen.spots(places, shown),
+    ); // the margin has no room for large ones
   });
 }
 

@@ -82,7 +82,6 @@ export class GlobeScene {
   #coarse: Layer | null = null;
   #fine: Layer | null = null;
   #made: Made | null = null;
-  #around: { place: number; made: Made | null; found: Around } | null = null;
 
   /** Unpacks the land that the page carries. */
   async load(contents: Contents): Promise<void> {
@@ -107,17 +106,12 @@ export class GlobeScene {
     return { ...style, ink: style.ink === "ink" ? ink : accent, halo };
   }
 
-  /** What surrounds a place, found once for the one that is looked at. */
   around(place: number): Around {
-    if (this.#around?.place !== place || this.#around.made !== this.#made)
-      this.#around = { place, made: this.#made, found: this.#surroundings(place) };
-    return this.#around.found;
-  }
-
-  #surroundings(place: number): Around {
     const { voronoi, points } = this.#made!;
-    const { pointRegion, ridgePoints } = voronoi;
-    const neighbours = ridgePoints.reduce((sum, site) => sum + (site === pointRegion[place] ? 1 : 0), 0);
+    const { regionOffsets, regionNeighbors } = voronoi;
+    const kept = regionOffsets[place + 1] > regionOffsets[place] ? place : voronoi.pointRegion[place];
+    const beyond = regionNeighbors.subarray(regionOffsets[kept], regionOffsets[kept + 1]);
+    const neighbours = new Set(beyond).size;
     const at = row(points, place);
     const two = points.length > 3 ? this.#made!.delaunay.nearest(at, 2) : [];
     const nearest = [...two].find((site) => site !== place) ?? null;
@@ -187,7 +181,11 @@ export class GlobeScene {
         python: { globe: `globe.add_cells(SphericalVoronoi.from_lonlat(places${kind}))` },
         regions: () => this.#made?.regions ?? [],
       },
-      { layer: "isolines", isThere: !!places?.isolines, ...drawn(() => this.#made!.isolines) },
+      {
+        layer: "isolines",
+        isThere: !!places?.isolines,
+        draw: (pen, { disc, map }) => balls.drawLayers(pen, disc, map, this.#made!.isolines),
+      },
       {
         isThere: hasPlaces,
         ...drawn((isMoving) => this.#made![isMoving ? "sparse" : "dots"]),
@@ -218,7 +216,7 @@ interface Made {
   readonly delaunay: SphericalDelaunay;
   readonly voronoi: SphericalVoronoi;
   readonly fills: readonly Layer[];
-  readonly isolines: Layer;
+  readonly isolines: readonly Layer[];
   readonly cells: Layer;
   readonly areas: Float64Array;
   readonly regions: readonly Region[];
@@ -268,11 +266,10 @@ function madeOf({ lonlat, names, owner, isolines }: Places, latitude: Latitude):
     delaunay: () => new SphericalDelaunay(made.points),
     voronoi: () => new SphericalVoronoi(made.delaunay),
     fills: () => (owner?.inks ?? []).flatMap((ink, number) => tint(ink, number)),
-    isolines: () =>
-      balls.arcLayer(
-        "isoline",
-        balls.lineArcs(isolines ?? { lonlat: new Float64Array(0), offsets: new Uint32Array(1) }),
-      ),
+    isolines: () => {
+      const arcs = balls.lineArcs(isolines!);
+      return [balls.arcLayer("isoline-halo", arcs), balls.arcLayer("isoline", arcs)];
+    },
     cells: () => balls.arcLayer("cell", drawn(balls.ridgeArcs(made.voronoi))),
     areas: () => made.voronoi.areas(OF_EQUAL_AREA),
     regions: () =>
