@@ -359,9 +359,11 @@ export class GlobeRoom extends TableRoom implements Room {
     const [plain, far] = ["times as large as on a plain globe", `on the far side _${scale(there)}_ times`];
     const strength = scale(magnification);
     const words =
-      this.scene.places === null || this.hasPointed
-        ? `At the pointer, _${placeWords(pointer)}_, everything is _${scale(here)}_ ${plain}; at the focus _${strength}_ times, ${far}.`
-        : `At the focus, _${placeWords(focus)}_, everything is _${strength}_ ${plain}, ${far}.`;
+      magnification === 1
+        ? "Nothing is magnified: every place has its size on a plain globe."
+        : this.scene.places === null || this.hasPointed
+          ? `At the pointer, _${placeWords(pointer)}_, everything is _${scale(here)}_ ${plain}; at the focus _${strength}_ times, ${far}.`
+          : `At the focus, _${placeWords(focus)}_, everything is _${strength}_ ${plain}, ${far}.`;
     this.#say("pointer", words);
     const ruler = this.out("scale");
     const share = magnification > 1 ? Math.log(here) / Math.log(magnification) : 0;
@@ -432,6 +434,7 @@ function area(size: number): string {
 
 /** The ends of a ruler from 1/S to S: a fraction where S is whole. */
 function ends(magnification: number): [string, string] {
+  if (magnification === 1) return ["", ""];
   if (!Number.isInteger(magnification)) return [scale(1 / magnification), scale(magnification)];
   return [magnification === 3 ? "⅓" : `1⁄${magnification}`, String(magnification)];
 }

@@ -29,6 +29,9 @@ export const STEP = 10;
 /** Places beyond which their cells are left out while the globe moves. */
 const MANY_PLACES = 10_000;
 
+/** Places of which dots are drawn at the most while the globe moves: of more, every second, third and so on. */
+const MOST_MOVING = 25_000;
+
 /** A globe; `map` takes the Earth to the axes of the view. */
 interface Ball {
   readonly disc: Disc;
@@ -183,7 +186,11 @@ export class GlobeScene {
         isThere: !!places?.isolines,
         draw: (pen, { disc, map }) => balls.drawLayers(pen, disc, map, this.#made!.isolines),
       },
-      { isThere: hasPlaces, ...drawn(() => this.#made!.dots), python: { globe: "globe.add_points(places)" } },
+      {
+        isThere: hasPlaces,
+        ...drawn((isMoving) => this.#made![isMoving ? "sparse" : "dots"]),
+        python: { globe: "globe.add_points(places)" },
+      },
       { draw: (pen, { disc }) => pen.shade(disc) },
       {
         layer: "names",
@@ -201,6 +208,8 @@ export class GlobeScene {
 /** What is made of places when it is first asked for: their dots, their cells, the areas of these. */
 interface Made {
   readonly dots: Layer;
+  /** Those that are drawn while the globe moves. */
+  readonly sparse: Layer;
   readonly named: Pick<Named, "names" | "radii"> & { readonly directions: Directions };
   /** Of the cells' sphere. */
   readonly points: Float64Array;
@@ -233,16 +242,18 @@ function madeOf({ lonlat, names, owner, isolines }: Places, latitude: Latitude):
     const place = row(lonlatToXyz(lonlat.subarray(2 * sites[0], 2 * sites[0] + 2)), 0);
     return [balls.regionLayer("tint", null, drawn(Float64Array.from(corners)), offsets, place, true, ink)];
   };
+  /** Dots of one place of so many. */
+  const dots = (of: number): Layer => {
+    const { inks, ink = [], radii = [] } = owner ?? {};
+    const some = <T>(all: readonly T[]): readonly T[] => (of === 1 ? all : all.filter((_, k) => k % of === 0));
+    const xyz = lonlatToXyz(of === 1 ? lonlat : lonlat.filter((_, k) => (k >> 1) % of === 0));
+    if (inks === undefined) return balls.dotLayer("site", xyz);
+    const colours = some(ink).map((number) => inks[number]);
+    return balls.spotLayer(xyz, some(radii), colours);
+  };
   const made: Made = lazy({
-    dots: () => {
-      const { inks, ink = [], radii = [] } = owner ?? {};
-      if (inks === undefined) return balls.dotLayer("site", lonlatToXyz(lonlat));
-      return balls.spotLayer(
-        lonlatToXyz(lonlat),
-        radii,
-        ink.map((number) => inks[number]),
-      );
-    },
+    dots: () => dots(1),
+    sparse: () => (lonlat.length > 2 * MOST_MOVING ? dots(Math.ceil(lonlat.length / (2 * MOST_MOVING))) : made.dots),
     named: () => {
       const radii = owner?.radii ?? [];
       const order = [...(names ?? []).keys()].filter((k) => radii[k] !== 0);
