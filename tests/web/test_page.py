@@ -100,7 +100,7 @@ EXPERIMENTAL = [
 @pytest.mark.parametrize("width", by_day([1280, 320], 1280))
 def test_axe_finds_nothing(room, name, colours, width):
     page = room(name, colours=colours, width=width)
-    found = Axe().run(page.page, options={"rules": dict.fromkeys(EXPERIMENTAL, {"enabled": True})}).response
+    found = Axe().run(page.page, options={"rules": {rule: {"enabled": True} for rule in EXPERIMENTAL}}).response
     assert [f"{each['id']}: {each['nodes'][0]['html'][:120]}" for each in found["violations"]] == []
     assert len(found["passes"]) > 20
     brightness = np.median(page.picture())
@@ -176,10 +176,10 @@ def test_a_swipe_on_the_disc_turns_and_one_in_the_corner_scrolls(room, name):
 
 
 def towns(path, count):
-    """A table of so many places with names."""
+    """A table of so many places with names and numbers, one of which is missing."""
     lonlat = np.random.default_rng(count).uniform((-180, -90), (180, 90), size=(count, 2))
-    rows = [f"Ort {k} & Co,{lon},{lat}\n" for k, (lon, lat) in enumerate(lonlat)]
-    path.write_text("name,lon,lat\n" + "".join(rows))
+    rows = [f"Ort {k} & Co,{lon},{lat},{k or ''}\n" for k, (lon, lat) in enumerate(lonlat)]
+    path.write_text("name,lon,lat,size\n" + "".join(rows))
     return path
 
 
@@ -194,6 +194,8 @@ def test_names_colours_and_what_a_hand_has_changed_are_in_the_link(room, tmp_pat
     names = [f"Ort {k} & Co" for k in range(1, 6)]
     assert elsewhere.page.locator("#room-sphere td.name").all_inner_texts() == [*names, ""]
     assert elsewhere.page.locator("select[name=set] option:checked").first.inner_text() == "towns.csv"
+    assert downloaded(elsewhere, "csv")[1].splitlines()[0] == b"lon,lat,name,size"
+    assert downloaded(elsewhere, "csv") == downloaded(page, "csv")
     assert elsewhere.page.evaluate("getComputedStyle(document.body).backgroundColor") == "rgb(22, 24, 27)"
     assert elsewhere.page.evaluate(PIXELS, "sphere") == page.page.evaluate(PIXELS, "sphere")
 

@@ -20,17 +20,6 @@ const PICTURES = /\.(jpe?g|png|webp|avif)$/i;
 const TEXT = /\.(csv|tsv|txt)(\.gz)?$/i;
 const JSON_TEXT = /\.(geojson|json|geojsonl|geojsons)(\.gz)?$/i;
 
-/** What the library reads and the page does not: endings, and first bytes. */
-const OTHERS: readonly [string, RegExp, RegExp][] = [
-  ["a workbook", /\.(xls[xm]?|ods)$/i, /^PK\x03\x04/],
-  ["a GeoPackage", /\.(gpkg|sqlite)$/i, /^SQLite format 3/],
-  ["a shapefile", /\.(shp|shx|dbf|prj|zip)$/i, /^\0\0'\n/],
-  ["a Parquet file", /\.(geo)?parquet$/i, /^PAR1[^,;\t|]/],
-  ["a FlatGeobuf file", /\.fgb$/i, /^fgb\x03/],
-  ["a file of XML", /\.(km[lz]|gpx|gml)$/i, /^(\xef\xbb\xbf)?\s*<(\?xml|kml|gpx)/],
-  ["a file packed by bzip2", /\.bz2$/i, /^BZh[1-9]1AY/],
-];
-
 /** Points of a file: (n, 2), longitude and latitude in degrees or x and y; rows without a place are left out. */
 export interface Points {
   readonly file: string;
@@ -131,21 +120,25 @@ async function unpacked(bytes: Uint8Array): Promise<Uint8Array> {
   }
 }
 
-/** Text in UTF-8, UTF-16 or, by its letters, windows-1252; what else the library reads is told. */
+/** Text in UTF-8, UTF-16 or, by its letters, windows-1252; all else is for the library. */
 function decoded(bytes: Uint8Array, file: string): { text: string; guess: string | null } {
-  const head = String.fromCharCode(...bytes.subarray(0, 64));
-  const others = OTHERS.find(([, ending]) => ending.test(file)) ?? OTHERS.find(([, , mark]) => mark.test(head));
-  const typed = /^[\w.-]+$/.test(file) ? file : `"${file}"`;
-  const advice = `type: stereodel web ${typed}`;
-  if (others !== undefined) throw new TableError(`this is ${others[0]}; to make a page of it, ${advice}`);
+  const head = String.fromCharCode(...bytes.subarray(0, 2));
   const utf16 = /^(\xff\xfe|[^\0]\0)/.test(head) ? "utf-16le" : /^(\xfe\xff|\0)/.test(head) ? "utf-16be" : null;
-  try {
-    return { text: new TextDecoder(utf16 ?? "utf-8", { fatal: true }).decode(bytes), guess: null };
-  } catch {
-    const text = new TextDecoder("windows-1252").decode(bytes);
-    if (utf16 === null && !NOT_WESTERN.test(text)) return { text, guess: "windows-1252" };
-    throw new TableError(`neither a picture nor text in an encoding that the page knows; for others, ${advice}`);
-  }
+  const read = (encoding: string, wrong: RegExp): string | null => {
+    try {
+      const text = new TextDecoder(encoding, { fatal: true }).decode(bytes);
+      return /^\s*</.test(text) || wrong.test(text) ? null : text; // XML, or no text
+    } catch {
+      return null;
+    }
+  };
+  const text = read(utf16 ?? "utf-8", /\0/);
+  if (text !== null) return { text, guess: null };
+  const guess = utf16 === null ? read("windows-1252", NOT_WESTERN) : null;
+  if (guess !== null) return { text: guess, guess: "windows-1252" };
+  const typed = /^[\w.-]+$/.test(file) ? file : `"${file}"`;
+  const what = "neither a picture nor a table in text that the page can read";
+  throw new TableError(`${what}; to make a page of it, type: stereodel web ${typed}`);
 }
 
 /** Calls `opened` with the points of a file, or says why not; the reader may be asked for columns, or about wrong rows. */

@@ -29,6 +29,9 @@ export const STEP = 10;
 /** Places beyond which their cells are left out while the globe moves. */
 const MANY_PLACES = 10_000;
 
+/** Places of which dots are drawn at the most while the globe moves: of more, every second, third and so on. */
+const MOST_MOVING = 25_000;
+
 /** A globe; `map` takes the Earth to the axes of the view. */
 interface Ball {
   readonly disc: Disc;
@@ -110,8 +113,10 @@ export class GlobeScene {
 
   around(place: number): Around {
     const { voronoi, points } = this.#made!;
-    const { pointRegion, ridgePoints } = voronoi;
-    const neighbours = ridgePoints.reduce((sum, site) => sum + (site === pointRegion[place] ? 1 : 0), 0);
+    const { regionOffsets, regionNeighbors } = voronoi;
+    const kept = regionOffsets[place + 1] > regionOffsets[place] ? place : voronoi.pointRegion[place];
+    const beyond = regionNeighbors.subarray(regionOffsets[kept], regionOffsets[kept + 1]);
+    const neighbours = new Set(beyond).size;
     const at = row(points, place);
     const two = points.length > 3 ? this.#made!.delaunay.nearest(at, 2) : [];
     const nearest = [...two].find((site) => site !== place) ?? null;
@@ -171,8 +176,12 @@ export class GlobeScene {
         ...drawn((isMoving) => (isMoving && isMuch ? null : this.#made!.cells)),
         regions: () => this.#made?.regions ?? [],
       },
-      { layer: "isolines", isThere: !!places?.isolines, ...drawn(() => this.#made!.isolines) },
-      { isThere: hasPlaces, ...drawn(() => this.#made!.dots) },
+      {
+        layer: "isolines",
+        isThere: !!places?.isolines,
+        draw: (pen, { disc, map }) => balls.drawLayers(pen, disc, map, this.#made!.isolines),
+      },
+      { isThere: hasPlaces, ...drawn((isMoving) => this.#made![isMoving ? "sparse" : "dots"]) },
       { draw: (pen, { disc }) => pen.shade(disc) },
       {
         layer: "names",
@@ -190,13 +199,15 @@ export class GlobeScene {
 /** What is made of places when it is first asked for: their dots, their cells, the areas of these. */
 interface Made {
   readonly dots: Layer;
+  /** Those that are drawn while the globe moves. */
+  readonly sparse: Layer;
   readonly named: Pick<Named, "names" | "radii"> & { readonly directions: Directions };
   /** Of the cells' sphere. */
   readonly points: Float64Array;
   readonly delaunay: SphericalDelaunay;
   readonly voronoi: SphericalVoronoi;
   readonly fills: readonly Layer[];
-  readonly isolines: Layer;
+  readonly isolines: readonly Layer[];
   readonly cells: Layer;
   readonly areas: Float64Array;
   readonly regions: readonly Region[];
@@ -222,16 +233,18 @@ function madeOf({ lonlat, names, owner, isolines }: Places, latitude: Latitude):
     const place = row(lonlatToXyz(lonlat.subarray(2 * sites[0], 2 * sites[0] + 2)), 0);
     return [balls.regionLayer("tint", null, drawn(Float64Array.from(corners)), offsets, place, true, ink)];
   };
+  /** Dots of one place of so many. */
+  const dots = (of: number): Layer => {
+    const { inks, ink = [], radii = [] } = owner ?? {};
+    const some = <T>(all: readonly T[]): readonly T[] => (of === 1 ? all : all.filter((_, k) => k % of === 0));
+    const xyz = lonlatToXyz(of === 1 ? lonlat : lonlat.filter((_, k) => (k >> 1) % of === 0));
+    if (inks === undefined) return balls.dotLayer("site", xyz);
+    const colours = some(ink).map((number) => inks[number]);
+    return balls.spotLayer(xyz, some(radii), colours);
+  };
   const made: Made = lazy({
-    dots: () => {
-      const { inks, ink = [], radii = [] } = owner ?? {};
-      if (inks === undefined) return balls.dotLayer("site", lonlatToXyz(lonlat));
-      return balls.spotLayer(
-        lonlatToXyz(lonlat),
-        radii,
-        ink.map((number) => inks[number]),
-      );
-    },
+    dots: () => dots(1),
+    sparse: () => (lonlat.length > 2 * MOST_MOVING ? dots(Math.ceil(lonlat.length / (2 * MOST_MOVING))) : made.dots),
     named: () => {
       const radii = owner?.radii ?? [];
       const order = [...(names ?? []).keys()].filter((k) => radii[k] !== 0);
@@ -244,11 +257,10 @@ function madeOf({ lonlat, names, owner, isolines }: Places, latitude: Latitude):
     delaunay: () => new SphericalDelaunay(made.points),
     voronoi: () => new SphericalVoronoi(made.delaunay),
     fills: () => (owner?.inks ?? []).flatMap((ink, number) => tint(ink, number)),
-    isolines: () =>
-      balls.arcLayer(
-        "isoline",
-        balls.lineArcs(isolines ?? { lonlat: new Float64Array(0), offsets: new Uint32Array(1) }),
-      ),
+    isolines: () => {
+      const arcs = balls.lineArcs(isolines!);
+      return [balls.arcLayer("isoline-halo", arcs), balls.arcLayer("isoline", arcs)];
+    },
     cells: () => balls.arcLayer("cell", drawn(balls.ridgeArcs(made.voronoi))),
     areas: () => made.voronoi.areas(OF_EQUAL_AREA),
     regions: () =>

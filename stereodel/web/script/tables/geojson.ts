@@ -56,7 +56,7 @@ function position(feature: unknown): number[] | string {
   const place: unknown = isOneOfMany ? coordinates[0] : coordinates;
   const pair = Array.isArray(place) ? place.slice(0, 2) : [];
   const isPair = pair.length === 2 && pair.every(Number.isFinite);
-  return isPair ? pair : `a Point has two or three numbers, not ${JSON.stringify(place)}`;
+  return isPair ? pair : `a Point has two or three coordinates, not ${JSON.stringify(place)}`;
 }
 
 /** Coordinate systems as GeoJSON named them before RFC 7946: the page has none but degrees. */
@@ -66,6 +66,6 @@ function refuseOtherSystems(collection: unknown): void {
   const name = String(member(member(crs, "properties"), "name"));
   if (/(CRS84|EPSG::4326|EPSG:4326)$/i.test(name)) return;
   throw new TableError(
-    `the file is in ${name}; the page reads longitude and latitude, the Python library transforms others`,
+    `the file is in ${name}, the page reads degrees; to make a page of it, type: stereodel web FILE`,
   );
 }

@@ -9,7 +9,7 @@ const MISSING = new Set(WORDS.missing);
 export const isMissing = (cell: string): boolean => MISSING.has(cell.trim().toLowerCase());
 
 /** What text in windows-1252 hardly has: other signs than letters and quotes, and three of them in a row. */
-export const NOT_WESTERN = new RegExp(`[^\\x00-\\x7f${WORDS.western}]|[^\\x00-\\x7f]{3}`);
+export const NOT_WESTERN = new RegExp(`\\0|[^\\x00-\\x7f${WORDS.western}]|[^\\x00-\\x7f]{3}`);
 
 /** From here on a name is not written in words. */
 const IDEOGRAPHS = "\u3040";
