@@ -1,7 +1,7 @@
 """A link is the picture: what hands have made of a room comes back pixel by pixel in a page opened from its link.
 
 Hands take whatever there is in a room, drawings most often; each state goes on from the one before. The environment
-says how many are tried in each room: `STEREODEL_TEST_HANDS=500`.
+says how many are tried in each room: `STEREODEL_TEST_HANDS=500 pytest -m thorough -o faulthandler_timeout=0`.
 """
 
 import base64

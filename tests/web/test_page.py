@@ -19,7 +19,7 @@ from stereodel.web.contents import built
 from tests.tiers import by_day
 from tools.browser import ink
 
-from .rooms import CANNOT_BE_READ, DISCS, DRAWINGS, downloaded, link, opened, python_lines, said
+from .rooms import CANNOT_BE_READ, DISCS, DRAWINGS, downloaded, link, opened, said
 
 thorough = pytest.mark.thorough
 
@@ -100,7 +100,7 @@ EXPERIMENTAL = [
 @pytest.mark.parametrize("width", by_day([1280, 320], 1280))
 def test_axe_finds_nothing(room, name, colours, width):
     page = room(name, colours=colours, width=width)
-    found = Axe().run(page.page, options={"rules": dict.fromkeys(EXPERIMENTAL, {"enabled": True})}).response
+    found = Axe().run(page.page, options={"rules": {rule: {"enabled": True} for rule in EXPERIMENTAL}}).response
     assert [f"{each['id']}: {each['nodes'][0]['html'][:120]}" for each in found["violations"]] == []
     assert len(found["passes"]) > 20
     brightness = np.median(page.picture())
@@ -176,10 +176,10 @@ def test_a_swipe_on_the_disc_turns_and_one_in_the_corner_scrolls(room, name):
 
 
 def towns(path, count):
-    """A table of so many places with names."""
+    """A table of so many places with names and numbers, one of which is missing."""
     lonlat = np.random.default_rng(count).uniform((-180, -90), (180, 90), size=(count, 2))
-    rows = [f"Ort {k} & Co,{lon},{lat}\n" for k, (lon, lat) in enumerate(lonlat)]
-    path.write_text("name,lon,lat\n" + "".join(rows))
+    rows = [f"Ort {k} & Co,{lon},{lat},{k or ''}\n" for k, (lon, lat) in enumerate(lonlat)]
+    path.write_text("name,lon,lat,size\n" + "".join(rows))
     return path
 
 
@@ -194,6 +194,8 @@ def test_names_colours_and_what_a_hand_has_changed_are_in_the_link(room, tmp_pat
     names = [f"Ort {k} & Co" for k in range(1, 6)]
     assert elsewhere.page.locator("#room-sphere td.name").all_inner_texts() == [*names, ""]
     assert elsewhere.page.locator("select[name=set] option:checked").first.inner_text() == "towns.csv"
+    assert downloaded(elsewhere, "csv")[1].splitlines()[0] == b"lon,lat,name,size"
+    assert downloaded(elsewhere, "csv") == downloaded(page, "csv")
     assert elsewhere.page.evaluate("getComputedStyle(document.body).backgroundColor") == "rgb(22, 24, 27)"
     assert elsewhere.page.evaluate(PIXELS, "sphere") == page.page.evaluate(PIXELS, "sphere")
 
@@ -386,23 +388,3 @@ def test_cells_and_triangles_are_taken_along_and_fill_the_map(room):
         assert sum(shape.area for shape in shapes) == pytest.approx(360 * 180, rel=1e-6)
     areas = [feature["properties"]["area"] for feature in features if feature["properties"]["kind"] == "cell"]
     assert sum(areas) == pytest.approx(4 * np.pi)
-
-
-@pytest.mark.parametrize("name", by_day(DRAWINGS, "lift"))
-def test_the_lines_of_python_make_the_same_picture(room, name, tmp_path, monkeypatch, capsys):
-    lines = python_lines(room(name))
-    assert re.search(r"^from stereodel", lines, re.MULTILINE)
-    monkeypatch.chdir(tmp_path)
-    names = {}
-    exec(compile(lines.replace('"50m"', '"110m"'), f"{name}.py", "exec"), names)
-    files, printed = sorted(path.stem for path in tmp_path.glob("*.svg")), capsys.readouterr().out
-    match name:
-        case "lift":
-            assert float(printed) == pytest.approx(86.1, abs=0.05)
-        case "sphere":
-            assert len(names["triangles"]) == 94
-            assert (names["triangle"] + 1).tolist() == [7, 22, 41]
-        case "globe":
-            assert names["lens"].is_close(fisheye((10.0, 48.0), magnification=3.0))
-    assert files == {"sphere": ["ball", "plane"]}.get(name, [name])
-    assert all(path.stat().st_size > 10_000 for path in tmp_path.glob("*.svg"))

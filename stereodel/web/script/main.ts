@@ -21,7 +21,7 @@ const COLOURS = ["", "light", "dark"] as const;
 type Colours = (typeof COLOURS)[number];
 
 /** What a link says of a table. */
-const TABLE = ["sites", "names", "name"];
+const TABLE = ["sites", "names", "name", "values"];
 
 type Makers = Record<RoomName, (host: RoomHost) => Room | Promise<Room>>;
 

@@ -1,6 +1,6 @@
 /** How densely lines and dots lie: where they would fill the ground they are finer and fainter, place by place. */
 
-import type { Path, Point, Trace } from "./pen.ts";
+import type { Path, Trace } from "./pen.ts";
 
 /** Side of the squares in which ink is measured, pixels. */
 const SQUARE = 24;
@@ -62,8 +62,9 @@ export class Ink {
       // Between the middles of four squares, so that these are not seen.
       const [x, y] = [places[2 * k] - SQUARE / 2, places[2 * k + 1] - SQUARE / 2];
       const [s, t] = [x / SQUARE - Math.floor(x / SQUARE), y / SQUARE - Math.floor(y / SQUARE)];
-      const along = (row: number): number => (1 - s) * steps[this.#at(x, row)] + s * steps[this.#at(x + SQUARE, row)];
-      groups[Math.min(STEPS, Math.round((1 - t) * along(y) + t * along(y + SQUARE)))].push(k);
+      const upper = (1 - s) * steps[this.#at(x, y)] + s * steps[this.#at(x + SQUARE, y)];
+      const lower = (1 - s) * steps[this.#at(x, y + SQUARE)] + s * steps[this.#at(x + SQUARE, y + SQUARE)];
+      groups[Math.min(STEPS, Math.round((1 - t) * upper + t * lower))].push(k);
     }
     for (let step = STEPS; step >= 0; --step) if (groups[step].length > 0) visit(STEP ** step, groups[step]);
   }
@@ -94,40 +95,49 @@ export function eachLines(
   ink: Ink,
   visit: (size: number, opacity: number, trace: Trace) => void,
 ): void {
-  const [middles, lines] = [[] as number[], [] as number[][][]];
-  let from: Point = [0, 0];
-  const ends = ([x, y]: Point, step: number[]): void => {
-    lines[lines.length - 1].push(step);
-    const length = Math.hypot(x - from[0], y - from[1]);
+  // Of each step, behind how many they are, its numbers: two of a place, eight of an arc.
+  const [middles, begins, steps] = [[] as number[], [] as number[], [] as number[]];
+  let [fromX, fromY] = [0, 0];
+  const ends = (x: number, y: number): void => {
+    const length = Math.hypot(x - fromX, y - fromY);
     const pieces = Math.min(64, Math.ceil(length / SQUARE));
     for (let t = 0.5 / pieces; t < 1; t += 1 / pieces)
-      ink.add(from[0] + t * (x - from[0]), from[1] + t * (y - from[1]), (width * length) / pieces);
-    middles[2 * lines.length - 2] = (from[0] + x) / 2;
-    middles[2 * lines.length - 1] = (from[1] + y) / 2;
-    from = [x, y];
+      ink.add(fromX + t * (x - fromX), fromY + t * (y - fromY), (width * length) / pieces);
+    middles[2 * begins.length - 2] = (fromX + x) / 2;
+    middles[2 * begins.length - 1] = (fromY + y) / 2;
+    [fromX, fromY] = [x, y];
   };
   trace({
-    moveTo(...at) {
-      from = at;
-      middles.push(...at);
-      lines.push([at]);
+    moveTo(x, y) {
+      [fromX, fromY] = [x, y];
+      middles.push(x, y);
+      begins.push(steps.length);
+      steps.push(2, x, y);
     },
-    lineTo: (...at) => ends(at, at),
-    ellipse(...[x, y, rx, ry, turn, begin, end, isBack = false]) {
+    lineTo(x, y) {
+      steps.push(2, x, y);
+      ends(x, y);
+    },
+    ellipse(x, y, rx, ry, turn, begin, end, isBack = false) {
+      steps.push(8, x, y, rx, ry, turn, begin, end, Number(isBack));
       const [c, s, u, v] = [Math.cos(turn), Math.sin(turn), rx * Math.cos(end), ry * Math.sin(end)];
-      ends([x + u * c - v * s, y + u * s + v * c], [x, y, rx, ry, turn, begin, end, Number(isBack)]);
+      ends(x + u * c - v * s, y + u * s + v * c);
     },
-    closePath: () => ends(lines[lines.length - 1][0] as [number, number], lines[lines.length - 1][0]),
+    closePath() {
+      const begin = begins[begins.length - 1];
+      this.lineTo(steps[begin + 1], steps[begin + 2]);
+    },
   });
-  const lay = (path: Path, [begin, ...steps]: readonly number[][]): void => {
-    path.moveTo(begin[0], begin[1]);
-    for (const s of steps) {
-      if (s.length === 2) path.lineTo(s[0], s[1]);
-      else path.ellipse(s[0], s[1], s[2], s[3], s[4], s[5], s[6], s[7] === 1);
+  const lay = (path: Path, line: number): void => {
+    const [s, begin, end] = [steps, begins[line], begins[line + 1] ?? steps.length];
+    path.moveTo(s[begin + 1], s[begin + 2]);
+    for (let k = begin + 3; k < end; k += s[k] + 1) {
+      if (s[k] === 2) path.lineTo(s[k + 1], s[k + 2]);
+      else path.ellipse(s[k + 1], s[k + 2], s[k + 3], s[k + 4], s[k + 5], s[k + 6], s[k + 7], s[k + 8] === 1);
     }
   };
   ink.each(middles, MOST_LINES, (part, numbers) => {
     const size = Math.max(FINEST, Math.sqrt(part));
-    visit(size, Math.max(FAINTEST, part / size), (path) => numbers.forEach((k) => lay(path, lines[k])));
+    visit(size, Math.max(FAINTEST, part / size), (path) => numbers.forEach((line) => lay(path, line)));
   });
 }

@@ -49,6 +49,7 @@ export const STYLES = {
   tint: { fill: "paper", stroke: "paper", width: 0.6 },
   swatch: { fill: "paper" },
   tick: { stroke: "ink-2", width: 0.7 },
+  "isoline-halo": { stroke: "halo", width: 2.4 },
   isoline: { stroke: "ink", width: 0.8 },
   "spot-line": { stroke: "limb", width: 0.6 },
   "patch-line": { stroke: "accent", width: 1 },

@@ -1,6 +1,6 @@
 /** The Globe room: the Earth through a fisheye, or one bubble of it sent onto another. */
 
-import { field, find, say } from "../dom.ts";
+import { field, find, plain, say } from "../dom.ts";
 import { regionsOf } from "../drawing/parts.ts";
 import type { Pen, Sheet } from "../drawing/pen.ts";
 import { Plate, type Reason } from "../drawing/plate.ts";
@@ -19,7 +19,7 @@ import { BubbleGlobe, FisheyeGlobe, FiveViews } from "./globe_plates.ts";
 import { GlobeScene, type Places } from "./globe_scene.ts";
 import { BEGINNING, GLOBE, PRESETS, sideView } from "./globe_state.ts";
 import type { GlobeState } from "./globe_state.ts";
-import { framed, legendBlock, legendWords, placeSentence, valueWords, type Owner } from "./owner.ts";
+import { columnsOf, framed, legendBlock, legendWords, placeSentence, valueWords, type Owner } from "./owner.ts";
 import { TableRoom, tableOf, tableValues } from "./site_room.ts";
 
 /** Steps of the slider for a magnification of ten times. */
@@ -110,10 +110,12 @@ export class GlobeRoom extends TableRoom implements Room {
   state(isWhole: boolean): Record<string, string> {
     const { places, picture } = this.scene;
     const { from, to, before, after, ...fisheye } = this.#state;
-    const { lonlat, name, names = null } = places ?? NO_PLACES;
+    const { lonlat, name, names = null, values = new Map() } = places ?? NO_PLACES;
     return {
       ...GLOBE.write(fisheye.lens === "fisheye" ? fisheye : this.#state),
-      ...(places === null || places === this.#given ? {} : tableValues({ places: lonlat, name, names }, isWhole)),
+      ...(places === null || places === this.#given
+        ? {}
+        : tableValues({ places: lonlat, name, names, values }, isWhole)),
       ...this.switches.values,
       ...(picture === null ? {} : { picture: picture.name }),
     };
@@ -181,7 +183,9 @@ export class GlobeRoom extends TableRoom implements Room {
   }
 
   python(exchange: Exchange): string {
-    return exchange.globePython(this.#state, this.scene, this.isOn);
+    const globes = this.#state.lens === "bubble" ? this.#bubbles : [this.#globe];
+    const isPointed = globes.some((globe) => globe.isPointed);
+    return exchange.globePython(this.#state, this.scene, this.isOn, 2 * globes[0].disc.r, isPointed);
   }
 
   /** Unpacks what the page carries; until then the globe is water. */
@@ -234,10 +238,10 @@ export class GlobeRoom extends TableRoom implements Room {
     this.switches.offer("cells", places !== null);
     this.switches.offer("names", !!places?.names);
     for (const part of ["[data-show=places]", "[value=places]"]) find(this.section, part).hidden = places === null;
-    const { lonlat, names, name, owner } = places ?? NO_PLACES;
+    const { lonlat, names, name } = places ?? NO_PLACES;
     this.#fit(places ?? NO_PLACES, places !== null);
     this.#tell(places ?? NO_PLACES);
-    const columns = owner?.columns ?? [];
+    const columns = columnsOf(places ?? NO_PLACES);
     const count = lonlat.length / 2;
     const words = count === 0 ? "No places in" : count === 1 ? "The place of" : `The ${counted(count)} places of`;
     this.out("places").textContent = `${words} ${name}`;
@@ -343,7 +347,10 @@ export class GlobeRoom extends TableRoom implements Room {
   /** A sentence below the globe: that of the place which is lit, if there is one. */
   #say(name: string, words: string): void {
     const { lit } = this.scene;
-    say(this.out(name), lit === null ? words : placeSentence(this.scene, lit, area(this.scene.area(lit))));
+    const told = lit === null ? words : placeSentence(this.scene, lit, area(this.scene.area(lit)));
+    say(this.out(name), told);
+    // In a frame there is no room for it but where the pointer is.
+    if (this.isFramed) find(this.section, ".globe-spread canvas").title = lit === null ? "" : plain(told);
   }
 
   #writeFisheye(): void {
@@ -354,9 +361,11 @@ export class GlobeRoom extends TableRoom implements Room {
     const [plain, far] = ["times as large as on a plain globe", `on the far side _${scale(there)}_ times`];
     const strength = scale(magnification);
     const words =
-      this.scene.places === null || this.hasPointed
-        ? `At the pointer, _${placeWords(pointer)}_, everything is _${scale(here)}_ ${plain}; at the focus _${strength}_ times, ${far}.`
-        : `At the focus, _${placeWords(focus)}_, everything is _${strength}_ ${plain}, ${far}.`;
+      magnification === 1
+        ? "Nothing is magnified: every place has its size on a plain globe."
+        : this.scene.places === null || this.hasPointed
+          ? `At the pointer, _${placeWords(pointer)}_, everything is _${scale(here)}_ ${plain}; at the focus _${strength}_ times, ${far}.`
+          : `At the focus, _${placeWords(focus)}_, everything is _${strength}_ ${plain}, ${far}.`;
     this.#say("pointer", words);
     const ruler = this.out("scale");
     const share = magnification > 1 ? Math.log(here) / Math.log(magnification) : 0;
@@ -427,6 +436,7 @@ function area(size: number): string {
 
 /** The ends of a ruler from 1/S to S: a fraction where S is whole. */
 function ends(magnification: number): [string, string] {
+  if (magnification === 1) return ["", ""];
   if (!Number.isInteger(magnification)) return [scale(1 / magnification), scale(magnification)];
   return [magnification === 3 ? "⅓" : `1⁄${magnification}`, String(magnification)];
 }

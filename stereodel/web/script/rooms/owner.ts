@@ -3,7 +3,7 @@
 import { cornersOf, traceCorners, traceSegment, type Pen, type Point, type Sheet } from "../drawing/pen.ts";
 import type { LabelStyle } from "../drawing/styles.ts";
 import { counted, fixed, latitude, longitude } from "../words.ts";
-import type { GlobeScene } from "./globe_scene.ts";
+import type { GlobeScene, Places } from "./globe_scene.ts";
 
 /** A number or a place on a scale, and its text. */
 type Tick = readonly [number, string];
@@ -27,24 +27,39 @@ export interface Owner {
   readonly ink?: readonly number[];
   readonly radii?: readonly number[];
   /** Values of the places, null where one is missing; the title ends with their unit after a comma. */
-  readonly columns?: readonly { readonly title: string; readonly values: readonly (number | string | null)[] }[];
+  readonly columns?: readonly Column[];
+}
+
+interface Column {
+  readonly title: string;
+  readonly values: ArrayLike<number | string | null>;
+}
+
+/** Columns of a table that nobody spoke of, which are told of a place. */
+const MOST_COLUMNS = 4;
+
+/** What is told of places: what their owner chose, or the first columns of numbers of their file. */
+export function columnsOf({ owner, values }: Places): readonly Column[] {
+  if (owner) return owner.columns ?? [];
+  const columns = [...(values ?? [])].slice(0, MOST_COLUMNS);
+  return columns.map(([title, numbers]) => ({ title, values: numbers }));
 }
 
 /** A value as the page writes it. */
 export function valueWords(value: number | string | null): string {
-  if (typeof value !== "number") return value ?? "no value";
+  if (typeof value !== "number" || Number.isNaN(value)) return value ? String(value) : "no value";
   const text = Number.isInteger(value) ? counted(Math.abs(value)) : String(Math.abs(value));
   return value < 0 ? `\u2212${text}` : text;
 }
 
 /** All that there is to say of a place, as `say` takes it. */
 export function placeSentence(scene: GlobeScene, place: number, area: string): string {
-  const { lonlat, names, owner } = scene.places!;
+  const { lonlat, names } = scene.places!;
   // The letters that are marks for `say` look as others do.
   const plain = (text: string): string => text.replaceAll("*", "\u2217").replaceAll("_", "\u02cd");
   const name = (site: number): string => plain(names?.[site] || `Place ${site + 1}`);
   const at = `_${latitude(lonlat[2 * place + 1], 2)} ${longitude(lonlat[2 * place], 2)}_`;
-  const values = (owner?.columns ?? []).map(({ title, values }) => {
+  const values = columnsOf(scene.places!).map(({ title, values }) => {
     const [, what, unit] = /^(.*?)(?:, ([^,]*))?$/s.exec(title) ?? [];
     return `${plain(what)} _${plain(valueWords(values[place]))}_${unit ? ` ${plain(unit)}` : ""}`;
   });

@@ -6,12 +6,13 @@ import type { Reason } from "../drawing/plate.ts";
 import type { Exchange } from "../exchange.ts";
 import type { Points } from "../files.ts";
 import type { Place } from "../fields.ts";
-import { LETTERS, MOST_SITES, packPlaces, type LinkValues } from "../link.ts";
+import { LETTERS, LinkError, MOST_SITES, numbersOf, packPlaces, type LinkValues } from "../link.ts";
 import type { RoomHost } from "../room.ts";
 import type { SiteSet } from "../sets.ts";
 import { SiteTable, type Rows } from "../table.ts";
 import { counted } from "../words.ts";
 import { Switches, tellNamed } from "./controls.ts";
+import type { Origin } from "./python.ts";
 
 /** The name of sites that are no set of the list: opened, or changed by hand. */
 const OWN = "own";
@@ -24,14 +25,14 @@ export interface Table {
   readonly names: readonly string[] | null;
   /** Of the table: that of its file, whatever a hand has done to it since. */
   readonly name: string | null;
+  /** Its columns of numbers, NaN where one is missing. */
+  readonly values?: ReadonlyMap<string, Float64Array>;
 }
 
 /** Sites, the set that they are, and the file that has them as they are. */
 export interface NamedSites extends Table {
   readonly set: string;
   readonly file: string | null;
-  /** Columns of numbers of that file. */
-  readonly values?: ReadonlyMap<string, Float64Array>;
 }
 
 /** Sites of no file, of a link or changed by hand. */
@@ -44,22 +45,30 @@ function ofSet(set: SiteSet): NamedSites {
 }
 
 /** What a link says of a table: all of it, or where it is too long for one and need not be whole the name of its file. */
-export function tableValues({ places, names, name }: Table, isWhole: boolean): Record<string, string> {
+export function tableValues({ places, names, name, values }: Table, isWhole: boolean): Record<string, string> {
   const named = { file: name ?? "sites" };
   if (!isWhole && places.length > 2 * MOST_SITES) return named;
-  const values = {
+  const lines = (texts: readonly string[]): string => texts.map((text) => text.replaceAll("\n", " ")).join("\n");
+  const columns = [...(values ?? [])].flatMap(([title, column]) => [title, column.join().replaceAll("NaN", "")]);
+  const table = {
     sites: packPlaces(places),
-    ...(names && { names: names.map((each) => each.replaceAll("\n", " ")).join("\n") }),
+    ...(names && { names: lines(names) }),
     ...(name && { name }),
+    ...(columns.length * places.length > 0 && { values: lines(columns) }),
   };
-  const isShort = encodeURIComponent(Object.values(values).join()).length <= LETTERS;
-  return isWhole || isShort ? values : named;
+  const isShort = encodeURIComponent(Object.values(table).join()).length <= LETTERS;
+  return isWhole || isShort ? table : named;
 }
 
 /** The table of a link, or null. @throws LinkError where it cannot be read. */
 export function tableOf(values: LinkValues, kind: "lonlat" | "plane"): Table | null {
   const places = kind === "plane" ? values.places("sites") : values.lonlat("sites");
-  return places && { places, names: values.get("names")?.split("\n") ?? null, name: values.get("name") ?? null };
+  const lines = values.get("values")?.split("\n") ?? [];
+  const columns = lines.flatMap((title, k) => (k % 2 === 0 ? [[title, numbersOf(lines[k + 1] ?? "")] as const] : []));
+  if (places === null) return null;
+  if (columns.some(([, column]) => column.length !== places.length / 2)) throw new LinkError("a column is too short");
+  const names = values.get("names")?.split("\n") ?? null;
+  return { places, names, name: values.get("name") ?? null, values: new Map(columns) };
 }
 
 /** Sites from which on nothing but dots and the bubble is drawn while something moves. */
@@ -184,12 +193,19 @@ export abstract class SiteRoom extends TableRoom {
 
   open(file: File, exchange: Exchange, columns?: [string, string]): Promise<void> {
     const opened = ({ places, names, values, file }: Points): void =>
-      this.#begin({ ...ownSites({ places, names, name: file }), values, file });
+      this.#begin({ ...ownSites({ places, names, name: file, values }), file });
     return exchange.openPoints(file, this.#kind, this.host, opened, columns);
   }
 
   csv(exchange: Exchange): string {
     return exchange.csv(this.#kind === "plane" ? ["x", "y"] : ["lon", "lat"], this.named);
+  }
+
+  /** Where the lines of Python have the sites from. */
+  protected get origin(): Origin {
+    const { set, file } = this.named;
+    const given = this.sets.find(({ name }) => name === set && name === "given");
+    return { set, file: file ?? given?.words ?? "sites.csv" };
   }
 
   protected get title(): string {
@@ -205,13 +221,21 @@ export abstract class SiteRoom extends TableRoom {
 }
 
 /** The sites with one of them elsewhere, one more at the end, or, without a place, one less: its number is the next one's. */
-export function edited({ places, names, name }: NamedSites, site: number, place: Place | null): NamedSites {
-  const isMove = place !== null && 2 * site < places.length;
-  const words = isMove || !names ? names : [...names.slice(0, site), ...(place ? [""] : names.slice(site + 1))];
-  const [begin, end] = [places.subarray(0, 2 * site), places.subarray(2 * site + 2)];
-  const numbers = new Float64Array(begin.length + end.length + (place?.length ?? 0));
-  numbers.set(begin);
-  numbers.set(place ?? [], begin.length);
-  numbers.set(end, numbers.length - end.length);
-  return ownSites({ places: numbers, names: words, name });
+export function edited(table: NamedSites, site: number, place: Place | null): NamedSites {
+  const places = spliced(table.places, 2 * site, 2, place ?? []);
+  if (place !== null && 2 * site < table.places.length) return ownSites({ ...table, places });
+  const names = table.names && [...table.names.slice(0, site), ...(place ? [""] : table.names.slice(site + 1))];
+  const column = (values: Float64Array): Float64Array => spliced(values, site, 1, place ? [NaN] : []);
+  const values = new Map([...(table.values ?? [])].map(([title, numbers]) => [title, column(numbers)]));
+  return ownSites({ places, names, name: table.name, values });
+}
+
+/** With other numbers instead of some. */
+function spliced(numbers: Float64Array, at: number, count: number, put: readonly number[]): Float64Array {
+  const end = numbers.subarray(at + count);
+  const result = new Float64Array(at + put.length + end.length);
+  result.set(numbers.subarray(0, at));
+  result.set(put, at);
+  result.set(end, at + put.length);
+  return result;
 }

@@ -9,8 +9,8 @@ const SEEN = 56;
 const OF_A_POINT = 5;
 
 /** Places that are looked at, and steps toward the middle of the smallest cap. */
-const MOST_PLACES = 20_000;
-const STEPS = 200;
+const MOST_PLACES = 5000;
+const STEPS = 100;
 
 /** The share of places that may not be left out, and how much smaller the cap must be without the others. */
 const KEPT = 0.95;
@@ -25,7 +25,7 @@ export function fitted(lonlat: Float64Array): Sight | null {
   });
   if (places.length === 0) return null;
   const cap = capOf(places);
-  const near = [...places].sort((a, b) => angle(a, cap.center) - angle(b, cap.center));
+  const near = [...places].sort((a, b) => dot(b, cap.center) - dot(a, cap.center));
   const most = capOf(near.slice(0, Math.ceil(KEPT * near.length)));
   const { center, radius } = SMALLER * most.radius < cap.radius ? most : cap;
   const [lon, lat] = lonLatOf(center).map((degrees) => Number(degrees.toFixed(3)));
