@@ -185,7 +185,9 @@ export class GlobeRoom extends TableRoom implements Room {
   }
 
   python(exchange: Exchange): string {
-    return exchange.globePython(this.#state, this.scene, this.isOn);
+    const globes = this.#state.lens === "bubble" ? this.#bubbles : [this.#globe];
+    const isPointed = globes.some((globe) => globe.isPointed);
+    return exchange.globePython(this.#state, this.scene, this.isOn, 2 * globes[0].disc.r, isPointed);
   }
 
   /** Unpacks what the page carries; until then the globe is water. */
