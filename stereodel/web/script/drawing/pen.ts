@@ -1,5 +1,6 @@
 /** The one interface through which rooms draw: the same trace becomes pixels or SVG. Pixels of the screen, y down. */
 
+import type { Owner } from "../rooms/owner.ts";
 import { eachDots, eachLines, Ink } from "./density.ts";
 import { DOTS, HANDLE_CROSS, HANDLE_RADIUS, STYLES } from "./styles.ts";
 import type { Colours, DotName, DotStyle, LabelStyle, Style, StyleName, Token } from "./styles.ts";
@@ -135,6 +136,8 @@ export interface Sheet {
   /** Factor of the widths of lines. */
   readonly weight: number;
   readonly paint: (pen: Pen) => void;
+  /** What the owner of the data says, to be written round it. */
+  readonly owner?: Owner | null;
 }
 
 /** A whole circle. */
