@@ -1,7 +1,7 @@
 /**
- * `geoDelaunay` and `geoVoronoi` with the methods of d3-geo-voronoi, on the exact kernel: places are pairs [longitude,
+ * `geoDelaunay`, `geoVoronoi` and `geoContour` with the methods of d3-geo-voronoi, on the exact kernel: places are pairs [longitude,
  * latitude] in degrees, results plain arrays and GeoJSON wound as d3-geo wants it, clockwise. Call `load` of the package
- * before. What differs from d3-geo-voronoi is listed in the package's README.
+ * before. What differs from d3-geo-voronoi, and why, is said in the documentation, docs/javascript.md.
  */
 
 import { lonlatToXyz } from "./coordinates.ts";
