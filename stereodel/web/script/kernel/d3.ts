@@ -36,6 +36,7 @@ interface MultiLineString {
 export class ListedDelaunay extends SphericalDelaunay {
   private readonly lonlat: Float64Array;
   private listed: Faces | null = null;
+  private around: Cells | null = null;
 
   constructor(lonlat: Float64Array) {
     super(lonlatToXyz(lonlat));
@@ -45,6 +46,11 @@ export class ListedDelaunay extends SphericalDelaunay {
   /** @internal Triangles, what lies beyond them, and their centers. */
   get faces(): Faces {
     return (this.listed ??= ordered(this, this.lonlat));
+  }
+
+  /** @internal What lies around each site. */
+  get cells(): Cells {
+    return (this.around ??= cellsOf(this));
   }
 
   /** Three sites each, counterclockwise. */
@@ -90,7 +96,11 @@ export interface GeoDelaunay {
   find(lon: number, lat: number, node?: number): number;
 }
 
-type Cells = Pick<GeoDelaunay, "centers" | "polygons" | "neighbors">;
+/** Polygons as one array: of each site the centers from its start to before the next one's. */
+interface Cells extends Pick<GeoDelaunay, "centers" | "neighbors"> {
+  starts: Int32Array;
+  ring: Int32Array;
+}
 
 /** The triangulation of places [longitude, latitude]; what is not asked for is not made. */
 export function geoDelaunay(places: readonly (readonly [number, number])[]): GeoDelaunay {
@@ -100,15 +110,14 @@ export function geoDelaunay(places: readonly (readonly [number, number])[]): Geo
     lonlat[2 * k + 1] = places[k][1];
   }
   const delaunay = new ListedDelaunay(lonlat);
-  const cells = lazy({ all: () => cellsOf(delaunay) });
   const geo: GeoDelaunay = lazy<GeoDelaunay>({
     delaunay: () => delaunay,
     edges: () => edgesOf(delaunay),
     triangles: () => clockwise(delaunay.triangles),
-    centers: () => cells.all.centers,
-    neighbors: () => cells.all.neighbors,
-    polygons: () => cells.all.polygons,
-    mesh: () => meshOf(cells.all.polygons),
+    centers: () => delaunay.cells.centers,
+    neighbors: () => delaunay.cells.neighbors,
+    polygons: () => polygonsOf(delaunay.cells),
+    mesh: () => meshOf(geo.polygons),
     hull: () => hullOf(delaunay),
     urquhart: () => (distances) => urquhart(delaunay, geo.edges, distances),
     find: () => (lon, lat) => delaunay.nearest(lonlatToXyz([lon, lat]))[0],
@@ -176,39 +185,48 @@ function edgesOf(delaunay: ListedDelaunay): [number, number][] {
 function cellsOf(delaunay: ListedDelaunay): Cells {
   const { corners, beyond, centers, listed } = delaunay.faces;
   if (corners.length <= 6) return lunesOf(delaunay);
-  const first = new Int32Array(delaunay.size).fill(-1);
-  const sides = new Int32Array(delaunay.size);
+  const first = new Int32Array(delaunay.size);
+  const starts = new Int32Array(delaunay.size + 1);
   for (let e = corners.length - 1; e >= 0; --e) {
     first[corners[e]] = e;
-    ++sides[corners[e]];
+    ++starts[corners[e] + 1];
   }
-  const polygons: Cells["polygons"] = new Array(delaunay.size);
+  const ring = new Int32Array(corners.length);
   const neighbors: number[][] = new Array(delaunay.size);
   for (let site = 0; site < first.length; ++site) {
-    const cell: number[] = new Array(sides[site]);
-    const around: number[] = new Array(sides[site]);
-    for (let k = 0, row = first[site] - (first[site] % 3); k < cell.length; ++k) {
+    const around: number[] = new Array(starts[site + 1]);
+    starts[site + 1] += starts[site];
+    for (let k = 0, row = first[site] - (first[site] % 3); k < around.length; ++k) {
       const at = corners[row] === site ? 0 : corners[row + 1] === site ? 1 : 2;
+      ring[starts[site] + k] = row / 3;
       const last = row + (at === 0 ? 2 : at - 1);
-      cell[k] = row / 3;
       around[k] = corners[last];
       row = 3 * beyond[at === 2 ? row + 1 : at === 1 ? row : row + 2];
     }
-    polygons[site] = cell.length === 0 ? undefined : cell;
     neighbors[site] = around;
   }
   if (listed) {
-    sides.fill(0);
-    for (const [i, j] of clockwiseSides(corners)) neighbors[i][sides[i]++] = j;
+    const filled = first.fill(0);
+    for (const [i, j] of clockwiseSides(corners)) neighbors[i][filled[i]++] = j;
   }
-  return { centers: placesOf(centers), polygons, neighbors };
+  return { centers: placesOf(centers), neighbors, starts, ring };
 }
 
 /** Without triangles, or with three sites: each cell between two poles, by way of a middle on either side. */
 function lunesOf(delaunay: ListedDelaunay): Cells {
   const neighbors = Array.from({ length: delaunay.size }, (): number[] => []);
-  const polygons: Cells["polygons"] = neighbors.map(() => undefined);
-  if (delaunay.dimension < 1) return { centers: [], polygons, neighbors };
+  const polygons = neighbors.map((): number[] => []);
+  const cells = (centers: number[][]): Cells => {
+    const starts = new Int32Array(delaunay.size + 1);
+    polygons.forEach((polygon, site) => (starts[site + 1] = starts[site] + polygon.length));
+    return {
+      centers: placesOf(Float64Array.from(centers.flat())),
+      neighbors,
+      starts,
+      ring: Int32Array.from(polygons.flat()),
+    };
+  };
+  if (delaunay.dimension < 1) return cells([]);
   const flat = delaunay.dimension < 2;
   const sides = flat
     ? edgesOf(delaunay).flatMap(([i, j]) => [
@@ -239,25 +257,39 @@ function lunesOf(delaunay: ListedDelaunay): Cells {
       [0, 1, 2, 3],
       [3, 2, 1, 0],
     ];
-    return { centers: placesOf(Float64Array.from(corners.flat())), polygons, neighbors };
+    return cells(corners);
   }
   // Of three sites the poles are the centers of both triangles in their order.
   const far = flat || delaunay.faces.centers[0] === poles[0][0] ? 0 : 1;
   ridges.forEach(([i, j], k) => {
     // The ridge runs counterclockwise around i and clockwise around j, backwards in a polygon that is clockwise.
-    (polygons[i] ??= [0, 0, 1, 0])[ends[k][1] === far ? 1 : 3] = k;
-    (polygons[j] ??= [0, 0, 1, 0])[ends[k][0] === far ? 1 : 3] = k;
+    for (const [site, start] of [
+      [i, ends[k][1]],
+      [j, ends[k][0]],
+    ]) {
+      if (polygons[site].length === 0) polygons[site] = [0, 0, 1, 0];
+      polygons[site][start === far ? 1 : 3] = k;
+    }
   });
   const points = [poles[far], poles[1 - far]].map((pole) => [...pole]);
   const numbers = new Map<number, number>();
   for (const ring of polygons) {
-    for (const at of ring === undefined ? [] : [3, 1]) {
-      const middle = ring![at];
+    for (const at of ring.length === 0 ? [] : [3, 1]) {
+      const middle = ring[at];
       if (!numbers.has(middle)) numbers.set(middle, points.push(middles[middle]) - 1);
-      ring![at] = numbers.get(middle)!;
+      ring[at] = numbers.get(middle)!;
     }
   }
-  return { centers: placesOf(Float64Array.from(points.flat())), polygons, neighbors };
+  return cells(points);
+}
+
+function polygonsOf({ starts, ring }: Cells): GeoDelaunay["polygons"] {
+  const polygons: GeoDelaunay["polygons"] = [];
+  for (let k = 0; k + 1 < starts.length; ++k) {
+    const cell = Array.from(ring.subarray(starts[k], starts[k + 1]));
+    polygons.push(cell.length > 0 ? cell : undefined);
+  }
+  return polygons;
 }
 
 function meshOf(polygons: (number[] | undefined)[]): [number, number][] {
@@ -429,16 +461,18 @@ export function geoVoronoi<Datum = Place>(data?: GeoData<Datum>): GeoVoronoi<Dat
   [diagram.x, diagram.y] = [accessor(0), accessor(1)];
 
   // Plain loops over arrays of known length: functions per feature take half as long again.
-  diagram.polygons = method(({ polygons, centers, neighbors, delaunay }) => {
-    const features: Feature<OfSite<Datum>>[] = new Array(polygons.length);
+  diagram.polygons = method(({ delaunay }) => {
     const { points, valid } = diagram;
-    for (let k = 0; k < polygons.length; ++k) {
-      const [cell, ring] = [polygons[k], new Array<Place>((polygons[k]?.length ?? 0) + 1)];
+    const { centers, neighbors, starts, ring } = delaunay.cells;
+    const features: Feature<OfSite<Datum>>[] = new Array(points.length);
+    for (let k = 0; k < points.length; ++k) {
+      const [start, size] = [starts[k], starts[k + 1] - starts[k]];
       let geometry: Feature<unknown>["geometry"] = delaunay.dimension === 0 && k === 0 ? { type: "Sphere" } : null;
-      if (cell !== undefined) {
-        for (let corner = 0; corner < cell.length; ++corner) ring[corner] = centers[cell[corner]];
-        ring[cell.length] = ring[0];
-        geometry = { type: "Polygon", coordinates: [ring] };
+      if (size > 0) {
+        const places: Place[] = new Array(size + 1);
+        for (let corner = 0; corner < size; ++corner) places[corner] = centers[ring[start + corner]];
+        places[size] = places[0];
+        geometry = { type: "Polygon", coordinates: [places] };
       }
       const properties = { site: valid[k], sitecoordinates: points[k], neighbours: neighbors[k] };
       features[k] = { type: "Feature", geometry, properties };
