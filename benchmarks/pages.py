@@ -427,18 +427,17 @@ def partitioned(results: Results) -> Blocks:
 def web(results: Results) -> Blocks:
     """What is sent of the page, and how fast it is."""
     scenes = [{**row, "land": row["land"][:-1]} for row in results["scenes"]]
-    columns = [("sites with cells", "{sites}"), ("land", "1 : {land} million")]
-    columns += [("frames a second", "{frames a second:.0f}"), ("ms of the processor a frame", "{ms:.0f}")]
+    columns = [("sites", "{sites}"), ("land", "1 : {land} million"), ("ms a frame", "{ms:.0f}")]
     dragged = results["drag"]
     words = [
         f"Ready {1000 * results['ready, seconds']:.0f} ms after it is opened from the disk.",
-        f"A site that is dragged among {dragged['sites']}, all of them triangulated anew and drawn in every step: "
-        f"{dragged['frames a second']:.0f} frames a second.",
+        f"A site that is dragged among {dragged['sites']} of the Sphere, all of them triangulated anew in every step: "
+        f"{dragged['ms']:.0f} ms a frame.",
     ]
     sent = [("", "{what}"), ("kB", "{kB:.0f}"), ("packed by gzip", "{gzip kB:.0f}")]
     return {
         "sizes": listed(results["sizes"], "lrr", *sent),
-        "frames": "\n\n".join([listed(scenes, "rlrr", *columns), *words]),
+        "frames": "\n\n".join([listed(scenes, "rlr", *columns), *words]),
     }
 
 

@@ -11,7 +11,8 @@ from stereodel.web import web
 # Of joblib, which starts a process of the gallery anew where one has grown.
 warnings.filterwarnings("ignore", message="A worker stopped while some jobs were given")
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))  # for figure_gallery
+sys.path.insert(0, str(Path(__file__).resolve().parent))  # for figure_gallery and javascript_api
+from javascript_api import write_javascript_api  # noqa: E402
 
 project = "stereodel"
 author = "The stereodel developers"
@@ -112,6 +113,7 @@ def break_between_words(_app, _page, _template, context, _doctree):
 
 def setup(app):
     """After numpydoc, which listens at the default priority."""
+    app.connect("builder-inited", write_javascript_api)
     app.connect("html-page-context", break_between_words)
     app.connect("autodoc-process-docstring", escape_bars, priority=900)
     app.connect("build-finished", write_interactive_page)

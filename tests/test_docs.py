@@ -3,6 +3,7 @@
 import ast
 import doctest
 import importlib
+import importlib.util
 import re
 import sys
 from functools import cache
@@ -278,3 +279,20 @@ def test_every_entry_is_cited():
 def test_no_work_has_two_entries():
     titles = [re.search(r'"([^"]+)"', entry)[1] for entry in ENTRIES]
     assert len(titles) == len(set(titles)) > 60
+
+
+def test_every_name_of_the_npm_package_has_its_place():
+    place = importlib.util.spec_from_file_location("javascript_api", ROOT / "docs" / "javascript_api.py")
+    place.loader.exec_module(made := importlib.util.module_from_spec(place))
+    sources = {
+        file: (made.KERNEL / file).read_text(encoding="utf-8") for files in made.MODULES.values() for file in files
+    }
+    exported = re.findall(
+        r"^export .*?(?:class|function|interface|type) (\w+)", "\n".join(sources.values()), re.MULTILINE
+    )
+    listed = re.findall(r"\w+(?=,| \})", " ".join(re.findall(r"^export .*from", sources["api.ts"], re.MULTILINE)))
+    page = made.javascript_api()
+    assert {*exported, *listed} <= set(re.findall(r"^### (\w+)$", page, re.MULTILINE))
+    assert len({*exported, *listed}) > 30
+    assert "`*neighbors(i: number): Generator<number>`\n: The sites around one" in page
+    assert "Kept" not in page

@@ -8,8 +8,9 @@ folder=$(cd "$2" && pwd)
 script=$PWD/stereodel/web/script
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-"$script/node_modules/.bin/esbuild" "$script"/kernel/{index,inline,d3}.ts --bundle --splitting --format=esm --minify \
-    --target=es2022 --charset=utf8 --loader:.wasm=binary --log-level=error --outdir="$work"
+# Readable, with the sources for debuggers: whoever publishes a page makes it small.
+"$script/node_modules/.bin/esbuild" "$script"/kernel/{index,inline,d3,delaunator,d3_delaunay}.ts --bundle --splitting --format=esm \
+    --sourcemap --target=es2022 --charset=utf8 --loader:.wasm=binary --log-level=error --outdir="$work"
 "$script/node_modules/.bin/tsc" --project "$script/kernel" --outDir "$work/types"
 cp stereodel/web/built/stereodel.wasm LICENSE NOTICES.md "$script/README.md" "$work"
 # The package is the project's file without what those who work on it need.

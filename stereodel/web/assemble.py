@@ -13,18 +13,23 @@ import hashlib
 import json
 import os
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import cache
 from importlib import resources
 from pathlib import Path
+from types import MappingProxyType
 from typing import Final
 
 import numpy.typing as npt
 
 from stereodel._arrays import as_choice, as_lonlat
 from stereodel._tasks.whole_files import write_whole
+from stereodel.drawing.page.colors import ColorLike
+from stereodel.drawing.page.style import LengthLike
+from stereodel.drawing.scene.by_value import ScaleLike
 from stereodel.sphere.latitudes import KINDS, Latitude
 from stereodel.web.contents import RESOLUTIONS, Given, built, contents, packed
+from stereodel.web.looks import Looks
 
 POLICY: Final = (
     "default-src 'none'; script-src 'wasm-unsafe-eval' {script}; style-src {style}; img-src data: blob:; "
@@ -41,10 +46,19 @@ def web(
     name: str = "points",
     resolution: str = "50m",
     latitude: Latitude = "authalic",
+    title: str = "",
+    source: str = "",
+    size: LengthLike | npt.ArrayLike | None = None,
+    color: ColorLike | npt.ArrayLike | None = None,
+    values: npt.ArrayLike | None = None,
+    scale: ScaleLike | None = None,
+    legend: str = "",
+    size_legend: str = "",
 ) -> Path:
     """Write the interactive page with the sphere, the lift and the globe, for any browser.
 
-    It is one file that needs no server, network or library, and sends no data.
+    It is one file that needs no server, network or library, and sends no data. With points it opens on the globe, whose
+    lens and view are fitted to them.
 
     Parameters
     ----------
@@ -53,7 +67,7 @@ def web(
     lonlat : (n, 2) array_like, optional
         Longitude and latitude in degrees of initial points, at most a million, stored exactly.
     names : sequence of str, optional
-        Names of the points, one each, for the tables of the page.
+        Names of the points, one each, for the globe and the tables of the page.
     name : str
         Name of these points on the page, such as that of their file.
     resolution : {"50m", "110m"}
@@ -62,6 +76,12 @@ def web(
         As in `lonlat_to_xyz`, of these points and of files that are opened on the page: its cells and their areas are
         those of `SphericalVoronoi.from_lonlat`. By default areas are those of the ellipsoid, as of ``stereodel
         voronoi``.
+    title, source : str
+        Heading of the globe, and the line below it that says where the data come from, on the page and in its pictures.
+    size, color, values, scale, legend, size_legend
+        Sizes and colours of the points on the globe, all alike or by value, and titles of their scales in the legend,
+        with their units; as for `stereodel.globe.Globe.add_points`. The page fills cells and draws isolines by the same
+        values. Pixels of CSS are 3/4 points.
 
     Returns
     -------
@@ -71,8 +91,8 @@ def web(
     Raises
     ------
     ValueError
-        If a latitude is outside [−90, 90], there are more than a million points, or not as many names as points, or
-        `resolution` or `latitude` is unknown.
+        If a latitude is outside [−90, 90], there are more than a million points, or not as many names, sizes or values
+        as points, or `resolution` or `latitude` is unknown, or there are sizes or colours and no points.
 
     Examples
     --------
@@ -84,18 +104,32 @@ def web(
     """
     as_choice(resolution, tuple(RESOLUTIONS), "resolution")
     given = None if lonlat is None else Given(as_lonlat(lonlat).reshape(-1, 2), name, names)
-    text = html(resolution, given, as_choice(latitude, KINDS, "latitude"))
+    as_choice(latitude, KINDS, "latitude")
+    looks = Looks(title, source, size, color, values, scale, legend, size_legend)
+    if given is None and looks.said:
+        raise ValueError(f"{looks.said[0]} is of points; give lonlat, too")
+    own = {} if given is None else looks.blocks(given.lonlat, latitude)
+    text = html(resolution, given, latitude, own)
     write_whole(path, text)
     return Path(path)
 
 
-def html(resolution: str, given: Given | None = None, latitude: Latitude = "authalic") -> str:
-    """The page as HTML, with land at a resolution, optional initial points, and the latitude of places."""
+def html(
+    resolution: str,
+    given: Given | None = None,
+    latitude: Latitude = "authalic",
+    own: Mapping[str, str] = MappingProxyType({}),
+) -> str:
+    """The page as HTML: land at a resolution, optional points, the latitude of places, and what their owner says."""
     script, style = (_inline(built(f"page.{kind}").decode("utf-8")) for kind in ("js", "css"))
     later = {name: built(f"{name}.js") for name in ("exchange", "lift")}  # what files take, and the second room
     sources = [_source(code) for code in (script, *(code.decode("utf-8") for code in later.values()))]
     policy = POLICY.format(script=" ".join(sources), style=_source(style))
-    carried = contents(resolution, given, latitude=latitude) | {name: packed(code) for name, code in later.items()}
+    carried = (
+        contents(resolution, given, latitude=latitude)
+        | dict(own)
+        | {name: packed(code) for name, code in later.items()}
+    )
     scripts = [f'<script type="text/plain" id="block-{name}">{text}</script>' for name, text in carried.items()]
     scripts.append(f"<script>{script}</script>")
     page = template()

@@ -68,7 +68,7 @@ def test_the_picture_is_turned_by_the_hand_and_sites_are_chosen_by_keys_and_fiel
     page.page.locator(f"{ROOM} [name=seeing]").check()
     page.rest()
     assert page.ink(PLATE) > ink + 0.005  # facets that see the pole are hatched
-    assert link(page)["turned"] == "seeing"
+    assert link(page)["on"] == "triangles,cells,rays,seeing"
 
 
 def test_tables_of_a_plane_are_opened_and_asked_about(room, tmp_path):
@@ -86,7 +86,10 @@ def test_tables_of_a_plane_are_opened_and_asked_about(room, tmp_path):
     file.write_text("x,y\n1,2\n3,four\n")
     page.page.locator(f"{ROOM} input[type=file]").set_input_files(file)
     message.filter(has_text="four").wait_for()
-    assert message.inner_text().startswith("plane.csv: row 2: the y 'four' is not a number. Nothing has changed.")
+    told = (
+        "plane.csv: 1 of 2 rows cannot be placed. Row 2, on line 3: the y 'four' is not a number. Nothing has changed."
+    )
+    assert message.inner_text().startswith(told)
     assert output(page, "sum").startswith("6 facets")
 
     file.write_text("x,y\n1,2\n")

@@ -42,7 +42,7 @@ def test_the_bubble_follows_the_pointer_until_a_click_keeps_it(room):
     page.rest()
     assert output(page, "sentence") != sentence
     assert page.digest(BALL) != on_ball
-    assert output(page, "sentence").endswith("Other sites inside: 0\u00a0and\u00a00.")
+    assert output(page, "sentence").endswith("Other sites inside, counted exactly: 0\u00a0and\u00a00.")
 
     page.page.mouse.click(x + 60, y + 60)
     kept = output(page, "sentence")
@@ -181,6 +181,27 @@ def test_without_triangles_the_sentence_says_so(room, state, sentence):
     assert page.ink(BALL) > 0.001
 
 
+def test_captions_follow_what_is_drawn(room):
+    page = room("sphere")
+
+    def captions():
+        return output(page, "on-ball"), output(page, "in-plane")
+
+    hatched, cells = "Hatched is where the facets go that see P.", "Cells differ: centres are not sent to centres."
+    assert captions() == ("Delaunay triangles.", f"The same triangles. {hatched}")
+    page.page.locator(f"{ROOM} [name=cells]").check()
+    strong = "Delaunay triangles in strong lines, Voronoi cells in thin ones."
+    assert captions() == (strong, f"The same triangles. {hatched} {cells}")
+    page.page.locator(f"{ROOM} [name=triangles]").uncheck()
+    page.page.locator(f"{ROOM} [name=seeing]").uncheck()
+    assert captions() == ("Voronoi cells.", cells)
+    page.page.locator("#step").fill("34")
+    assert captions() == ("Delaunay triangles, new ones dashed.", "The same triangles.")
+    page.page.evaluate("location.hash = 'v=1&room=sphere&sites=0,0&on=cells'")
+    page.until(f"document.querySelector('{ROOM} [data-out=on-ball]').textContent === ''")
+    assert captions() == ("", "")
+
+
 def test_names_stand_in_the_table_are_said_and_follow_the_hand_and_undo(room, tmp_path):
     file = tmp_path / "towns.csv"
     file.write_text("name,lat,lon\nUlm,48.4,10\nQuito,-0.2,-78.5\n<b>Lagos</b>,6.5,3.4\nPerth,-31.9,115.9\n")
@@ -206,14 +227,14 @@ def test_names_stand_in_the_table_are_said_and_follow_the_hand_and_undo(room, tm
     assert names() == ["Ulm", "Quito", "<b>Lagos</b>", "Perth"]
     assert named.page.locator(f"{ROOM} select[name=set] option:checked").inner_text() == "towns.csv"
     named.page.wait_for_timeout(500)
-    assert 'read_points("towns.csv")' in named.page.locator("#python").inner_text()
+    assert "[-78.5, -0.2]" in named.page.locator("#python").inner_text()
 
 
 def test_a_failure_is_told_and_the_room_is_drawn_again(room):
     page = room("sphere", complaints=["no clip"])
     clip = "CanvasRenderingContext2D.prototype.clip"
     page.page.evaluate(f"window.kept = {clip}; {clip} = () => {{ throw new Error('no clip'); }}; 0")
-    page.page.locator(f"{ROOM} [name=cells]").uncheck()
+    page.page.locator(f"{ROOM} [name=cells]").check()
     page.rest()
     message = page.page.locator("#messages")
     assert message.inner_text().startswith("The computation failed and was stopped. Your sites are still here.")

@@ -259,10 +259,10 @@ class ColorScale:
         """
         (x, y), (width, height), ink = corner, size, as_color(ink, "ink")
         box = np.array([(x, y), (x + width, y), (x + width, y + height), (x, y + height), (x, y)])
-        steps = self._mixed(self._share((np.arange(256) + 0.5) / 256))
-        bars: list[Item] = [Picture((straight(box),), Ramp((x, x + width), steps), "scale")]
+        shades = self.shades(256)
+        bars: list[Item] = [Picture((straight(box),), Ramp((x, x + width), shades), "scale")]
         if self.edges:
-            shades, wide = self._class_shades, width / (len(self.edges) - 1)
+            wide = width / (len(self.edges) - 1)
             bars = [_box(x + k * wide, x + (k + 1) * wide, y, y + height, as_color(c)) for k, c in enumerate(shades)]
         marks: list[Item] = []
 
@@ -281,6 +281,10 @@ class ColorScale:
         if title:
             marks.append(Label(title, (x + width / 2, y + height), (0.0, 4.0), "center", "bottom", type_size, ink))
         return (*bars, *marks)
+
+    def shades(self, count: int) -> FloatArray:
+        """Colours (m, 4) along the scale: those of its classes, or of so many parts."""
+        return self._class_shades if self.edges else self._mixed(self._share((np.arange(count) + 0.5) / count))
 
     def _share(self, place: FloatArray) -> FloatArray:
         """Where between the first colour (0) and the last (1) places on the scale have theirs."""

@@ -19,9 +19,9 @@ import numpy as np
 
 from stereodel._arrays import BoolArray, Column, FloatArray
 from stereodel._extras import MissingExtraError, optional
-from stereodel.io.formats.names import listed, note, spelled
+from stereodel.io.formats.names import WORDS, listed, note, spelled
 
-MISSING: Final = ("", "na", "n/a", "#n/a", "nan", "null", "none", "<na>", "-", "–")  # spellings of a missing value
+MISSING: Final = tuple(WORDS["missing"])  # spellings of a missing value
 NUMBER: Final = re.compile(r"[-+]?(?:(?:[0-9]+[.,]?[0-9]*|[.,][0-9]+)(?:[eE][-+]?[0-9]+)?|inf|infinity)", re.IGNORECASE)
 
 GROUPED: Final = re.compile(r"[-+]?[1-9][0-9]{0,2}[.,][0-9]{3}")  # its mark is decimal, or between thousands
@@ -54,7 +54,7 @@ GUESSED_FROM: Final = 1 << 20  # bytes from which an encoding is guessed
 # Encodings that tables without Unicode have.
 GUESSES: Final = (*(f"cp125{k}" for k in range(7)), "koi8_r", "cp866", "cp932", "euc_jp", "gb18030", "big5", "cp949")
 # What text in cp1252 hardly has: other signs than letters and quotes, and three of them in a row, as other scripts.
-WESTERN: Final = re.compile("[^\x00-\x7f\xb0\xba\xaaà-öø-ÿÀ-ÖØ-ß€‘’“”–—«»²³µ\xa0ŒœŠšŽžŸ]|[^\x00-\x7f]{3}")
+WESTERN: Final = re.compile(rf"[^\x00-\x7f{WORDS['western']}]|[^\x00-\x7f]{{3}}")
 HALVES: Final = re.compile("[\ud800-\udfff]")  # halves of characters, which UTF-8 lacks
 # From here on a number has more digits than a shapefile's field, GDAL's 15 digits of it are infinite, or Excel's.
 LARGEST: Final = {"shp": 1e23, "kml": 1.797693134862315e308, "xlsx": 1e308}

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import json
 import os
 import re
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from contextvars import ContextVar
+from importlib import resources
 from itertools import count
 from types import MappingProxyType
 from typing import Any, Final, TypeVar
@@ -17,23 +19,13 @@ from stereodel._arrays import DataWarning as DataWarning
 T = TypeVar("T")
 
 NAMES_SHOWN, NAME_SHOWN = 30, 40  # number of columns, and characters of a name, that a message shows
+# What people write in tables: the page reads the same list.
+WORDS: Final = json.loads(resources.files(__package__).joinpath("words.json").read_text(encoding="utf-8"))
 # Words for each in English, German, French, Spanish, Portuguese, Italian, Russian, Chinese, Japanese and Arabic.
-NAMES: Final = {
-    "lon": (
-        *("longitude", "lon", "lng", "long", "longitud", "longitudine", "längengrad", "laengengrad"),
-        *("долгота", "经度", "經度", "経度", "خط الطول"),
-    ),
-    "lat": (
-        *("latitude", "lat", "latitud", "latitudine", "breitengrad"),
-        *("широта", "纬度", "緯度", "خط العرض"),
-    ),
-}
+NAMES: Final = {axis: tuple(WORDS[axis]) for axis in ("lon", "lat")}
 # Words that are both coordinates where there are no others: *Länge* and *Breite* are also length and width.
-UNSURE: Final = {"lon": {"x", "xcoord", "länge", "laenge", "الطول"}, "lat": {"y", "ycoord", "breite", "العرض"}}
-# What may stand beside a word that is unsure.
-BESIDE: Final = frozenset(
-    ["coord", "coords", "coordinate", "coordinates", "point", "geo", "geogr", "geographische", "deg", "degrees", "grad"]
-)
+UNSURE: Final = {axis: set(WORDS[f"unsure_{axis}"]) for axis in NAMES}
+BESIDE: Final = frozenset(WORDS["beside"])  # what may stand beside a word that is unsure
 # A name in which a word for longitude stands before one for latitude, as in lonlat and Länge/Breite.
 LON_FIRST: Final = re.compile(rf"({'|'.join(NAMES['lon'])}|länge).*({'|'.join(NAMES['lat'])}|breite)", re.I | re.S)
 IDEOGRAPHS: Final = "\u3040"  # from here on a name is not written in words

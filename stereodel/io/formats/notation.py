@@ -10,21 +10,25 @@ from typing import Any, Final, NamedTuple
 
 from stereodel._arrays import Column
 from stereodel.io.formats.columns import MISSING, texts
-from stereodel.io.formats.names import LON_FIRST, note, words
+from stereodel.io.formats.names import LON_FIRST, WORDS, note, words
 
 # Characters of word processors and other scripts in place of those of the keyboard.
-PLAIN: Final = {zero + digit: str(digit) for zero in (0x660, 0x6F0, 0xFF10) for digit in range(10)} | str.maketrans(
-    "\N{MINUS SIGN}\N{EN DASH}\xa0\u202f\u2009\u3000٫．，،", "--    ..,,", "\u200b\u200e\u200f\ufeff"
+PLAIN: Final = {ord(zero) + digit: str(digit) for zero in WORDS["zeros"] for digit in range(10)} | str.maketrans(
+    WORDS["printed"], WORDS["typed"], WORDS["unseen"]
 )
 # Points of the compass, by axis and sign. O is east in German and west in Romance languages, see `with_letters`.
 COMPASS: Final = {
-    ("longitude", 1.0): "E East Ost Osten Est Este Leste в.д. 东经 東経 شرقا",
-    ("longitude", -1.0): "W West Westen Ouest Oeste Ovest з.д. 西经 西経 غربا",
-    ("longitude", math.nan): "O",
-    ("latitude", 1.0): "N North Nord Norden Norte с.ш. 北纬 北緯 شمالا",
-    ("latitude", -1.0): "S South Süd Süden Sud Sur Sul ю.ш. 南纬 南緯 جنوبا",
+    "E": ("longitude", 1.0),
+    "W": ("longitude", -1.0),
+    "O": ("longitude", math.nan),
+    "N": ("latitude", 1.0),
+    "S": ("latitude", -1.0),
 }
-POINTS: Final = {word.casefold(): point for point, words in COMPASS.items() for word in words.split()}
+POINTS: Final = {
+    word.casefold(): point
+    for letter, point in COMPASS.items()
+    for word in (letter, *WORDS["compass"].get(letter, "").split())
+}
 WORD: Final = rf"(?i:{'|'.join(re.escape(word) for word in POINTS if len(word) > 1)})|[NSEWO]"
 LONE_O: Final = re.compile(r"(?<![^\W\d])O(?![^\W\d])")
 # What it is by other words of its column, or by the language of the column's name.
@@ -34,9 +38,7 @@ SAYS_O: Final = {
 }
 O_IS: Final = "has an O, which is east in German and west in French, Spanish and Italian; write E or W in its place"
 # The name of a column of such letters behind that of the degrees, as of NMEA and Exif.
-LETTERED: Final = re.compile(
-    r"n\W?s|e\W?w|[nsew]|\w*hem\w*|\w*(?:lat|lon)\w*(?:ns|ew|[nsew]|dir|ref)|column_\d+", re.IGNORECASE
-)
+LETTERED: Final = re.compile(WORDS["lettered"], re.IGNORECASE)
 LONGEST: Final = 200  # characters of a cell that may be a place
 PART: Final = r"[0-9]+(?:[.,][0-9]*)?"
 # An angle, such as `10°59'07"E`, `170 41.4 W`, `-12:30`, `N 48.5`, `10d30m` and `9,5° Ost`.

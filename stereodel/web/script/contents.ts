@@ -5,6 +5,7 @@
  */
 
 import type { Latitude } from "./kernel/api.ts";
+import type { Owner } from "./rooms/owner.ts";
 
 /** Regions by rings that have them on their left; joined where maps are cut, at ±180° and along the poles. */
 export interface Rings {
@@ -16,6 +17,12 @@ export interface Rings {
 
 /** Points that the page's maker gave. */
 export interface Given {
+  /** What the maker says of them. */
+  readonly owner: Owner | null;
+  /** The numbers among the values, by their titles. */
+  readonly values: ReadonlyMap<string, Float64Array>;
+  /** Lines of equal values, rows of places. */
+  readonly isolines: Rings | null;
   /** What they are called, such as "cities.csv". */
   readonly name: string;
   /** Longitude and latitude in turn, degrees, to the bit. */
@@ -49,14 +56,17 @@ export class Contents {
 
   /** Land for maps of 1 : 50 or 1 : 110 million; null where the page does not have it, which may be so of the former. */
   async land(resolution: "50m" | "110m"): Promise<Rings | null> {
-    const bytes = await this.#bytes(`land-${resolution}`);
-    return bytes === null ? null : places(bytes);
+    return this.#rings(`land-${resolution}`);
+  }
+
+  async #rings(name: string): Promise<Rings | null> {
+    const bytes = await this.#bytes(name);
+    return bytes && places(bytes);
   }
 
   /** The points of a set: longitude and latitude in turn, degrees, or x and y of the sheet. */
   async set(name: string): Promise<Float64Array> {
-    const bytes = await this.#bytes(name);
-    return bytes === null ? new Float64Array(0) : places(bytes).lonlat;
+    return (await this.#rings(name))?.lonlat ?? new Float64Array(0);
   }
 
   /** The points that the page was made for, or null. */
@@ -67,11 +77,25 @@ export class Contents {
       await this.#text("given-names"),
     ];
     if (name === null || bytes === null) return null;
+    const owner = JSON.parse((await this.#text("owner")) ?? "null") as Owner | null;
+    const numbers = owner?.columns?.filter(({ values }) =>
+      Array.from(values).every((value) => typeof value !== "string"),
+    );
     return {
       name: String(JSON.parse(name)),
       lonlat: doubles(bytes),
       names: JSON.parse(names ?? "null") as string[] | null,
+      owner,
+      values: new Map(
+        numbers?.map(({ title, values }) => [title, Float64Array.from(values as number[], (v) => v ?? NaN)]),
+      ),
+      isolines: await this.#rings("isolines"),
     };
+  }
+
+  /** The state of a page that was saved by its reader, as a link without its `#`; empty on any other page. */
+  async state(): Promise<string> {
+    return (await this.#text("state")) ?? "";
   }
 
   /** What latitudes of places are on this page: those of the ellipsoid with equal areas, if it does not say. */

@@ -4,31 +4,53 @@
  */
 
 import { make } from "./dom.ts";
+import type { RoomName } from "./link.ts";
 import type { Messages } from "./messages.ts";
-import { findLonLat, findXY, lonLatPlaces, planePlaces } from "./tables/coordinates.ts";
-import { ColumnsError, readTable, TableError } from "./tables/delimited.ts";
+import type { RoomHost } from "./room.ts";
+import { findXY, lonLatPlaces, numberColumns, planePlaces } from "./tables/coordinates.ts";
+import { ColumnsError, readTable, TableError, type PlacedTable, type TextTable } from "./tables/delimited.ts";
 import { geojsonPoints } from "./tables/geojson.ts";
+import { findLonLat, NOT_WESTERN } from "./tables/words.ts";
 import { counted } from "./words.ts";
 
 /** Points that the page takes. */
 export const MOST_POINTS = 1_000_000;
 
+const PICTURES = /\.(jpe?g|png|webp|avif)$/i;
 const TEXT = /\.(csv|tsv|txt)(\.gz)?$/i;
 const JSON_TEXT = /\.(geojson|json|geojsonl|geojsons)(\.gz)?$/i;
 
-/** Points of a file: (n, 2), longitude and latitude in degrees or x and y, with names if it has such a column. */
+/** Points of a file: (n, 2), longitude and latitude in degrees or x and y; rows without a place are left out. */
 export interface Points {
   readonly file: string;
   readonly places: Float64Array;
+  /** Those of a column `name`. */
   readonly names: readonly string[] | null;
+  /** Other columns of numbers, NaN where one is missing. */
+  readonly values: ReadonlyMap<string, Float64Array>;
+  /** How many rows are left out, and in words what is wrong with the first. */
+  readonly leftOut: number;
+  readonly wrong: string;
+  /** The encoding, where it is a guess. */
+  readonly guess: string | null;
 }
 
 /** Which coordinates are wanted: of the Earth or of a plane. */
 export type Kind = "lonlat" | "plane";
 
+/** Another room shows what the file has. @see RoomHost.pass */
+interface Elsewhere {
+  readonly room: RoomName;
+  readonly columns?: [string, string];
+}
+
+export function isPicture(file: File): boolean {
+  return file.type.startsWith("image/") || PICTURES.test(file.name);
+}
+
 /**
  * Reads points from the bytes of a file.
- * @param chosen names of the two columns, where the reader was asked.
+ * @param chosen names of the two columns, where they are known.
  * @throws TableError in words for the reader; ColumnsError where the columns must be chosen.
  */
 export async function readPoints(
@@ -36,27 +58,56 @@ export async function readPoints(
   content: Uint8Array,
   kind: Kind,
   chosen?: [string, string],
-): Promise<Points> {
-  const text = decoded(await unpacked(content));
+): Promise<Points | Elsewhere> {
+  const { text, guess } = decoded(await unpacked(content), file);
   const isJson = JSON_TEXT.test(file) || (!TEXT.test(file) && /^[\s\x1e]*\{/.test(text));
-  if (isJson && kind === "plane") throw new TableError("columns of a plane are those of tables, not of GeoJSON");
-  const found = isJson ? geojsonPoints(text) : ofText(text, kind, chosen);
-  const count = found.places.length / 2;
+  if (isJson && kind === "plane") return { room: "globe" };
+  const read = isJson ? geojsonPoints(text) : ofText(text, kind, chosen);
+  if ("room" in read) return read;
+  const { places, table, axes = [] } = read;
+  const { count, wrong } = table;
+  if (count === 0) throw new TableError("there are no points");
   if (count > MOST_POINTS) {
     const most = `the page takes up to ${counted(MOST_POINTS)}; for more there is the Python library`;
     throw new TableError(`there are ${counted(count)} points; ${most}`);
   }
-  return { file, ...found };
+  const said = wrong.size === 0 ? "" : wrongWords(table);
+  if (wrong.size === count) throw new TableError(said);
+  const isKept = (_: unknown, row: number): boolean => !wrong.has(row);
+  const columns = new Map([...table.columns].map(([name, cells]) => [name, cells.filter(isKept)]));
+  const name = [...columns.keys()].find((each) => each.trim().toLowerCase() === "name") ?? "";
+  return {
+    file,
+    places: places.filter((_, k) => isKept(0, k >> 1)),
+    names: columns.get(name) ?? null,
+    values: numberColumns(columns, new Set([...axes, name])),
+    leftOut: wrong.size,
+    wrong: said,
+    guess,
+  };
 }
 
-function ofText(text: string, kind: Kind, chosen?: [string, string]): Omit<Points, "file"> {
+/** How many rows are wrong, and why the first is. */
+function wrongWords({ count, lines, wrong }: TextTable): string {
+  const first = [...wrong.keys()].reduce((least, row) => Math.min(least, row));
+  const many = wrong.size === count ? "No row" : `${counted(wrong.size)} of ${counted(count)} rows`;
+  const where = lines.length === 0 ? "" : `, on line ${counted(lines[first])}`;
+  const can = wrong.size === count ? "can" : "cannot";
+  return `${many} ${can} be placed. Row ${counted(first + 1)}${where}: ${wrong.get(first)}`;
+}
+
+function ofText(text: string, kind: Kind, chosen?: [string, string]): Elsewhere | PlacedTable {
   const table = readTable(text);
-  const all = [...table.keys()];
-  const pair = chosen ?? (kind === "lonlat" ? findLonLat(all) : findXY(all));
-  if (pair === null) throw new ColumnsError(all);
-  const places = kind === "lonlat" ? lonLatPlaces(table, ...pair) : planePlaces(table, ...pair);
-  const named = all.find((name) => name.trim().toLowerCase() === "name");
-  return { places, names: (named !== undefined && table.get(named)) || null };
+  const all = [...table.columns.keys()];
+  const sure = table.isHeaded ? findLonLat(all, true) : null;
+  const axes = chosen ?? (kind === "lonlat" ? findLonLat(all) : findXY(all));
+  if (axes === null && sure !== null) return { room: "globe" };
+  if (axes === null) throw new ColumnsError(all);
+  const places = (kind === "lonlat" ? lonLatPlaces : planePlaces)(table, ...axes);
+  // Numbers of a plane, where no name says that they are degrees.
+  const beyond = [...table.wrong.keys()].filter((row) => Number.isFinite(places[2 * row] + places[2 * row + 1]));
+  if (kind === "lonlat" && sure === null && 2 * beyond.length > table.count) return { room: "lift", columns: axes };
+  return { places, table, axes };
 }
 
 async function unpacked(bytes: Uint8Array): Promise<Uint8Array> {
@@ -69,36 +120,59 @@ async function unpacked(bytes: Uint8Array): Promise<Uint8Array> {
   }
 }
 
-function decoded(bytes: Uint8Array): string {
-  const mark = (bytes[0] << 8) | bytes[1];
-  const encoding = mark === 0xfffe ? "utf-16le" : mark === 0xfeff ? "utf-16be" : "utf-8";
-  try {
-    return new TextDecoder(encoding, { fatal: true }).decode(bytes);
-  } catch {
-    throw new TableError("the file is neither text in UTF-8 nor a 2 : 1 picture; save tables in that encoding");
-  }
+/** Text in UTF-8, UTF-16 or, by its letters, windows-1252; all else is for the library. */
+function decoded(bytes: Uint8Array, file: string): { text: string; guess: string | null } {
+  const head = String.fromCharCode(...bytes.subarray(0, 2));
+  const utf16 = /^(\xff\xfe|[^\0]\0)/.test(head) ? "utf-16le" : /^(\xfe\xff|\0)/.test(head) ? "utf-16be" : null;
+  const read = (encoding: string, wrong: RegExp): string | null => {
+    try {
+      const text = new TextDecoder(encoding, { fatal: true }).decode(bytes);
+      return /^\s*</.test(text) || wrong.test(text) ? null : text; // XML, or no text
+    } catch {
+      return null;
+    }
+  };
+  const text = read(utf16 ?? "utf-8", /\0/);
+  if (text !== null) return { text, guess: null };
+  const guess = utf16 === null ? read("windows-1252", NOT_WESTERN) : null;
+  if (guess !== null) return { text: guess, guess: "windows-1252" };
+  const typed = /^[\w.-]+$/.test(file) ? file : `"${file}"`;
+  const what = "neither a picture nor a table in text that the page can read";
+  throw new TableError(`${what}; to make a page of it, type: stereodel web ${typed}`);
 }
 
-/** Calls `opened` with the points of a file, or says why there are none; the reader may be asked for the columns. */
+/** Calls `opened` with the points of a file, or says why not; the reader may be asked for columns, or about wrong rows. */
 export async function openPoints(
   file: File,
   kind: Kind,
-  messages: Messages,
+  host: RoomHost,
   opened: (points: Points) => void,
   chosen?: [string, string],
 ): Promise<void> {
-  let points: Points;
+  if (isPicture(file)) return host.pass("globe", file);
+  const { messages } = host;
+  const named = `${file.name}:`;
+  const unchanged = (said: string): string => `${said}${/[.?!]$/.test(said) ? "" : "."} Nothing has changed.`;
+  let points: Points | Elsewhere;
   try {
     points = await readPoints(file.name, new Uint8Array(await file.arrayBuffer()), kind, chosen);
   } catch (error) {
-    const again = (...both: [string, string]): Promise<void> => openPoints(file, kind, messages, opened, both);
+    const again = (...both: [string, string]): Promise<void> => openPoints(file, kind, host, opened, both);
     if (error instanceof ColumnsError && error.names.length > 1)
       return askColumns(file.name, error.names, kind, messages, again);
-    const said = error instanceof TableError ? error.message : "the file cannot be read";
-    return messages.show(`${file.name}:`, `${said}${/[.?!]$/.test(said) ? "" : "."} Nothing has changed.`);
+    return messages.show(named, unchanged(error instanceof TableError ? error.message : "the file cannot be read"));
   }
-  messages.close();
-  opened(points);
+  if ("room" in points) return host.pass(points.room, file, points.columns);
+  const found = points;
+  const { leftOut, wrong, guess } = found;
+  const open = (): void => {
+    messages.close();
+    opened(found);
+    if (guess !== null) messages.show(named, `it does not say its encoding; read as ${guess}.`);
+  };
+  if (leftOut === 0) return open();
+  const rows = leftOut === 1 ? "this row" : `these ${counted(leftOut)} rows`;
+  messages.show(named, unchanged(wrong), { words: `Open without ${rows}`, act: open });
 }
 
 /** Asks which columns of a file are meant; `chosen` gets two names. */

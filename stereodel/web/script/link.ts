@@ -10,8 +10,11 @@ export type RoomName = (typeof ROOMS)[number];
 /** Sites that a link holds; more are named but not held. */
 export const MOST_SITES = 2000;
 
-/** Letters of the longest link that is read: 2 000 places with all digits, and room for everything else. */
-const LONGEST = 131072;
+/** Letters of a table that a link holds: 2 000 places with all digits and a name of thirty letters each. */
+export const LETTERS = 120_000;
+
+/** Letters of the longest link that is read. */
+const LONGEST = 131_072;
 
 /** A link that says nothing that can be shown. */
 export class LinkError extends Error {}
@@ -46,24 +49,19 @@ export class LinkValues extends Map<string, string> {
   }
 
   /** A whole number in [low, high]. */
-  whole(name: string, low: number, high: number, otherwise: number): number {
-    const value = this.number(name, low, high, otherwise);
+  whole(name: string, low: number, high: number): number {
+    const value = this.number(name, low, high, NaN);
     if (!Number.isInteger(value)) throw new LinkError(`${name} is not a whole number`);
     return value;
-  }
-
-  /** A longitude and a latitude, degrees, whose names begin alike. */
-  place(name: string, [lon, lat]: readonly [number, number]): [number, number] {
-    return [this.number(`${name}lon`, -360, 360, lon), this.number(`${name}lat`, -90, 90, lat)];
   }
 
   /** Pairs of coordinates, (n, 2); null where the link holds none. */
   places(name: string): Float64Array | null {
     const text = this.get(name);
     if (text === undefined) return null;
-    const places = Float64Array.from(text === "" ? [] : text.split(","), numberOf);
-    if (places.length % 2 !== 0 || places.length > 2 * MOST_SITES || !places.every(Number.isFinite))
-      throw new LinkError("the link holds half a site, too many, or one that is nowhere");
+    const places = text === "" ? new Float64Array(0) : numbersOf(text);
+    if (places.length % 2 !== 0 || !places.every(Number.isFinite))
+      throw new LinkError("the link holds half a site, or one that is nowhere");
     return places;
   }
 
@@ -79,11 +77,12 @@ export class LinkValues extends Map<string, string> {
 
 /**
  * Reads the fragment of an address, with or without its `#`.
+ * @param longest Letters that it may have.
  * @throws LinkError where it is neither empty, nor the name of a room, nor a state of this version.
  */
-export function readLink(hash: string): Link {
+export function readLink(hash: string, longest = LONGEST): Link {
   const text = hash.replace(/^#/, "");
-  if (text.length > LONGEST) throw new LinkError("the link is too long");
+  if (text.length > longest) throw new LinkError("the link is too long");
   const alone = ROOMS.find((room) => room === (text || "sphere"));
   if (alone !== undefined) return { room: alone, values: new LinkValues() };
   const values = valuesOf(text.split("&"));
@@ -122,15 +121,14 @@ export function writeNumber(value: number, decimals: number): string {
   return String(Number(value.toFixed(decimals)));
 }
 
-/** A longitude and a latitude as values of a link. */
-export function writePlace(name: string, place: readonly [number, number], decimals: number): Record<string, string> {
-  const [lon, lat] = place.map((degrees) => writeNumber(degrees, decimals));
-  return { [`${name}lon`]: lon, [`${name}lat`]: lat };
-}
-
 /** Pairs of coordinates as `LinkValues.places` reads them: numbers with all their digits. */
 export function packPlaces(places: Float64Array): string {
   return places.join(",");
+}
+
+/** Numbers between commas. */
+export function numbersOf(text: string): Float64Array {
+  return Float64Array.from(text.split(","), numberOf);
 }
 
 /** NaN for what is no plain number. */

@@ -1,20 +1,27 @@
 /** The page: head and foot, rooms by the fragment of the address, files that are dropped, exports, states. */
 
-import { Contents } from "./contents.ts";
+import { Contents, type Given } from "./contents.ts";
 import { field, find } from "./dom.ts";
 import type { Exchange } from "./exchange.ts";
 import { load } from "./kernel/instance.ts";
 import { laterScript } from "./later_script.ts";
 import type { LiftRoomMaker } from "./lift.ts";
-import { LinkError, LinkValues, readLink, ROOMS, writeLink, type RoomName } from "./link.ts";
+import { LinkError, LinkValues, readLink, ROOMS, writeLink, type Link, type RoomName } from "./link.ts";
 import { Announcer, Messages } from "./messages.ts";
 import type { Room, RoomHost } from "./room.ts";
-import { NAMED } from "./rooms/controls.ts";
+import { Choice, NAMED, NumberField } from "./rooms/controls.ts";
 import { globeRoom } from "./rooms/globe.ts";
 import { sphereRoom } from "./rooms/sphere.ts";
 
 /** Milliseconds of rest after which the address tells the state. */
 const REST = 300;
+
+/** What the colours may be; without a word those of the system. */
+const COLOURS = ["", "light", "dark"] as const;
+type Colours = (typeof COLOURS)[number];
+
+/** What a link says of a table. */
+const TABLE = ["sites", "names", "name", "values"];
 
 type Makers = Record<RoomName, (host: RoomHost) => Room | Promise<Room>>;
 
@@ -25,13 +32,28 @@ class Page {
   readonly #messages = new Messages(find(document, "#messages"));
   readonly #announcer = new Announcer(find(document, "#status"));
   readonly #rooms = new Map<RoomName, Room>();
+  readonly #colours = new Choice<Colours>(document, "colours", () => {
+    this.#paint(this.#colours.value);
+    this.#guarded(() => this.#room?.redraw());
+    this.#changed(false);
+  });
+  /** The document as it came. */
+  readonly #source: Node;
+  /** What a page that was saved shows before anything else; its table is there for links that name it. */
+  readonly #saved: Link | null;
+  /** The room of an address that names none, and what its maker calls the page. */
+  readonly #begin: RoomName;
+  readonly #title: string;
   #name: RoomName = "sphere";
   #timer: ReturnType<typeof setTimeout> | undefined;
   #isStep = false;
 
-  constructor(contents: Contents, makers: Makers) {
+  constructor(contents: Contents, makers: Makers, source: Node, saved: string, given: Given | null) {
     this.#contents = contents;
     this.#makers = makers;
+    [this.#begin, this.#title] = [given === null ? "sphere" : "globe", given?.owner?.title ?? ""];
+    this.#source = source;
+    this.#saved = saved === "" ? null : readLink(saved, Infinity);
     this.#exchange = laterScript(contents, "exchange");
   }
 
@@ -62,8 +84,10 @@ class Page {
       contents: this.#contents,
       announcer: this.#announcer,
       messages: this.#messages,
+      exchange: this.#exchange,
       changed: (isStep = false) => this.#changed(isStep),
       guarded: (body) => this.#guarded(body),
+      pass: (...what) => this.#pass(...what),
     });
     const room = this.#rooms.get(name) ?? made; // it may have been entered twice meanwhile
     if (!this.#rooms.has(name)) room.attach(find(document, `#room-${name}`));
@@ -75,15 +99,22 @@ class Page {
   async #follow(): Promise<void> {
     clearTimeout(this.#timer);
     const link = this.#read(
-      () => readLink(location.hash),
+      () =>
+        (location.hash === "" && this.#rooms.size === 0 ? this.#saved : null) ?? readLink(location.hash || this.#begin),
       () => ({ room: this.#name, values: new LinkValues() }),
     );
+    const saved = this.#saved?.values;
+    if (saved?.has("name") && saved.get("name") === link.values.get("file"))
+      for (const name of TABLE) if (saved.has(name)) link.values.set(name, saved.get(name)!);
     this.#enter(link.room);
     const isNew = link.values.size > 0 || !this.#rooms.has(link.room);
     try {
       const room = this.#room ?? (await this.#made(link.room));
       if (this.#name !== link.room) return; // the reader is in another room by now
-      const [restore, anew] = [link.values, new LinkValues()].map((values) => () => room.restore(values));
+      const [restore, anew] = [link.values, new LinkValues()].map((values) => () => {
+        if (values.size > 0) this.#paint(values.word("colours", COLOURS, ""));
+        room.restore(values);
+      });
       this.#guarded(() => isNew && this.#read(restore, anew));
       this.#python();
     } catch (error) {
@@ -109,7 +140,8 @@ class Page {
     for (const link of document.querySelectorAll<HTMLAnchorElement>(".rooms a")) {
       link.ariaCurrent = link.hash === `#${name}` ? "page" : null;
     }
-    document.title = `${name[0].toUpperCase()}${name.slice(1)} · stereodel`;
+    const title = name === "globe" && this.#title;
+    document.title = title || `${name[0].toUpperCase()}${name.slice(1)} · stereodel`;
   }
 
   /** The address and the Python lines follow the state once the hand rests. */
@@ -118,11 +150,21 @@ class Page {
     clearTimeout(this.#timer);
     this.#timer = setTimeout(() => {
       if (this.#room === undefined) return;
-      const hash = `#${writeLink(this.#name, this.#room.state())}`;
+      const hash = `#${this.#link(this.#room.state(false))}`;
       if (hash !== location.hash) history[this.#isStep ? "pushState" : "replaceState"](null, "", hash);
       this.#isStep = false;
       this.#python();
     }, REST);
+  }
+
+  /** The fragment of a state of the room, with the colours where they are not those of the system. */
+  #link(state: Record<string, string>): string {
+    const colours = this.#colours.value;
+    return writeLink(this.#name, colours === "" ? state : { ...state, colours });
+  }
+
+  #paint(colours: Colours): void {
+    document.documentElement.dataset["colours"] = this.#colours.value = colours;
   }
 
   #guarded(body: () => void): void {
@@ -169,12 +211,7 @@ class Page {
         this.#exchanging((...both) => this.#export(button.dataset["export"] ?? "", ...both)),
       );
     }
-    for (const choice of foot.querySelectorAll<HTMLInputElement>("input[name=colours]")) {
-      choice.addEventListener("change", () => {
-        document.documentElement.dataset["colours"] = choice.value;
-        this.#guarded(() => this.#room?.redraw());
-      });
-    }
+    new NumberField(foot, "png-scale", 0, () => {});
     find(foot, "details").addEventListener("toggle", () => this.#python());
   }
 
@@ -186,8 +223,14 @@ class Page {
     done.catch((error: unknown) => this.#failed(error));
   }
 
-  #open(file: File | undefined): void {
-    if (file !== undefined) this.#exchanging((room, exchange) => room.open(file, exchange));
+  #open(file: File | undefined, columns?: [string, string]): void {
+    if (file !== undefined) this.#exchanging((room, exchange) => room.open(file, exchange, columns));
+  }
+
+  async #pass(name: RoomName, file: File, columns?: [string, string]): Promise<void> {
+    history.pushState(null, "", `#${name}`);
+    await this.#follow();
+    this.#open(file, columns);
   }
 
   async #export(kind: string, room: Room, exchange: Exchange): Promise<void> {
@@ -195,17 +238,22 @@ class Page {
     if (kind === "svg") exchange.download(`${name}.svg`, exchange.sheetSvg(room.sheet()), "image/svg+xml");
     else if (kind === "png") {
       const scale = field(document, "png-scale").valueAsNumber;
-      exchange.download(`${name}.png`, await exchange.sheetPng(room.sheet(), scale >= 1 && scale <= 8 ? scale : 2));
+      exchange.download(`${name}.png`, await exchange.sheetPng(room.sheet(), scale));
     } else if (kind === "geojson") {
       const text = room.geojson(exchange);
       if (text !== null) exchange.download(`${name}.geojson`, text, "application/geo+json");
+    } else if (kind === "csv") {
+      const text = room.csv(exchange);
+      if (text !== null) exchange.download("sites.csv", text, "text/csv"); // as the lines of Python call it
+    } else if (kind === "page") {
+      exchange.download(`${name}.html`, await exchange.savedPage(this.#source, this.#link(room.state(true))));
     } else {
-      const state = room.state();
-      const link = `${location.href.split("#")[0]}#${writeLink(this.#name, state)}`;
+      const state = room.state(false);
+      const link = `${location.href.split("#")[0]}#${this.#link(state)}`;
       const copied = Promise.resolve(link).then((text) => navigator.clipboard.writeText(text));
       const problem: unknown = await copied.catch(String);
       const what = "file" in state ? "file" : "picture";
-      const left = `The link names the ${what} but does not hold its ${NAMED[what]}; send the file along.`;
+      const left = `The link names the ${what} but does not hold its ${NAMED[what]}; ${what === "file" ? "save the page" : "send the file along"}.`;
       const words = problem ? "Nothing can be copied here; the link is the page's address." : "Link copied.";
       this.#messages.show("", what in state && !problem ? left : words);
     }
@@ -229,21 +277,26 @@ function placeMarks(): void {
 }
 
 async function main(): Promise<void> {
+  const source = document.documentElement.cloneNode(true);
   placeMarks();
+  // The drawing alone, in a frame of another page.
+  if (new URLSearchParams(location.search).has("frame")) document.documentElement.classList.add("framed");
   const contents = Contents.ofDocument();
   const loaded = contents.kernel().then(load);
   const stored: Record<string, Float64Array> = {}; // before the rooms are made, so that links can name them
   for (const name of ["gap", "everywhere", "hemisphere", "cities", "airports", "stars", "sheet"])
     stored[name] = await contents.set(name);
-  const given = await contents.given();
+  const [given, saved] = [await contents.given(), await contents.state()];
+  const latitude = await contents.latitude();
   const lift = laterScript<LiftRoomMaker>(contents, "lift");
   await loaded;
   document.body.classList.remove("loading");
-  const page = new Page(contents, {
+  const makers: Makers = {
     sphere: (host) => sphereRoom(host, stored, given),
     lift: async (host) => (await lift())(host, stored["sheet"]),
-    globe: globeRoom,
-  });
+    globe: (host) => globeRoom(host, given, latitude),
+  };
+  const page = new Page(contents, makers, source, saved, given);
   await page.start();
   document.documentElement.dataset["ready"] = "true";
 }

@@ -17,7 +17,7 @@ import { Plate } from "./drawing/plate.ts";
 import { lonlatToXyz, MoebiusMap, SphericalVoronoi } from "./kernel/api.ts";
 import { lonLatOf, row, type Vector } from "./space.ts";
 import { arrowStep, grabBall, type Turnable } from "./view/ball_hand.ts";
-import { distance, follow, type Gestures, type Place } from "./view/hand.ts";
+import { distance, follow, isCommand, type Gestures, type Place } from "./view/hand.ts";
 import { seenThrough, sourceOf } from "./view/lens.ts";
 import { Motion } from "./view/motion.ts";
 import { pointUnder, View } from "./view/view.ts";
@@ -93,7 +93,7 @@ export class NotebookGlobe implements Turnable {
     if (sites !== undefined) {
       const bytes = sites.buffer.slice(sites.byteOffset, sites.byteOffset + sites.byteLength);
       this.#sites = lonlatToXyz(new Float64Array(bytes));
-      this.#cells = arcLayer("voronoi", ridgeArcs(new SphericalVoronoi(this.#sites)));
+      this.#cells = arcLayer("cell", ridgeArcs(new SphericalVoronoi(this.#sites)));
       this.#dots = dotLayer("site", this.#sites);
       this.#walked = -1;
     }
@@ -176,7 +176,7 @@ export class NotebookGlobe implements Turnable {
   }
 
   #key(event: KeyboardEvent): boolean {
-    if (event.ctrlKey) return false;
+    if (isCommand(event)) return false;
     const step = arrowStep(event);
     const acts: Record<string, () => void> = {
       "+": () => this.#magnify(STEP),

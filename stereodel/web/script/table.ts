@@ -61,7 +61,18 @@ export class SiteTable {
 
   /** Shows other sites. */
   show(rows: Rows): void {
+    const before = this.#rows;
     this.#rows = rows;
+    if (rows.heads === before.heads && rows.count === before.count && rows.names === before.names) {
+      // As while a site is dragged: cells change in a fraction of the time in which rows are made.
+      for (const row of this.#body.querySelectorAll<HTMLElement>("tr[data-site]")) {
+        const cells = [...row.querySelectorAll("td:not(.name)")];
+        rows.cells(Number(row.dataset["site"])).forEach((words, k) => {
+          if (cells[k].textContent !== words) cells[k].textContent = words;
+        });
+      }
+      return;
+    }
     this.#table.hidden = rows.count === 0;
     this.#table.ariaRowCount = String(rows.count + 1);
     const heads = [rows.noun ?? "Site", ...(rows.names ? ["Name"] : []), ...rows.heads].map((head) => {
@@ -126,7 +137,7 @@ export class SiteTable {
       "tr",
       { className: this.#held.has(site) ? "on" : "", ariaRowIndex: String(site + 2) },
       head,
-      ...(name === undefined ? [] : [make("td", "name", name)]),
+      ...(name === undefined ? [] : [make("td", { className: "name", title: name }, name)]),
       ...this.#rows.cells(site).map((cell) => make("td", "", cell)),
     );
     row.dataset["site"] = String(site);

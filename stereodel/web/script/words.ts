@@ -8,6 +8,11 @@ export function fixed(value: number, decimals: number): string {
   return /^-0(\.0*)?$/.test(text) ? text.slice(1) : text.replace("-", "\u2212");
 }
 
+/** A size above 0 with so many decimals, or more until there are three digits. */
+export function sized(value: number, decimals: number): string {
+  return fixed(value, Math.max(decimals, Math.min(20, 2 - Math.floor(Math.log10(value)))));
+}
+
 /** A count, in groups of three from five digits on. */
 export function counted(value: number): string {
   return value < 10_000 ? String(value) : String(value).replace(/\B(?=(\d{3})+$)/g, NARROW);

@@ -6,7 +6,16 @@ import type { MoebiusMap, SphericalDelaunay, SphericalVoronoi } from "../kernel/
 import { angle, cross, DEGREE, directionOf, dot, row, unit, type Vector } from "../space.ts";
 import { arcThrough, bentRings, holdsHidden, traceArc, traceCap, traceOutlines, traceRegions } from "./arcs.ts";
 import type { Side } from "./arcs.ts";
-import { traceCorners, traceSegment, type Disc, type Path, type Pen, type Point, type Trace } from "./pen.ts";
+import {
+  traceCorners,
+  traceDisc,
+  traceSegment,
+  type Disc,
+  type Path,
+  type Pen,
+  type Point,
+  type Trace,
+} from "./pen.ts";
 import type { DotName, StyleName } from "./styles.ts";
 
 /** The longest arc of a circle that is drawn by three points, radians: they are well apart, and tell its sense. */
@@ -19,6 +28,8 @@ export interface Layer {
   readonly directions: Directions;
   /** Draws images of the directions under a map, in the axes of the view. */
   draw(pen: Pen, disc: Disc, images: Float64Array, map: MoebiusMap): void;
+  /** The outlines of its regions alone. */
+  readonly outlines?: Layer;
 }
 
 /** Draws layers one over the other; `map` takes them to the axes of the view: x right, y up, z toward the reader. */
@@ -63,10 +74,26 @@ export function dotLayer(style: DotName, points: Float64Array): Layer {
   });
 }
 
+/** Dots with radii and inks of their own: the largest lowest, and those of one ink together. */
+export function spotLayer(points: Float64Array, radii: ArrayLike<number>, inks: readonly string[]): Layer {
+  const order = Array.from(inks.keys()).filter((k) => radii[k] > 0);
+  order.sort((a, b) => radii[b] - radii[a] || (inks[a] < inks[b] ? -1 : inks[a] > inks[b] ? 1 : a - b));
+  return layerOf(Float64Array.from(order.flatMap((k) => row(points, k))), (pen, disc, images) => {
+    const seen = order.map((_, i) => i).filter((i) => images[3 * i + 2] >= 0);
+    const places = seen.flatMap((i) => [...placeOf(disc, row(images, i)), radii[order[i]]]);
+    const shown = seen.map((i) => inks[order[i]]);
+    pen.clipped(
+      (path) => traceDisc(path, disc),
+      () => pen.spots(places, shown),
+    ); // the margin has no room for large ones
+  });
+}
+
 /**
  * Regions on the left of rings, filled and outlined, such as land with its coast.
  * @param outline Style of the rings as lines, if they are drawn.
  * @param place A direction far from all rings, and whether it is in the regions.
+ * @param ink Of the data, in place of that of the style.
  */
 export function regionLayer(
   fill: StyleName,
@@ -75,16 +102,21 @@ export function regionLayer(
   offsets: ArrayLike<number>,
   place: Vector,
   inside: boolean,
+  ink?: string,
 ): Layer {
   const withPlace = new Float64Array(points.length + 3);
   withPlace.set(points);
   withPlace.set(place, points.length);
-  return layerOf(withPlace, (pen, disc, images, map) => {
-    const rings = bentRings(points, { points: images.subarray(0, points.length), offsets }, map, disc.r);
-    const holds = holdsHidden(rings, row(images, points.length / 3), inside);
-    pen.draw(fill, (path) => traceRegions(path, disc, rings, holds));
-    if (outline !== null) pen.draw(outline, (path) => traceOutlines(path, disc, rings));
-  });
+  const directions = new Directions(withPlace);
+  const drawn = (isFilled: boolean): Layer["draw"] => {
+    return (pen, disc, images, map) => {
+      const rings = bentRings(points, { points: images.subarray(0, points.length), offsets }, map, disc.r);
+      const holds = holdsHidden(rings, row(images, points.length / 3), inside);
+      if (isFilled) pen.draw(fill, (path) => traceRegions(path, disc, rings, holds), ink);
+      if (outline !== null) pen.draw(outline, (path) => traceOutlines(path, disc, rings));
+    };
+  };
+  return { directions, draw: drawn(true), outlines: { directions, draw: drawn(false) } };
 }
 
 /** Land with its coast. */
@@ -159,6 +191,19 @@ export function circlePoints(center: Vector, radius: number): Vector[] {
 /** Degrees between points along the side of a region. */
 const FINE = 1;
 
+/** Lines through places, rows of longitude and latitude in degrees, as arcs. */
+export function lineArcs({ lonlat, offsets }: Places): Float64Array {
+  const points = lonlatToXyz(lonlat);
+  const arcs: number[] = [];
+  for (let line = 0; line + 1 < offsets.length; ++line) {
+    for (let k = offsets[line] + 1; k < offsets[line + 1]; ++k) {
+      const [a, b] = [row(points, k - 1), row(points, k)];
+      pushAll(arcs, a, unit([a[0] + b[0], a[1] + b[1], a[2] + b[2]]), b);
+    }
+  }
+  return Float64Array.from(arcs);
+}
+
 /** Where a direction is on the picture. */
 export function placeOf(disc: Disc, point: Vector): [number, number] {
   return [disc.x + disc.r * point[0], disc.y - disc.r * point[1]];
@@ -181,19 +226,29 @@ export interface Surface {
   region(path: Path, sites: readonly number[], holds: boolean): void;
 }
 
-/** A ball. @param look Directions of the sites, axes of the view. */
-export function ballSurface(disc: Disc, look: (site: number) => Vector): Surface {
+/** A ball. @param look Directions of the sites, before `map`, which takes them to the axes of the view; without one there. */
+export function ballSurface(disc: Disc, look: (site: number) => Vector, map: MoebiusMap | null = null): Surface {
+  const seen = (points: readonly Vector[]): Float64Array => {
+    const directions = Float64Array.from(points.flat());
+    return map?.apply(directions) ?? directions;
+  };
+  const image = (site: number): Vector => (map === null ? look(site) : row(seen([look(site)]), 0));
   const sides = (sites: readonly number[]): [number, number][] =>
     sites.map((a, k) => [a, sites[(k + 1) % sites.length]]);
-  const line = (path: Path, a: number, b: number, side?: Side): void => traceGreat(path, disc, look(a), look(b), side);
+  const line = (path: Path, from: number, to: number, side?: Side): void => {
+    const [a, b] = [look(from), look(to)];
+    traceArc(path, disc, seen([a, unit([a[0] + b[0], a[1] + b[1], a[2] + b[2]]), b]), 0, 1, 2, side);
+  };
   return {
-    place: (site) => placeOf(disc, look(site)),
-    isSeen: (site) => look(site)[2] >= 0,
+    place: (site) => placeOf(disc, image(site)),
+    isSeen: (site) => image(site)[2] >= 0,
     line,
     ring: (path, sites) => sides(sites).forEach(([a, b]) => line(path, a, b)),
     region(path, sites, holds) {
       const points = sides(sites).flatMap(([a, b]) => along(look(a), look(b)));
-      traceRegions(path, disc, { points: Float64Array.from(points.flat()), offsets: [0, points.length] }, holds);
+      const rings = { points: seen(points), offsets: [0, points.length] };
+      const bent = map === null ? rings : bentRings(Float64Array.from(points.flat()), rings, map, disc.r);
+      traceRegions(path, disc, bent, holds);
     },
   };
 }

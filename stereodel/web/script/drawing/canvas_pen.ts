@@ -3,12 +3,15 @@
 import { LIGHT, Pen, textParts, traceDisc } from "./pen.ts";
 import type { Disc, Gradient, Path, Picture, Trace } from "./pen.ts";
 import * as styles from "./styles.ts";
-import type { Colours, DotName, LabelStyle, Style, StyleName } from "./styles.ts";
+import type { Colours, DotName, DotStyle, LabelStyle, Style, StyleName } from "./styles.ts";
 
 /** Arcs of ellipses that are stroked at once: browsers need quadratic time for paths of thousands. */
 const MOST_ARCS = 256;
 
-/** Dots beyond which they are squares, which are filled in a tenth of the time. */
+/** Radius of dots, pixels, that look like squares of their area, which are filled in a tenth of the time. */
+const TINY = 1.6;
+
+/** Dots beyond which all are squares. */
 const MANY_DOTS = 20_000;
 
 type Context = CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D;
@@ -25,27 +28,26 @@ export class CanvasPen extends Pen {
     context.imageSmoothingQuality = "high";
   }
 
-  draw(name: StyleName, trace: Trace): void {
-    const style: Style = styles.STYLES[name];
+  protected path(_: StyleName, style: Style, trace: Trace, ink?: string): void {
     const context = this.#context;
     if (style.fill === undefined && style.hatch === undefined) {
       this.#line(style);
       const path = strokedPath(context);
-      trace(path);
-      path.flush();
+      this.#faint(style.strokeOpacity, () => {
+        trace(path);
+        path.flush();
+      });
       return;
     }
     context.beginPath();
     trace(context);
     if (style.hatch !== undefined) this.#hatch(style.hatch === "crossed");
     if (style.fill !== undefined) {
-      context.fillStyle = this.colours[style.fill];
-      context.globalAlpha *= style.fillOpacity ?? 1;
-      context.fill();
-      context.globalAlpha /= style.fillOpacity ?? 1;
+      context.fillStyle = ink ?? this.colours[style.fill];
+      this.#faint(style.fillOpacity, () => context.fill());
     }
     if (style.stroke !== undefined) {
-      this.#line(style);
+      this.#line(style, ink);
       context.stroke();
     }
   }
@@ -66,16 +68,26 @@ export class CanvasPen extends Pen {
     });
   }
 
-  dots(name: DotName, places: ArrayLike<number>): void {
-    const { radius: r, fill, rim, rimWidth } = styles.DOTS[name];
+  protected discs(_: DotName, { radius: r, fill, rim, rimWidth, opacity }: DotStyle, places: ArrayLike<number>): void {
     const context = this.#context;
-    if (places.length > 2 * MANY_DOTS) {
-      context.fillStyle = this.colours[fill];
-      for (let k = 0; k < places.length; k += 2) context.fillRect(places[k] - r / 2, places[k + 1] - r / 2, r, r);
-      return;
-    }
-    this.#discs(places, r + rimWidth / 2, this.colours[rim]);
-    this.#discs(places, r - rimWidth / 2, this.colours[fill]);
+    this.#faint(opacity, () => {
+      if (r < TINY || places.length > 2 * MANY_DOTS) {
+        const side = Math.sqrt(Math.PI) * Math.min(r, TINY);
+        context.fillStyle = this.colours[fill];
+        for (let k = 0; k < places.length; k += 2)
+          context.fillRect(places[k] - side / 2, places[k + 1] - side / 2, side, side);
+        return;
+      }
+      this.#discs(places, r + rimWidth / 2, this.colours[rim]);
+      this.#discs(places, r - rimWidth / 2, this.colours[fill]);
+    });
+  }
+
+  #faint(opacity = 1, body: () => void): void {
+    const before = this.#context.globalAlpha;
+    this.#context.globalAlpha *= opacity;
+    body();
+    this.#context.globalAlpha = before;
   }
 
   /** Discs about places; some at a time, as a call for each takes longer than the discs. */
@@ -90,6 +102,29 @@ export class CanvasPen extends Pen {
       }
       context.fill();
     }
+  }
+
+  spots(places: ArrayLike<number>, inks: readonly string[]): void {
+    const context = this.#context;
+    this.#line(styles.STYLES["spot-line"]);
+    inks.forEach((ink, k) => {
+      // Of one opaque ink some at a time, as dots() has them.
+      if (k % MOST_ARCS === 0 || ink !== inks[k - 1] || !ink.endsWith("/ 1)")) context.beginPath();
+      const [x, y, r] = [places[3 * k], places[3 * k + 1], places[3 * k + 2]];
+      context.moveTo(x + r, y);
+      context.arc(x, y, r, 0, 2 * Math.PI);
+      if ((k + 1) % MOST_ARCS !== 0 && inks[k + 1] === ink && ink.endsWith("/ 1)")) return;
+      context.fillStyle = ink;
+      context.fill();
+      context.stroke();
+    });
+  }
+
+  lowered(by: number, body: () => void): void {
+    this.#kept(() => {
+      this.#context.translate(0, by);
+      body();
+    });
   }
 
   label(text: string, x: number, y: number, style: LabelStyle): void {
@@ -112,8 +147,8 @@ export class CanvasPen extends Pen {
     context.textAlign = "left";
     context.setLineDash([]);
     context.lineWidth = styles.HALO_WIDTH;
-    context.strokeStyle = this.colours[style.halo];
-    context.fillStyle = this.colours[style.ink];
+    context.strokeStyle = this.inkOf(style.halo);
+    context.fillStyle = this.inkOf(style.ink);
     each((words, at) => context.strokeText(words, at, y));
     each((words, at) => context.fillText(words, at, y));
   }
@@ -122,8 +157,8 @@ export class CanvasPen extends Pen {
     this.#context.drawImage(picture, x, y, width, height);
   }
 
-  #line(style: Style): void {
-    this.#context.strokeStyle = this.colours[style.stroke ?? "ink"];
+  #line(style: Style, ink = this.colours[style.stroke ?? "ink"]): void {
+    this.#context.strokeStyle = ink;
     this.#context.lineWidth = (style.width ?? 1) * this.weight;
     this.#context.setLineDash([...(style.dash ?? [])]);
   }
@@ -155,16 +190,17 @@ export class CanvasPen extends Pen {
     });
   }
 
-  /** The place of a gradient is that of an object's bounding box in SVG. */
   protected fillDisc(disc: Disc, fill: string | Gradient): void {
     const context = this.#context;
     const { x, y, r } = disc;
     if (typeof fill === "string") context.fillStyle = fill;
     else {
-      const [cx, cy] = [x + (LIGHT.x - 0.5) * 2 * r, y + (LIGHT.y - 0.5) * 2 * r];
-      const gradient = context.createRadialGradient(cx, cy, 0, cx, cy, LIGHT.r * 2 * r);
-      gradient.addColorStop(fill.from, fill.inner);
-      gradient.addColorStop(1, fill.outer);
+      const [focus, last] = [
+        [x + LIGHT.fx * r, y + LIGHT.fy * r, 0],
+        [x + LIGHT.cx * r, y + LIGHT.cy * r, LIGHT.r * r],
+      ] as const;
+      const gradient = context.createRadialGradient(...focus, ...last);
+      for (const stop of fill.stops) gradient.addColorStop(...stop);
       context.fillStyle = gradient;
     }
     context.beginPath();

@@ -1,6 +1,9 @@
 /** The one interface through which rooms draw: the same trace becomes pixels or SVG. Pixels of the screen, y down. */
 
-import { HANDLE_CROSS, HANDLE_RADIUS, type Colours, type DotName, type LabelStyle, type StyleName } from "./styles.ts";
+import type { Owner } from "../rooms/owner.ts";
+import { eachDots, eachLines, Ink } from "./density.ts";
+import { DOTS, HANDLE_CROSS, HANDLE_RADIUS, STYLES } from "./styles.ts";
+import type { Colours, DotName, DotStyle, LabelStyle, Style, StyleName, Token } from "./styles.ts";
 
 /** What a trace is laid into: a part of the canvas's own interface. */
 export interface Path {
@@ -35,15 +38,24 @@ export interface Disc {
 /** A picture that is laid into the drawing. */
 export type Picture = HTMLCanvasElement | OffscreenCanvas;
 
-/** Where the light falls on a ball: middle and radius of the gradient as parts of the ball's square. */
-export const LIGHT = { x: 0.42, y: 0.38, r: 0.68 };
+/** Where the light falls on a ball of radius 1, as on those of the library (`stereodel/render/vector/paper.py`): the
+ * focus of the gradient, middle and radius of its last circle, y down; and how much of its fall lies before some places. */
+export const LIGHT = { fx: -0.5065, fy: -0.6512, cx: -0.0756, cy: -0.0972, r: 1.1231 };
+const FALL = [0.249, 0, 0.462, 0.015, 0.64, 0.056, 0.716, 0.096, 0.782, 0.153, 0.84, 0.229];
+FALL.push(0.889, 0.325, 0.929, 0.445, 0.96, 0.585, 0.982, 0.735, 1, 1);
 
-/** From the light outward: the inner colour up to a part of the radius, then gradually the outer one. */
+/** Colours from the light outward, at places from 0 to 1 between which they are even. */
 export interface Gradient {
   readonly id: string;
-  readonly from: number;
-  readonly inner: string;
-  readonly outer: string;
+  readonly stops: readonly (readonly [number, string])[];
+}
+
+/** Light that falls off from a colour to another one. */
+function falling(id: string, ...ends: [string, string]): Gradient {
+  const [from, to] = ends.map((colour) => [...(colour.match(/[\d.]+/g) ?? []).map(Number), 1]);
+  const mixed = (share: number): string => [0, 1, 2, 3].map((k) => from[k] + share * (to[k] - from[k])).join(" ");
+  const stops = FALL.flatMap((at, k): [number, string][] => (k % 2 === 0 ? [[at, mixed(FALL[k + 1])]] : []));
+  return { id, stops: stops.map(([at, inks]) => [at, `rgb(${inks.replace(/ (\S+)$/, " / $1")})`]) };
 }
 
 export abstract class Pen {
@@ -52,35 +64,67 @@ export abstract class Pen {
   readonly height: number;
   protected readonly colours: Colours;
   protected readonly weight: number;
+  /** How densely nets and dots lie, by their styles; what is drawn of a part of a picture takes what is known of the whole. */
+  readonly inks = new Map<string, Ink>();
+  known: ReadonlyMap<string, Ink> | null = null;
 
   /** @param weight Factor of the widths of lines. */
   constructor(width: number, height: number, colours: Colours, weight: number) {
     [this.width, this.height, this.colours, this.weight] = [width, height, colours, weight];
   }
 
-  /** Draws a path in a style; regions are those about which the path winds. */
-  abstract draw(style: StyleName, trace: Trace): void;
+  /** Draws a path in a style, or in an ink of the data; regions are those about which the path winds, and dense nets are weaker. */
+  draw(name: StyleName, trace: Trace, ink?: string): void {
+    const style: Style = STYLES[name];
+    if (!style.isNet) return this.path(name, style, trace, ink);
+    const { width = 1 } = style;
+    eachLines(trace, width * this.weight, this.#ink(name), (size, opacity, part) =>
+      this.path(name, { ...style, width: size * width, strokeOpacity: opacity }, part, ink),
+    );
+  }
   /** Draws what lies behind, faintly. */
   abstract behind(body: () => void): void;
   /** Draws only inside a region. */
   abstract clipped(trace: Trace, body: () => void): void;
-  /** Dots at x, y in turn. First all rims: where dots lie close, none is hidden by the rim of another. */
-  abstract dots(style: DotName, places: ArrayLike<number>): void;
+  /** Dots at x, y in turn; where they are dense, smaller and weaker. */
+  dots(name: DotName, places: ArrayLike<number>): void {
+    const { radius, rimWidth, ...inks }: DotStyle = DOTS[name];
+    eachDots(places, Math.PI * radius * radius, this.#ink(name), (size, opacity, those) =>
+      this.discs(name, { ...inks, radius: size * radius, rimWidth: size * rimWidth, opacity }, those),
+    );
+  }
+  /** Dots with radii and inks of their own, x, y, r in turn, the lowest first, each with a line around it. */
+  abstract spots(places: ArrayLike<number>, inks: readonly string[]): void;
+  /** Draws something so many pixels lower. */
+  abstract lowered(by: number, body: () => void): void;
   /** Text at a point of its baseline. */
   abstract label(text: string, x: number, y: number, style: LabelStyle): void;
   /** A picture, fitted into a rectangle. */
   abstract picture(picture: Picture, x: number, y: number, width: number, height: number): void;
+  #ink(name: string): Ink {
+    const ink = this.known?.get(name) ?? new Ink(this);
+    this.inks.set(name, ink);
+    return ink;
+  }
+
+  protected inkOf(colour: LabelStyle["ink"]): string {
+    return this.colours[colour as Token] ?? colour;
+  }
+
+  protected abstract path(name: StyleName, style: Style, trace: Trace, ink?: string): void;
+  /** First all rims: where dots lie close, none is hidden by the rim of another. */
+  protected abstract discs(name: DotName, style: DotStyle, places: ArrayLike<number>): void;
   protected abstract fillDisc(disc: Disc, fill: string | Gradient): void;
 
   /** The ground of a ball, lit from the upper left: the pale one of geometry, or water. */
   ball(disc: Disc, ground: "ball" | "ocean"): void {
     const { ball: inner, "ball-rim": outer, ocean } = this.colours;
-    this.fillDisc(disc, ground === "ocean" ? ocean : { id: "ball", from: 0.25, inner, outer });
+    this.fillDisc(disc, ground === "ocean" ? ocean : falling("ball", inner, outer));
   }
 
   /** The shade that makes a disc of land and water round. */
   shade(disc: Disc): void {
-    this.fillDisc(disc, { id: "shade", from: 0.45, inner: "rgb(27 39 48 / 0)", outer: "rgb(27 39 48 / 0.2)" });
+    this.fillDisc(disc, falling("shade", "rgb(27 39 48 / 0)", "rgb(27 39 48 / 0.175)"));
   }
 }
 
@@ -92,6 +136,8 @@ export interface Sheet {
   /** Factor of the widths of lines. */
   readonly weight: number;
   readonly paint: (pen: Pen) => void;
+  /** What the owner of the data says, to be written round it. */
+  readonly owner?: Owner | null;
 }
 
 /** A whole circle. */

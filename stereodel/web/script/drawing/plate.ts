@@ -83,11 +83,11 @@ export class Plate {
     return [event.clientX - box.left, event.clientY - box.top];
   }
 
-  /** The whole drawing, as a picture to take along. */
-  sheet(title: string): Sheet {
+  /** The whole drawing, as a picture to take along. @param isBare Without what only the hand needs. */
+  sheet(title: string, isBare = false): Sheet {
     const paint = (pen: Pen): void => {
       this.#paint(pen, false);
-      this.#overlay?.(pen, false);
+      if (!isBare) this.#overlay?.(pen, false);
     };
     return { title, width: this.width, height: this.height, weight: this.#weight, paint };
   }

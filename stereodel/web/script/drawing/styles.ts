@@ -7,14 +7,18 @@ export interface Style {
   readonly stroke?: Token;
   /** Of the line, pixels. */
   readonly width?: number;
+  readonly strokeOpacity?: number;
   readonly dash?: readonly number[];
   readonly fill?: Token;
   readonly fillOpacity?: number;
   /** Lines 45° steep in place of an even ground; crossed ones for facets that only close the hull. */
   readonly hatch?: "plain" | "crossed";
+  /** Lines of a triangulation: many of them are weaker, as `density.ts` has it. */
+  readonly isNet?: boolean;
 }
 
 export const STYLES = {
+  paper: { fill: "paper" },
   graticule: { stroke: "graticule", width: 0.5 },
   coast: { stroke: "coast", width: 0.7 },
   land: { fill: "land" },
@@ -23,8 +27,9 @@ export const STYLES = {
   limb: { stroke: "limb", width: 1.3 },
   "limb-soft": { stroke: "limb", width: 0.7 },
   "limb-small": { stroke: "limb", width: 1 },
-  delaunay: { stroke: "delaunay", width: 0.9 },
-  voronoi: { stroke: "voronoi", width: 1.1 },
+  delaunay: { stroke: "delaunay", width: 1.1, isNet: true },
+  voronoi: { stroke: "voronoi", width: 0.9, isNet: true },
+  cell: { stroke: "ink", width: 1.1, isNet: true },
   hull: { stroke: "hull", width: 1.3 },
   hatch: { hatch: "plain" },
   closing: { hatch: "crossed" },
@@ -41,6 +46,12 @@ export const STYLES = {
   side: { stroke: "voronoi", width: 1.3 },
   touch: { stroke: "ink", width: 1 },
   tissot: { fill: "tissot", stroke: "coast", width: 0.6 },
+  tint: { fill: "paper", stroke: "paper", width: 0.6 },
+  swatch: { fill: "paper" },
+  tick: { stroke: "ink-2", width: 0.7 },
+  "isoline-halo": { stroke: "halo", width: 2.4 },
+  isoline: { stroke: "ink", width: 0.8 },
+  "spot-line": { stroke: "limb", width: 0.6 },
   "patch-line": { stroke: "accent", width: 1 },
   handle: { stroke: "accent", width: 1.8, fill: "paper" },
   "handle-behind": { stroke: "accent", width: 1.2 },
@@ -50,11 +61,12 @@ export const STYLES = {
 export type StyleName = keyof typeof STYLES;
 
 /** A dot: its radius, its ink and its rim. */
-interface DotStyle {
+export interface DotStyle {
   readonly radius: number;
   readonly fill: Token;
   readonly rim: Token;
   readonly rimWidth: number;
+  readonly opacity?: number;
 }
 
 export const DOTS = {
@@ -68,9 +80,9 @@ export type DotName = keyof typeof DOTS;
 
 /** How a label is set: `*P*` in its text is in italics. */
 export interface LabelStyle {
-  readonly ink: Token;
+  readonly ink: Token | `rgb(${string})`;
   /** The ground that the letters are kept free with. */
-  readonly halo: Token;
+  readonly halo: Token | `rgb(${string})`;
   /** Of the type, pixels. */
   readonly size: number;
   readonly italic?: boolean;
@@ -78,7 +90,7 @@ export interface LabelStyle {
 }
 
 /** Width of the halo round letters, pixels. */
-export const HALO_WIDTH = 3;
+export const HALO_WIDTH = 4;
 
 /** Distance of hatching lines, pixels. */
 export const HATCH_PITCH = 6;

@@ -2,8 +2,8 @@
 
 import { writeNumber } from "../link.ts";
 import { LIGHT, Pen, textParts, type Disc, type Gradient, type Picture, type Trace } from "./pen.ts";
-import { BEHIND, DOTS, HALO_WIDTH, HATCH_PITCH, HATCH_WIDTH, SERIF, STYLES } from "./styles.ts";
-import type { DotName, LabelStyle, Style, StyleName } from "./styles.ts";
+import { BEHIND, HALO_WIDTH, HATCH_PITCH, HATCH_WIDTH, SERIF, STYLES } from "./styles.ts";
+import type { DotName, DotStyle, LabelStyle, Style, StyleName } from "./styles.ts";
 
 /** Decimals of a coordinate, pixels of the screen. */
 const DECIMALS = 3;
@@ -29,14 +29,13 @@ export class SvgPen extends Pen {
     return `${lines.join("\n")}\n</g>\n</svg>\n`;
   }
 
-  draw(name: StyleName, trace: Trace): void {
+  protected path(name: StyleName, style: Style, trace: Trace, ink?: string): void {
     const d = pathData(trace);
     if (d === "") return;
-    const style: Style = STYLES[name];
     const looks: string[] = [];
     if (style.hatch !== undefined) looks.push(`fill="url(#${this.#hatch(style.hatch)})"`);
-    if (style.fill !== undefined) looks.push(paint("fill", this.colours[style.fill], style.fillOpacity));
-    if (style.stroke !== undefined) looks.push(this.#line(style));
+    if (style.fill !== undefined) looks.push(paint("fill", ink ?? this.colours[style.fill], style.fillOpacity));
+    if (style.stroke !== undefined) looks.push(this.#line(style, ink));
     this.#parts.push(`<path class="${name}" ${looks.join(" ")} d="${d}"/>`);
   }
 
@@ -50,9 +49,8 @@ export class SvgPen extends Pen {
     this.#group(`clip-path="url(#${id})"`, body);
   }
 
-  dots(name: DotName, places: ArrayLike<number>): void {
-    if (places.length === 0) return;
-    const { radius, fill, rim, rimWidth } = DOTS[name];
+  protected discs(name: DotName, style: DotStyle, places: ArrayLike<number>): void {
+    const { radius, fill, rim, rimWidth, opacity } = style;
     const r = number(radius - rimWidth / 2);
     const id = `dots-${this.#definitions.length}`;
     const dots: string[] = [];
@@ -60,9 +58,22 @@ export class SvgPen extends Pen {
       dots.push(`<circle cx="${number(places[k])}" cy="${number(places[k + 1])}" r="${r}"/>`);
     }
     this.#definitions.push(`<g id="${id}">${dots.join("")}</g>`);
-    const rims = `fill="none" ${paint("stroke", this.colours[rim])} stroke-width="${number(2 * rimWidth)}"`;
+    const rims = `fill="none" ${paint("stroke", this.colours[rim], opacity)} stroke-width="${number(2 * rimWidth)}"`;
     this.#parts.push(`<use class="${name}-rim" href="#${id}" ${rims}/>`);
-    this.#parts.push(`<use class="${name}" href="#${id}" ${paint("fill", this.colours[fill])}/>`);
+    this.#parts.push(`<use class="${name}" href="#${id}" ${paint("fill", this.colours[fill], opacity)}/>`);
+  }
+
+  spots(places: ArrayLike<number>, inks: readonly string[]): void {
+    const line = this.#line(STYLES["spot-line"]);
+    inks.forEach((ink, k) => {
+      const [x, y, r] = [places[3 * k], places[3 * k + 1], places[3 * k + 2]].map(number);
+      const fill = ink === "transparent" ? "" : ` ${paint("fill", ink)}`;
+      this.#parts.push(`<circle class="spot" cx="${x}" cy="${y}" r="${r}"${fill} ${line}/>`);
+    });
+  }
+
+  lowered(by: number, body: () => void): void {
+    this.#group(`transform="translate(0 ${number(by)})"`, body);
   }
 
   label(text: string, x: number, y: number, style: LabelStyle): void {
@@ -70,9 +81,9 @@ export class SvgPen extends Pen {
     const words = textParts(text, style.italic ?? false)
       .map((part) => (part.italic ? `<tspan font-style="italic">${escaped(part.text)}</tspan>` : escaped(part.text)))
       .join("");
-    const halo = `paint-order="stroke" ${paint("stroke", this.colours[style.halo])} stroke-width="${HALO_WIDTH}"`;
+    const halo = `paint-order="stroke" ${paint("stroke", this.inkOf(style.halo))} stroke-width="${HALO_WIDTH}"`;
     const place = `x="${number(x)}" y="${number(y)}" font-size="${style.size}" text-anchor="${anchor}"`;
-    this.#parts.push(`<text ${place} ${paint("fill", this.colours[style.ink])} ${halo}>${words}</text>`);
+    this.#parts.push(`<text ${place} ${paint("fill", this.inkOf(style.ink))} ${halo}>${words}</text>`);
   }
 
   picture(picture: Picture, x: number, y: number, width: number, height: number): void {
@@ -83,10 +94,10 @@ export class SvgPen extends Pen {
     this.#parts.push(`<image ${place} preserveAspectRatio="none" href="${canvas.toDataURL("image/png")}"/>`);
   }
 
-  #line(style: Style): string {
+  #line(style: Style, ink = this.colours[style.stroke ?? "ink"]): string {
     const dash = style.dash === undefined ? "" : ` stroke-dasharray="${style.dash.join(" ")}"`;
     const width = number((style.width ?? 1) * this.weight);
-    return `${paint("stroke", this.colours[style.stroke ?? "ink"])} stroke-width="${width}"${dash}`;
+    return `${paint("stroke", ink, style.strokeOpacity)} stroke-width="${width}"${dash}`;
   }
 
   #group(attributes: string, body: () => void): void {
@@ -100,11 +111,11 @@ export class SvgPen extends Pen {
     this.#parts.push(`<circle ${looks} cx="${number(x)}" cy="${number(y)}" r="${number(r)}"/>`);
   }
 
-  #gradient({ id, from, inner, outer }: Gradient): string {
-    const stop = (offset: number, colour: string): string =>
-      `<stop offset="${offset}" ${paint("stop-color", colour, 1, "stop-opacity")}/>`;
-    const text = `<radialGradient id="${id}" cx="${LIGHT.x}" cy="${LIGHT.y}" r="${LIGHT.r}">`;
-    return this.#define(id, `${text}${stop(from, inner)}${stop(1, outer)}</radialGradient>`);
+  /** Its places are those of the square round a disc, of side 1. */
+  #gradient({ id, stops }: Gradient): string {
+    const rows = stops.map(([at, ink]) => `<stop offset="${at}" ${paint("stop-color", ink, 1, "stop-opacity")}/>`);
+    const places = Object.entries(LIGHT).map(([name, at]) => `${name}="${number((at + (name === "r" ? 0 : 1)) / 2)}"`);
+    return this.#define(id, `<radialGradient id="${id}" ${places.join(" ")}>${rows.join("")}</radialGradient>`);
   }
 
   #hatch(kind: "plain" | "crossed"): string {

@@ -42,7 +42,7 @@ export class Kept {
   }
 }
 
-/** A compiled module and its present instance. */
+/** @internal A compiled module and its present instance. */
 export class Kernel {
   private readonly module: WebAssembly.Module;
   private instance: Instance | null = null;
@@ -71,7 +71,7 @@ export class Kernel {
   }
 }
 
-/** One call after another; arrays that are handed in are given back when all are done. */
+/** @internal One call after another; arrays that are handed in are given back when all are done. */
 class Instance {
   readonly memory: WebAssembly.Memory;
   private readonly exports: WebAssembly.Exports;
@@ -173,8 +173,21 @@ class Instance {
 let current: Kernel | null = null;
 let loading: Promise<void> | null = null;
 
+/** What is asked of a response of `fetch`: programs without the browser's types have these. */
+export interface KernelResponse {
+  readonly ok: boolean;
+  readonly status: number;
+  readonly statusText: string;
+  arrayBuffer(): Promise<ArrayBuffer>;
+}
+
+/** A compiled `WebAssembly.Module`, of which its type says nothing either. */
+export interface KernelModule {
+  readonly exports?: never;
+}
+
 /** The module as it comes: its bytes, a response of `fetch`, or compiled. */
-export type KernelSource = WebAssembly.Module | BufferSource | Response | PromiseLike<Response>;
+export type KernelSource = ArrayBuffer | ArrayBufferView | KernelResponse | PromiseLike<KernelResponse> | KernelModule;
 
 /**
  * Makes the kernel ready, once for the whole page.
@@ -193,14 +206,14 @@ export function load(source: KernelSource): Promise<void> {
 
 async function compiled(source: KernelSource): Promise<WebAssembly.Module> {
   if (source instanceof WebAssembly.Module) return source;
-  if (source instanceof ArrayBuffer || ArrayBuffer.isView(source)) return WebAssembly.compile(source);
-  const response = await source;
+  if (source instanceof ArrayBuffer || ArrayBuffer.isView(source)) return WebAssembly.compile(source as BufferSource);
+  const response = await (source as KernelResponse | PromiseLike<KernelResponse>);
   if (!response.ok) throw new KernelError(`the kernel could not be fetched: ${response.status} ${response.statusText}`);
   // Not compileStreaming: servers that do not know the type of .wasm are many, and the module compiles in milliseconds.
   return WebAssembly.compile(await response.arrayBuffer());
 }
 
-/** The kernel that was loaded. */
+/** @internal The kernel that was loaded. */
 export function kernel(): Kernel {
   if (current === null) throw new KernelError("the kernel is not loaded: await load() first");
   return current;

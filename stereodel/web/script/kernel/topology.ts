@@ -44,6 +44,9 @@ export function boundaryOf(
   return Int32Array.from(border.sort(([a, b], [c, d]) => a - c || b - d).flat());
 }
 
+/** The next entry of the same row of three. */
+export const following = (entry: number): number => (entry % 3 === 2 ? entry - 2 : entry + 1);
+
 /** Calls visit(u, v, place) for the directed edge opposite each corner, counterclockwise. */
 function forEdges(simplices: Int32Array, visit: (u: number, v: number, opposite: number) => void): void {
   for (let row = 0; row < simplices.length; row += 3) {

@@ -1,31 +1,51 @@
 /** Native inputs of a room: numbers in fields, switches, sets. */
 
-import { field, find } from "../dom.ts";
+import { field, find, make } from "../dom.ts";
+import type { Place } from "../fields.ts";
 import type { LinkValues } from "../link.ts";
 import type { Messages } from "../messages.ts";
 import { counted } from "../words.ts";
-import type { Place } from "./sphere_state.ts";
 
 /** While the reader types, or at the end. */
 type When = "input" | "change";
 
-/** A field of numbers: what is typed and valid is told, and what the hand does is shown. */
+/**
+ * A field of numbers: what is typed is told, and what the hand does is shown. Beyond its ends the field says where these
+ * are, and when the reader is done it takes the nearer one.
+ */
 export class NumberField {
   readonly #input: HTMLInputElement;
   readonly #decimals: number;
+  readonly #reason = make("span", { className: "reason", role: "status" });
+  #shown: string;
 
-  /** @param typed gets each valid number; the browser keeps to `min` and `max`. */
+  /** @param typed gets each number between the ends. */
   constructor(root: ParentNode, name: string, decimals: number, typed: (value: number) => void, when: When = "input") {
-    this.#input = field(root, name);
-    this.#decimals = decimals;
-    this.#input.addEventListener(when, () => {
-      if (this.#input.value !== "" && this.#input.validity.valid) typed(this.#input.valueAsNumber);
-    });
+    const input = field(root, name);
+    [this.#input, this.#decimals, this.#shown] = [input, decimals, input.value];
+    for (const type of ["input", "change"] as const) {
+      input.addEventListener(type, () => {
+        const [now, isDone] = [input.valueAsNumber, type === "change"];
+        const taken = Math.max(Number(input.min || -Infinity), Math.min(Number(input.max || Infinity), now));
+        if (isDone && taken !== now) input.value = Number.isNaN(now) ? this.#shown : String(taken);
+        if (taken === now ? type === when : isDone && !Number.isNaN(now)) typed(taken);
+        if (taken !== now || !isDone) this.#tell(taken, now, isDone);
+      });
+    }
+  }
+
+  /** Says below the field which end a number is beyond. */
+  #tell(end: number, number: number, isDone: boolean): void {
+    const words = end > number ? `${end} is the least.` : end < number ? `${end} is the most.` : "";
+    this.#input.ariaInvalid = words === "" || isDone ? null : "true";
+    this.#reason.textContent = words.replace("-", "\u2212");
+    this.#input.closest("label")?.after(this.#reason);
   }
 
   /** Shows a number, or that there is none, unless one is being typed. */
   set value(value: number | null) {
-    if (document.activeElement !== this.#input) this.#input.value = value?.toFixed(this.#decimals) ?? "";
+    this.#shown = value?.toFixed(this.#decimals) ?? "";
+    if (document.activeElement !== this.#input) this.#input.value = this.#shown;
   }
 }
 
@@ -84,24 +104,35 @@ export class Switches {
     for (const [name, input] of this.#inputs) input.addEventListener("change", () => changed(name));
   }
 
+  /** Is on, or off, where a link says nothing of it. */
+  begin(name: string, isOn: boolean): void {
+    Object.assign(this.#inputs.get(name)!, { checked: isOn, defaultChecked: isOn });
+  }
+
   set(name: string, isOn: boolean): void {
     this.#inputs.get(name)!.checked = isOn;
+  }
+
+  /** Whether there is anything to switch. */
+  offer(name: string, isThere: boolean): void {
+    const input = this.#inputs.get(name)!;
+    input.disabled = !isThere;
+    input.closest<HTMLElement>(".switch")!.hidden = !isThere && name !== "cells";
   }
 
   isOn(name: string): boolean {
     return this.#inputs.get(name)!.checked;
   }
 
-  /** What a link says: names of those that differ from the way the room begins. */
+  /** What a link says: names of those that are on. */
   get values(): Record<string, string> {
-    const turned = [...this.#inputs].filter(([, { checked, defaultChecked }]) => checked !== defaultChecked);
-    return turned.length === 0 ? {} : { turned: turned.map(([name]) => name).join(",") };
+    return { on: [...this.#inputs.keys()].filter((name) => this.isOn(name)).join(",") };
   }
 
-  /** Turns those of a link, and all others back. */
+  /** As a link says, or as the room begins. */
   restore(values: LinkValues): void {
-    const turned = values.text("turned", "").split(",");
-    for (const [name, input] of this.#inputs) input.checked = input.defaultChecked !== turned.includes(name);
+    const on = values.get("on")?.split(",");
+    for (const [name, input] of this.#inputs) input.checked = on?.includes(name) ?? input.defaultChecked;
   }
 }
 

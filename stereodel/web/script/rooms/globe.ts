@@ -1,38 +1,52 @@
 /** The Globe room: the Earth through a fisheye, or one bubble of it sent onto another. */
 
-import { field, find, say } from "../dom.ts";
+import { field, find, plain, say } from "../dom.ts";
 import { regionsOf } from "../drawing/parts.ts";
-import type { Sheet } from "../drawing/pen.ts";
-import type { Reason } from "../drawing/plate.ts";
+import type { Pen, Sheet } from "../drawing/pen.ts";
+import { Plate, type Reason } from "../drawing/plate.ts";
 import type { Exchange } from "../exchange.ts";
 import type { Latitude } from "../kernel/api.ts";
 import type { LinkValues } from "../link.ts";
 import type { Painted } from "../panorama.ts";
 import type { Room, RoomHost } from "../room.ts";
-import { directionOf, lonLatOf, type Vector } from "../space.ts";
-import { capToCap, lensMap, MOST, scaleAt } from "../view/lens.ts";
+import { angle, directionOf, lonLatOf, type Vector } from "../space.ts";
+import { fitted } from "../view/fit.ts";
+import { capToCap, lensMap, scaleAt } from "../view/lens.ts";
 import { View } from "../view/view.ts";
 import { counted, latitude, longitude, scale } from "../words.ts";
 import { Choice, mark, NumberField, PlaceFields, tellNamed } from "./controls.ts";
 import { BubbleGlobe, FisheyeGlobe, FiveViews } from "./globe_plates.ts";
 import { GlobeScene, type Places } from "./globe_scene.ts";
-import { BEGINNING, fromValues, LEAST_RADIUS, MOST_RADIUS, PRESETS, sideView, toValues } from "./globe_state.ts";
+import { BEGINNING, GLOBE, PRESETS, sideView } from "./globe_state.ts";
 import type { GlobeState } from "./globe_state.ts";
-import { heldValues, TableRoom } from "./site_room.ts";
-
-/** Files that are pictures, by the ends of their names. */
-const PICTURES = /\.(jpe?g|png|webp|avif)$/i;
+import type { Block } from "./legend.ts";
+import { columnsOf, placeSentence, valueWords } from "./owner.ts";
+import { TableRoom, tableOf, tableValues } from "./site_room.ts";
 
 /** Steps of the slider for a magnification of ten times. */
 const SLIDER_TEN = 50;
 
-export function globeRoom(host: RoomHost): Room {
-  return new GlobeRoom(host);
+/** Degrees by which a pointer may be off the one that it was. */
+const UNMOVED = 1e-6;
+
+/** Places up to which their cells are drawn from the beginning. */
+const MOST_WITH_CELLS = 2000;
+
+/** @param given The points that the page was made for. */
+export function globeRoom(host: RoomHost, given: Places | null, latitude: Latitude): Room {
+  return new GlobeRoom(host, given, latitude);
 }
 
 export class GlobeRoom extends TableRoom implements Room {
-  readonly scene = new GlobeScene();
-  #state: GlobeState = BEGINNING;
+  readonly scene: GlobeScene;
+  /** The drawing stands alone in a frame of another page. */
+  readonly isFramed = document.documentElement.classList.contains("framed");
+  /** What the room begins with: places that are there, fitted. */
+  beginning = BEGINNING;
+  readonly #heading: string;
+  #state = BEGINNING;
+  #legend!: Plate;
+  #legendBlock: Block | null = null;
   #globe!: FisheyeGlobe;
   #views!: FiveViews;
   #bubbles!: readonly BubbleGlobe[];
@@ -40,12 +54,23 @@ export class GlobeRoom extends TableRoom implements Room {
   /** The focus, or the middle of the bubble. */
   #focus!: PlaceFields;
   #radii!: { readonly from: NumberField; readonly to: NumberField };
-  /** The cells' voice: the places of a link stand until others are opened. */
-  #isGiven = false;
-  /** The picture that was opened last: a step back is one without it, and the next step forward shows it again. */
+  readonly #given: Places | null;
+  /** The places and the picture that were opened last: a step back is one without, the next one forward shows them. */
+  #opened: Places | null = null;
   #picture: Painted | null = null;
   /** The lens that was announced last. */
   #said = BEGINNING.sight.lens;
+
+  constructor(host: RoomHost, given: Places | null, latitude: Latitude) {
+    super(host);
+    [this.scene, this.#given] = [new GlobeScene(latitude), given];
+    this.#heading = find(document, "#globe-title").textContent ?? "";
+  }
+
+  /** Whether anybody has pointed at the globe. */
+  get hasPointed(): boolean {
+    return angle(this.#state.pointer, BEGINNING.pointer) > UNMOVED;
+  }
 
   get shown(): GlobeState {
     return this.#state;
@@ -61,7 +86,7 @@ export class GlobeRoom extends TableRoom implements Room {
     this.#bubbles = (["before", "after"] as const).map(
       (which) => new BubbleGlobe(canvas(`globe-${which}`), which, this),
     );
-    const lens = (): void => this.set({ lens: this.#lens.value }, "state", true);
+    const lens = (): void => this.set({ lens: this.#lens.value, pointer: BEGINNING.pointer }, "state", true);
     this.#lens = new Choice(section, "lens", () => guarded(lens));
     const center = (place: readonly [number, number]): void => this.#center(directionOf(...place));
     this.#focus = new PlaceFields(section, "focus", (place) => guarded(() => center(place)), "change");
@@ -73,38 +98,51 @@ export class GlobeRoom extends TableRoom implements Room {
     const slider = field(section, "mag");
     on(slider, () => this.#magnify(10 ** (slider.valueAsNumber / SLIDER_TEN)), "input");
     for (const button of section.querySelectorAll<HTMLButtonElement>(".presets button")) {
-      on(button, () => this.#begin(PRESETS[button.value]));
+      on(button, () => this.#begin(button.value === "places" ? this.beginning : PRESETS[button.value]));
     }
+    on(find(section, "[data-do=earth]"), () => this.#paintedBy(null));
+    const legend = find<HTMLCanvasElement>(section, ".legend canvas");
+    const paint = (pen: Pen): void => this.#legendBlock?.draw(pen, 0, 0);
+    this.#legend = new Plate(legend, paint, guarded);
     for (const button of views) on(button, () => this.#flyToSide(button));
-    this.#write();
+    this.#show(this.#given);
     void this.#load();
   }
 
-  state(): Record<string, string> {
+  state(isWhole: boolean): Record<string, string> {
     const { places, picture } = this.scene;
+    const { from, to, before, after, ...fisheye } = this.#state;
+    const { lonlat, name, names = null, values = new Map() } = places ?? NO_PLACES;
     return {
-      ...toValues(this.#state),
-      ...(places === null || this.#isGiven ? {} : heldValues(places.lonlat, places.name, { name: places.name })),
+      ...GLOBE.write(fisheye.lens === "fisheye" ? fisheye : this.#state),
+      ...(places === null || places === this.#given
+        ? {}
+        : tableValues({ places: lonlat, name, names, values }, isWhole)),
       ...this.switches.values,
       ...(picture === null ? {} : { picture: picture.name }),
     };
   }
 
   restore(values: LinkValues): void {
-    const state = fromValues(values);
-    const lonlat = values.lonlat("sites");
-    if (lonlat !== null) this.#show({ name: values.text("name", "sites"), lonlat }, false);
+    GLOBE.read(values, BEGINNING); // throws before anything is changed
+    const table = tableOf(values, "lonlat");
+    const again = values.get("file") === this.#opened?.name ? this.#opened : null;
+    this.#show(
+      table === null ? (again ?? this.#given) : { ...table, name: table.name ?? "sites", lonlat: table.places },
+    );
+    const state = GLOBE.read(values, this.beginning);
     this.switches.restore(values);
     if (this.scene.places === null) this.switches.set("cells", false);
     this.#globe.motion.stop();
     const { messages } = this.host;
-    if (this.scene.places?.name !== values.text("file", "")) tellNamed(messages, values, "file");
+    if (again === null) tellNamed(messages, values, "file");
     this.scene.picture = values.text("picture", "") === this.#picture?.name ? this.#picture : null;
     if (this.scene.picture === null) tellNamed(messages, values, "picture");
     this.set(state, "state");
   }
 
   redraw(reason: Reason = "state"): void {
+    if (reason === "state") this.#legend.redraw(reason);
     if (this.#state.lens === "bubble") for (const bubble of this.#bubbles) bubble.plate.redraw(reason);
     else {
       this.#globe.plate.redraw(reason);
@@ -114,73 +152,129 @@ export class GlobeRoom extends TableRoom implements Room {
 
   open(file: File, exchange: Exchange): Promise<void> {
     const { messages, guarded } = this.host;
-    if (file.type.startsWith("image/") || PICTURES.test(file.name)) {
-      return exchange.openPanorama(file, messages, (picture) => {
-        this.scene.picture = this.#picture = picture;
-        this.redraw();
-        this.host.changed(true);
-      });
+    if (exchange.isPicture(file)) {
+      return exchange.openPanorama(file, messages, (picture) => this.#paintedBy((this.#picture = picture)));
     }
-    return exchange.openPoints(file, "lonlat", messages, ({ places: lonlat, names }) => {
+    return exchange.openPoints(file, "lonlat", this.host, ({ places: lonlat, names, values }) => {
       guarded(() => {
-        this.#show({ name: file.name, lonlat, names }, false);
-        this.switches.set("cells", true);
-        this.set({}, "state", true);
+        this.#show({ name: file.name, lonlat, names, values });
+        this.set(this.beginning, "state", true);
       });
     });
   }
 
   sheet(): Sheet {
     const { plate } = this.#state.lens === "bubble" ? this.#bubbles[1] : this.#globe;
-    return plate.sheet(this.#label());
+    const { places } = this.scene;
+    return { ...plate.sheet(this.#label(), !!places?.owner), owner: places?.owner ?? null };
   }
 
   geojson(exchange: Exchange): string | null {
+    const { places, parts, latitude } = this.scene;
+    return places === null ? this.#noPlaces() : exchange.geojson(regionsOf(parts, this.isOn), latitude);
+  }
+
+  csv(exchange: Exchange): string | null {
     const { places } = this.scene;
-    if (places !== null) return exchange.geojson(regionsOf(this.scene.parts, this.isOn), this.scene.latitude);
-    this.host.messages.show("", "There are no cells yet: open a file with places of your own.");
+    return places === null ? this.#noPlaces() : exchange.csv(["lon", "lat"], { ...places, places: places.lonlat });
+  }
+
+  #noPlaces(): null {
+    this.host.messages.show("", "There are no places and no cells yet: open a file of your own.");
     return null;
   }
 
   python(exchange: Exchange): string {
-    return exchange.globePython(this.#state, this.scene, this.isOn);
+    const globes = this.#state.lens === "bubble" ? this.#bubbles : [this.#globe];
+    const isPointed = globes.some((globe) => globe.isPointed);
+    return exchange.globePython(this.#state, this.scene, this.isOn, 2 * globes[0].disc.r, isPointed);
   }
 
   /** Unpacks what the page carries; until then the globe is water. */
   async #load(): Promise<void> {
     await this.scene.load(this.host.contents);
-    if (this.scene.places !== null) this.#show(this.scene.places, this.#isGiven); // cells of the page's latitude
-    const given = await this.host.contents.given();
-    if (given !== null && this.scene.places === null) {
-      this.#show(given, true);
-      this.switches.set("cells", true);
-      this.set({}, "state");
-    }
     this.redraw();
   }
 
-  #show(places: Places, isGiven: boolean): void {
+  /** A picture covers the Earth, or no longer. */
+  #paintedBy(picture: Painted | null): void {
+    this.scene.picture = picture;
+    this.set({}, "state", true);
+  }
+
+  /** What the owner says of the places stands beside the drawing; without an owner the room has its own words. */
+  #tell({ owner, isolines }: Places): void {
+    find(this.section, "h1").textContent = owner?.title || this.#heading;
+    find(this.section, ".lead").hidden = !!owner?.title;
+    this.out("source").textContent = owner?.source ?? "";
+    this.switches.offer("fills", owner?.inks !== undefined);
+    this.switches.offer("isolines", !!isolines);
+    const legend = find(this.section, ".legend");
+    const entries = owner?.legend ?? [];
+    legend.hidden = entries.length === 0;
+    if (legend.hidden) return;
+    void this.host.exchange().then(({ legendBlock, legendWords }) => {
+      this.#legendBlock = legendBlock(entries, 0);
+      const height = `${this.#legendBlock.height}px`;
+      const [canvas] = legend.children as HTMLCollectionOf<HTMLElement>;
+      canvas.ariaLabel = legendWords(entries);
+      canvas.style.height = height;
+      document.documentElement.style.setProperty("--legend", height);
+      this.#legend.redraw("state");
+    });
+  }
+
+  /** The room begins with places, if there are any, in sight. */
+  #fit({ lonlat, owner }: Places, hasPlaces: boolean): void {
+    this.switches.begin("cells", hasPlaces && lonlat.length <= 2 * MOST_WITH_CELLS && !owner?.columns);
+    this.switches.begin("tissot", !hasPlaces);
+    const sight = fitted(lonlat);
+    if (sight === null) return void (this.beginning = BEGINNING);
+    const [{ view }, center] = [sight, sight.lens.focus];
+    const [from, to] = [BEGINNING.from, BEGINNING.to].map(({ radius }) => ({ center, radius }));
+    this.beginning = { ...BEGINNING, sight, from, to, before: view, after: view };
+  }
+
+  #show(places: Places | null): void {
+    if (places !== null && places === this.scene.places) return;
     this.scene.show(places);
-    this.#isGiven = isGiven;
-    field(this.section, "cells").disabled = false;
-    const { lonlat, names } = places;
+    if (places !== this.#given) this.#opened = places ?? this.#opened;
+    this.switches.offer("cells", places !== null);
+    this.switches.offer("names", !!places?.names);
+    for (const part of ["[data-show=places]", "[value=places]"]) find(this.section, part).hidden = places === null;
+    const { lonlat, names, name } = places ?? NO_PLACES;
+    this.#fit(places ?? NO_PLACES, places !== null);
+    this.#tell(places ?? NO_PLACES);
+    const columns = columnsOf(places ?? NO_PLACES);
     const count = lonlat.length / 2;
-    find(this.section, "[data-show=places]").hidden = false;
     const words = count === 0 ? "No places in" : count === 1 ? "The place of" : `The ${counted(count)} places of`;
-    this.out("places").textContent = `${words} ${places.name}`;
+    this.out("places").textContent = `${words} ${name}`;
     this.out("latitude").textContent = AREAS[this.scene.latitude];
     this.table.show({
       count,
       noun: "Place",
       names: names ?? null,
-      heads: ["Latitude", "Longitude", "Cell, km²"],
-      cells: (place) => [latitude(lonlat[2 * place + 1]), longitude(lonlat[2 * place]), area(this.scene.area(place))],
+      heads: ["Latitude", "Longitude", ...columns.map(({ title }) => title), "Cell, km²"],
+      cells: (place) => [
+        latitude(lonlat[2 * place + 1]),
+        longitude(lonlat[2 * place]),
+        ...columns.map(({ values }) => valueWords(values[place])),
+        area(this.scene.area(place)),
+      ],
     });
   }
 
   protected override pointed(place: number | null): void {
+    if (place !== null) this.host.announcer.say(placeSentence(this.scene, place, area(this.scene.area(place))));
+    this.hover(place);
+  }
+
+  /** The pointer is on a place, or on none. */
+  hover(place: number | null): void {
+    if (this.scene.lit === place) return;
     this.scene.lit = place;
-    this.redraw();
+    this.redraw("pointer");
+    this.#write();
   }
 
   /** Brings a place to the middle, and the lens to it. */
@@ -197,7 +291,7 @@ export class GlobeRoom extends TableRoom implements Room {
 
   /** Another state: the drawings, the words, the controls and the link follow. */
   set(change: Partial<GlobeState>, reason: Reason, isStep = false): void {
-    this.#state = { ...this.#state, ...change };
+    this.#state = GLOBE.settle({ ...this.#state, ...change }, this.#state);
     this.redraw(reason);
     this.#write();
     this.host.changed(isStep);
@@ -207,13 +301,11 @@ export class GlobeRoom extends TableRoom implements Room {
   #magnify(magnification: number): void {
     const { sight } = this.#state;
     this.#globe.motion.stop();
-    const kept = Math.max(1, Math.min(MOST, magnification));
-    this.set({ sight: { ...sight, lens: { ...sight.lens, magnification: kept } } }, "hand");
+    this.set({ sight: { ...sight, lens: { ...sight.lens, magnification } } }, "hand");
   }
 
   #setRadius(which: "from" | "to", radius: number): void {
-    if (!(radius >= LEAST_RADIUS && radius <= MOST_RADIUS)) this.#write();
-    else this.set({ [which]: { ...this.#state[which], radius } }, "state");
+    this.set({ [which]: { ...this.#state[which], radius } }, "state");
   }
 
   #begin(preset: Partial<GlobeState> | undefined): void {
@@ -245,12 +337,24 @@ export class GlobeRoom extends TableRoom implements Room {
     this.out("mag").textContent = scale(magnification);
     this.#focus.value = lonLatOf(this.#state.lens === "bubble" ? from.center : sight.lens.focus);
     [this.#radii.from.value, this.#radii.to.value] = [from.radius, to.radius];
+    this.out("tissot").hidden = !this.switches.isOn("tissot");
+    find(this.section, "[data-show=picture]").hidden = this.scene.picture === null;
+    this.switches.offer("land", this.scene.picture === null);
     if (this.#state.lens === "bubble") {
       const [middle, rim] = this.#bubbleScales();
       const words = `In the middle of the bubble everything is _${middle}_ times as large, at its rim _${rim}_ times.`;
-      say(this.out("bubbles"), words);
+      this.#say("bubbles", words);
     } else this.#writeFisheye();
     find(this.section, "#globe-plate").setAttribute("aria-label", this.#label());
+  }
+
+  /** A sentence below the globe: that of the place which is lit, if there is one. */
+  #say(name: string, words: string): void {
+    const { lit } = this.scene;
+    const told = lit === null ? words : placeSentence(this.scene, lit, area(this.scene.area(lit)));
+    say(this.out(name), told);
+    // In a frame there is no room for it but where the pointer is.
+    if (this.isFramed) find(this.section, ".globe-spread canvas").title = lit === null ? "" : plain(told);
   }
 
   #writeFisheye(): void {
@@ -258,11 +362,15 @@ export class GlobeRoom extends TableRoom implements Room {
     const { magnification, focus } = sight.lens;
     const map = lensMap(sight.lens);
     const [here, there] = [scaleAt(map, pointer), scaleAt(map, [-focus[0], -focus[1], -focus[2]])];
-    say(
-      this.out("pointer"),
-      `At the pointer, _${placeWords(pointer)}_, everything is _${scale(here)}_ times as large as on a plain globe; ` +
-        `at the focus _${scale(magnification)}_ times, on the far side _${scale(there)}_ times.`,
-    );
+    const [plain, far] = ["times as large as on a plain globe", `on the far side _${scale(there)}_ times`];
+    const strength = scale(magnification);
+    const words =
+      magnification === 1
+        ? "Nothing is magnified: every place has its size on a plain globe."
+        : this.scene.places === null || this.hasPointed
+          ? `At the pointer, _${placeWords(pointer)}_, everything is _${scale(here)}_ ${plain}; at the focus _${strength}_ times, ${far}.`
+          : `At the focus, _${placeWords(focus)}_, everything is _${strength}_ ${plain}, ${far}.`;
+    this.#say("pointer", words);
     const ruler = this.out("scale");
     const share = magnification > 1 ? Math.log(here) / Math.log(magnification) : 0;
     const [first, last] = ends(magnification);
@@ -306,6 +414,8 @@ export class GlobeRoom extends TableRoom implements Room {
   }
 }
 
+const NO_PLACES: Places = { name: "", lonlat: new Float64Array(0) };
+
 /** What the areas of cells are, by the kind of latitude. */
 const AREAS: Record<Latitude, string> = {
   spherical: "Areas with latitudes taken as those of a sphere (spherical).",
@@ -330,6 +440,7 @@ function area(size: number): string {
 
 /** The ends of a ruler from 1/S to S: a fraction where S is whole. */
 function ends(magnification: number): [string, string] {
+  if (magnification === 1) return ["", ""];
   if (!Number.isInteger(magnification)) return [scale(1 / magnification), scale(magnification)];
   return [magnification === 3 ? "⅓" : `1⁄${magnification}`, String(magnification)];
 }

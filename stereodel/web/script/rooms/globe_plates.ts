@@ -1,16 +1,17 @@
 /** Drawings of the Globe room: the Earth through a fisheye, two globes with bubbles, and the fisheye from five sides. */
 
-import { arcThrough, circle, pointAt, traceCap, type Circle } from "../drawing/arcs.ts";
+import { arcThrough, circle, pointAt, traceCap, traceCircle, type Circle } from "../drawing/arcs.ts";
 import { arcLayer, circlePoints, drawLayers, graticuleArcs, placeOf, regionLayer } from "../drawing/ball.ts";
 import type { Layer } from "../drawing/ball.ts";
+import { widthOf, type Box } from "../drawing/names.ts";
 import { drawParts } from "../drawing/parts.ts";
 import { cornersOf, drawHandle, traceDisc, type Disc, type Pen } from "../drawing/pen.ts";
 import { Plate, type Reason } from "../drawing/plate.ts";
 import type { LabelStyle } from "../drawing/styles.ts";
 import { MoebiusMap, Rotation } from "../kernel/api.ts";
 import { angle, cross, directionOf, lonLatOf, row, type Vector } from "../space.ts";
-import { arrowed, grabBall, type Turnable } from "../view/ball_hand.ts";
-import { distance, follow, type Gestures, type Hold, type Pinch, type Place } from "../view/hand.ts";
+import { arrowed, grabBall, keyFactor, lensGestures, type Magnifiable, type Turnable } from "../view/ball_hand.ts";
+import { distance, follow, isCommand, type Gestures, type Hold, type Place } from "../view/hand.ts";
 import * as lenses from "../view/lens.ts";
 import type { Cap, Lens, Sight } from "../view/lens.ts";
 import { Motion } from "../view/motion.ts";
@@ -18,7 +19,10 @@ import { pointUnder, type View } from "../view/view.ts";
 import { fixed, scale } from "../words.ts";
 import type { GlobeRoom } from "./globe.ts";
 import { CIRCLE_RADIUS, STEP } from "./globe_scene.ts";
-import { BEGINNING, LEAST_RADIUS, MOST_RADIUS, sideView, type GlobeState } from "./globe_state.ts";
+import { BEGINNING, sideView, type GlobeState } from "./globe_state.ts";
+
+/** Pixels beyond a dot within which the pointer is on it. */
+const REACHED = 8;
 
 const LABEL: LabelStyle = { ink: "accent-text", halo: "halo", size: 14 };
 const LETTER: LabelStyle = { ...LABEL, size: 15, italic: true };
@@ -31,11 +35,15 @@ abstract class GlobePlate implements Turnable {
 
   constructor(canvas: HTMLCanvasElement, room: GlobeRoom) {
     this.room = room;
+    const standing = new Map();
     const paint = (pen: Pen, isMoving: boolean): void => {
-      drawParts(pen, { disc: this.disc, map: this.map, isMoving }, room.scene.parts, room.isOn);
+      const { disc, map, taken } = this;
+      drawParts(pen, { disc, map, isMoving, standing, taken }, room.scene.parts, room.isOn);
       pen.draw("limb", (path) => traceDisc(path, this.disc));
     };
     const overlay = (pen: Pen): void => {
+      drawLayers(pen, this.disc, this.map, [room.scene.held]);
+      if (room.isFramed) return;
       this.#paintPointer(pen);
       this.paintHeld(pen);
     };
@@ -52,6 +60,10 @@ abstract class GlobePlate implements Turnable {
   protected abstract get pointed(): "scale" | "circle" | null;
   /** What there is to drag. */
   protected abstract paintHeld(pen: Pen): void;
+  /** Where that keeps names away. */
+  protected get taken(): readonly Box[] {
+    return [];
+  }
   protected abstract gestures(): Gestures;
 
   get disc(): Disc {
@@ -60,6 +72,11 @@ abstract class GlobePlate implements Turnable {
 
   get isNorthUp(): boolean {
     return this.room.switches.isOn("north");
+  }
+
+  /** Whether there is a circle at the pointer. */
+  get isPointed(): boolean {
+    return this.pointed !== null && lenses.imageOf(this.map, this.room.shown.pointer)[2] > 0;
   }
 
   protected change(change: Partial<GlobeState>): void {
@@ -77,8 +94,12 @@ abstract class GlobePlate implements Turnable {
 
   /** The circle goes to the pointer. */
   protected point(at: Place | null): void {
-    if (at === null || !this.isOnBall(at)) return;
-    this.room.set({ pointer: lenses.sourceOf(this.map, this.under(at)) }, "pointer");
+    if (at === null || !this.isOnBall(at)) return this.room.hover(null);
+    const pointer = lenses.sourceOf(this.map, this.under(at));
+    this.room.set({ pointer }, "pointer");
+    const near = this.room.scene.nearest(pointer);
+    const isOver = near && distance(at, placeOf(this.disc, lenses.imageOf(this.map, near.at))) <= near.radius + REACHED;
+    this.room.hover(isOver ? near.place : null);
   }
 
   /** The circle at the pointer; its scale stands below it, or above it near the lower limb. */
@@ -90,55 +111,76 @@ abstract class GlobePlate implements Turnable {
     const rim = arcThrough(images, 0, 1, 2, true);
     const at = lenses.imageOf(map, pointer);
     if (rim === null || at[2] <= 0) return;
-    pen.draw("bubble", (path) => traceCap(path, disc, rim));
+    pen.draw("seen", (path) => traceCap(path, disc, rim));
+    pen.draw("bubble-open", (path) => traceCircle(path, disc, rim));
     if (pointed === "circle") return;
     const [x, y] = placeOf(disc, at);
     const away = rim.r * disc.r;
     const isBelow = y + away + 20 < disc.y + disc.r * Math.sqrt(Math.max(0, 1 - at[0] ** 2));
     const words = `${scale(lenses.scaleAt(map, pointer))}×`;
-    const inward = disc.x + (x - disc.x) * 0.98;
-    pen.label(words, inward, isBelow ? y + away + 17 : y - away - 7, { ...LABEL, align: "center" });
+    const half = widthOf(words, LABEL) / 2 + 2;
+    const inward = Math.max(half, Math.min(pen.width - half, disc.x + (x - disc.x) * 0.98));
+    const style = this.room.scene.lettered(LABEL);
+    pen.label(words, inward, isBelow ? y + away + 17 : y - away - 7, { ...style, align: "center" });
   }
 }
 
-const KEY_FACTOR = 1.25;
-
 /** The large globe through the fisheye: turned, magnified and focused by hand. */
-export class FisheyeGlobe extends GlobePlate {
-  protected readonly pointed = "scale";
+export class FisheyeGlobe extends GlobePlate implements Magnifiable {
+  readonly most = lenses.MOST;
+
+  /** Over places of the reader's own, nothing before anybody has pointed. */
+  protected get pointed(): "scale" | null {
+    return this.room.scene.places === null || this.room.hasPointed ? "scale" : null;
+  }
 
   get view(): View {
-    return this.#sight.view;
+    return this.sight.view;
   }
 
   protected get map(): MoebiusMap {
-    return lenses.sightMap(this.#sight);
+    return lenses.sightMap(this.sight);
   }
 
-  get #sight(): Sight {
+  get sight(): Sight {
     return this.room.shown.sight;
   }
 
+  see(sight: Sight): void {
+    this.change({ sight });
+  }
+
   turn(view: View, reason: Reason): void {
-    this.room.set({ sight: { ...this.#sight, view } }, reason);
+    this.room.set({ sight: { ...this.sight, view } }, reason);
   }
 
   /** Goes to another sight, on the way that a flight takes. */
   fly(to: Sight): void {
-    const from = this.#sight;
+    const from = this.sight;
     this.motion.fly((t) => {
       const sight = lenses.betweenSights(from, to, t, this.isNorthUp);
       this.room.set({ sight }, t < 1 ? "flight" : "state", t === 1);
     });
   }
 
+  get #focus() {
+    const { focus } = this.sight.lens;
+    const seen = this.view.seen(focus);
+    const [isFront, isRight, [x, y]] = [seen[2] >= 0, seen[0] <= 0.75, placeOf(this.disc, seen)];
+    const style: LabelStyle = { ...this.room.scene.lettered(LETTER), align: isRight ? "left" : "right" };
+    return { x, y, isFront, isRight, words: isFront ? "focus" : "focus*, behind*", style };
+  }
+
+  protected override get taken(): Box[] {
+    const { x, y, isRight, words, style } = this.#focus;
+    const width = widthOf(words, style) + 11;
+    return [[x - (isRight ? 7 : width), y - 20, x + (isRight ? width : 7), y + 7]];
+  }
+
   protected paintHeld(pen: Pen): void {
-    const focus = this.view.seen(this.#sight.lens.focus);
-    const [x, y] = placeOf(this.disc, focus);
-    drawHandle(pen, x, y, focus[2] >= 0 ? "front" : "behind");
-    const isRight = focus[0] <= 0.75;
-    const words = focus[2] >= 0 ? "focus" : "focus*, behind*";
-    pen.label(words, x + (isRight ? 9 : -9), y - 7, { ...LETTER, align: isRight ? "left" : "right" });
+    const { x, y, isFront, isRight, words, style } = this.#focus;
+    drawHandle(pen, x, y, isFront ? "front" : "behind");
+    pen.label(words, x + (isRight ? 9 : -9), y - 7, style);
   }
 
   protected gestures(): Gestures {
@@ -151,15 +193,11 @@ export class FisheyeGlobe extends GlobePlate {
       doubleClick: (at) => {
         if (this.isOnBall(at)) this.fly(this.#focusedAt(this.under(at)));
       },
-      pinch: (middle, spread) => this.#pinch(middle, spread),
-      wheel: (at, factor) => {
-        const point = this.isOnBall(at) ? this.under(at) : ([0, 0, 1] as const);
-        this.change({ sight: lenses.magnified(this.#sight, point, factor, this.isNorthUp) });
-      },
+      ...lensGestures(this, this.motion),
       key: (event) => {
         const view = arrowed(this, event);
-        const sight = view === null ? this.#keyed(event.key) : { ...this.#sight, view };
-        if (sight === null || event.ctrlKey) return false;
+        const sight = view === null ? this.#keyed(event.key) : { ...this.sight, view };
+        if (sight === null || isCommand(event)) return false;
         this.change({ sight });
         return true;
       },
@@ -167,43 +205,22 @@ export class FisheyeGlobe extends GlobePlate {
   }
 
   #focusedAt(point: Vector): Sight {
-    return lenses.focused(this.#sight, lenses.sourceOf(this.map, point), this.isNorthUp);
+    return lenses.focused(this.sight, lenses.sourceOf(this.map, point), this.isNorthUp);
   }
 
   #take(at: Place, reach: number): Hold | null {
-    const { lens, view } = this.#sight;
+    const { lens, view } = this.sight;
     if (distance(at, placeOf(this.disc, view.seen(lens.focus))) > reach) return grabBall(this, this.motion, at);
     this.motion.stop();
     // The fisheye leaves its focus where it is: the ring is at the pointer where the view stays as it is.
     return { move: (to) => this.change({ sight: { lens: { ...lens, focus: view.onBall(this.under(to)) }, view } }) };
   }
 
-  #pinch(middle: Place, spread: number): Pinch {
-    this.motion.stop();
-    const start = this.#sight;
-    const from = this.under(middle);
-    let turnedBefore: number | null = null;
-    return {
-      move: (now, nowSpread, turn) => {
-        turnedBefore ??= turn;
-        const sight = lenses.magnified(start, from, nowSpread / spread, this.isNorthUp);
-        const to = this.under(now);
-        let view = lenses.holding(sight.view, sight.view.onBall(from), to, this.isNorthUp);
-        if (!this.isNorthUp) view = view.turned(Rotation.about(to, ((turnedBefore - turn) * 180) / Math.PI));
-        this.change({ sight: { ...sight, view } });
-      },
-    };
-  }
-
   #keyed(key: string): Sight | null {
-    const { lens, view } = this.#sight;
-    const sized = (factor: number): Sight => ({
-      lens: { ...lens, magnification: Math.max(1, Math.min(lenses.MOST, lens.magnification * factor)) },
-      view,
-    });
-    if (key === "+" || key === "=") return sized(KEY_FACTOR);
-    if (key === "-") return sized(1 / KEY_FACTOR);
-    if (key === "0") return BEGINNING.sight;
+    const { lens, view } = this.sight;
+    const factor = keyFactor(key);
+    if (factor !== null) return { lens: { ...lens, magnification: lens.magnification * factor }, view };
+    if (key === "0") return this.room.beginning.sight;
     return key === "f" || key === "F" ? this.#focusedAt([0, 0, 1]) : null;
   }
 }
@@ -213,9 +230,6 @@ const TOWARD = [0.8, -1] as const;
 
 /** Points of a rim that are tried for the handle. */
 const TRIED = 180;
-
-/** Degrees by which a pointer of a link may be off the one that it names. */
-const UNMOVED = 1e-6;
 
 /** The bubble that is taken, or the one that it fills; rims and insides are dragged in either. */
 export class BubbleGlobe extends GlobePlate {
@@ -237,7 +251,7 @@ export class BubbleGlobe extends GlobePlate {
 
   /** Nothing before anybody has pointed. */
   protected get pointed(): "scale" | "circle" | null {
-    if (angle(this.room.shown.pointer, BEGINNING.pointer) <= UNMOVED) return null;
+    if (!this.room.hasPointed) return null;
     return this.#which === "after" ? "scale" : "circle";
   }
 
@@ -260,13 +274,14 @@ export class BubbleGlobe extends GlobePlate {
   }
 
   #setCap(cap: Cap): void {
-    this.change({ [this.#end]: { ...cap, radius: Math.max(LEAST_RADIUS, Math.min(MOST_RADIUS, cap.radius)) } });
+    this.change({ [this.#end]: cap });
   }
 
   protected paintHeld(pen: Pen): void {
     const { disc } = this;
     const rim = this.#rim;
-    pen.draw(this.#which === "before" ? "bubble" : "bubble-open", (path) => traceCap(path, disc, rim));
+    if (this.#which === "before") pen.draw("seen", (path) => traceCap(path, disc, rim));
+    pen.draw("bubble-open", (path) => traceCircle(path, disc, rim));
     const handle = this.#handle();
     if (handle === null) return;
     const [x, y] = placeOf(disc, handle);
@@ -274,8 +289,15 @@ export class BubbleGlobe extends GlobePlate {
     const isRight = handle[0] < 0.55;
     // Near the lower limb the label stands above its handle: below there is no drawing.
     const isLow = handle[1] < -0.5 && handle[2] < 0.4;
-    const style: LabelStyle = { ...LABEL, align: isRight ? "left" : "right" };
+    const style: LabelStyle = { ...this.room.scene.lettered(LABEL), align: isRight ? "left" : "right" };
     pen.label(`${fixed(this.#cap.radius, 1)}°`, x + (isRight ? 9 : -9), y + (isLow ? -6 : 14), style);
+  }
+
+  protected override get taken(): Box[] {
+    const handle = this.#handle();
+    if (handle === null) return [];
+    const [x, y] = placeOf(this.disc, handle);
+    return [[x - 48, y - 20, x + 48, y + 18]]; // on either side
   }
 
   /** The handle's point of the view, or null while the rim is behind. */

@@ -1,15 +1,19 @@
 /** What the globes of the room show: land, graticule, circles, the reader's places, a picture of the whole sphere. */
 
-import type { Contents } from "../contents.ts";
+import type { Contents, Rings } from "../contents.ts";
 import * as balls from "../drawing/ball.ts";
 import type { Layer } from "../drawing/ball.ts";
+import { drawNames, Seats, type Box, type Named } from "../drawing/names.ts";
 import { cellOf, type Part, type Region } from "../drawing/parts.ts";
 import type { Disc } from "../drawing/pen.ts";
-import { lonlatToXyz, SphericalVoronoi, xyzToLonlat, type Latitude, type MoebiusMap } from "../kernel/api.ts";
+import type { LabelStyle } from "../drawing/styles.ts";
+import { Directions, lonlatToXyz, SphericalDelaunay, SphericalVoronoi, xyzToLonlat } from "../kernel/api.ts";
+import type { Latitude, MoebiusMap } from "../kernel/api.ts";
 import { tableLonlat } from "../kernel/coordinates.ts";
 import { lazy } from "../kernel/lazy.ts";
 import type { Painted } from "../panorama.ts";
-import { directionOf } from "../space.ts";
+import { angle, directionOf, lonLatOf, row, type Vector } from "../space.ts";
+import type { Owner } from "./owner.ts";
 
 /** The radius of the equal circles on Earth, kilometres, and in degrees of a sphere with the Earth's mean radius. */
 const CIRCLE_KILOMETRES = 150;
@@ -25,12 +29,20 @@ export const STEP = 10;
 /** Places beyond which their cells are left out while the globe moves. */
 const MANY_PLACES = 10_000;
 
+/** Places of which dots are drawn at the most while the globe moves: of more, every second, third and so on. */
+const MOST_MOVING = 25_000;
+
 /** A globe; `map` takes the Earth to the axes of the view. */
 interface Ball {
   readonly disc: Disc;
   readonly map: MoebiusMap;
   readonly isMoving: boolean;
+  readonly standing: Named["standing"];
+  /** Where names would lie on a handle or on its word. */
+  readonly taken: readonly Box[];
 }
+
+const NAME: LabelStyle = { ink: "ink", halo: "halo", size: 13 };
 
 /** The reader's own places. */
 export interface Places {
@@ -39,15 +51,32 @@ export interface Places {
   readonly lonlat: Float64Array;
   /** Of the places, where their file has such a column. */
   readonly names?: readonly string[] | null;
+  /** Its columns of numbers. */
+  readonly values?: ReadonlyMap<string, Float64Array>;
+  /** What their owner says of them, and lines of equal values. */
+  readonly owner?: Owner | null;
+  readonly isolines?: Rings | null;
+}
+
+/** What lies around a place: how many cells share a side with its own, and which place is nearest. */
+interface Around {
+  readonly neighbours: number;
+  readonly nearest: number | null;
+  readonly kilometres: number;
 }
 
 /** Places are drawn at their latitudes as they stand; their cells are those of the sphere that `latitude` names. */
 export class GlobeScene {
   places: Places | null = null;
-  latitude: Latitude = "authalic";
+  latitude: Latitude;
   picture: Painted | null = null;
   /** The place whose row the pointer or the focus is on. */
   lit: number | null = null;
+
+  constructor(latitude: Latitude) {
+    this.latitude = latitude;
+  }
+
   readonly #graticule = balls.arcLayer("graticule", balls.graticuleArcs(STEP));
   readonly #tissot = balls.capLayer("tissot", equalCircles());
   #coarse: Layer | null = null;
@@ -56,14 +85,18 @@ export class GlobeScene {
 
   /** Unpacks the land that the page carries. */
   async load(contents: Contents): Promise<void> {
-    this.latitude = await contents.latitude();
     const [coarse, fine] = await Promise.all([contents.land("110m"), contents.land("50m")]);
     if (coarse !== null) this.#coarse = balls.landLayer(coarse);
     if (fine !== null) this.#fine = balls.landLayer(fine);
   }
 
-  show(places: Places): void {
-    [this.places, this.lit, this.#made] = [places, null, madeOf(places, this.latitude)];
+  /** Of the land that is drawn at rest. */
+  get resolution(): "50m" | "110m" {
+    return this.#fine === null ? "110m" : "50m";
+  }
+
+  show(places: Places | null): void {
+    [this.places, this.lit, this.#made] = [places, null, places && madeOf(places, this.latitude)];
   }
 
   /** The area of a place's cell, square kilometres. */
@@ -71,45 +104,94 @@ export class GlobeScene {
     return this.#made?.areas[place] ?? 0;
   }
 
+  /** A style of labels, on a picture in inks for its tone. */
+  lettered(style: LabelStyle): LabelStyle {
+    if (this.picture === null) return style;
+    const { ink, accent, halo } = this.picture.letters;
+    return { ...style, ink: style.ink === "ink" ? ink : accent, halo };
+  }
+
+  around(place: number): Around {
+    const { voronoi, points } = this.#made!;
+    const { regionOffsets, regionNeighbors } = voronoi;
+    const kept = regionOffsets[place + 1] > regionOffsets[place] ? place : voronoi.pointRegion[place];
+    const beyond = regionNeighbors.subarray(regionOffsets[kept], regionOffsets[kept + 1]);
+    const neighbours = new Set(beyond).size;
+    const at = row(points, place);
+    const two = points.length > 3 ? this.#made!.delaunay.nearest(at, 2) : [];
+    const nearest = [...two].find((site) => site !== place) ?? null;
+    const kilometres = nearest === null ? 0 : (angle(at, row(points, nearest)) * Math.PI * EARTH) / 180;
+    return { neighbours, nearest, kilometres };
+  }
+
+  /** The place that is nearest to a direction, where it is drawn, and the radius of its dot; null without places. */
+  nearest(to: Vector): { place: number; at: Vector; radius: number } | null {
+    const { places, latitude } = this;
+    if (places === null || places.lonlat.length === 0) return null;
+    const [place] = this.#made!.delaunay.nearest(lonlatToXyz(lonLatOf(to), latitude));
+    const at = row(lonlatToXyz(places.lonlat.subarray(2 * place, 2 * place + 2)), 0);
+    return { place, at, radius: places.owner?.radii?.[place] ?? 0 };
+  }
+
+  /** What is drawn of the place that is lit. */
+  get held(): balls.Layer | null {
+    const { places, lit } = this;
+    if (places === null || lit === null) return null;
+    return balls.dotLayer("held", lonlatToXyz(places.lonlat.subarray(2 * lit, 2 * lit + 2)));
+  }
+
   get parts(): Part<Ball>[] {
-    const { picture, places, lit, latitude } = this;
+    const { picture, places } = this;
     const lonlat = places?.lonlat ?? new Float64Array(0);
     const [hasPicture, hasPlaces] = [picture !== null, places !== null];
-    const kind = latitude === "spherical" ? "" : `, latitude="${latitude}"`;
     const drawn = (layer: (isMoving: boolean) => Layer | null): Pick<Part<Ball>, "draw"> => ({
       draw: (pen, { disc, map, isMoving }) => balls.drawLayers(pen, disc, map, [layer(isMoving)]),
     });
     const land = drawn((isMoving) => (isMoving ? this.#coarse : (this.#fine ?? this.#coarse)));
-    const held = drawn(() => balls.dotLayer("held", lonlatToXyz(lonlat.subarray(2 * lit!, 2 * lit! + 2))));
+    const hasInks = hasPlaces && places?.owner?.inks !== undefined;
     const isMuch = lonlat.length > 2 * MANY_PLACES;
     return [
       { draw: (pen, { disc }) => pen.ball(disc, "ocean") },
       {
         isThere: hasPicture,
         draw: (pen, { disc, map, isMoving }) => picture!.draw(pen, disc, map, isMoving),
-        python: { globe: `globe.add_raster(${JSON.stringify(picture?.name)})` },
       },
-      { layer: "land", isThere: !hasPicture, ...land, python: { globe: 'globe.add_land(resolution="50m")' } },
-      { layer: "graticule", ...drawn(() => this.#graticule), python: { globe: `globe.add_graticule(${STEP}.0)` } },
-      // The page draws coasts with the land.
-      { layer: "land", isThere: !hasPicture, python: { globe: 'globe.add_coastlines(resolution="50m")' } },
+      { layer: "land", isThere: !hasPicture, ...land },
       {
-        layer: "tissot",
-        ...drawn(() => this.#tissot),
-        python: { globe: `globe.add_tissot(${STEP}.0, ${CIRCLE_RADIUS.toFixed(4)})` },
+        layer: "fills",
+        isThere: hasInks,
+        draw: (pen, { disc, map, isMoving }) => {
+          if (isMoving && isMuch) return;
+          balls.drawLayers(pen, disc, map, this.#made!.fills);
+          const land = isMoving ? this.#coarse : (this.#fine ?? this.#coarse);
+          balls.drawLayers(pen, disc, map, [land?.outlines ?? null]);
+        },
       },
-      { isThere: hasPlaces, python: { globe: `places = read_points(${JSON.stringify(places?.name)}).lonlat` } },
+      { layer: "graticule", ...drawn(() => this.#graticule) },
+      { layer: "tissot", ...drawn(() => this.#tissot) },
       {
         layer: "cells",
         isThere: hasPlaces,
         always: ["geojson"], // the data of the places, whatever is drawn of it
         ...drawn((isMoving) => (isMoving && isMuch ? null : this.#made!.cells)),
-        python: { globe: `globe.add_cells(SphericalVoronoi.from_lonlat(places${kind}))` },
         regions: () => this.#made?.regions ?? [],
       },
-      { isThere: hasPlaces, ...drawn(() => this.#made!.dots), python: { globe: "globe.add_points(places)" } },
-      { isThere: hasPlaces && lit !== null, ...held },
+      {
+        layer: "isolines",
+        isThere: !!places?.isolines,
+        draw: (pen, { disc, map }) => balls.drawLayers(pen, disc, map, this.#made!.isolines),
+      },
+      { isThere: hasPlaces, ...drawn((isMoving) => this.#made![isMoving ? "sparse" : "dots"]) },
       { draw: (pen, { disc }) => pen.shade(disc) },
+      {
+        layer: "names",
+        isThere: hasPlaces && Boolean(places?.names),
+        draw: (pen, { disc, map, isMoving, standing, taken }) => {
+          const { directions, ...named } = this.#made!.named;
+          const seats = new Seats(pen, disc, taken);
+          drawNames(pen, seats, disc, { ...named, standing, isMoving }, map.apply(directions), this.lettered(NAME));
+        },
+      },
     ];
   }
 }
@@ -117,25 +199,76 @@ export class GlobeScene {
 /** What is made of places when it is first asked for: their dots, their cells, the areas of these. */
 interface Made {
   readonly dots: Layer;
+  /** Those that are drawn while the globe moves. */
+  readonly sparse: Layer;
+  readonly named: Pick<Named, "names" | "radii"> & { readonly directions: Directions };
+  /** Of the cells' sphere. */
+  readonly points: Float64Array;
+  readonly delaunay: SphericalDelaunay;
   readonly voronoi: SphericalVoronoi;
+  readonly fills: readonly Layer[];
+  readonly isolines: readonly Layer[];
   readonly cells: Layer;
   readonly areas: Float64Array;
   readonly regions: readonly Region[];
 }
 
-function madeOf({ lonlat }: Places, latitude: Latitude): Made {
+function madeOf({ lonlat, names, owner, isolines }: Places, latitude: Latitude): Made {
   // Points of the cells' sphere are where the globe shows them: at the latitudes of a table.
   const drawn = (xyz: Float64Array): Float64Array =>
     latitude === "spherical" ? xyz : lonlatToXyz(tableLonlat(xyzToLonlat(xyz), latitude));
+  /** The cells of one ink, as one region. */
+  const tint = (ink: string, number: number): Layer[] => {
+    const { voronoi } = made;
+    const sites = [...voronoi.pointRegion.keys()].filter(
+      (k) => owner?.ink?.[k] === number && voronoi.region(k).length > 2,
+    );
+    if (sites.length === 0) return [];
+    const offsets = [0];
+    const corners = sites.flatMap((site) => {
+      const region = [...voronoi.region(site)];
+      offsets.push(offsets[offsets.length - 1] + region.length);
+      return region.flatMap((vertex) => row(voronoi.vertices, vertex));
+    });
+    const place = row(lonlatToXyz(lonlat.subarray(2 * sites[0], 2 * sites[0] + 2)), 0);
+    return [balls.regionLayer("tint", null, drawn(Float64Array.from(corners)), offsets, place, true, ink)];
+  };
+  /** Dots of one place of so many. */
+  const dots = (of: number): Layer => {
+    const { inks, ink = [], radii = [] } = owner ?? {};
+    const some = <T>(all: readonly T[]): readonly T[] => (of === 1 ? all : all.filter((_, k) => k % of === 0));
+    const xyz = lonlatToXyz(of === 1 ? lonlat : lonlat.filter((_, k) => (k >> 1) % of === 0));
+    if (inks === undefined) return balls.dotLayer("site", xyz);
+    const colours = some(ink).map((number) => inks[number]);
+    return balls.spotLayer(xyz, some(radii), colours);
+  };
   const made: Made = lazy({
-    dots: () => balls.dotLayer("site", lonlatToXyz(lonlat)),
-    voronoi: () => SphericalVoronoi.fromLonlat(lonlat, latitude),
-    cells: () => balls.arcLayer("voronoi", drawn(balls.ridgeArcs(made.voronoi))),
+    dots: () => dots(1),
+    sparse: () => (lonlat.length > 2 * MOST_MOVING ? dots(Math.ceil(lonlat.length / (2 * MOST_MOVING))) : made.dots),
+    named: () => {
+      const radii = owner?.radii ?? [];
+      const order = [...(names ?? []).keys()].filter((k) => radii[k] !== 0);
+      order.sort((a, b) => (radii[b] ?? 0) - (radii[a] ?? 0)); // the largest first, else as they come
+      const points = order.flatMap((k) => row(lonlatToXyz(lonlat.subarray(2 * k, 2 * k + 2)), 0));
+      const of = <T>(all: ArrayLike<T>): T[] => order.map((k) => all[k]);
+      return { names: of(names ?? []), radii: of(radii), directions: new Directions(Float64Array.from(points)) };
+    },
+    points: () => lonlatToXyz(lonlat, latitude),
+    delaunay: () => new SphericalDelaunay(made.points),
+    voronoi: () => new SphericalVoronoi(made.delaunay),
+    fills: () => (owner?.inks ?? []).flatMap((ink, number) => tint(ink, number)),
+    isolines: () => {
+      const arcs = balls.lineArcs(isolines!);
+      return [balls.arcLayer("isoline-halo", arcs), balls.arcLayer("isoline", arcs)];
+    },
+    cells: () => balls.arcLayer("cell", drawn(balls.ridgeArcs(made.voronoi))),
     areas: () => made.voronoi.areas(OF_EQUAL_AREA),
     regions: () =>
       Array.from({ length: lonlat.length / 2 }, (_, site) => {
         const [longitude, latitude] = lonlat.subarray(2 * site, 2 * site + 2);
-        return cellOf(made.voronoi, site, { site: site + 1, longitude, latitude });
+        const own = (owner?.columns ?? []).map(({ title, values }) => [title, values[site]]);
+        const name = names ? { name: names[site] } : {};
+        return cellOf(made.voronoi, site, { site: site + 1, ...name, longitude, latitude, ...Object.fromEntries(own) });
       }).flat(),
   });
   return made;

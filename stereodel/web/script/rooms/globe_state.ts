@@ -1,8 +1,8 @@
 /** The state of the Globe room, and how links hold it. */
 
-import { writeNumber, writePlace, type LinkValues } from "../link.ts";
+import { direction, fields, number, view, word, type Field } from "../fields.ts";
 import { directionOf, lonLatOf, type Vector } from "../space.ts";
-import { MOST, type Cap, type Sight } from "../view/lens.ts";
+import { MOST, type Cap, type Lens, type Sight } from "../view/lens.ts";
 import { View } from "../view/view.ts";
 
 export interface GlobeState {
@@ -32,8 +32,8 @@ export const BEGINNING: GlobeState = {
 };
 
 /** Degrees of the smallest bubble and of the largest: the complement of the smallest. */
-export const LEAST_RADIUS = 0.1;
-export const MOST_RADIUS = 180 - LEAST_RADIUS;
+const LEAST_RADIUS = 0.1;
+const MOST_RADIUS = 180 - LEAST_RADIUS;
 
 const NEW_YORK = directionOf(-73.98, 40.75);
 const ABOVE_NEW_YORK = View.above(-73.98, 40.75);
@@ -50,6 +50,7 @@ export const PRESETS: Readonly<Record<string, Partial<GlobeState>>> = {
     to: { center: NEW_YORK, radius: 90 },
     before: ABOVE_NEW_YORK,
     after: ABOVE_NEW_YORK,
+    pointer: BEGINNING.pointer,
   },
 };
 
@@ -65,48 +66,18 @@ export function sideView(panel: number, focus: Vector): View {
   return [View.above(lon, 0), View.above(lon, 90), View.above(lon, -90), View.above(lon, lat), across][panel - 1];
 }
 
-/** Digits behind the point of degrees and scales in links: finer than any pixel. */
-const DIGITS = 7;
+const cap = (name: string): Field<Cap> =>
+  fields({ center: direction(name), radius: number(`${name}radius`, LEAST_RADIUS, MOST_RADIUS) });
 
-export function toValues({ lens, sight, pointer, from, to, before, after }: GlobeState): Record<string, string> {
-  const number = (value: number): string => writeNumber(value, DIGITS);
-  const place = (name: string, at: Vector) => writePlace(name, lonLatOf(at), DIGITS);
-  const cap = (name: string, { center, radius }: Cap) => ({
-    ...place(name, center),
-    [`${name}radius`]: number(radius),
-  });
-  const view = (name: string, seen: View) => {
-    const roll = number(seen.roll);
-    return { ...writePlace(name, seen.middle, DIGITS), ...(roll === "0" ? {} : { [`${name}roll`]: roll }) };
-  };
-  const shown = { lens, s: number(sight.lens.magnification), ...place("focus", sight.lens.focus) };
-  const values = { ...shown, ...view("view", sight.view), ...place("pointer", pointer) };
-  if (lens === "fisheye") return values;
-  return { ...values, ...cap("from", from), ...cap("to", to), ...view("before", before), ...view("after", after) };
-}
-
-/** @throws LinkError where a value cannot be read. */
-export function fromValues(values: LinkValues): GlobeState {
-  const begin = BEGINNING;
-  const place = (name: string, otherwise: Vector): Vector =>
-    values.has(`${name}lon`) || values.has(`${name}lat`)
-      ? directionOf(...values.place(name, lonLatOf(otherwise)))
-      : otherwise;
-  const view = (name: string, otherwise: View): View =>
-    View.above(...values.place(name, otherwise.middle), values.number(`${name}roll`, -360, 360, 0));
-  const cap = (name: string, otherwise: Cap): Cap => ({
-    center: place(name, otherwise.center),
-    radius: values.number(`${name}radius`, LEAST_RADIUS, MOST_RADIUS, otherwise.radius),
-  });
-  const focus = place("focus", begin.sight.lens.focus);
-  const magnification = values.number("s", 1, MOST, begin.sight.lens.magnification);
-  return {
-    lens: values.word("lens", ["fisheye", "bubble"], begin.lens),
-    sight: { lens: { focus, magnification }, view: view("view", begin.sight.view) },
-    pointer: place("pointer", begin.pointer),
-    from: cap("from", begin.from),
-    to: cap("to", begin.to),
-    before: view("before", begin.before),
-    after: view("after", begin.after),
-  };
-}
+export const GLOBE = fields<GlobeState>({
+  lens: word("lens", ["fisheye", "bubble"]),
+  sight: fields<Sight>({
+    lens: fields<Lens>({ magnification: number("s", 1, MOST), focus: direction("focus") }),
+    view: view("view"),
+  }),
+  pointer: direction("pointer"),
+  from: cap("from"),
+  to: cap("to"),
+  before: view("before"),
+  after: view("after"),
+});

@@ -4,10 +4,11 @@ import { field, find, plain, say } from "../dom.ts";
 import type { Pen, Point, Sheet } from "../drawing/pen.ts";
 import { Plate, type Reason } from "../drawing/plate.ts";
 import type { Exchange } from "../exchange.ts";
-import { writeNumber, type LinkValues } from "../link.ts";
+import { fields, number, whole } from "../fields.ts";
+import type { LinkValues } from "../link.ts";
 import type { Room, RoomHost } from "../room.ts";
 import { arrowStep } from "../view/ball_hand.ts";
-import { distance, follow, type Gestures, type Hold } from "../view/hand.ts";
+import { distance, follow, isCommand, type Gestures, type Hold } from "../view/hand.ts";
 import { View } from "../view/view.ts";
 import { counted, fixed, ofFacets, wrap } from "../words.ts";
 import { mark, NumberField } from "./controls.ts";
@@ -22,6 +23,16 @@ const BEGINNING = { bend: HEMISPHERE, height: 35, side: 17 };
 const PAIR = { p: 43, q: 1 };
 
 type Letter = keyof typeof PAIR;
+
+/** Hundredths of a degree are invisible. */
+const STATE = fields<typeof BEGINNING>({
+  bend: number("bend", 0, HEMISPHERE, 2),
+  height: number("height", 0, 90, 2),
+  side: number("side", -360, 360, 2),
+});
+
+const pairFields = (count: number) =>
+  fields<Record<Letter, number | null>>({ p: whole("p", count, 1), q: whole("q", count, 1) });
 
 /** What the sum of facets is made of. */
 const SUM = ["on the ball", "of the sheet", " the pole"] as const;
@@ -68,26 +79,22 @@ class LiftRoom extends SiteRoom implements Room {
 
   // State
 
-  state(): Record<string, string> {
-    const state = this.siteValues();
-    for (const name of ["bend", "height", "side"] as const) {
-      if (this.#state[name] !== BEGINNING[name]) state[name] = writeNumber(this.#state[name], 2);
-    }
-    for (const [letter, site] of Object.entries(this.#pair)) if (site !== null) state[letter] = String(site + 1);
-    return state;
+  state(isWhole: boolean): Record<string, string> {
+    return {
+      ...this.siteValues(isWhole),
+      ...STATE.write(this.#state),
+      ...pairFields(this.#sites.count).write(this.#pair),
+    };
   }
 
   override restore(values: LinkValues): void {
-    const bend = values.number("bend", 0, HEMISPHERE, BEGINNING.bend);
-    const height = values.number("height", 0, 90, BEGINNING.height);
-    const side = values.number("side", -360, 360, BEGINNING.side);
+    const state = STATE.read(values, BEGINNING);
     const named = this.sitesOf(values);
-    const count = named.places.length / 2;
-    const [p, q] = [values.whole("p", 1, count, 0), values.whole("q", 1, count, 0)];
-    this.#state = { bend, height, side };
+    const { p, q } = pairFields(named.places.length / 2).read(values, this.#pair);
+    this.#state = state;
     super.restore(values);
     this.begin(named);
-    this.#pair = { p: p > 0 ? p - 1 : this.#pair.p, q: q > 0 ? q - 1 : this.#pair.q };
+    this.#pair = { p: p ?? this.#pair.p, q: q ?? this.#pair.q };
     this.#update();
   }
 
@@ -207,14 +214,14 @@ class LiftRoom extends SiteRoom implements Room {
   // What can be done
 
   #bend(bend: number): void {
-    this.#state = { ...this.#state, bend };
+    this.#state = STATE.settle({ ...this.#state, bend }, this.#state);
     this.#update("hand");
     this.changed(ofBend(this.#bent));
   }
 
   #turn(side: number, height: number, reason: Reason = "state"): void {
     if (!Number.isFinite(side) || !Number.isFinite(height)) return;
-    this.#state = { ...this.#state, side: exact(wrap(side)), height: exact(Math.max(0, Math.min(90, height))) };
+    this.#state = STATE.settle({ ...this.#state, side: wrap(side), height }, this.#state);
     this.#showView();
     this.redraw(reason);
     this.changed(
@@ -296,7 +303,7 @@ class LiftRoom extends SiteRoom implements Room {
   }
 
   #key(event: KeyboardEvent): boolean {
-    if (event.ctrlKey) return false;
+    if (isCommand(event)) return false;
     const step = arrowStep(event);
     const actions: Record<string, () => void> = {
       "0": () => this.#turn(BEGINNING.side, BEGINNING.height),
@@ -328,15 +335,8 @@ class LiftRoom extends SiteRoom implements Room {
   }
 
   python(exchange: Exchange): string {
-    const { set, file } = this.named;
-    const scene = this.#scene(false);
-    return exchange.liftPython(scene, LiftPicture.parts(scene), this.#state.side, file, SHEET_SIDES[set]);
+    return exchange.liftPython(this.#scene(false), this.#picture(), this.origin, SHEET_SIDES[this.named.set]);
   }
-}
-
-/** A view as a link holds it, so that the link shows the same pixels: hundredths of a degree are invisible. */
-function exact(degrees: number): number {
-  return Number(degrees.toFixed(2));
 }
 
 /** Degrees within which two marks of the ruler stand in each other's way. */

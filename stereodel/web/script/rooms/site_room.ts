@@ -2,40 +2,73 @@
 
 import { find } from "../dom.ts";
 import type { IsOn, Switch } from "../drawing/parts.ts";
+import type { Reason } from "../drawing/plate.ts";
 import type { Exchange } from "../exchange.ts";
-import { MOST_SITES, packPlaces, type LinkValues } from "../link.ts";
+import type { Points } from "../files.ts";
+import type { Place } from "../fields.ts";
+import { LETTERS, LinkError, MOST_SITES, numbersOf, packPlaces, type LinkValues } from "../link.ts";
 import type { RoomHost } from "../room.ts";
 import type { SiteSet } from "../sets.ts";
 import { SiteTable, type Rows } from "../table.ts";
 import { counted } from "../words.ts";
 import { Switches, tellNamed } from "./controls.ts";
-import type { Place } from "./sphere_state.ts";
+import type { Origin } from "./python.ts";
 
 /** The name of sites that are no set of the list: opened, or changed by hand. */
 const OWN = "own";
 
-/** Sites, the set that they are, and the file that they were read from. */
-export interface NamedSites {
+/** A table of the reader's own. */
+export interface Table {
   /** Pairs of coordinates, (n, 2) flat. */
   readonly places: Float64Array;
-  /** Of the sites, where their file has such a column. */
+  /** Of the places, where their file has such a column. */
   readonly names: readonly string[] | null;
+  /** Of the table: that of its file, whatever a hand has done to it since. */
+  readonly name: string | null;
+  /** Its columns of numbers, NaN where one is missing. */
+  readonly values?: ReadonlyMap<string, Float64Array>;
+}
+
+/** Sites, the set that they are, and the file that has them as they are. */
+export interface NamedSites extends Table {
   readonly set: string;
   readonly file: string | null;
 }
 
 /** Sites of no file, of a link or changed by hand. */
-function ownSites(places: Float64Array, names: readonly string[] | null = null): NamedSites {
-  return { places, names, set: OWN, file: null };
+function ownSites(table: Table): NamedSites {
+  return { ...table, set: OWN, file: null };
 }
 
 function ofSet(set: SiteSet): NamedSites {
-  return { places: set.make(), names: set.names ?? null, set: set.name, file: null };
+  return { places: set.make(), names: set.names ?? null, name: null, set: set.name, file: null };
 }
 
-/** What a link says of places of the reader's own: themselves, or where they are too many the name of their file. */
-export function heldValues(places: Float64Array, file: string, words = {}): Record<string, string> {
-  return places.length <= 2 * MOST_SITES ? { sites: packPlaces(places), ...words } : { file };
+/** What a link says of a table: all of it, or where it is too long for one and need not be whole the name of its file. */
+export function tableValues({ places, names, name, values }: Table, isWhole: boolean): Record<string, string> {
+  const named = { file: name ?? "sites" };
+  if (!isWhole && places.length > 2 * MOST_SITES) return named;
+  const lines = (texts: readonly string[]): string => texts.map((text) => text.replaceAll("\n", " ")).join("\n");
+  const columns = [...(values ?? [])].flatMap(([title, column]) => [title, column.join().replaceAll("NaN", "")]);
+  const table = {
+    sites: packPlaces(places),
+    ...(names && { names: lines(names) }),
+    ...(name && { name }),
+    ...(columns.length * places.length > 0 && { values: lines(columns) }),
+  };
+  const isShort = encodeURIComponent(Object.values(table).join()).length <= LETTERS;
+  return isWhole || isShort ? table : named;
+}
+
+/** The table of a link, or null. @throws LinkError where it cannot be read. */
+export function tableOf(values: LinkValues, kind: "lonlat" | "plane"): Table | null {
+  const places = kind === "plane" ? values.places("sites") : values.lonlat("sites");
+  const lines = values.get("values")?.split("\n") ?? [];
+  const columns = lines.flatMap((title, k) => (k % 2 === 0 ? [[title, numbersOf(lines[k + 1] ?? "")] as const] : []));
+  if (places === null) return null;
+  if (columns.some(([, column]) => column.length !== places.length / 2)) throw new LinkError("a column is too short");
+  const names = values.get("names")?.split("\n") ?? null;
+  return { places, names, name: values.get("name") ?? null, values: new Map(columns) };
 }
 
 /** Sites from which on nothing but dots and the bubble is drawn while something moves. */
@@ -87,7 +120,7 @@ export abstract class TableRoom {
 export abstract class SiteRoom extends TableRoom {
   protected readonly sets: readonly SiteSet[];
   /** What the sites are called. */
-  protected named = ownSites(new Float64Array(0));
+  protected named = ownSites({ places: new Float64Array(0), names: null, name: null });
   /** The site whose row the pointer or the focus is on. */
   protected lit: number | null = null;
   readonly #kind: "lonlat" | "plane";
@@ -101,11 +134,11 @@ export abstract class SiteRoom extends TableRoom {
 
   /** Other sites are there: a set of the list, or a file. */
   protected abstract begin(named: NamedSites): void;
-  abstract redraw(): void;
+  abstract redraw(reason?: Reason): void;
 
   protected override pointed(site: number | null): void {
     this.lit = site;
-    this.redraw();
+    this.redraw("pointer");
   }
 
   override attach(section: HTMLElement): void {
@@ -119,16 +152,16 @@ export abstract class SiteRoom extends TableRoom {
   }
 
   /** What a link says of the sites and of the switches. */
-  protected siteValues(): Record<string, string> {
-    const { places, set, file } = this.named;
-    return { ...(set === OWN ? heldValues(places, file ?? "sites") : { set }), ...this.switches.values };
+  protected siteValues(isWhole: boolean): Record<string, string> {
+    const { set } = this.named;
+    return { ...(set === OWN ? tableValues(this.named, isWhole) : { set }), ...this.switches.values };
   }
 
   /** The sites of a link; nothing is shown yet. @throws LinkError where they cannot be read. */
   protected sitesOf(values: LinkValues): NamedSites {
     const name = values.word("set", [...this.sets.map((set) => set.name), OWN], this.sets[0].name);
-    const places = this.#kind === "plane" ? values.places("sites") : values.lonlat("sites");
-    if (places !== null) return ownSites(places);
+    const table = tableOf(values, this.#kind);
+    if (table !== null) return ownSites(table);
     return ofSet(this.sets.find((set) => set.name === name) ?? this.sets[0]);
   }
 
@@ -148,19 +181,31 @@ export abstract class SiteRoom extends TableRoom {
   /** Shows what the sites are called, how many there are, and the table. */
   protected show(named: NamedSites, rows: Omit<Rows, "names">): void {
     this.named = named;
+    if (this.#kind === "lonlat") this.switches.offer("names", named.names !== null);
     // Sites of the reader's own have an entry while they are there.
     this.#select.querySelector(`option[value=${OWN}]`)?.remove();
-    if (named.set === OWN) this.#select.prepend(new Option(named.file ?? "Your own sites", OWN));
+    if (named.set === OWN) this.#select.prepend(new Option(named.name ?? "Your own sites", OWN));
     this.#select.value = named.set;
     const { count } = rows;
     this.out("count").textContent = count === 0 ? "No sites" : count === 1 ? "The site" : `The ${counted(count)} sites`;
     this.table.show({ ...rows, names: named.names });
   }
 
-  open(file: File, exchange: Exchange): Promise<void> {
-    return exchange.openPoints(file, this.#kind, this.host.messages, (points) =>
-      this.#begin({ ...ownSites(points.places, points.names), file: points.file }),
-    );
+  open(file: File, exchange: Exchange, columns?: [string, string]): Promise<void> {
+    const opened = ({ places, names, values, file }: Points): void =>
+      this.#begin({ ...ownSites({ places, names, name: file, values }), file });
+    return exchange.openPoints(file, this.#kind, this.host, opened, columns);
+  }
+
+  csv(exchange: Exchange): string {
+    return exchange.csv(this.#kind === "plane" ? ["x", "y"] : ["lon", "lat"], this.named);
+  }
+
+  /** Where the lines of Python have the sites from. */
+  protected get origin(): Origin {
+    const { set, file } = this.named;
+    const given = this.sets.find(({ name }) => name === set && name === "given");
+    return { set, file: file ?? given?.words ?? "sites.csv" };
   }
 
   protected get title(): string {
@@ -176,9 +221,21 @@ export abstract class SiteRoom extends TableRoom {
 }
 
 /** The sites with one of them elsewhere, one more at the end, or, without a place, one less: its number is the next one's. */
-export function edited({ places, names }: NamedSites, site: number, place: Place | null): NamedSites {
-  const [numbers, words] = [[...places], names && [...names]];
-  numbers.splice(2 * site, 2, ...(place ?? []));
-  words?.splice(site, 1, ...(place === null ? [] : [words[site] ?? ""]));
-  return ownSites(Float64Array.from(numbers), words);
+export function edited(table: NamedSites, site: number, place: Place | null): NamedSites {
+  const places = spliced(table.places, 2 * site, 2, place ?? []);
+  if (place !== null && 2 * site < table.places.length) return ownSites({ ...table, places });
+  const names = table.names && [...table.names.slice(0, site), ...(place ? [""] : table.names.slice(site + 1))];
+  const column = (values: Float64Array): Float64Array => spliced(values, site, 1, place ? [NaN] : []);
+  const values = new Map([...(table.values ?? [])].map(([title, numbers]) => [title, column(numbers)]));
+  return ownSites({ places, names, name: table.name, values });
+}
+
+/** With other numbers instead of some. */
+function spliced(numbers: Float64Array, at: number, count: number, put: readonly number[]): Float64Array {
+  const end = numbers.subarray(at + count);
+  const result = new Float64Array(at + put.length + end.length);
+  result.set(numbers.subarray(0, at));
+  result.set(put, at);
+  result.set(end, at + put.length);
+  return result;
 }

@@ -1,31 +1,58 @@
 /** The Sphere room: sites on a ball, and in the plane that they are projected to (Theorem 1, and the insertion). */
 
 import type { Given } from "../contents.ts";
-import { find, say } from "../dom.ts";
+import { find, plain, say } from "../dom.ts";
 import { placeOf } from "../drawing/ball.ts";
-import { regionsOf } from "../drawing/parts.ts";
+import type { Named } from "../drawing/names.ts";
+import { regionsOf, type Switch } from "../drawing/parts.ts";
 import type { Pen, Sheet } from "../drawing/pen.ts";
 import { Plate, type Reason } from "../drawing/plate.ts";
 import type { Exchange } from "../exchange.ts";
-import { LinkValues } from "../link.ts";
+import type { Place } from "../fields.ts";
+import type { MoebiusMap } from "../kernel/api.ts";
+import { lazy } from "../kernel/lazy.ts";
+import type { LinkValues } from "../link.ts";
 import type { Room, RoomHost } from "../room.ts";
 import { sphereSets, type Stored } from "../sets.ts";
-import { dot, lonLatOf, type Vector } from "../space.ts";
-import { arrowed, arrowStep, grabBall, type Turnable } from "../view/ball_hand.ts";
-import { distance, follow, type Gestures, type Hold, type Place as Point } from "../view/hand.ts";
+import { lonLatOf, type Vector } from "../space.ts";
+import { arrowed, arrowStep, grabBall, keyFactor, lensGestures, type Magnifiable } from "../view/ball_hand.ts";
+import { distance, follow, isCommand, type Gestures, type Hold, type Place as Point } from "../view/hand.ts";
+import { imageOf, lensMap, magnified, scaleAt, sightMap, sourceOf, type Sight } from "../view/lens.ts";
 import { Motion } from "../view/motion.ts";
 import { pointUnder, View } from "../view/view.ts";
 import { counted, latitude, longitude, ofFacets, wrap } from "../words.ts";
 import { Choice, PlaceFields, siteForm, stepControl } from "./controls.ts";
 import { edited, SiteRoom, type NamedSites } from "./site_room.ts";
-import { ballLayers, drawBall, drawPlane, sphereParts, type SphereScene, type Step } from "./sphere_drawing.ts";
-import { ofBubble, ofDuplicates, ofSite, ofStep, SphereSites, withoutTriangles, type Bubble } from "./sphere_sites.ts";
-import { directionAt, fromValues, handPlace, toValues, VIEW, viewPlace } from "./sphere_state.ts";
-import type { Click, Place, SphereState } from "./sphere_state.ts";
+import { ballDrawing, ballLayers, drawMoved, planeDrawing, poleSeen, sphereParts } from "./sphere_drawing.ts";
+import type { Drawing, Ground, SphereScene, Step } from "./sphere_drawing.ts";
+import {
+  ofBubble,
+  ofDuplicates,
+  ofLens,
+  ofPictures,
+  ofSite,
+  ofStep,
+  SphereSites,
+  withoutTriangles,
+  type Bubble,
+} from "./sphere_sites.ts";
+import {
+  BEGINNING,
+  directionAt,
+  handPlace,
+  MOST,
+  sightOf,
+  sphereFields,
+  type Click,
+  type SphereState,
+} from "./sphere_state.ts";
 import { planeFrame, reachAround, Twin, type PlaneFrame } from "./twin.ts";
 
 /** Sites from which on cells are left out while something moves. */
 const MANY = 3_000;
+
+/** Of the table. */
+const HEADS = ["Latitude", "Longitude", "Neighbours"];
 
 /** What the sum of facets is made of. */
 const SUM = ["on the sphere", "in the plane", "\u00a0*P*"] as const;
@@ -54,11 +81,12 @@ interface Picture {
   isOn(at: Point, reach?: number): boolean;
 }
 
-class SphereRoom extends SiteRoom implements Room, Turnable {
+class SphereRoom extends SiteRoom implements Room, Magnifiable {
   /** Sites as they were before the last changes by hand. */
   #history: NamedSites[] = [];
   readonly #motion = new Motion();
   readonly isNorthUp = true;
+  readonly most = MOST;
   #ball!: Plate;
   #plane!: Plate;
   #click!: Choice<Click>;
@@ -67,13 +95,14 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
   #poleFields!: PlaceFields;
   #viewFields!: PlaceFields;
 
-  #state = fromValues(new LinkValues(), 0);
-  #held: number | null = null;
+  #state = BEGINNING;
   #reach = 1;
+  #middle: Point = [0, 0];
 
   // What follows from the state; made anew when it changes.
   #sites = new SphereSites(new Float64Array(0));
   #layers = ballLayers(this.#sites);
+  readonly #standing: Named["standing"] = new Map();
   #twin = new Twin([0, 0, 1]);
   #seeing: Uint8Array = new Uint8Array(0);
   #step: Step | "done" = "done";
@@ -82,10 +111,8 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
   override attach(section: HTMLElement): void {
     super.attach(section);
     const { guarded } = this.host;
-    const plate = (which: string, paint: (pen: Pen, scene: SphereScene) => void): Plate =>
-      new Plate(find(section, `#sphere-${which}`), (pen, moving) => paint(pen, this.#scene(moving)), guarded);
-    this.#ball = plate("ball", (pen, scene) => drawBall(pen, this.disc, scene));
-    this.#plane = plate("plane", (pen, scene) => drawPlane(pen, this.#frame, scene));
+    this.#ball = this.#plate("ball", () => ballDrawing(this.disc));
+    this.#plane = this.#plate("plane", () => planeDrawing(this.#frame));
     this.#poleFields = new PlaceFields(section, "pole", (place) => guarded(() => this.#movePole(place)));
     this.#viewFields = new PlaceFields(section, "view", (place) => guarded(() => this.#turn(place)));
     this.#click = new Choice(section, "click", () => this.host.changed());
@@ -100,28 +127,60 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
     const place = (point: Vector): Point => this.#frame.place(this.#twin.forward(point));
     const take = (): Hold => ({ move: () => {} });
     follow(this.#plane, this.#gestures({ under, place, take, isOn: () => true }));
-    follow(this.#ball, this.#gestures(this.#onBall));
+    follow(this.#ball, { ...this.#gestures(this.#onBall), ...lensGestures(this, this.#motion) });
+  }
+
+  /** A picture whose ground stays where only the pointer or one site moves. */
+  #plate(which: string, drawing: () => Drawing): Plate {
+    let ground: Ground;
+    const paint = (pen: Pen, isMoving: boolean): void => {
+      const scene = this.#scene(isMoving);
+      ground = lazy<Ground>({ sites: () => scene.sites, round: () => drawing().round(scene), inks: () => pen.inks });
+      drawing().draw(pen, scene, "ground");
+    };
+    const over = (pen: Pen, isMoving: boolean): void => {
+      const scene = this.#scene(isMoving);
+      if (ground.sites !== scene.sites) drawMoved(pen, drawing(), scene, ground, this.#held!);
+      drawing().draw(pen, scene, "over");
+    };
+    const canvas = find<HTMLCanvasElement>(this.section, `#sphere-${which}`);
+    return new Plate(canvas, paint, this.host.guarded, document.documentElement, over);
   }
 
   // State
 
-  state(): Record<string, string> {
-    return { ...this.siteValues(), ...toValues({ ...this.#state, click: this.#click.value }) };
+  state(isWhole: boolean): Record<string, string> {
+    const state = { ...this.#state, click: this.#click.value };
+    return { ...this.siteValues(isWhole), ...sphereFields(this.#sites.count).write(state) };
+  }
+
+  /** The state goes on, as a link tells it. */
+  #put(change: Partial<SphereState>): void {
+    this.#state = sphereFields(this.#sites.count).settle({ ...this.#state, ...change }, this.#state);
+  }
+
+  get #held(): number | null {
+    return this.#state.held;
+  }
+
+  set #held(held: number | null) {
+    this.#state = { ...this.#state, held };
   }
 
   override restore(values: LinkValues): void {
     const named = this.sitesOf(values);
-    this.#state = fromValues(values, named.places.length / 2);
-    [this.#history, this.#held] = [[], null];
+    const begin = values.has("view-lon") ? {} : sightOf(named.places);
+    this.#state = sphereFields(named.places.length / 2).read(values, { ...BEGINNING, ...begin });
+    this.#history = [];
     this.#click.value = this.#state.click;
     super.restore(values);
     this.#take(named);
   }
 
-  /** Other sites, seen as the last ones were. */
+  /** Other sites, seen as the last ones were, or magnified. */
   protected override begin(named: NamedSites): void {
     this.#history = [];
-    this.#state.step = this.#held = null;
+    this.#put({ step: null, held: null, lens: BEGINNING.lens, ...sightOf(named.places) });
     this.#take(named);
   }
 
@@ -130,17 +189,17 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
     const sites = new SphereSites(named.places);
     this.#sites = sites;
     this.#layers = ballLayers(sites);
-    if (this.#state.step !== null && this.#state.step >= sites.count) this.#state.step = null;
+    if (this.#state.step !== null && this.#state.step >= sites.count) this.#put({ step: null });
     this.show(named, {
       count: sites.count,
-      heads: ["Latitude", "Longitude", "Neighbours"],
+      heads: HEADS,
       cells: (site) => [...sites.words(site), String(sites.neighborCounts[site])],
     });
     find(this.section, "[data-show=closing]").hidden = !sites.hasClosing;
     const label = `Sphere with ${counted(sites.count)} ${sites.count === 1 ? "site" : "sites"}`;
     this.#ball.canvas.setAttribute("aria-label", label);
     this.#project();
-    if (reason !== "hand") this.#rescale();
+    if (reason === "state") this.#rescale();
     this.#update(reason);
   }
 
@@ -153,8 +212,8 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
 
   /** The frame of the plane holds nearly all sites; it changes only when the hand rests. */
   #rescale(): void {
-    const { reach, outside } = reachAround(this.#sites, this.#twin);
-    this.#reach = reach;
+    const { reach, middle, outside } = reachAround(this.#sites, this.#twin);
+    [this.#reach, this.#middle] = [reach, middle];
     this.out("outside").textContent =
       outside === 0
         ? ""
@@ -199,7 +258,9 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
     return {
       sites: this.#sites,
       layers: this.#layers,
+      named: this.named.names && { names: this.named.names, standing: this.#standing, isMoving },
       view: this.view,
+      map: this.#map,
       twin: this.#twin,
       seeing: this.#seeing,
       isOn: this.shown(isMoving, MANY),
@@ -218,8 +279,19 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
     say(this.out("sentence"), words.filter(Boolean).join(" "));
     say(this.out("sum"), alone === null ? ofFacets(sites.facetCount - this.#seeingCount, this.#seeingCount, SUM) : "");
     this.out("sum").hidden = step !== "done" || alone !== null;
-    const side = dot(this.#twin.pole, directionAt(this.#state.view)) < 0 ? "behind" : "in front";
+    const isDrawn = (layer: Switch): boolean => alone === null && step === "done" && this.isOn(layer);
+    const steps = step !== "done" && step.insertion !== null;
+    const [onBall, inPlane] = ofPictures({
+      triangles: steps || isDrawn("triangles"),
+      cells: isDrawn("cells") || (sites.delaunay.dimension === 1 && step === "done" && this.isOn("cells")),
+      seeing: isDrawn("seeing") && this.#seeingCount > 0,
+      steps,
+    });
+    say(this.out("on-ball"), onBall);
+    say(this.out("in-plane"), inPlane);
+    const side = imageOf(this.#map, this.#twin.pole)[2] < 0 ? "behind" : "in front";
     say(this.out("pole-side"), `*P*, the pole of projection, lies ${side}.`);
+    say(this.out("lens"), ofLens(this.#state.lens));
     this.#showStep(this.#state.step, sites.count);
     this.#poleFields.value = this.#state.pole;
     this.#viewFields.value = this.#state.view;
@@ -242,12 +314,26 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
     return View.above(...this.#state.view);
   }
 
+  get sight(): Sight {
+    return { lens: this.#state.lens, view: this.view };
+  }
+
+  /** Through the lens, to the axes of the view. */
+  get #map(): MoebiusMap {
+    return sightMap(this.sight);
+  }
+
   get #frame(): PlaneFrame {
-    return planeFrame(1, 1, Math.min(this.#plane.width, this.#plane.height) - 2, this.#reach);
+    return planeFrame(1, 1, Math.min(this.#plane.width, this.#plane.height) - 2, this.#reach, this.#middle);
   }
 
   turn(view: View, reason: Reason): void {
     this.#turn(view.middle, reason);
+  }
+
+  see({ lens, view }: Sight, reason: Reason = "hand"): void {
+    this.#see(view.middle, reason, lens);
+    this.host.announcer.say(plain(ofLens(lens)));
   }
 
   #gestures(picture: Picture): Gestures {
@@ -263,9 +349,9 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
   }
 
   readonly #onBall: Picture = {
-    under: (at) => this.view.onBall(pointUnder(this.disc, at)),
+    under: (at) => sourceOf(this.#map, pointUnder(this.disc, at)),
     place: (direction) => {
-      const point = this.view.seen(direction);
+      const point = imageOf(this.#map, direction);
       return point[2] >= 0 ? placeOf(this.disc, point) : null;
     },
     take: (at, reach) => this.#grab(at, reach),
@@ -283,10 +369,11 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
   /** Takes hold of the pole's handle, a site, or the ball; null beside them. */
   #grab(at: Point, reach: number): Hold | null {
     if (!this.#onBall.isOn(at, reach)) return null;
-    const pole = this.view.seen(this.#twin.pole);
-    if (distance(placeOf(this.disc, pole), at) <= reach) return this.#grabPole(pole[2] < 0);
+    const pole = poleSeen(this.#map, this.#twin);
+    if (pole !== null && distance(placeOf(this.disc, pole), at) <= reach) return this.#grabPole(pole[2] < 0);
     // Where sites lie close, evenly spread, the ball can still be turned between them.
-    const spacing = this.disc.r * Math.sqrt((4 * Math.PI) / this.#sites.count);
+    const times = scaleAt(this.#map, this.#onBall.under(at));
+    const spacing = times * this.disc.r * Math.sqrt((4 * Math.PI) / this.#sites.count);
     const near = Math.min(reach, REACH_OF_SITES, spacing / 3);
     const site = this.#state.step === null ? this.#siteNear(this.#onBall, at, near) : null;
     if (site === null) return grabBall(this, this.#motion, at);
@@ -295,7 +382,7 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
       move: (to) => {
         if (isFirst) this.#note();
         isFirst = false;
-        this.host.guarded(() => this.#moveSite(site, this.#onBall.under(to), "hand"));
+        this.host.guarded(() => this.#moveSite(site, this.#onBall.under(to), "pointer"));
       },
       end: () => this.#rest(),
     };
@@ -310,7 +397,7 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
         if (!isOut && wasOut) behind = !behind;
         wasOut = isOut;
         const [x, y, z] = pointUnder(this.disc, to);
-        const direction = this.view.onBall([x, y, behind ? -z : z]);
+        const direction = sourceOf(this.#map, [x, y, behind ? -z : z]);
         this.host.guarded(() => this.#movePole(lonLatOf(direction), false));
       },
       end: () => this.#rest(),
@@ -321,8 +408,10 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
   #hover(direction: Vector): void {
     if (this.#state.isPinned || this.#state.step !== null) return;
     const before = this.#bubble?.facet ?? null;
-    this.#state.aim = direction;
-    if (this.#sites.facetAt(direction) !== before) this.host.guarded(() => this.#update());
+    this.#put({ aim: direction });
+    if (this.#sites.facetAt(this.#state.aim) === before) return;
+    this.host.guarded(() => this.#update("pointer"));
+    this.host.changed();
   }
 
   /** A click. @param site The one within reach. */
@@ -347,8 +436,8 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
   // What can be done
 
   /** Shows another view. */
-  #see(place: Place, reason: Reason): void {
-    this.#state.view = viewPlace(place);
+  #see(place: Place, reason: Reason, lens = this.#state.lens): void {
+    this.#put({ view: place, lens });
     this.#say();
     this.#ball.redraw(reason);
     this.host.changed();
@@ -370,7 +459,7 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
   }
 
   #movePole(place: Place, rests = true): void {
-    this.#state.pole = handPlace(place);
+    this.#put({ pole: place });
     this.#project();
     if (rests) this.#rescale();
     this.#update(rests ? "state" : "hand");
@@ -380,8 +469,7 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
   }
 
   #set(change: Partial<SphereState>, held: number | null): void {
-    Object.assign(this.#state, change);
-    this.#held = held;
+    this.#put({ ...change, held });
     this.#update();
     this.host.changed();
   }
@@ -401,8 +489,8 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
   }
 
   #moveSite(site: number, direction: Vector, reason: Reason = "state"): void {
-    const [lon, lat] = handPlace(lonLatOf(direction));
-    this.#state.aim = direction;
+    const [lon, lat] = handPlace(lonLatOf(direction), this.#state.lens.magnification);
+    this.#put({ aim: direction });
     const words = (): string => `Site ${site + 1}: ${latitude(lat)}, ${longitude(lon)}`;
     this.#edit(edited(this.named, site, [lon, lat]), site, words, reason);
   }
@@ -421,7 +509,7 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
   #add(direction: Vector): void {
     const { count } = this.#sites;
     this.#note();
-    this.#edit(edited(this.named, count, handPlace(lonLatOf(direction))), count, () => {
+    this.#edit(edited(this.named, count, handPlace(lonLatOf(direction), this.#state.lens.magnification)), count, () => {
       const same = this.#sites.sameAs(count);
       return same === null
         ? `Site ${count + 1} added, ${this.#sites.neighborCounts[count]} neighbours`
@@ -443,9 +531,8 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
 
   /** Brings a site to the middle of the ball, and holds it. */
   protected override chosen(site: number): void {
-    this.#held = site;
-    this.#state.aim = this.#sites.site(site);
-    this.#fly([this.#sites.lonlat[2 * site], this.#sites.lonlat[2 * site + 1]]);
+    this.#put({ held: site, aim: this.#sites.site(site) });
+    this.#fly(lonLatOf(imageOf(lensMap(this.#state.lens), this.#sites.site(site))));
     this.host.guarded(() => this.#update());
     this.changed(ofSite(this.#sites, site, this.named.names?.[site]));
   }
@@ -468,13 +555,15 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
   /** What a key does that does not turn the ball; without sites there is only to add one. */
   #keyed(event: KeyboardEvent): (() => void) | null {
     const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
-    if (event.ctrlKey) {
+    if (isCommand(event)) {
       const step = arrowStep(event);
       if (key === "z") return () => this.#undo();
       return step === null ? null : () => this.#nudge(...step);
     }
-    const middle = directionAt(this.#state.view);
-    if (key === "0") return () => this.#turn(VIEW);
+    const factor = keyFactor(key);
+    if (factor !== null) return () => this.see(magnified(this.sight, [0, 0, 1], factor, true, MOST), "state");
+    const middle = sourceOf(this.#map, [0, 0, 1]);
+    if (key === "0") return () => this.see({ ...BEGINNING, view: View.above(...BEGINNING.view) }, "state");
     if (key === "n") return () => this.#add(middle);
     const withSites: Record<string, () => void> = {
       ",": () => this.#walk(-1),
@@ -508,26 +597,31 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
     const size = this.#ball.width;
     const { disc } = this;
     const scene = this.#scene(false);
-    const frame = planeFrame(size + GAP + 1, 1, size - 2, this.#reach);
+    const frame = planeFrame(size + GAP + 1, 1, size - 2, this.#reach, this.#middle);
     return {
       title: this.title,
       width: 2 * size + GAP,
       height: size,
       weight: 1,
       paint: (pen) => {
-        drawBall(pen, disc, scene);
-        drawPlane(pen, frame, scene);
+        for (const drawing of [ballDrawing(disc), planeDrawing(frame)])
+          for (const stratum of ["ground", "over"] as const) drawing.draw(pen, scene, stratum);
       },
     };
   }
 
+  /** Of a step of the insertion, its triangles. */
   geojson(exchange: Exchange): string {
+    const { step } = this.#state;
+    if (step !== null) return exchange.geojson(new SphereSites(this.#sites.lonlat.subarray(0, 2 * step)).triangles());
     return exchange.geojson(regionsOf(sphereParts(this.#scene(false)), this.isOn));
   }
 
   python(exchange: Exchange): string {
+    const sizes = { size: this.#ball.width, ball: this.disc.r, reach: this.#reach, gap: GAP };
     const scene = this.#scene(false);
-    return exchange.spherePython(scene, sphereParts(scene), this.#state, this.named.file);
+    const pole = poleSeen(this.#map, this.#twin);
+    return exchange.spherePython(scene, this.#state, pole, this.origin, { ...sizes, middle: this.#middle.join(", ") });
   }
 }
 

@@ -1,19 +1,21 @@
 /** The two pictures of the Sphere room: the ball, and the plane that its sites are projected to. */
 
-import { circle, traceCap, traceCircle } from "../drawing/arcs.ts";
+import { arcThrough, traceCap, traceCircle, type Circle } from "../drawing/arcs.ts";
 import * as balls from "../drawing/ball.ts";
 import type { Layer, Surface } from "../drawing/ball.ts";
+import { drawNames, Seats, sidesToward, widthOf, type Box, type Named } from "../drawing/names.ts";
 import { drawParts, type IsOn, type Part } from "../drawing/parts.ts";
 import { cornersOf, drawHandle, traceCorners, traceDisc, traceSegment } from "../drawing/pen.ts";
 import type { Disc, Path, Pen, Point } from "../drawing/pen.ts";
 import type { LabelStyle } from "../drawing/styles.ts";
-import { MoebiusMap } from "../kernel/api.ts";
+import type { MoebiusMap } from "../kernel/api.ts";
 import { lazy } from "../kernel/lazy.ts";
-import { writeNumber } from "../link.ts";
-import { cross, dot, lonLatOf, type Vector } from "../space.ts";
+import { cross, dot, type Vector } from "../space.ts";
+import { imageOf, sourceOf } from "../view/lens.ts";
 import type { View } from "../view/view.ts";
 import type { Bubble, Insertion, SphereSites } from "./sphere_sites.ts";
 import type { PlaneFrame, Twin } from "./twin.ts";
+import { roundInPlane, roundOnBall, sitesIn, united, windowOf, type RoundFacet, type Window } from "./window.ts";
 
 /** A step of the insertion: what it does, and which facets before it and of its fan see the pole. */
 export interface Step {
@@ -27,7 +29,10 @@ export interface Step {
 export interface SphereScene {
   readonly sites: SphereSites;
   readonly layers: BallLayers;
+  readonly named: Named | null;
   readonly view: View;
+  /** Through the lens, to the axes of the view. */
+  readonly map: MoebiusMap;
   readonly twin: Twin;
   /** One byte a facet: 1 where it sees the pole. */
   readonly seeing: Uint8Array;
@@ -42,15 +47,13 @@ export interface SphereScene {
 }
 
 const BALL_LABEL: LabelStyle = { ink: "accent-text", halo: "ball", size: 15 };
+const NAME: LabelStyle = { ink: "ink", halo: "ball", size: 13 };
 
 /** Height above the picture, ball radii, below which a site's number would be cut by the limb. */
 const LEAST_HEIGHT = 0.2;
 
 /** Radius of a circle of the plane, px, below which the numbers of its sites would lie on each other. */
 const LEAST_CIRCLE = 12;
-
-/** Distance of a site's number from its dot, px. */
-const AWAY = 12;
 
 /** What is drawn of sites on the ball, whose directions stay in the kernel while the ball turns. */
 export type BallLayers = Readonly<Record<"edges" | "ridges" | "dots", Layer>>;
@@ -67,6 +70,8 @@ export function ballLayers(sites: SphereSites): BallLayers {
 interface Picture extends Surface {
   readonly isPlane: boolean;
   readonly label: LabelStyle;
+  /** Where numbers and names are set. */
+  readonly seats: Seats;
   /** The region of the facets that see the pole, with the outline on whose left they are. */
   hatch(outline: readonly number[]): void;
   closing?(): void;
@@ -74,76 +79,118 @@ interface Picture extends Surface {
   cells(): void;
   bubble(bubble: Bubble): void;
   dots(): void;
+  names?(named: Named): void;
   /** The side of its dot on which the number of a bubble's site stands, y up; null where it is left out. */
   side(bubble: Bubble, site: number): Point | null;
   /** The facets that see the new site of a step, or those of its fan. */
   opening(path: Path, insertion: Insertion, isThere: (k: number) => boolean): void;
 }
 
-/** What both pictures show. Python and GeoJSON have the diagram of all sites, whatever is drawn of it, at any step. */
-export function sphereParts({ sites, seeing, bubble, aim, held, step }: SphereScene): Part<Picture>[] {
+/** What both pictures show. GeoJSON has the diagram of all sites, whatever is drawn of it, at any step. */
+export function sphereParts({ sites, named, seeing, bubble, held, step }: SphereScene): Part<Picture>[] {
   const isThere = step === "done";
   const outline = sites.outline(seeing);
   const isAimed = isThere && bubble !== null;
-  const place = lonLatOf(aim).map((degrees) => writeNumber(degrees, 4));
   return [
     { layer: "seeing", isThere: isThere && outline.length > 0, draw: (_, on) => on.hatch(outline) },
     { layer: "closing", isThere: isThere && sites.hasClosing, draw: (_, on) => on.closing?.() },
     {
       layer: "triangles",
       isThere,
-      always: ["python", "geojson"],
+      always: ["geojson"],
       draw: (_, on) => on.triangles(),
-      python: {
-        ball: 'ball.add_edges(delaunay.points, delaunay.edges, name="delaunay")',
-        plane: 'plane.add_edges(flat, edges, name="delaunay")',
-      },
       regions: () => sites.triangles(),
     },
     {
       layer: "cells",
       isThere,
-      always: ["python", "geojson"],
+      always: ["geojson"],
       draw: (_, on) => on.cells(),
-      python: { ball: 'ball.add_arcs(voronoi.ridge_arcs(), name="voronoi")' },
       regions: () => sites.cells(),
     },
     { layer: "seeing", isThere, draw: (pen, on) => pen.draw("hull", (path) => on.ring(path, outline)) },
-    {
-      layer: "bubble",
-      isThere: isAimed,
-      draw: (_, on) => on.bubble(bubble!),
-      python: {
-        ball: [
-          `triangle = delaunay.simplices[delaunay.find_simplex(lonlat_to_xyz((${place.join(", ")})))]`,
-          "bubble = SphereCircle.through(*delaunay.points[triangle])",
-          'ball.add_circles([bubble], name="accent2")',
-        ],
-      },
-    },
-    {
-      isThere,
-      always: ["python"],
-      draw: (_, on) => on.dots(),
-      python: { ball: 'ball.add_points(delaunay.points, name="sites")', plane: 'plane.add_points(flat, name="sites")' },
-    },
-    { isThere, draw: (pen, on) => balls.drawDots(pen, on, "held", [...(bubble?.sites ?? []), ...held]) },
-    { layer: "bubble", isThere: isAimed, draw: (pen, on) => drawNumbers(pen, on, bubble!) },
+    { isThere, draw: (_, on) => on.dots() },
     { isThere: !isThere, draw: (pen, on) => drawStep(pen, on, step as Step) },
+    { layer: "bubble", isThere: isAimed, isOver: true, draw: (_, on) => on.bubble(bubble!) },
+    { isThere, isOver: true, draw: (pen, on) => balls.drawDots(pen, on, "held", [...(bubble?.sites ?? []), ...held]) },
+    // Names first: they stay while the bubble follows the pointer.
+    { layer: "names", isThere: isThere && named !== null, isOver: true, draw: (_, on) => on.names?.(named!) },
+    { layer: "bubble", isThere: isAimed, isOver: true, draw: (pen, on) => drawNumbers(pen, on, bubble!) },
   ];
 }
 
-/** Draws the ball into a disc. */
-export function drawBall(pen: Pen, disc: Disc, scene: SphereScene): void {
-  const { sites, layers, view, seeing } = scene;
-  const look = (k: number): Vector => view.seen(sites.site(k));
-  const surface = balls.ballSurface(disc, look);
-  const map = MoebiusMap.rotation(view.rotation);
-  const hidden = view.onBall([0, 0, -1]);
+/** What stays where only the pointer moves, and what lies over it. */
+export type Stratum = "ground" | "over";
+
+/** The one picture or the other. */
+export interface Drawing {
+  draw(pen: Pen, scene: SphereScene, stratum: Stratum): void;
+  /** Where circles round facets are seen. */
+  round(scene: SphereScene): RoundFacet;
+}
+
+/** A drawing's ground as it was painted. */
+export interface Ground {
+  readonly sites: SphereSites;
+  readonly round: RoundFacet;
+  readonly inks: Pen["inks"];
+}
+
+/** Brings a ground up to date where one site has moved since: where it was, and where it is now. */
+export function drawMoved(pen: Pen, drawing: Drawing, scene: SphereScene, ground: Ground, site: number): void {
+  const { sites, twin } = scene;
+  const round = drawing.round(scene);
+  pen.known = ground.inks;
+  const window = (of: Pick<Ground, "sites" | "round">): Window =>
+    windowOf(of.sites, site, of.round, pen.width, pen.height);
+  for (const each of united(window(ground), window({ sites, round }))) {
+    const seen = sitesIn(sites, each, round);
+    const trace = (path: Path): void => traceCorners(path, cornersOf(...each));
+    pen.clipped(trace, () => {
+      pen.draw("paper", trace);
+      drawing.draw(pen, { ...scene, sites: seen, layers: ballLayers(seen), seeing: seen.seeing(twin.pole) }, "ground");
+    });
+  }
+  pen.known = null;
+}
+
+/** The ball in a disc. */
+export function ballDrawing(disc: Disc): Drawing {
+  return {
+    draw: (pen, scene, stratum) => drawBall(pen, disc, scene, stratum),
+    round: ({ sites, layers, map }) => roundOnBall(disc, map.apply(layers.dots.directions), sites),
+  };
+}
+
+/** The plane in its frame. */
+export function planeDrawing(frame: PlaneFrame): Drawing {
+  return {
+    draw: (pen, scene, stratum) => drawPlane(pen, frame, scene, stratum),
+    round({ sites, twin, seeing }) {
+      const places = new Float64Array(2 * sites.count);
+      for (let k = 0; k < sites.count; ++k)
+        [places[2 * k], places[2 * k + 1]] = frame.place(twin.forward(sites.site(k)));
+      return roundInPlane(places, seeing, sites);
+    },
+  };
+}
+
+function drawBall(pen: Pen, disc: Disc, scene: SphereScene, stratum: Stratum): void {
+  const { sites, layers, view, map, seeing } = scene;
+  const isPlain = map.magnification === 1;
+  const site = (k: number): Vector => sites.site(k);
+  const surface = isPlain ? balls.ballSurface(disc, (k) => view.seen(site(k))) : balls.ballSurface(disc, site, map);
+  const hidden = sourceOf(map, [0, 0, -1]);
+  // Through its sites: of a small circle a centre and a radius say less.
+  const rimOf = (bubble: Bubble): Circle | null =>
+    arcThrough(map.apply(bubble.sites.flatMap((k) => [...site(k)])), 0, 1, 2, true);
+  const pole = poleLabel(disc, scene);
+  const seats = new Seats(pen, disc, pole === null ? [] : [pole.box]);
   const ball: Picture = {
     ...surface,
     isPlane: false,
     label: BALL_LABEL,
+    seats,
     hatch(outline) {
       pen.draw("hatch", (path) => surface.region(path, outline, sites.regionHolds(seeing, hidden)));
     },
@@ -154,26 +201,33 @@ export function drawBall(pen: Pen, disc: Disc, scene: SphereScene): void {
     triangles: () => balls.drawLayers(pen, disc, map, [layers.edges]),
     cells: () => balls.drawLayers(pen, disc, map, [layers.ridges]),
     bubble(bubble) {
-      const rim = circle(view.seen(bubble.center), bubble.cosine);
+      const rim = rimOf(bubble);
+      if (rim === null) return;
       pen.draw("seen", (path) => traceCap(path, disc, rim));
       pen.draw("bubble-open", (path) => traceCircle(path, disc, rim));
       pen.draw("triangle", (path) => surface.ring(path, bubble.sites));
     },
     dots: () => balls.drawLayers(pen, disc, map, [layers.dots]),
+    names: (named) => drawNames(pen, seats, disc, named, map.apply(layers.dots.directions), NAME),
     side(bubble, site) {
-      const [point, middle] = [look(site), view.seen(bubble.center)];
-      return point[2] >= LEAST_HEIGHT ? [point[0] - middle[0], point[1] - middle[1]] : null;
+      const [point, rim] = [imageOf(map, sites.site(site)), rimOf(bubble)];
+      if (rim === null || point[2] < LEAST_HEIGHT) return null;
+      return [point[0] - rim.n[0], point[1] - rim.n[1]];
     },
     opening: (path, step) => surface.region(path, step.outline, holdsDirection(step, sites, hidden)),
   };
-  pen.ball(disc, "ball");
-  drawParts(pen, ball, sphereParts(scene), scene.isOn);
-  pen.draw("limb", (path) => traceDisc(path, disc));
-  drawPole(pen, disc, scene);
+  if (stratum === "ground") pen.ball(disc, "ball");
+  drawStratum(pen, ball, scene, stratum);
+  if (stratum === "ground") pen.draw("limb", (path) => traceDisc(path, disc));
+  else if (pole !== null) drawPole(pen, pole);
 }
 
-/** Draws the plane into its frame. */
-export function drawPlane(pen: Pen, frame: PlaneFrame, scene: SphereScene): void {
+function drawStratum(pen: Pen, on: Picture, scene: SphereScene, stratum: Stratum): void {
+  const parts = sphereParts(scene).filter(({ isOver = false }) => isOver === (stratum === "over"));
+  drawParts(pen, on, parts, scene.isOn);
+}
+
+function drawPlane(pen: Pen, frame: PlaneFrame, scene: SphereScene, stratum: Stratum): void {
   const { sites, twin, seeing } = scene;
   const { x, y, size } = frame;
   const flat = (k: number): Point => frame.place(twin.forward(sites.site(k)));
@@ -183,6 +237,7 @@ export function drawPlane(pen: Pen, frame: PlaneFrame, scene: SphereScene): void
     ...surface,
     isPlane: true,
     label: { ...BALL_LABEL, halo: "halo" },
+    seats: new Seats(pen),
     // The outline runs clockwise on the picture, as the frame does: turned round, the path winds once between them.
     hatch: (outline) => pen.draw("hatch", (path) => surface.region(path, [...outline].reverse(), true)),
     triangles: () =>
@@ -228,19 +283,17 @@ export function drawPlane(pen: Pen, frame: PlaneFrame, scene: SphereScene): void
       });
     },
   };
-  pen.clipped(whole, () => drawParts(pen, plane, sphereParts(scene), scene.isOn));
-  pen.draw("frame", whole);
+  pen.clipped(whole, () => drawStratum(pen, plane, scene, stratum));
+  if (stratum === "ground") pen.draw("frame", whole);
 }
 
 /** The numbers of a bubble's sites. */
 function drawNumbers(pen: Pen, on: Picture, bubble: Bubble): void {
+  for (const site of bubble.sites) on.seats.takeDot(on.place(site), 3, site + 1);
   for (const site of bubble.sites) {
     const out = on.side(bubble, site);
     if (out === null) continue;
-    const [x, y] = on.place(site);
-    const [u, v] = out.map((part) => part / (Math.hypot(...out) || 1));
-    const align = u > 0.35 ? "left" : u < -0.35 ? "right" : "center";
-    pen.label(String(site + 1), x + 0.6 * AWAY * u, y - AWAY * v + 5, { ...on.label, align });
+    on.seats.set(pen, String(site + 1), on.place(site), on.label, site + 1, sidesToward(out[0], -out[1]));
   }
 }
 
@@ -273,14 +326,30 @@ function holdsDirection({ before, seeing }: Insertion, sites: SphereSites, direc
   });
 }
 
+/** Magnification up to which the pole is shown behind: above it all that is behind is one point. */
+const BEHIND_UP_TO = 10;
+
+/** The pole, axes of the view; null where it is not shown. */
+export function poleSeen(map: MoebiusMap, twin: Twin): Vector | null {
+  const pole = imageOf(map, twin.pole);
+  return pole[2] < 0 && map.magnification > BEHIND_UP_TO ? null : pole;
+}
+
 /** The handle of the pole of projection, and its name. */
-function drawPole(pen: Pen, disc: Disc, { view, twin }: SphereScene): void {
-  const pole = view.seen(twin.pole);
-  const [x, y] = balls.placeOf(disc, pole);
-  drawHandle(pen, x, y, pole[2] >= 0 ? "front" : "behind");
-  const text = pole[2] >= 0 ? "*P*" : "*P*, behind";
-  const left = x > disc.x; // towards the middle, where there is room
-  pen.label(text, x + (left ? -11 : 11), y + 5, { ...BALL_LABEL, align: left ? "right" : "left" });
+function drawPole(pen: Pen, { x, y, isFront, text, isLeft }: NonNullable<ReturnType<typeof poleLabel>>): void {
+  drawHandle(pen, x, y, isFront ? "front" : "behind");
+  pen.label(text, x + (isLeft ? -11 : 11), y + 5, { ...BALL_LABEL, align: isLeft ? "right" : "left" });
+}
+
+/** What stands beside the pole, towards the middle, where there is room; and the box of both. */
+function poleLabel(disc: Disc, { map, twin }: SphereScene) {
+  const pole = poleSeen(map, twin);
+  if (pole === null) return null;
+  const [isFront, [x, y]] = [pole[2] >= 0, balls.placeOf(disc, pole)];
+  const [text, isLeft] = [isFront ? "*P*" : "*P*, behind", x > disc.x];
+  const width = 11 + widthOf(text, BALL_LABEL);
+  const box: Box = [x - (isLeft ? width : 7), y - 7, x + (isLeft ? 7 : width), y + 9];
+  return { x, y, isFront, text, isLeft, box };
 }
 
 /** Ridges between the triangles of the plane, and rays where one has no neighbour: the centres are those of its circles. */
@@ -309,7 +378,7 @@ function planeRidges(path: Path, frame: PlaneFrame, { sites, twin, seeing }: Sph
     const [a, b] = [1, 2].map((k) => twin.forward(sites.site(simplices[3 * facet + ((at + k) % 3)])));
     const length = Math.hypot(b[0] - a[0], b[1] - a[1]);
     const [u, v] = middle(facet);
-    const far = (4 * frame.reach + Math.hypot(u, v)) / length;
+    const far = (4 * frame.reach + Math.hypot(u - frame.middle[0], v - frame.middle[1])) / length;
     traceSegment(path, frame.place([u, v]), frame.place([u + far * (b[1] - a[1]), v - far * (b[0] - a[0])]));
   }
 }

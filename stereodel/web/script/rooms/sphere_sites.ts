@@ -2,8 +2,9 @@
 
 import { cellOf, type Region } from "../drawing/parts.ts";
 import { inBubble, lonlatToXyz, SphericalDelaunay, SphericalVoronoi } from "../kernel/api.ts";
-import { DEGREES, dot, row, type Vector } from "../space.ts";
-import { fixed, latitude, longitude, several } from "../words.ts";
+import { angle, dot, lonLatOf, row, type Vector } from "../space.ts";
+import { counted, latitude, longitude, scale, several, sized } from "../words.ts";
+import type { Lens } from "../view/lens.ts";
 import type { Twin } from "./twin.ts";
 
 /** The circle round a facet: its centre on the outer side, the cosine of its angular radius, its three sites. */
@@ -51,11 +52,15 @@ export class SphereSites {
     return [latitude(this.lonlat[2 * site + 1]), longitude(this.lonlat[2 * site])];
   }
 
-  /** How many edges each site has. */
+  /** How many cells lie beside that of each site: across edges, or across the ridges of sites on one great circle. */
   get neighborCounts(): Int32Array {
     if (this.#neighborCounts === null) {
       this.#neighborCounts = new Int32Array(this.count);
-      for (const k of this.delaunay.edges) ++this.#neighborCounts[k];
+      const { delaunay } = this;
+      // As many facets meet at a site as edges do, where there are any; on one circle it has the two next to it.
+      const ends =
+        delaunay.dimension === 2 ? delaunay.simplices : delaunay.dimension === 1 ? this.voronoi.ridgePoints : [];
+      for (const k of ends) ++this.#neighborCounts[k];
     }
     return this.#neighborCounts;
   }
@@ -88,7 +93,8 @@ export class SphereSites {
 
   /** The sites around the facets that see the pole, which are on the left; as a line of the plane, its convex hull. */
   outline(seeing: Uint8Array): number[] {
-    const chosen = Array.from(seeing.keys()).filter((facet) => seeing[facet] === 1);
+    const chosen: number[] = [];
+    for (let facet = 0; facet < seeing.length; ++facet) if (seeing[facet] === 1) chosen.push(facet);
     return outlineOf(this.delaunay.simplices, chosen);
   }
 
@@ -148,10 +154,7 @@ export function bubbleSigns(xyz: Float64Array, simplices: Int32Array, point: Vec
   if (simplices.length === 0) return new Int8Array(0);
   const corner = (k: number): Float64Array => {
     const rows = new Float64Array(simplices.length);
-    for (let at = k; at < simplices.length; at += 3) {
-      const site = simplices[at];
-      rows.set(xyz.subarray(3 * site, 3 * site + 3), at - k);
-    }
+    for (let at = 0; at < rows.length; ++at) rows[at] = xyz[3 * simplices[at - (at % 3) + k] + (at % 3)];
     return rows;
   };
   return inBubble(corner(0), corner(1), corner(2), point);
@@ -207,9 +210,6 @@ export function chained(next: Map<number, number>): number[] {
   return outline;
 }
 
-/** Distances below a radius by less than this part of it are those of sites on the circle, which are rounded. */
-const ON_CIRCLE = 1e-9;
-
 /** Sites as "7 · 22 · 41". */
 function numbers(sites: readonly number[]): string {
   return sites.map((site) => String(site + 1)).join("\u2009·\u2009");
@@ -223,32 +223,57 @@ export function withoutTriangles(sites: SphereSites): string | null {
   if (dimension === 0) return "All sites lie at one place: its cell is the whole sphere, and there are no triangles.";
   return sites.count === 2
     ? "Two sites: each has half of the sphere, and there are no triangles."
-    : "All sites lie on one circle: there are no triangles.";
+    : "All sites lie on one great circle: there are no triangles.";
+}
+
+/** What the pictures show, below each: of the ball, and of the plane. */
+export function ofPictures(
+  has: Readonly<Record<"triangles" | "cells" | "seeing" | "steps", boolean>>,
+): [string, string] {
+  const lines = has.cells ? "Delaunay triangles in strong lines, Voronoi cells in thin ones." : "Delaunay triangles.";
+  const ball = has.steps
+    ? "Delaunay triangles, new ones dashed."
+    : has.triangles
+      ? lines
+      : has.cells
+        ? "Voronoi cells."
+        : "";
+  const plane = [
+    has.triangles && "The same triangles.",
+    has.seeing && "Hatched is where the facets go that see *P*.",
+    has.cells && "Cells differ: centres are not sent to centres.",
+  ];
+  return [ball, plane.filter(Boolean).join(" ")];
 }
 
 /** What the circle round a triangle is on the sphere and in the plane. */
 export function ofBubble(bubble: Bubble, sites: SphereSites, twin: Twin): string {
-  const radius = `The circle round _${numbers(bubble.sites)}_ has the radius _${fixed(Math.acos(bubble.cosine) * DEGREES, 2)}°_ on the sphere`;
+  const radius = `The circle round _${numbers(bubble.sites)}_ has the radius _${sized(angle(bubble.center, sites.site(bubble.sites[0])), 2)}°_ on the sphere`;
   const image = twin.circle(bubble.center, bubble.cosine);
   if (image.kind === "line" || image.holdsPole) {
     return `${radius}. This bubble holds *P*: in the plane it is the outside of the circle, and its facet is left out.`;
   }
-  const [u, v] = image.middle;
-  let [onSphere, inPlane] = [0, 0];
-  for (let k = 0; k < sites.count; ++k) {
-    if (bubble.sites.includes(k)) continue;
-    const site = sites.site(k);
-    const [x, y] = twin.forward(site);
-    if (dot(site, bubble.center) > bubble.cosine + ON_CIRCLE) ++onSphere;
-    if (Math.hypot(x - u, y - v) < image.radius * (1 - ON_CIRCLE)) ++inPlane;
-  }
-  return `${radius}, _${fixed(image.radius, 3)}_ ball radii in the plane. Other sites inside: _${onSphere}_\u00a0and\u00a0_${inPlane}_.`;
+  // The kernel's signs, without rounding; the plane's circle holds the images of what the bubble holds.
+  const [a, b, c] = bubble.sites.map((site) => sites.site(site));
+  const inside = counted(inBubble(a, b, c, sites.xyz).filter((sign) => sign > 0).length);
+  return (
+    `${radius}, _${sized(image.radius, 3)}_ ball radii in the plane. ` +
+    `Other sites inside, counted exactly: _${inside}_\u00a0and\u00a0_${inside}_.`
+  );
+}
+
+/** What a lens does; nothing where it does nothing. */
+export function ofLens({ focus, magnification }: Lens): string {
+  if (magnification === 1) return "";
+  const [lon, lat] = lonLatOf(focus);
+  const times = magnification < 1000 ? scale(magnification) : counted(Math.round(magnification));
+  return `Magnified _${times}_ times at _${latitude(lat)}_ _${longitude(lon)}_.`;
 }
 
 /** What inserting a site does. */
 export function ofStep(step: Insertion | null, site: number): string {
   if (step === null)
-    return `Site _${site + 1}_ is one of the first: all before it lie on one circle and have no facets.`;
+    return `Site _${site + 1}_ is one of the first: all before it lie on one great circle and have no facets.`;
   if (step.seeing.length === 0)
     return `Site _${site + 1}_ sees no facet: it lies exactly on one before it, or on their bubbles.`;
   return (

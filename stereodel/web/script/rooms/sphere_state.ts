@@ -1,72 +1,76 @@
 /** The state of the Sphere room but for its sites, and how a link tells it. */
 
+import { direction, fields, flag, number, place, whole, word, type Fields, type Place } from "../fields.ts";
 import { lonlatToXyz } from "../kernel/api.ts";
-import { writePlace, type LinkValues } from "../link.ts";
-import { lonLatOf, row, type Vector } from "../space.ts";
+import { angle, DEGREE, directionOf, lonLatOf, row, unit, type Vector } from "../space.ts";
+import type { Lens } from "../view/lens.ts";
 import { wrap } from "../words.ts";
-
-/** Longitude and latitude, degrees. */
-export type Place = readonly [number, number];
 
 export const CLICKS = ["keep", "add", "remove"] as const;
 
 /** What a click does. */
 export type Click = (typeof CLICKS)[number];
 
-/** How the room begins: degrees. */
-const POLE: Place = [-150, 53.1];
-export const VIEW: Place = [0, 0];
-const AIM: Place = [-9.94, 3.49];
-
-/** Decimals of a degree to which the view is held: what they leave out is invisible, so a link shows the same pixels. */
-const VIEW_DECIMALS = 4;
-
-/** Decimals of a degree to which the hand moves things. */
+/** Decimals of a degree to which the hand moves sites and the pole: those of sites where nothing is magnified. */
 const HAND_DECIMALS = 3;
 
+/** Sites some metres apart fill the ball at the largest magnification; its focus has digits for that. */
+export const MOST = 1e6;
+const FOCUS_DECIMALS = 12;
+
 export interface SphereState {
-  pole: Place;
-  view: Place;
+  readonly pole: Place;
+  readonly view: Place;
+  readonly lens: Lens;
   /** Where the pointer was last, and whether the bubble there is kept. */
-  aim: Vector;
-  isPinned: boolean;
+  readonly aim: Vector;
+  readonly isPinned: boolean;
   /** Sites that are inserted; null for all of them, drawn as what they are in the end. */
-  step: number | null;
+  readonly step: number | null;
+  /** The site that is held. */
+  readonly held: number | null;
   readonly click: Click;
 }
 
-/** The values of a link; what is as in the beginning is left out. */
-export function toValues({ pole, view, aim, isPinned, step, click }: SphereState): Record<string, string> {
-  const values: Record<string, string> = {};
-  const put = (name: string, value: Place, otherwise: Place): void => {
-    if (value[0] === otherwise[0] && value[1] === otherwise[1]) return;
-    Object.assign(values, writePlace(`${name}-`, value, VIEW_DECIMALS));
-  };
-  put("pole", pole, POLE);
-  put("view", view, VIEW);
-  if (isPinned) {
-    put("aim", handPlace(lonLatOf(aim)), AIM);
-    values["pin"] = "1";
-  }
-  if (step !== null) values["step"] = String(step);
-  if (click !== "keep") values["click"] = click;
-  return values;
+export const BEGINNING: SphereState = {
+  pole: [-150, 53.1],
+  view: [0, 0],
+  lens: { focus: [1, 0, 0], magnification: 1 },
+  aim: directionOf(-9.94, 3.49),
+  isPinned: false,
+  step: null,
+  held: null,
+  click: "keep",
+};
+
+/** Of so many sites. */
+export function sphereFields(count: number): Fields<SphereState> {
+  return fields<SphereState>({
+    pole: place("pole-", HAND_DECIMALS),
+    view: place("view-"),
+    lens: fields<Lens>({ magnification: number("s", 1, MOST), focus: direction("focus-", FOCUS_DECIMALS) }),
+    aim: direction("aim-"),
+    isPinned: flag("pin"),
+    step: whole("step", count),
+    held: whole("held", count, 1),
+    click: word("click", CLICKS),
+  });
 }
 
-/**
- * The state that a link tells of `count` sites.
- * @throws LinkError where it cannot be read.
- */
-export function fromValues(values: LinkValues, count: number): SphereState {
-  const step = values.whole("step", 1, count, 0);
-  return {
-    pole: values.place("pole-", POLE),
-    view: values.place("view-", VIEW),
-    aim: directionAt(values.place("aim-", AIM)),
-    isPinned: values.has("pin"),
-    step: step === 0 || step === count ? null : step,
-    click: values.word("click", CLICKS, "keep"),
-  };
+/** Degrees within which sites are so close that the room begins with the lens on them, and how large they are then. */
+const CLOSE = 10;
+const WIDE = 60;
+
+/** How sites are seen that lie close together; nothing for others. */
+export function sightOf(lonlat: Float64Array): Pick<SphereState, "view" | "lens"> | null {
+  const sites = lonlatToXyz(lonlat);
+  const sum = [0, 1, 2].map((k) => sites.reduce((total, part, at) => total + (at % 3 === k ? part : 0), 0));
+  const focus = unit(sum as unknown as Vector);
+  let reach = 0;
+  for (let k = 0; k < sites.length / 3; ++k) reach = Math.max(reach, angle(focus, row(sites, k)));
+  if (!(reach > 0 && reach < CLOSE)) return null;
+  const magnification = Math.tan((WIDE / 2) * DEGREE) / Math.tan((reach / 2) * DEGREE);
+  return { view: lonLatOf(focus), lens: { focus, magnification } };
 }
 
 /** The direction of a place, as the kernel and Python have it. */
@@ -74,16 +78,8 @@ export function directionAt([lon, lat]: Place): Vector {
   return row(lonlatToXyz([lon, lat]), 0);
 }
 
-/** A place as the hand sets it. */
-export function handPlace(place: Place): Place {
-  return rounded(place, HAND_DECIMALS);
-}
-
-/** A view as a link holds it. */
-export function viewPlace(place: Place): Place {
-  return rounded(place, VIEW_DECIMALS);
-}
-
-function rounded([lon, lat]: Place, decimals: number): Place {
+/** A place as the hand sets it, where the ball is magnified so many times. */
+export function handPlace([lon, lat]: Place, magnification = 1): Place {
+  const decimals = HAND_DECIMALS + Math.max(0, Math.ceil(Math.log10(magnification)));
   return [Number(wrap(lon).toFixed(decimals)), Number(lat.toFixed(decimals))];
 }

@@ -1,33 +1,13 @@
-/** Which columns are coordinates, and their cells as numbers; what is wrong is told with its row. */
+/** Cells of columns as coordinates and as numbers; rows in which they are wrong are noted, by their indices. */
 
-import { TableError, type TextTable } from "./delimited.ts";
-
-/** What people and programs write as a number. */
-export const NUMBER = /^[-+]?(?:[0-9]+[.,]?[0-9]*|[.,][0-9]+)(?:e[-+]?[0-9]+)?$/i;
+import type { TextTable } from "./delimited.ts";
+import { angle, isMissing, LETTERED, NUMBER, pointOf, typed } from "./words.ts";
 
 /** A number whose mark may be decimal or separate thousands. */
 const GROUPED = /^[-+]?[1-9][0-9]{0,2}[.,][0-9]{3}$/;
 
-/** What stands for no value, in any case. */
-const MISSING = /^(?:na|n\/a|nan|null|none|<na>|-)?$/i;
-
-/** Words for each, surest first. */
-const LON = { sure: ["lon", "lng", "long", "longitude"], unsure: "x" };
-const LAT = { sure: ["lat", "latitude"], unsure: "y" };
-
-/** The columns of longitude and latitude: by their names, by a word in these, or x and y; null where they must be asked. */
-export function findLonLat(names: readonly string[]): [string, string] | null {
-  const found = [LON, LAT].map(({ sure, unsure }) => {
-    const matches = [
-      names.filter((name) => sure.includes(name.trim().toLowerCase())),
-      names.filter((name) => words(name).some((word) => sure.includes(word))),
-      names.filter((name) => name.trim().toLowerCase() === unsure),
-    ].find((matching) => matching.length > 0);
-    return matches?.length === 1 ? matches[0] : null;
-  });
-  const [lon, lat] = found;
-  return lon === null || lat === null || lon === lat ? null : [lon, lat];
-}
+/** Digits that are a name, such as 007. */
+const CODE = /^[-+]?0[0-9]/;
 
 /** Columns of a plane: x and y in any case, or the only two; null where they must be asked. */
 export function findXY(names: readonly string[]): [string, string] | null {
@@ -36,78 +16,116 @@ export function findXY(names: readonly string[]): [string, string] | null {
   return names.length === 2 ? [names[0], names[1]] : null;
 }
 
-/** Words of a column's name in lower case, split at signs and where a capital follows a small letter. */
-function words(name: string): string[] {
-  return name
-    .replace(/(?<=[a-z])(?=[A-Z])/g, " ")
-    .toLowerCase()
-    .split(/[^a-z]+/);
-}
-
 /** Longitude and latitude as places (n, 2). */
 export function lonLatPlaces(table: TextTable, lon: string, lat: string): Float64Array {
-  return onEarth(places(numbers(table.get(lon)!, "longitude"), numbers(table.get(lat)!, "latitude")));
+  const [longitudes, latitudes] = [degrees(table, lon, "longitude"), degrees(table, lat, "latitude")];
+  return onEarth(places(longitudes, latitudes), table.wrong);
 }
 
-/** Places, whose latitudes must be those of a sphere. */
-export function onEarth(lonlat: Float64Array): Float64Array {
-  refuse(
-    lonlat.length / 2,
-    (row) => Math.abs(lonlat[2 * row + 1]) > 90,
-    (row) => `latitude ${lonlat[2 * row + 1]} is outside [-90, 90]`,
-    "; is it the longitude, or not in degrees?",
-  );
+/** Places, of which those that are none of a sphere are noted. */
+export function onEarth(lonlat: Float64Array, wrong: TextTable["wrong"]): Float64Array {
+  for (let row = 0; row < lonlat.length / 2; ++row) {
+    const [lon, lat] = [lonlat[2 * row], lonlat[2 * row + 1]];
+    if (wrong.has(row)) continue;
+    if (Math.abs(lat) > 90)
+      wrong.set(row, `latitude ${lat} is outside [-90, 90]; is it the longitude, or not in degrees?`);
+    else if (Math.abs(lon) > 360) wrong.set(row, `longitude ${lon} is outside [-360, 360]`);
+  }
   return lonlat;
 }
 
 /** Two columns of a plane as places (n, 2). A mark that may separate thousands must be decimal elsewhere in the table. */
 export function planePlaces(table: TextTable, first: string, second: string): Float64Array {
-  const markOf = (cell: string): string => (cell.includes(",") ? "," : ".");
-  const decimal = new Set<string>();
-  for (const cells of table.values()) {
-    for (const cell of cells.map((each) => each.trim())) {
-      if (/[.,]/.test(cell) && NUMBER.test(cell) && !GROUPED.test(cell)) decimal.add(markOf(cell));
-    }
-  }
-  const known = decimal.size === 0 ? "." : [...decimal].join("");
-  const pair = [first, second].map((name) => {
-    const cells = table.get(name)!;
-    const unsure = (cell: string): boolean => GROUPED.test(cell) && markOf(cell) !== known;
-    refuse(
-      cells.length,
-      (row) => unsure(cells[row].trim()),
-      (row) => `the ${name} '${cells[row].trim()}' may have a decimal mark or thousands`,
-      "; write thousands without a separator",
-    );
-    return numbers(cells, name);
-  });
+  const mark = decimalMark(table.columns);
+  const pair = [first, second].map((name) =>
+    numbers(table, name, table.columns.get(name)!, (cell) =>
+      isUnsure(cell, mark) ? "may have a decimal mark or thousands; write thousands without one" : plain(cell),
+    ),
+  );
   return places(pair[0], pair[1]);
 }
+
+/** The other columns whose values are all numbers, NaN where one is missing. */
+export function numberColumns(columns: TextTable["columns"], others: ReadonlySet<string>): Map<string, Float64Array> {
+  const mark = decimalMark(columns);
+  const isNumber = (cell: string): boolean => NUMBER.test(cell) && !CODE.test(cell) && !isUnsure(cell, mark);
+  const result = new Map<string, Float64Array>();
+  for (const [name, column] of columns) {
+    const known = (cell: string): boolean => isMissing(cell) || isNumber(cell.trim());
+    if (others.has(name) || !column.every(known) || column.every(isMissing)) continue;
+    result.set(
+      name,
+      Float64Array.from(column, (cell) => (isMissing(cell) ? NaN : decimal(cell.trim()))),
+    );
+  }
+  return result;
+}
+
+/** The decimal mark by numbers that have no other reading; a point if there is none, both if they disagree. */
+function decimalMark(columns: TextTable["columns"]): string {
+  const found = new Set<string>();
+  for (const cells of columns.values()) {
+    for (const cell of cells) {
+      if (!/[.,]/.test(cell)) continue;
+      const text = cell.trim();
+      if (NUMBER.test(text) && !GROUPED.test(text)) found.add(markOf(text));
+    }
+  }
+  return [...found].join("") || ".";
+}
+
+const markOf = (cell: string): string => (cell.includes(",") ? "," : ".");
+const isUnsure = (cell: string, mark: string): boolean => GROUPED.test(cell) && markOf(cell) !== mark;
 
 function places(first: Float64Array, second: Float64Array): Float64Array {
   return Float64Array.from({ length: 2 * first.length }, (_, k) => (k % 2 === 0 ? first : second)[k >> 1]);
 }
 
 /** A comma is a decimal mark. */
-function numbers(cells: readonly string[], name: string): Float64Array {
-  const said = (row: number): string => cells[row].trim();
-  const values = Float64Array.from(cells, (cell) => {
-    const text = cell.trim();
-    return NUMBER.test(text) ? Number(text.replace(",", ".")) : NaN;
+const decimal = (cell: string): number => Number(cell.replace(",", "."));
+
+/** A column of angles, in degrees or with minutes, seconds and points of the compass. */
+function degrees(table: TextTable, name: string, axis: "longitude" | "latitude"): Float64Array {
+  return numbers(table, axis, lettered(table, name, axis), (cell) => {
+    const found = NUMBER.test(cell) ? null : angle(cell);
+    if (found === null) return plain(cell);
+    const said = found.point === "" ? axis : /[NS]/.test(found.point) ? "latitude" : "longitude";
+    if (said !== axis) return `is a ${said}`;
+    if (found.point === "O") return "has an O, which is east in German and west in French; write E or W in its place";
+    return found.degrees;
   });
-  refuse(
-    cells.length,
-    (row) => !Number.isFinite(values[row]),
-    (row) => `the ${name} ${MISSING.test(said(row)) ? "is missing" : `'${said(row)}' is not a number`}`,
-  );
-  return values;
 }
 
-/** Tells the first row that is wrong, and how many there are. */
-function refuse(count: number, isWrong: (row: number) => boolean, words: (row: number) => string, advice = ""): void {
-  const rows: number[] = [];
-  for (let row = 0; row < count; ++row) if (isWrong(row)) rows.push(row);
-  if (rows.length === 0) return;
-  const more = rows.length === 1 ? "" : ` (and ${rows.length - 1} more ${rows.length === 2 ? "row" : "rows"} like it)`;
-  throw new TableError(`row ${rows[0] + 1}: ${words(rows[0])}${more}${advice}`);
+/** Cells of a column with the points of the compass of the column behind it, where there is such a one. */
+function lettered({ columns }: TextTable, name: string, axis: string): readonly string[] {
+  const [cells, names] = [columns.get(name)!, [...columns.keys()]];
+  const beside = names[names.indexOf(name) + 1] ?? "";
+  if (!LETTERED.test(beside)) return cells;
+  const [read, letters] = [cells, columns.get(beside)!].map((all) =>
+    all.map((cell) => (isMissing(typed(cell)) ? "" : typed(cell))),
+  );
+  const points = letters.filter(Boolean).map((letter) => pointOf(letter) ?? "?");
+  const isAxis = points.length > 0 && points.every((point) => (axis === "latitude" ? "NS" : "EWO").includes(point));
+  return isAxis && !read.some((cell) => cell.includes("-"))
+    ? read.map((cell, row) => cell && `${cell} ${letters[row]}`.trim())
+    : cells;
+}
+
+const plain = (cell: string): number => (NUMBER.test(cell) ? decimal(cell) : NaN);
+
+/** A column as numbers; NaN, and a note, in wrong rows. @param read A number, or why a cell is none if that is known. */
+function numbers(
+  { wrong }: TextTable,
+  axis: string,
+  cells: readonly string[],
+  read: (cell: string) => number | string,
+): Float64Array {
+  return Float64Array.from(cells, (given, row) => {
+    const cell = given.trim();
+    const value = read(cell);
+    if (typeof value === "number" && Number.isFinite(value)) return value;
+    const why = typeof value === "string" ? value : "is not a number";
+    if (!wrong.has(row)) wrong.set(row, `the ${axis} ${isMissing(cell) ? "is missing" : `'${cell}' ${why}`}`);
+    return NaN;
+  });
 }

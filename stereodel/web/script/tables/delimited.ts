@@ -1,94 +1,144 @@
-/** Tables as delimited text: what separates the fields and whether there is a header is found out. */
+/** Tables as delimited text: what separates the fields and which row is the header is found out. */
 
-import { findLonLat, NUMBER } from "./coordinates.ts";
+import type { Points } from "../files.ts";
+import { findLonLat, NUMBER } from "./words.ts";
 
-/** A comma comes last, as it may also be a decimal mark. */
-const SEPARATORS = ["\t", ";", "|", ","];
+/** A comma comes first: where several marks give as many fields, it is the one. */
+const SEPARATORS = [",", ";", "\t", "|"];
 
-/** Lines from which the separator is found. */
+/** Lines from which the separator is found, and rows among which the header is. */
 const LOOKED_AT = 50;
+const TITLES = 20;
 
 const LINE_END = /\r\n|\n|\r/;
 
 /** Lines on top that begin with a hash. */
 const COMMENTS = /^(?:[ \t]*#[^\r\n]*(?:\r\n?|\n|$))+/;
 
-/** Columns of text by name; row k of all of them is row k + 1 of the data. */
-export type TextTable = ReadonlyMap<string, readonly string[]>;
-
-/** @throws TableError naming the row. */
-export function readTable(given: string): TextTable {
-  const text = given.replace(COMMENTS, "");
-  const separator = separatorOf(text);
-  const rows = separator === null ? blankRows(text) : markedRows(text, separator);
-  let names: string[] | null = null;
-  let columns: string[][] = [];
-  for (const row of rows) {
-    if (row.every((cell) => cell.trim() === "")) continue;
-    if (names === null) {
-      names = header(row);
-      columns = row.map(() => []);
-      if (!isData(row)) continue;
-    }
-    if (row.length !== names.length) {
-      const number = columns[0].length + 1;
-      throw new TableError(`row ${number}: has ${row.length} fields, but there are ${names.length} columns`);
-    }
-    row.forEach((cell, k) => columns[k].push(cell));
-  }
-  if (names === null)
-    throw new TableError("the table is empty: there is not even a line with the names of the columns");
-  const repeated = names.find((name, k) => name !== "" && names.indexOf(name) !== k);
-  if (repeated !== undefined) throw new TableError(`there are several columns with the name '${repeated}'`);
-  const named = names.map((name, k): [string, string[]] => [name || `column_${k + 1}`, columns[k]]);
-  return new Map(named.filter(([, cells], k) => names[k] !== "" || cells.some((cell) => cell !== "")));
+/** Columns of text, and the rows without a place. */
+export interface TextTable {
+  /** By name; row k of all of them is row k + 1 of the data. */
+  readonly columns: ReadonlyMap<string, readonly string[]>;
+  /** How many rows there are. */
+  readonly count: number;
+  /** Whether a row names the columns. */
+  readonly isHeaded: boolean;
+  /** Lines of the file on which rows begin, where it has any. */
+  readonly lines: readonly number[];
+  /** What is wrong with rows, by their indices. */
+  readonly wrong: Map<number, string>;
 }
 
-/** The mark that gives the first lines the same number of fields, else one that the first line has; null for blanks. */
+/** Of all rows, pairs of coordinates; and the columns that they were read from. */
+export interface PlacedTable {
+  readonly places: Float64Array;
+  readonly table: TextTable;
+  readonly axes?: [string, string];
+}
+
+interface Row {
+  readonly cells: readonly string[];
+  readonly line: number;
+}
+
+/** @throws TableError where the text is no table; wrong rows are noted. */
+export function readTable(given: string): TextTable {
+  const comments = COMMENTS.exec(given)?.[0] ?? "";
+  const text = given.slice(comments.length);
+  const separator = separatorOf(text);
+  const begin = comments.split(LINE_END).length;
+  const all = separator === null ? blankRows(text, begin) : markedRows(text, separator, begin);
+  const rows = [...all].filter(({ cells }) => cells.some((cell) => cell.trim() !== ""));
+  if (rows.length === 0)
+    throw new TableError("the table is empty: there is not even a line with the names of the columns");
+  const { names, data } = headed(rows);
+  const isHeaded = data.length < rows.length;
+  const repeated = names.find((name, k) => name !== "" && names.indexOf(name) !== k);
+  if (repeated !== undefined) throw new TableError(`there are several columns with the name '${repeated}'`);
+  const columns = names.map((): string[] => []);
+  const wrong = new Map<number, string>();
+  const least = names.reduce((most, name, k) => (name === "" ? most : k + 1), 0);
+  data.forEach(({ cells }, row) => {
+    const isWhole = cells.length >= least && cells.slice(names.length).every((cell) => cell === "");
+    const [fields, there] = [`${cells.length} field${cells.length === 1 ? "" : "s"}`, `${names.length} columns`];
+    if (!isWhole) wrong.set(row, `has ${fields}, but there are ${there}`);
+    columns.forEach((column, k) => column.push(cells[k] ?? ""));
+  });
+  const named = names.map((name, k): [string, string[]] => [name || `column_${k + 1}`, columns[k]]);
+  const shown = named.filter(([, cells], k) => names[k] !== "" || cells.some((cell) => cell !== ""));
+  return { columns: new Map(shown), count: data.length, isHeaded, lines: data.map(({ line }) => line), wrong };
+}
+
+/** The mark that splits most of the first lines into one number of fields, the largest; null for blanks. */
 function separatorOf(text: string): string | null {
   const lines = text.split(LINE_END, LOOKED_AT).filter((line) => line.trim() !== "");
   const bare = lines.map((line) => line.replace(/"[^"]*"/g, ""));
-  const widths = (mark: string): number[] => bare.map((line) => line.split(mark).length);
-  const present = SEPARATORS.filter((mark) => widths(mark)[0] > 1);
-  return present.find((mark) => new Set(widths(mark)).size === 1) ?? present[0] ?? null;
+  const all = SEPARATORS.map((mark) => ({ mark, widths: bare.map((line) => line.split(mark).length) }));
+  const several = all.filter(({ widths }) => Math.max(0, ...widths) > 1);
+  const even = several.filter(({ widths }) => new Set(widths).size === 1);
+  const blanks = [...new Set(lines.map((line) => line.trim().split(/\s+/).length))];
+  if (several.length === 0 || (even.length === 0 && blanks.length === 1 && blanks[0] > 1)) return null;
+  const score = ({ widths }: (typeof all)[0]): number =>
+    Math.max(...widths.map((n) => (n > 1 ? 1e6 * widths.filter((each) => each === n).length + n : 0)));
+  return (even.length > 0 ? even : several).reduce((best, each) => (score(each) > score(best) ? each : best)).mark;
 }
 
-function* blankRows(text: string): Generator<string[]> {
-  for (const line of text.split(LINE_END)) yield line.trim().split(/\s+/);
+function* blankRows(text: string, begin: number): Generator<Row> {
+  for (const [k, line] of text.split(LINE_END).entries()) yield { cells: line.trim().split(/\s+/), line: begin + k };
 }
 
 /** Fields may stand in quotation marks, with those inside written twice, and then hold separators and ends of lines. */
-function* markedRows(text: string, mark: string): Generator<string[]> {
+function* markedRows(text: string, mark: string, begin: number): Generator<Row> {
   const plain = `[^"\\${mark}\\r\\n][^\\${mark}\\r\\n]*`;
   const field = new RegExp(`(?:"([^"]*(?:""[^"]*)*)"|(${plain})?)(\\${mark}|\\r\\n|\\n|\\r|$)`, "y");
-  let row: string[] = [];
-  let count = 0;
+  let [cells, line, next] = [[] as string[], begin, begin];
   while (field.lastIndex < text.length) {
     const found = field.exec(text);
     if (found === null) {
-      throw new TableError(
-        `line ${count + 1}: a field begins with a quotation mark but does not end with one; inside such a field write it twice`,
-      );
+      const words = "a field begins with a quotation mark but does not end with one";
+      throw new TableError(`line ${line}: ${words}; inside such a field write it twice`);
     }
-    row.push(found[1]?.replaceAll('""', '"') ?? found[2] ?? "");
+    if (found[1] !== undefined) next += found[1].split(LINE_END).length - 1;
+    cells.push(found[1]?.replaceAll('""', '"') ?? found[2] ?? "");
     if (found[3] === mark) continue;
-    yield row;
-    row = [];
-    ++count;
+    yield { cells, line };
+    [cells, line] = [[], ++next];
   }
-  if (row.length > 0) yield [...row, ""];
+  if (cells.length > 0) yield { cells: [...cells, ""], line };
 }
 
-/** Whether a first row is data: most of its fields are numbers, and no names of coordinates are among them. */
-function isData(row: readonly string[]): boolean {
-  const cells = row.map((cell) => cell.trim()).filter((cell) => cell !== "");
-  return 2 * cells.filter((cell) => NUMBER.test(cell)).length > cells.length && findLonLat(cells) === null;
+/**
+ * Names of the columns, empty where there is none, and the rows below. The header is the first row with names of
+ * coordinates, else the first one of several fields; or else that is data, if most of its fields are numbers. Two
+ * columns without names are longitude and latitude.
+ */
+function headed(rows: readonly Row[]): { names: string[]; data: readonly Row[] } {
+  const top = rows.slice(0, TITLES).map(({ cells }) => cells.map((cell) => cell.trim()));
+  const filled = top.map((cells) => cells.filter((cell) => cell !== ""));
+  const isNumber = (cell: string): boolean => NUMBER.test(cell);
+  const worded = filled.findIndex((cells, k) => findLonLat(cells) !== null && (k === 0 || !cells.some(isNumber)));
+  const several = filled.findIndex((cells) => cells.length > 1);
+  const at = Math.max(0, worded >= 0 ? worded : several);
+  const isData = worded < 0 && 2 * filled[at].filter(isNumber).length > filled[at].length;
+  if (!isData) return { names: top[at], data: rows.slice(at + 1) };
+  const names = top[at].length === 2 ? ["lon", "lat"] : top[at].map((_, k) => `column_${k + 1}`);
+  return { names, data: rows.slice(at) };
 }
 
-/** Names of the columns, empty where there is none. Two columns without names are longitude and latitude. */
-function header(row: readonly string[]): string[] {
-  if (!isData(row)) return row.map((cell) => cell.trim());
-  return row.length === 2 ? ["lon", "lat"] : row.map((_, k) => `column_${k + 1}`);
+/** Places, names and columns of numbers as a table, with all digits of all numbers. */
+export function writeTable(
+  axes: readonly [string, string],
+  { places, names = null, values = new Map() }: Partial<Pick<Points, "names" | "values">> & Pick<Points, "places">,
+): string {
+  const digits = (value: number): string => (Object.is(value, -0) ? "-0.0" : Number.isFinite(value) ? `${value}` : "");
+  const quoted = (cell: string): string => (/[",\r\n]/.test(cell) ? `"${cell.replaceAll('"', '""')}"` : cell);
+  const head = [...axes, ...(names === null ? [] : ["name"]), ...[...values.keys()].map(quoted)];
+  const rows = Array.from({ length: places.length / 2 }, (_, row) => {
+    const name = names === null ? [] : [quoted(names[row])];
+    const others = [...values.values()].map((column) => digits(column[row]));
+    return [digits(places[2 * row]), digits(places[2 * row + 1]), ...name, ...others].join(",");
+  });
+  return `${[head.join(","), ...rows].join("\n")}\n`;
 }
 
 /** A table that cannot be read; the message begins with the row where there is one. */

@@ -1,20 +1,29 @@
 /** Points of GeoJSON: a collection, a feature alone, or a sequence of features. */
 
 import { onEarth } from "./coordinates.ts";
-import { TableError } from "./delimited.ts";
+import { TableError, type PlacedTable } from "./delimited.ts";
 
-/** Places (n, 2) of points, and their names where features have a property `name`. */
-export function geojsonPoints(text: string): { places: Float64Array; names: string[] | null } {
+/** Places (n, 2) of points, and the properties of the features as columns. */
+export function geojsonPoints(text: string): PlacedTable {
   const collection = document(text);
   const features = member(collection, "type") === "Feature" ? [collection] : member(collection, "features");
   if (!Array.isArray(features)) throw new TableError("the file is not a GeoJSON FeatureCollection of points");
   refuseOtherSystems(collection);
-  const places = onEarth(Float64Array.from(features.flatMap((feature, k) => position(feature, k + 1))));
-  const names = features.map((feature) => member(member(feature, "properties"), "name"));
-  return {
-    places,
-    names: names.some((name) => typeof name === "string") ? names.map((name) => String(name ?? "")) : null,
-  };
+  const wrong = new Map<number, string>();
+  const positions = features.map((feature, row) => {
+    const found = position(feature);
+    if (typeof found === "string") wrong.set(row, found);
+    return typeof found === "string" ? [NaN, NaN] : found;
+  });
+  const places = onEarth(Float64Array.from(positions.flat()), wrong);
+  const properties = features.map((feature) => member(feature, "properties"));
+  const names = new Set(properties.flatMap((each) => Object.keys(each ?? {})));
+  const columns = new Map([...names].map((name) => [name, properties.map((each) => cell(member(each, name)))]));
+  return { places, table: { columns, count: features.length, isHeaded: true, lines: [], wrong } };
+}
+
+function cell(value: unknown): string {
+  return typeof value === "object" ? (JSON.stringify(value ?? undefined) ?? "") : String(value ?? "");
 }
 
 /** What an object of JSON has by a name; undefined of anything else. */
@@ -37,20 +46,17 @@ function document(text: string): unknown {
   }
 }
 
-/** The place of a feature, which is a point or several points of which there is one. */
-function position(feature: unknown, row: number): number[] {
+/** The place of a feature, which is a point or several points of which there is one; or what is wrong with it. */
+function position(feature: unknown): number[] | string {
   const geometry = member(feature, "geometry");
   const [kind, coordinates] = [member(geometry, "type"), member(geometry, "coordinates")];
   const isOneOfMany = kind === "MultiPoint" && Array.isArray(coordinates) && coordinates.length === 1;
-  if (kind !== "Point" && !isOneOfMany) {
-    throw new TableError(`row ${row}: a Point is needed, not ${typeof kind === "string" ? kind : "no geometry"}`);
-  }
+  if (kind !== "Point" && !isOneOfMany)
+    return `a Point is needed, not ${typeof kind === "string" ? kind : "no geometry"}`;
   const place: unknown = isOneOfMany ? coordinates[0] : coordinates;
   const pair = Array.isArray(place) ? place.slice(0, 2) : [];
-  if (pair.length < 2 || !pair.every(Number.isFinite)) {
-    throw new TableError(`row ${row}: a Point has two or three numbers, not ${JSON.stringify(place)}`);
-  }
-  return pair;
+  const isPair = pair.length === 2 && pair.every(Number.isFinite);
+  return isPair ? pair : `a Point has two or three coordinates, not ${JSON.stringify(place)}`;
 }
 
 /** Coordinate systems as GeoJSON named them before RFC 7946: the page has none but degrees. */
@@ -60,6 +66,6 @@ function refuseOtherSystems(collection: unknown): void {
   const name = String(member(member(crs, "properties"), "name"));
   if (/(CRS84|EPSG::4326|EPSG:4326)$/i.test(name)) return;
   throw new TableError(
-    `the file is in ${name}; the page reads longitude and latitude, the Python library transforms others`,
+    `the file is in ${name}, the page reads degrees; to make a page of it, type: stereodel web FILE`,
   );
 }

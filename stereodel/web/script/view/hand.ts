@@ -88,7 +88,7 @@ class Hand {
     });
     on("wheel", (event) => this.#wheel(event));
     on("keydown", (event) => {
-      if (!event.altKey && !event.metaKey && this.#gestures.key?.(event)) event.preventDefault();
+      if (!event.altKey && this.#gestures.key?.(event)) event.preventDefault();
     });
     return () => abort.abort();
   }
@@ -104,6 +104,7 @@ class Hand {
     this.#fingers.set(event.pointerId, { at, start: at, by, hold, isDrag: false, track });
     if (this.#fingers.size === 2 && this.#gestures.pinch !== undefined) {
       for (const finger of this.#fingers.values()) {
+        if (finger.isDrag) finger.hold?.end?.([0, 0]);
         finger.hold = null;
         finger.isDrag = true;
       }
@@ -165,6 +166,11 @@ class Hand {
     const middle: Place = [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2];
     return { middle, spread: Math.max(1, distance(a, b)), turn: Math.atan2(b[1] - a[1], b[0] - a[0]) };
   }
+}
+
+/** Whether the key of commands is held: Ctrl, or ⌘ on a Mac. */
+export function isCommand(event: KeyboardEvent): boolean {
+  return event.ctrlKey || event.metaKey;
 }
 
 /** Of two places of a drawing, pixels. */

@@ -4,14 +4,19 @@ import { Rotation } from "../kernel/api.ts";
 import { DEGREE, lonLatOf, type Vector } from "../space.ts";
 import { wrap } from "../words.ts";
 
+/** Degrees: longitude and latitude of the middle, and the roll. */
+type Degrees = readonly [number, number, number];
+
 /** A ball seen from afar. */
 export class View {
   /** From the ball's axes to the view's. */
   readonly rotation: Rotation;
+  /** What it was made of: read again, no digit differs. */
+  readonly #made: Degrees | null;
   #matrix: Float64Array | null = null;
 
-  constructor(rotation: Rotation) {
-    this.rotation = rotation;
+  constructor(rotation: Rotation, made: Degrees | null = null) {
+    [this.rotation, this.#made] = [rotation, made];
   }
 
   /** From above a place, degrees, north up but for a roll counterclockwise. */
@@ -21,7 +26,8 @@ export class View {
     const [u, v] = [(Math.cos(east) - Math.sin(east)) / 2, -(Math.cos(east) + Math.sin(east)) / 2];
     const [p, q] = [Math.cos(north) + Math.sin(north), Math.cos(north) - Math.sin(north)];
     const [w, x, y, z, c, s] = [u * p, -u * q, v * q, v * p, Math.cos(turn), Math.sin(turn)];
-    return new View(new Rotation([c * w - s * z, c * x - s * y, c * y + s * x, c * z + s * w]));
+    const made: Degrees | null = Math.abs(lat) <= 90 ? [wrap(lon), lat, roll] : null;
+    return new View(new Rotation([c * w - s * z, c * x - s * y, c * y + s * x, c * z + s * w]), made);
   }
 
   /** A direction of the ball, in the axes of the view. */
@@ -38,11 +44,12 @@ export class View {
 
   /** Longitude and latitude of the middle, degrees. */
   get middle(): [number, number] {
-    return lonLatOf(this.onBall([0, 0, 1]));
+    return this.#made === null ? lonLatOf(this.onBall([0, 0, 1])) : [this.#made[0], this.#made[1]];
   }
 
   /** Degrees by which the picture is turned counterclockwise from north up. */
   get roll(): number {
+    if (this.#made !== null) return this.#made[2];
     const [lon, lat] = this.middle;
     const [x, y] = View.above(lon, lat).seen(this.onBall([1, 0, 0]));
     return -Math.atan2(y, x) / DEGREE;
