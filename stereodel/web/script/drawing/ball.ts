@@ -226,19 +226,29 @@ export interface Surface {
   region(path: Path, sites: readonly number[], holds: boolean): void;
 }
 
-/** A ball. @param look Directions of the sites, axes of the view. */
-export function ballSurface(disc: Disc, look: (site: number) => Vector): Surface {
+/** A ball. @param look Directions of the sites, before `map`, which takes them to the axes of the view; without one there. */
+export function ballSurface(disc: Disc, look: (site: number) => Vector, map: MoebiusMap | null = null): Surface {
+  const seen = (points: readonly Vector[]): Float64Array => {
+    const directions = Float64Array.from(points.flat());
+    return map?.apply(directions) ?? directions;
+  };
+  const image = (site: number): Vector => (map === null ? look(site) : row(seen([look(site)]), 0));
   const sides = (sites: readonly number[]): [number, number][] =>
     sites.map((a, k) => [a, sites[(k + 1) % sites.length]]);
-  const line = (path: Path, a: number, b: number, side?: Side): void => traceGreat(path, disc, look(a), look(b), side);
+  const line = (path: Path, from: number, to: number, side?: Side): void => {
+    const [a, b] = [look(from), look(to)];
+    traceArc(path, disc, seen([a, unit([a[0] + b[0], a[1] + b[1], a[2] + b[2]]), b]), 0, 1, 2, side);
+  };
   return {
-    place: (site) => placeOf(disc, look(site)),
-    isSeen: (site) => look(site)[2] >= 0,
+    place: (site) => placeOf(disc, image(site)),
+    isSeen: (site) => image(site)[2] >= 0,
     line,
     ring: (path, sites) => sides(sites).forEach(([a, b]) => line(path, a, b)),
     region(path, sites, holds) {
       const points = sides(sites).flatMap(([a, b]) => along(look(a), look(b)));
-      traceRegions(path, disc, { points: Float64Array.from(points.flat()), offsets: [0, points.length] }, holds);
+      const rings = { points: seen(points), offsets: [0, points.length] };
+      const bent = map === null ? rings : bentRings(Float64Array.from(points.flat()), rings, map, disc.r);
+      traceRegions(path, disc, bent, holds);
     },
   };
 }

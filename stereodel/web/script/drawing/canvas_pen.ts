@@ -8,28 +8,21 @@ import type { Colours, DotName, DotStyle, LabelStyle, Style, StyleName } from ".
 /** Arcs of ellipses that are stroked at once: browsers need quadratic time for paths of thousands. */
 const MOST_ARCS = 256;
 
-/** Dots beyond which they are squares, which are filled in a tenth of the time: at rest, and while they move. */
-const MANY_DOTS = { rest: 20_000, moving: 4_000 };
+/** Radius of dots, pixels, that look like squares of their area, which are filled in a tenth of the time. */
+const TINY = 1.6;
+
+/** Dots beyond which all are squares. */
+const MANY_DOTS = 20_000;
 
 type Context = CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D;
 
 export class CanvasPen extends Pen {
   readonly #context: Context;
-  readonly #mostDots: number;
 
   /** @param scale Pixels of the canvas for one of the drawing. */
-  constructor(
-    context: Context,
-    width: number,
-    height: number,
-    scale: number,
-    colours: Colours,
-    weight: number,
-    isMoving = false,
-  ) {
+  constructor(context: Context, width: number, height: number, scale: number, colours: Colours, weight: number) {
     super(width, height, colours, weight);
     this.#context = context;
-    this.#mostDots = MANY_DOTS[isMoving ? "moving" : "rest"];
     context.setTransform(scale, 0, 0, scale, 0, 0);
     context.lineCap = context.lineJoin = "round";
     context.imageSmoothingQuality = "high";
@@ -78,9 +71,11 @@ export class CanvasPen extends Pen {
   protected discs(_: DotName, { radius: r, fill, rim, rimWidth, opacity }: DotStyle, places: ArrayLike<number>): void {
     const context = this.#context;
     this.#faint(opacity, () => {
-      if (places.length > 2 * this.#mostDots) {
+      if (r < TINY || places.length > 2 * MANY_DOTS) {
+        const side = Math.sqrt(Math.PI) * Math.min(r, TINY);
         context.fillStyle = this.colours[fill];
-        for (let k = 0; k < places.length; k += 2) context.fillRect(places[k] - r / 2, places[k + 1] - r / 2, r, r);
+        for (let k = 0; k < places.length; k += 2)
+          context.fillRect(places[k] - side / 2, places[k + 1] - side / 2, side, side);
         return;
       }
       this.#discs(places, r + rimWidth / 2, this.colours[rim]);
@@ -195,16 +190,17 @@ export class CanvasPen extends Pen {
     });
   }
 
-  /** The place of a gradient is that of an object's bounding box in SVG. */
   protected fillDisc(disc: Disc, fill: string | Gradient): void {
     const context = this.#context;
     const { x, y, r } = disc;
     if (typeof fill === "string") context.fillStyle = fill;
     else {
-      const [cx, cy] = [x + (LIGHT.x - 0.5) * 2 * r, y + (LIGHT.y - 0.5) * 2 * r];
-      const gradient = context.createRadialGradient(cx, cy, 0, cx, cy, LIGHT.r * 2 * r);
-      gradient.addColorStop(fill.from, fill.inner);
-      gradient.addColorStop(1, fill.outer);
+      const [focus, last] = [
+        [x + LIGHT.fx * r, y + LIGHT.fy * r, 0],
+        [x + LIGHT.cx * r, y + LIGHT.cy * r, LIGHT.r * r],
+      ] as const;
+      const gradient = context.createRadialGradient(...focus, ...last);
+      for (const stop of fill.stops) gradient.addColorStop(...stop);
       context.fillStyle = gradient;
     }
     context.beginPath();

@@ -29,6 +29,9 @@ export const STEP = 10;
 /** Places beyond which their cells are left out while the globe moves. */
 const MANY_PLACES = 10_000;
 
+/** Places of which dots are drawn at the most while the globe moves: of more, every second, third and so on. */
+const MOST_MOVING = 25_000;
+
 /** A globe; `map` takes the Earth to the axes of the view. */
 interface Ball {
   readonly disc: Disc;
@@ -87,6 +90,11 @@ export class GlobeScene {
     if (fine !== null) this.#fine = balls.landLayer(fine);
   }
 
+  /** Of the land that is drawn at rest. */
+  get resolution(): "50m" | "110m" {
+    return this.#fine === null ? "110m" : "50m";
+  }
+
   show(places: Places | null): void {
     [this.places, this.lit, this.#made] = [places, null, places && madeOf(places, this.latitude)];
   }
@@ -133,10 +141,9 @@ export class GlobeScene {
   }
 
   get parts(): Part<Ball>[] {
-    const { picture, places, latitude } = this;
+    const { picture, places } = this;
     const lonlat = places?.lonlat ?? new Float64Array(0);
     const [hasPicture, hasPlaces] = [picture !== null, places !== null];
-    const kind = latitude === "spherical" ? "" : `, latitude="${latitude}"`;
     const drawn = (layer: (isMoving: boolean) => Layer | null): Pick<Part<Ball>, "draw"> => ({
       draw: (pen, { disc, map, isMoving }) => balls.drawLayers(pen, disc, map, [layer(isMoving)]),
     });
@@ -148,9 +155,8 @@ export class GlobeScene {
       {
         isThere: hasPicture,
         draw: (pen, { disc, map, isMoving }) => picture!.draw(pen, disc, map, isMoving),
-        python: { globe: `globe.add_raster(${JSON.stringify(picture?.name)})` },
       },
-      { layer: "land", isThere: !hasPicture, ...land, python: { globe: 'globe.add_land(resolution="50m")' } },
+      { layer: "land", isThere: !hasPicture, ...land },
       {
         layer: "fills",
         isThere: hasInks,
@@ -161,21 +167,13 @@ export class GlobeScene {
           balls.drawLayers(pen, disc, map, [land?.outlines ?? null]);
         },
       },
-      { layer: "graticule", ...drawn(() => this.#graticule), python: { globe: `globe.add_graticule(${STEP}.0)` } },
-      // The page draws coasts with the land.
-      { layer: "land", isThere: !hasPicture, python: { globe: 'globe.add_coastlines(resolution="50m")' } },
-      {
-        layer: "tissot",
-        ...drawn(() => this.#tissot),
-        python: { globe: `globe.add_tissot(${STEP}.0, ${CIRCLE_RADIUS.toFixed(4)})` },
-      },
-      { isThere: hasPlaces, python: { globe: `places = read_points(${JSON.stringify(places?.name)}).lonlat` } },
+      { layer: "graticule", ...drawn(() => this.#graticule) },
+      { layer: "tissot", ...drawn(() => this.#tissot) },
       {
         layer: "cells",
         isThere: hasPlaces,
         always: ["geojson"], // the data of the places, whatever is drawn of it
         ...drawn((isMoving) => (isMoving && isMuch ? null : this.#made!.cells)),
-        python: { globe: `globe.add_cells(SphericalVoronoi.from_lonlat(places${kind}))` },
         regions: () => this.#made?.regions ?? [],
       },
       {
@@ -183,7 +181,7 @@ export class GlobeScene {
         isThere: !!places?.isolines,
         draw: (pen, { disc, map }) => balls.drawLayers(pen, disc, map, this.#made!.isolines),
       },
-      { isThere: hasPlaces, ...drawn(() => this.#made!.dots), python: { globe: "globe.add_points(places)" } },
+      { isThere: hasPlaces, ...drawn((isMoving) => this.#made![isMoving ? "sparse" : "dots"]) },
       { draw: (pen, { disc }) => pen.shade(disc) },
       {
         layer: "names",
@@ -201,6 +199,8 @@ export class GlobeScene {
 /** What is made of places when it is first asked for: their dots, their cells, the areas of these. */
 interface Made {
   readonly dots: Layer;
+  /** Those that are drawn while the globe moves. */
+  readonly sparse: Layer;
   readonly named: Pick<Named, "names" | "radii"> & { readonly directions: Directions };
   /** Of the cells' sphere. */
   readonly points: Float64Array;
@@ -233,16 +233,18 @@ function madeOf({ lonlat, names, owner, isolines }: Places, latitude: Latitude):
     const place = row(lonlatToXyz(lonlat.subarray(2 * sites[0], 2 * sites[0] + 2)), 0);
     return [balls.regionLayer("tint", null, drawn(Float64Array.from(corners)), offsets, place, true, ink)];
   };
+  /** Dots of one place of so many. */
+  const dots = (of: number): Layer => {
+    const { inks, ink = [], radii = [] } = owner ?? {};
+    const some = <T>(all: readonly T[]): readonly T[] => (of === 1 ? all : all.filter((_, k) => k % of === 0));
+    const xyz = lonlatToXyz(of === 1 ? lonlat : lonlat.filter((_, k) => (k >> 1) % of === 0));
+    if (inks === undefined) return balls.dotLayer("site", xyz);
+    const colours = some(ink).map((number) => inks[number]);
+    return balls.spotLayer(xyz, some(radii), colours);
+  };
   const made: Made = lazy({
-    dots: () => {
-      const { inks, ink = [], radii = [] } = owner ?? {};
-      if (inks === undefined) return balls.dotLayer("site", lonlatToXyz(lonlat));
-      return balls.spotLayer(
-        lonlatToXyz(lonlat),
-        radii,
-        ink.map((number) => inks[number]),
-      );
-    },
+    dots: () => dots(1),
+    sparse: () => (lonlat.length > 2 * MOST_MOVING ? dots(Math.ceil(lonlat.length / (2 * MOST_MOVING))) : made.dots),
     named: () => {
       const radii = owner?.radii ?? [];
       const order = [...(names ?? []).keys()].filter((k) => radii[k] !== 0);
