@@ -69,24 +69,29 @@ class Looks:
         """Contents of the page by name; none where nothing is said."""
         if not self.said:
             return {}
-        told: dict[str, Any] = {"title": self.title, "source": self.source}
+        dots, scales = self.dots(len(lonlat))
         lines: dict[str, str] = {}
-        if self.size is not None or self.color is not None or self.values is not None:
-            given = (self.size, self.color, self.values, self.scale, self.legend, None, self.size_legend)
-            dots = DotLooks.of(len(lonlat), replace(MAP_DOT, radius=BY_VALUE), *given)
-            colors = np.array([dots.style.color]) if dots.colors is None else dots.colors
-            inks, number = np.unique(np.round(colors * 255) / 255, axis=0, return_inverse=True)
-            told |= {
-                "inks": [_css(ink) for ink in inks],
-                "ink": np.broadcast_to(number.ravel(), len(lonlat)).tolist(),
-                "radii": np.round(np.array(dots.radii(len(lonlat))) * PIXELS, 2).tolist(),
-                "legend": [_entry(title, entry) for title, entry in dots.entries.items()],
-                "columns": self._columns(),
-            }
-            scales = [entry for entry in dots.entries.values() if isinstance(entry, ColorScale)]
-            if scales and len(lonlat) <= MOST_CONTOURED:
-                lines = _isolines(lonlat, np.asarray(self.values, dtype=np.float64), scales[0], latitude)
+        if scales and len(lonlat) <= MOST_CONTOURED:
+            lines = _isolines(lonlat, np.asarray(self.values, dtype=np.float64), scales[0], latitude)
+        told = {"title": self.title, "source": self.source} | dots
         return {"owner": packed(json.dumps(told).encode("utf-8", "replace"))} | lines
+
+    def dots(self, count: int) -> tuple[dict[str, Any], list[ColorScale]]:
+        """Inks, radii, legend and values of so many places, if anything is said of them; the scale of the colours."""
+        if self.size is None and self.color is None and self.values is None:
+            return {}, []
+        given = (self.size, self.color, self.values, self.scale, self.legend, None, self.size_legend)
+        dots = DotLooks.of(count, replace(MAP_DOT, radius=BY_VALUE), *given)
+        colors = np.array([dots.style.color]) if dots.colors is None else dots.colors
+        inks, number = np.unique(np.round(colors * 255) / 255, axis=0, return_inverse=True)
+        told = {
+            "inks": [css(ink) for ink in inks],
+            "ink": np.broadcast_to(number.ravel(), count).tolist(),
+            "radii": np.round(np.array(dots.radii(count)) * PIXELS, 2).tolist(),
+            "legend": legend(dots.entries),
+            "columns": self._columns(),
+        }
+        return told, [entry for entry in dots.entries.values() if isinstance(entry, ColorScale)]
 
     def _columns(self) -> list[dict[str, Any]]:
         """Values by title, those of both scales once if they are the same; what is missing is null."""
@@ -110,27 +115,32 @@ def _isolines(lonlat: FloatArray, values: FloatArray, scale: ColorScale, latitud
     return {"isolines": packed_places(Ragged(np.concatenate([line.lonlat for line in found]), offsets), ISOLINE_DIGITS)}
 
 
-def _css(color: ColorLike) -> str:
+def css(color: ColorLike) -> str:
     """A colour as CSS writes it."""
     red, green, blue, opacity = as_color(color)
     return f"rgb({round(255 * red)} {round(255 * green)} {round(255 * blue)} / {opacity:.3g})"
+
+
+def legend(entries: Mapping[str, LegendEntry]) -> list[dict[str, Any]]:
+    """Entries of a legend, as `script/rooms/owner.ts` reads them."""
+    return [_entry(title, entry) for title, entry in entries.items()]
 
 
 def _entry(title: str, entry: LegendEntry) -> dict[str, Any]:
     """An entry of a legend: a bar with numbers below it, circles with theirs, or a dot."""
     if isinstance(entry, ColorScale):
         ticks = [[round(float(entry.place(at)), 4), text] for at, text in _fitting(entry).items()]
-        missing = entry.missing_key and [entry.missing_key, _css(entry.missing)]
+        missing = entry.missing_key and [entry.missing_key, css(entry.missing)]
         return {
             "title": title,
-            "bar": [_css(tuple(shade)) for shade in entry.shades(SHADES)],
+            "bar": [css(tuple(shade)) for shade in entry.shades(SHADES)],
             "ticks": ticks,
             "missing": missing,
         }
     if isinstance(entry, SizeScale):
         circles = [[round(float(entry(at)) * PIXELS / 2, 2), text] for at, text in entry.ticks.items()]
-        return {"title": title, "circles": circles, "ink": None if entry.color is None else _css(entry.color)}
-    return {"title": title, "ink": _css(entry.color if isinstance(entry, LineStyle | DotStyle) else entry)}
+        return {"title": title, "circles": circles, "ink": None if entry.color is None else css(entry.color)}
+    return {"title": title, "ink": css(entry.color if isinstance(entry, LineStyle | DotStyle) else entry)}
 
 
 def _fitting(scale: ColorScale) -> Mapping[float, str]:

@@ -34,13 +34,14 @@ function layerOf(points: Float64Array, draw: Layer["draw"]): Layer {
   return { directions: new Directions(points), draw };
 }
 
-/** Lines: arcs of three points each, an end, a point between, the other end. */
-export function arcLayer(style: StyleName, points: Float64Array): Layer {
-  return layerOf(points, (pen, disc, images) =>
-    pen.draw(style, (path) => {
+/** Lines: arcs of three points each, an end, a point between, the other end; `ink` is of the data. */
+export function arcLayer(style: StyleName, points: Float64Array, ink?: string): Layer {
+  const trace =
+    (disc: Disc, images: Float64Array) =>
+    (path: Path): void => {
       for (let k = 0; 3 * k < images.length; k += 3) traceArc(path, disc, images, k, k + 1, k + 2);
-    }),
-  );
+    };
+  return layerOf(points, (pen, disc, images) => pen.draw(style, trace(disc, images), ink));
 }
 
 /** Caps by three points of each circle, counterclockwise about the cap. */

@@ -38,7 +38,7 @@ export class CanvasPen extends Pen {
   protected path(_: StyleName, style: Style, trace: Trace, ink?: string): void {
     const context = this.#context;
     if (style.fill === undefined && style.hatch === undefined) {
-      this.#line(style);
+      this.#line(style, ink);
       const path = strokedPath(context);
       this.#faint(style.strokeOpacity, () => {
         trace(path);

@@ -47,6 +47,7 @@ export const STYLES = {
   touch: { stroke: "ink", width: 1 },
   tissot: { fill: "tissot", stroke: "coast", width: 0.6 },
   tint: { fill: "paper", stroke: "paper", width: 0.6 },
+  line: { stroke: "ink", width: 1.2 },
   swatch: { fill: "paper" },
   tick: { stroke: "ink-2", width: 0.7 },
   isoline: { stroke: "ink", width: 0.8 },

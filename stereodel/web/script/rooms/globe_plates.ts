@@ -4,11 +4,12 @@ import { arcThrough, circle, pointAt, traceCap, type Circle } from "../drawing/a
 import { arcLayer, circlePoints, drawLayers, graticuleArcs, placeOf, regionLayer } from "../drawing/ball.ts";
 import type { Layer } from "../drawing/ball.ts";
 import { widthOf, type Box } from "../drawing/names.ts";
-import { drawParts } from "../drawing/parts.ts";
+import { drawParts, type IsOn } from "../drawing/parts.ts";
 import { cornersOf, drawHandle, traceDisc, type Disc, type Pen } from "../drawing/pen.ts";
 import { Plate, type Reason } from "../drawing/plate.ts";
 import type { LabelStyle } from "../drawing/styles.ts";
 import { MoebiusMap, Rotation } from "../kernel/api.ts";
+import type { RoomHost } from "../room.ts";
 import { angle, cross, directionOf, lonLatOf, row, type Vector } from "../space.ts";
 import { arrowed, grabBall, type Turnable } from "../view/ball_hand.ts";
 import { distance, follow, isCommand, type Gestures, type Hold, type Pinch, type Place } from "../view/hand.ts";
@@ -17,8 +18,7 @@ import type { Cap, Lens, Sight } from "../view/lens.ts";
 import { Motion } from "../view/motion.ts";
 import { pointUnder, type View } from "../view/view.ts";
 import { fixed, scale } from "../words.ts";
-import type { GlobeRoom } from "./globe.ts";
-import { CIRCLE_RADIUS, STEP } from "./globe_scene.ts";
+import { CIRCLE_RADIUS, STEP, type GlobeScene } from "./globe_scene.ts";
 import { BEGINNING, sideView, type GlobeState } from "./globe_state.ts";
 
 /** Pixels beyond a dot within which the pointer is on it. */
@@ -27,13 +27,36 @@ const REACHED = 8;
 const LABEL: LabelStyle = { ink: "accent-text", halo: "halo", size: 14 };
 const LETTER: LabelStyle = { ...LABEL, size: 15, italic: true };
 
+/** Who has globes: the room, or the output of a notebook's cell. */
+export interface GlobeHost {
+  readonly scene: GlobeScene;
+  readonly shown: GlobeState;
+  /** What 0 begins anew. */
+  readonly beginning: GlobeState;
+  readonly isNorthUp: boolean;
+  /** Nothing is drawn that only a hand needs. */
+  readonly isFramed: boolean;
+  readonly hasPointed: boolean;
+  readonly isOn: IsOn;
+  readonly host: Pick<RoomHost, "guarded">;
+  /** The part of the document whose colours hold. */
+  readonly place: HTMLElement;
+  set(change: Partial<GlobeState>, reason: Reason, isStep?: boolean): void;
+  /** The pointer is on a place, or on none. */
+  hover(place: number | null): void;
+  /** The place that the pointer is on was clicked, if it is on one. */
+  press?(): void;
+  /** A key; whether it was one of the host's own. */
+  key?(event: KeyboardEvent): boolean;
+}
+
 /** What the globes have in common: what is drawn of the Earth, the circle at the pointer, the hand. */
 abstract class GlobePlate implements Turnable {
   readonly plate: Plate;
   readonly motion = new Motion();
-  protected readonly room: GlobeRoom;
+  protected readonly room: GlobeHost;
 
-  constructor(canvas: HTMLCanvasElement, room: GlobeRoom) {
+  constructor(canvas: HTMLCanvasElement, room: GlobeHost) {
     this.room = room;
     const standing = new Map();
     const paint = (pen: Pen, isMoving: boolean): void => {
@@ -47,7 +70,7 @@ abstract class GlobePlate implements Turnable {
       this.#paintPointer(pen);
       this.paintHeld(pen);
     };
-    this.plate = new Plate(canvas, paint, room.host.guarded, document.documentElement, overlay);
+    this.plate = new Plate(canvas, paint, room.host.guarded, room.place, overlay);
     follow(this.plate, { hover: (at) => this.point(at), ...this.gestures() });
   }
 
@@ -71,7 +94,7 @@ abstract class GlobePlate implements Turnable {
   }
 
   get isNorthUp(): boolean {
-    return this.room.switches.isOn("north");
+    return this.room.isNorthUp;
   }
 
   protected change(change: Partial<GlobeState>): void {
@@ -162,6 +185,7 @@ export class FisheyeGlobe extends GlobePlate {
   }
 
   protected override get taken(): Box[] {
+    if (this.room.isFramed) return [];
     const { x, y, isRight, words, style } = this.#focus;
     const width = widthOf(words, style) + 11;
     return [[x - (isRight ? 7 : width), y - 20, x + (isRight ? width : 7), y + 7]];
@@ -179,8 +203,10 @@ export class FisheyeGlobe extends GlobePlate {
       click: (at) => {
         this.motion.stop();
         this.point(at);
+        this.room.press?.();
       },
       doubleClick: (at) => {
+        this.room.press?.(); // back to what it was before the first of the two
         if (this.isOnBall(at)) this.fly(this.#focusedAt(this.under(at)));
       },
       pinch: (middle, spread) => this.#pinch(middle, spread),
@@ -189,6 +215,7 @@ export class FisheyeGlobe extends GlobePlate {
         this.change({ sight: lenses.magnified(this.#sight, point, factor, this.isNorthUp) });
       },
       key: (event) => {
+        if (this.room.key?.(event)) return true;
         const view = arrowed(this, event);
         const sight = view === null ? this.#keyed(event.key) : { ...this.#sight, view };
         if (sight === null || isCommand(event)) return false;
@@ -204,7 +231,8 @@ export class FisheyeGlobe extends GlobePlate {
 
   #take(at: Place, reach: number): Hold | null {
     const { lens, view } = this.#sight;
-    if (distance(at, placeOf(this.disc, view.seen(lens.focus))) > reach) return grabBall(this, this.motion, at);
+    const away = this.room.isFramed ? Infinity : distance(at, placeOf(this.disc, view.seen(lens.focus)));
+    if (away > reach) return grabBall(this, this.motion, at);
     this.motion.stop();
     // The fisheye leaves its focus where it is: the ring is at the pointer where the view stays as it is.
     return { move: (to) => this.change({ sight: { lens: { ...lens, focus: view.onBall(this.under(to)) }, view } }) };
@@ -250,7 +278,7 @@ const TRIED = 180;
 export class BubbleGlobe extends GlobePlate {
   readonly #which: "before" | "after";
 
-  constructor(canvas: HTMLCanvasElement, which: "before" | "after", room: GlobeRoom) {
+  constructor(canvas: HTMLCanvasElement, which: "before" | "after", room: GlobeHost) {
     super(canvas, room);
     this.#which = which;
   }
@@ -373,12 +401,12 @@ const MARGIN = 1;
 
 /** Five small globes: the lens from five sides, as the panels of Figures 10 to 12, with the surroundings of the focus. */
 export class FiveViews {
-  readonly #room: GlobeRoom;
+  readonly #room: GlobeHost;
   readonly #plates: Plate[];
   readonly #graticule = arcLayer("graticule", graticuleArcs(STEP));
   #shown: Lens | null = null;
 
-  constructor(buttons: readonly HTMLButtonElement[], room: GlobeRoom) {
+  constructor(buttons: readonly HTMLButtonElement[], room: GlobeHost) {
     this.#room = room;
     this.#plates = buttons.map((button) => {
       const paint = (pen: Pen): void => this.#paint(pen, Number(button.value));

@@ -57,11 +57,12 @@ export function scaleAt(map: MoebiusMap, direction: Vector): number {
 export function magnified(sight: Sight, point: Vector, factor: number, isNorthUp: boolean): Sight {
   const { lens, view } = sight;
   if (factor >= 1) {
-    // Magnifications multiply at the most, so that none is above the largest one.
-    const strength = Math.min(factor, MOST / lens.magnification);
+    // Magnifications multiply at the most, so that none is above the largest one, unless it was before.
+    const most = Math.max(MOST, lens.magnification);
+    const strength = Math.min(factor, most / lens.magnification);
     const map = lensMap({ focus: point, magnification: strength }).after(sightMap(sight));
     const free = new View(map.left.after(map.right));
-    const magnification = Math.max(1, Math.min(MOST, map.magnification));
+    const magnification = Math.max(1, Math.min(most, map.magnification));
     const focus = magnification > 1 ? row(map.focus, 0) : lens.focus;
     return { lens: { focus, magnification }, view: isNorthUp ? free.northUp.holding(free.onBall(point), point) : free };
   }
