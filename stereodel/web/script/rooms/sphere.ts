@@ -622,8 +622,8 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
   }
 
   python(exchange: Exchange): string {
-    const scene = this.#scene(false);
-    return exchange.spherePython(scene, sphereParts(scene), this.#state, this.named.file);
+    const sizes = { size: this.#ball.width, ball: this.disc.r, reach: this.#reach, gap: GAP };
+    return exchange.spherePython(this.#scene(false), this.#state.pole, this.origin, sizes);
   }
 }
 
