@@ -32,6 +32,8 @@ STATES = {
         "set=stars&pole-lon=0&pole-lat=-90&view-lon=-90&view-lat=60&on=seeing",
         "set=dodecahedron&pin=1&aim-lon=-140&aim-lat=50&view-lon=-120&view-lat=30&on=bubble,triangles,seeing",
         "set=dodecahedron&pin=1&aim-lon=-150&aim-lat=53.1",
+        "s=6&focus-lon=20&focus-lat=10&view-lon=20&view-lat=10&pin=1&on=triangles,cells,bubble,seeing,closing",
+        "sites=10,50,10.01,50,10.005,50.01,10.02,50.02,10.01,49.99&on=triangles,cells",
         "step=20",
         "step=5&set=dodecahedron&view-lat=-60",
         "step=2",

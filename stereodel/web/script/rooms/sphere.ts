@@ -623,7 +623,9 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
 
   python(exchange: Exchange): string {
     const sizes = { size: this.#ball.width, ball: this.disc.r, reach: this.#reach, gap: GAP };
-    return exchange.spherePython(this.#scene(false), this.#state.pole, this.origin, sizes);
+    const scene = this.#scene(false);
+    const pole = poleSeen(this.#map, this.#twin);
+    return exchange.spherePython(scene, this.#state, pole, this.origin, { ...sizes, middle: this.#middle.join(", ") });
   }
 }
 
