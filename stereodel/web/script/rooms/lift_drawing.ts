@@ -135,10 +135,13 @@ export class LiftPicture {
     else traceRegions(path, this.#disc, ringOf(this.#border()), this.#holds([0, 0, -1]));
   };
 
-  #drawEdges(pen: Pen, side?: Side): void {
+  #drawEdges(pen: Pen, side?: Side | "flat"): void {
     const { edges } = this.#scene.sites.delaunay;
     pen.draw("delaunay", (path) => {
-      for (let k = 0; k < edges.length; k += 2) this.surface.line(path, edges[k], edges[k + 1], side);
+      for (let k = 0; k < edges.length; k += 2) {
+        if (side === "flat") traceSegment(path, this.above(edges[k]), this.above(edges[k + 1]));
+        else this.surface.line(path, edges[k], edges[k + 1], side);
+      }
     });
   }
 
@@ -176,6 +179,8 @@ export class LiftPicture {
   #drawPlane(pen: Pen): void {
     const [x, y] = this.contact;
     pen.draw("sheet-plane", this.#plane);
+    // The triangles as they were: "behind" is as weak as what lies beyond the ball.
+    if (this.#scene.isOn("triangles") && !this.#scene.isMoving) pen.behind(() => this.#drawEdges(pen, "flat"));
     pen.draw("touch", (path) => {
       traceSegment(path, [x - 4.5, y], [x + 4.5, y]);
       traceSegment(path, [x, y - 3.5], [x, y + 3.5]);
