@@ -162,6 +162,7 @@ def in_plane(xy):
 [!flat] sketch.add_points(images[view.depth(xyz) >= 0], name="sites", style=DOT)
 [!flat] sketch.add_polygon(in_plane(corners), name="plane", color="#9db4c819")
 [!flat] sketch.add_polyline(in_plane(corners), closed=True, name="frame", style=LIMB)
+[!flat triangles] sketch.add_edges(in_plane(points), sheet.edges, name="flat", style=LineStyle("#1b1b1b61", 1.1))
 [!flat] for arm in ([4.5, 0.0], [0.0, 3.5]):
 [!flat]     sketch.add_segment(contact - arm, contact + arm, name="contact", style=LineStyle("#1b1b1b", 1.0))
 [!flat pair] span.add_edges(xyz, [[{pair}]], name="span", style=RED)
