@@ -171,16 +171,17 @@ export class CanvasPen extends Pen {
     });
   }
 
-  /** The place of a gradient is that of an object's bounding box in SVG. */
   protected fillDisc(disc: Disc, fill: string | Gradient): void {
     const context = this.#context;
     const { x, y, r } = disc;
     if (typeof fill === "string") context.fillStyle = fill;
     else {
-      const [cx, cy] = [x + (LIGHT.x - 0.5) * 2 * r, y + (LIGHT.y - 0.5) * 2 * r];
-      const gradient = context.createRadialGradient(cx, cy, 0, cx, cy, LIGHT.r * 2 * r);
-      gradient.addColorStop(fill.from, fill.inner);
-      gradient.addColorStop(1, fill.outer);
+      const [focus, last] = [
+        [x + LIGHT.fx * r, y + LIGHT.fy * r, 0],
+        [x + LIGHT.cx * r, y + LIGHT.cy * r, LIGHT.r * r],
+      ] as const;
+      const gradient = context.createRadialGradient(...focus, ...last);
+      for (const stop of fill.stops) gradient.addColorStop(...stop);
       context.fillStyle = gradient;
     }
     context.beginPath();

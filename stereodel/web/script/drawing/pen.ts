@@ -1,5 +1,6 @@
 /** The one interface through which rooms draw: the same trace becomes pixels or SVG. Pixels of the screen, y down. */
 
+import type { Owner } from "../rooms/owner.ts";
 import { Ink, SQUARE } from "./density.ts";
 import { DOTS, HANDLE_CROSS, HANDLE_RADIUS, STYLES } from "./styles.ts";
 import type { Colours, DotName, DotStyle, LabelStyle, Style, StyleName, Token } from "./styles.ts";
@@ -22,15 +23,24 @@ export interface Disc {
 /** A picture that is laid into the drawing. */
 export type Picture = HTMLCanvasElement | OffscreenCanvas;
 
-/** Where the light falls on a ball: middle and radius of the gradient as parts of the ball's square. */
-export const LIGHT = { x: 0.42, y: 0.38, r: 0.68 };
+/** Where the light falls on a ball of radius 1, as on those of the library (`stereodel/render/vector/paper.py`): the
+ * focus of the gradient, middle and radius of its last circle, y down; and how much of its fall lies before some places. */
+export const LIGHT = { fx: -0.5065, fy: -0.6512, cx: -0.0756, cy: -0.0972, r: 1.1231 };
+const FALL = [0.249, 0, 0.462, 0.015, 0.64, 0.056, 0.716, 0.096, 0.782, 0.153, 0.84, 0.229];
+FALL.push(0.889, 0.325, 0.929, 0.445, 0.96, 0.585, 0.982, 0.735, 1, 1);
 
-/** From the light outward: the inner colour up to a part of the radius, then gradually the outer one. */
+/** Colours from the light outward, at places from 0 to 1 between which they are even. */
 export interface Gradient {
   readonly id: string;
-  readonly from: number;
-  readonly inner: string;
-  readonly outer: string;
+  readonly stops: readonly (readonly [number, string])[];
+}
+
+/** Light that falls off from a colour to another one. */
+function falling(id: string, ...ends: [string, string]): Gradient {
+  const [from, to] = ends.map((colour) => [...(colour.match(/[\d.]+/g) ?? []).map(Number), 1]);
+  const mixed = (share: number): string => [0, 1, 2, 3].map((k) => from[k] + share * (to[k] - from[k])).join(" ");
+  const stops = FALL.flatMap((at, k): [number, string][] => (k % 2 === 0 ? [[at, mixed(FALL[k + 1])]] : []));
+  return { id, stops: stops.map(([at, inks]) => [at, `rgb(${inks.replace(/ (\S+)$/, " / $1")})`]) };
 }
 
 /** Parts of the ground that lines of one net, and dots, may cover. */
@@ -129,12 +139,12 @@ export abstract class Pen {
   /** The ground of a ball, lit from the upper left: the pale one of geometry, or water. */
   ball(disc: Disc, ground: "ball" | "ocean"): void {
     const { ball: inner, "ball-rim": outer, ocean } = this.colours;
-    this.fillDisc(disc, ground === "ocean" ? ocean : { id: "ball", from: 0.25, inner, outer });
+    this.fillDisc(disc, ground === "ocean" ? ocean : falling("ball", inner, outer));
   }
 
   /** The shade that makes a disc of land and water round. */
   shade(disc: Disc): void {
-    this.fillDisc(disc, { id: "shade", from: 0.45, inner: "rgb(27 39 48 / 0)", outer: "rgb(27 39 48 / 0.2)" });
+    this.fillDisc(disc, falling("shade", "rgb(27 39 48 / 0)", "rgb(27 39 48 / 0.175)"));
   }
 }
 
@@ -146,6 +156,8 @@ export interface Sheet {
   /** Factor of the widths of lines. */
   readonly weight: number;
   readonly paint: (pen: Pen) => void;
+  /** What the owner of the data says, to be written round it. */
+  readonly owner?: Owner | null;
 }
 
 /** A whole circle. */

@@ -1,6 +1,6 @@
 /** Drawings of the Globe room: the Earth through a fisheye, two globes with bubbles, and the fisheye from five sides. */
 
-import { arcThrough, circle, pointAt, traceCap, type Circle } from "../drawing/arcs.ts";
+import { arcThrough, circle, pointAt, traceCap, traceCircle, type Circle } from "../drawing/arcs.ts";
 import { arcLayer, circlePoints, drawLayers, graticuleArcs, placeOf, regionLayer } from "../drawing/ball.ts";
 import type { Layer } from "../drawing/ball.ts";
 import { widthOf, type Box } from "../drawing/names.ts";
@@ -74,6 +74,11 @@ abstract class GlobePlate implements Turnable {
     return this.room.switches.isOn("north");
   }
 
+  /** Whether there is a circle at the pointer. */
+  get isPointed(): boolean {
+    return this.pointed !== null && lenses.imageOf(this.map, this.room.shown.pointer)[2] > 0;
+  }
+
   protected change(change: Partial<GlobeState>): void {
     this.motion.stop();
     this.room.set(change, "hand");
@@ -106,7 +111,8 @@ abstract class GlobePlate implements Turnable {
     const rim = arcThrough(images, 0, 1, 2, true);
     const at = lenses.imageOf(map, pointer);
     if (rim === null || at[2] <= 0) return;
-    pen.draw("bubble", (path) => traceCap(path, disc, rim));
+    pen.draw("seen", (path) => traceCap(path, disc, rim));
+    pen.draw("bubble-open", (path) => traceCircle(path, disc, rim));
     if (pointed === "circle") return;
     const [x, y] = placeOf(disc, at);
     const away = rim.r * disc.r;
@@ -274,7 +280,8 @@ export class BubbleGlobe extends GlobePlate {
   protected paintHeld(pen: Pen): void {
     const { disc } = this;
     const rim = this.#rim;
-    pen.draw(this.#which === "before" ? "bubble" : "bubble-open", (path) => traceCap(path, disc, rim));
+    if (this.#which === "before") pen.draw("seen", (path) => traceCap(path, disc, rim));
+    pen.draw("bubble-open", (path) => traceCircle(path, disc, rim));
     const handle = this.#handle();
     if (handle === null) return;
     const [x, y] = placeOf(disc, handle);

@@ -90,6 +90,11 @@ export class GlobeScene {
     if (fine !== null) this.#fine = balls.landLayer(fine);
   }
 
+  /** Of the land that is drawn at rest. */
+  get resolution(): "50m" | "110m" {
+    return this.#fine === null ? "110m" : "50m";
+  }
+
   show(places: Places | null): void {
     [this.places, this.lit, this.#made] = [places, null, places && madeOf(places, this.latitude)];
   }
@@ -136,10 +141,9 @@ export class GlobeScene {
   }
 
   get parts(): Part<Ball>[] {
-    const { picture, places, latitude } = this;
+    const { picture, places } = this;
     const lonlat = places?.lonlat ?? new Float64Array(0);
     const [hasPicture, hasPlaces] = [picture !== null, places !== null];
-    const kind = latitude === "spherical" ? "" : `, latitude="${latitude}"`;
     const drawn = (layer: (isMoving: boolean) => Layer | null): Pick<Part<Ball>, "draw"> => ({
       draw: (pen, { disc, map, isMoving }) => balls.drawLayers(pen, disc, map, [layer(isMoving)]),
     });
@@ -151,9 +155,8 @@ export class GlobeScene {
       {
         isThere: hasPicture,
         draw: (pen, { disc, map, isMoving }) => picture!.draw(pen, disc, map, isMoving),
-        python: { globe: `globe.add_raster(${JSON.stringify(picture?.name)})` },
       },
-      { layer: "land", isThere: !hasPicture, ...land, python: { globe: 'globe.add_land(resolution="50m")' } },
+      { layer: "land", isThere: !hasPicture, ...land },
       {
         layer: "fills",
         isThere: hasInks,
@@ -164,21 +167,13 @@ export class GlobeScene {
           balls.drawLayers(pen, disc, map, [land?.outlines ?? null]);
         },
       },
-      { layer: "graticule", ...drawn(() => this.#graticule), python: { globe: `globe.add_graticule(${STEP}.0)` } },
-      // The page draws coasts with the land.
-      { layer: "land", isThere: !hasPicture, python: { globe: 'globe.add_coastlines(resolution="50m")' } },
-      {
-        layer: "tissot",
-        ...drawn(() => this.#tissot),
-        python: { globe: `globe.add_tissot(${STEP}.0, ${CIRCLE_RADIUS.toFixed(4)})` },
-      },
-      { isThere: hasPlaces, python: { globe: `places = read_points(${JSON.stringify(places?.name)}).lonlat` } },
+      { layer: "graticule", ...drawn(() => this.#graticule) },
+      { layer: "tissot", ...drawn(() => this.#tissot) },
       {
         layer: "cells",
         isThere: hasPlaces,
         always: ["geojson"], // the data of the places, whatever is drawn of it
         ...drawn((isMoving) => (isMoving && isMuch ? null : this.#made!.cells)),
-        python: { globe: `globe.add_cells(SphericalVoronoi.from_lonlat(places${kind}))` },
         regions: () => this.#made?.regions ?? [],
       },
       {
@@ -186,11 +181,7 @@ export class GlobeScene {
         isThere: !!places?.isolines,
         draw: (pen, { disc, map }) => balls.drawLayers(pen, disc, map, this.#made!.isolines),
       },
-      {
-        isThere: hasPlaces,
-        ...drawn((isMoving) => this.#made![isMoving ? "sparse" : "dots"]),
-        python: { globe: "globe.add_points(places)" },
-      },
+      { isThere: hasPlaces, ...drawn((isMoving) => this.#made![isMoving ? "sparse" : "dots"]) },
       { draw: (pen, { disc }) => pen.shade(disc) },
       {
         layer: "names",

@@ -10,8 +10,7 @@ import type { Disc, Path, Pen, Point } from "../drawing/pen.ts";
 import type { LabelStyle } from "../drawing/styles.ts";
 import type { MoebiusMap } from "../kernel/api.ts";
 import { lazy } from "../kernel/lazy.ts";
-import { writeNumber } from "../link.ts";
-import { cross, dot, lonLatOf, type Vector } from "../space.ts";
+import { cross, dot, type Vector } from "../space.ts";
 import { imageOf, sourceOf } from "../view/lens.ts";
 import type { View } from "../view/view.ts";
 import type { Bubble, Insertion, SphereSites } from "./sphere_sites.ts";
@@ -87,55 +86,32 @@ interface Picture extends Surface {
   opening(path: Path, insertion: Insertion, isThere: (k: number) => boolean): void;
 }
 
-/** What both pictures show. Python has the diagram of all sites, whatever is drawn of it, at any step, and GeoJSON else. */
-export function sphereParts({ sites, named, seeing, bubble, aim, held, step }: SphereScene): Part<Picture>[] {
+/** What both pictures show. GeoJSON has the diagram of all sites, whatever is drawn of it, at any step. */
+export function sphereParts({ sites, named, seeing, bubble, held, step }: SphereScene): Part<Picture>[] {
   const isThere = step === "done";
   const outline = sites.outline(seeing);
   const isAimed = isThere && bubble !== null;
-  const place = lonLatOf(aim).map((degrees) => writeNumber(degrees, 4));
   return [
     { layer: "seeing", isThere: isThere && outline.length > 0, draw: (_, on) => on.hatch(outline) },
     { layer: "closing", isThere: isThere && sites.hasClosing, draw: (_, on) => on.closing?.() },
     {
       layer: "triangles",
       isThere,
-      always: ["python", "geojson"],
+      always: ["geojson"],
       draw: (_, on) => on.triangles(),
-      python: {
-        ball: 'ball.add_edges(delaunay.points, delaunay.edges, name="delaunay")',
-        plane: 'plane.add_edges(flat, edges, name="delaunay")',
-      },
       regions: () => sites.triangles(),
     },
     {
       layer: "cells",
       isThere,
-      always: ["python", "geojson"],
+      always: ["geojson"],
       draw: (_, on) => on.cells(),
-      python: { ball: 'ball.add_arcs(voronoi.ridge_arcs(), name="voronoi")' },
       regions: () => sites.cells(),
     },
     { layer: "seeing", isThere, draw: (pen, on) => pen.draw("hull", (path) => on.ring(path, outline)) },
-    {
-      isThere,
-      always: ["python"],
-      draw: (_, on) => on.dots(),
-      python: { ball: 'ball.add_points(delaunay.points, name="sites")', plane: 'plane.add_points(flat, name="sites")' },
-    },
+    { isThere, draw: (_, on) => on.dots() },
     { isThere: !isThere, draw: (pen, on) => drawStep(pen, on, step as Step) },
-    {
-      layer: "bubble",
-      isThere: isAimed,
-      isOver: true,
-      draw: (_, on) => on.bubble(bubble!),
-      python: {
-        ball: [
-          `triangle = delaunay.simplices[delaunay.find_simplex(lonlat_to_xyz((${place.join(", ")})))]`,
-          "bubble = SphereCircle.through(*delaunay.points[triangle])",
-          'ball.add_circles([bubble], name="accent2")',
-        ],
-      },
-    },
+    { layer: "bubble", isThere: isAimed, isOver: true, draw: (_, on) => on.bubble(bubble!) },
     { isThere, isOver: true, draw: (pen, on) => balls.drawDots(pen, on, "held", [...(bubble?.sites ?? []), ...held]) },
     // Names first: they stay while the bubble follows the pointer.
     { layer: "names", isThere: isThere && named !== null, isOver: true, draw: (_, on) => on.names?.(named!) },
