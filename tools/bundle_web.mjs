@@ -24,6 +24,7 @@ const HOW = {
   charset: "utf8",
   dropLabels: ["CHECK"], // of arguments from programs (kernel/checks.ts)
   legalComments: "none",
+  loader: { ".txt": "text" },
   logLevel: "warning",
   metafile: true,
   target: "es2022",

@@ -47,7 +47,7 @@ def test_numbers_out_of_range_and_what_is_none_are_refused(node):
 def test_numbers_and_words_are_read_and_numbers_written_short(node):
     read = "[new LinkValues(given).number('lat', -90, 90, 7), new LinkValues(given).number('no', 0, 1, 0.5)]"
     assert ask(node, read, [["lat", "-53.125"]]) == [-53.125, 0.5]
-    assert ask(node, "attempt(() => new LinkValues(given).whole('k', 0, 9, 1))", [["k", "2.5"]]) == "refused"
+    assert ask(node, "attempt(() => new LinkValues(given).whole('k', 0, 9))", [["k", "2.5"]]) == "refused"
     words = "given.map((each) => attempt(() => new LinkValues(each).word('click', ['keep', 'add'], 'keep')))"
     assert ask(node, words, [[["click", "add"]], [], [["click", "toString"]]]) == ["add", "keep", "refused"]
     written = ask(

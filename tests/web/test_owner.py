@@ -8,6 +8,7 @@ import zlib
 
 import numpy as np
 import pytest
+from axe_playwright_python.sync_playwright import Axe
 from PIL import Image
 
 from stereodel import SphericalDelaunay, SphericalVoronoi, angular_distance, lonlat_to_xyz
@@ -143,6 +144,7 @@ def test_pictures_have_title_legend_and_source_and_no_handle(page):
     for text in ("Sixty towns &amp; more", "Invented", "temperature, °C", "people"):
         assert f">{text}</text>" in svg
     assert "focus" not in svg
+    assert b",people\n" in downloaded(shown, "csv")[1].replace(b"\r", b"")
     height = float(re.search(r'<svg [^>]*height="([\d.]+)"', svg)[1])
     image = Image.open(io.BytesIO(downloaded(shown, "png")[1]))
     assert image.height == pytest.approx(2 * height, abs=1)
@@ -150,6 +152,20 @@ def test_pictures_have_title_legend_and_source_and_no_handle(page):
     assert height > disc + 100
     foot = np.asarray(image.convert("L"))[int(2 * disc) + 100 :]
     assert (foot < 100).sum() > 500  # letters of the legend and of the source
+
+
+def test_a_print_is_one_sheet_with_the_legend(page, tmp_path):
+    import pypdfium2
+
+    shown = page()
+    shown.page.pdf(path=tmp_path / "towns.pdf")
+    with pypdfium2.PdfDocument(tmp_path / "towns.pdf") as document:
+        assert len(document) == 1
+        text = document[0].get_textpage().get_text_range()
+        said = [word in text for word in ("Sixty towns & more", "Invented", "Drag", "Five small", "Magnification")]
+        assert said == [True, True, False, False, False]
+        sheet = document[0].render(scale=1).to_numpy()
+    assert (sheet[110:330, -235:-50].std(axis=2) > 20).mean() > 0.02  # the bar of the legend, on the right
 
 
 @pytest.mark.parametrize("size", [(900, 500), pytest.param((360, 640), marks=pytest.mark.thorough)])
@@ -172,8 +188,14 @@ def test_a_frame_has_the_drawing_alone(towns, visit, tmp_path, size):
         assert box["y"] + box["height"] <= frame_box["y"] + height + 3
         assert box["x"] + box["width"] <= frame_box["x"] + width + 3
     assert boxes[1]["height"] > 0.5 * min(size)
+    for x, y in np.random.default_rng(2).uniform(0.2, 0.8, (400, 2)):
+        outer.page.mouse.move(boxes[1]["x"] + x * boxes[1]["width"], boxes[1]["y"] + y * boxes[1]["height"])
+        if title := frame.get_attribute("#globe-plate", "title"):
+            break
+    assert title in map(sentence, range(len(LONLAT)))
 
 
+@pytest.mark.thorough
 def test_cells_and_lines_by_value(page):
     shown = page("#v=1&room=globe&on=land,fills,north")
     pairs = np.random.default_rng(3).integers(0, len(LONLAT), (500, 2))
@@ -195,12 +217,23 @@ def test_cells_and_lines_by_value(page):
 @pytest.mark.thorough
 def test_the_owner_is_silent_about_other_places(page, tmp_path):
     shown = page()
-    (tmp_path / "two.csv").write_text("lon,lat\n100,10\n101,11\n", encoding="utf-8")
+    (tmp_path / "two.csv").write_text("lon,lat,height\n100,10,5\n101,11,-1234.5\n", encoding="utf-8")
     opened(shown, "globe", tmp_path / "two.csv")
     assert shown.page.inner_text("#room-globe h1") == "Every angle true, every size your choice"
     assert not shown.page.is_visible(".legend canvas")
+    shown.page.hover("#room-globe .sites tr[data-site='1'] td:nth-child(2)")
+    assert "Place 2, 11.00°\u202fN 101.00°\u202fE, height −1234.5; its cell has" in said(shown, "globe", "pointer")
+    assert said(shown, "globe", "pointer").endswith("1 neighbour, the nearest is Place 1, 156 km away.")
     values = link(shown)
     assert (float(values["focuslon"]), float(values["focuslat"])) == pytest.approx((100.5, 10.5), abs=0.1)
+
+
+@pytest.mark.thorough
+@pytest.mark.parametrize("query", ["", "?frame"])
+@pytest.mark.parametrize("colours", ["light", "dark"])
+def test_axe_finds_nothing(page, query, colours):
+    found = Axe().run(page(query, colours=colours).page).response
+    assert [f"{each['id']}: {each['nodes'][0]['html'][:120]}" for each in found["violations"]] == []
 
 
 @pytest.mark.thorough

@@ -1,7 +1,10 @@
-"""The hand on the Sphere: a site that is dragged is drawn where it was and where it is, and nowhere else."""
+"""The hand on the Sphere: a site that is dragged is drawn where it was and where it is, and nowhere else; the lens."""
 
 import numpy as np
 import pytest
+
+from stereodel import fisheye, lonlat_to_xyz
+from stereodel.drawing import View
 
 from .rooms import link, said
 
@@ -14,15 +17,25 @@ def differing(a, b):
     return float((np.abs(a.astype(int) - b).max(axis=-1) > 24).mean())
 
 
-@pytest.fixture
+def values_of(lonlat):
+    """A link with sites."""
+    return f"v=1&room=sphere&sites={','.join(f'{value:.9f}' for value in np.ravel(lonlat))}"
+
+
 def crowd(rng):
-    """Values of a link with 300 sites all over the sphere, the first one in the middle of the view."""
-    lonlat = np.vstack([[0, 0], rng.uniform((-180, -80), (180, 80), size=(300, 2))])
-    return f"v=1&room=sphere&sites={','.join(f'{value:.3f}' for value in lonlat.ravel())}"
+    """Three hundred sites all over the sphere, the first one in the middle of the view."""
+    return np.vstack([[0, 0], rng.uniform((-180, -80), (180, 80), size=(300, 2))])
 
 
-def test_a_dragged_site_is_drawn_as_a_fresh_page_draws_it(room, crowd):
-    page = room(crowd)
+def city(rng):
+    """Sixty sites within 100 m, and the first one in their middle."""
+    around = rng.uniform(-1, 1, size=(30, 2))
+    return np.array([10, 48.4]) + np.vstack([[0, 0], around, -around]) * [68e-5, 45e-5]
+
+
+@pytest.mark.parametrize("sites", [crowd, pytest.param(city, marks=pytest.mark.thorough)])
+def test_a_dragged_site_is_drawn_as_a_fresh_page_draws_it(room, rng, sites):
+    page = room(values_of(sites(rng)))
     x, y = page.middle(BALL)
     before = page.picture(BALL)
     page.page.mouse.move(x, y)
@@ -34,11 +47,49 @@ def test_a_dragged_site_is_drawn_as_a_fresh_page_draws_it(room, crowd):
     assert "Other sites inside, counted exactly: 0\u00a0and\u00a00." in sentence
     page.page.mouse.up()
     page.rest()
-    # While the hand holds it, only its surroundings are drawn anew; the others' lines may differ where windows end.
+    # While the hand holds it, only its surroundings are drawn anew, and the plane keeps its frame.
     at_rest = [page.picture(drawing) for drawing in (BALL, PLANE)]
-    assert max(map(differing, held, at_rest)) < 0.0015
+    assert max(map(differing, held, at_rest[:1] if sites is city else at_rest)) < 0.003
     page.page.mouse.move(1, 1)
     link(page)
     again = room(page.link)
     assert said(again, "sphere", "sentence") == said(page, "sphere", "sentence") == sentence
     assert [again.digest(drawing) for drawing in (BALL, PLANE)] == [page.digest(drawing) for drawing in (BALL, PLANE)]
+
+
+@pytest.mark.thorough
+def test_the_wheel_magnifies_about_the_pointer(room):
+    page = room("sphere")
+    x, y = page.middle(BALL)
+    right, down = int(x + 60) - x, int(y - 40) - y  # at a whole pixel, as clicks are
+    page.page.mouse.click(x + right, y + down)
+    before = link(page)
+    for _ in range(4):
+        page.page.mouse.wheel(0, -250)
+    page.rest()
+    names = ["view-lon", "view-lat", "focus-lon", "focus-lat", "s"]
+    state = {name: float(value) for name, value in link(page).items() if name in names}
+    assert state["s"] == pytest.approx(np.exp(2), rel=1e-6)
+    lens = fisheye((state["focus-lon"], state["focus-lat"]), magnification=state["s"])
+    aim = lonlat_to_xyz([float(before["aim-lon"]), float(before["aim-lat"])])
+    radius = page.page.locator(BALL).bounding_box()["width"] / 2 - 7
+    seen = View(state["view-lon"], state["view-lat"]).matrix @ lens(aim)
+    np.testing.assert_allclose(radius * seen[:2], [right, -down], atol=0.5)
+    assert "Magnified 7.39 times at" in page.page.inner_text("#sphere-desc")
+    page.page.locator(BALL).press("0")
+    page.rest()
+    assert "Magnified" not in page.page.inner_text("#sphere-desc")
+
+
+def test_sites_of_a_city_fill_both_pictures(room, rng):
+    page = room(values_of(city(rng)))
+    for drawing in (BALL, PLANE):
+        assert page.ink(drawing) > 0.1
+    x, y = page.middle(PLANE)
+    page.page.mouse.move(x + 20, y + 9)
+    page.rest()
+    assert 5e4 < float(link(page)["s"]) < 2e5
+    sentence = said(page, "sphere", "sentence")
+    assert "Other sites inside, counted exactly: 0\u00a0and\u00a00." in sentence
+    degrees = float(sentence.split("the radius ")[1].split("°")[0])
+    assert 1e-5 < degrees < 5e-4

@@ -12,6 +12,8 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any, Final, Literal
 
+import numpy as np
+
 from stereodel._arrays import FloatArray, Pixels, as_count, as_scalar
 from stereodel._extras import of_extra
 from stereodel._notebook import Displayed, drawn
@@ -106,6 +108,20 @@ class Page(Displayed):
         """The items that vector files hold as images because they have too many colours."""
         return tuple(item for item in self.items if isinstance(item, Polygons) and item.pictured)
 
+    def shaded(self, strength: float) -> Page:
+        """The picture with balls that are shaded less: `strength` from 0, flat, to 1, as they are.
+
+        Each shaded region is drawn twice, flat and, as transparent as it takes, shaded.
+
+        Examples
+        --------
+        >>> from stereodel.drawing import Scene, View
+        >>> [item.ball is None for item in Scene().page(View(0, 0)).shaded(0.5).items if item.name == "ball"]
+        [True, False]
+        """
+        share = as_scalar(strength, "strength", low=0.0, high=1.0)
+        return replace(self, items=tuple(part for item in self.items for part in _shaded(item, share)))
+
     def without_labels(self) -> Page:
         """The picture without its text, which is what pixel tests compare."""
         return replace(self, items=tuple(item for item in self.items if not isinstance(item, Label)))
@@ -185,6 +201,15 @@ class Page(Displayed):
         """
         with of_extra(picture_extra(".png", renderer)):
             return output("draw_page")(self, size=size, text=text, renderer=renderer)
+
+
+def _shaded(item: Any, share: float) -> tuple[Item, ...]:
+    """An item under a share of its shading: a flat part below, of the opacity that a shaded one of o · share leaves."""
+    if getattr(item, "ball", None) is None or share == 1:
+        return (item,)
+    left = np.array([1.0, 1.0, 1.0, 1.0 - share])
+    flat = item.recoloured(lambda rows: rows * left / (1 - share * rows[:, 3:] * [0, 0, 0, 1]))
+    return replace(flat, ball=None), item.recoloured(lambda rows: rows * [1, 1, 1, share])
 
 
 def picture_extra(kind: str, renderer: str = "gl") -> str:

@@ -19,6 +19,8 @@ export interface Rings {
 export interface Given {
   /** What the maker says of them. */
   readonly owner: Owner | null;
+  /** The numbers among the values, by their titles. */
+  readonly values: ReadonlyMap<string, Float64Array>;
   /** Lines of equal values, rows of places. */
   readonly isolines: Rings | null;
   /** What they are called, such as "cities.csv". */
@@ -75,11 +77,18 @@ export class Contents {
       await this.#text("given-names"),
     ];
     if (name === null || bytes === null) return null;
+    const owner = JSON.parse((await this.#text("owner")) ?? "null") as Owner | null;
+    const numbers = owner?.columns?.filter(({ values }) =>
+      Array.from(values).every((value) => typeof value !== "string"),
+    );
     return {
       name: String(JSON.parse(name)),
       lonlat: doubles(bytes),
       names: JSON.parse(names ?? "null") as string[] | null,
-      owner: JSON.parse((await this.#text("owner")) ?? "null") as Owner | null,
+      owner,
+      values: new Map(
+        numbers?.map(({ title, values }) => [title, Float64Array.from(values as number[], (v) => v ?? NaN)]),
+      ),
       isolines: await this.#rings("isolines"),
     };
   }

@@ -66,7 +66,7 @@ export function number(name: string, low: number, high: number, digits = DIGITS)
 export function whole(name: string, most: number, shift = 0): Field<number | null> {
   return field<number | null>(
     (value) => (value === null ? {} : { [name]: String(value + shift) }),
-    (values) => (values.has(name) ? values.whole(name, 1, most, 1) - shift : null),
+    (values) => (values.has(name) ? values.whole(name, 1, most) - shift : null),
   );
 }
 
@@ -94,21 +94,15 @@ export function place(name: string, digits = DIGITS): Field<Place> {
       const north = Math.max(-90, Math.min(90, lat));
       return { [`${name}lon`]: String(east === -180 ? 180 : east), [`${name}lat`]: writeNumber(north, digits) };
     },
-    (values, otherwise) => values.place(name, otherwise),
+    (values, [lon, lat]) => [values.number(`${name}lon`, -360, 360, lon), values.number(`${name}lat`, -90, 90, lat)],
   );
 }
 
-/** Whether a link tells a place. */
-function hasPlace(values: LinkValues, name: string): boolean {
-  return values.has(`${name}lon`) || values.has(`${name}lat`);
-}
-
-export function direction(name: string): Field<Vector> {
-  const { write } = place(name);
+export function direction(name: string, digits = DIGITS): Field<Vector> {
+  const { write, read } = place(name, digits);
   return field<Vector>(
     (value) => write(lonLatOf(value)),
-    (values, otherwise) =>
-      hasPlace(values, name) ? directionOf(...values.place(name, lonLatOf(otherwise))) : otherwise,
+    (values, otherwise) => directionOf(...read(values, lonLatOf(otherwise))),
   );
 }
 
@@ -116,7 +110,6 @@ export function view(name: string): Field<View> {
   const [middle, roll] = [place(name), number(`${name}roll`, -360, 360)];
   return field<View>(
     (value) => ({ ...middle.write(value.middle), ...(value.roll === 0 ? {} : roll.write(value.roll)) }),
-    (values, otherwise) =>
-      hasPlace(values, name) ? View.above(...values.place(name, otherwise.middle), roll.read(values, 0)) : otherwise,
+    (values, otherwise) => View.above(...middle.read(values, otherwise.middle), roll.read(values, 0)),
   );
 }

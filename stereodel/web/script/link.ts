@@ -49,15 +49,10 @@ export class LinkValues extends Map<string, string> {
   }
 
   /** A whole number in [low, high]. */
-  whole(name: string, low: number, high: number, otherwise: number): number {
-    const value = this.number(name, low, high, otherwise);
+  whole(name: string, low: number, high: number): number {
+    const value = this.number(name, low, high, NaN);
     if (!Number.isInteger(value)) throw new LinkError(`${name} is not a whole number`);
     return value;
-  }
-
-  /** A longitude and a latitude, degrees, whose names begin alike. */
-  place(name: string, [lon, lat]: readonly [number, number]): [number, number] {
-    return [this.number(`${name}lon`, -360, 360, lon), this.number(`${name}lat`, -90, 90, lat)];
   }
 
   /** Pairs of coordinates, (n, 2); null where the link holds none. */
@@ -124,12 +119,6 @@ function encode(text: string): string {
 /** A number with at most so many decimals and no more zeros than it takes. */
 export function writeNumber(value: number, decimals: number): string {
   return String(Number(value.toFixed(decimals)));
-}
-
-/** A longitude and a latitude as values of a link. */
-export function writePlace(name: string, place: readonly [number, number], decimals: number): Record<string, string> {
-  const [lon, lat] = place.map((degrees) => writeNumber(degrees, decimals));
-  return { [`${name}lon`]: lon, [`${name}lat`]: lat };
 }
 
 /** Pairs of coordinates as `LinkValues.places` reads them: numbers with all their digits. */

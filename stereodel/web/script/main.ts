@@ -84,6 +84,7 @@ class Page {
       contents: this.#contents,
       announcer: this.#announcer,
       messages: this.#messages,
+      exchange: this.#exchange,
       changed: (isStep = false) => this.#changed(isStep),
       guarded: (body) => this.#guarded(body),
       pass: (...what) => this.#pass(...what),

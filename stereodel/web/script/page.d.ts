@@ -2,3 +2,9 @@
 declare module "page:shared" {
   export const shared: Readonly<Record<string, unknown>>;
 }
+
+/** Texts that are bundled as they are. */
+declare module "*.txt" {
+  const text: string;
+  export default text;
+}

@@ -1,4 +1,4 @@
-/** What a room shows as one list of parts, the lowest first: canvas, SVG, the lines of Python and GeoJSON read it. */
+/** What a room shows as one list of parts, the lowest first: canvas, SVG and GeoJSON read it. */
 
 import type { SphericalVoronoi } from "../kernel/api.ts";
 import { row, type Vector } from "../space.ts";
@@ -19,7 +19,7 @@ export type Switch =
   | "tissot"
   | "triangles";
 
-type Outlet = "picture" | "python" | "geojson";
+type Outlet = "picture" | "geojson";
 
 export type IsOn = (layer: Switch) => boolean;
 
@@ -40,18 +40,11 @@ export interface Part<Surface> {
   /** Where it is written although the picture does not show it. */
   readonly always?: readonly Outlet[];
   draw?(pen: Pen, surface: Surface): void;
-  /** Lines, by the drawing of Python that they belong to. */
-  readonly python?: Readonly<Record<string, string | readonly string[]>>;
   regions?(): readonly Region[];
 }
 
 export function drawParts<S>(pen: Pen, surface: S, parts: readonly Part<S>[], isOn: IsOn): void {
   for (const part of shown(parts, isOn, "picture")) part.draw?.(pen, surface);
-}
-
-/** Lines of one drawing of Python. */
-export function linesOf(parts: readonly Part<never>[], isOn: IsOn, drawing: string): string[] {
-  return shown(parts, isOn, "python").flatMap(({ python }) => python?.[drawing] ?? []);
 }
 
 /** Regions for GeoJSON, those of the topmost part first. */

@@ -140,18 +140,17 @@ export class Plate {
     if (!this.#isKept || reason !== "pointer") {
       this.#isKept = false; // should the painter fail
       cleared(ground);
-      const pen = this.#pen(ground, scale, isMoving);
+      const pen = this.#pen(ground, scale);
       this.#paint(pen, isMoving);
       if (isMoving) overlay?.(pen, isMoving);
       else this.#isKept = overlay !== null;
     }
     cleared(canvas).drawImage(ground, 0, 0);
-    if (!isMoving) overlay?.(this.#pen(canvas, scale, false), false);
+    if (!isMoving) overlay?.(this.#pen(canvas, scale), false);
   }
 
-  #pen(canvas: HTMLCanvasElement, scale: number, isMoving: boolean): CanvasPen {
-    const [context, inks] = [canvas.getContext("2d")!, colours(this.#place)];
-    return new CanvasPen(context, this.width, this.height, scale, inks, this.#weight, isMoving);
+  #pen(canvas: HTMLCanvasElement, scale: number): CanvasPen {
+    return new CanvasPen(canvas.getContext("2d")!, this.width, this.height, scale, colours(this.#place), this.#weight);
   }
 }
 

@@ -111,11 +111,11 @@ export class SvgPen extends Pen {
     this.#parts.push(`<circle ${looks} cx="${number(x)}" cy="${number(y)}" r="${number(r)}"/>`);
   }
 
-  #gradient({ id, from, inner, outer }: Gradient): string {
-    const stop = (offset: number, colour: string): string =>
-      `<stop offset="${offset}" ${paint("stop-color", colour, 1, "stop-opacity")}/>`;
-    const text = `<radialGradient id="${id}" cx="${LIGHT.x}" cy="${LIGHT.y}" r="${LIGHT.r}">`;
-    return this.#define(id, `${text}${stop(from, inner)}${stop(1, outer)}</radialGradient>`);
+  /** Its places are those of the square round a disc, of side 1. */
+  #gradient({ id, stops }: Gradient): string {
+    const rows = stops.map(([at, ink]) => `<stop offset="${at}" ${paint("stop-color", ink, 1, "stop-opacity")}/>`);
+    const places = Object.entries(LIGHT).map(([name, at]) => `${name}="${number((at + (name === "r" ? 0 : 1)) / 2)}"`);
+    return this.#define(id, `<radialGradient id="${id}" ${places.join(" ")}>${rows.join("")}</radialGradient>`);
   }
 
   #hatch(kind: "plain" | "crossed"): string {

@@ -57,13 +57,13 @@ export default class Delaunator<Coords extends ArrayLike<number> = ArrayLike<num
   /** Triangulates anew, after changes of `coords` in place. */
   update(): this {
     this.exact = new PlanarDelaunay(Float64Array.from(this.coords).subarray(0, this.coords.length & ~1));
-    const { points, size, simplices, neighbors, dimension, flatOrder } = this.exact;
+    const { points, size, simplices, neighbors, dimension } = this.exact;
     const triangles = (this.triangles = new Uint32Array(simplices.length));
     const halfedges = (this.halfedges = new Int32Array(simplices.length));
     this.rows = new Uint32Array(simplices.length / 3).map((_, row) => row);
     if (dimension < 2) {
-      this.hull = Uint32Array.from(flatOrder);
-      const [first, last] = [2 * flatOrder[0], 2 * flatOrder[flatOrder.length - 1]];
+      this.hull = Uint32Array.from(this.exact.flatOrder);
+      const [first, last] = [2 * this.hull[0], 2 * this.hull[this.hull.length - 1]];
       if ((points[first] - points[last] || points[first + 1] - points[last + 1]) > 0) this.hull.reverse();
       return this;
     }
@@ -86,22 +86,18 @@ export default class Delaunator<Coords extends ArrayLike<number> = ArrayLike<num
     const firsts = seconds.map((_, row) => simplices[3 * row]);
     const rows = (this.rows = sorted(sorted(sorted(this.rows, seconds, size), firsts, size), keys, size));
     const at = new Uint32Array(rows.length);
-    for (let k = 0; k < rows.length; ++k) {
-      const row = 3 * rows[k];
-      at[rows[k]] = 3 * k;
-      for (let entry = 0; entry < 3; ++entry)
-        triangles[3 * k + entry] = simplices[row + ((last[rows[k]] + 4 - entry) % 3)];
-    }
+    for (let k = 0; k < rows.length; ++k) at[rows[k]] = 3 * k;
+    // Row after row as they are in the triangulation, where neighbours are near each other.
     const after = new Map<number, number>();
-    for (let edge = 0; edge < halfedges.length; ++edge) {
-      const k = edge % 3;
-      const row = rows[(edge - k) / 3];
-      const to = triangles[k === 2 ? edge - 2 : edge + 1];
-      const beyond = neighbors[3 * row + ((last[row] + 5 - k) % 3)];
-      if (beyond < 0) after.set(triangles[edge], to);
-      const other = at[beyond];
-      const shift = triangles[other] === to ? 0 : triangles[other + 1] === to ? 1 : 2;
-      halfedges[edge] = beyond < 0 ? -1 : other + shift;
+    for (let row = 0; row < last.length; ++row) {
+      for (let k = 0; k < 3; ++k) {
+        const from = simplices[3 * row + ((last[row] + 4 - k) % 3)];
+        const beyond = neighbors[3 * row + ((last[row] + 5 - k) % 3)];
+        triangles[at[row] + k] = from;
+        if (beyond < 0) after.set(from, simplices[3 * row + ((last[row] + 3 - k) % 3)]);
+        const corner = neighbors[3 * beyond] === row ? 0 : neighbors[3 * beyond + 1] === row ? 1 : 2;
+        halfedges[at[row] + k] = beyond < 0 ? -1 : at[beyond] + ((last[beyond] + 5 - corner) % 3);
+      }
     }
     // The last of the sweep, the farthest, is the second one.
     let farthest = size - 1;

@@ -1,6 +1,6 @@
 /** The Globe room: the Earth through a fisheye, or one bubble of it sent onto another. */
 
-import { field, find, say } from "../dom.ts";
+import { field, find, plain, say } from "../dom.ts";
 import { regionsOf } from "../drawing/parts.ts";
 import type { Pen, Sheet } from "../drawing/pen.ts";
 import { Plate, type Reason } from "../drawing/plate.ts";
@@ -19,7 +19,8 @@ import { BubbleGlobe, FisheyeGlobe, FiveViews, type GlobeHost } from "./globe_pl
 import { GlobeScene, type Places } from "./globe_scene.ts";
 import { BEGINNING, GLOBE, magnificationWords, placeWords, PRESETS, sideView, sightWords } from "./globe_state.ts";
 import type { GlobeState } from "./globe_state.ts";
-import { area, framed, legendBlock, legendWords, placeSentence, valueWords, type Owner } from "./owner.ts";
+import type { Block } from "./legend.ts";
+import { area, columnsOf, placeSentence, valueWords } from "./owner.ts";
 import { TableRoom, tableOf, tableValues } from "./site_room.ts";
 
 /** Steps of the slider for a magnification of ten times. */
@@ -46,6 +47,7 @@ export class GlobeRoom extends TableRoom implements Room, GlobeHost {
   readonly #heading: string;
   #state = BEGINNING;
   #legend!: Plate;
+  #legendBlock: Block | null = null;
   #globe!: FisheyeGlobe;
   #views!: FiveViews;
   #bubbles!: readonly BubbleGlobe[];
@@ -105,7 +107,7 @@ export class GlobeRoom extends TableRoom implements Room, GlobeHost {
     }
     on(find(section, "[data-do=earth]"), () => this.#paintedBy(null));
     const legend = find<HTMLCanvasElement>(section, ".legend canvas");
-    const paint = (pen: Pen): void => legendBlock(this.#entries, 0).draw(pen, 0, 0);
+    const paint = (pen: Pen): void => this.#legendBlock?.draw(pen, 0, 0);
     this.#legend = new Plate(legend, paint, guarded);
     for (const button of views) on(button, () => this.#flyToSide(button));
     this.#show(this.#given);
@@ -169,7 +171,7 @@ export class GlobeRoom extends TableRoom implements Room, GlobeHost {
   sheet(): Sheet {
     const { plate } = this.#state.lens === "bubble" ? this.#bubbles[1] : this.#globe;
     const { places } = this.scene;
-    return framed(plate.sheet(this.#label(), !!places?.owner), places?.owner);
+    return { ...plate.sheet(this.#label(), !!places?.owner), owner: places?.owner ?? null };
   }
 
   geojson(exchange: Exchange): string | null {
@@ -188,17 +190,15 @@ export class GlobeRoom extends TableRoom implements Room, GlobeHost {
   }
 
   python(exchange: Exchange): string {
-    return exchange.globePython(this.#state, this.scene, this.isOn);
+    const globes = this.#state.lens === "bubble" ? this.#bubbles : [this.#globe];
+    const isPointed = globes.some((globe) => globe.isPointed);
+    return exchange.globePython(this.#state, this.scene, this.isOn, 2 * globes[0].disc.r, isPointed);
   }
 
   /** Unpacks what the page carries; until then the globe is water. */
   async #load(): Promise<void> {
     await this.scene.load(this.host.contents);
     this.redraw();
-  }
-
-  get #entries(): NonNullable<Owner["legend"]> {
-    return this.scene.places?.owner?.legend ?? [];
   }
 
   /** A picture covers the Earth, or no longer. */
@@ -215,12 +215,18 @@ export class GlobeRoom extends TableRoom implements Room, GlobeHost {
     this.switches.offer("fills", owner?.inks !== undefined);
     this.switches.offer("isolines", !!isolines);
     const legend = find(this.section, ".legend");
-    legend.hidden = this.#entries.length === 0;
-    const [canvas] = legend.children as HTMLCollectionOf<HTMLElement>;
-    canvas.ariaLabel = legendWords(this.#entries);
-    const height = `${legendBlock(this.#entries, 0).height}px`;
-    canvas.style.height = height;
-    document.documentElement.style.setProperty("--legend", legend.hidden ? "0px" : height);
+    const entries = owner?.legend ?? [];
+    legend.hidden = entries.length === 0;
+    if (legend.hidden) return;
+    void this.host.exchange().then(({ legendBlock, legendWords }) => {
+      this.#legendBlock = legendBlock(entries, 0);
+      const height = `${this.#legendBlock.height}px`;
+      const [canvas] = legend.children as HTMLCollectionOf<HTMLElement>;
+      canvas.ariaLabel = legendWords(entries);
+      canvas.style.height = height;
+      document.documentElement.style.setProperty("--legend", height);
+      this.#legend.redraw("state");
+    });
   }
 
   /** The room begins with places, if there are any, in sight. */
@@ -241,10 +247,10 @@ export class GlobeRoom extends TableRoom implements Room, GlobeHost {
     this.switches.offer("cells", places !== null);
     this.switches.offer("names", !!places?.names);
     for (const part of ["[data-show=places]", "[value=places]"]) find(this.section, part).hidden = places === null;
-    const { lonlat, names, name, owner } = places ?? NO_PLACES;
+    const { lonlat, names, name } = places ?? NO_PLACES;
     this.#fit(places ?? NO_PLACES, places !== null);
     this.#tell(places ?? NO_PLACES);
-    const columns = owner?.columns ?? [];
+    const columns = columnsOf(places ?? NO_PLACES);
     const count = lonlat.length / 2;
     const words = count === 0 ? "No places in" : count === 1 ? "The place of" : `The ${counted(count)} places of`;
     this.out("places").textContent = `${words} ${name}`;
@@ -350,7 +356,10 @@ export class GlobeRoom extends TableRoom implements Room, GlobeHost {
   /** A sentence below the globe: that of the place which is lit, if there is one. */
   #say(name: string, words: string): void {
     const { lit } = this.scene;
-    say(this.out(name), lit === null ? words : placeSentence(this.scene, lit));
+    const told = lit === null ? words : placeSentence(this.scene, lit);
+    say(this.out(name), told);
+    // In a frame there is no room for it but where the pointer is.
+    if (this.isFramed) find(this.section, ".globe-spread canvas").title = lit === null ? "" : plain(told);
   }
 
   #writeFisheye(): void {
@@ -361,9 +370,11 @@ export class GlobeRoom extends TableRoom implements Room, GlobeHost {
     const [plain, far] = ["times as large as on a plain globe", `on the far side _${scale(there)}_ times`];
     const strength = scale(magnification);
     const words =
-      this.scene.places === null || this.hasPointed
-        ? `At the pointer, _${placeWords(pointer)}_, everything is _${scale(here)}_ ${plain}; at the focus _${strength}_ times, ${far}.`
-        : `At the focus, _${placeWords(focus)}_, everything is _${strength}_ ${plain}, ${far}.`;
+      magnification === 1
+        ? "Nothing is magnified: every place has its size on a plain globe."
+        : this.scene.places === null || this.hasPointed
+          ? `At the pointer, _${placeWords(pointer)}_, everything is _${scale(here)}_ ${plain}; at the focus _${strength}_ times, ${far}.`
+          : `At the focus, _${placeWords(focus)}_, everything is _${strength}_ ${plain}, ${far}.`;
     this.#say("pointer", words);
     const ruler = this.out("scale");
     const share = magnification > 1 ? Math.log(here) / Math.log(magnification) : 0;
@@ -418,6 +429,7 @@ const AREAS: Record<Latitude, string> = {
 
 /** The ends of a ruler from 1/S to S: a fraction where S is whole. */
 function ends(magnification: number): [string, string] {
+  if (magnification === 1) return ["", ""];
   if (!Number.isInteger(magnification)) return [scale(1 / magnification), scale(magnification)];
   return [magnification === 3 ? "⅓" : `1⁄${magnification}`, String(magnification)];
 }

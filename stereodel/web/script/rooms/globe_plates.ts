@@ -1,6 +1,6 @@
 /** Drawings of the Globe room: the Earth through a fisheye, two globes with bubbles, and the fisheye from five sides. */
 
-import { arcThrough, circle, pointAt, traceCap, type Circle } from "../drawing/arcs.ts";
+import { arcThrough, circle, pointAt, traceCap, traceCircle, type Circle } from "../drawing/arcs.ts";
 import { arcLayer, circlePoints, drawLayers, graticuleArcs, placeOf, regionLayer } from "../drawing/ball.ts";
 import type { Layer } from "../drawing/ball.ts";
 import { widthOf, type Box } from "../drawing/names.ts";
@@ -11,8 +11,8 @@ import type { LabelStyle } from "../drawing/styles.ts";
 import { MoebiusMap, Rotation } from "../kernel/api.ts";
 import type { RoomHost } from "../room.ts";
 import { angle, cross, directionOf, lonLatOf, row, type Vector } from "../space.ts";
-import { arrowed, grabBall, type Turnable } from "../view/ball_hand.ts";
-import { distance, follow, isCommand, type Gestures, type Hold, type Pinch, type Place } from "../view/hand.ts";
+import { arrowed, grabBall, keyFactor, lensGestures, type Magnifiable, type Turnable } from "../view/ball_hand.ts";
+import { distance, follow, isCommand, type Gestures, type Hold, type Place } from "../view/hand.ts";
 import * as lenses from "../view/lens.ts";
 import type { Cap, Lens, Sight } from "../view/lens.ts";
 import { Motion } from "../view/motion.ts";
@@ -97,6 +97,11 @@ abstract class GlobePlate implements Turnable {
     return this.room.isNorthUp;
   }
 
+  /** Whether there is a circle at the pointer. */
+  get isPointed(): boolean {
+    return this.pointed !== null && lenses.imageOf(this.map, this.room.shown.pointer)[2] > 0;
+  }
+
   protected change(change: Partial<GlobeState>): void {
     this.motion.stop();
     this.room.set(change, "hand");
@@ -129,7 +134,8 @@ abstract class GlobePlate implements Turnable {
     const rim = arcThrough(images, 0, 1, 2, true);
     const at = lenses.imageOf(map, pointer);
     if (rim === null || at[2] <= 0) return;
-    pen.draw("bubble", (path) => traceCap(path, disc, rim));
+    pen.draw("seen", (path) => traceCap(path, disc, rim));
+    pen.draw("bubble-open", (path) => traceCircle(path, disc, rim));
     if (pointed === "circle") return;
     const [x, y] = placeOf(disc, at);
     const away = rim.r * disc.r;
@@ -142,34 +148,41 @@ abstract class GlobePlate implements Turnable {
   }
 }
 
-const KEY_FACTOR = 1.25;
-
 /** The large globe through the fisheye: turned, magnified and focused by hand. */
-export class FisheyeGlobe extends GlobePlate {
+export class FisheyeGlobe extends GlobePlate implements Magnifiable {
+  /** That of the page, or what was asked for beyond it. */
+  get most(): number {
+    return Math.max(lenses.MOST, this.sight.lens.magnification);
+  }
+
   /** Over places of the reader's own, nothing before anybody has pointed. */
   protected get pointed(): "scale" | null {
     return this.room.scene.places === null || this.room.hasPointed ? "scale" : null;
   }
 
   get view(): View {
-    return this.#sight.view;
+    return this.sight.view;
   }
 
   protected get map(): MoebiusMap {
-    return lenses.sightMap(this.#sight);
+    return lenses.sightMap(this.sight);
   }
 
-  get #sight(): Sight {
+  get sight(): Sight {
     return this.room.shown.sight;
   }
 
+  see(sight: Sight): void {
+    this.change({ sight });
+  }
+
   turn(view: View, reason: Reason): void {
-    this.room.set({ sight: { ...this.#sight, view } }, reason);
+    this.room.set({ sight: { ...this.sight, view } }, reason);
   }
 
   /** Goes to another sight, on the way that a flight takes. */
   fly(to: Sight): void {
-    const from = this.#sight;
+    const from = this.sight;
     this.motion.fly((t) => {
       const sight = lenses.betweenSights(from, to, t, this.isNorthUp);
       this.room.set({ sight }, t < 1 ? "flight" : "state", t === 1);
@@ -177,7 +190,7 @@ export class FisheyeGlobe extends GlobePlate {
   }
 
   get #focus() {
-    const { focus } = this.#sight.lens;
+    const { focus } = this.sight.lens;
     const seen = this.view.seen(focus);
     const [isFront, isRight, [x, y]] = [seen[2] >= 0, seen[0] <= 0.75, placeOf(this.disc, seen)];
     const style: LabelStyle = { ...this.room.scene.lettered(LETTER), align: isRight ? "left" : "right" };
@@ -209,15 +222,11 @@ export class FisheyeGlobe extends GlobePlate {
         this.room.press?.(); // back to what it was before the first of the two
         if (this.isOnBall(at)) this.fly(this.#focusedAt(this.under(at)));
       },
-      pinch: (middle, spread) => this.#pinch(middle, spread),
-      wheel: (at, factor) => {
-        const point = this.isOnBall(at) ? this.under(at) : ([0, 0, 1] as const);
-        this.change({ sight: lenses.magnified(this.#sight, point, factor, this.isNorthUp) });
-      },
+      ...lensGestures(this, this.motion),
       key: (event) => {
         if (this.room.key?.(event)) return true;
         const view = arrowed(this, event);
-        const sight = view === null ? this.#keyed(event.key) : { ...this.#sight, view };
+        const sight = view === null ? this.#keyed(event.key) : { ...this.sight, view };
         if (sight === null || isCommand(event)) return false;
         this.change({ sight });
         return true;
@@ -226,11 +235,11 @@ export class FisheyeGlobe extends GlobePlate {
   }
 
   #focusedAt(point: Vector): Sight {
-    return lenses.focused(this.#sight, lenses.sourceOf(this.map, point), this.isNorthUp);
+    return lenses.focused(this.sight, lenses.sourceOf(this.map, point), this.isNorthUp);
   }
 
   #take(at: Place, reach: number): Hold | null {
-    const { lens, view } = this.#sight;
+    const { lens, view } = this.sight;
     const away = this.room.isFramed ? Infinity : distance(at, placeOf(this.disc, view.seen(lens.focus)));
     if (away > reach) return grabBall(this, this.motion, at);
     this.motion.stop();
@@ -238,31 +247,10 @@ export class FisheyeGlobe extends GlobePlate {
     return { move: (to) => this.change({ sight: { lens: { ...lens, focus: view.onBall(this.under(to)) }, view } }) };
   }
 
-  #pinch(middle: Place, spread: number): Pinch {
-    this.motion.stop();
-    const start = this.#sight;
-    const from = this.under(middle);
-    let turnedBefore: number | null = null;
-    return {
-      move: (now, nowSpread, turn) => {
-        turnedBefore ??= turn;
-        const sight = lenses.magnified(start, from, nowSpread / spread, this.isNorthUp);
-        const to = this.under(now);
-        let view = lenses.holding(sight.view, sight.view.onBall(from), to, this.isNorthUp);
-        if (!this.isNorthUp) view = view.turned(Rotation.about(to, ((turnedBefore - turn) * 180) / Math.PI));
-        this.change({ sight: { ...sight, view } });
-      },
-    };
-  }
-
   #keyed(key: string): Sight | null {
-    const { lens, view } = this.#sight;
-    const sized = (factor: number): Sight => ({
-      lens: { ...lens, magnification: lens.magnification * factor },
-      view,
-    });
-    if (key === "+" || key === "=") return sized(KEY_FACTOR);
-    if (key === "-") return sized(1 / KEY_FACTOR);
+    const { lens, view } = this.sight;
+    const factor = keyFactor(key);
+    if (factor !== null) return { lens: { ...lens, magnification: lens.magnification * factor }, view };
     if (key === "0") return this.room.beginning.sight;
     return key === "f" || key === "F" ? this.#focusedAt([0, 0, 1]) : null;
   }
@@ -323,7 +311,8 @@ export class BubbleGlobe extends GlobePlate {
   protected paintHeld(pen: Pen): void {
     const { disc } = this;
     const rim = this.#rim;
-    pen.draw(this.#which === "before" ? "bubble" : "bubble-open", (path) => traceCap(path, disc, rim));
+    if (this.#which === "before") pen.draw("seen", (path) => traceCap(path, disc, rim));
+    pen.draw("bubble-open", (path) => traceCircle(path, disc, rim));
     const handle = this.#handle();
     if (handle === null) return;
     const [x, y] = placeOf(disc, handle);

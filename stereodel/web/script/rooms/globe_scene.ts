@@ -29,6 +29,9 @@ export const STEP = 10;
 /** Places beyond which their cells are left out while the globe moves. */
 const MANY_PLACES = 10_000;
 
+/** Places of which dots are drawn at the most while the globe moves: of more, every second, third and so on. */
+const MOST_MOVING = 25_000;
+
 /** A globe; `map` takes the Earth to the axes of the view. */
 interface Ball {
   readonly disc: Disc;
@@ -90,6 +93,11 @@ export class GlobeScene {
     if (fine !== null) this.#fine = balls.landLayer(fine);
   }
 
+  /** Of the land that is drawn at rest. */
+  get resolution(): "50m" | "110m" {
+    return this.#fine === null ? "110m" : "50m";
+  }
+
   show(places: Places | null): void {
     [this.places, this.lit, this.#made] = [places, null, places && madeOf(places, this.latitude)];
   }
@@ -108,8 +116,10 @@ export class GlobeScene {
 
   around(place: number): Around {
     const { voronoi, points } = this.#made!;
-    const { pointRegion, ridgePoints } = voronoi;
-    const neighbours = ridgePoints.reduce((sum, site) => sum + (site === pointRegion[place] ? 1 : 0), 0);
+    const { regionOffsets, regionNeighbors } = voronoi;
+    const kept = regionOffsets[place + 1] > regionOffsets[place] ? place : voronoi.pointRegion[place];
+    const beyond = regionNeighbors.subarray(regionOffsets[kept], regionOffsets[kept + 1]);
+    const neighbours = new Set(beyond).size;
     const at = row(points, place);
     const two = points.length > 3 ? this.#made!.delaunay.nearest(at, 2) : [];
     const nearest = [...two].find((site) => site !== place) ?? null;
@@ -136,10 +146,9 @@ export class GlobeScene {
   }
 
   get parts(): Part<Ball>[] {
-    const { picture, places, latitude } = this;
+    const { picture, places } = this;
     const lonlat = places?.lonlat ?? new Float64Array(0);
     const [hasPicture, hasPlaces] = [picture !== null, places !== null];
-    const kind = latitude === "spherical" ? "" : `, latitude="${latitude}"`;
     const drawn = (layer: (isMoving: boolean) => Layer | null): Pick<Part<Ball>, "draw"> => ({
       draw: (pen, { disc, map, isMoving }) => balls.drawLayers(pen, disc, map, [layer(isMoving)]),
     });
@@ -151,9 +160,8 @@ export class GlobeScene {
       {
         isThere: hasPicture,
         draw: (pen, { disc, map, isMoving }) => picture!.draw(pen, disc, map, isMoving),
-        python: { globe: `globe.add_raster(${JSON.stringify(picture?.name)})` },
       },
-      { layer: "land", isThere: !hasPicture, ...land, python: { globe: 'globe.add_land(resolution="50m")' } },
+      { layer: "land", isThere: !hasPicture, ...land },
       {
         layer: "fills",
         isThere: hasInks,
@@ -165,25 +173,21 @@ export class GlobeScene {
         },
       },
       { draw: (pen, { disc, map }) => balls.drawLayers(pen, disc, map, this.layers) },
-      { layer: "graticule", ...drawn(() => this.#graticule), python: { globe: `globe.add_graticule(${STEP}.0)` } },
-      // The page draws coasts with the land.
-      { layer: "land", isThere: !hasPicture, python: { globe: 'globe.add_coastlines(resolution="50m")' } },
-      {
-        layer: "tissot",
-        ...drawn(() => this.#tissot),
-        python: { globe: `globe.add_tissot(${STEP}.0, ${CIRCLE_RADIUS.toFixed(4)})` },
-      },
-      { isThere: hasPlaces, python: { globe: `places = read_points(${JSON.stringify(places?.name)}).lonlat` } },
+      { layer: "graticule", ...drawn(() => this.#graticule) },
+      { layer: "tissot", ...drawn(() => this.#tissot) },
       {
         layer: "cells",
         isThere: hasPlaces,
         always: ["geojson"], // the data of the places, whatever is drawn of it
         ...drawn((isMoving) => (isMoving && isMuch ? null : this.#made!.cells)),
-        python: { globe: `globe.add_cells(SphericalVoronoi.from_lonlat(places${kind}))` },
         regions: () => this.#made?.regions ?? [],
       },
-      { layer: "isolines", isThere: !!places?.isolines, ...drawn(() => this.#made!.isolines) },
-      { isThere: hasPlaces, ...drawn(() => this.#made!.dots), python: { globe: "globe.add_points(places)" } },
+      {
+        layer: "isolines",
+        isThere: !!places?.isolines,
+        draw: (pen, { disc, map }) => balls.drawLayers(pen, disc, map, this.#made!.isolines),
+      },
+      { isThere: hasPlaces, ...drawn((isMoving) => this.#made![isMoving ? "sparse" : "dots"]) },
       { draw: (pen, { disc }) => pen.shade(disc) },
       {
         layer: "names",
@@ -191,7 +195,7 @@ export class GlobeScene {
         draw: (pen, { disc, map, isMoving, standing, taken }) => {
           const { directions, ...named } = this.#made!.named;
           const seats = new Seats(pen, disc, taken);
-          drawNames(pen, seats, disc, { ...named, standing, isMoving }, map.apply(directions), this.lettered(NAME));
+          drawNames(seats, { ...named, standing, isMoving }, map.apply(directions), this.lettered(NAME));
         },
       },
     ];
@@ -201,13 +205,15 @@ export class GlobeScene {
 /** What is made of places when it is first asked for: their dots, their cells, the areas of these. */
 interface Made {
   readonly dots: Layer;
+  /** Those that are drawn while the globe moves. */
+  readonly sparse: Layer;
   readonly named: Pick<Named, "names" | "radii"> & { readonly directions: Directions };
   /** Of the cells' sphere. */
   readonly points: Float64Array;
   readonly delaunay: SphericalDelaunay;
   readonly voronoi: SphericalVoronoi;
   readonly fills: readonly Layer[];
-  readonly isolines: Layer;
+  readonly isolines: readonly Layer[];
   readonly cells: Layer;
   readonly areas: Float64Array;
   readonly regions: readonly Region[];
@@ -233,16 +239,18 @@ function madeOf({ lonlat, names, owner, isolines }: Places, latitude: Latitude):
     const place = row(lonlatToXyz(lonlat.subarray(2 * sites[0], 2 * sites[0] + 2)), 0);
     return [balls.regionLayer("tint", null, drawn(Float64Array.from(corners)), offsets, place, true, ink)];
   };
+  /** Dots of one place of so many. */
+  const dots = (of: number): Layer => {
+    const { inks, ink = [], radii = [] } = owner ?? {};
+    const some = <T>(all: readonly T[]): readonly T[] => (of === 1 ? all : all.filter((_, k) => k % of === 0));
+    const xyz = lonlatToXyz(of === 1 ? lonlat : lonlat.filter((_, k) => (k >> 1) % of === 0));
+    if (inks === undefined) return balls.dotLayer("site", xyz);
+    const colours = some(ink).map((number) => inks[number]);
+    return balls.spotLayer(xyz, some(radii), colours);
+  };
   const made: Made = lazy({
-    dots: () => {
-      const { inks, ink = [], radii = [] } = owner ?? {};
-      if (inks === undefined) return balls.dotLayer("site", lonlatToXyz(lonlat));
-      return balls.spotLayer(
-        lonlatToXyz(lonlat),
-        radii,
-        ink.map((number) => inks[number]),
-      );
-    },
+    dots: () => dots(1),
+    sparse: () => (lonlat.length > 2 * MOST_MOVING ? dots(Math.ceil(lonlat.length / (2 * MOST_MOVING))) : made.dots),
     named: () => {
       const radii = owner?.radii ?? [];
       const order = [...(names ?? []).keys()].filter((k) => radii[k] !== 0);
@@ -255,11 +263,10 @@ function madeOf({ lonlat, names, owner, isolines }: Places, latitude: Latitude):
     delaunay: () => new SphericalDelaunay(made.points),
     voronoi: () => new SphericalVoronoi(made.delaunay),
     fills: () => (owner?.inks ?? []).flatMap((ink, number) => tint(ink, number)),
-    isolines: () =>
-      balls.arcLayer(
-        "isoline",
-        balls.lineArcs(isolines ?? { lonlat: new Float64Array(0), offsets: new Uint32Array(1) }),
-      ),
+    isolines: () => {
+      const arcs = balls.lineArcs(isolines!);
+      return [balls.arcLayer("isoline-halo", arcs), balls.arcLayer("isoline", arcs)];
+    },
     cells: () => balls.arcLayer("cell", drawn(balls.ridgeArcs(made.voronoi))),
     areas: () => made.voronoi.areas(OF_EQUAL_AREA),
     regions: () =>

@@ -335,9 +335,7 @@ class LiftRoom extends SiteRoom implements Room {
   }
 
   python(exchange: Exchange): string {
-    const { set, file } = this.named;
-    const scene = this.#scene(false);
-    return exchange.liftPython(scene, LiftPicture.parts(scene), this.#state.side, file, SHEET_SIDES[set]);
+    return exchange.liftPython(this.#scene(false), this.#picture(), this.origin, SHEET_SIDES[this.named.set]);
   }
 }
 

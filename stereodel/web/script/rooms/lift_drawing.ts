@@ -1,7 +1,8 @@
 /** The picture of the Lift room: a sheet that bends onto a ball, under the plane that it was. */
 
 import { traceArc, traceRegions, type Side } from "../drawing/arcs.ts";
-import { ballSurface, drawDots, planeSurface, traceGreat, type Surface } from "../drawing/ball.ts";
+import { arcBetween, ballSurface, drawArcs, drawDots, drawSegments, planeSurface } from "../drawing/ball.ts";
+import type { Surface } from "../drawing/ball.ts";
 import { drawParts, type IsOn, type Part } from "../drawing/parts.ts";
 import { cornersOf, traceCorners, traceDisc, traceSegment } from "../drawing/pen.ts";
 import type { Disc, Path, Pen, Point } from "../drawing/pen.ts";
@@ -45,9 +46,11 @@ const WORD: LabelStyle = { ink: "ink-2", halo: "ball", size: 14 };
 /** A scene in a drawing of some pixels; what has its place there does not move while the ball is turned sideways. */
 export class LiftPicture {
   readonly #scene: LiftScene;
+  readonly width: number;
+  readonly height: number;
   /** Pixels of a diagonal, and the point of contact. */
-  readonly #scale: number;
-  readonly #contact: Point;
+  readonly scale: number;
+  readonly contact: Point;
   /** The ball; of no use where the sheet is flat. */
   readonly #disc: Disc;
   /** Corners of the sheet, counterclockwise. */
@@ -56,13 +59,13 @@ export class LiftPicture {
 
   constructor(scene: LiftScene, width: number, height: number) {
     const { sheet, sites, view } = scene;
-    this.#scene = scene;
+    [this.#scene, this.width, this.height] = [scene, width, height];
     const unit = Math.min(width / BOX.width, height / BOX.height);
     const steep = Math.sin((Math.max(HIGH, scene.height) * Math.PI) / 180) / Math.sin((HIGH * Math.PI) / 180);
-    this.#scale = (DIAGONAL * unit) / steep;
-    this.#contact = [width / 2, (height - BOX.height * unit) / 2 + BOX.contact * unit];
+    this.scale = (DIAGONAL * unit) / steep;
+    this.contact = [width / 2, (height - BOX.height * unit) / 2 + BOX.contact * unit];
     const [x, y] = this.place([0, 0, -sheet.radius]);
-    this.#disc = { x, y, r: this.#scale * sheet.radius };
+    this.#disc = { x, y, r: this.scale * sheet.radius };
     const { middle, width: w, height: h } = sites.rectangle;
     this.#corners = cornersOf(middle[0] - w / 2, middle[1] - h / 2, middle[0] + w / 2, middle[1] + h / 2);
     const looks: Vector[] = [];
@@ -74,7 +77,7 @@ export class LiftPicture {
   /** Where a point of space, in diagonals, is on the drawing. */
   place(point: Vector): Point {
     const seen = this.#scene.view.seen(point);
-    return [this.#contact[0] + this.#scale * seen[0], this.#contact[1] - this.#scale * seen[1]];
+    return [this.contact[0] + this.scale * seen[0], this.contact[1] - this.scale * seen[1]];
   }
 
   /** Where a site is in the plane. */
@@ -91,6 +94,12 @@ export class LiftPicture {
     drawParts(pen, this, LiftPicture.parts(this.#scene), this.#scene.isOn);
   }
 
+  /** What there is behind the sheet, by the names in the library's pictures. */
+  get grounds(): string[] {
+    const { corner } = this.#scene.sheet;
+    return ["hull", ...(corner >= BALL_FROM ? ["ball"] : []), ...(corner >= OUTLINE_FROM ? ["limb"] : [])];
+  }
+
   static parts({ sites, sheet, isOn, isMoving, p, q, lit }: LiftScene): Part<LiftPicture>[] {
     const { isFlat, corner } = sheet;
     const isBent = !isFlat;
@@ -101,30 +110,17 @@ export class LiftPicture {
     return [
       { isThere: isBent && corner >= BALL_FROM, draw: (pen, on) => pen.ball(on.#disc, "ball") },
       { isThere: isBent && corner >= OUTLINE_FROM, draw: (pen, on) => pen.draw("limb-soft", on.#limb) },
-      {
-        isThere: isFlat,
-        draw: (pen, on) => pen.draw("sheet", on.#region),
-        python: { sheet: 'diagram_page(sheet).save("sheet.svg")' }, // with all that lies on it
-      },
+      { isThere: isFlat, draw: (pen, on) => pen.draw("sheet", on.#region) },
       { layer: "seeing", draw: (pen, on) => on.#drawSeeing(pen) },
       { isThere: isBent, draw: (pen, on) => on.#drawBehind(pen, isOn("triangles") && !isMoving) },
-      {
-        layer: "triangles",
-        always: ["python"], // the lines are of the sites, whatever is drawn of them
-        draw: (pen, on) => on.#drawEdges(pen),
-        python: { ball: 'ball.add_edges(xyz, sheet.edges, name="delaunay")' },
-      },
-      { layer: "cells", draw: (pen, on) => pen.clipped(on.#region, () => pen.draw("voronoi", on.#ridges)) },
+      { layer: "triangles", draw: (pen, on) => on.#drawEdges(pen) },
+      { layer: "cells", draw: (pen, on) => pen.clipped(on.#region, () => on.#drawRidges(pen)) },
       { draw: (pen, on) => pen.draw("side", isFlat ? on.#region : (path) => on.#traceBorder(path, "front")) },
-      {
-        draw: (pen, on) => drawDots(pen, on.surface, "site", Array(sites.count).keys()),
-        python: { ball: 'ball.add_points(xyz, name="sites")' },
-      },
+      { draw: (pen, on) => drawDots(pen, on.surface, "site", Array(sites.count).keys()) },
       { isThere: isBent, draw: (pen, on) => on.#drawPlane(pen) },
       {
         isThere: p !== null && q !== null,
         draw: (pen, on) => p !== q && pen.draw("span", (path) => on.#traceSpan(path, p!, q!)),
-        python: { pair: `print(angular_distance(xyz[${p}], xyz[${q}]))` },
       },
       ...letters.flat(),
       { isThere: isBent, draw: (pen, on) => on.#drawPole(pen) },
@@ -140,11 +136,15 @@ export class LiftPicture {
     else traceRegions(path, this.#disc, ringOf(this.#border()), this.#holds([0, 0, -1]));
   };
 
-  #drawEdges(pen: Pen, side?: Side): void {
+  #drawEdges(pen: Pen, side?: Side | "flat"): void {
     const { edges } = this.#scene.sites.delaunay;
-    pen.draw("delaunay", (path) => {
-      for (let k = 0; k < edges.length; k += 2) this.surface.line(path, edges[k], edges[k + 1], side);
-    });
+    if (side === "flat")
+      drawSegments(
+        pen,
+        "delaunay",
+        [...edges].flatMap((site) => this.above(site)),
+      );
+    else this.surface.lines(pen, "delaunay", edges, side);
   }
 
   /** The bent sheet and what is faint of it, with the far side of its triangles. */
@@ -179,8 +179,10 @@ export class LiftPicture {
 
   /** The plane over the bent sheet, and the point of contact. */
   #drawPlane(pen: Pen): void {
-    const [x, y] = this.#contact;
+    const [x, y] = this.contact;
     pen.draw("sheet-plane", this.#plane);
+    // The triangles as they were: "behind" is as weak as what lies beyond the ball.
+    if (this.#scene.isOn("triangles") && !this.#scene.isMoving) pen.behind(() => this.#drawEdges(pen, "flat"));
     pen.draw("touch", (path) => {
       traceSegment(path, [x - 4.5, y], [x + 4.5, y]);
       traceSegment(path, [x, y - 3.5], [x, y + 3.5]);
@@ -194,7 +196,7 @@ export class LiftPicture {
 
   /** From the pole, or where that is out of sight from a site's image, to its place in the plane. */
   #drawRay(pen: Pen, site: number): void {
-    const from = this.#seenPole(pen) ?? this.surface.place(site);
+    const from = this.seenPole(pen.height) ?? this.surface.place(site);
     pen.draw("ray", (path) => traceSegment(path, from, this.above(site)));
   }
 
@@ -207,15 +209,15 @@ export class LiftPicture {
   }
 
   #drawPole(pen: Pen): void {
-    const pole = this.#seenPole(pen);
+    const pole = this.seenPole(pen.height);
     if (pole === null) return;
     pen.dots("pole", pole);
     pen.label("pole", pole[0] + 7, pole[1] + 6, WORD);
   }
 
-  #seenPole(pen: Pen): Point | null {
+  seenPole(height: number): Point | null {
     const pole = this.place(this.#scene.sheet.pole);
-    return pole[1] < pen.height - 20 ? pole : null;
+    return pole[1] < height - 20 ? pole : null;
   }
 
   /** A place of the bent sheet, axes of the view. */
@@ -261,12 +263,10 @@ export class LiftPicture {
   }
 
   /** Sides of the cells; on the ball from the centre of a facet's circle to those of the facets across its edges. */
-  readonly #ridges = (path: Path): void => {
+  #drawRidges(pen: Pen): void {
     const { sites, sheet } = this.#scene;
-    if (sheet.isFlat) {
-      for (const [a, b] of sites.ridges) traceSegment(path, this.#flat(a), this.#flat(b));
-      return;
-    }
+    if (sheet.isFlat) return drawSegments(pen, "voronoi", sites.ridges.flat().flatMap(this.#flat));
+    const arcs: number[] = [];
     const facets = [...sites.delaunay.simplices, ...sites.closing];
     const looks = facets.map((site) => this.#look(...sites.place(site)));
     const centers = new Map<string, Vector>();
@@ -275,9 +275,10 @@ export class LiftPicture {
       const center = facetCenter(looks[first], looks[first + 1], looks[first + 2]);
       const beyond = centers.get(`${to} ${from}`);
       if (beyond === undefined) centers.set(`${from} ${to}`, center);
-      else traceGreat(path, this.#disc, center, beyond);
+      else arcs.push(...arcBetween(center, beyond).flat());
     });
-  };
+    drawArcs(pen, this.#disc, "voronoi", arcs);
+  }
 }
 
 function ringOf(points: readonly Vector[]): { points: Float64Array; offsets: number[] } {

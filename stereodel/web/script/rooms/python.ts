@@ -1,124 +1,171 @@
-/** The Python lines that make the picture of a room. */
+/** The Python lines that draw the picture of a room: texts of `lines/`, with values and the lines for what is shown. */
 
-import { linesOf, type IsOn, type Part } from "../drawing/parts.ts";
+import type { IsOn, Switch } from "../drawing/parts.ts";
+import GLOBE from "../lines/globe.txt";
+import LIFT from "../lines/lift.txt";
+import SPHERE from "../lines/sphere.txt";
 import { writeNumber } from "../link.ts";
 import { lonLatOf, type Vector } from "../space.ts";
-import type { GlobeScene } from "./globe_scene.ts";
+import type { View } from "../view/view.ts";
+import { CIRCLE_RADIUS, STEP, type GlobeScene } from "./globe_scene.ts";
 import type { GlobeState } from "./globe_state.ts";
-import type { LiftScene } from "./lift_drawing.ts";
+import type { LiftPicture, LiftScene } from "./lift_drawing.ts";
 import type { SphereScene } from "./sphere_drawing.ts";
 import type { SphereState } from "./sphere_state.ts";
 
 /** Sites beyond which the lines name a file in place of the places. */
 const MOST_WRITTEN = 200;
 
-/** Lines that draw the ball and the plane into two files. @param file Of the sites, if they are of one. */
+/** The page's sets that are in the package, by their names. */
+const LARGE = "cities().lonlat[cities().population >= 2_000_000]";
+const NEAR = `SphericalDelaunay.from_lonlat(airports().lonlat).nearest(lonlat=${LARGE})`;
+const SETS: Readonly<Record<string, string>> = {
+  cities: LARGE,
+  airports: `airports().lonlat[np.unique(${NEAR})]`,
+  stars: "stars().lonlat[stars().magnitude <= 3.0]",
+};
+
+/** Where sites come from: a set of the page, or a file that they are in. */
+export interface Origin {
+  readonly set: string;
+  readonly file: string;
+}
+
+type Values = Readonly<Record<string, string | number>>;
+type Marks = Readonly<Record<string, boolean>>;
+
+/** Lines that draw the ball and the plane. @param sizes Of both pictures, as the text names them. */
 export function spherePython(
-  { sites, isOn }: SphereScene,
-  parts: readonly Part<never>[],
-  { pole, view }: SphereState,
-  file: string | null,
+  scene: SphereScene,
+  state: SphereState,
+  poleSeen: Vector | null,
+  origin: Origin,
+  sizes: Values,
 ): string {
-  const tangent = [pole[0] > 0 ? pole[0] - 180 : pole[0] + 180, -pole[1]] as const;
-  const isRead = file !== null || sites.count > MOST_WRITTEN;
-  return text(
-    "import numpy as np",
-    "from stereodel import SphericalDelaunay, SphericalVoronoi, Stereographic, lonlat_to_xyz",
-    "from stereodel.drawing import Scene, Sketch, View",
-    isRead && "from stereodel.io import read_points",
-    "from stereodel.sphere import SphereCircle",
-    "from stereodel.triangulation import planar_part",
-    "",
-    `lonlat = ${isRead ? `read_points(${quoted(file)}).lonlat` : written(sites.lonlat)}`,
-    "delaunay = SphericalDelaunay.from_lonlat(lonlat)",
-    "voronoi = SphericalVoronoi(delaunay)",
-    "",
-    "ball = Scene()",
-    ...linesOf(parts, isOn, "ball"),
-    `ball.page(View(${numbers(view)}), width=340).save("ball.svg")`,
-    "",
-    `pole = lonlat_to_xyz((${numbers(pole)}))`,
-    `flat = Stereographic((${numbers(tangent)})).forward(delaunay.points)`,
-    "triangles = planar_part(delaunay, pole)",
-    "edges = np.unique(np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)), axis=0)",
-    "plane = Sketch()",
-    ...linesOf(parts, isOn, "plane"),
-    "size = 1.07 * np.abs(flat).max()",
-    'plane.page((-size, size, -size, size)).save("plane.svg")',
-  );
+  const { sites, view, bubble, aim, step } = scene;
+  const isOn = (layer: Switch): boolean => step === "done" && scene.isOn(layer);
+  const held = [...((isOn("bubble") && bubble?.sites) || []), ...(step === "done" ? scene.held : [step.site])];
+  const marks = {
+    facets: sites.facetCount > 0,
+    hemisphere: sites.hasClosing,
+    step: step !== "done" && step.insertion !== null,
+    aimed: bubble !== null,
+    held: held.length > 0,
+    pole: poleSeen !== null,
+    front: poleSeen !== null && poleSeen[2] >= 0,
+    hatched: isOn("seeing") || (isOn("closing") && sites.hasClosing),
+  };
+  const values = {
+    ...sizes,
+    sites: SETS[origin.set] ?? coordinates(sites.lonlat, readPoints(origin.file)),
+    pole: numbers(state.pole),
+    view: numbers(view.middle),
+    aim: lonLatOf(aim).join(", "),
+    focus: numbers(lonLatOf(state.lens.focus)),
+    magnification: state.lens.magnification,
+    held: held.join(", "),
+    step: step === "done" ? "" : step.site + 1,
+    count: step === "done" ? "" : step.site + 1,
+  };
+  return filled(SPHERE, values, marks, isOn);
 }
 
 /** Lines that draw the sheet or the ball. @param sides Of the rectangle, where it is not the smallest one. */
-export function liftPython(
-  { sites, sheet, height, isOn }: LiftScene,
-  parts: readonly Part<never>[],
-  side: number,
-  file: string | null,
-  sides?: readonly [number, number],
+export function liftPython(scene: LiftScene, picture: LiftPicture, origin: Origin, sides?: readonly number[]): string {
+  const { sites, sheet, view, isOn } = scene;
+  const [p, q] = [scene.p, scene.q].filter((site) => site !== null);
+  const { contact, height } = picture;
+  const box = sites.count === 0 ? [3, 2] : sides;
+  const marks = {
+    facets: sites.delaunay.dimension === 2,
+    flat: sheet.isFlat,
+    area: sites.rectangle.width > 0 && sites.rectangle.height > 0,
+    letters: p !== undefined,
+    pair: q !== undefined && p !== q,
+    pole: picture.seenPole(height) !== null,
+  };
+  const values = {
+    points: coordinates(
+      sites.places,
+      `np.loadtxt(${JSON.stringify(origin.file)}, delimiter=",", skiprows=1, usecols=(0, 1))`,
+    ),
+    corners: box ? `np.array([[-1, -1], [1, 1]]) * [${numbers(box)}] / 2` : "points.min(axis=0), points.max(axis=0)",
+    view: numbers(view.middle),
+    width: picture.width,
+    height,
+    scale: picture.scale,
+    contact: `${contact[0]}, ${height - contact[1]}`,
+    corner: sheet.corner,
+    pair: [p, q].join(", "),
+    shown: JSON.stringify(picture.grounds),
+  };
+  return filled(LIFT, values, marks, isOn);
+}
+
+/** Lines that draw the globe, or both of a bubble. @param width Of a disc. @param isPointed Whether the pointer has its circle. */
+export function globePython(
+  state: GlobeState,
+  scene: GlobeScene,
+  isOn: IsOn,
+  width: number,
+  isPointed: boolean,
 ): string {
-  const isRead = file !== null || sites.count > MOST_WRITTEN;
-  const ball = [
-    `sphere = Stereographic((0, -90), radius=lift.diagonal / 4 / np.tan(np.radians(${sheet.corner / 2})))`,
-    "xyz = sphere.inverse(points - lift.center)[:, [1, 0, 2]] * [1, 1, -1]  # the point of contact on top",
-    "",
-    "ball = Scene()",
-    ...linesOf(parts, isOn, "ball"),
-    `ball.page(View(${side - 90}, ${height}), width=340).save("lift.svg")`,
-    ...linesOf(parts, isOn, "pair"),
-  ];
-  return text(
-    "import numpy as np",
-    "from stereodel import PlanarDelaunay, RectangleLift, Stereographic, angular_distance",
-    "from stereodel.drawing import Scene, View, diagram_page",
-    "",
-    isRead
-      ? `points = np.loadtxt(${quoted(file)}, delimiter=",", skiprows=1)  # the columns x and y`
-      : `points = ${written(sites.places)}`,
-    `lift = ${sides === undefined ? "RectangleLift.fit(points)" : `RectangleLift(${sides.join(", ")})`}`,
-    "sheet = PlanarDelaunay(points)",
-    ...linesOf(parts, isOn, "sheet"),
-    ...(sheet.isFlat ? [] : ball),
+  const { lens, sight, from, to, before, after, pointer } = state;
+  const { places, latitude, picture, resolution } = scene;
+  const bubble = lens === "bubble";
+  const kind = places === null || latitude === "spherical" ? "" : `, latitude="${latitude}"`;
+  const at = (direction: Vector): string => {
+    const place = `(${numbers(lonLatOf(direction))})`;
+    return kind === "" ? place : `lonlat_to_xyz(${place}${kind})`;
+  };
+  const seen = ({ middle, roll }: View): string => numbers([...middle, roll]).replace(/, -?0$/, "");
+  const values = {
+    focus: at(sight.lens.focus),
+    magnification: numbers([sight.lens.magnification]),
+    taken: `${at(from.center)}, ${numbers([from.radius])}`,
+    filled: `${at(to.center)}, ${numbers([to.radius])}`,
+    places: coordinates(places?.lonlat ?? new Float64Array(0), readPoints(places?.name ?? "")),
+    latitude: kind,
+    picture: JSON.stringify(picture?.name ?? ""),
+    resolution,
+    step: STEP,
+    radius: CIRCLE_RADIUS.toFixed(4),
+    pointer: at(pointer),
+    before: seen(before),
+    view: seen(bubble ? after : sight.view),
+    width: numbers([1.03 * width * (bubble ? 2 : 1)]),
+  };
+  return filled(
+    GLOBE,
+    values,
+    { bubble, picture: picture !== null, places: places !== null, pointed: isPointed },
+    isOn,
   );
 }
 
-/** Lines that draw the globe. */
-export function globePython(state: GlobeState, { places, latitude, parts }: GlobeScene, isOn: IsOn): string {
-  const { from, to } = state;
-  const { focus, magnification } = state.sight.lens;
-  const isBubble = state.lens === "bubble";
-  const names = [isBubble && "SphereCircle", places !== null && "SphericalVoronoi"].filter(Boolean);
-  const at = (direction: Vector): string => `(${lonLatOf(direction).map(float).join(", ")})`;
-  const view = isBubble ? state.after : state.sight.view;
-  const [roll, ...middle] = [view.roll, ...view.middle].map(float);
-  return text(
-    `from stereodel import ${[...names, isBubble ? "bubble_to_bubble" : "fisheye"].join(", ")}`,
-    "from stereodel.drawing import View",
-    "from stereodel.globe import Globe",
-    places !== null && "from stereodel.io import read_points",
-    "",
-    isBubble && `taken = SphereCircle.around(${at(from.center)}, ${float(from.radius)})`,
-    isBubble && `filled = SphereCircle.around(${at(to.center)}, ${float(to.radius)})`,
-    isBubble
-      ? "lens = bubble_to_bubble(taken, filled)"
-      : `lens = fisheye(${at(focus)}, magnification=${float(magnification)})`,
-    `globe = Globe(${places === null || latitude === "spherical" ? "" : `latitude="${latitude}"`})`,
-    ...linesOf(parts, isOn, "globe"),
-    `globe.save("globe.svg", lens, View(${[...middle, ...(roll === "0.0" ? [] : [roll])].join(", ")}))`,
-  );
+/**
+ * A text with its values, `{name}`. A line that begins with `[a b]` is there where a and b hold or are switched on, with
+ * `[!a]` where a does not; and names are imported for lines that are there alone.
+ */
+function filled(text: string, values: Values, marks: Marks, isOn: IsOn): string {
+  const holds = (name: string): boolean => marks[name] ?? isOn(name as Switch);
+  const lines = text.split("\n").flatMap((line) => {
+    const [, names, rest] = /^(?:\[([!a-z ]+)\] )?(.*)$/.exec(line)!;
+    const isThere = names?.split(" ").every((name) => (name.startsWith("!") ? !holds(name.slice(1)) : holds(name)));
+    return isThere === false ? [] : [rest];
+  });
+  const whole = lines.join("\n").replace(/\{(\w+)\}/g, (found, name: string) => String(values[name] ?? found));
+  const body = whole.replace(/^(from|import) .*\n/gm, "");
+  const isUsed = (name: string): boolean => new RegExp(`\\b${name.split(" as ").pop()}\\b`).test(body);
+  return whole.replace(/^((?:from \S+ )?import )(.*)\n/gm, (_, begin: string, names: string) => {
+    const used = names.split(", ").filter(isUsed);
+    return used.length === 0 ? "" : `${begin}${used.join(", ")}\n`;
+  });
 }
 
-/** Lines, without those that are left out. */
-function text(...lines: readonly (string | false)[]): string {
-  return `${lines.filter((line) => line !== false).join("\n")}\n`;
-}
-
-/** The name of a file; sites that have none are to be saved as sites.csv. */
-function quoted(file: string | null): string {
-  return JSON.stringify(file ?? "sites.csv");
-}
-
-/** Pairs of coordinates as an array (n, 2) of Python, in lines of at most 88 letters. */
-function written(values: Float64Array): string {
+/** Pairs of coordinates as an array (n, 2) of Python, in lines of at most 88 letters; of many what reads their file. */
+function coordinates(values: Float64Array, file: string): string {
+  if (values.length > 2 * MOST_WRITTEN) return file;
   const rows = Array.from({ length: values.length / 2 }, (_, k) => `[${values[2 * k]}, ${values[2 * k + 1]}]`);
   const lines: string[] = [];
   for (const row of rows) {
@@ -129,12 +176,11 @@ function written(values: Float64Array): string {
   return lines.length === 0 ? "np.zeros((0, 2))" : `np.array([\n${lines.join("\n")}\n])`;
 }
 
-function numbers(pair: readonly [number, number]): string {
-  return pair.map((value) => writeNumber(value, 4)).join(", ");
+function readPoints(file: string): string {
+  return `read_points(${JSON.stringify(file)}).lonlat`;
 }
 
-/** A number that is a float of Python, with at most four digits behind the point. */
-function float(value: number): string {
-  const short = writeNumber(value, 4);
-  return short.includes(".") ? short : `${short}.0`;
+/** Numbers to seven digits behind the point, as links have them. */
+function numbers(values: readonly number[]): string {
+  return values.map((value) => writeNumber(value, 7)).join(", ");
 }

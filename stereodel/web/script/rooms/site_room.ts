@@ -12,6 +12,7 @@ import type { SiteSet } from "../sets.ts";
 import { SiteTable, type Rows } from "../table.ts";
 import { counted } from "../words.ts";
 import { Switches, tellNamed } from "./controls.ts";
+import type { Origin } from "./python.ts";
 
 /** The name of sites that are no set of the list: opened, or changed by hand. */
 const OWN = "own";
@@ -198,6 +199,13 @@ export abstract class SiteRoom extends TableRoom {
 
   csv(exchange: Exchange): string {
     return exchange.csv(this.#kind === "plane" ? ["x", "y"] : ["lon", "lat"], this.named);
+  }
+
+  /** Where the lines of Python have the sites from. */
+  protected get origin(): Origin {
+    const { set, file } = this.named;
+    const given = this.sets.find(({ name }) => name === set && name === "given");
+    return { set, file: file ?? given?.words ?? "sites.csv" };
   }
 
   protected get title(): string {

@@ -1,7 +1,7 @@
 /** The Sphere room: sites on a ball, and in the plane that they are projected to (Theorem 1, and the insertion). */
 
 import type { Given } from "../contents.ts";
-import { find, say } from "../dom.ts";
+import { find, plain, say } from "../dom.ts";
 import { placeOf } from "../drawing/ball.ts";
 import type { Named } from "../drawing/names.ts";
 import { regionsOf, type Switch } from "../drawing/parts.ts";
@@ -9,23 +9,43 @@ import type { Pen, Sheet } from "../drawing/pen.ts";
 import { Plate, type Reason } from "../drawing/plate.ts";
 import type { Exchange } from "../exchange.ts";
 import type { Place } from "../fields.ts";
+import type { MoebiusMap } from "../kernel/api.ts";
 import { lazy } from "../kernel/lazy.ts";
 import type { LinkValues } from "../link.ts";
 import type { Room, RoomHost } from "../room.ts";
 import { sphereSets, type Stored } from "../sets.ts";
-import { dot, lonLatOf, type Vector } from "../space.ts";
-import { arrowed, arrowStep, grabBall, type Turnable } from "../view/ball_hand.ts";
+import { lonLatOf, type Vector } from "../space.ts";
+import { arrowed, arrowStep, grabBall, keyFactor, lensGestures, type Magnifiable } from "../view/ball_hand.ts";
 import { distance, follow, isCommand, type Gestures, type Hold, type Place as Point } from "../view/hand.ts";
+import { imageOf, lensMap, magnified, scaleAt, sightMap, sourceOf, type Sight } from "../view/lens.ts";
 import { Motion } from "../view/motion.ts";
 import { pointUnder, View } from "../view/view.ts";
 import { counted, latitude, longitude, ofFacets, wrap } from "../words.ts";
 import { Choice, PlaceFields, siteForm, stepControl } from "./controls.ts";
 import { edited, SiteRoom, type NamedSites } from "./site_room.ts";
-import { ballDrawing, ballLayers, drawMoved, planeDrawing, sphereParts } from "./sphere_drawing.ts";
+import { ballDrawing, ballLayers, drawMoved, planeDrawing, poleSeen, sphereParts } from "./sphere_drawing.ts";
 import type { Drawing, Ground, SphereScene, Step } from "./sphere_drawing.ts";
-import { ofBubble, ofDuplicates, ofPictures, ofSite, ofStep, SphereSites, withoutTriangles } from "./sphere_sites.ts";
-import type { Bubble } from "./sphere_sites.ts";
-import { BEGINNING, directionAt, handPlace, sphereFields, type Click, type SphereState } from "./sphere_state.ts";
+import {
+  ofBubble,
+  ofDuplicates,
+  ofLens,
+  ofPictures,
+  ofSite,
+  ofStep,
+  SphereSites,
+  withoutTriangles,
+  type Bubble,
+} from "./sphere_sites.ts";
+import {
+  BEGINNING,
+  directionAt,
+  handPlace,
+  MOST,
+  sightOf,
+  sphereFields,
+  type Click,
+  type SphereState,
+} from "./sphere_state.ts";
 import { planeFrame, reachAround, Twin, type PlaneFrame } from "./twin.ts";
 
 /** Sites from which on cells are left out while something moves. */
@@ -61,11 +81,12 @@ interface Picture {
   isOn(at: Point, reach?: number): boolean;
 }
 
-class SphereRoom extends SiteRoom implements Room, Turnable {
+class SphereRoom extends SiteRoom implements Room, Magnifiable {
   /** Sites as they were before the last changes by hand. */
   #history: NamedSites[] = [];
   readonly #motion = new Motion();
   readonly isNorthUp = true;
+  readonly most = MOST;
   #ball!: Plate;
   #plane!: Plate;
   #click!: Choice<Click>;
@@ -76,8 +97,10 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
 
   #state = BEGINNING;
   #reach = 1;
+  #middle: Point = [0, 0];
 
   // What follows from the state; made anew when it changes.
+  #mapped: (Pick<SphereState, "lens" | "view"> & { readonly map: MoebiusMap }) | null = null;
   #sites = new SphereSites(new Float64Array(0));
   #layers = ballLayers(this.#sites);
   readonly #standing: Named["standing"] = new Map();
@@ -105,7 +128,7 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
     const place = (point: Vector): Point => this.#frame.place(this.#twin.forward(point));
     const take = (): Hold => ({ move: () => {} });
     follow(this.#plane, this.#gestures({ under, place, take, isOn: () => true }));
-    follow(this.#ball, this.#gestures(this.#onBall));
+    follow(this.#ball, { ...this.#gestures(this.#onBall), ...lensGestures(this, this.#motion) });
   }
 
   /** A picture whose ground stays where only the pointer or one site moves. */
@@ -147,17 +170,18 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
 
   override restore(values: LinkValues): void {
     const named = this.sitesOf(values);
-    this.#state = sphereFields(named.places.length / 2).read(values, BEGINNING);
+    const begin = values.has("view-lon") ? {} : sightOf(named.places);
+    this.#state = sphereFields(named.places.length / 2).read(values, { ...BEGINNING, ...begin });
     this.#history = [];
     this.#click.value = this.#state.click;
     super.restore(values);
     this.#take(named);
   }
 
-  /** Other sites, seen as the last ones were. */
+  /** Other sites, seen as the last ones were, or magnified. */
   protected override begin(named: NamedSites): void {
     this.#history = [];
-    this.#put({ step: null, held: null });
+    this.#put({ step: null, held: null, lens: BEGINNING.lens, ...sightOf(named.places) });
     this.#take(named);
   }
 
@@ -189,8 +213,8 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
 
   /** The frame of the plane holds nearly all sites; it changes only when the hand rests. */
   #rescale(): void {
-    const { reach, outside } = reachAround(this.#sites, this.#twin);
-    this.#reach = reach;
+    const { reach, middle, outside } = reachAround(this.#sites, this.#twin);
+    [this.#reach, this.#middle] = [reach, middle];
     this.out("outside").textContent =
       outside === 0
         ? ""
@@ -237,6 +261,7 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
       layers: this.#layers,
       named: this.named.names && { names: this.named.names, standing: this.#standing, isMoving },
       view: this.view,
+      map: this.#map,
       twin: this.#twin,
       seeing: this.#seeing,
       isOn: this.shown(isMoving, MANY),
@@ -265,8 +290,9 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
     });
     say(this.out("on-ball"), onBall);
     say(this.out("in-plane"), inPlane);
-    const side = dot(this.#twin.pole, directionAt(this.#state.view)) < 0 ? "behind" : "in front";
+    const side = imageOf(this.#map, this.#twin.pole)[2] < 0 ? "behind" : "in front";
     say(this.out("pole-side"), `*P*, the pole of projection, lies ${side}.`);
+    say(this.out("lens"), ofLens(this.#state.lens));
     this.#showStep(this.#state.step, sites.count);
     this.#poleFields.value = this.#state.pole;
     this.#viewFields.value = this.#state.view;
@@ -289,12 +315,29 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
     return View.above(...this.#state.view);
   }
 
+  get sight(): Sight {
+    return { lens: this.#state.lens, view: this.view };
+  }
+
+  /** Through the lens, to the axes of the view. */
+  get #map(): MoebiusMap {
+    const { lens, view } = this.#state;
+    if (this.#mapped?.lens !== lens || this.#mapped.view !== view)
+      this.#mapped = { lens, view, map: sightMap(this.sight) };
+    return this.#mapped.map;
+  }
+
   get #frame(): PlaneFrame {
-    return planeFrame(1, 1, Math.min(this.#plane.width, this.#plane.height) - 2, this.#reach);
+    return planeFrame(1, 1, Math.min(this.#plane.width, this.#plane.height) - 2, this.#reach, this.#middle);
   }
 
   turn(view: View, reason: Reason): void {
     this.#turn(view.middle, reason);
+  }
+
+  see({ lens, view }: Sight, reason: Reason = "hand"): void {
+    this.#see(view.middle, reason, lens);
+    this.host.announcer.say(plain(ofLens(lens)));
   }
 
   #gestures(picture: Picture): Gestures {
@@ -310,9 +353,9 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
   }
 
   readonly #onBall: Picture = {
-    under: (at) => this.view.onBall(pointUnder(this.disc, at)),
+    under: (at) => sourceOf(this.#map, pointUnder(this.disc, at)),
     place: (direction) => {
-      const point = this.view.seen(direction);
+      const point = imageOf(this.#map, direction);
       return point[2] >= 0 ? placeOf(this.disc, point) : null;
     },
     take: (at, reach) => this.#grab(at, reach),
@@ -330,10 +373,11 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
   /** Takes hold of the pole's handle, a site, or the ball; null beside them. */
   #grab(at: Point, reach: number): Hold | null {
     if (!this.#onBall.isOn(at, reach)) return null;
-    const pole = this.view.seen(this.#twin.pole);
-    if (distance(placeOf(this.disc, pole), at) <= reach) return this.#grabPole(pole[2] < 0);
+    const pole = poleSeen(this.#map, this.#twin);
+    if (pole !== null && distance(placeOf(this.disc, pole), at) <= reach) return this.#grabPole(pole[2] < 0);
     // Where sites lie close, evenly spread, the ball can still be turned between them.
-    const spacing = this.disc.r * Math.sqrt((4 * Math.PI) / this.#sites.count);
+    const times = scaleAt(this.#map, this.#onBall.under(at));
+    const spacing = times * this.disc.r * Math.sqrt((4 * Math.PI) / this.#sites.count);
     const near = Math.min(reach, REACH_OF_SITES, spacing / 3);
     const site = this.#state.step === null ? this.#siteNear(this.#onBall, at, near) : null;
     if (site === null) return grabBall(this, this.#motion, at);
@@ -357,7 +401,7 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
         if (!isOut && wasOut) behind = !behind;
         wasOut = isOut;
         const [x, y, z] = pointUnder(this.disc, to);
-        const direction = this.view.onBall([x, y, behind ? -z : z]);
+        const direction = sourceOf(this.#map, [x, y, behind ? -z : z]);
         this.host.guarded(() => this.#movePole(lonLatOf(direction), false));
       },
       end: () => this.#rest(),
@@ -396,8 +440,8 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
   // What can be done
 
   /** Shows another view. */
-  #see(place: Place, reason: Reason): void {
-    this.#put({ view: place });
+  #see(place: Place, reason: Reason, lens = this.#state.lens): void {
+    this.#put({ view: place, lens });
     this.#say();
     this.#ball.redraw(reason);
     this.host.changed();
@@ -449,7 +493,7 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
   }
 
   #moveSite(site: number, direction: Vector, reason: Reason = "state"): void {
-    const [lon, lat] = handPlace(lonLatOf(direction));
+    const [lon, lat] = handPlace(lonLatOf(direction), this.#state.lens.magnification);
     this.#put({ aim: direction });
     const words = (): string => `Site ${site + 1}: ${latitude(lat)}, ${longitude(lon)}`;
     this.#edit(edited(this.named, site, [lon, lat]), site, words, reason);
@@ -469,7 +513,7 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
   #add(direction: Vector): void {
     const { count } = this.#sites;
     this.#note();
-    this.#edit(edited(this.named, count, handPlace(lonLatOf(direction))), count, () => {
+    this.#edit(edited(this.named, count, handPlace(lonLatOf(direction), this.#state.lens.magnification)), count, () => {
       const same = this.#sites.sameAs(count);
       return same === null
         ? `Site ${count + 1} added, ${this.#sites.neighborCounts[count]} neighbours`
@@ -492,7 +536,7 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
   /** Brings a site to the middle of the ball, and holds it. */
   protected override chosen(site: number): void {
     this.#put({ held: site, aim: this.#sites.site(site) });
-    this.#fly([this.#sites.lonlat[2 * site], this.#sites.lonlat[2 * site + 1]]);
+    this.#fly(lonLatOf(imageOf(lensMap(this.#state.lens), this.#sites.site(site))));
     this.host.guarded(() => this.#update());
     this.changed(ofSite(this.#sites, site, this.named.names?.[site]));
   }
@@ -520,8 +564,10 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
       if (key === "z") return () => this.#undo();
       return step === null ? null : () => this.#nudge(...step);
     }
-    const middle = directionAt(this.#state.view);
-    if (key === "0") return () => this.#turn(BEGINNING.view);
+    const factor = keyFactor(key);
+    if (factor !== null) return () => this.see(magnified(this.sight, [0, 0, 1], factor, true, MOST), "state");
+    const middle = sourceOf(this.#map, [0, 0, 1]);
+    if (key === "0") return () => this.see({ ...BEGINNING, view: View.above(...BEGINNING.view) }, "state");
     if (key === "n") return () => this.#add(middle);
     const withSites: Record<string, () => void> = {
       ",": () => this.#walk(-1),
@@ -555,7 +601,7 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
     const size = this.#ball.width;
     const { disc } = this;
     const scene = this.#scene(false);
-    const frame = planeFrame(size + GAP + 1, 1, size - 2, this.#reach);
+    const frame = planeFrame(size + GAP + 1, 1, size - 2, this.#reach, this.#middle);
     return {
       title: this.title,
       width: 2 * size + GAP,
@@ -576,8 +622,10 @@ class SphereRoom extends SiteRoom implements Room, Turnable {
   }
 
   python(exchange: Exchange): string {
+    const sizes = { size: this.#ball.width, ball: this.disc.r, reach: this.#reach, gap: GAP };
     const scene = this.#scene(false);
-    return exchange.spherePython(scene, sphereParts(scene), this.#state, this.named.file);
+    const pole = poleSeen(this.#map, this.#twin);
+    return exchange.spherePython(scene, this.#state, pole, this.origin, { ...sizes, middle: this.#middle.join(", ") });
   }
 }
 

@@ -1,6 +1,6 @@
 /** The two pictures of the Sphere room: the ball, and the plane that its sites are projected to. */
 
-import { circle, traceCap, traceCircle } from "../drawing/arcs.ts";
+import { arcThrough, traceCap, traceCircle, type Circle } from "../drawing/arcs.ts";
 import * as balls from "../drawing/ball.ts";
 import type { Layer, Surface } from "../drawing/ball.ts";
 import { drawNames, Seats, sidesToward, widthOf, type Box, type Named } from "../drawing/names.ts";
@@ -8,10 +8,10 @@ import { drawParts, type IsOn, type Part } from "../drawing/parts.ts";
 import { cornersOf, drawHandle, traceCorners, traceDisc, traceSegment } from "../drawing/pen.ts";
 import type { Disc, Path, Pen, Point } from "../drawing/pen.ts";
 import type { LabelStyle } from "../drawing/styles.ts";
-import { MoebiusMap } from "../kernel/api.ts";
+import type { MoebiusMap } from "../kernel/api.ts";
 import { lazy } from "../kernel/lazy.ts";
-import { writeNumber } from "../link.ts";
-import { cross, dot, lonLatOf, type Vector } from "../space.ts";
+import { cross, dot, type Vector } from "../space.ts";
+import { imageOf, sourceOf } from "../view/lens.ts";
 import type { View } from "../view/view.ts";
 import type { Bubble, Insertion, SphereSites } from "./sphere_sites.ts";
 import type { PlaneFrame, Twin } from "./twin.ts";
@@ -31,6 +31,8 @@ export interface SphereScene {
   readonly layers: BallLayers;
   readonly named: Named | null;
   readonly view: View;
+  /** Through the lens, to the axes of the view. */
+  readonly map: MoebiusMap;
   readonly twin: Twin;
   /** One byte a facet: 1 where it sees the pole. */
   readonly seeing: Uint8Array;
@@ -84,59 +86,36 @@ interface Picture extends Surface {
   opening(path: Path, insertion: Insertion, isThere: (k: number) => boolean): void;
 }
 
-/** What both pictures show. Python has the diagram of all sites, whatever is drawn of it, at any step, and GeoJSON else. */
-export function sphereParts({ sites, named, seeing, bubble, aim, held, step }: SphereScene): Part<Picture>[] {
+/** What both pictures show. GeoJSON has the diagram of all sites, whatever is drawn of it, at any step. */
+export function sphereParts({ sites, named, seeing, bubble, held, step }: SphereScene): Part<Picture>[] {
   const isThere = step === "done";
   const outline = sites.outline(seeing);
   const isAimed = isThere && bubble !== null;
-  const place = lonLatOf(aim).map((degrees) => writeNumber(degrees, 4));
   return [
     { layer: "seeing", isThere: isThere && outline.length > 0, draw: (_, on) => on.hatch(outline) },
     { layer: "closing", isThere: isThere && sites.hasClosing, draw: (_, on) => on.closing?.() },
     {
       layer: "triangles",
       isThere,
-      always: ["python", "geojson"],
+      always: ["geojson"],
       draw: (_, on) => on.triangles(),
-      python: {
-        ball: 'ball.add_edges(delaunay.points, delaunay.edges, name="delaunay")',
-        plane: 'plane.add_edges(flat, edges, name="delaunay")',
-      },
       regions: () => sites.triangles(),
     },
     {
       layer: "cells",
       isThere,
-      always: ["python", "geojson"],
+      always: ["geojson"],
       draw: (_, on) => on.cells(),
-      python: { ball: 'ball.add_arcs(voronoi.ridge_arcs(), name="voronoi")' },
       regions: () => sites.cells(),
     },
     { layer: "seeing", isThere, draw: (pen, on) => pen.draw("hull", (path) => on.ring(path, outline)) },
-    {
-      isThere,
-      always: ["python"],
-      draw: (_, on) => on.dots(),
-      python: { ball: 'ball.add_points(delaunay.points, name="sites")', plane: 'plane.add_points(flat, name="sites")' },
-    },
+    { isThere, draw: (_, on) => on.dots() },
     { isThere: !isThere, draw: (pen, on) => drawStep(pen, on, step as Step) },
-    {
-      layer: "bubble",
-      isThere: isAimed,
-      isOver: true,
-      draw: (_, on) => on.bubble(bubble!),
-      python: {
-        ball: [
-          `triangle = delaunay.simplices[delaunay.find_simplex(lonlat_to_xyz((${place.join(", ")})))]`,
-          "bubble = SphereCircle.through(*delaunay.points[triangle])",
-          'ball.add_circles([bubble], name="accent2")',
-        ],
-      },
-    },
+    { layer: "bubble", isThere: isAimed, isOver: true, draw: (_, on) => on.bubble(bubble!) },
     { isThere, isOver: true, draw: (pen, on) => balls.drawDots(pen, on, "held", [...(bubble?.sites ?? []), ...held]) },
     // Names first: they stay while the bubble follows the pointer.
     { layer: "names", isThere: isThere && named !== null, isOver: true, draw: (_, on) => on.names?.(named!) },
-    { layer: "bubble", isThere: isAimed, isOver: true, draw: (pen, on) => drawNumbers(pen, on, bubble!) },
+    { layer: "bubble", isThere: isAimed, isOver: true, draw: (_, on) => drawNumbers(on, bubble!) },
   ];
 }
 
@@ -179,8 +158,7 @@ export function drawMoved(pen: Pen, drawing: Drawing, scene: SphereScene, ground
 export function ballDrawing(disc: Disc): Drawing {
   return {
     draw: (pen, scene, stratum) => drawBall(pen, disc, scene, stratum),
-    round: ({ sites, layers, view }) =>
-      roundOnBall(disc, MoebiusMap.rotation(view.rotation).apply(layers.dots.directions), sites),
+    round: ({ sites, layers, map }) => roundOnBall(disc, map.apply(layers.dots.directions), sites),
   };
 }
 
@@ -198,12 +176,16 @@ export function planeDrawing(frame: PlaneFrame): Drawing {
 }
 
 function drawBall(pen: Pen, disc: Disc, scene: SphereScene, stratum: Stratum): void {
-  const { sites, layers, view, seeing } = scene;
-  const look = (k: number): Vector => view.seen(sites.site(k));
-  const surface = balls.ballSurface(disc, look);
-  const map = MoebiusMap.rotation(view.rotation);
-  const hidden = view.onBall([0, 0, -1]);
-  const seats = new Seats(pen, disc, [poleLabel(disc, scene).box]);
+  const { sites, layers, view, map, seeing } = scene;
+  const isPlain = map.magnification === 1;
+  const site = (k: number): Vector => sites.site(k);
+  const surface = isPlain ? balls.ballSurface(disc, (k) => view.seen(site(k))) : balls.ballSurface(disc, site, map);
+  const hidden = sourceOf(map, [0, 0, -1]);
+  // Through its sites: of a small circle a centre and a radius say less.
+  const rimOf = (bubble: Bubble): Circle | null =>
+    arcThrough(map.apply(bubble.sites.flatMap((k) => [...site(k)])), 0, 1, 2, true);
+  const pole = poleLabel(disc, scene);
+  const seats = new Seats(pen, disc, pole === null ? [] : [pole.box]);
   const ball: Picture = {
     ...surface,
     isPlane: false,
@@ -219,23 +201,25 @@ function drawBall(pen: Pen, disc: Disc, scene: SphereScene, stratum: Stratum): v
     triangles: () => balls.drawLayers(pen, disc, map, [layers.edges]),
     cells: () => balls.drawLayers(pen, disc, map, [layers.ridges]),
     bubble(bubble) {
-      const rim = circle(view.seen(bubble.center), bubble.cosine);
+      const rim = rimOf(bubble);
+      if (rim === null) return;
       pen.draw("seen", (path) => traceCap(path, disc, rim));
       pen.draw("bubble-open", (path) => traceCircle(path, disc, rim));
       pen.draw("triangle", (path) => surface.ring(path, bubble.sites));
     },
     dots: () => balls.drawLayers(pen, disc, map, [layers.dots]),
-    names: (named) => drawNames(pen, seats, disc, named, map.apply(layers.dots.directions), NAME),
+    names: (named) => drawNames(seats, named, map.apply(layers.dots.directions), NAME),
     side(bubble, site) {
-      const [point, middle] = [look(site), view.seen(bubble.center)];
-      return point[2] >= LEAST_HEIGHT ? [point[0] - middle[0], point[1] - middle[1]] : null;
+      const [point, rim] = [imageOf(map, sites.site(site)), rimOf(bubble)];
+      if (rim === null || point[2] < LEAST_HEIGHT) return null;
+      return [point[0] - rim.n[0], point[1] - rim.n[1]];
     },
     opening: (path, step) => surface.region(path, step.outline, holdsDirection(step, sites, hidden)),
   };
   if (stratum === "ground") pen.ball(disc, "ball");
   drawStratum(pen, ball, scene, stratum);
   if (stratum === "ground") pen.draw("limb", (path) => traceDisc(path, disc));
-  else drawPole(pen, disc, scene);
+  else if (pole !== null) drawPole(pen, pole);
 }
 
 function drawStratum(pen: Pen, on: Picture, scene: SphereScene, stratum: Stratum): void {
@@ -256,11 +240,8 @@ function drawPlane(pen: Pen, frame: PlaneFrame, scene: SphereScene, stratum: Str
     seats: new Seats(pen),
     // The outline runs clockwise on the picture, as the frame does: turned round, the path winds once between them.
     hatch: (outline) => pen.draw("hatch", (path) => surface.region(path, [...outline].reverse(), true)),
-    triangles: () =>
-      pen.draw("delaunay", (path) => {
-        eachEdge(sites.delaunay.simplices, seeing, (a, b) => surface.line(path, a, b));
-      }),
-    cells: () => pen.draw("voronoi", (path) => planeRidges(path, frame, scene)),
+    triangles: () => surface.lines(pen, "delaunay", edgesOf(sites.delaunay.simplices, seeing)),
+    cells: () => balls.drawSegments(pen, "voronoi", planeRidges(frame, scene)),
     bubble(bubble) {
       const image = twin.circle(bubble.center, bubble.cosine);
       if (image.kind === "line") {
@@ -304,12 +285,12 @@ function drawPlane(pen: Pen, frame: PlaneFrame, scene: SphereScene, stratum: Str
 }
 
 /** The numbers of a bubble's sites. */
-function drawNumbers(pen: Pen, on: Picture, bubble: Bubble): void {
-  for (const site of bubble.sites) on.seats.takeDot(on.place(site), 3, site + 1);
+function drawNumbers(on: Picture, bubble: Bubble): void {
+  for (const site of bubble.sites) on.seats.takeDot(on.place(site), 3);
   for (const site of bubble.sites) {
     const out = on.side(bubble, site);
     if (out === null) continue;
-    on.seats.set(pen, String(site + 1), on.place(site), on.label, site + 1, sidesToward(out[0], -out[1]));
+    on.seats.set(String(site + 1), on.place(site), on.label, sidesToward(out[0], -out[1]));
   }
 }
 
@@ -320,9 +301,7 @@ function drawStep(pen: Pen, on: Picture, { site, insertion, beforeSeeing, fanSee
     // Facets of the fan that see the pole are no triangles of the plane, nor are sides between two of them its sides.
     const isThere = (k: number): boolean => !on.isPlane || !fanSeeing[(k + outline.length) % outline.length];
     if (outline.length > 0) pen.draw("seen", (path) => on.opening(path, insertion, isThere));
-    pen.draw("delaunay", (path) => {
-      eachEdge(before, on.isPlane ? beforeSeeing : null, (a, b) => on.line(path, a, b));
-    });
+    on.lines(pen, "delaunay", edgesOf(before, on.isPlane ? beforeSeeing : null));
     pen.draw("fan", (path) => {
       outline.forEach((a, k) => (isThere(k) || isThere(k - 1)) && on.line(path, site, a));
     });
@@ -342,16 +321,25 @@ function holdsDirection({ before, seeing }: Insertion, sites: SphereSites, direc
   });
 }
 
+/** Magnification up to which the pole is shown behind: above it all that is behind is one point. */
+const BEHIND_UP_TO = 10;
+
+/** The pole, axes of the view; null where it is not shown. */
+export function poleSeen(map: MoebiusMap, twin: Twin): Vector | null {
+  const pole = imageOf(map, twin.pole);
+  return pole[2] < 0 && map.magnification > BEHIND_UP_TO ? null : pole;
+}
+
 /** The handle of the pole of projection, and its name. */
-function drawPole(pen: Pen, disc: Disc, scene: SphereScene): void {
-  const { x, y, isFront, text, isLeft } = poleLabel(disc, scene);
+function drawPole(pen: Pen, { x, y, isFront, text, isLeft }: NonNullable<ReturnType<typeof poleLabel>>): void {
   drawHandle(pen, x, y, isFront ? "front" : "behind");
   pen.label(text, x + (isLeft ? -11 : 11), y + 5, { ...BALL_LABEL, align: isLeft ? "right" : "left" });
 }
 
 /** What stands beside the pole, towards the middle, where there is room; and the box of both. */
-function poleLabel(disc: Disc, { view, twin }: SphereScene) {
-  const pole = view.seen(twin.pole);
+function poleLabel(disc: Disc, { map, twin }: SphereScene) {
+  const pole = poleSeen(map, twin);
+  if (pole === null) return null;
   const [isFront, [x, y]] = [pole[2] >= 0, balls.placeOf(disc, pole)];
   const [text, isLeft] = [isFront ? "*P*" : "*P*, behind", x > disc.x];
   const width = 11 + widthOf(text, BALL_LABEL);
@@ -360,44 +348,42 @@ function poleLabel(disc: Disc, { view, twin }: SphereScene) {
 }
 
 /** Ridges between the triangles of the plane, and rays where one has no neighbour: the centres are those of its circles. */
-function planeRidges(path: Path, frame: PlaneFrame, { sites, twin, seeing }: SphereScene): void {
+function planeRidges(frame: PlaneFrame, { sites, twin, seeing }: SphereScene): number[] {
   const { simplices, neighbors } = sites.delaunay;
-  const middles = new Map<number, Point>();
-  const middle = (facet: number): Point => {
-    let found = middles.get(facet);
-    if (found === undefined) {
-      const { center, cosine } = sites.bubble(facet);
-      const image = twin.circle(center, cosine);
-      found = image.kind === "circle" ? image.middle : [0, 0];
-      middles.set(facet, found);
-    }
-    return found;
+  const middleOf = ({ center, cosine }: Bubble): Point => {
+    const image = twin.circle(center, cosine);
+    return image.kind === "circle" ? image.middle : [0, 0];
   };
+  const middles: Point[] = [];
+  const middle = (facet: number): Point => (middles[facet] ??= middleOf(sites.bubble(facet)));
+  const ends: number[] = [];
   for (let at = 0; at < neighbors.length; ++at) {
     const facet = Math.floor(at / 3);
     const beyond = neighbors[at];
     if (seeing[facet] || (!seeing[beyond] && beyond < facet)) continue;
     if (!seeing[beyond]) {
-      traceSegment(path, frame.place(middle(facet)), frame.place(middle(beyond)));
+      ends.push(...frame.place(middle(facet)), ...frame.place(middle(beyond)));
       continue;
     }
     // The side opposite the corner runs counterclockwise: outward is to its right.
     const [a, b] = [1, 2].map((k) => twin.forward(sites.site(simplices[3 * facet + ((at + k) % 3)])));
     const length = Math.hypot(b[0] - a[0], b[1] - a[1]);
     const [u, v] = middle(facet);
-    const far = (4 * frame.reach + Math.hypot(u, v)) / length;
-    traceSegment(path, frame.place([u, v]), frame.place([u + far * (b[1] - a[1]), v - far * (b[0] - a[0])]));
+    const far = (4 * frame.reach + Math.hypot(u - frame.middle[0], v - frame.middle[1])) / length;
+    ends.push(...frame.place([u, v]), ...frame.place([u + far * (b[1] - a[1]), v - far * (b[0] - a[0])]));
   }
+  return ends;
 }
 
 /** Every edge of facets once; with `seeing` those of the plane, of whose facets one at least does not see the pole. */
-function eachEdge(facets: Int32Array, seeing: Uint8Array | null, visit: (a: number, b: number) => void): void {
-  const drawn = new Set<number>();
+function edgesOf(facets: Int32Array, seeing: Uint8Array | null): number[] {
+  const [drawn, edges] = [new Set<number>(), [] as number[]];
   for (let k = 0; k < facets.length; ++k) {
     const [a, b] = [facets[k], facets[k % 3 === 2 ? k - 2 : k + 1]];
     const name = Math.min(a, b) * 2 ** 26 + Math.max(a, b);
     if (seeing === null ? a > b : seeing[Math.floor(k / 3)] || drawn.has(name)) continue;
     drawn.add(name);
-    visit(a, b);
+    edges.push(a, b);
   }
+  return edges;
 }

@@ -2,8 +2,9 @@
 
 import { cellOf, type Region } from "../drawing/parts.ts";
 import { inBubble, lonlatToXyz, SphericalDelaunay, SphericalVoronoi } from "../kernel/api.ts";
-import { angle, dot, row, type Vector } from "../space.ts";
-import { counted, latitude, longitude, several, sized } from "../words.ts";
+import { angle, dot, lonLatOf, row, type Vector } from "../space.ts";
+import { counted, latitude, longitude, scale, several, sized } from "../words.ts";
+import type { Lens } from "../view/lens.ts";
 import type { Twin } from "./twin.ts";
 
 /** The circle round a facet: its centre on the outer side, the cosine of its angular radius, its three sites. */
@@ -259,6 +260,14 @@ export function ofBubble(bubble: Bubble, sites: SphereSites, twin: Twin): string
     `${radius}, _${sized(image.radius, 3)}_ ball radii in the plane. ` +
     `Other sites inside, counted exactly: _${inside}_\u00a0and\u00a0_${inside}_.`
   );
+}
+
+/** What a lens does; nothing where it does nothing. */
+export function ofLens({ focus, magnification }: Lens): string {
+  if (magnification === 1) return "";
+  const [lon, lat] = lonLatOf(focus);
+  const times = magnification < 1000 ? scale(magnification) : counted(Math.round(magnification));
+  return `Magnified _${times}_ times at _${latitude(lat)}_ _${longitude(lon)}_.`;
 }
 
 /** What inserting a site does. */

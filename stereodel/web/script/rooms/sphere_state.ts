@@ -1,8 +1,10 @@
 /** The state of the Sphere room but for its sites, and how a link tells it. */
 
-import { direction, fields, flag, place, whole, word, type Fields, type Place } from "../fields.ts";
+import { direction, fields, flag, number, place, whole, word, type Fields, type Place } from "../fields.ts";
 import { lonlatToXyz } from "../kernel/api.ts";
 import { directionOf, row, type Vector } from "../space.ts";
+import { fitted } from "../view/fit.ts";
+import type { Lens } from "../view/lens.ts";
 import { wrap } from "../words.ts";
 
 export const CLICKS = ["keep", "add", "remove"] as const;
@@ -10,12 +12,17 @@ export const CLICKS = ["keep", "add", "remove"] as const;
 /** What a click does. */
 export type Click = (typeof CLICKS)[number];
 
-/** Decimals of a degree to which the hand moves sites and the pole. */
+/** Decimals of a degree to which the hand moves sites and the pole: those of sites where nothing is magnified. */
 const HAND_DECIMALS = 3;
+
+/** Sites some metres apart fill the ball at the largest magnification; its focus has digits for that. */
+export const MOST = 1e6;
+const FOCUS_DECIMALS = 12;
 
 export interface SphereState {
   readonly pole: Place;
   readonly view: Place;
+  readonly lens: Lens;
   /** Where the pointer was last, and whether the bubble there is kept. */
   readonly aim: Vector;
   readonly isPinned: boolean;
@@ -29,6 +36,7 @@ export interface SphereState {
 export const BEGINNING: SphereState = {
   pole: [-150, 53.1],
   view: [0, 0],
+  lens: { focus: [1, 0, 0], magnification: 1 },
   aim: directionOf(-9.94, 3.49),
   isPinned: false,
   step: null,
@@ -41,6 +49,7 @@ export function sphereFields(count: number): Fields<SphereState> {
   return fields<SphereState>({
     pole: place("pole-", HAND_DECIMALS),
     view: place("view-"),
+    lens: fields<Lens>({ magnification: number("s", 1, MOST), focus: direction("focus-", FOCUS_DECIMALS) }),
     aim: direction("aim-"),
     isPinned: flag("pin"),
     step: whole("step", count),
@@ -49,12 +58,22 @@ export function sphereFields(count: number): Fields<SphereState> {
   });
 }
 
+/** The magnification from which on sites are so close together that the room begins with the lens on them. */
+const CLOSE = 6;
+
+/** How sites are seen that lie close together; nothing for others. */
+export function sightOf(lonlat: Float64Array): Pick<SphereState, "view" | "lens"> | null {
+  const sight = lonlat.length > 2 ? fitted(lonlat, MOST, FOCUS_DECIMALS) : null;
+  return sight !== null && sight.lens.magnification > CLOSE ? { ...sight, view: sight.view.middle } : null;
+}
+
 /** The direction of a place, as the kernel and Python have it. */
 export function directionAt([lon, lat]: Place): Vector {
   return row(lonlatToXyz([lon, lat]), 0);
 }
 
-/** A place as the hand sets it. */
-export function handPlace([lon, lat]: Place): Place {
-  return [Number(wrap(lon).toFixed(HAND_DECIMALS)), Number(lat.toFixed(HAND_DECIMALS))];
+/** A place as the hand sets it, where the ball is magnified so many times. */
+export function handPlace([lon, lat]: Place, magnification = 1): Place {
+  const decimals = HAND_DECIMALS + Math.max(0, Math.ceil(Math.log10(magnification)));
+  return [Number(wrap(lon).toFixed(decimals)), Number(lat.toFixed(decimals))];
 }

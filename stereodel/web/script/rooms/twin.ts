@@ -68,21 +68,33 @@ const ROOM = 1.07;
 
 export type PlaneFrame = ReturnType<typeof planeFrame>;
 
-/** A square of a picture, from its upper left corner, px, and what it shows of the plane: half its side, ball radii. */
-export function planeFrame(x: number, y: number, size: number, reach: number) {
+/**
+ * A square of a picture, from its upper left corner, px, and what it shows of the plane: half its side and its middle,
+ * ball radii.
+ */
+export function planeFrame(x: number, y: number, size: number, reach: number, middle: Point = [0, 0]) {
   const scale = size / 2 / reach;
-  const place = ([u, v]: Point): Point => [x + size / 2 + scale * u, y + size / 2 - scale * v];
-  const point = ([px, py]: Point): Point => [(px - x - size / 2) / scale, (y + size / 2 - py) / scale];
-  return { x, y, size, reach, scale, place, point };
+  const [left, top] = [x + size / 2, y + size / 2];
+  const place = ([u, v]: Point): Point => [left + scale * (u - middle[0]), top - scale * (v - middle[1])];
+  const point = ([px, py]: Point): Point => [middle[0] + (px - left) / scale, middle[1] + (top - py) / scale];
+  return { x, y, size, reach, middle, scale, place, point };
 }
 
-/** Half the side of a frame that holds nearly all sites, ball radii, and the number of sites that lie outside. */
-export function reachAround(sites: SphereSites, twin: Twin): { reach: number; outside: number } {
-  const sizes = Array.from({ length: sites.count }, (_, k) =>
-    Math.max(...twin.forward(sites.site(k)).map(Math.abs)),
-  ).sort((a, b) => a - b);
-  const nearly = sizes[Math.floor(((OUTSIDE - 1) / OUTSIDE) * (sizes.length - 1))] ?? 1;
-  const all = sizes[sizes.length - 1] ?? 1;
-  const reach = ROOM * (all < 2 * nearly ? all : nearly) || 1;
-  return { reach, outside: sizes.filter((size) => size > reach).length };
+/** Sites that need less than this part of a frame about the point of contact have one of their own. */
+const OWN_FRAME = 0.5;
+
+/** The frame that holds nearly all sites: half its side and its middle, ball radii, and how many sites lie outside. */
+export function reachAround(sites: SphereSites, twin: Twin): { reach: number; middle: Point; outside: number } {
+  const images = Array.from({ length: sites.count }, (_, k) => twin.forward(sites.site(k)));
+  const frameAbout = (middle: Point): { reach: number; middle: Point; outside: number } => {
+    const away = ([u, v]: Point): number => Math.max(Math.abs(u - middle[0]), Math.abs(v - middle[1]));
+    const sizes = Float64Array.from(images, away).sort();
+    const nearly = sizes[Math.floor(((OUTSIDE - 1) / OUTSIDE) * (sizes.length - 1))] ?? 1;
+    const all = sizes[sizes.length - 1] ?? 1;
+    const reach = ROOM * (all < 2 * nearly ? all : nearly) || 1;
+    return { reach, middle, outside: sizes.filter((size) => size > reach).length };
+  };
+  const half = (k: 0 | 1): number => Float64Array.from(images, (image) => image[k]).sort()[images.length >> 1] ?? 0;
+  const [about, own] = [frameAbout([0, 0]), frameAbout([half(0), half(1)])];
+  return own.reach < OWN_FRAME * about.reach && images.length > 1 ? own : about;
 }

@@ -1,12 +1,16 @@
-/** The hand that turns a ball: the grabbed point stays under the pointer, a fast drag runs out. */
+/** The hand that turns a ball and magnifies it: what is grabbed stays under the pointer, a fast drag runs out. */
 
 import type { Disc } from "../drawing/pen.ts";
-import { isCommand, type Hold, type Place } from "./hand.ts";
+import { Rotation } from "../kernel/api.ts";
+import { distance, isCommand, type Gestures, type Hold, type Place } from "./hand.ts";
+import { holding, magnified, type Sight } from "./lens.ts";
 import { Motion } from "./motion.ts";
 import { pointUnder, View } from "./view.ts";
 
 /** Speed below which a drag has no run, pixels a millisecond. */
 const SLOW = 0.3;
+
+const KEY_FACTOR = 1.25;
 
 /** Degrees that an arrow key turns, and with Shift. */
 const STEP = { wide: 5, fine: 1 };
@@ -17,6 +21,48 @@ export interface Turnable {
   readonly isNorthUp: boolean;
   /** Shows another view. */
   turn(view: View, reason: "hand" | "flight" | "state"): void;
+}
+
+/** A ball under a lens. */
+export interface Magnifiable extends Turnable {
+  readonly sight: Sight;
+  /** The largest magnification. */
+  readonly most: number;
+  /** Shows another sight, as the hand has it. */
+  see(sight: Sight): void;
+}
+
+/** The wheel and two fingers, which magnify about the place where they are. */
+export function lensGestures(ball: Magnifiable, motion: Motion): Required<Pick<Gestures, "pinch" | "wheel">> {
+  return {
+    wheel: (at, factor) => {
+      const { disc, isNorthUp } = ball;
+      const point = distance(at, [disc.x, disc.y]) <= disc.r ? pointUnder(disc, at) : ([0, 0, 1] as const);
+      motion.stop();
+      ball.see(magnified(ball.sight, point, factor, isNorthUp, ball.most));
+    },
+    pinch: (middle, spread) => {
+      motion.stop();
+      const { disc, sight: start, isNorthUp, most } = ball;
+      const from = pointUnder(disc, middle);
+      let turnedBefore: number | null = null;
+      return {
+        move: (now, nowSpread, turn) => {
+          turnedBefore ??= turn;
+          const sight = magnified(start, from, nowSpread / spread, isNorthUp, most);
+          const to = pointUnder(disc, now);
+          let view = holding(sight.view, sight.view.onBall(from), to, isNorthUp);
+          if (!isNorthUp) view = view.turned(Rotation.about(to, ((turnedBefore - turn) * 180) / Math.PI));
+          ball.see({ ...sight, view });
+        },
+      };
+    },
+  };
+}
+
+/** By how much a key magnifies, or null for other keys. */
+export function keyFactor(key: string): number | null {
+  return key === "+" || key === "=" ? KEY_FACTOR : key === "-" ? 1 / KEY_FACTOR : null;
 }
 
 /** Takes hold of a ball; null beside it. */

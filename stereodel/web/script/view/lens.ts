@@ -54,11 +54,10 @@ export function scaleAt(map: MoebiusMap, direction: Vector): number {
  * Above 1 the map goes on with a fisheye at the point, which moves the focus there little by little. Below 1 the lens is
  * weakened where it is, so that the way back always ends at the plain ball.
  */
-export function magnified(sight: Sight, point: Vector, factor: number, isNorthUp: boolean): Sight {
+export function magnified(sight: Sight, point: Vector, factor: number, isNorthUp: boolean, most = MOST): Sight {
   const { lens, view } = sight;
   if (factor >= 1) {
-    // Magnifications multiply at the most, so that none is above the largest one, unless it was before.
-    const most = Math.max(MOST, lens.magnification);
+    // Magnifications multiply at the most, so that none is above the largest one.
     const strength = Math.min(factor, most / lens.magnification);
     const map = lensMap({ focus: point, magnification: strength }).after(sightMap(sight));
     const free = new View(map.left.after(map.right));
