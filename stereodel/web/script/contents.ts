@@ -5,7 +5,7 @@
  */
 
 import type { Latitude } from "./kernel/api.ts";
-import type { Owner } from "./rooms/owner.ts";
+import type { Column, Owner } from "./rooms/owner.ts";
 
 /** Regions by rings that have them on their left; joined where maps are cut, at ±180° and along the poles. */
 export interface Rings {
@@ -19,8 +19,7 @@ export interface Rings {
 export interface Given {
   /** What the maker says of them. */
   readonly owner: Owner | null;
-  /** The numbers among the values, by their titles. */
-  readonly values: ReadonlyMap<string, Float64Array>;
+  readonly values: ReadonlyMap<string, Column>;
   /** Lines of equal values, rows of places. */
   readonly isolines: Rings | null;
   /** What they are called, such as "cities.csv". */
@@ -78,17 +77,12 @@ export class Contents {
     ];
     if (name === null || bytes === null) return null;
     const owner = JSON.parse((await this.#text("owner")) ?? "null") as Owner | null;
-    const numbers = owner?.columns?.filter(({ values }) =>
-      Array.from(values).every((value) => typeof value !== "string"),
-    );
     return {
       name: String(JSON.parse(name)),
       lonlat: doubles(bytes),
       names: JSON.parse(names ?? "null") as string[] | null,
       owner,
-      values: new Map(
-        numbers?.map(({ title, values }) => [title, Float64Array.from(values as number[], (v) => v ?? NaN)]),
-      ),
+      values: new Map(owner?.columns),
       isolines: await this.#rings("isolines"),
     };
   }

@@ -235,7 +235,7 @@ class Page {
 
   async #export(kind: string, room: Room, exchange: Exchange): Promise<void> {
     const name = `stereodel-${this.#name}`;
-    if (kind === "svg") exchange.download(`${name}.svg`, exchange.sheetSvg(room.sheet()), "image/svg+xml");
+    if (kind === "svg") exchange.download(`${name}.svg`, await exchange.sheetSvg(room.sheet()), "image/svg+xml");
     else if (kind === "png") {
       const scale = field(document, "png-scale").valueAsNumber;
       exchange.download(`${name}.png`, await exchange.sheetPng(room.sheet(), scale));
