@@ -161,6 +161,7 @@ def in_plane(xy):
 [!flat] sketch.add_points(images[view.depth(xyz) >= 0], name="sites", style=DOT)
 [!flat] sketch.add_polygon(in_plane(corners), name="plane", color="#9db4c819")
 [!flat] sketch.add_polyline(in_plane(corners), closed=True, name="frame", style=LIMB)
+[!flat triangles] sketch.add_edges(in_plane(points), sheet.edges, name="flat", style=LineStyle("#1b1b1b61", 1.1))
 [!flat] for arm in ([4.5, 0.0], [0.0, 3.5]):
 [!flat]     sketch.add_segment(contact - arm, contact + arm, name="contact", style=LineStyle("#1b1b1b", 1.0))
 [!flat pair] span.add_edges(xyz, [[{pair}]], name="span", style=RED)
@@ -177,7 +178,7 @@ def in_plane(xy):
 sketch.page((0, width, 0, height), width=width, background=PAPER).shaded(0.33).save("lift.svg")
 `,Vt=`import numpy as np
 
-from stereodel import PlanarDelaunay, PlanarVoronoi, PlaneLine, SphereCircle, SphericalDelaunay, SphericalVoronoi, Stereographic, in_bubble, lonlat_to_xyz
+from stereodel import PlanarDelaunay, PlanarVoronoi, PlaneLine, SphereArc, SphereCircle, SphericalDelaunay, SphericalVoronoi, Stereographic, fisheye, in_bubble, lonlat_to_xyz
 from stereodel.data import airports, cities, stars
 from stereodel.drawing import DotStyle, Fill, LineStyle, Scene, Sketch, View, as_color
 from stereodel.io import read_points
@@ -195,11 +196,18 @@ size, ball, gap = {size}, {ball}, {gap}  # of each picture, of the ball, between
 left, right = np.array([0.5 * size, 0.5 * size]), np.array([1.5 * size + gap, 0.5 * size])
 frame = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]]) * (size / 2 - 1)
 projection = Stereographic(-pole, radius=frame.max() / {reach})
-flat = np.nan_to_num(projection.forward(points), nan=1e9)  # a site at the pole is far away
+shift = frame.max() / {reach} * np.array([{middle}])
+flat = np.nan_to_num(projection.forward(points), nan=1e9) - shift  # a site at the pole is far away
+lens = fisheye(({focus}), magnification={magnification})
 scene, sketch = Scene(limb=LineStyle("#4d4d4d", 1.3)), Sketch()
 INK, GRAY, HULL = LineStyle("#1b1b1b", 1.1), LineStyle("#7b7b7b", 0.9), LineStyle("#6d8598", 1.3)
 RED, WASH, PAPER = LineStyle("#d55e00", 1.8), "#d55e0021", "#fdfcfa"
 DOT, HELD = DotStyle("#1b1b1b", 2.5, PAPER, 0.6), DotStyle(RED.color, 3.7, PAPER, 1.0)
+
+
+def arcs(pairs):
+    """Great circles between sites, through the lens."""
+    return [lens.image_of(SphereArc.great(points[a], points[b])) for a, b in pairs]
 
 
 def path(corners):
@@ -222,7 +230,7 @@ def path(corners):
 [hatched facets]     def chosen(places):
 [hatched facets]         axes, found = view.raised(places / ball), np.zeros(places.shape[:2], dtype=bool)
 [hatched facets]         seen = np.isfinite(axes[..., 2])
-[hatched facets]         found[seen] = np.append(facets, beyond)[delaunay.find_simplex(axes[seen] @ view.matrix)]
+[hatched facets]         found[seen] = np.append(facets, beyond)[delaunay.find_simplex(lens.inverse()(axes[seen] @ view.matrix))]
 [hatched facets]         return found
 [hatched facets]     return chosen
 
@@ -230,25 +238,26 @@ def path(corners):
 [seeing facets] hull = PlanarDelaunay(flat[np.unique(triangles)])
 [seeing facets] hatch(right, lambda places: hull.find_simplex(places.reshape(-1, 2)).reshape(places.shape[:2]) < 0)
 [triangles facets] sketch.add_edges(right + flat, edges, name="delaunay", style=INK)
-[triangles facets] scene.add_edges(points, delaunay.edges, name="delaunay", style=INK)
+[triangles facets] scene.add_arcs(arcs(delaunay.edges), name="delaunay", style=INK)
 [cells facets] ridges, _ = PlanarVoronoi(flat[np.unique(triangles)]).segments((-size, -size, size, size))
 [cells facets] sketch.add_segments(right + ridges, name="voronoi", style=GRAY)
-[cells] scene.add_arcs(SphericalVoronoi(delaunay).ridge_arcs(), name="voronoi", style=GRAY)
+[cells] ridge_arcs = map(lens.image_of, SphericalVoronoi(delaunay).ridge_arcs())
+[cells] scene.add_arcs(ridge_arcs, name="voronoi", style=GRAY)
 [seeing facets] sketch.add_edges(right + flat, edges[count == 1], name="hull", style=HULL)
-[seeing facets] scene.add_edges(points, edges[count == 1], name="hull", style=HULL)
+[seeing facets] scene.add_arcs(arcs(edges[count == 1]), name="hull", style=HULL)
 [bubble aimed] triangle = delaunay.simplices[delaunay.find_simplex(lonlat_to_xyz(({aim})))]
 [bubble aimed] bubble, pairs = SphereCircle.through(*points[triangle]), np.column_stack([triangle, np.roll(triangle, -1)])
-[bubble aimed] scene.add_cap(bubble, name="bubble", color=WASH)
-[bubble aimed] scene.add_circles([bubble], style=RED)
-[bubble aimed] scene.add_edges(points, pairs, name="triangle", style=LineStyle(RED.color, 1.2))
+[bubble aimed] scene.add_cap(lens.image_of(bubble), name="bubble", color=WASH)
+[bubble aimed] scene.add_circles([lens.image_of(bubble)], style=RED)
+[bubble aimed] scene.add_arcs(arcs(pairs), name="triangle", style=LineStyle(RED.color, 1.2))
 [bubble aimed] image = projection.image_of(bubble)
 [bubble aimed] if isinstance(image, PlaneLine):
 [bubble aimed]     far = 9 * size * image.direction
-[bubble aimed]     sketch.add_segment(right + image.point - far, right + image.point + far, name="circle", style=RED)
+[bubble aimed]     sketch.add_segment(right - shift + image.point - far, right - shift + image.point + far, name="circle", style=RED)
 [bubble aimed] else:
-[bubble aimed]     paths = [path(right + image.sample(720))] + [path(right + frame)] * image.outside
+[bubble aimed]     paths = [path(right - shift + image.sample(720))] + [path(right + frame)] * image.outside
 [bubble aimed]     sketch.add_items([Fill(tuple(paths), as_color(WASH), "bubble")])
-[bubble aimed]     sketch.add_circle(right + image.center, image.radius, name="circle", style=RED)
+[bubble aimed]     sketch.add_circle(right - shift + image.center, image.radius, name="circle", style=RED)
 [bubble aimed]     if not image.outside:
 [bubble aimed]         sketch.add_edges(right + flat, pairs, name="triangle", style=LineStyle(RED.color, 1.2))
 [step] before, new = SphericalDelaunay(points[: {step} - 1]), {step} - 1
@@ -260,21 +269,21 @@ def path(corners):
 [step]     after, ring = dict(fan[:, :2].tolist()), [int(fan[0, 0])]
 [step]     while after[ring[-1]] != ring[0]:
 [step]         ring.append(after[ring[-1]])
-[step]     scene.add_patch(points[ring], name="opened", color=WASH)
+[step]     scene.add_region(arcs(zip(ring, ring[1:] + ring[:1])), name="opened", color=WASH)
 [step] for corners in flat_fan:
 [step]     sketch.add_polygon(right + flat[corners], name="opened", color=WASH)
 [step] planar = planar_part(before, pole)[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
-[step] scene.add_edges(points, before.edges, name="delaunay", style=INK)
+[step] scene.add_arcs(arcs(before.edges), name="delaunay", style=INK)
 [step] sketch.add_edges(right + flat, np.unique(np.sort(planar, axis=1), axis=0), name="delaunay", style=INK)
-[step] scene.add_edges(points, fan[:, [2, 0]], name="fan", style=LineStyle(RED.color, 1.0, (4.0, 3.0)))
+[step] scene.add_arcs(arcs(fan[:, [2, 0]]), name="fan", style=LineStyle(RED.color, 1.0, (4.0, 3.0)))
 [step] spokes = np.unique(flat_fan[:, [2, 0, 2, 1]].reshape(-1, 2), axis=0)
 [step] sketch.add_edges(right + flat, spokes, name="fan", style=LineStyle(RED.color, 1.0, (4.0, 3.0)))
-[step] scene.add_edges(points, fan[:, :2], name="horizon", style=RED)
+[step] scene.add_arcs(arcs(fan[:, :2]), name="horizon", style=RED)
 [step] sketch.add_edges(right + flat, flat_fan[:, :2], name="horizon", style=RED)
 sketch.add_points((right + flat)[:{count}], name="sites", style=DOT)
-scene.add_points(points[:{count}], name="sites", style=DOT)
+scene.add_points(lens(points)[:{count}], name="sites", style=DOT)
 [held] sketch.add_points((right + flat)[[{held}]], name="held", style=HELD)
-[held] scene.add_points(points[[{held}]], name="held", style=HELD)
+[held] scene.add_points(lens(points)[[{held}]], name="held", style=HELD)
 around = Fill((path(right + 9 * frame), path(right + frame)), as_color(PAPER), "paper")
 sketch.add_items([around]).add_polyline(right + frame, closed=True, name="frame", style=LineStyle("#4d4d4d", 0.7))
 ground, *items = scene.layout(view, at=left, scale=ball)
@@ -283,13 +292,13 @@ sketch.add_items([ground])
 [closing hemisphere] for lines in (steep, steep * [1, -1]):
 [closing hemisphere]     hatch(left, on_ball(delaunay.closing, True), lines)
 sketch.add_items(items)
-at = left + ball * view.project(pole)
-[front] sketch.add_points(at, name="pole", style=DotStyle(PAPER, 5.9, RED.color, 1.8))
-[!front] sketch.add_circle(at, 5.0, name="pole", style=LineStyle(RED.color, 1.2))
-sketch.add_label(at, "$P$", (11.0 if at[0] < left[0] else -11.0, 0.0), size=15.0, color="#ab4300")
+[pole] at = left + ball * view.project(lens(pole))
+[pole front] sketch.add_points(at, name="pole", style=DotStyle(PAPER, 5.9, RED.color, 1.8))
+[pole !front] sketch.add_circle(at, 5.0, name="pole", style=LineStyle(RED.color, 1.2))
+[pole] sketch.add_label(at, "$P$", (11.0 if at[0] < left[0] else -11.0, 0.0), size=15.0, color="#ab4300")
 page = sketch.page((0, 2 * size + gap, 0, size), width=2 * size + gap, background=PAPER)
 page.shaded(0.33).save("sphere.svg")
-`,qt=200,Ie="cities().lonlat[cities().population >= 2_000_000]",Xt=`SphericalDelaunay.from_lonlat(airports().lonlat).nearest(lonlat=${Ie})`,Yt={cities:Ie,airports:`airports().lonlat[np.unique(${Xt})]`,stars:"stars().lonlat[stars().magnitude <= 3.0]"};function Jt(e,n,t,s){let{sites:a,view:o,twin:r,bubble:l,aim:i,step:c}=e,d=u=>c==="done"&&e.isOn(u),h=[...d("bubble")&&l?.sites||[],...c==="done"?e.held:[c.site]],p={facets:a.facetCount>0,hemisphere:a.hasClosing,step:c!=="done"&&c.insertion!==null,aimed:l!==null,held:h.length>0,front:o.seen(r.pole)[2]>=0,hatched:d("seeing")||d("closing")&&a.hasClosing},y={...s,sites:Yt[t.set]??V(a.lonlat,Oe(t.file)),pole:S(n),view:S(o.middle),aim:T(i).join(", "),held:h.join(", "),step:c==="done"?"":c.site+1,count:c==="done"?"":c.site+1};return B(Vt,y,p,d)}function Kt(e,n,t,s){let{sites:a,sheet:o,view:r,isOn:l}=e,[i,c]=[e.p,e.q].filter(f=>f!==null),{contact:d,height:h}=n,p=a.count===0?[3,2]:s,y={facets:a.delaunay.dimension===2,flat:o.isFlat,area:a.rectangle.width>0&&a.rectangle.height>0,letters:i!==void 0,pair:c!==void 0&&i!==c,pole:n.seenPole(h)!==null},u={points:V(a.places,`np.loadtxt(${JSON.stringify(t.file)}, delimiter=",", skiprows=1, usecols=(0, 1))`),corners:p?`np.array([[-1, -1], [1, 1]]) * [${S(p)}] / 2`:"points.min(axis=0), points.max(axis=0)",view:S(r.middle),width:n.width,height:h,scale:n.scale,contact:`${d[0]}, ${h-d[1]}`,corner:o.corner,pair:[i,c].join(", "),shown:JSON.stringify(n.grounds)};return B(Bt,u,y,l)}function Zt(e,n,t,s,a){let{lens:o,sight:r,from:l,to:i,before:c,after:d,pointer:h}=e,{places:p,latitude:y,picture:u,resolution:f}=n,g=o==="bubble",m=p===null||y==="spherical"?"":`, latitude="${y}"`,w=R=>{let P=`(${S(T(R))})`;return m===""?P:`lonlat_to_xyz(${P}${m})`},N=({middle:R,roll:P})=>S([...R,P]).replace(/, -?0$/,""),z={focus:w(r.lens.focus),magnification:S([r.lens.magnification]),taken:`${w(l.center)}, ${S([l.radius])}`,filled:`${w(i.center)}, ${S([i.radius])}`,places:V(p?.lonlat??new Float64Array(0),Oe(p?.name??"")),latitude:m,picture:JSON.stringify(u?.name??""),resolution:f,step:ie,radius:re.toFixed(4),pointer:w(h),before:N(c),view:N(g?d:r.view),width:S([1.03*s*(g?2:1)])};return B(Gt,z,{bubble:g,picture:u!==null,places:p!==null,pointed:a},t)}function B(e,n,t,s){let a=c=>t[c]??s(c),r=e.split(`
+`,qt=200,Ie="cities().lonlat[cities().population >= 2_000_000]",Xt=`SphericalDelaunay.from_lonlat(airports().lonlat).nearest(lonlat=${Ie})`,Yt={cities:Ie,airports:`airports().lonlat[np.unique(${Xt})]`,stars:"stars().lonlat[stars().magnitude <= 3.0]"};function Jt(e,n,t,s,a){let{sites:o,view:r,bubble:l,aim:i,step:c}=e,d=u=>c==="done"&&e.isOn(u),h=[...d("bubble")&&l?.sites||[],...c==="done"?e.held:[c.site]],p={facets:o.facetCount>0,hemisphere:o.hasClosing,step:c!=="done"&&c.insertion!==null,aimed:l!==null,held:h.length>0,pole:t!==null,front:t!==null&&t[2]>=0,hatched:d("seeing")||d("closing")&&o.hasClosing},y={...a,sites:Yt[s.set]??V(o.lonlat,Oe(s.file)),pole:S(n.pole),view:S(r.middle),aim:T(i).join(", "),focus:S(T(n.lens.focus)),magnification:n.lens.magnification,held:h.join(", "),step:c==="done"?"":c.site+1,count:c==="done"?"":c.site+1};return B(Vt,y,p,d)}function Kt(e,n,t,s){let{sites:a,sheet:o,view:r,isOn:l}=e,[i,c]=[e.p,e.q].filter(f=>f!==null),{contact:d,height:h}=n,p=a.count===0?[3,2]:s,y={facets:a.delaunay.dimension===2,flat:o.isFlat,area:a.rectangle.width>0&&a.rectangle.height>0,letters:i!==void 0,pair:c!==void 0&&i!==c,pole:n.seenPole(h)!==null},u={points:V(a.places,`np.loadtxt(${JSON.stringify(t.file)}, delimiter=",", skiprows=1, usecols=(0, 1))`),corners:p?`np.array([[-1, -1], [1, 1]]) * [${S(p)}] / 2`:"points.min(axis=0), points.max(axis=0)",view:S(r.middle),width:n.width,height:h,scale:n.scale,contact:`${d[0]}, ${h-d[1]}`,corner:o.corner,pair:[i,c].join(", "),shown:JSON.stringify(n.grounds)};return B(Bt,u,y,l)}function Zt(e,n,t,s,a){let{lens:o,sight:r,from:l,to:i,before:c,after:d,pointer:h}=e,{places:p,latitude:y,picture:u,resolution:f}=n,g=o==="bubble",m=p===null||y==="spherical"?"":`, latitude="${y}"`,w=R=>{let P=`(${S(T(R))})`;return m===""?P:`lonlat_to_xyz(${P}${m})`},N=({middle:R,roll:P})=>S([...R,P]).replace(/, -?0$/,""),z={focus:w(r.lens.focus),magnification:S([r.lens.magnification]),taken:`${w(l.center)}, ${S([l.radius])}`,filled:`${w(i.center)}, ${S([i.radius])}`,places:V(p?.lonlat??new Float64Array(0),Oe(p?.name??"")),latitude:m,picture:JSON.stringify(u?.name??""),resolution:f,step:ie,radius:re.toFixed(4),pointer:w(h),before:N(c),view:N(g?d:r.view),width:S([1.03*s*(g?2:1)])};return B(Gt,z,{bubble:g,picture:u!==null,places:p!==null,pointed:a},t)}function B(e,n,t,s){let a=c=>t[c]??s(c),r=e.split(`
 `).flatMap(c=>{let[,d,h]=/^(?:\[([!a-z ]+)\] )?(.*)$/.exec(c);return d?.split(" ").every(y=>y.startsWith("!")?!a(y.slice(1)):a(y))===!1?[]:[h]}).join(`
 `).replace(/\{(\w+)\}/g,(c,d)=>String(n[d]??c)),l=r.replace(/^(from|import) .*\n/gm,""),i=c=>new RegExp(`\\b${c.split(" as ").pop()}\\b`).test(l);return r.replace(/^((?:from \S+ )?import )(.*)\n/gm,(c,d,h)=>{let p=h.split(", ").filter(i);return p.length===0?"":`${d}${p.join(", ")}
 `})}function V(e,n){if(e.length>2*qt)return n;let t=Array.from({length:e.length/2},(a,o)=>`[${e[2*o]}, ${e[2*o+1]}]`),s=[];for(let a of t){let o=s[s.length-1];o!==void 0&&o.length+a.length<84?s[s.length-1]=`${o} ${a},`:s.push(`    ${a},`)}return s.length===0?"np.zeros((0, 2))":`np.array([

@@ -15,8 +15,12 @@ const MOST_PLACES = 5000;
 const KEPT = 0.95;
 const SMALLER = 1.5;
 
-/** @param lonlat Longitude and latitude in turn, degrees; null without a place. */
-export function fitted(lonlat: Float64Array): Sight | null {
+/**
+ * @param lonlat Longitude and latitude in turn, degrees; null without a place.
+ * @param strongest The largest magnification.
+ * @param digits Behind the point of degrees.
+ */
+export function fitted(lonlat: Float64Array, strongest = MOST, digits = 3): Sight | null {
   const places: Vector[] = [];
   const step = 2 * Math.ceil(lonlat.length / 2 / MOST_PLACES);
   for (let k = 0; k < lonlat.length; k += step) places.push(directionOf(lonlat[k], lonlat[k + 1]));
@@ -26,8 +30,8 @@ export function fitted(lonlat: Float64Array): Sight | null {
   const away = places.map((place) => angle(place, mean)).sort((a, b) => a - b);
   const [most, all] = [KEPT, 1].map((share) => away[Math.ceil(share * away.length) - 1]);
   const radius = (SMALLER * most < all ? most : all) || OF_A_POINT;
-  const [lon, lat] = lonLatOf(mean).map((degrees) => Number(degrees.toFixed(3)));
+  const [lon, lat] = lonLatOf(mean).map((degrees) => Number(degrees.toFixed(digits)));
   const size = Math.tan((SEEN * DEGREE) / 2) / Math.tan((radius * DEGREE) / 2);
-  const magnification = Number(Math.max(1, Math.min(MOST, size)).toFixed(2));
+  const magnification = Number(Math.max(1, Math.min(strongest, size)).toFixed(2));
   return { lens: { focus: directionOf(lon, lat), magnification }, view: View.above(lon, lat) };
 }
