@@ -156,7 +156,7 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
 
   /** The state goes on, as a link tells it. */
   #put(change: Partial<SphereState>): void {
-    this.#state = sphereFields(this.#sites.count).settle({ ...this.#state, ...change }, this.#state);
+    this.#state = sphereFields(this.#sites.count).settle({ ...this.#state, ...change });
   }
 
   get #held(): number | null {
