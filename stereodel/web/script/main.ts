@@ -4,6 +4,7 @@ import { Contents, type Given } from "./contents.ts";
 import { field, find } from "./dom.ts";
 import type { Exchange } from "./exchange.ts";
 import { word } from "./fields.ts";
+import type { Latitude } from "./kernel/api.ts";
 import { load } from "./kernel/instance.ts";
 import { laterScript } from "./later_script.ts";
 import type { LiftRoomMaker } from "./lift.ts";
@@ -283,9 +284,10 @@ async function main(): Promise<void> {
   const loaded = contents.kernel().then(load);
   const stored: Record<string, Float64Array> = {}; // before the rooms are made, so that links can name them
   for (const name of ["gap", "everywhere", "hemisphere", "cities", "airports", "stars", "sheet"])
-    stored[name] = await contents.set(name);
-  const [given, saved] = [await contents.given(), await contents.state()];
-  const latitude = await contents.latitude();
+    stored[name] = (await contents.rings(name))?.lonlat ?? new Float64Array(0);
+  const [given, saved] = [await contents.given(), (await contents.text("state")) ?? ""];
+  // Those of the ellipsoid with equal areas, if the page does not say.
+  const latitude = ((await contents.text("latitude")) ?? "authalic") as Latitude;
   const lift = laterScript<LiftRoomMaker>(contents, "lift");
   await loaded;
   document.body.classList.remove("loading");

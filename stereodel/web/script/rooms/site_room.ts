@@ -98,10 +98,11 @@ export abstract class TableRoom {
 
   attach(section: HTMLElement): void {
     this.section = section;
-    this.table = new SiteTable(find(section, ".sites"), {
-      chosen: (site) => this.host.guarded(() => this.chosen(site)),
-      pointed: (site) => this.pointed(site),
-    });
+    this.table = new SiteTable(
+      find(section, ".sites"),
+      (site) => this.host.guarded(() => this.chosen(site)),
+      (site) => this.pointed(site),
+    );
     this.switches = new Switches(section, (name) => {
       this.host.guarded(() => this.switched(name));
       this.host.changed();
