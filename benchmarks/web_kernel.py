@@ -9,7 +9,8 @@ What each side gives. The module: triangles and their neighbours; cells as offse
 vertices as unit vectors, where exactly cocircular triangles share one; all in flat arrays that are copied out of the
 module. d3-geo-voronoi makes everything in one call: triangles, edges, neighbours, centres, polygons, mesh and hull as
 arrays of arrays in degrees; edges and hull are more than a third of it. `polygons()` adds polygons as GeoJSON. Only
-`geoDelaunay` of the module, asked for all of it, gives the same arrays.
+`geoDelaunay` of the module, asked for all of it, gives the same arrays, and `polygons()` of its `geoVoronoi` the same
+GeoJSON.
 """
 
 from __future__ import annotations
@@ -74,6 +75,7 @@ def ratios(rows: list[Row]) -> Row:
         "d3-geo-voronoi, all : web, triangles and cells with their neighbours": ("d3, theirs", "both"),
         "d3-geo-voronoi, all and `polygons()` : web, cells from longitude and latitude": ("d3, polygons", "polygons"),
         "d3-geo-voronoi, all : web, all as `geoDelaunay` has it": ("d3, theirs", "d3, ours"),
+        "d3-geo-voronoi, `polygons()` : web, `polygons()`, every corner read": ("d3, polygons", "d3, polygons, ours"),
         "delaunator : web, plane": ("delaunator", "plane"),
     }
     return {name: rows[-1][one] / rows[-1][other] for name, (one, other) in pairs.items()}

@@ -146,6 +146,17 @@ class PictureOptions:
 
 
 @dataclass(frozen=True)
+class OwnerOptions:
+    """What the owner of a page says of its points."""
+
+    heading: ClassVar[str] = "Picture"
+    title: str = option("TEXT", "Heading of the globe.", "")
+    source: str = option("TEXT", "Line below it that says where the data are from.", "")
+    labels: str | None = option("COLUMN", "Names of points; by default a column name.")
+    legend_text: list[str] | None = option("NAME=TEXT", "Title of a scale, with its unit; repeatable.")  # noqa: RUF009 - a field
+
+
+@dataclass(frozen=True)
 class ValueOptions:
     """Colours and sizes by value; of layers with ``column=`` and of points."""
 

@@ -22,12 +22,7 @@ def command(
     out: Annotated[str | None, typer.Option("--out", "-o", metavar="FILE", help="File, .html; - is stdout.")] = None,
     open_it: Annotated[bool, typer.Option("--open", help="Open the page in the browser.")] = False,
     resolution: Annotated[Literal["50m", "110m"], typer.Option(help="Of the land; 110m is a smaller page.")] = "50m",
-    title: Annotated[str, typer.Option(metavar="TEXT", help="Heading of the globe.")] = "",
-    source: Annotated[str, typer.Option(metavar="TEXT", help="Line below it that says where the data are from.")] = "",
-    labels: Annotated[str | None, typer.Option(metavar="COLUMN", help="Names of points; else a column name.")] = None,
-    legend_text: Annotated[
-        list[str] | None, typer.Option(metavar="NAME=TEXT", help="Title of a scale, with its unit; repeatable.")
-    ] = None,
+    owner: options.OwnerOptions,
     valued: options.ValueOptions,
     columns: options.Table,
     latitude: options.LatitudeKind = "authalic",
@@ -51,19 +46,19 @@ def command(
     destination = options.File(target, overwrite).of(("html",), points)
     given: dict[str, Any] = {}
     if points is None:
-        said = {"--title": title, "--source": source, "--labels": labels, "--legend-text": legend_text}
+        said = {f"--{name.replace('_', '-')}": value for name, value in vars(owner).items()}
         sized = {"--point-size": valued.point_size, "--point-color": valued.point_color}
         options.refuse({**said, **sized, **valued.given, **columns.given}, "POINTS; give a table")
     else:
         table = columns.read(points)
-        names = labels or next((key for key in table.columns if key.strip().lower() == "name"), None)
+        names = owner.labels or next((key for key in table.columns if key.strip().lower() == "name"), None)
         given = {
             "lonlat": table.places,
             "names": None if names is None else table.column(names).tolist(),
             "name": Path(table.name).name,
-            "title": title,
-            "source": source,
-            **looks_on_page(table, valued, legend_text or ()),
+            "title": owner.title,
+            "source": owner.source,
+            **looks_on_page(table, valued, owner.legend_text or ()),
         }
     with reporting(f"writing {target}"), destination.file() as path:
         web(path, **given, resolution=resolution, latitude=latitude)

@@ -8,6 +8,7 @@ import { SvgPen } from "./drawing/svg_pen.ts";
 import { isPicture, openPoints } from "./files.ts";
 import { geojson } from "./geojson.ts";
 import { openPanorama } from "./panorama.ts";
+import { framed, legendBlock, legendWords } from "./rooms/legend.ts";
 import { globePython, liftPython, spherePython } from "./rooms/python.ts";
 import { savedPage } from "./saved_page.ts";
 import { writeTable } from "./tables/delimited.ts";
@@ -21,14 +22,16 @@ function download(name: string, content: Blob | string, type = "text/plain"): vo
 }
 
 /** The picture as SVG, in the colours of the screen. */
-function sheetSvg({ title, width, height, weight, paint }: Sheet): string {
+function sheetSvg(sheet: Sheet): string {
+  const { title, width, height, weight, paint } = framed(sheet);
   const pen = new SvgPen(width, height, colours(), weight);
   paint(pen);
   return pen.text(title);
 }
 
 /** The picture as PNG with so many pixels for one of the screen. */
-function sheetPng({ width, height, weight, paint }: Sheet, scale: number): Promise<Blob> {
+function sheetPng(sheet: Sheet, scale: number): Promise<Blob> {
+  const { width, height, weight, paint } = framed(sheet);
   const canvas = make("canvas", { width: Math.round(width * scale), height: Math.round(height * scale) });
   const context = canvas.getContext("2d")!;
   context.fillStyle = colours().paper;
@@ -45,6 +48,8 @@ const exchange = {
   geojson,
   globePython,
   isPicture,
+  legendBlock,
+  legendWords,
   liftPython,
   openPanorama,
   openPoints,

@@ -30,7 +30,7 @@ type Makers = Record<RoomName, (host: RoomHost) => Room | Promise<Room>>;
 class Page implements RoomHost {
   readonly contents: Contents;
   readonly #makers: Makers;
-  readonly #exchange: () => Promise<Exchange>;
+  readonly exchange: () => Promise<Exchange>;
   readonly messages = new Messages(find(document, "#messages"));
   readonly announcer = new Announcer(find(document, "#status"));
   readonly #rooms = new Map<RoomName, Room>();
@@ -56,7 +56,7 @@ class Page implements RoomHost {
     [this.#begin, this.#title] = [given === null ? "sphere" : "globe", given?.owner?.title ?? ""];
     this.#source = source;
     this.#saved = saved === "" ? null : readLink(saved, Infinity);
-    this.#exchange = laterScript(contents, "exchange");
+    this.exchange = laterScript(contents, "exchange");
   }
 
   /** Shows what the address says, and follows it from now on. */
@@ -220,7 +220,7 @@ class Page implements RoomHost {
   #exchanging(body: (room: Room, exchange: Exchange) => void | Promise<void>): void {
     const room = this.#room;
     if (room === undefined) return;
-    const done = this.#exchange().then((exchange) => body(room, exchange));
+    const done = this.exchange().then((exchange) => body(room, exchange));
     done.catch((error: unknown) => this.#failed(error));
   }
 

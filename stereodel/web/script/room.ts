@@ -11,6 +11,8 @@ export interface RoomHost {
   readonly contents: Contents;
   readonly announcer: Announcer;
   readonly messages: Messages;
+  /** What the second script offers, which is compiled at first need. */
+  readonly exchange: () => Promise<Exchange>;
   /** The state has changed: the address follows at rest. A step is one that the back button takes back. */
   changed(isStep?: boolean): void;
   /** Enters the room that can show a file, which opens it there. @param columns Names of both, where they are known. */

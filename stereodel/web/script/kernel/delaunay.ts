@@ -127,7 +127,7 @@ export abstract class Delaunay {
   findSimplex(queries: Numbers): Int32Array {
     const asked = this.check(queries, "xyz".slice(0, this.width));
     const count = asked.length / this.width;
-    return this.answers(count, "find_simplex", [...this.triangles(), asked, count]);
+    return this.answers(count, "find_simplex", [...this.forQueries(), asked, count]);
   }
 
   /**
@@ -148,8 +148,8 @@ export abstract class Delaunay {
       const order = [this.forKernel[0], this.flatOrder, this.flatOrder.length];
       return this.answers(size * each, "nearest_flat", [...order, ...same, asked, size, each]);
     }
-    if (k === undefined) return this.answers(size, "nearest", [...this.triangles(), asked, size]);
-    return this.answers(size * each, "k_nearest", [...this.triangles(), ...same, asked, size, each]);
+    if (k === undefined) return this.answers(size, "nearest", [...this.forQueries(), asked, size]);
+    return this.answers(size * each, "k_nearest", [...this.forQueries(), ...same, asked, size, each]);
   }
 
   /** The different points in the order along their line or great circle, without triangles. */
@@ -158,7 +158,7 @@ export abstract class Delaunay {
     return (this.derived.order ??= answered(types, `${this.space}_flat_diagram`, this.forKernel[0], this.size)[3]);
   }
 
-  private triangles(): Argument[] {
+  private forQueries(): Argument[] {
     const [points, , simplices, neighbors, count] = this.forKernel;
     return [points, simplices, neighbors, this.closed, count];
   }

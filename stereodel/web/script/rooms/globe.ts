@@ -19,7 +19,8 @@ import { BubbleGlobe, FisheyeGlobe, FiveViews } from "./globe_plates.ts";
 import { GlobeScene, type Places } from "./globe_scene.ts";
 import { BEGINNING, GLOBE, PRESETS, sideView } from "./globe_state.ts";
 import type { GlobeState } from "./globe_state.ts";
-import { columnsOf, framed, legendBlock, legendWords, placeSentence, valueWords, type Owner } from "./owner.ts";
+import type { Block } from "./legend.ts";
+import { columnsOf, placeSentence, valueWords } from "./owner.ts";
 import { TableRoom, tableOf, tableValues } from "./site_room.ts";
 
 /** Steps of the slider for a magnification of ten times. */
@@ -45,6 +46,7 @@ export class GlobeRoom extends TableRoom implements Room {
   readonly #heading: string;
   #state = BEGINNING;
   #legend!: Plate;
+  #legendBlock: Block | null = null;
   #globe!: FisheyeGlobe;
   #views!: FiveViews;
   #bubbles!: readonly BubbleGlobe[];
@@ -100,7 +102,7 @@ export class GlobeRoom extends TableRoom implements Room {
     }
     on(find(section, "[data-do=earth]"), () => this.#paintedBy(null));
     const legend = find<HTMLCanvasElement>(section, ".legend canvas");
-    const paint = (pen: Pen): void => legendBlock(this.#entries, 0).draw(pen, 0, 0);
+    const paint = (pen: Pen): void => this.#legendBlock?.draw(pen, 0, 0);
     this.#legend = new Plate(legend, paint, guarded);
     for (const button of views) on(button, () => this.#flyToSide(button));
     this.#show(this.#given);
@@ -164,7 +166,7 @@ export class GlobeRoom extends TableRoom implements Room {
   sheet(): Sheet {
     const { plate } = this.#state.lens === "bubble" ? this.#bubbles[1] : this.#globe;
     const { places } = this.scene;
-    return framed(plate.sheet(this.#label(), !!places?.owner), places?.owner);
+    return { ...plate.sheet(this.#label(), !!places?.owner), owner: places?.owner ?? null };
   }
 
   geojson(exchange: Exchange): string | null {
@@ -194,10 +196,6 @@ export class GlobeRoom extends TableRoom implements Room {
     this.redraw();
   }
 
-  get #entries(): NonNullable<Owner["legend"]> {
-    return this.scene.places?.owner?.legend ?? [];
-  }
-
   /** A picture covers the Earth, or no longer. */
   #paintedBy(picture: Painted | null): void {
     this.scene.picture = picture;
@@ -212,12 +210,18 @@ export class GlobeRoom extends TableRoom implements Room {
     this.switches.offer("fills", owner?.inks !== undefined);
     this.switches.offer("isolines", !!isolines);
     const legend = find(this.section, ".legend");
-    legend.hidden = this.#entries.length === 0;
-    const [canvas] = legend.children as HTMLCollectionOf<HTMLElement>;
-    canvas.ariaLabel = legendWords(this.#entries);
-    const height = `${legendBlock(this.#entries, 0).height}px`;
-    canvas.style.height = height;
-    document.documentElement.style.setProperty("--legend", legend.hidden ? "0px" : height);
+    const entries = owner?.legend ?? [];
+    legend.hidden = entries.length === 0;
+    if (legend.hidden) return;
+    void this.host.exchange().then(({ legendBlock, legendWords }) => {
+      this.#legendBlock = legendBlock(entries, 0);
+      const height = `${this.#legendBlock.height}px`;
+      const [canvas] = legend.children as HTMLCollectionOf<HTMLElement>;
+      canvas.ariaLabel = legendWords(entries);
+      canvas.style.height = height;
+      document.documentElement.style.setProperty("--legend", height);
+      this.#legend.redraw("state");
+    });
   }
 
   /** The room begins with places, if there are any, in sight. */

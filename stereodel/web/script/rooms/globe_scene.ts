@@ -189,7 +189,7 @@ export class GlobeScene {
         draw: (pen, { disc, map, isMoving, standing, taken }) => {
           const { directions, ...named } = this.#made!.named;
           const seats = new Seats(pen, disc, taken);
-          drawNames(pen, seats, disc, { ...named, standing, isMoving }, map.apply(directions), this.lettered(NAME));
+          drawNames(seats, { ...named, standing, isMoving }, map.apply(directions), this.lettered(NAME));
         },
       },
     ];

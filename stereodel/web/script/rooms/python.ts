@@ -11,6 +11,7 @@ import { CIRCLE_RADIUS, STEP, type GlobeScene } from "./globe_scene.ts";
 import type { GlobeState } from "./globe_state.ts";
 import type { LiftPicture, LiftScene } from "./lift_drawing.ts";
 import type { SphereScene } from "./sphere_drawing.ts";
+import type { SphereState } from "./sphere_state.ts";
 
 /** Sites beyond which the lines name a file in place of the places. */
 const MOST_WRITTEN = 200;
@@ -34,8 +35,14 @@ type Values = Readonly<Record<string, string | number>>;
 type Marks = Readonly<Record<string, boolean>>;
 
 /** Lines that draw the ball and the plane. @param sizes Of both pictures, as the text names them. */
-export function spherePython(scene: SphereScene, pole: readonly number[], origin: Origin, sizes: Values): string {
-  const { sites, view, twin, bubble, aim, step } = scene;
+export function spherePython(
+  scene: SphereScene,
+  state: SphereState,
+  poleSeen: Vector | null,
+  origin: Origin,
+  sizes: Values,
+): string {
+  const { sites, view, bubble, aim, step } = scene;
   const isOn = (layer: Switch): boolean => step === "done" && scene.isOn(layer);
   const held = [...((isOn("bubble") && bubble?.sites) || []), ...(step === "done" ? scene.held : [step.site])];
   const marks = {
@@ -44,15 +51,18 @@ export function spherePython(scene: SphereScene, pole: readonly number[], origin
     step: step !== "done" && step.insertion !== null,
     aimed: bubble !== null,
     held: held.length > 0,
-    front: view.seen(twin.pole)[2] >= 0,
+    pole: poleSeen !== null,
+    front: poleSeen !== null && poleSeen[2] >= 0,
     hatched: isOn("seeing") || (isOn("closing") && sites.hasClosing),
   };
   const values = {
     ...sizes,
     sites: SETS[origin.set] ?? coordinates(sites.lonlat, readPoints(origin.file)),
-    pole: numbers(pole),
+    pole: numbers(state.pole),
     view: numbers(view.middle),
     aim: lonLatOf(aim).join(", "),
+    focus: numbers(lonLatOf(state.lens.focus)),
+    magnification: state.lens.magnification,
     held: held.join(", "),
     step: step === "done" ? "" : step.site + 1,
     count: step === "done" ? "" : step.site + 1,

@@ -100,6 +100,7 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
   #middle: Point = [0, 0];
 
   // What follows from the state; made anew when it changes.
+  #mapped: (Pick<SphereState, "lens" | "view"> & { readonly map: MoebiusMap }) | null = null;
   #sites = new SphereSites(new Float64Array(0));
   #layers = ballLayers(this.#sites);
   readonly #standing: Named["standing"] = new Map();
@@ -320,7 +321,10 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
 
   /** Through the lens, to the axes of the view. */
   get #map(): MoebiusMap {
-    return sightMap(this.sight);
+    const { lens, view } = this.#state;
+    if (this.#mapped?.lens !== lens || this.#mapped.view !== view)
+      this.#mapped = { lens, view, map: sightMap(this.sight) };
+    return this.#mapped.map;
   }
 
   get #frame(): PlaneFrame {
@@ -619,7 +623,9 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
 
   python(exchange: Exchange): string {
     const sizes = { size: this.#ball.width, ball: this.disc.r, reach: this.#reach, gap: GAP };
-    return exchange.spherePython(this.#scene(false), this.#state.pole, this.origin, sizes);
+    const scene = this.#scene(false);
+    const pole = poleSeen(this.#map, this.#twin);
+    return exchange.spherePython(scene, this.#state, pole, this.origin, { ...sizes, middle: this.#middle.join(", ") });
   }
 }
 

@@ -16,8 +16,12 @@ const STEPS = 100;
 const KEPT = 0.95;
 const SMALLER = 1.5;
 
-/** @param lonlat Longitude and latitude in turn, degrees; null without a place. */
-export function fitted(lonlat: Float64Array): Sight | null {
+/**
+ * @param lonlat Longitude and latitude in turn, degrees; null without a place.
+ * @param most The largest magnification.
+ * @param digits Behind the point of degrees.
+ */
+export function fitted(lonlat: Float64Array, most = MOST, digits = 3): Sight | null {
   const count = lonlat.length / 2;
   const step = Math.ceil(count / MOST_PLACES);
   const places = Array.from({ length: Math.ceil(count / step) || 0 }, (_, k): Vector => {
@@ -26,11 +30,11 @@ export function fitted(lonlat: Float64Array): Sight | null {
   if (places.length === 0) return null;
   const cap = capOf(places);
   const near = [...places].sort((a, b) => dot(b, cap.center) - dot(a, cap.center));
-  const most = capOf(near.slice(0, Math.ceil(KEPT * near.length)));
-  const { center, radius } = SMALLER * most.radius < cap.radius ? most : cap;
-  const [lon, lat] = lonLatOf(center).map((degrees) => Number(degrees.toFixed(3)));
+  const nearly = capOf(near.slice(0, Math.ceil(KEPT * near.length)));
+  const { center, radius } = SMALLER * nearly.radius < cap.radius ? nearly : cap;
+  const [lon, lat] = lonLatOf(center).map((degrees) => Number(degrees.toFixed(digits)));
   const size = Math.tan((SEEN * DEGREE) / 2) / Math.tan(((radius || OF_A_POINT) * DEGREE) / 2);
-  const magnification = Number(Math.max(1, Math.min(MOST, size)).toFixed(2));
+  const magnification = Number(Math.max(1, Math.min(most, size)).toFixed(2));
   return { lens: { focus: directionOf(lon, lat), magnification }, view: View.above(lon, lat) };
 }
 

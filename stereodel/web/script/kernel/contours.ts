@@ -1,0 +1,156 @@
+/** `geoContour`: where values at sites of the sphere reach thresholds, by linear interpolation along the edges of triangles. */
+
+import { after, ListedDelaunay, placesOf, type Place } from "./d3.ts";
+
+/** Where values are at least `value`, and below `valueMax` if that is given; wound as d3-geo wants it. */
+export interface ContourPolygon {
+  type: "MultiPolygon";
+  /** One polygon of all rings; without any where the boundary is empty: nowhere or everywhere. */
+  coordinates: Place[][][];
+  value: number;
+  valueMax?: number;
+}
+
+type Accessor<Datum> = (datum: Datum, index: number) => number;
+
+/** Contours of data; call it with them. */
+export interface Contours<Datum> {
+  (data: readonly Datum[]): ContourPolygon[];
+  /** Where a datum lies and what it is worth: by default its first three numbers. */
+  x(): Accessor<Datum>;
+  x(accessor: Accessor<Datum>): Contours<Datum>;
+  y(): Accessor<Datum>;
+  y(accessor: Accessor<Datum>): Contours<Datum>;
+  value(): Accessor<Datum>;
+  value(accessor: Accessor<Datum>): Contours<Datum>;
+  /** Thresholds, or about how many; round numbers, some ten, unless set. */
+  thresholds(): readonly number[] | number | undefined;
+  thresholds(thresholds: readonly number[] | number): Contours<Datum>;
+  /** One threshold after the other. */
+  contours(data: readonly Datum[]): Generator<ContourPolygon>;
+  contour(data: readonly Datum[], threshold: number): ContourPolygon;
+  /** What lies between each threshold and the next one. */
+  isobands(data: readonly Datum[]): Generator<ContourPolygon>;
+}
+
+/** Contours of values at places. */
+export function geoContour<Datum = [number, number, number]>(): Contours<Datum> {
+  const number = (datum: Datum, axis: number): number => Number((datum as ArrayLike<number>)[axis]);
+  const given = {
+    x: ((datum) => number(datum, 0)) as Accessor<Datum>,
+    y: ((datum) => number(datum, 1)) as Accessor<Datum>,
+    value: ((datum) => (Number.isFinite(number(datum, 2)) ? number(datum, 2) : 0)) as Accessor<Datum>,
+    thresholds: undefined as readonly number[] | number | undefined,
+  };
+
+  /** The rings of a threshold, and the thresholds. */
+  function surface(data: readonly Datum[]): { rings: (threshold: number) => Place[][]; thresholds: readonly number[] } {
+    const values = data.map(given.value);
+    const wrong = values.findIndex((value) => !Number.isFinite(value));
+    if (wrong >= 0)
+      throw new RangeError(`the value of datum ${wrong} is ${values[wrong]}, which is not a finite number`);
+    const delaunay = new ListedDelaunay(Float64Array.from(data.flatMap((d, k) => [given.x(d, k), given.y(d, k)])));
+    const { thresholds } = given;
+    return {
+      rings: (threshold) => ringsAt(delaunay, values, threshold),
+      thresholds: typeof thresholds === "object" ? thresholds : roundThresholds(values, thresholds ?? 10),
+    };
+  }
+  const region = (rings: Place[][], value: number): ContourPolygon => {
+    return { type: "MultiPolygon", coordinates: [rings], value };
+  };
+
+  function* regions(data: readonly Datum[]): Generator<ContourPolygon> {
+    const { rings, thresholds } = surface(data);
+    for (const value of thresholds) yield region(rings(value), value);
+  }
+  const contours = ((data: readonly Datum[]) => [...regions(data)]) as Contours<Datum>;
+  contours.contours = regions;
+  contours.contour = (data, threshold) => region(surface(data).rings(threshold), threshold);
+  contours.isobands = function* (data) {
+    const { rings, thresholds } = surface(data);
+    let low: Place[][] = [];
+    for (const [k, valueMax] of thresholds.entries()) {
+      const high = rings(valueMax);
+      const band = [...low, ...high.map((ring) => [...ring].reverse())];
+      if (k > 0) yield { ...region(band, thresholds[k - 1]), valueMax };
+      low = high;
+    }
+  };
+  const accessor = <Name extends keyof typeof given>(name: Name) =>
+    ((set?: (typeof given)[Name]) => {
+      if (set === undefined) return given[name];
+      given[name] = set;
+      return contours;
+    }) as Contours<Datum>[Name];
+  contours.x = accessor("x");
+  contours.y = accessor("y");
+  contours.value = accessor("value");
+  contours.thresholds = accessor("thresholds");
+  return contours;
+}
+
+/** Rings around what is at least a threshold: from triangle to triangle, each by the side that goes up, once. */
+function ringsAt(delaunay: ListedDelaunay, values: number[], threshold: number): Place[][] {
+  const { triangles, halfedges } = delaunay;
+  const up = (e: number): boolean => values[triangles[e]] < threshold && values[triangles[after(e)]] >= threshold;
+  const visited = new Uint8Array(triangles.length);
+  const rings: Place[][] = [];
+  for (let first = 0; first < triangles.length; ++first) {
+    const ring: number[] = [];
+    for (let e = first; visited[e] === 0 && up(e);) {
+      visited[e] = 1;
+      ring.push(e);
+      e = after(halfedges[e]);
+      if (!up(e)) e = after(e);
+    }
+    if (ring.length === 0) continue;
+    const xyz = ring.flatMap((e) => {
+      const [i, j] = [triangles[e], triangles[after(e)]];
+      return between(delaunay.points, i, j, (threshold - values[i]) / (values[j] - values[i]));
+    });
+    const places = placesOf(Float64Array.from(xyz));
+    rings.push([...places, places[0]].reverse());
+  }
+  return rings;
+}
+
+/** The point at a part of the way between two. */
+function between(points: Float64Array, i: number, j: number, part: number): number[] {
+  const [a, b] = [i, j].map((k) => [...points.subarray(3 * k, 3 * k + 3)]);
+  const length = (sign: number): number => Math.hypot(...a.map((x, axis) => x + sign * b[axis]));
+  const angle = 2 * Math.atan2(length(-1), length(1));
+  const [one, other] = [1 - part, part].map((fraction) => Math.sin(fraction * angle) / Math.sin(angle));
+  return a.map((x, axis) => one * x + other * b[axis]);
+}
+
+/** About so many round numbers from below the least value to above the greatest one. */
+function roundThresholds(values: number[], count: number): number[] {
+  let low = Infinity;
+  let high = -Infinity;
+  for (const value of values) [low, high] = [Math.min(low, value), Math.max(high, value)];
+  if (!(low < high)) return low === high ? [low] : [];
+  for (let [last, pass] = [NaN, 0]; pass < 10; ++pass) {
+    const step = roundStep(low, high, 10);
+    if (step === last) break;
+    [low, high] = [rounded(Math.floor, low, step), rounded(Math.ceil, high, step)];
+    last = step;
+  }
+  const step = roundStep(low, high, count);
+  const ticks: number[] = [];
+  const nearest = (value: number): number => Math.round(step > 0 ? value / step : value * -step);
+  for (let k = nearest(low); k <= nearest(high); ++k) ticks.push(step > 0 ? k * step : k / -step);
+  return ticks.filter((tick) => tick >= low && tick <= high);
+}
+
+/** 1, 2 or 5 times a power of ten: a step into about so many; below 1 the negative of its inverse, which is a whole number. */
+function roundStep(low: number, high: number, count: number): number {
+  const step = (high - low) / count;
+  const power = Math.floor(Math.log10(step));
+  const error = step / 10 ** power;
+  const factor = error >= Math.sqrt(50) ? 10 : error >= Math.sqrt(10) ? 5 : error >= Math.SQRT2 ? 2 : 1;
+  return power < 0 ? -(10 ** -power) / factor : 10 ** power * factor;
+}
+
+const rounded = (round: (value: number) => number, value: number, step: number): number =>
+  step > 0 ? round(value / step) * step : round(value * -step) / -step;

@@ -1,0 +1,221 @@
+/**
+ * The sweep-hull algorithm as delaunator runs it, in doubles: points are inserted by their distance from a seed triangle.
+ *
+ * Only the order of its triangles is wanted, which users of libraries made on it see; which triangles there are is the
+ * exact kernel's to say. Hence each rounded number is made by the same operations as there, ties of the sort included.
+ */
+
+import { orient2d } from "./predicates.ts";
+
+/** Triangles, three points each, clockwise, and for each side, from its first point on, the same side of the next one or -1. */
+export interface Swept {
+  triangles: Int32Array;
+  halfedges: Int32Array;
+}
+
+/** Nearer ones are one point. */
+const SAME = 2 ** -52;
+/** Bound of the rounding of a determinant of two rows of differences, in parts of the sum of its two products. */
+const ROUNDING = 2 ** -51;
+
+export function sweepHull(xy: Float64Array): Swept {
+  const count = xy.length / 2;
+  const squared = (i: number, x: number, y: number): number => (xy[2 * i] - x) ** 2 + (xy[2 * i + 1] - y) ** 2;
+
+  /** 1 if the points turn left, -1 right, 0 on one line; exactly. */
+  function turn(a: number, b: number, c: number): number {
+    const one = (xy[2 * a] - xy[2 * c]) * (xy[2 * b + 1] - xy[2 * c + 1]);
+    const other = (xy[2 * a + 1] - xy[2 * c + 1]) * (xy[2 * b] - xy[2 * c]);
+    if (Math.abs(one - other) > ROUNDING * (Math.abs(one) + Math.abs(other))) return Math.sign(one - other);
+    return orient2d(
+      ...([a, b, c].map((i) => xy.subarray(2 * i, 2 * i + 2)) as [Float64Array, Float64Array, Float64Array]),
+    )[0];
+  }
+
+  /** From the first point to the centre of the circle through all three. */
+  function toCenter(a: number, b: number, c: number): [number, number] {
+    const [dx, dy] = [xy[2 * b] - xy[2 * a], xy[2 * b + 1] - xy[2 * a + 1]];
+    const [ex, ey] = [xy[2 * c] - xy[2 * a], xy[2 * c + 1] - xy[2 * a + 1]];
+    const [dd, ee, half] = [dx * dx + dy * dy, ex * ex + ey * ey, 0.5 / (dx * ey - dy * ex)];
+    return [(ey * dd - dy * ee) * half, (dx * ee - ex * dd) * half];
+  }
+
+  /** The point of which something is least, the first one of several, -1 if it is finite for none. */
+  function least(measure: (i: number) => number): number {
+    let [found, lowest] = [-1, Infinity];
+    for (let i = 0; i < count; ++i) {
+      const value = measure(i);
+      if (value < lowest) [found, lowest] = [i, value];
+    }
+    return found;
+  }
+
+  let [left, right, low, high] = [Infinity, -Infinity, Infinity, -Infinity];
+  for (let k = 0; k < xy.length; k += 2) {
+    [left, right] = [Math.min(left, xy[k]), Math.max(right, xy[k])];
+    [low, high] = [Math.min(low, xy[k + 1]), Math.max(high, xy[k + 1])];
+  }
+  const seed = least((i) => squared(i, (left + right) / 2, (low + high) / 2));
+  let second = least((i) => squared(i, xy[2 * seed], xy[2 * seed + 1]) || Infinity);
+  let third = least((i) => {
+    const [x, y] = i === seed || i === second || second < 0 ? [Infinity, 0] : toCenter(seed, second, i);
+    return x * x + y * y;
+  });
+  if (third < 0) return { triangles: new Int32Array(0), halfedges: new Int32Array(0) };
+  if (turn(seed, second, third) > 0) [second, third] = [third, second];
+  const [dx, dy] = toCenter(seed, second, third);
+  const [x0, y0] = [xy[2 * seed] + dx, xy[2 * seed + 1] + dy];
+  const order = sorted(Float64Array.from({ length: count }, (_, i) => squared(i, x0, y0)));
+
+  const triangles = new Int32Array(6 * count);
+  const halfedges = new Int32Array(6 * count);
+  let used = 0;
+  // The hull as a ring, the side of a triangle at each of its edges, and points of it by their angle.
+  const [next, previous, side] = [new Int32Array(count), new Int32Array(count), new Int32Array(count)];
+  const buckets = new Int32Array(Math.ceil(Math.sqrt(count))).fill(-1);
+  let start = seed;
+
+  function bucket(i: number): number {
+    const [x, y] = [xy[2 * i] - x0, xy[2 * i + 1] - y0];
+    const p = x / (Math.abs(x) + Math.abs(y));
+    return Math.floor(((y > 0 ? 3 - p : 1 + p) / 4) * buckets.length) % buckets.length;
+  }
+
+  function link(one: number, other: number): void {
+    halfedges[one] = other;
+    if (other >= 0) halfedges[other] = one;
+  }
+
+  function add(a: number, b: number, c: number, ab: number, bc: number, ca: number): number {
+    triangles.set([a, b, c], used);
+    link(used, ab);
+    link(used + 1, bc);
+    link(used + 2, ca);
+    return (used += 3) - 3;
+  }
+
+  /** Whether the fourth point lies in the circle of the three. */
+  function inside(a: number, b: number, c: number, p: number): boolean {
+    const [x, y] = [xy[2 * p], xy[2 * p + 1]];
+    const [ax, ay, bx, by] = [xy[2 * a] - x, xy[2 * a + 1] - y, xy[2 * b] - x, xy[2 * b + 1] - y];
+    const [cx, cy] = [xy[2 * c] - x, xy[2 * c + 1] - y];
+    const [aa, bb, cc] = [ax * ax + ay * ay, bx * bx + by * by, cx * cx + cy * cy];
+    return ax * (by * cc - bb * cy) - ay * (bx * cc - bb * cx) + aa * (bx * cy - by * cx) < 0;
+  }
+
+  /** Flips until all circles beyond a side are empty; the side before it of its triangle. */
+  function legalize(first: number): number {
+    const open = [first];
+    let before = 0;
+    for (let a = open.pop(); a !== undefined;) {
+      const [b, row] = [halfedges[a], a - (a % 3)];
+      before = row + ((a + 2) % 3);
+      const far = b - (b % 3) + ((b + 2) % 3);
+      if (b < 0 || !inside(triangles[before], triangles[a], triangles[row + ((a + 1) % 3)], triangles[far])) {
+        a = open.pop();
+        continue;
+      }
+      triangles[a] = triangles[far];
+      triangles[b] = triangles[before];
+      const beyond = halfedges[far];
+      if (beyond < 0) {
+        let e = start;
+        do {
+          if (side[e] === far) {
+            side[e] = a;
+            break;
+          }
+          e = previous[e];
+        } while (e !== start);
+      }
+      link(a, beyond);
+      link(b, halfedges[before]);
+      link(before, far);
+      open.push(b - (b % 3) + ((b + 1) % 3));
+    }
+    return before;
+  }
+
+  add(seed, second, third, -1, -1, -1);
+  [seed, second, third].forEach((i, k, seeds) => {
+    [next[i], previous[i], side[i]] = [seeds[(k + 1) % 3], seeds[(k + 2) % 3], k];
+    buckets[bucket(i)] = i;
+  });
+  let [x, y] = [NaN, NaN];
+  for (const i of order) {
+    if (Math.abs(xy[2 * i] - x) <= SAME && Math.abs(xy[2 * i + 1] - y) <= SAME) continue;
+    [x, y] = [xy[2 * i], xy[2 * i + 1]];
+    if (i === seed || i === second || i === third) continue;
+    let from = 0;
+    for (let k = 0, key = bucket(i); k < buckets.length; ++k) {
+      from = buckets[(key + k) % buckets.length];
+      if (from >= 0 && from !== next[from]) break; // points that left the hull are their own next
+    }
+    from = previous[from];
+    let e = from;
+    while (e >= 0 && turn(i, e, next[e]) <= 0) e = next[e] === from ? -1 : next[e];
+    if (e < 0) continue;
+    let t = add(e, i, next[e], -1, -1, side[e]);
+    side[i] = legalize(t + 2);
+    side[e] = t;
+    let ahead = next[e];
+    for (let q = next[ahead]; turn(i, ahead, q) > 0; q = next[ahead]) {
+      t = add(ahead, i, q, side[i], -1, side[ahead]);
+      side[i] = legalize(t + 2);
+      next[ahead] = ahead;
+      ahead = q;
+    }
+    if (e === from) {
+      for (let q = previous[e]; turn(i, q, e) > 0; q = previous[e]) {
+        t = add(q, i, e, -1, side[e], side[q]);
+        legalize(t + 2);
+        side[q] = t;
+        next[e] = e;
+        e = q;
+      }
+    }
+    start = previous[i] = e;
+    next[e] = previous[ahead] = i;
+    next[i] = ahead;
+    buckets[bucket(i)] = i;
+    buckets[bucket(e)] = e;
+  }
+  return { triangles: triangles.subarray(0, used), halfedges: halfedges.subarray(0, used) };
+}
+
+/** Indices by their keys, equal ones as a quicksort leaves them that takes the middle of three and leaves twenty to insertion. */
+function sorted(keys: Float64Array): Int32Array {
+  const order = Int32Array.from(keys, (_, i) => i);
+  const swap = (i: number, j: number): void => void ([order[i], order[j]] = [order[j], order[i]]);
+  function sort(left: number, right: number): void {
+    if (right - left <= 20) {
+      for (let i = left + 1; i <= right; ++i) {
+        const moved = order[i];
+        let j = i;
+        for (; j > left && keys[order[j - 1]] > keys[moved]; --j) order[j] = order[j - 1];
+        order[j] = moved;
+      }
+      return;
+    }
+    let [i, j] = [left + 1, right];
+    swap((left + right) >> 1, i);
+    if (keys[order[left]] > keys[order[right]]) swap(left, right);
+    if (keys[order[i]] > keys[order[right]]) swap(i, right);
+    if (keys[order[left]] > keys[order[i]]) swap(left, i);
+    const middle = order[i];
+    for (;;) {
+      do ++i;
+      while (keys[order[i]] < keys[middle]);
+      do --j;
+      while (keys[order[j]] > keys[middle]);
+      if (j < i) break;
+      swap(i, j);
+    }
+    order[left + 1] = order[j];
+    order[j] = middle;
+    sort(left, j - 1);
+    sort(i, right);
+  }
+  sort(0, keys.length - 1);
+  return order;
+}
