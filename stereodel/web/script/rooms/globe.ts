@@ -140,7 +140,7 @@ export class GlobeRoom extends TableRoom implements Room {
     this.#globe.motion.stop();
     const { messages } = this.host;
     if (again === null) tellNamed(messages, values, "file");
-    this.scene.picture = values.text("picture", "") === this.#picture?.name ? this.#picture : null;
+    this.scene.picture = values.get("picture") === this.#picture?.name ? this.#picture : null;
     if (this.scene.picture === null) tellNamed(messages, values, "picture");
     this.set(state, "state");
   }
@@ -285,7 +285,7 @@ export class GlobeRoom extends TableRoom implements Room {
 
   /** Another state: the drawings, the words, the controls and the link follow. */
   set(change: Partial<GlobeState>, reason: Reason, isStep = false): void {
-    this.#state = GLOBE.settle({ ...this.#state, ...change }, this.#state);
+    this.#state = GLOBE.settle({ ...this.#state, ...change });
     this.redraw(reason);
     this.#write();
     this.host.changed(isStep);

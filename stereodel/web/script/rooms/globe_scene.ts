@@ -85,7 +85,7 @@ export class GlobeScene {
 
   /** Unpacks the land that the page carries. */
   async load(contents: Contents): Promise<void> {
-    const [coarse, fine] = await Promise.all([contents.land("110m"), contents.land("50m")]);
+    const [coarse, fine] = await Promise.all([contents.rings("land-110m"), contents.rings("land-50m")]);
     if (coarse !== null) this.#coarse = balls.landLayer(coarse);
     if (fine !== null) this.#fine = balls.landLayer(fine);
   }

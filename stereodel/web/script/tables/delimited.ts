@@ -147,15 +147,12 @@ interface Columned {
 }
 
 /** A table that cannot be read; the message begins with the row where there is one. */
-export class TableError extends Error {}
+export class TableError extends Error {
+  /** The columns of which the reader is asked for two. */
+  readonly columns: readonly string[];
 
-/** No column, or several, look like what is needed: the reader is asked which. */
-export class ColumnsError extends TableError {
-  /** The columns there are. */
-  readonly names: readonly string[];
-
-  constructor(names: readonly string[]) {
-    super("the table has no two columns of coordinates");
-    this.names = names;
+  constructor(message: string, columns: readonly string[] = []) {
+    super(message);
+    this.columns = columns;
   }
 }
