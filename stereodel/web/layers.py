@@ -17,9 +17,10 @@ from stereodel.curves.trace import sides_of, unwrapped
 from stereodel.drawing.page.colors import ColorLike, as_color, as_colors
 from stereodel.drawing.page.style import MAP_DOT
 from stereodel.drawing.scene.by_value import DotLooks, ScaleLike
+from stereodel.drawing.scene.legend import LegendEntry
 from stereodel.io.reading import Shapes, shapes_of
 from stereodel.sphere.coordinates import lonlat_to_xyz
-from stereodel.web.looks import css, legend
+from stereodel.web.looks import css
 
 STEP: Final = 1.0
 """Degrees between points along a side, which is straight in longitude and latitude."""
@@ -30,7 +31,7 @@ SPOTS: Final = 200
 
 def layers_of(
     source: Any, color: ColorLike, column: str | None, scale: ScaleLike | None, title: str
-) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
+) -> tuple[list[dict[str, Any]], dict[str, LegendEntry]]:
     """Shapes of a source by colour, polygons below lines below points, and their entries in a legend."""
     shapes = shapes_of(source)
     count, entry = len(shapes.properties), title or column or ""
@@ -46,7 +47,7 @@ def layers_of(
             chosen = np.array([inks[k] == ink for k in feature])
             some = Ragged(shapes.points[chosen], np.arange(0)) if rows is None else rows.take(chosen)
             layers.append({"kind": kind, "ink": ink, **_sent(some)})
-    return layers, legend(entries)
+    return layers, dict(entries)
 
 
 def _regions(shapes: Shapes) -> dict[int, dict[str, Any]]:

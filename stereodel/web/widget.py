@@ -16,12 +16,14 @@ from stereodel._extras import of_extra
 from stereodel.drawing.page.colors import ColorLike
 from stereodel.drawing.page.style import MAP_FILLS, LengthLike
 from stereodel.drawing.scene.by_value import ScaleLike
+from stereodel.drawing.scene.legend import LegendEntry
 from stereodel.io import PointTable, read_points
 from stereodel.io.formats.map_rows import is_frame
 from stereodel.web.assemble import module
 from stereodel.web.contents import built
 from stereodel.web.layers import layers_of
 from stereodel.web.looks import Looks
+from stereodel.web.looks import legend as legend_of
 
 with of_extra("jupyter"):
     import anywidget
@@ -142,10 +144,12 @@ class GlobeWidget(anywidget.AnyWidget):
             raise ValueError(f"color is the column {color!r}; colours by value are values={color!r}")
         looks = Looks("", "", sized, color, valued, scale, legend, size_legend)
         middle = as_lonlat(view, "view")
+        look, entries = looks.dots(len(table))
+        self._entries: dict[str, dict[str, LegendEntry]] = {"places": entries, "layers": {}}
         super().__init__(
             sites=_bytes(table.lonlat),
             names=["" if name is None or name != name else str(name) for name in labels],
-            look=looks.dots(len(table))[0],
+            look={**look, "legend": self._legend()},
             lens={"focus": middle if focus is None else focus, "magnification": magnification},
             view={"lon": middle[0], "lat": middle[1], "roll": 0.0},
             **({} if layout is None else {"layout": layout}),
@@ -170,7 +174,8 @@ class GlobeWidget(anywidget.AnyWidget):
         """
         layers, entries = layers_of(source, color, column, scale, legend)
         with self.hold_sync():
-            self.look = self.look | {"legend": [*self.look.get("legend", ()), *entries]}
+            self._entries["layers"] |= entries
+            self.look = self.look | {"legend": self._legend()}
             self.layers = [*self.layers, *layers]
 
     @property
@@ -208,7 +213,11 @@ class GlobeWidget(anywidget.AnyWidget):
         if self.names and len(self.names) != count:
             self.names = []
         if "ink" in self.look and len(self.look["ink"]) != count:
-            self.look = {}
+            self._entries["places"] = {}
+            self.look = {"legend": self._legend()}
+
+    def _legend(self) -> str:
+        return legend_of(self._entries["places"] | self._entries["layers"])
 
     @traitlets.default("_esm")
     def _script(self) -> str:

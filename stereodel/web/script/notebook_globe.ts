@@ -3,12 +3,11 @@
 import { make, plain, say } from "./dom.ts";
 import { arcLayer, lineArcs, regionLayer, spotLayer, type Layer } from "./drawing/ball.ts";
 import type { IsOn } from "./drawing/parts.ts";
-import { Plate, type Reason } from "./drawing/plate.ts";
+import type { Reason } from "./drawing/plate.ts";
 import { lonlatToXyz } from "./kernel/api.ts";
 import { FisheyeGlobe, type GlobeHost } from "./rooms/globe_plates.ts";
 import type { GlobeScene } from "./rooms/globe_scene.ts";
 import { BEGINNING, sightWords, type GlobeState } from "./rooms/globe_state.ts";
-import { legendBlock, legendWords } from "./rooms/legend.ts";
 import { placeSentence, type Owner } from "./rooms/owner.ts";
 import { directionOf, lonLatOf } from "./space.ts";
 import { isCommand } from "./view/hand.ts";
@@ -70,9 +69,8 @@ export class NotebookGlobe implements GlobeHost {
     ariaDescription: `${HINT} Keys: ${KEYS}, 0 takes the lens off`,
   });
   readonly #status = make("p", { role: "status" });
-  readonly #key = make("canvas", { className: "legend", role: "img" });
+  readonly #legend = make("div", "legend");
   readonly #globe: FisheyeGlobe;
-  readonly #legend: Plate;
   readonly #changed: Changed;
   readonly #themes: MutationObserver; // notebooks change colours by attributes of the body
   #state = BEGINNING;
@@ -81,14 +79,10 @@ export class NotebookGlobe implements GlobeHost {
 
   constructor(element: HTMLElement, scene: GlobeScene, changed: Changed) {
     [this.scene, this.#changed] = [scene, changed];
-    this.place.append(this.#canvas, this.#status, this.#key, make("p", "hint", HINT));
+    this.place.append(this.#canvas, this.#status, this.#legend, make("p", "hint", HINT));
     element.append(this.place);
     this.#globe = new FisheyeGlobe(this.#canvas, this);
-    const paint: ConstructorParameters<typeof Plate>[1] = (pen) => legendBlock(this.#entries, 0).draw(pen, 0, 0);
-    this.#legend = new Plate(this.#key, paint, undefined, this.place);
-    this.#themes = new MutationObserver(() =>
-      [this.#globe.plate, this.#legend].forEach((each) => each.redraw("colours")),
-    );
+    this.#themes = new MutationObserver(() => this.#globe.plate.redraw("colours"));
     this.#themes.observe(document.body, { attributes: true });
     this.#canvas.addEventListener("pointerdown", (event) => {
       event.preventDefault(); // the notebook would take the focus
@@ -108,26 +102,29 @@ export class NotebookGlobe implements GlobeHost {
       const count = lonlat.length / 2;
       this.#look = look.ink === undefined || look.ink.length === count ? look : {};
       const owner = { title: "", source: "", ...this.#look };
-      this.scene.show({ name: "", lonlat, names: names.length === count ? names : null, owner });
+      this.scene.show({
+        name: "",
+        lonlat,
+        names: names.length === count ? names : null,
+        values: new Map(look.columns),
+        owner,
+      });
     }
     if (isNew("layers")) this.scene.layers = layers.map(layerOf);
-    [this.#shown, this.scene.selected] = [shown, selection];
     const sight = {
       lens: { ...lens, focus: directionOf(...lens.focus) },
       view: View.above(view.lon, view.lat, view.roll),
     };
     this.#state = { ...this.#state, sight };
-    this.#key.hidden = this.#entries.length === 0;
-    this.#key.ariaLabel = legendWords(this.#entries);
-    this.#key.style.height = `${legendBlock(this.#entries, 0).height}px`;
-    this.#legend.redraw("state");
+    if (isNew("look")) this.#legend.innerHTML = look.legend ?? ""; // of the script's own side
+    [this.#shown, this.scene.selected] = [shown, selection];
     this.#update("state");
   }
 
   dispose(): void {
     this.#globe.motion.stop();
     this.#themes.disconnect();
-    for (const plate of [this.#globe.plate, this.#legend]) plate.dispose();
+    this.#globe.plate.dispose();
     this.place.remove();
   }
 
@@ -151,8 +148,7 @@ export class NotebookGlobe implements GlobeHost {
     return this.#state.sight.lens.magnification === 1;
   }
 
-  readonly isOn: IsOn = (layer) =>
-    layer !== "tissot" && layer !== "fills" && (layer !== "cells" || !this.#look.columns);
+  readonly isOn: IsOn = (layer) => layer !== "tissot" && layer !== "fills" && (layer !== "cells" || !this.#look.inks);
 
   /** What a hand has changed is shown as it is told, to the last digit. */
   set(change: Partial<GlobeState>, reason: Reason): void {
@@ -194,10 +190,6 @@ export class NotebookGlobe implements GlobeHost {
     const act = isCommand(event) ? undefined : acts[event.key];
     act?.();
     return act !== undefined;
-  }
-
-  get #entries(): NonNullable<Owner["legend"]> {
-    return this.#look.legend ?? [];
   }
 
   #select(selection: readonly number[]): void {

@@ -20,8 +20,8 @@ export interface Disc {
   readonly r: number;
 }
 
-/** A picture that is laid into the drawing. */
-export type Picture = HTMLCanvasElement | OffscreenCanvas;
+/** A picture that is laid into the drawing; an image is one of SVG with its text in its address. */
+export type Picture = HTMLCanvasElement | OffscreenCanvas | HTMLImageElement;
 
 /** Where the light falls on a ball of radius 1, as on those of the library (`stereodel/render/vector/paper.py`): the
  * focus of the gradient, middle and radius of its last circle, y down; and how much of its fall lies before some places. */

@@ -48,8 +48,6 @@ export const STYLES = {
   tissot: { fill: "tissot", stroke: "coast", width: 0.6 },
   tint: { fill: "paper", stroke: "paper", width: 0.6 },
   line: { stroke: "ink", width: 1.2 },
-  swatch: { fill: "paper" },
-  tick: { stroke: "ink-2", width: 0.7 },
   "isoline-halo": { stroke: "halo", width: 2.4 },
   isoline: { stroke: "ink", width: 0.8 },
   "spot-line": { stroke: "limb", width: 0.6 },
