@@ -10,8 +10,8 @@ import type { GlobeScene } from "./rooms/globe_scene.ts";
 import { BEGINNING, sightWords, type GlobeState } from "./rooms/globe_state.ts";
 import { placeSentence, type Owner } from "./rooms/owner.ts";
 import { directionOf, lonLatOf } from "./space.ts";
-import { isCommand } from "./view/hand.ts";
-import { lensMap, imageOf, type Sight } from "./view/lens.ts";
+import { isCommand, type Gestures } from "./view/hand.ts";
+import { imageOf, lensMap, MOST, type Sight } from "./view/lens.ts";
 import { View } from "./view/view.ts";
 import { counted } from "./words.ts";
 
@@ -52,6 +52,32 @@ const POINT = 3;
 const KEYS = "arrows turn, + and − magnify, F sets the focus, comma and full stop walk the sites, Enter selects";
 const HINT = "Drag to turn; after a click the wheel magnifies; a double click sets the focus.";
 
+/** The globe whose places can be selected. */
+class SelectingGlobe extends FisheyeGlobe {
+  declare protected readonly room: NotebookGlobe;
+
+  /** That of the page, or what Python asks for beyond it. */
+  override get most(): number {
+    return Math.max(MOST, this.sight.lens.magnification);
+  }
+
+  protected override gestures(): Gestures {
+    const { click, doubleClick, key, ...others } = super.gestures();
+    return {
+      ...others,
+      click: (at, reach) => {
+        click?.(at, reach);
+        this.room.press();
+      },
+      doubleClick: (at, reach) => {
+        this.room.press(); // back to what it was before the first of the two
+        doubleClick?.(at, reach);
+      },
+      key: (event) => this.room.key(event) || key?.(event) === true,
+    };
+  }
+}
+
 export class NotebookGlobe implements GlobeHost {
   readonly scene: GlobeScene;
   readonly place = make("div", "stereodel-globe");
@@ -70,7 +96,7 @@ export class NotebookGlobe implements GlobeHost {
   });
   readonly #status = make("p", { role: "status" });
   readonly #legend = make("div", "legend");
-  readonly #globe: FisheyeGlobe;
+  readonly #globe: SelectingGlobe;
   readonly #changed: Changed;
   readonly #themes: MutationObserver; // notebooks change colours by attributes of the body
   #state = BEGINNING;
@@ -81,7 +107,7 @@ export class NotebookGlobe implements GlobeHost {
     [this.scene, this.#changed] = [scene, changed];
     this.place.append(this.#canvas, this.#status, this.#legend, make("p", "hint", HINT));
     element.append(this.place);
-    this.#globe = new FisheyeGlobe(this.#canvas, this);
+    this.#globe = new SelectingGlobe(this.#canvas, this);
     this.#themes = new MutationObserver(() => this.#globe.plate.redraw("colours"));
     this.#themes.observe(document.body, { attributes: true });
     this.#canvas.addEventListener("pointerdown", (event) => {

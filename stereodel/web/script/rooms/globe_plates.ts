@@ -44,10 +44,6 @@ export interface GlobeHost {
   set(change: Partial<GlobeState>, reason: Reason, isStep?: boolean): void;
   /** The pointer is on a place, or on none. */
   hover(place: number | null): void;
-  /** The place that the pointer is on was clicked, if it is on one. */
-  press?(): void;
-  /** A key; whether it was one of the host's own. */
-  key?(event: KeyboardEvent): boolean;
 }
 
 /** What the globes have in common: what is drawn of the Earth, the circle at the pointer, the hand. */
@@ -150,9 +146,8 @@ abstract class GlobePlate implements Turnable {
 
 /** The large globe through the fisheye: turned, magnified and focused by hand. */
 export class FisheyeGlobe extends GlobePlate implements Magnifiable {
-  /** That of the page, or what was asked for beyond it. */
   get most(): number {
-    return Math.max(lenses.MOST, this.sight.lens.magnification);
+    return lenses.MOST;
   }
 
   /** Over places of the reader's own, nothing before anybody has pointed. */
@@ -198,7 +193,6 @@ export class FisheyeGlobe extends GlobePlate implements Magnifiable {
   }
 
   protected override get taken(): Box[] {
-    if (this.room.isFramed) return [];
     const { x, y, isRight, words, style } = this.#focus;
     const width = widthOf(words, style) + 11;
     return [[x - (isRight ? 7 : width), y - 20, x + (isRight ? width : 7), y + 7]];
@@ -216,15 +210,12 @@ export class FisheyeGlobe extends GlobePlate implements Magnifiable {
       click: (at) => {
         this.motion.stop();
         this.point(at);
-        this.room.press?.();
       },
       doubleClick: (at) => {
-        this.room.press?.(); // back to what it was before the first of the two
         if (this.isOnBall(at)) this.fly(this.#focusedAt(this.under(at)));
       },
       ...lensGestures(this, this.motion),
       key: (event) => {
-        if (this.room.key?.(event)) return true;
         const view = arrowed(this, event);
         const sight = view === null ? this.#keyed(event.key) : { ...this.sight, view };
         if (sight === null || isCommand(event)) return false;
@@ -240,8 +231,8 @@ export class FisheyeGlobe extends GlobePlate implements Magnifiable {
 
   #take(at: Place, reach: number): Hold | null {
     const { lens, view } = this.sight;
-    const away = this.room.isFramed ? Infinity : distance(at, placeOf(this.disc, view.seen(lens.focus)));
-    if (away > reach) return grabBall(this, this.motion, at);
+    const away = distance(at, placeOf(this.disc, view.seen(lens.focus)));
+    if (this.room.isFramed || away > reach) return grabBall(this, this.motion, at);
     this.motion.stop();
     // The fisheye leaves its focus where it is: the ring is at the pointer where the view stays as it is.
     return { move: (to) => this.change({ sight: { lens: { ...lens, focus: view.onBall(this.under(to)) }, view } }) };

@@ -139,8 +139,8 @@ export class GlobeScene {
   /** What is drawn of the places that are lit or selected. */
   get held(): Layer | null {
     const { places, lit, selected } = this;
-    const held = lit === null ? selected : [...selected, lit];
-    if (places === null || held.length === 0) return null;
+    if (places === null) return null;
+    const held = [...selected, lit ?? []].flat();
     const lonlat = held.flatMap((k) => [...places.lonlat.subarray(2 * k, 2 * k + 2)]);
     return balls.dotLayer("held", lonlatToXyz(Float64Array.from(lonlat)));
   }
