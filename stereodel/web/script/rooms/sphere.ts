@@ -1,6 +1,6 @@
 /** The Sphere room: sites on a ball, and in the plane that they are projected to (Theorem 1, and the insertion). */
 
-import type { Given } from "../contents.ts";
+import type { Places } from "./globe_scene.ts";
 import { find, plain, say } from "../dom.ts";
 import { placeOf } from "../drawing/ball.ts";
 import type { Named } from "../drawing/names.ts";
@@ -67,7 +67,7 @@ const MOST_STEPS_BACK = 100;
 const GAP = 32;
 
 /** @param stored Sets that the page carries. @param given The points that it was made for. */
-export function sphereRoom(host: RoomHost, stored: Stored, given: Given | null): Room {
+export function sphereRoom(host: RoomHost, stored: Stored, given: Places | null): Room {
   return new SphereRoom(host, sphereSets(stored, given), "lonlat");
 }
 
@@ -100,6 +100,7 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
   #middle: Point = [0, 0];
 
   // What follows from the state; made anew when it changes.
+  #mapped: (Pick<SphereState, "lens" | "view"> & { readonly map: MoebiusMap }) | null = null;
   #sites = new SphereSites(new Float64Array(0));
   #layers = ballLayers(this.#sites);
   readonly #standing: Named["standing"] = new Map();
@@ -156,7 +157,7 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
 
   /** The state goes on, as a link tells it. */
   #put(change: Partial<SphereState>): void {
-    this.#state = sphereFields(this.#sites.count).settle({ ...this.#state, ...change }, this.#state);
+    this.#state = sphereFields(this.#sites.count).settle({ ...this.#state, ...change });
   }
 
   get #held(): number | null {
@@ -320,7 +321,10 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
 
   /** Through the lens, to the axes of the view. */
   get #map(): MoebiusMap {
-    return sightMap(this.sight);
+    const { lens, view } = this.#state;
+    if (this.#mapped?.lens !== lens || this.#mapped.view !== view)
+      this.#mapped = { lens, view, map: sightMap(this.sight) };
+    return this.#mapped.map;
   }
 
   get #frame(): PlaneFrame {

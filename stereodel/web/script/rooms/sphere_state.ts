@@ -2,7 +2,8 @@
 
 import { direction, fields, flag, number, place, whole, word, type Fields, type Place } from "../fields.ts";
 import { lonlatToXyz } from "../kernel/api.ts";
-import { angle, DEGREE, directionOf, lonLatOf, row, unit, type Vector } from "../space.ts";
+import { directionOf, row, type Vector } from "../space.ts";
+import { fitted } from "../view/fit.ts";
 import type { Lens } from "../view/lens.ts";
 import { wrap } from "../words.ts";
 
@@ -57,20 +58,13 @@ export function sphereFields(count: number): Fields<SphereState> {
   });
 }
 
-/** Degrees within which sites are so close that the room begins with the lens on them, and how large they are then. */
-const CLOSE = 10;
-const WIDE = 60;
+/** The magnification from which on sites are so close together that the room begins with the lens on them. */
+const CLOSE = 6;
 
 /** How sites are seen that lie close together; nothing for others. */
 export function sightOf(lonlat: Float64Array): Pick<SphereState, "view" | "lens"> | null {
-  const sites = lonlatToXyz(lonlat);
-  const sum = [0, 1, 2].map((k) => sites.reduce((total, part, at) => total + (at % 3 === k ? part : 0), 0));
-  const focus = unit(sum as unknown as Vector);
-  let reach = 0;
-  for (let k = 0; k < sites.length / 3; ++k) reach = Math.max(reach, angle(focus, row(sites, k)));
-  if (!(reach > 0 && reach < CLOSE)) return null;
-  const magnification = Math.tan((WIDE / 2) * DEGREE) / Math.tan((reach / 2) * DEGREE);
-  return { view: lonLatOf(focus), lens: { focus, magnification } };
+  const sight = lonlat.length > 2 ? fitted(lonlat, MOST, FOCUS_DECIMALS) : null;
+  return sight !== null && sight.lens.magnification > CLOSE ? { ...sight, view: sight.view.middle } : null;
 }
 
 /** The direction of a place, as the kernel and Python have it. */

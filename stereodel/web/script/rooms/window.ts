@@ -28,7 +28,7 @@ export function roundOnBall({ x, y, r }: Disc, p: Float64Array, { delaunay }: Sp
     const [ux, uy, uz] = [p[b] - p[a], p[b + 1] - p[a + 1], p[b + 2] - p[a + 2]];
     const [vx, vy, vz] = [p[c] - p[a], p[c + 1] - p[a + 1], p[c + 2] - p[a + 2]];
     const [nx, ny, nz] = [uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx];
-    const size = Math.hypot(nx, ny, nz);
+    const size = Math.sqrt(nx * nx + ny * ny + nz * nz); // in a tenth of the time of hypot
     const cosine = (nx * p[a] + ny * p[a + 1] + nz * p[a + 2]) / size;
     if (!(cosine > 0)) return EVERYWHERE;
     const reach = Math.sqrt(2 - 2 * Math.min(1, cosine)); // from the middle of the cap to its rim
@@ -46,7 +46,7 @@ export function roundInPlane(places: Float64Array, seeing: Uint8Array, { delauna
     const [vx, vy] = [places[c] - places[a], places[c + 1] - places[a + 1]];
     const [u, v, twice] = [ux * ux + uy * uy, vx * vx + vy * vy, 2 * (ux * vy - uy * vx)];
     const [x, y] = [(vy * u - uy * v) / twice, (ux * v - vx * u) / twice];
-    const r = Math.hypot(x, y);
+    const r = Math.sqrt(x * x + y * y);
     return r < Infinity ? squareAbout(places[a] + x, places[a + 1] + y, r) : EVERYWHERE;
   };
 }
@@ -85,7 +85,7 @@ export function sitesIn(sites: SphereSites, [left, top, right, bottom]: Window, 
   const { simplices, dimension } = sites.delaunay;
   if (dimension < 2) return sites;
   const isIn = new Uint8Array(sites.count);
-  for (let facet = 0; facet < sites.facetCount; ++facet) {
+  for (let facet = 0; 3 * facet < simplices.length; ++facet) {
     const [x0, y0, x1, y1] = round(facet);
     if (x0 > right || x1 < left || y0 > bottom || y1 < top) continue;
     for (let k = 0; k < 3; ++k) isIn[simplices[3 * facet + k]] = 1;
