@@ -1,6 +1,6 @@
 /** `geoContour`: where values at sites of the sphere reach thresholds, by linear interpolation along the edges of triangles. */
 
-import { ListedDelaunay, placesOf, type Place } from "./d3.ts";
+import { ListedDelaunay, placesOf, setting, type Place, type Setting } from "./d3.ts";
 import { following } from "./topology.ts";
 
 /** Where values are at least `value`, and below `valueMax` if that is given; wound as d3-geo wants it. */
@@ -18,15 +18,11 @@ type Accessor<Datum> = (datum: Datum, index: number) => number;
 export interface Contours<Datum> {
   (data: readonly Datum[]): ContourPolygon[];
   /** Where a datum lies and what it is worth: by default its first three numbers. */
-  x(): Accessor<Datum>;
-  x(accessor: Accessor<Datum>): Contours<Datum>;
-  y(): Accessor<Datum>;
-  y(accessor: Accessor<Datum>): Contours<Datum>;
-  value(): Accessor<Datum>;
-  value(accessor: Accessor<Datum>): Contours<Datum>;
+  x: Setting<Accessor<Datum>, Contours<Datum>>;
+  y: Setting<Accessor<Datum>, Contours<Datum>>;
+  value: Setting<Accessor<Datum>, Contours<Datum>>;
   /** Thresholds, or about how many; round numbers, some ten, unless set. */
-  thresholds(): readonly number[] | number | undefined;
-  thresholds(thresholds: readonly number[] | number): Contours<Datum>;
+  thresholds: Setting<readonly number[] | number | undefined, Contours<Datum>>;
   /** One threshold after the other. */
   contours(data: readonly Datum[]): Generator<ContourPolygon>;
   contour(data: readonly Datum[], threshold: number): ContourPolygon;
@@ -37,21 +33,15 @@ export interface Contours<Datum> {
 /** Contours of values at places. */
 export function geoContour<Datum = [number, number, number]>(): Contours<Datum> {
   const number = (datum: Datum, axis: number): number => Number((datum as ArrayLike<number>)[axis]);
-  const given = {
-    x: ((datum) => number(datum, 0)) as Accessor<Datum>,
-    y: ((datum) => number(datum, 1)) as Accessor<Datum>,
-    value: ((datum) => (Number.isFinite(number(datum, 2)) ? number(datum, 2) : 0)) as Accessor<Datum>,
-    thresholds: undefined as readonly number[] | number | undefined,
-  };
 
   /** The rings of a threshold, and the thresholds. */
   function surface(data: readonly Datum[]): { rings: (threshold: number) => Place[][]; thresholds: readonly number[] } {
-    const values = data.map(given.value);
-    const wrong = values.findIndex((value) => !Number.isFinite(value));
+    const [x, y, value, thresholds] = [contours.x(), contours.y(), contours.value(), contours.thresholds()];
+    const values = data.map(value);
+    const wrong = values.findIndex((each) => !Number.isFinite(each));
     if (wrong >= 0)
       throw new RangeError(`the value of datum ${wrong} is ${values[wrong]}, which is not a finite number`);
-    const delaunay = new ListedDelaunay(Float64Array.from(data.flatMap((d, k) => [given.x(d, k), given.y(d, k)])));
-    const { thresholds } = given;
+    const delaunay = new ListedDelaunay(Float64Array.from(data.flatMap((d, k) => [x(d, k), y(d, k)])));
     return {
       rings: (threshold) => ringsAt(delaunay, values, threshold),
       thresholds: typeof thresholds === "object" ? thresholds : roundThresholds(values, thresholds ?? 10),
@@ -78,16 +68,11 @@ export function geoContour<Datum = [number, number, number]>(): Contours<Datum> 
       low = high;
     }
   };
-  const accessor = <Name extends keyof typeof given>(name: Name) =>
-    ((set?: (typeof given)[Name]) => {
-      if (set === undefined) return given[name];
-      given[name] = set;
-      return contours;
-    }) as Contours<Datum>[Name];
-  contours.x = accessor("x");
-  contours.y = accessor("y");
-  contours.value = accessor("value");
-  contours.thresholds = accessor("thresholds");
+  const by = (accessor: Accessor<Datum>) => setting(contours, accessor);
+  contours.x = by((datum) => number(datum, 0));
+  contours.y = by((datum) => number(datum, 1));
+  contours.value = by((datum) => (Number.isFinite(number(datum, 2)) ? number(datum, 2) : 0));
+  contours.thresholds = setting(contours, undefined as readonly number[] | number | undefined);
   return contours;
 }
 

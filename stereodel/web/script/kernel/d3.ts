@@ -16,26 +16,24 @@ export { geoContour, type ContourPolygon, type Contours } from "./contours.ts";
 /** Longitude and latitude in degrees. */
 export type Place = [number, number];
 
-interface Geometry {
-  type: string;
-  coordinates?: Place[][] | Place[];
-}
+type Geometry = { type: string; coordinates?: Place[][] | Place[] };
 
 /** What is drawn: an object of GeoJSON. */
-interface Feature<Properties> {
-  type: "Feature";
-  geometry: Geometry | null;
-  properties: Properties;
-}
+type Feature<Properties> = { type: "Feature"; geometry: Geometry | null; properties: Properties };
+type Collection<Properties> = { type: "FeatureCollection"; features: Feature<Properties>[] };
+type MultiLineString = { type: "MultiLineString"; coordinates: [Place, Place][] };
 
-interface Collection<Properties> {
-  type: "FeatureCollection";
-  features: Feature<Properties>[];
-}
+/** A method that says a value, or with an argument sets it. */
+export type Setting<Value, Owner> = { (): Value; (value: Value): Owner };
 
-interface MultiLineString {
-  type: "MultiLineString";
-  coordinates: [Place, Place][];
+/** @internal */
+export function setting<Value, Owner>(owner: Owner, value: Value): Setting<Value, Owner> {
+  const method = (given?: Value): Value | Owner => {
+    if (given === undefined) return value;
+    value = given;
+    return owner;
+  };
+  return method as Setting<Value, Owner>;
 }
 
 /** The exact triangulation, listed in the order of d3-geo-voronoi, and what d3-delaunay has of it besides. */
@@ -95,22 +93,7 @@ function theirTriangles(lonlat: Float64Array): Int32Array {
   const edge = 1e6 * Math.sqrt(most);
   for (const i of far) xy.set([edge, 0], 2 * i);
   xy.set([0, edge, -edge, 0, 0, -edge], 2 * count);
-  const { triangles, halfedges } = sweepHull(xy);
-  for (let e = 0; e < triangles.length; ++e) {
-    if (halfedges[e] >= 0) {
-      if (triangles[e] >= count) triangles[e] = 0;
-      continue;
-    }
-    // A side of the square: the triangle goes, and its neighbours become each other's.
-    const [one, other] = [following(e), preceding(e)];
-    const [a, b] = [halfedges[one], halfedges[other]];
-    if (a >= 0) halfedges[a] = b;
-    if (b >= 0) halfedges[b] = a;
-    halfedges[one] = halfedges[other] = -1;
-    triangles[e] = triangles[one] = triangles[other] = 0;
-    e += 2 - (e % 3);
-  }
-  return triangles;
+  return sweepHull(xy).triangles.map((site) => (site < count ? site : 0));
 }
 
 /** Triangulation and cells as indices of places and centers. */
@@ -288,13 +271,10 @@ function lunesOf(delaunay: ListedDelaunay): Cells {
   return { centers: placesOf(Float64Array.from(centers.flat())), neighbors, starts, ring };
 }
 
-function polygonsOf({ starts, ring }: Cells): GeoDelaunay["polygons"] {
-  const polygons: GeoDelaunay["polygons"] = [];
-  for (let k = 0; k + 1 < starts.length; ++k) {
-    const cell = Array.from(ring.subarray(starts[k], starts[k + 1]));
-    polygons.push(cell.length > 0 ? cell : undefined);
-  }
-  return polygons;
+function polygonsOf({ neighbors, starts, ring }: Cells): GeoDelaunay["polygons"] {
+  return neighbors.map((_, k) =>
+    starts[k] < starts[k + 1] ? [...ring.subarray(starts[k], starts[k + 1])] : undefined,
+  );
 }
 
 function meshOf(polygons: (number[] | undefined)[]): [number, number][] {
@@ -379,10 +359,8 @@ export interface GeoVoronoi<Datum> {
   valid: Datum[];
   delaunay: GeoDelaunay | null;
   /** Where a datum lies; by default its two first numbers, or a point of GeoJSON. */
-  x(): Accessor<Datum>;
-  x(accessor: Accessor<Datum>): GeoVoronoi<Datum>;
-  y(): Accessor<Datum>;
-  y(accessor: Accessor<Datum>): GeoVoronoi<Datum>;
+  x: Setting<Accessor<Datum>, GeoVoronoi<Datum>>;
+  y: Setting<Accessor<Datum>, GeoVoronoi<Datum>>;
   polygons(data?: GeoData<Datum>): Collection<OfSite<Datum>> | false;
   triangles(data?: GeoData<Datum>): Collection<{ circumcenter: Place }> | false;
   links(data?: GeoData<Datum>): Collection<{ source: Datum; target: Datum; length: number; urquhart: boolean }> | false;
@@ -396,11 +374,10 @@ export interface GeoVoronoi<Datum> {
 /** The Voronoi diagram of places, of GeoJSON features, or, with accessors, of anything. */
 export function geoVoronoi<Datum = Place>(data?: GeoData<Datum>): GeoVoronoi<Datum> {
   const [first, second]: Accessor<Datum>[] = [(datum) => placeOf(datum)[0], (datum) => placeOf(datum)[1]];
-  const at = [first, second];
 
   const diagram = ((given: GeoData<Datum>) => {
     const items = "features" in given ? given.features : given;
-    const [x, y] = at;
+    const [x, y] = [diagram.x(), diagram.y()];
     [diagram.points, diagram.valid] = [[], []];
     for (const datum of items) {
       const place: Place = x === first && y === second ? placeOf(datum) : [x(datum), y(datum)];
@@ -419,19 +396,13 @@ export function geoVoronoi<Datum = Place>(data?: GeoData<Datum>): GeoVoronoi<Dat
       if (given !== undefined) diagram(given);
       return diagram.delaunay !== null && make(diagram.delaunay);
     };
-  const accessor = (axis: 0 | 1): GeoVoronoi<Datum>["x"] =>
-    ((given?: Accessor<Datum>) => {
-      if (given === undefined) return at[axis];
-      at[axis] = given;
-      return diagram;
-    }) as GeoVoronoi<Datum>["x"];
   const mesh = (ends: [number, number][], places: Place[]): MultiLineString => {
     return { type: "MultiLineString", coordinates: ends.map(([i, j]) => [places[i], places[j]]) };
   };
   diagram.points = [];
   diagram.valid = [];
   diagram.delaunay = null;
-  [diagram.x, diagram.y] = [accessor(0), accessor(1)];
+  [diagram.x, diagram.y] = [setting(diagram, first), setting(diagram, second)];
 
   diagram.polygons = method(({ delaunay }) => {
     const { points, valid } = diagram;

@@ -11,13 +11,8 @@ import { following } from "./topology.ts";
 /** More points than these are listed as the kernel has them: to follow the other order would take as long as to triangulate. */
 export const MOST = 4096;
 
-/** Triangles, three points each, clockwise, and for each side, from its first point on, the same side of the next one or -1. */
-export interface Swept {
-  triangles: Int32Array;
-  halfedges: Int32Array;
-  /** With which point the list of the hull begins. */
-  start: number;
-}
+/** Triangles, three points each, clockwise, and with which point the list of the hull begins. */
+export type Swept = { triangles: Int32Array; start: number };
 
 /** Nearer ones are one point. */
 const SAME = 2 ** -52;
@@ -67,7 +62,7 @@ export function sweepHull(xy: Float64Array): Swept {
     const [x, y] = i === seed || i === second || second < 0 ? [Infinity, 0] : toCenter(seed, second, i);
     return x * x + y * y;
   });
-  if (third < 0) return { triangles: new Int32Array(0), halfedges: new Int32Array(0), start: -1 };
+  if (third < 0) return { triangles: new Int32Array(0), start: -1 };
   if (turn(seed, second, third) > 0) [second, third] = [third, second];
   const [dx, dy] = toCenter(seed, second, third);
   const [x0, y0] = [xy[2 * seed] + dx, xy[2 * seed + 1] + dy];
@@ -177,7 +172,7 @@ export function sweepHull(xy: Float64Array): Swept {
     buckets[bucket(i)] = i;
     buckets[bucket(e)] = e;
   }
-  return { triangles: triangles.subarray(0, used), halfedges: halfedges.subarray(0, used), start };
+  return { triangles: triangles.subarray(0, used), start };
 }
 
 /**
