@@ -177,8 +177,8 @@ function isLine(points: Float64Array, triangles: Uint32Array): boolean {
   return true;
 }
 
-/** A corner of a cell: a place, or with w = 0 instead of 1 a direction; and the site beyond the side that leaves it. */
-type Corner = [x: number, y: number, w: number, beyond: number];
+/** A corner of a cell, and the site beyond the side that leaves it; negative at the bounds. */
+type Corner = [x: number, y: number, beyond: number];
 
 /** The cells of sites, cut by bounds. */
 export class Voronoi {
@@ -210,7 +210,7 @@ export class Voronoi {
   render(context?: PathContext | null): Drawing {
     return drawn(context, (to) => {
       for (const i of this.delaunay.inedges.keys()) {
-        this.cell(i).forEach(([x, y, , beyond], k, ring) => {
+        this.cell(i).forEach(([x, y, beyond], k, ring) => {
           const next = ring[(k + 1) % ring.length];
           if (beyond > i) trace(to, [[x, y], next.slice(0, 2) as Place], false); // prettier-ignore
         });
@@ -249,7 +249,7 @@ export class Voronoi {
 
   /** The sites whose cells share a side with that of one within the bounds. */
   *neighbors(i: number): Generator<number> {
-    const beyond = new Set(this.cell(i).map((corner) => corner[3]));
+    const beyond = new Set(this.cell(i).map((corner) => corner[2]));
     for (const j of this.delaunay.neighbors(i)) if (beyond.has(j)) yield j;
   }
 
@@ -268,60 +268,42 @@ export class Voronoi {
 
   /** The cell of a site within the bounds, counterclockwise where y points up; nothing for duplicates. */
   private cell(i: number): Corner[] {
-    const { delaunay, circumcenters, vectors, xmin, ymin, xmax, ymax } = this;
-    const { triangles, halfedges, inedges } = delaunay;
-    if (triangles.length === 0) return this.strip(delaunay.line.get(i) ?? -1);
-    let ring: Corner[] = [];
-    const isOpen = halfedges[inedges[i]] < 0;
-    if (isOpen) ring.push([vectors[4 * i], vectors[4 * i + 1], 0, triangles[inedges[i]]]);
+    const { delaunay, circumcenters, xmin, ymin, xmax, ymax } = this;
+    const { triangles, halfedges, inedges, hull } = delaunay;
+    const at = delaunay.line.get(i);
+    const isOpen = at !== undefined || halfedges[inedges[i]] < 0;
     let isWithin = !isOpen;
-    for (const edge of delaunay.around(i)) {
+    const whole = delaunay.around(i).map((edge): Corner => {
       const k = 2 * Math.floor(edge / 3);
       const [x, y] = [circumcenters[k], circumcenters[k + 1]];
-      ring.push([x, y, 1, triangles[following(following(edge))]]);
       isWithin &&= x >= xmin && x <= xmax && y >= ymin && y <= ymax;
-    }
-    if (isWithin) return different(ring);
-    if (isOpen) {
-      const [a, b, c, d] = vectors.subarray(4 * i, 4 * i + 4);
-      ring.push([c, d, 0, -1], [a + c, b + d, 0, -1]);
-    }
-    [xmin, ymin, xmax, ymax].forEach((bound, side) => {
-      const [axis, sign] = [side % 2, side < 2 ? 1 : -1];
-      ring = cut(ring, [sign * (1 - axis), sign * axis, sign * bound], -1, (site) => {
-        // A border meets a bound where its sites say, not its ends, which may be far away.
-        const [p, q] = delaunay.places([i, site]);
-        const slope = (p[axis] - q[axis]) / (p[1 - axis] - q[1 - axis]);
-        return (p[1 - axis] + q[1 - axis]) / 2 + ((p[axis] + q[axis]) / 2 - bound) * slope;
-      });
+      return [x, y, triangles[following(following(edge))]];
     });
-    ring = different(ring);
-    // Corners of the bounds stand before the side that comes in.
-    const last = ring.map(([, , , beyond]) => beyond >= 0).lastIndexOf(true);
-    return isOpen && ring[0]?.[3] >= 0 ? begun(ring, last + 2) : ring;
-  }
-
-  /** The cell of the site at a place of a line: the bounds, cut by the borders towards those beside it. */
-  private strip(at: number): Corner[] {
-    const { xmin, ymin, xmax, ymax, delaunay } = this;
-    const { hull } = delaunay;
-    if (at < 0) return [];
-    let ring: Corner[] = [[xmin, ymax, 1, -1], [xmin, ymin, 1, -1], [xmax, ymin, 1, -1], [xmax, ymax, 1, -1]]; // prettier-ignore
-    for (const other of [at - 1, at + 1]) {
-      if (!(other in hull)) continue;
-      const [[x, y], [u, v]] = delaunay.places([hull[at], hull[other]]);
-      const [a, b] = [x - u, y - v];
-      ring = cut(ring, [a, b, a * (x - a / 2) + b * (y - b / 2)], hull[other]);
-    }
-    ring = different(ring);
-    // The border towards the middle of the line begins; at the ends what is behind it.
-    const inner = hull[2 * at < hull.length ? at + 1 : at - 1];
-    const border = ring.map(([, , , beyond]) => beyond).indexOf(inner);
-    return begun(ring, Math.max(0, border) + (at === 0 || at === hull.length - 1 ? 2 : 0));
+    if (at === undefined && whole.length === 0) return [];
+    if (isWithin) return different(whole);
+    // The bounds, cut by the borders, which meet one another in centres of circles.
+    const near = [...delaunay.neighbors(i)];
+    let ring: Corner[] = [[xmin, ymax, -1], [xmin, ymin, -1], [xmax, ymin, -1], [xmax, ymax, -1]]; // prettier-ignore
+    for (const other of near) ring = cut(ring, delaunay.places([i, other]), other);
+    const centers = new Map(whole.map((corner) => [corner[2], corner]));
+    ring = ring.map((corner, k) => (ring.at(k - 1)![2] >= 0 && centers.get(corner[2])) || corner);
+    // On a line the border towards the middle begins; at the ends what is behind it.
+    if (at !== undefined)
+      return begun(different(ring), [hull[2 * at < hull.length ? at + 1 : at - 1]], near.length < 2 ? 2 : 0);
+    ring = begun(ring, isOpen ? near : whole.map((corner) => corner[2]), 0);
+    const kept = different(ring);
+    // Corners of the bounds stand before the side that comes in, unless it only touches them.
+    const touches = ring[0]?.[2] === near[0] && kept[0]?.[2] !== near[0];
+    return isOpen && !touches ? begun(kept, near.reverse(), 2) : kept;
   }
 }
 
-const begun = (ring: Corner[], k: number): Corner[] => ring.map((_, at) => ring[(at + k) % ring.length]);
+/** A ring from its side on beyond which the first of sites lies that has one, or some sides later. */
+function begun(ring: Corner[], sites: number[], later: number): Corner[] {
+  const sides = ring.map((corner) => corner[2]);
+  const k = Math.max(0, sides.indexOf(sites.find((site) => sides.includes(site)) ?? NaN)) + later;
+  return ring.map((_, at) => ring[(at + k) % ring.length]);
+}
 
 /** A ring without repetitions; nothing of what is no more than a side. */
 function different(ring: Corner[]): Corner[] {
@@ -342,28 +324,25 @@ function outline(ring: Corner[]): Place[] {
   return places;
 }
 
-/** The part of a convex ring where ax + by is at least c, with the site beyond that border; `meet` as it says above. */
-function cut(ring: Corner[], [a, b, c]: number[], beyond: number, meet?: (site: number) => number): Corner[] {
-  const depths = ring.map(([x, y, w]) => a * x + b * y - c * w);
-  if (depths.every((depth) => depth >= 0)) return ring;
-  const left: Corner[] = [];
-  ring.forEach((corner, k) => {
+/** The part of a convex ring that is nearer to the first of two sites. */
+function cut(ring: Corner[], [[x, y], [u, v]]: Place[], beyond: number): Corner[] {
+  const normal = [x - u, y - v];
+  const c = normal[0] * (x - normal[0] / 2) + normal[1] * (y - normal[1] / 2);
+  const depths = ring.map((corner) => normal[0] * corner[0] + normal[1] * corner[1] - c);
+  return ring.flatMap((p, k): Corner[] => {
     const next = (k + 1) % ring.length;
-    const isInside = depths[k] >= 0;
-    if (isInside) left.push(corner);
-    if (isInside === depths[next] >= 0) return;
-    const [p, q] = [corner, ring[next]];
-    const [near, far] = [Math.abs(depths[next]), Math.abs(depths[k])];
-    const w = p[2] * near + q[2] * far;
+    const [q, isInside] = [ring[next], depths[k] > 0];
+    if (isInside === depths[next] > 0) return isInside ? [p] : [];
     const between = (axis: 0 | 1): number => {
-      if (w === 0) return p[axis] * near + q[axis] * far;
-      const met = corner[3] < 0 ? NaN : (meet?.(corner[3]) ?? NaN);
-      const value = Number.isFinite(met) ? met : (p[axis] * near + q[axis] * far) / w;
-      const isPart = p[2] > 0 && q[2] > 0;
-      return isPart ? Math.max(Math.min(p[axis], q[axis]), Math.min(Math.max(p[axis], q[axis]), value)) : value;
+      const other = axis === 0 ? 1 : 0;
+      // On the bounds by the sites alone.
+      const isAlong = p[other] === q[other];
+      const met = isAlong
+        ? (c - normal[other] * p[other]) / normal[axis]
+        : p[axis] + (depths[k] / (depths[k] - depths[next])) * (q[axis] - p[axis]);
+      return Math.max(Math.min(p[axis], q[axis]), Math.min(Math.max(p[axis], q[axis]), met));
     };
-    const [x, y] = [w > 0 && b === 0 ? c / a : between(0), w > 0 && a === 0 ? c / b : between(1)];
-    left.push([x, y, Math.sign(w), isInside ? beyond : corner[3]]);
+    const met: Corner = [between(0), between(1), isInside ? beyond : p[2]];
+    return isInside ? [p, met] : [met];
   });
-  return left;
 }
