@@ -13,7 +13,7 @@ from tests.web.conftest import LOADED, SCRIPT
 
 KERNEL = f"""{LOADED}
 import * as api from "{SCRIPT}/kernel/api.ts";
-import {{ kernel, unsigned, Kept, KEPT_BYTES }} from "{SCRIPT}/kernel/instance.ts";
+import {{ run, unsigned, Kept, KEPT_BYTES }} from "{SCRIPT}/kernel/instance.ts";
 const refused = (call) => {{
   try {{ call(); return null; }} catch (error) {{ return [error.name, error.message]; }}
 }};
@@ -80,13 +80,13 @@ def test_a_failure_drops_the_instance_and_nothing_else(fresh_node):
     first, errors, before, after, answer, again = fresh_node(
         f"{KERNEL} const points = Float64Array.from({{ length: 3000 }}, (_, k) => Math.sin(k * k + 1));"
         "const made = new api.SphericalDelaunay(points); const answer = made.nearest([1, 2, 3])[0];"
-        "const before = kernel().memoryBytes; const errors = new Set(); let first = null;"
+        "const before = run((session) => session.memory.buffer.byteLength); const errors = new Set(); let first = null;"
         "for (let k = 0; k < 100; ++k) {"
-        "  const failure = refused(() => kernel().run((session) => session.call('allocate', 2 ** 32 - 2 ** 16)));"
+        "  const failure = refused(() => run((session) => session.call('allocate', 2 ** 32 - 2 ** 16)));"
         "  first ??= failure; errors.add(failure.join(': ')); new api.PlanarDelaunay([0, 0, 1, 0, 0, 1]);"
         "}"
         "const again = made.nearest([1, 2, 3])[0];"
-        "export default [first, errors.size, before, kernel().memoryBytes, answer, again];"
+        "export default [first, errors.size, before, run((session) => session.memory.buffer.byteLength), answer, again];"
     )
     assert first == ["KernelError", "out of memory: the kernel has 4 GiB at most; give fewer points"]
     assert errors == 1
@@ -97,7 +97,7 @@ def test_a_failure_drops_the_instance_and_nothing_else(fresh_node):
 def test_an_error_of_the_kernel_comes_with_its_message(node):
     """Checks come first, so it takes a call around them; the message is that of the C++ exception."""
     name, message = node(
-        f"{KERNEL} export default refused(() => kernel().run((session) => {{"
+        f"{KERNEL} export default refused(() => run((session) => {{"
         "  const out = session.place(1);"
         "  session.call('plane_turn', Float64Array.of(NaN, 0), 1, Float64Array.of(0, 0), 1,"
         "Float64Array.of(1, 0), 1, out);"
@@ -114,10 +114,10 @@ def test_addresses_above_two_gigabytes(fresh_node):
         "const all = () => { const made = new api.SphericalDelaunay(points);"
         "const cells = new api.SphericalVoronoi(made);"
         "  return [made.simplices, made.nearest([1, 2, 3], 9), cells.areas(), cells.ridgePoints].map(String).join(); };"
-        "const before = all(); kernel().instance = null;"
-        "for (let k = 0; k < 5; ++k) kernel().run((session) => session.call('allocate', 2 ** 29 - 2 ** 16));"
+        "const before = all(); refused(() => run(() => { throw Error(); }));"
+        "for (let k = 0; k < 5; ++k) run((session) => session.call('allocate', 2 ** 29 - 2 ** 16));"
         "const equal = all() === before;"
-        "const place = kernel().run((session) => session.place(8e6));"
+        "const place = run((session) => session.place(8e6));"
         "export default [[-1, -(2 ** 31), 5].map(unsigned), equal, place];"
     )
     assert numbers == [2**32 - 1, 2**31, 5]
@@ -130,10 +130,10 @@ def test_arrays_that_stay_are_given_back(fresh_node):
     """What may stay in the module is bounded: the array that was not used for longest goes first."""
     grown, bound = fresh_node(
         f"{KERNEL} const array = () => new Float64Array(2 ** 20);"
-        "kernel().run((session) => session.call('xyz_to_lonlat', new Kept(array()), 0, 0));"
+        "run((session) => session.call('xyz_to_lonlat', new Kept(array()), 0, 0));"
         "for (let k = 0; k < 100;"
-        "++k) kernel().run((session) => session.call('xyz_to_lonlat', new Kept(array()), 0, 0));"
-        "export default [kernel().memoryBytes, KEPT_BYTES];"
+        "++k) run((session) => session.call('xyz_to_lonlat', new Kept(array()), 0, 0));"
+        "export default [run((session) => session.memory.buffer.byteLength), KEPT_BYTES];"
     )
     assert bound < grown < 2.2 * bound  # memory is given out in powers of two
 
