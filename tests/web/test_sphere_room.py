@@ -91,7 +91,7 @@ def test_bubbles_and_their_images_are_circles_of_the_library(node, lonlat):
 def test_a_circle_through_the_pole_becomes_a_line(node):
     """The image of a point of the circle opposite the pole lies on it."""
     line = ask(node, "new Twin([0, 0, 1]).circle([0.6, 0, 0.8], 0.8)")
-    assert line["kind"] == "line"
+    assert line["isLine"]
     image = Stereographic((0.0, -90.0)).forward([0.96, 0, 0.28])
     assert np.dot(line["normal"], image) == pytest.approx(line["offset"]) != 0
 
@@ -125,8 +125,8 @@ def test_inserting_into_squares_keeps_a_triangulation(node):
 
 def test_without_facets_nothing_sees_a_site(node):
     circle = [[lon, 0] for lon in (0, 20, 50, 90, 200)]
-    expression = "[sitesOf(given).insertion(4), sitesOf([]).facetAt([1, 0, 0]), sitesOf(given).facetCount]"
-    assert ask(node, expression, circle) == [None, None, 0]
+    expression = "[sitesOf(given).insertion(4).seeing, sitesOf([]).facetAt([1, 0, 0]), sitesOf(given).facetCount]"
+    assert ask(node, expression, circle) == [[], None, 0]
 
 
 def test_sets_are_places_of_the_sphere_with_facets(node):

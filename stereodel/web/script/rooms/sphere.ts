@@ -10,7 +10,6 @@ import { Plate, type Reason } from "../drawing/plate.ts";
 import type { Exchange } from "../exchange.ts";
 import type { Place } from "../fields.ts";
 import type { MoebiusMap } from "../kernel/api.ts";
-import { lazy } from "../kernel/lazy.ts";
 import type { LinkValues } from "../link.ts";
 import type { Room, RoomHost } from "../room.ts";
 import { sphereSets, type Stored } from "../sets.ts";
@@ -24,7 +23,7 @@ import { counted, latitude, longitude, ofFacets, wrap } from "../words.ts";
 import { Choice, PlaceFields, siteForm, stepControl } from "./controls.ts";
 import { edited, SiteRoom, type NamedSites } from "./site_room.ts";
 import { ballDrawing, ballLayers, drawMoved, planeDrawing, poleSeen, sphereParts } from "./sphere_drawing.ts";
-import type { Drawing, Ground, SphereScene, Step } from "./sphere_drawing.ts";
+import type { Drawing, Ground, SphereScene } from "./sphere_drawing.ts";
 import {
   ofBubble,
   ofDuplicates,
@@ -35,6 +34,7 @@ import {
   SphereSites,
   withoutTriangles,
   type Bubble,
+  type Insertion,
 } from "./sphere_sites.ts";
 import {
   BEGINNING,
@@ -100,13 +100,12 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
   #middle: Point = [0, 0];
 
   // What follows from the state; made anew when it changes.
-  #mapped: (Pick<SphereState, "lens" | "view"> & { readonly map: MoebiusMap }) | null = null;
   #sites = new SphereSites(new Float64Array(0));
   #layers = ballLayers(this.#sites);
   readonly #standing: Named["standing"] = new Map();
   #twin = new Twin([0, 0, 1]);
   #seeing: Uint8Array = new Uint8Array(0);
-  #step: Step | "done" = "done";
+  #step: Insertion | null = null;
   #bubble: Bubble | null = null;
 
   override attach(section: HTMLElement): void {
@@ -136,12 +135,12 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
     let ground: Ground;
     const paint = (pen: Pen, isMoving: boolean): void => {
       const scene = this.#scene(isMoving);
-      ground = lazy<Ground>({ sites: () => scene.sites, round: () => drawing().round(scene), inks: () => pen.inks });
+      ground = { scene, inks: pen.inks };
       drawing().draw(pen, scene, "ground");
     };
     const over = (pen: Pen, isMoving: boolean): void => {
       const scene = this.#scene(isMoving);
-      if (ground.sites !== scene.sites) drawMoved(pen, drawing(), scene, ground, this.#held!);
+      if (ground.scene.sites !== scene.sites) drawMoved(pen, drawing(), scene, ground, this.#held!);
       drawing().draw(pen, scene, "over");
     };
     const canvas = find<HTMLCanvasElement>(this.section, `#sphere-${which}`);
@@ -235,7 +234,7 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
   /** Everything that is said and drawn, after the state has changed. */
   #update(reason: Reason = "state"): void {
     this.#bubble = this.#findBubble();
-    this.#step = this.#findStep();
+    this.#step = this.#state.step === null ? null : this.#sites.insertion(this.#state.step - 1);
     this.#say();
     this.redraw(reason);
   }
@@ -244,15 +243,6 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
     if (!this.switches.isOn("bubble") || this.#state.step !== null) return null;
     const facet = this.#sites.facetAt(this.#state.aim);
     return facet === null ? null : this.#sites.bubble(facet);
-  }
-
-  #findStep(): Step | "done" {
-    if (this.#state.step === null) return "done";
-    const site = this.#state.step - 1;
-    const insertion = this.#sites.insertion(site);
-    const seeing = (facets: Int32Array | undefined): Uint8Array =>
-      facets === undefined ? new Uint8Array(0) : this.#sites.seeing(this.#twin.pole, facets);
-    return { site, insertion, beforeSeeing: seeing(insertion?.before), fanSeeing: seeing(insertion?.fan) };
   }
 
   #scene(isMoving: boolean): SphereScene {
@@ -276,15 +266,15 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
     const [sites, step, held] = [this.#sites, this.#step, this.#held];
     const alone = withoutTriangles(sites);
     const ofAll = alone ?? (this.#bubble === null ? POINT : ofBubble(this.#bubble, sites, this.#twin));
-    const words = step === "done" ? [ofAll, ofDuplicates(sites)] : [ofStep(step.insertion, step.site)];
+    const words = step === null ? [ofAll, ofDuplicates(sites)] : [ofStep(step)];
     say(this.out("sentence"), words.filter(Boolean).join(" "));
     say(this.out("sum"), alone === null ? ofFacets(sites.facetCount - this.#seeingCount, this.#seeingCount, SUM) : "");
-    this.out("sum").hidden = step !== "done" || alone !== null;
-    const isDrawn = (layer: Switch): boolean => alone === null && step === "done" && this.isOn(layer);
-    const steps = step !== "done" && step.insertion !== null;
+    this.out("sum").hidden = step !== null || alone !== null;
+    const isDrawn = (layer: Switch): boolean => alone === null && step === null && this.isOn(layer);
+    const steps = step !== null && step.before.length > 0;
     const [onBall, inPlane] = ofPictures({
       triangles: steps || isDrawn("triangles"),
-      cells: isDrawn("cells") || (sites.delaunay.dimension === 1 && step === "done" && this.isOn("cells")),
+      cells: isDrawn("cells") || (sites.delaunay.dimension === 1 && step === null && this.isOn("cells")),
       seeing: isDrawn("seeing") && this.#seeingCount > 0,
       steps,
     });
@@ -321,10 +311,7 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
 
   /** Through the lens, to the axes of the view. */
   get #map(): MoebiusMap {
-    const { lens, view } = this.#state;
-    if (this.#mapped?.lens !== lens || this.#mapped.view !== view)
-      this.#mapped = { lens, view, map: sightMap(this.sight) };
-    return this.#mapped.map;
+    return sightMap(this.sight);
   }
 
   get #frame(): PlaneFrame {
@@ -543,7 +530,7 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
 
   #setStep(step: number | null): void {
     this.#set({ step }, null);
-    if (this.#step !== "done") this.host.announcer.say(ofStep(this.#step.insertion, this.#step.site));
+    if (this.#step !== null) this.host.announcer.say(ofStep(this.#step));
   }
 
   // Keys

@@ -48,11 +48,12 @@ export class Twin {
    */
   circle(center: Vector, cosine: number) {
     const along = dot(center, this.#south);
-    const across: [number, number] = [dot(center, this.#east), dot(center, this.#north)];
-    const lead = cosine + along;
-    if (Math.abs(lead) < THROUGH_POLE) return { kind: "line" as const, normal: across, offset: cosine - along };
+    const across: Point = [dot(center, this.#east), dot(center, this.#north)];
+    const lead = cosine + along || THROUGH_POLE / 2; // no division by 0
     return {
-      kind: "circle" as const,
+      isLine: Math.abs(lead) < THROUGH_POLE, // of points X with normal·X = offset
+      normal: across,
+      offset: cosine - along,
       middle: [(2 * across[0]) / lead, (2 * across[1]) / lead] as Point,
       radius: (2 * Math.sqrt(Math.max(0, 1 - cosine * cosine))) / Math.abs(lead),
       holdsPole: lead < 0,
