@@ -82,7 +82,7 @@ export function liftPython(scene: LiftScene, picture: LiftPicture, origin: Origi
     area: sites.rectangle.width > 0 && sites.rectangle.height > 0,
     letters: p !== undefined,
     pair: q !== undefined && p !== q,
-    pole: picture.seenPole(height) !== null,
+    pole: picture.seenPole !== null,
   };
   const values = {
     points: coordinates(

@@ -46,7 +46,7 @@ import {
   type Click,
   type SphereState,
 } from "./sphere_state.ts";
-import { planeFrame, reachAround, Twin, type PlaneFrame } from "./twin.ts";
+import { planeFrame, reachAround, Twin, type Around, type PlaneFrame } from "./twin.ts";
 
 /** Sites from which on cells are left out while something moves. */
 const MANY = 3_000;
@@ -59,9 +59,6 @@ const SUM = ["on the sphere", "in the plane", "\u00a0*P*"] as const;
 
 /** Pixels within which a site is caught to be moved: nearer than a handle, so that the ball can be turned between sites. */
 const REACH_OF_SITES = 8;
-
-/** Changes by hand that can be undone. */
-const MOST_STEPS_BACK = 100;
 
 /** Between the pictures of a file, px. */
 const GAP = 32;
@@ -82,7 +79,7 @@ interface Picture {
 }
 
 class SphereRoom extends SiteRoom implements Room, Magnifiable {
-  /** Sites as they were before the last changes by hand. */
+  /** Sites as they were before the changes by hand. */
   #history: NamedSites[] = [];
   readonly #motion = new Motion();
   readonly isNorthUp = true;
@@ -96,8 +93,7 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
   #viewFields!: PlaceFields;
 
   #state = BEGINNING;
-  #reach = 1;
-  #middle: Point = [0, 0];
+  #around: Around = { reach: 1, middle: [0, 0], outside: 0 };
 
   // What follows from the state; made anew when it changes.
   #sites = new SphereSites(new Float64Array(0));
@@ -114,7 +110,7 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
     this.#ball = this.#plate("ball", () => ballDrawing(this.disc));
     this.#plane = this.#plate("plane", () => planeDrawing(this.#frame));
     this.#poleFields = new PlaceFields(section, "pole", (place) => guarded(() => this.#movePole(place)));
-    this.#viewFields = new PlaceFields(section, "view", (place) => guarded(() => this.#turn(place)));
+    this.#viewFields = new PlaceFields(section, "view", (place) => guarded(() => this.turn(View.above(...place))));
     this.#click = new Choice(section, "click", () => this.host.changed());
     this.#showStep = stepControl(section, (count) => guarded(() => this.#setStep(count)));
     this.#showSite = siteForm(section, {
@@ -198,26 +194,20 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
     find(this.section, "[data-show=closing]").hidden = !sites.hasClosing;
     const label = `Sphere with ${counted(sites.count)} ${sites.count === 1 ? "site" : "sites"}`;
     this.#ball.canvas.setAttribute("aria-label", label);
-    this.#project();
-    if (reason === "state") this.#rescale();
+    this.#project(reason === "state");
     this.#update(reason);
   }
 
-  /** The pole has moved, or the sites. */
-  #project(): void {
+  /** The pole has moved, or the sites. The frame of the plane holds nearly all of these; it changes when the hand rests. */
+  #project(rests: boolean): void {
     const pole = directionAt(this.#state.pole);
     this.#twin = new Twin(pole);
     this.#seeing = this.#sites.seeing(pole);
-  }
-
-  /** The frame of the plane holds nearly all sites; it changes only when the hand rests. */
-  #rescale(): void {
-    const { reach, middle, outside } = reachAround(this.#sites, this.#twin);
-    [this.#reach, this.#middle] = [reach, middle];
-    this.out("outside").textContent =
-      outside === 0
-        ? ""
-        : `${outside === 1 ? "One site lies" : `${counted(outside)} sites lie`} outside the frame, near the pole.`;
+    if (!rests) return;
+    this.#around = reachAround(this.#sites, this.#twin);
+    const { outside } = this.#around;
+    const words = `${counted(outside)} ${outside === 1 ? "site lies" : "sites lie"} outside the frame, near the pole.`;
+    this.out("outside").textContent = outside === 0 ? "" : words;
   }
 
   // Drawing and words
@@ -265,7 +255,11 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
   #say(): void {
     const [sites, step, held] = [this.#sites, this.#step, this.#held];
     const alone = withoutTriangles(sites);
-    const ofAll = alone ?? (this.#bubble === null ? POINT : ofBubble(this.#bubble, sites, this.#twin));
+    const ofAll =
+      alone ??
+      (this.#bubble === null
+        ? "Point at a triangle for the circle round it."
+        : ofBubble(this.#bubble, sites, this.#twin));
     const words = step === null ? [ofAll, ofDuplicates(sites)] : [ofStep(step)];
     say(this.out("sentence"), words.filter(Boolean).join(" "));
     say(this.out("sum"), alone === null ? ofFacets(sites.facetCount - this.#seeingCount, this.#seeingCount, SUM) : "");
@@ -315,11 +309,13 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
   }
 
   get #frame(): PlaneFrame {
-    return planeFrame(1, 1, Math.min(this.#plane.width, this.#plane.height) - 2, this.#reach, this.#middle);
+    return planeFrame(1, 1, Math.min(this.#plane.width, this.#plane.height) - 2, this.#around);
   }
 
-  turn(view: View, reason: Reason): void {
-    this.#turn(view.middle, reason);
+  /** Turns the ball, and says it. */
+  turn({ middle: [lon, lat] }: View, reason: Reason = "state"): void {
+    this.#see([lon, lat], reason);
+    this.host.announcer.say(`Seen from ${latitude(lat, 0)}, ${longitude(lon, 0)}`);
   }
 
   see({ lens, view }: Sight, reason: Reason = "hand"): void {
@@ -371,7 +367,7 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
     let isFirst = true;
     return {
       move: (to) => {
-        if (isFirst) this.#note();
+        if (isFirst) this.#history.push(this.named);
         isFirst = false;
         this.host.guarded(() => this.#moveSite(site, this.#onBall.under(to), "pointer"));
       },
@@ -418,7 +414,7 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
   /** The hand has let go: the frame fits again, and what was left out is drawn. */
   #rest(): void {
     this.host.guarded(() => {
-      this.#rescale();
+      this.#project(true);
       this.#update();
     });
     this.host.changed();
@@ -434,12 +430,6 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
     this.host.changed();
   }
 
-  /** Turns the ball, and says it. */
-  #turn(place: Place, reason: Reason = "state"): void {
-    this.#see(place, reason);
-    this.host.announcer.say(`Seen from ${latitude(place[1], 0)}, ${longitude(place[0], 0)}`);
-  }
-
   /** Flies to another view; why is for others to say. */
   #fly(to: Place): void {
     const from = this.#state.view;
@@ -451,8 +441,7 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
 
   #movePole(place: Place, rests = true): void {
     this.#put({ pole: place });
-    this.#project();
-    if (rests) this.#rescale();
+    this.#project(rests);
     this.#update(rests ? "state" : "hand");
     this.host.changed();
     const seeing = this.#seeingCount;
@@ -486,20 +475,15 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
     this.#edit(edited(this.named, site, [lon, lat]), site, words, reason);
   }
 
-  /** Keeps the sites to go back to. */
-  #note(): void {
-    this.#history = [...this.#history.slice(1 - MOST_STEPS_BACK), this.named];
-  }
-
   #moveHeld(place: Place): void {
     if (this.#held === null) return;
-    this.#note();
+    this.#history.push(this.named);
     this.#moveSite(this.#held, directionAt(place));
   }
 
   #add(direction: Vector): void {
     const { count } = this.#sites;
-    this.#note();
+    this.#history.push(this.named);
     this.#edit(edited(this.named, count, handPlace(lonLatOf(direction), this.#state.lens.magnification)), count, () => {
       const same = this.#sites.sameAs(count);
       return same === null
@@ -511,7 +495,7 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
 
   #remove(site: number | null): void {
     if (site === null) return;
-    this.#note();
+    this.#history.push(this.named);
     this.#edit(edited(this.named, site, null), null, () => `Site ${site + 1} removed`);
   }
 
@@ -538,7 +522,7 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
   #key(event: KeyboardEvent): boolean {
     this.#motion.stop();
     const view = arrowed(this, event);
-    const action = view === null ? this.#keyed(event) : () => this.#turn(view.middle);
+    const action = view === null ? this.#keyed(event) : () => this.turn(view);
     if (action !== null) this.host.guarded(action);
     return action !== null;
   }
@@ -588,7 +572,7 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
     const size = this.#ball.width;
     const { disc } = this;
     const scene = this.#scene(false);
-    const frame = planeFrame(size + GAP + 1, 1, size - 2, this.#reach, this.#middle);
+    const frame = planeFrame(size + GAP + 1, 1, size - 2, this.#around);
     return {
       title: this.title,
       width: 2 * size + GAP,
@@ -609,12 +593,12 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
   }
 
   python(exchange: Exchange): string {
-    const sizes = { size: this.#ball.width, ball: this.disc.r, reach: this.#reach, gap: GAP };
+    const sizes = { size: this.#ball.width, ball: this.disc.r, gap: GAP, ...this.#around };
     const scene = this.#scene(false);
     const pole = poleSeen(this.#map, this.#twin);
-    return exchange.spherePython(scene, this.#state, pole, this.origin, { ...sizes, middle: this.#middle.join(", ") });
+    return exchange.spherePython(scene, this.#state, pole, this.origin, {
+      ...sizes,
+      middle: this.#around.middle.join(", "),
+    });
   }
 }
-
-/** What is said of sites with triangles while no bubble is drawn. */
-const POINT = "Point at a triangle for the circle round it.";

@@ -78,10 +78,11 @@ interface Picture extends Surface {
   opening(path: Path, insertion: Insertion, isThere: (k: number) => boolean): void;
 }
 
-/** What both pictures show. GeoJSON has the diagram of all sites, whatever is drawn of it, at any step. */
+/** What both pictures show. */
 export function sphereParts(scene: SphereScene): Part<Picture>[] {
   const { sites, named, seeing, bubble, held, step } = scene;
   const isThere = step === null;
+  const whole = { isThere, always: ["geojson"] as const }; // all sites, whatever is drawn of them, at any step
   const isAimed = isThere && bubble !== null;
   return [
     { layer: "seeing", isThere: isThere && seeing.includes(1), draw: (_, on) => on.hatch("hatch", seeing) },
@@ -90,20 +91,8 @@ export function sphereParts(scene: SphereScene): Part<Picture>[] {
       isThere: isThere && sites.hasClosing,
       draw: (_, on) => on.isPlane || on.hatch("closing", sites.delaunay.closing),
     },
-    {
-      layer: "triangles",
-      isThere,
-      always: ["geojson"],
-      draw: (_, on) => on.triangles(),
-      regions: () => sites.triangles(),
-    },
-    {
-      layer: "cells",
-      isThere,
-      always: ["geojson"],
-      draw: (_, on) => on.cells(),
-      regions: () => sites.cells(),
-    },
+    { layer: "triangles", ...whole, draw: (_, on) => on.triangles(), regions: () => sites.triangles() },
+    { layer: "cells", ...whole, draw: (_, on) => on.cells(), regions: () => sites.cells() },
     { layer: "seeing", isThere, draw: (pen, on) => pen.draw("hull", (path) => on.ring(path, sites.outline(seeing))) },
     { isThere, draw: (_, on) => on.dots() },
     { isThere: !isThere, draw: (pen, on) => drawStep(pen, on, scene, step!) },
@@ -129,15 +118,16 @@ export interface Drawing {
 export interface Ground {
   readonly scene: SphereScene;
   readonly inks: Pen["inks"];
+  round?: RoundFacet;
 }
 
 /** Brings a ground up to date where one site has moved since: where it was, and where it is now. */
 export function drawMoved(pen: Pen, drawing: Drawing, scene: SphereScene, ground: Ground, site: number): void {
-  const round = drawing.round(scene);
+  const [before, round] = [(ground.round ??= drawing.round(ground.scene)), drawing.round(scene)];
   pen.known = ground.inks;
   const window = ({ sites }: SphereScene, round: RoundFacet): Window =>
     windowOf(sites, site, round, [pen.width, pen.height]);
-  for (const each of united(window(ground.scene, drawing.round(ground.scene)), window(scene, round))) {
+  for (const each of united(window(ground.scene, before), window(scene, round))) {
     const seen = sitesIn(scene.sites, each, round);
     const trace = (path: Path): void => traceCorners(path, cornersOf(...each));
     pen.clipped(trace, () => {
@@ -155,7 +145,48 @@ export function drawMoved(pen: Pen, drawing: Drawing, scene: SphereScene, ground
 /** The ball in a disc. */
 export function ballDrawing(disc: Disc): Drawing {
   return {
-    draw: (pen, scene, stratum) => drawBall(pen, disc, scene, stratum),
+    draw(pen, scene, stratum) {
+      const { sites, layers, view, map } = scene;
+      const isPlain = map.magnification === 1;
+      const site = (k: number): Vector => sites.site(k);
+      const surface = isPlain ? balls.ballSurface(disc, (k) => view.seen(site(k))) : balls.ballSurface(disc, site, map);
+      const hidden = sourceOf(map, [0, 0, -1]);
+      // Through its sites: of a small circle a centre and a radius say less.
+      const rimOf = (bubble: Bubble): Circle | null =>
+        arcThrough(map.apply(bubble.sites.flatMap((k) => [...site(k)])), 0, 1, 2, true);
+      const pole = poleLabel(disc, scene);
+      const seats = new Seats(pen, disc, pole === null ? [] : [pole.box]);
+      const ball: Picture = {
+        ...surface,
+        isPlane: false,
+        label: BALL_LABEL,
+        seats,
+        hatch(style, marked) {
+          pen.draw(style, (path) => surface.region(path, sites.outline(marked), sites.regionHolds(marked, hidden)));
+        },
+        triangles: () => balls.drawLayers(pen, disc, map, [layers.edges]),
+        cells: () => balls.drawLayers(pen, disc, map, [layers.ridges]),
+        bubble(bubble) {
+          const rim = rimOf(bubble);
+          if (rim === null) return;
+          pen.draw("seen", (path) => traceCap(path, disc, rim));
+          pen.draw("bubble-open", (path) => traceCircle(path, disc, rim));
+          pen.draw("triangle", (path) => surface.ring(path, bubble.sites));
+        },
+        dots: () => balls.drawLayers(pen, disc, map, [layers.dots]),
+        names: (named) => drawNames(pen, seats, disc, named, map.apply(layers.dots.directions), NAME),
+        side(bubble, site) {
+          const [point, rim] = [imageOf(map, sites.site(site)), rimOf(bubble)];
+          if (rim === null || point[2] < LEAST_HEIGHT) return null;
+          return [point[0] - rim.n[0], point[1] - rim.n[1]];
+        },
+        opening: (path, step) => surface.region(path, step.outline, holdsDirection(step, sites, hidden)),
+      };
+      if (stratum === "ground") pen.ball(disc, "ball");
+      drawStratum(pen, ball, scene, stratum);
+      if (stratum === "ground") pen.draw("limb", (path) => traceDisc(path, disc));
+      else pole?.draw(pen);
+    },
     round: ({ sites, layers, map }) =>
       roundFacets(map.apply(layers.dots.directions), sites, (center, cosine) => {
         const reach = Math.sqrt(2 - 2 * Math.min(1, cosine)); // from the middle of the cap to its rim
@@ -168,7 +199,66 @@ export function ballDrawing(disc: Disc): Drawing {
 /** The plane in its frame. */
 export function planeDrawing(frame: PlaneFrame): Drawing {
   return {
-    draw: (pen, scene, stratum) => drawPlane(pen, frame, scene, stratum),
+    draw(pen, scene, stratum) {
+      const { sites, twin, seeing } = scene;
+      const { x, y, size } = frame;
+      const flat = (k: number): Point => frame.place(twin.forward(sites.site(k)));
+      const whole = (path: Path): void => traceCorners(path, cornersOf(x, y, x + size, y + size));
+      const surface = balls.planeSurface(flat, whole);
+      const plane: Picture = {
+        ...surface,
+        isPlane: true,
+        label: { ...BALL_LABEL, halo: "halo" },
+        seats: new Seats(pen),
+        // The outline runs clockwise on the picture, as the frame does: turned round, the path winds once between them.
+        hatch: (style, marked) =>
+          pen.draw(style, (path) => surface.region(path, sites.outline(marked).reverse(), true)),
+        triangles: () =>
+          pen.draw("delaunay", (path) => {
+            eachEdge(sites.delaunay.simplices, seeing, (a, b) => surface.line(path, a, b));
+          }),
+        cells: () => pen.draw("voronoi", (path) => planeRidges(path, frame, scene)),
+        bubble(bubble) {
+          const image = twin.circle(bubble.center, bubble.cosine);
+          if (image.isLine) {
+            const [a, b] = image.normal;
+            const size = a * a + b * b;
+            const [u, v] = [(a * image.offset) / size, (b * image.offset) / size];
+            const ends = [-1e3, 1e3].map((far) => frame.place([u + far * b, v - far * a]));
+            pen.draw("bubble-open", (path) => traceSegment(path, ends[0], ends[1]));
+            return;
+          }
+          const [x, y] = frame.place(image.middle);
+          const r = image.radius * frame.scale;
+          const ring = (path: Path): void => {
+            path.moveTo(x + r, y);
+            path.ellipse(x, y, r, r, 0, 2 * Math.PI, 0, true);
+            path.closePath();
+          };
+          pen.draw("seen", (path) => {
+            if (image.holdsPole) whole(path);
+            ring(path);
+          });
+          pen.draw("bubble-open", ring);
+          if (!image.holdsPole) pen.draw("triangle", (path) => surface.ring(path, bubble.sites));
+        },
+        dots: () => balls.drawDots(pen, surface, "site", Array(sites.count).keys()),
+        side(bubble, site) {
+          const image = twin.circle(bubble.center, bubble.cosine);
+          if (image.isLine || image.radius * frame.scale < LEAST_CIRCLE) return null;
+          const [u, v] = twin.forward(sites.site(site));
+          const sign = image.holdsPole ? -1 : 1;
+          return [sign * (u - image.middle[0]), sign * (v - image.middle[1])];
+        },
+        opening(path, { outline, site }, isThere) {
+          outline.forEach((a, k) => {
+            if (isThere(k)) surface.ring(path, [a, outline[(k + 1) % outline.length], site]);
+          });
+        },
+      };
+      pen.clipped(whole, () => drawStratum(pen, plane, scene, stratum));
+      if (stratum === "ground") pen.draw("frame", whole);
+    },
     round: ({ sites, twin }) =>
       roundFacets(sites.xyz, sites, (center, cosine) => {
         const { middle, radius, holdsPole } = twin.circle(center, cosine);
@@ -177,112 +267,9 @@ export function planeDrawing(frame: PlaneFrame): Drawing {
   };
 }
 
-function drawBall(pen: Pen, disc: Disc, scene: SphereScene, stratum: Stratum): void {
-  const { sites, layers, view, map } = scene;
-  const isPlain = map.magnification === 1;
-  const site = (k: number): Vector => sites.site(k);
-  const surface = isPlain ? balls.ballSurface(disc, (k) => view.seen(site(k))) : balls.ballSurface(disc, site, map);
-  const hidden = sourceOf(map, [0, 0, -1]);
-  // Through its sites: of a small circle a centre and a radius say less.
-  const rimOf = (bubble: Bubble): Circle | null =>
-    arcThrough(map.apply(bubble.sites.flatMap((k) => [...site(k)])), 0, 1, 2, true);
-  const pole = poleLabel(disc, scene);
-  const seats = new Seats(pen, disc, pole === null ? [] : [pole.box]);
-  const ball: Picture = {
-    ...surface,
-    isPlane: false,
-    label: BALL_LABEL,
-    seats,
-    hatch(style, marked) {
-      pen.draw(style, (path) => surface.region(path, sites.outline(marked), sites.regionHolds(marked, hidden)));
-    },
-    triangles: () => balls.drawLayers(pen, disc, map, [layers.edges]),
-    cells: () => balls.drawLayers(pen, disc, map, [layers.ridges]),
-    bubble(bubble) {
-      const rim = rimOf(bubble);
-      if (rim === null) return;
-      pen.draw("seen", (path) => traceCap(path, disc, rim));
-      pen.draw("bubble-open", (path) => traceCircle(path, disc, rim));
-      pen.draw("triangle", (path) => surface.ring(path, bubble.sites));
-    },
-    dots: () => balls.drawLayers(pen, disc, map, [layers.dots]),
-    names: (named) => drawNames(pen, seats, disc, named, map.apply(layers.dots.directions), NAME),
-    side(bubble, site) {
-      const [point, rim] = [imageOf(map, sites.site(site)), rimOf(bubble)];
-      if (rim === null || point[2] < LEAST_HEIGHT) return null;
-      return [point[0] - rim.n[0], point[1] - rim.n[1]];
-    },
-    opening: (path, step) => surface.region(path, step.outline, holdsDirection(step, sites, hidden)),
-  };
-  if (stratum === "ground") pen.ball(disc, "ball");
-  drawStratum(pen, ball, scene, stratum);
-  if (stratum === "ground") pen.draw("limb", (path) => traceDisc(path, disc));
-  else pole?.draw(pen);
-}
-
 function drawStratum(pen: Pen, on: Picture, scene: SphereScene, stratum: Stratum): void {
   const parts = sphereParts(scene).filter(({ isOver = false }) => isOver === (stratum === "over"));
   drawParts(pen, on, parts, scene.isOn);
-}
-
-function drawPlane(pen: Pen, frame: PlaneFrame, scene: SphereScene, stratum: Stratum): void {
-  const { sites, twin, seeing } = scene;
-  const { x, y, size } = frame;
-  const flat = (k: number): Point => frame.place(twin.forward(sites.site(k)));
-  const whole = (path: Path): void => traceCorners(path, cornersOf(x, y, x + size, y + size));
-  const surface = balls.planeSurface(flat, whole);
-  const plane: Picture = {
-    ...surface,
-    isPlane: true,
-    label: { ...BALL_LABEL, halo: "halo" },
-    seats: new Seats(pen),
-    // The outline runs clockwise on the picture, as the frame does: turned round, the path winds once between them.
-    hatch: (style, marked) => pen.draw(style, (path) => surface.region(path, sites.outline(marked).reverse(), true)),
-    triangles: () =>
-      pen.draw("delaunay", (path) => {
-        eachEdge(sites.delaunay.simplices, seeing, (a, b) => surface.line(path, a, b));
-      }),
-    cells: () => pen.draw("voronoi", (path) => planeRidges(path, frame, scene)),
-    bubble(bubble) {
-      const image = twin.circle(bubble.center, bubble.cosine);
-      if (image.isLine) {
-        const [a, b] = image.normal;
-        const size = a * a + b * b;
-        const [u, v] = [(a * image.offset) / size, (b * image.offset) / size];
-        const ends = [-1e3, 1e3].map((far) => frame.place([u + far * b, v - far * a]));
-        pen.draw("bubble-open", (path) => traceSegment(path, ends[0], ends[1]));
-        return;
-      }
-      const [x, y] = frame.place(image.middle);
-      const r = image.radius * frame.scale;
-      const ring = (path: Path): void => {
-        path.moveTo(x + r, y);
-        path.ellipse(x, y, r, r, 0, 2 * Math.PI, 0, true);
-        path.closePath();
-      };
-      pen.draw("seen", (path) => {
-        if (image.holdsPole) whole(path);
-        ring(path);
-      });
-      pen.draw("bubble-open", ring);
-      if (!image.holdsPole) pen.draw("triangle", (path) => surface.ring(path, bubble.sites));
-    },
-    dots: () => balls.drawDots(pen, surface, "site", Array(sites.count).keys()),
-    side(bubble, site) {
-      const image = twin.circle(bubble.center, bubble.cosine);
-      if (image.isLine || image.radius * frame.scale < LEAST_CIRCLE) return null;
-      const [u, v] = twin.forward(sites.site(site));
-      const sign = image.holdsPole ? -1 : 1;
-      return [sign * (u - image.middle[0]), sign * (v - image.middle[1])];
-    },
-    opening(path, { outline, site }, isThere) {
-      outline.forEach((a, k) => {
-        if (isThere(k)) surface.ring(path, [a, outline[(k + 1) % outline.length], site]);
-      });
-    },
-  };
-  pen.clipped(whole, () => drawStratum(pen, plane, scene, stratum));
-  if (stratum === "ground") pen.draw("frame", whole);
 }
 
 /** The numbers of a bubble's sites. */
