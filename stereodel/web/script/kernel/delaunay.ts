@@ -152,6 +152,23 @@ export abstract class Delaunay {
     return (this.derived.order ??= answered(types, `${this.space}_flat_diagram`, this.forKernel[0], this.size)[3]);
   }
 
+  /** @internal Lists the triangles anew, each by the entry of `simplices` that becomes its first corner. */
+  list(firsts: number[]): void {
+    const { simplices, neighbors } = this;
+    const place = new Int32Array(firsts.length);
+    firsts.forEach((first, row) => (place[Math.floor(first / 3)] = row));
+    const from = simplices.map((_, e) => {
+      const first = firsts[Math.floor(e / 3)];
+      return first - (first % 3) + ((first + e) % 3);
+    });
+    const moved = Int32Array.from(from, (at) => place[neighbors[at]] ?? -1);
+    this.hold(
+      this.forKernel[0],
+      Int32Array.from(from, (at) => simplices[at]),
+      moved,
+    );
+  }
+
   private forQueries(): Argument[] {
     const [points, , simplices, neighbors, count] = this.forKernel;
     return [points, simplices, neighbors, this.closed, count];
@@ -195,17 +212,21 @@ export abstract class Delaunay {
   /** What the kernel makes of points; tests are counted on from those before. */
   private take(points: Float64Array, kept: Kept, before: Inconclusive, what: string, ...given: Argument[]): void {
     const types = [Int32Array, Int32Array, Int32Array, Int32Array, Float64Array] as const;
-    const made = answered(types, `${this.space}_${what}`, ...given);
-    const [simplices, neighbors, duplicates, [dimension], open] = made;
+    const name = `${this.space}_${what}`;
+    const [simplices, neighbors, duplicates, [dimension], open] = answered(types, name, ...given);
     const inconclusive = {
       filter: before.filter + open[0],
       curvature: before.curvature + open[1],
       doubleDouble: before.doubleDouble + open[2],
       exact: before.exact + open[3],
     };
-    const size = points.length / this.width;
-    const forKernel = [kept, size, new Kept(simplices), new Kept(neighbors), simplices.length / 3];
-    Object.assign(this, { points, simplices, neighbors, duplicates, dimension, inconclusive, forKernel, derived: {} });
+    Object.assign(this, { points, duplicates, dimension, inconclusive });
+    this.hold(kept, simplices, neighbors);
+  }
+
+  private hold(points: Kept, simplices: Int32Array, neighbors: Int32Array): void {
+    const forKernel = [points, this.size, new Kept(simplices), new Kept(neighbors), simplices.length / 3];
+    Object.assign(this, { simplices, neighbors, forKernel, derived: {} });
   }
 }
 

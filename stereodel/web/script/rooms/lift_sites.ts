@@ -14,7 +14,12 @@ export class LiftSites {
   readonly places: Float64Array;
   readonly rectangle: Rectangle;
   readonly delaunay: PlanarDelaunay;
-  #closing: Int32Array | null = null;
+  /**
+   * The facets of the lifted sites that see the pole, (m, 3): those whose circle in the plane has no site outside, of the
+   * hull of the rays (2u, 2v, 1 − u² − v²) through them. They are the same however far the sheet is bent. The unit is a
+   * power of two, so that a grid of small whole numbers is lifted without rounding and its squares stay squares.
+   */
+  readonly closing: Int32Array;
   #ridges: [Place, Place][] | null = null;
 
   /** @param sides Width and height of the sheet, where it is not the smallest rectangle round the sites. */
@@ -22,6 +27,7 @@ export class LiftSites {
     this.places = places;
     this.rectangle = rectangleAround(places, sides);
     this.delaunay = new PlanarDelaunay(places);
+    this.closing = this.#facetsThatSee();
   }
 
   get count(): number {
@@ -52,13 +58,7 @@ export class LiftSites {
     });
   }
 
-  /**
-   * The facets of the lifted sites that see the pole, (m, 3): those whose circle in the plane has no site outside, of the
-   * hull of the rays (2u, 2v, 1 − u² − v²) through them. They are the same however far the sheet is bent. The unit is a
-   * power of two, so that a grid of small whole numbers is lifted without rounding and its squares stay squares.
-   */
-  get closing(): Int32Array {
-    if (this.#closing !== null) return this.#closing;
+  #facetsThatSee(): Int32Array {
     const { middle, width, height } = this.rectangle;
     const unit = 2 ** -Math.round(Math.log2(Math.hypot(width, height) || 1));
     const rays = new Float64Array(3 * this.count);
@@ -68,8 +68,7 @@ export class LiftSites {
     }
     const { simplices } = new SphericalDelaunay(rays);
     const signs = bubbleSigns(rays, simplices, [0, 0, -1]);
-    this.#closing = simplices.filter((_, k) => signs[Math.floor(k / 3)] >= 0);
-    return this.#closing;
+    return simplices.filter((_, k) => signs[Math.floor(k / 3)] >= 0);
   }
 
   /** Sides of the cells of the plane, each from end to end; those without an end go on far beyond the sheet. */

@@ -100,7 +100,7 @@ export function sphereParts(scene: SphereScene): Part<Picture>[] {
     { isThere, isOver: true, draw: (pen, on) => balls.drawDots(pen, on, "held", [...(bubble?.sites ?? []), ...held]) },
     // Names first: they stay while the bubble follows the pointer.
     { layer: "names", isThere: isThere && named !== null, isOver: true, draw: (_, on) => on.names?.(named!) },
-    { layer: "bubble", isThere: isAimed, isOver: true, draw: (pen, on) => drawNumbers(pen, on, bubble!) },
+    { layer: "bubble", isThere: isAimed, isOver: true, draw: (_, on) => drawNumbers(on, bubble!) },
   ];
 }
 
@@ -174,7 +174,7 @@ export function ballDrawing(disc: Disc): Drawing {
           pen.draw("triangle", (path) => surface.ring(path, bubble.sites));
         },
         dots: () => balls.drawLayers(pen, disc, map, [layers.dots]),
-        names: (named) => drawNames(pen, seats, disc, named, map.apply(layers.dots.directions), NAME),
+        names: (named) => drawNames(seats, named, map.apply(layers.dots.directions), NAME),
         side(bubble, site) {
           const [point, rim] = [imageOf(map, sites.site(site)), rimOf(bubble)];
           if (rim === null || point[2] < LEAST_HEIGHT) return null;
@@ -213,11 +213,8 @@ export function planeDrawing(frame: PlaneFrame): Drawing {
         // The outline runs clockwise on the picture, as the frame does: turned round, the path winds once between them.
         hatch: (style, marked) =>
           pen.draw(style, (path) => surface.region(path, sites.outline(marked).reverse(), true)),
-        triangles: () =>
-          pen.draw("delaunay", (path) => {
-            eachEdge(sites.delaunay.simplices, seeing, (a, b) => surface.line(path, a, b));
-          }),
-        cells: () => pen.draw("voronoi", (path) => planeRidges(path, frame, scene)),
+        triangles: () => surface.lines(pen, "delaunay", edgesOf(sites.delaunay.simplices, seeing)),
+        cells: () => balls.drawSegments(pen, "voronoi", planeRidges(frame, scene)),
         bubble(bubble) {
           const image = twin.circle(bubble.center, bubble.cosine);
           if (image.isLine) {
@@ -273,12 +270,12 @@ function drawStratum(pen: Pen, on: Picture, scene: SphereScene, stratum: Stratum
 }
 
 /** The numbers of a bubble's sites. */
-function drawNumbers(pen: Pen, on: Picture, bubble: Bubble): void {
-  for (const site of bubble.sites) on.seats.takeDot(on.place(site), 3, site + 1);
+function drawNumbers(on: Picture, bubble: Bubble): void {
+  for (const site of bubble.sites) on.seats.takeDot(on.place(site), 3);
   for (const site of bubble.sites) {
     const out = on.side(bubble, site);
     if (out === null) continue;
-    on.seats.set(pen, String(site + 1), on.place(site), on.label, site + 1, sidesToward(out[0], -out[1]));
+    on.seats.set(String(site + 1), on.place(site), on.label, sidesToward(out[0], -out[1]));
   }
 }
 
@@ -291,7 +288,7 @@ function drawStep(pen: Pen, on: Picture, { sites, twin }: SphereScene, step: Ins
   // Facets of the fan that see the pole are no triangles of the plane, nor are sides between two of them its sides.
   const isThere = (k: number): boolean => !fanSeeing[(k + outline.length) % outline.length];
   if (outline.length > 0) pen.draw("seen", (path) => on.opening(path, step, isThere));
-  pen.draw("delaunay", (path) => eachEdge(before, beforeSeeing, (a, b) => on.line(path, a, b)));
+  on.lines(pen, "delaunay", edgesOf(before, beforeSeeing));
   pen.draw("fan", (path) => outline.forEach((a, k) => (isThere(k) || isThere(k - 1)) && on.line(path, site, a)));
   pen.draw("horizon", (path) =>
     outline.forEach((a, k) => isThere(k) && on.line(path, a, outline[(k + 1) % outline.length])),
@@ -333,18 +330,19 @@ function poleLabel(disc: Disc, { map, twin }: SphereScene) {
 }
 
 /** Ridges between the triangles of the plane, and rays where one has no neighbour: the centres are those of its circles. */
-function planeRidges(path: Path, frame: PlaneFrame, { sites, twin, seeing }: SphereScene): void {
+function planeRidges(frame: PlaneFrame, { sites, twin, seeing }: SphereScene): number[] {
   const { simplices, neighbors } = sites.delaunay;
   const middles = Array.from(seeing, (_, facet): Point => {
     const { center, cosine } = sites.bubble(facet);
     return twin.circle(center, cosine).middle;
   });
+  const ends: number[] = [];
   for (let at = 0; at < neighbors.length; ++at) {
     const facet = Math.floor(at / 3);
     const beyond = neighbors[at];
     if (seeing[facet] || (!seeing[beyond] && beyond < facet)) continue;
     if (!seeing[beyond]) {
-      traceSegment(path, frame.place(middles[facet]), frame.place(middles[beyond]));
+      ends.push(...frame.place(middles[facet]), ...frame.place(middles[beyond]));
       continue;
     }
     // The side opposite the corner runs counterclockwise: outward is to its right.
@@ -352,18 +350,20 @@ function planeRidges(path: Path, frame: PlaneFrame, { sites, twin, seeing }: Sph
     const length = Math.hypot(b[0] - a[0], b[1] - a[1]);
     const [u, v] = middles[facet];
     const far = (4 * frame.reach + Math.hypot(u - frame.middle[0], v - frame.middle[1])) / length;
-    traceSegment(path, frame.place([u, v]), frame.place([u + far * (b[1] - a[1]), v - far * (b[0] - a[0])]));
+    ends.push(...frame.place([u, v]), ...frame.place([u + far * (b[1] - a[1]), v - far * (b[0] - a[0])]));
   }
+  return ends;
 }
 
 /** Every edge once of facets of which one at least does not see the pole. */
-function eachEdge(facets: Int32Array, seeing: Uint8Array, visit: (a: number, b: number) => void): void {
-  const drawn = new Set<number>();
+function edgesOf(facets: Int32Array, seeing: Uint8Array): number[] {
+  const [drawn, edges] = [new Set<number>(), [] as number[]];
   for (let k = 0; k < facets.length; ++k) {
     const [a, b] = [facets[k], facets[following(k)]];
     const name = Math.min(a, b) * 2 ** 26 + Math.max(a, b);
     if (seeing[Math.floor(k / 3)] || drawn.has(name)) continue;
     drawn.add(name);
-    visit(a, b);
+    edges.push(a, b);
   }
+  return edges;
 }
