@@ -147,7 +147,7 @@ export function arcs(count: number): { worst: number; seen: number; missing: num
     const steps = [0, 0.5, 1, 0.1, 0.25, 0.4, 0.6, 0.75, 0.9];
     const images = map.apply(Float64Array.from(steps.flatMap(at)));
     const path = new Recorder();
-    traceArc(path, DISC, images, 0, 1, 2);
+    traceArc(path, DISC, images);
     for (let step = 0; step < steps.length; ++step) {
       const [x, y, z] = row(images, step);
       const away = path.distanceTo([DISC.x + DISC.r * x, DISC.y - DISC.r * y]);
@@ -265,7 +265,7 @@ export function caps(count: number, grid: number): [number, number][] {
   return Array.from({ length: count }, () => {
     const center = direction();
     const radius = 179 * random() + 0.5;
-    const circle = arcThrough(circlePoints(center, radius).flat(), 0, 1, 2, true)!;
+    const circle = arcThrough(circlePoints(center, radius).flat(), 0, true)!;
     const path = new Recorder();
     traceCap(path, DISC, circle);
     let held = 0;
@@ -336,7 +336,7 @@ export function grabbed(count: number): Record<string, number> {
 export function svg(): string {
   const colours = new Proxy({}, { get: () => "rgba(1, 2, 3, 0.5)" }) as never;
   const pen = new SvgPen(620, 580, colours, 1);
-  const circle = arcThrough(circlePoints([0, 0.6, 0.8], 30).flat(), 0, 1, 2, true)!;
+  const circle = arcThrough(circlePoints([0, 0.6, 0.8], 30).flat(), 0, true)!;
   pen.draw("bubble", (path) => traceCap(path, DISC, circle));
   pen.label("*P*, behind <&>", 10, 20, { ink: "ink", halo: "halo", size: 14 });
   return pen.text("A bubble");
@@ -348,7 +348,7 @@ export function svgArcs(count: number): { d: string; points: [number, number][] 
   return Array.from({ length: count }, () => {
     const map = lenses.seenThrough(MoebiusMap.fisheye(direction(), 10 ** (2 * random())), view());
     const images = map.apply(Float64Array.from(circlePoints(direction(), 5 + 80 * random()).flat()));
-    const trace = (path: Path): void => traceArc(path, DISC, images, 0, 1, 2);
+    const trace = (path: Path): void => traceArc(path, DISC, images);
     const path = new Recorder();
     trace(path);
     const pen = new SvgPen(620, 580, colours, 1);

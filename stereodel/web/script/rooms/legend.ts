@@ -128,7 +128,7 @@ export function framed(sheet: Sheet): Sheet {
     height: foot + (notes.length > 0 ? notes.length * 17 + 10 : 0),
     paint(pen) {
       lines.forEach((line, k) => pen.label(line, width / 2, 26 + 30 * k, TITLE));
-      pen.lowered(top, () => paint(pen));
+      pen.within({ lower: top }, () => paint(pen));
       legend?.draw(pen, 0, below);
       notes.forEach((line, k) => pen.label(line, width / 2, foot + 14 + 17 * k, SOURCE));
     },
