@@ -37,11 +37,11 @@ export class CanvasPen extends Pen {
     }
   }
 
-  within({ opacity = 1, region, lower = 0 }: Bounds, body: () => void): void {
+  within({ opacity = 1, region, corner = [0, 0] }: Bounds, body: () => void): void {
     const context = this.#context;
     context.save();
     context.globalAlpha *= opacity;
-    context.translate(0, lower);
+    context.translate(...corner);
     if (region) {
       context.beginPath();
       region(context);

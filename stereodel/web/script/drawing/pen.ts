@@ -20,8 +20,8 @@ export interface Disc {
   readonly r: number;
 }
 
-/** A picture that is laid into the drawing. */
-export type Picture = HTMLCanvasElement | OffscreenCanvas;
+/** A picture that is laid into the drawing; an image is one of SVG with its text in its address. */
+export type Picture = HTMLCanvasElement | OffscreenCanvas | HTMLImageElement;
 
 /** Where the light falls on a ball of radius 1, as on those of the library (`stereodel/render/vector/paper.py`): the
  * focus of the gradient, middle and radius of its last circle, y down; and how much of its fall lies before some places. */
@@ -52,11 +52,11 @@ const [FINEST, SMALLEST] = [0.55, 0.4];
 /** Arcs of ellipses in one path: browsers need quadratic time for paths of thousands. */
 export const MOST_ARCS = 256;
 
-/** How something is drawn: faintly, inside a region alone, or so many pixels lower. */
+/** How something is drawn: faintly, inside a region alone, or with its corner elsewhere. */
 export interface Bounds {
   readonly opacity?: number | undefined;
   readonly region?: Trace;
-  readonly lower?: number;
+  readonly corner?: Point;
 }
 
 export abstract class Pen {

@@ -47,8 +47,6 @@ export const STYLES = {
   touch: { stroke: "ink", width: 1 },
   tissot: { fill: "tissot", stroke: "coast", width: 0.6 },
   tint: { fill: "paper", stroke: "paper", width: 0.6 },
-  swatch: { fill: "paper" },
-  tick: { stroke: "ink-2", width: 0.7 },
   "isoline-halo": { stroke: "halo", width: 2.4 },
   isoline: { stroke: "ink", width: 0.8 },
   "spot-line": { stroke: "limb", width: 0.6 },

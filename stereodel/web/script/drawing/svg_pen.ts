@@ -39,12 +39,12 @@ export class SvgPen extends Pen {
     this.#parts.push(`<path class="${name}" ${looks.join(" ")} d="${d}"/>`);
   }
 
-  within({ opacity = 1, region, lower = 0 }: Bounds, body: () => void): void {
+  within({ opacity = 1, region, corner }: Bounds, body: () => void): void {
     const id = `clip-${this.#definitions.length}`;
     if (region) this.#definitions.push(`<clipPath id="${id}"><path d="${pathData(region)}"/></clipPath>`);
     const clip = region ? ` clip-path="url(#${id})"` : "";
     const seen = opacity < 1 ? ` opacity="${opacity}"` : "";
-    const place = lower > 0 ? ` transform="translate(0 ${number(lower)})"` : "";
+    const place = corner ? ` transform="translate(${corner.map(number).join(" ")})"` : "";
     this.#parts.push(`<g${clip}${seen}${place}>`);
     body();
     this.#parts.push("</g>");
@@ -68,8 +68,7 @@ export class SvgPen extends Pen {
     const line = this.#line(STYLES["spot-line"]);
     inks.forEach((ink, k) => {
       const [x, y, r] = [places[3 * k], places[3 * k + 1], places[3 * k + 2]].map(number);
-      const fill = ink === "transparent" ? "" : ` ${paint("fill", ink)}`;
-      this.#parts.push(`<circle class="spot" cx="${x}" cy="${y}" r="${r}"${fill} ${line}/>`);
+      this.#parts.push(`<circle class="spot" cx="${x}" cy="${y}" r="${r}" ${paint("fill", ink)} ${line}/>`);
     });
   }
 
@@ -84,6 +83,10 @@ export class SvgPen extends Pen {
   }
 
   picture(picture: Picture, x: number, y: number, width: number, height: number): void {
+    if (picture instanceof HTMLImageElement) {
+      const svg = decodeURIComponent(picture.src.slice(picture.src.indexOf(",") + 1));
+      return this.within({ corner: [x, y] }, () => this.#parts.push(svg));
+    }
     const canvas = document.createElement("canvas");
     [canvas.width, canvas.height] = [picture.width, picture.height];
     canvas.getContext("2d")!.drawImage(picture, 0, 0);
