@@ -17,12 +17,8 @@ DRAWING = Path(__file__).parent / "drawing.ts"
 def drawing(node, request):
     """Call a function of drawing.ts, whose random numbers begin with the test: `drawing("arcs(100)")`."""
 
-    def call(expression):
-        return node(
-            f'import * as drawing from "{DRAWING}?{request.node.name}"; export default await drawing.{expression};'
-        )
-
-    return call
+    preface = f'import * as drawing from "{DRAWING}?{request.node.name}"; export default await drawing.'
+    return lambda expression: node(f"{preface}{expression};")
 
 
 LAND = json.dumps(land_rings("110m"))
@@ -82,20 +78,18 @@ def along(d):
 
 
 def test_arcs_of_svg_are_those_of_the_canvas(drawing):
-    worst = [
-        np.linalg.norm(np.array(arc["points"])[:, np.newaxis] - along(arc["d"]), axis=-1).min(axis=1).max()
-        for arc in drawing("svgArcs(400)")
-        if arc["points"]
+    arcs = [
+        (np.array(arc["points"])[:, np.newaxis], along(arc["d"])) for arc in drawing("svgArcs(400)") if arc["points"]
     ]
+    worst = [np.linalg.norm(points - path, axis=-1).min(axis=1).max() for points, path in arcs]
     assert len(worst) > 200
     assert max(worst) < 2.5  # pixels: between the points along an arc
 
 
 def test_svg_is_well_formed(drawing):
     root = ET.fromstring(drawing("svg()"))
-    names = {"svg": "http://www.w3.org/2000/svg"}
-    path = root.find(".//svg:path", names)
+    path = root.find(".//{*}path")
     assert "A" in path.get("d")
     assert path.get("fill-opacity") == "0.5"
-    assert "".join(root.find(".//svg:text", names).itertext()) == "P, behind <&>"
-    assert json.dumps(root.find("svg:title", names).text) == '"A bubble"'
+    assert "".join(root.find(".//{*}text").itertext()) == "P, behind <&>"
+    assert root.find("{*}title").text == "A bubble"
