@@ -143,18 +143,14 @@ def test_keys(globe):
     assert page.inner_text("#status") == "3.00 times at 48.0°\u202fN, 10.0°\u202fE"
 
 
-def test_the_pointer_is_followed_without_a_new_globe(globe):
-    at = globe.middle + (120, 100)
-    globe.page.page.mouse.move(*at)
-    lon, lat = globe.numbers("pointerlon", "pointerlat")
-    assert lonlat_to_xyz((lon, lat)) @ globe.place_at(at) > 1 - 1e-9
-    scale = float(globe.lens.scale_factor(lonlat_to_xyz((lon, lat))))
-    assert globe.page.page.inner_text("#room-globe [data-out=scale] .needle") == f"{scale:.2f}×"
-
-
-def test_five_sides_are_drawn_with_the_lens_alone(globe):
+def test_the_pointer_is_followed_and_five_sides_are_drawn_with_the_lens_alone(globe):
     """Not anew while the globe turns: one drawing for a move of the mouse, and one in full when it rests."""
     mouse, (x, y) = globe.page.page.mouse, globe.middle
+    mouse.move(x + 120, y + 100)
+    pointed = lonlat_to_xyz(globe.numbers("pointerlon", "pointerlat"))
+    assert pointed @ globe.place_at((x + 120, y + 100)) > 1 - 1e-9
+    needle = globe.page.page.inner_text("#room-globe [data-out=scale] .needle")
+    assert needle == f"{float(globe.lens.scale_factor(pointed)):.2f}×"
     side = ".views li:nth-child(1) canvas"
     before = globe.page.digest(side)
     mouse.move(x + 90, y + 70)

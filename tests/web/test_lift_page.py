@@ -65,7 +65,7 @@ def test_the_picture_is_turned_by_the_hand_and_sites_are_chosen_by_keys_and_fiel
     page.page.check(f"{ROOM} [name=seeing]")
     page.rest()
     assert page.ink(PLATE) > ink + 0.005  # facets that see the pole are hatched
-    assert link(page)["on"] == "triangles,cells,rays,seeing"
+    assert link(page)["on"] == "triangles,rays,seeing"
 
 
 def test_tables_of_a_plane_are_opened_and_asked_about(room, tmp_path):
