@@ -9,7 +9,9 @@ import pytest
 from .conftest import SCRIPT, asking
 
 ask = asking(f"""
-import {{ LinkError, LinkValues, packPlaces, readLink, writeLink, writeNumber }} from "{SCRIPT}/link.ts";
+import {{ number, whole, word }} from "{SCRIPT}/fields.ts";
+import {{ LinkError, readLink, writeLink, writeNumber }} from "{SCRIPT}/link.ts";
+import {{ tableOf, tableValues }} from "{SCRIPT}/rooms/site_room.ts";
 const attempt = (body) => {{
   try {{ return body(); }} catch (error) {{ return error instanceof LinkError ? "refused" : String(error); }}
 }};
@@ -17,8 +19,8 @@ const attempt = (body) => {{
 
 
 READ = "given.map((hash) => attempt(() => { const { room, values } = readLink(hash); return [room, [...values]]; }))"
-PACKED = "given.map((places) => packPlaces(Float64Array.from(places)))"
-UNPACKED = "given.map((sites) => attempt(() => [...new LinkValues([['sites', sites]]).places('sites')]))"
+PACKED = "given.map((places) => tableValues({ places: Float64Array.from(places) }, true).sites)"
+UNPACKED = "given.map((sites) => attempt(() => [...tableOf(new Map([['sites', sites]]), 'plane').places]))"
 
 
 def test_a_state_comes_back(node):
@@ -32,23 +34,22 @@ def test_a_state_comes_back(node):
 HOSTILE = ["#cellar", "#v=2&room=sphere", "#room=sphere", "#v=1", "#v=1&room=__proto__", "#v=1&room=sphere&lat", "#&"]
 HOSTILE += ["#v=1&room=sphere&lat=1&lat=2", "#v=1&room=sphere&lat=%E0%A4%A", "#<script>alert(1)</script>"]
 HOSTILE += ["#v=1&room=<img src=x onerror=alert(1)>", "#v=1&room=sphere&sites=" + "A" * 1_000_000, "#v=1&&room=sphere"]
-
-
-NUMBER = "given.map((lat) => attempt(() => new LinkValues([['lat', lat]]).number('lat', -90, 90, 0)))"
+NUMBER = "given.map((lat) => attempt(() => number('lat', -90, 90).read(new Map([['lat', lat]]), 0)))"
 NO_NUMBERS = ["NaN", "Infinity", "1e999", "0x10", "", " 5", "5 ", "--5", "1e5e5", "91", "-90.0001", "<b>", "1" * 40]
 NO_SITES = ["x", "1", "1,", ",", "1,2,3", "1;2", "1,0x2", "1, 2", "1,NaN", "1,1e999", "1,Infinity", "1,2," * 5000]
+REFUSED = {"links": (READ, HOSTILE), "numbers": (NUMBER, NO_NUMBERS), "sites": (UNPACKED, NO_SITES)}
 
 
-@pytest.mark.parametrize(("read", "hostile"), [(READ, HOSTILE), (NUMBER, NO_NUMBERS), (UNPACKED, NO_SITES)])
+@pytest.mark.parametrize(("read", "hostile"), REFUSED.values(), ids=REFUSED)
 def test_what_is_hostile_out_of_range_or_none_is_refused(node, read, hostile):
     assert ask(node, read, hostile) == ["refused"] * len(hostile)
 
 
 def test_numbers_and_words_are_read_and_numbers_written_short(node):
-    read = "[new LinkValues(given).number('lat', -90, 90, 7), new LinkValues(given).number('no', 0, 1, 0.5)]"
+    read = "[number('lat', -90, 90).read(new Map(given), 7), number('no', 0, 1).read(new Map(given), 0.5)]"
     assert ask(node, read, [["lat", "-53.125"]]) == [-53.125, 0.5]
-    assert ask(node, "attempt(() => new LinkValues(given).whole('k', 0, 9))", [["k", "2.5"]]) == "refused"
-    words = "given.map((each) => attempt(() => new LinkValues(each).word('click', ['keep', 'add'], 'keep')))"
+    assert ask(node, "attempt(() => whole('k', 9).read(new Map(given), null))", [["k", "2.5"]]) == "refused"
+    words = "given.map((each) => attempt(() => word('click', ['keep', 'add']).read(new Map(each), 'keep')))"
     assert ask(node, words, [[["click", "add"]], [], [["click", "toString"]]]) == ["add", "keep", "refused"]
     numbers = [[5, 4], [-0.00001, 3], [1.25, 1], [100, 0], [-2.5, 4]]
     assert ask(node, "given.map((each) => writeNumber(...each))", numbers) == ["5", "0", "1.3", "100", "-2.5"]

@@ -41,7 +41,7 @@ async function render({ model, el }: { model: Model; el: HTMLElement }): Promise
   await load(await compiled(contents));
 
   let timer: ReturnType<typeof setTimeout> | undefined;
-  const globe = new NotebookGlobe(el, await contents.land("110m"), (name, value) => {
+  const globe = new NotebookGlobe(el, await contents.rings("land-110m"), (name, value) => {
     model.set(name, value);
     clearTimeout(timer);
     timer = setTimeout(() => model.save_changes(), REST);

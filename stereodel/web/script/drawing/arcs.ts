@@ -166,27 +166,9 @@ export interface Rings {
 const UNSEEN_STEP = 0.5;
 
 /** Lays rings into a path as lines, cut at the limb. */
-export function traceOutlines(path: Path, disc: Disc, { points: p, offsets }: Rings): void {
-  for (let ring = 0; ring + 1 < offsets.length; ++ring) {
-    const [begin, count] = [offsets[ring], offsets[ring + 1] - offsets[ring]];
-    let [x, y, before] = [0, 0, -1];
-    for (let n = 0; n <= count; ++n) {
-      const i = 3 * (begin + (n % count));
-      const [px, py, isIn] = [disc.x + disc.r * p[i], disc.y - disc.r * p[i + 1], p[i + 2] >= 0];
-      if (n > 0 && isIn !== p[before + 2] >= 0) {
-        const t = p[before + 2] / (p[before + 2] - p[i + 2]);
-        const [cx, cy] = [p[before] + t * (p[i] - p[before]), p[before + 1] + t * (p[i + 1] - p[before + 1])];
-        const scale = disc.r / Math.hypot(cx, cy);
-        [x, y] = [disc.x + scale * cx, disc.y - scale * cy];
-        if (isIn) path.moveTo(x, y);
-        else path.lineTo(x, y);
-      }
-      if (isIn && n === 0) path.moveTo((x = px), (y = py));
-      else if (isIn && (Math.abs(px - x) + Math.abs(py - y) > UNSEEN_STEP || n === count))
-        path.lineTo((x = px), (y = py));
-      before = i;
-    }
-  }
+export function traceOutlines(path: Path, disc: Disc, { points, offsets }: Rings): void {
+  for (let ring = 0; ring + 1 < offsets.length; ++ring)
+    traceRing(path, disc, points, offsets[ring], offsets[ring + 1], false);
 }
 
 const TURN = 2 * Math.PI;
@@ -210,11 +192,11 @@ export function traceRegions(path: Path, disc: Disc, rings: Rings, holdsHidden: 
   for (; discs < 0; ++discs) traceWhole(path, disc, true);
 }
 
-/** One ring; a ring that is all hidden is not drawn, and its turns about M are returned. */
-function traceRing(path: Path, disc: Disc, p: Float64Array, begin: number, end: number): number {
+/** One ring, filled or as a line; one that is filled and all hidden is not drawn, and its turns about M are returned. */
+function traceRing(path: Path, disc: Disc, p: Float64Array, begin: number, end: number, isFilled = true): number {
   let first = begin;
   while (first < end && p[3 * first + 2] < 0) ++first;
-  if (first === end) return Math.round(turnsOf(p, begin, end) / TURN);
+  if (first === end) return isFilled ? Math.round(turnsOf(p, begin, end) / TURN) : 0;
   let [x, y] = [disc.x + disc.r * p[3 * first], disc.y - disc.r * p[3 * first + 1]];
   path.moveTo(x, y);
   let [from, turn] = [0, 0]; // along the limb, while the ring is hidden
@@ -225,23 +207,20 @@ function traceRing(path: Path, disc: Disc, p: Float64Array, begin: number, end: 
     if (z >= 0 !== w >= 0) {
       const t = z / (z - w);
       const azimuth = Math.atan2(p[i + 1] + t * (p[j + 1] - p[i + 1]), p[i] + t * (p[j] - p[i]));
+      [x, y] = [disc.x + disc.r * Math.cos(azimuth), disc.y - disc.r * Math.sin(azimuth)];
       if (w < 0) {
-        [from, turn] = [azimuth, 0];
-        path.lineTo(disc.x + disc.r * Math.cos(azimuth), disc.y - disc.r * Math.sin(azimuth));
-        turn += wrapped(Math.atan2(p[j + 1], p[j]) - azimuth);
-      } else {
-        turn += wrapped(azimuth - from - turn);
-        traceLimb(path, disc, from, turn);
-        [x, y] = [Infinity, Infinity];
-      }
-    } else if (w < 0) turn += wrapped(Math.atan2(p[j + 1], p[j]) - from - turn);
+        path.lineTo(x, y);
+        [from, turn] = [azimuth, wrapped(Math.atan2(p[j + 1], p[j]) - azimuth)];
+      } else if (isFilled) traceLimb(path, disc, from, turn + wrapped(azimuth - from - turn));
+      else path.moveTo(x, y);
+    } else if (w < 0 && isFilled) turn += wrapped(Math.atan2(p[j + 1], p[j]) - from - turn);
     if (w >= 0) {
       const [nx, ny] = [disc.x + disc.r * p[j], disc.y - disc.r * p[j + 1]];
-      if (Math.abs(nx - x) + Math.abs(ny - y) > UNSEEN_STEP) path.lineTo((x = nx), (y = ny));
+      if (Math.abs(nx - x) + Math.abs(ny - y) > UNSEEN_STEP || n === 1) path.lineTo((x = nx), (y = ny));
     }
     i = j;
   }
-  path.closePath();
+  if (isFilled) path.closePath();
   return 0;
 }
 
@@ -334,8 +313,6 @@ const SHORT = 8;
 /** Largest distance of an outline from its points' polygon, pixels: less than half the width of a coast. */
 const LEAST_BOW = 0.3;
 
-const AXES = [0, 1, 2];
-
 /** Points of one side at the most: of half a circle round the whole ball they are some pixels apart. */
 const MOST_PIECES = 128;
 
@@ -348,52 +325,40 @@ const MOST_PIECES = 128;
  */
 export function bentRings(source: Float64Array, rings: Rings, map: MoebiusMap, radius: number): Rings {
   const { points: p, offsets } = rings;
-  const sides: { from: number; to: number; pieces: number }[] = [];
+  const sides: { from: number; to: number }[] = [];
   const least = (SHORT / radius) ** 2;
   for (let ring = 0; ring + 1 < offsets.length; ++ring) {
     for (let from = offsets[ring]; from < offsets[ring + 1]; ++from) {
       const to = from + 1 < offsets[ring + 1] ? from + 1 : offsets[ring];
       const [i, j] = [3 * from, 3 * to];
       const [x, y, z] = [p[j] - p[i], p[j + 1] - p[i + 1], p[j + 2] - p[i + 2]];
-      if (x * x + y * y + z * z > least) sides.push({ from, to, pieces: 1 });
+      if (x * x + y * y + z * z > least) sides.push({ from, to });
     }
   }
-  const coordinate = (row: number, k: number): number => source[3 * row + k];
-  const middles = sides.flatMap(({ from, to }) => AXES.map((k) => coordinate(from, k) + coordinate(to, k)));
-  const images = map.apply(Float64Array.from(middles));
-  const between: number[] = [];
-  sides.forEach((side, at) => {
-    const { from, to } = side;
-    const three = [...row(p, from), ...row(images, at), ...row(p, to)];
+  const on = ({ from, to }: (typeof sides)[0], t: number): number[] =>
+    [0, 1, 2].map((k) => (1 - t) * source[3 * from + k] + t * source[3 * to + k]);
+  const middles = map.apply(Float64Array.from(sides.flatMap((side) => on(side, 0.5))));
+  const between = sides.map((side, at): number[] => {
+    const three = [...row(p, side.from), ...row(middles, at), ...row(p, side.to)];
     const pieces = Math.ceil(Math.sqrt((radius * bow(three, 0, 1, 2)) / LEAST_BOW));
-    side.pieces = Math.max(1, Math.min(MOST_PIECES, pieces));
-    for (let piece = 1; piece < side.pieces; ++piece) {
-      const t = piece / side.pieces;
-      for (const k of AXES) between.push(coordinate(from, k) + t * (coordinate(to, k) - coordinate(from, k)));
-    }
+    const count = Math.max(1, Math.min(MOST_PIECES, pieces));
+    return Array.from({ length: count - 1 }, (_, k) => on(side, (k + 1) / count)).flat();
   });
-  return between.length === 0 ? rings : merged(rings, sides, map.apply(Float64Array.from(between)));
-}
-
-function merged(
-  { points, offsets }: Rings,
-  sides: readonly { from: number; pieces: number }[],
-  between: Float64Array,
-): Rings {
-  const more = new Float64Array(points.length + between.length);
-  const moved = new Uint32Array(offsets.length);
-  let [at, taken, side] = [0, 0, 0];
-  for (let ring = 0; ring + 1 < offsets.length; ++ring) {
-    for (let k = offsets[ring]; k < offsets[ring + 1]; ++k) {
-      more.set(points.subarray(3 * k, 3 * k + 3), at);
-      at += 3;
-      if (side === sides.length || sides[side].from !== k) continue;
-      const length = 3 * (sides[side++].pieces - 1);
-      more.set(between.subarray(taken, taken + length), at);
-      at += length;
-      taken += length;
-    }
-    moved[ring + 1] = at / 3;
-  }
-  return { points: more.subarray(0, at), offsets: moved };
+  const images = map.apply(Float64Array.from(between.flat()));
+  if (images.length === 0) return rings;
+  const bent = new Float64Array(p.length + images.length);
+  const moved = Uint32Array.from(offsets);
+  let [ring, done, taken] = [0, 0, 0];
+  const follow = (end: number): void => {
+    bent.set(p.subarray(done, end), done + taken);
+    for (done = end; 3 * offsets[ring] < end; ++ring) moved[ring] += taken / 3;
+  };
+  sides.forEach(({ from }, at) => {
+    follow(3 * from + 3);
+    const more = images.subarray(taken, taken + between[at].length);
+    bent.set(more, done + taken);
+    taken += more.length;
+  });
+  follow(p.length + 1); // the last offset, too
+  return { points: bent, offsets: moved };
 }

@@ -45,10 +45,26 @@ function layerOf(points: Float64Array, draw: Layer["draw"]): Layer {
 
 /** Lines: arcs of three points each, an end, a point between, the other end. */
 export function arcLayer(style: StyleName, points: Float64Array): Layer {
-  return layerOf(points, (pen, disc, images) =>
-    pen.draw(style, (path) => {
-      for (let k = 0; 3 * k < images.length; k += 3) traceArc(path, disc, images, k, k + 1, k + 2);
-    }),
+  return layerOf(points, (pen, disc, images) => drawArcs(pen, disc, style, images));
+}
+
+/** Draws arcs of three points each, axes of the view. */
+export function drawArcs(pen: Pen, disc: Disc, style: StyleName, p: ArrayLike<number>, side: Side = "front"): void {
+  const sign = side === "front" ? 1 : -1;
+  const ends = new Float64Array((4 * p.length) / 9);
+  for (let i = 0, at = 0; i < p.length; i += 9, at += 4) {
+    // Without a length, and so without ink, where both are hidden.
+    const j = sign * p[i + 2] >= 0 || sign * p[i + 8] >= 0 ? i + 6 : i;
+    [ends[at], ends[at + 1]] = [disc.x + disc.r * p[i], disc.y - disc.r * p[i + 1]];
+    [ends[at + 2], ends[at + 3]] = [disc.x + disc.r * p[j], disc.y - disc.r * p[j + 1]];
+  }
+  pen.lines(style, ends, (path, k) => traceArc(path, disc, p, 3 * k, 3 * k + 1, 3 * k + 2, side));
+}
+
+/** Draws lines as they are. @param ends x, y, x, y in turn. */
+export function drawSegments(pen: Pen, style: StyleName, ends: readonly number[]): void {
+  pen.lines(style, ends, (path, k) =>
+    traceSegment(path, [ends[4 * k], ends[4 * k + 1]], [ends[4 * k + 2], ends[4 * k + 3]]),
   );
 }
 
@@ -128,8 +144,7 @@ export function landLayer({ lonlat, offsets }: Places): Layer {
 export function edgeArcs({ points, edges }: SphericalDelaunay): Float64Array {
   const arcs: number[] = [];
   for (let k = 0; k < edges.length; k += 2) {
-    const [a, b] = [unit(row(points, edges[k])), unit(row(points, edges[k + 1]))];
-    pushAll(arcs, a, [a[0] + b[0], a[1] + b[1], a[2] + b[2]], b);
+    pushAll(arcs, ...arcBetween(unit(row(points, edges[k])), unit(row(points, edges[k + 1]))));
   }
   return Float64Array.from(arcs);
 }
@@ -198,7 +213,7 @@ export function lineArcs({ lonlat, offsets }: Places): Float64Array {
   for (let line = 0; line + 1 < offsets.length; ++line) {
     for (let k = offsets[line] + 1; k < offsets[line + 1]; ++k) {
       const [a, b] = [row(points, k - 1), row(points, k)];
-      pushAll(arcs, a, unit([a[0] + b[0], a[1] + b[1], a[2] + b[2]]), b);
+      pushAll(arcs, ...arcBetween(a, b));
     }
   }
   return Float64Array.from(arcs);
@@ -209,9 +224,9 @@ export function placeOf(disc: Disc, point: Vector): [number, number] {
   return [disc.x + disc.r * point[0], disc.y - disc.r * point[1]];
 }
 
-/** The shorter great-circle arc between two directions. */
-export function traceGreat(path: Path, disc: Disc, a: Vector, b: Vector, side: Side = "front"): void {
-  traceArc(path, disc, [...a, ...unit([a[0] + b[0], a[1] + b[1], a[2] + b[2]]), ...b], 0, 1, 2, side);
+/** The shorter great-circle arc between two directions, as three points. */
+export function arcBetween(a: Vector, b: Vector): Vector[] {
+  return [a, unit([a[0] + b[0], a[1] + b[1], a[2] + b[2]]), b];
 }
 
 /** Where a picture has sites, and lines and regions between them. */
@@ -220,6 +235,8 @@ export interface Surface {
   isSeen(site: number): boolean;
   /** From one site to another. */
   line(path: Path, a: number, b: number, side?: Side): void;
+  /** All that are drawn in a style, a and b in turn. */
+  lines(pen: Pen, style: StyleName, sites: ArrayLike<number>, side?: Side): void;
   /** A closed line through sites. */
   ring(path: Path, sites: readonly number[]): void;
   /** The region on the left of such a line. @param holds Whether it holds the middle of the far side, or infinity. */
@@ -235,14 +252,17 @@ export function ballSurface(disc: Disc, look: (site: number) => Vector, map: Moe
   const image = (site: number): Vector => (map === null ? look(site) : row(seen([look(site)]), 0));
   const sides = (sites: readonly number[]): [number, number][] =>
     sites.map((a, k) => [a, sites[(k + 1) % sites.length]]);
-  const line = (path: Path, from: number, to: number, side?: Side): void => {
-    const [a, b] = [look(from), look(to)];
-    traceArc(path, disc, seen([a, unit([a[0] + b[0], a[1] + b[1], a[2] + b[2]]), b]), 0, 1, 2, side);
-  };
+  const line = (path: Path, a: number, b: number, side?: Side): void =>
+    traceArc(path, disc, seen(arcBetween(look(a), look(b))), 0, 1, 2, side);
   return {
     place: (site) => placeOf(disc, image(site)),
     isSeen: (site) => image(site)[2] >= 0,
     line,
+    lines(pen, style, sites, side) {
+      const arcs: Vector[] = [];
+      for (let k = 0; k < sites.length; k += 2) arcs.push(...arcBetween(look(sites[k]), look(sites[k + 1])));
+      drawArcs(pen, disc, style, seen(arcs), side);
+    },
     ring: (path, sites) => sides(sites).forEach(([a, b]) => line(path, a, b)),
     region(path, sites, holds) {
       const points = sides(sites).flatMap(([a, b]) => along(look(a), look(b)));
@@ -260,6 +280,7 @@ export function planeSurface(place: (site: number) => Point, frame: Trace): Surf
     place,
     isSeen: () => true,
     line: (path, a, b) => traceSegment(path, place(a), place(b)),
+    lines: (pen, style, sites) => drawSegments(pen, style, Array.from(sites).flatMap(place)),
     ring,
     region(path, sites, holds) {
       if (holds) frame(path);

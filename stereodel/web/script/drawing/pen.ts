@@ -1,27 +1,12 @@
 /** The one interface through which rooms draw: the same trace becomes pixels or SVG. Pixels of the screen, y down. */
 
 import type { Owner } from "../rooms/owner.ts";
-import { eachDots, eachLines, Ink } from "./density.ts";
+import { Ink, SQUARE } from "./density.ts";
 import { DOTS, HANDLE_CROSS, HANDLE_RADIUS, STYLES } from "./styles.ts";
 import type { Colours, DotName, DotStyle, LabelStyle, Style, StyleName, Token } from "./styles.ts";
 
 /** What a trace is laid into: a part of the canvas's own interface. */
-export interface Path {
-  moveTo(x: number, y: number): void;
-  lineTo(x: number, y: number): void;
-  /** Continues with a line to the arc's beginning, if there is a point before. */
-  ellipse(
-    x: number,
-    y: number,
-    radiusX: number,
-    radiusY: number,
-    rotation: number,
-    from: number,
-    to: number,
-    counterclockwise?: boolean,
-  ): void;
-  closePath(): void;
-}
+export type Path = Pick<CanvasPath, "moveTo" | "lineTo" | "ellipse" | "closePath">;
 
 export type Trace = (path: Path) => void;
 
@@ -35,8 +20,8 @@ export interface Disc {
   readonly r: number;
 }
 
-/** A picture that is laid into the drawing. */
-export type Picture = HTMLCanvasElement | OffscreenCanvas;
+/** A picture that is laid into the drawing; an image is one of SVG with its text in its address. */
+export type Picture = HTMLCanvasElement | OffscreenCanvas | HTMLImageElement;
 
 /** Where the light falls on a ball of radius 1, as on those of the library (`stereodel/render/vector/paper.py`): the
  * focus of the gradient, middle and radius of its last circle, y down; and how much of its fall lies before some places. */
@@ -58,6 +43,15 @@ function falling(id: string, ...ends: [string, string]): Gradient {
   return { id, stops: stops.map(([at, inks]) => [at, `rgb(${inks.replace(/ (\S+)$/, " / $1")})`]) };
 }
 
+/** Parts of the ground that lines of one net, and dots, may cover. */
+const [MOST_LINES, MOST_DOTS] = [0.16, 0.07];
+
+/** The finest lines and the smallest dots, as parts of the usual. */
+const [FINEST, SMALLEST] = [0.55, 0.4];
+
+/** Arcs of ellipses in one path: browsers need quadratic time for paths of thousands. */
+export const MOST_ARCS = 256;
+
 export abstract class Pen {
   /** Of the drawing, pixels of the screen. */
   readonly width: number;
@@ -73,14 +67,28 @@ export abstract class Pen {
     [this.width, this.height, this.colours, this.weight] = [width, height, colours, weight];
   }
 
-  /** Draws a path in a style, or in an ink of the data; regions are those about which the path winds, and dense nets are weaker. */
+  /** Draws a path in a style, or in an ink of the data; regions are those about which the path winds. */
   draw(name: StyleName, trace: Trace, ink?: string): void {
+    this.path(name, STYLES[name], trace, ink);
+  }
+  /** Draws lines by their ends, x, y, x, y in turn, which `lay` joins; those of nets weaker where they are dense. */
+  lines(name: StyleName, ends: ArrayLike<number>, lay: (path: Path, k: number) => void): void {
     const style: Style = STYLES[name];
-    if (!style.isNet) return this.path(name, style, trace, ink);
-    const { width = 1 } = style;
-    eachLines(trace, width * this.weight, this.#ink(name), (size, opacity, part) =>
-      this.path(name, { ...style, width: size * width, strokeOpacity: opacity }, part, ink),
-    );
+    const { width = 1, isNet } = style;
+    const middles = Float64Array.from({ length: ends.length / 2 }, (_, at) => {
+      const x = 2 * at - (at & 1);
+      return (ends[x] + ends[x + 2]) / 2;
+    });
+    const area = (k: number): number =>
+      width *
+      this.weight *
+      Math.min(SQUARE, Math.hypot(ends[4 * k + 2] - ends[4 * k], ends[4 * k + 3] - ends[4 * k + 1]));
+    this.#ink(name).each(middles, area, isNet ? MOST_LINES : Infinity, (part, numbers) => {
+      const size = Math.max(FINEST, Math.sqrt(part));
+      const thin: Style = { ...style, width: size * width, strokeOpacity: part / size };
+      for (let from = 0; from < numbers.length; from += MOST_ARCS)
+        this.path(name, thin, (path) => numbers.slice(from, from + MOST_ARCS).forEach((k) => lay(path, k)));
+    });
   }
   /** Draws what lies behind, faintly. */
   abstract behind(body: () => void): void;
@@ -89,8 +97,20 @@ export abstract class Pen {
   /** Dots at x, y in turn; where they are dense, smaller and weaker. */
   dots(name: DotName, places: ArrayLike<number>): void {
     const { radius, rimWidth, ...inks }: DotStyle = DOTS[name];
-    eachDots(places, Math.PI * radius * radius, this.#ink(name), (size, opacity, those) =>
-      this.discs(name, { ...inks, radius: size * radius, rimWidth: size * rimWidth, opacity }, those),
+    const area = Math.PI * radius * radius;
+    this.#ink(name).each(
+      places,
+      () => area,
+      MOST_DOTS,
+      (part, numbers) => {
+        const size = Math.max(SMALLEST, Math.sqrt(part));
+        const style = { ...inks, radius: size * radius, rimWidth: size * rimWidth, opacity: part / size ** 2 };
+        const those = Float64Array.from(
+          { length: 2 * numbers.length },
+          (_, at) => places[2 * numbers[at >> 1] + (at & 1)],
+        );
+        this.discs(name, style, those);
+      },
     );
   }
   /** Dots with radii and inks of their own, x, y, r in turn, the lowest first, each with a line around it. */
