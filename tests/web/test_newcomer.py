@@ -9,7 +9,7 @@ from stereodel import SphericalVoronoi
 from stereodel.earth import AUTHALIC_RADIUS_KM
 from stereodel.web import web
 
-from .rooms import CANNOT_BE_READ, downloaded, said
+from .rooms import CANNOT_BE_READ, downloaded, pixels, said
 
 rng = np.random.default_rng(12)
 LONLAT = np.column_stack([rng.uniform(5, 15, 40), rng.uniform(45, 54, 40)]).round(4)
@@ -71,8 +71,7 @@ def test_send_it_to_a_friend(towns, visit):
     friend.until("document.documentElement.dataset.ready")
     friend.rest()
     assert CANNOT_BE_READ not in friend.page.locator("#messages").inner_text()
-    pixels = "document.querySelector('#globe-plate').toDataURL()"
-    assert friend.page.evaluate(pixels) == towns.page.evaluate(pixels)
+    assert pixels(friend, "globe") == pixels(towns, "globe")
 
 
 def test_get_it_into_a_paper(towns):
