@@ -84,7 +84,7 @@ def test_what_is_compiled_in_has_its_notice():
 # The README in the metadata
 
 WHERE = "https://example.invalid/stereodel"
-ADDRESS = f'[project.urls]\nSource = "{WHERE}"\n\n'
+ADDRESS = "[project.urls]\n" + "".join(f'{name} = "{WHERE}"\n' for name in readme_metadata.ADDRESSES) + "\n"
 
 
 def long_description(folder, *, address="", publication=""):
@@ -124,7 +124,10 @@ def test_an_index_shows_pictures_and_links_of_the_readme(tmp_path):
 @pytest.mark.thorough
 def test_without_an_address_the_readme_is_that_of_the_repository_and_nothing_is_published(tmp_path):
     assert long_description(tmp_path / "a").strip() == (ROOT / "README.md").read_text(encoding="utf-8").strip()
-    assert "pyproject.toml has no Source in project.urls" in long_description(tmp_path / "b", publication="1")
+    without = "project.urls of pyproject.toml lacks Homepage, Documentation, Source, Issues, Changelog:"
+    assert without in long_description(tmp_path / "b", publication="1")
+    all_but_one = ADDRESS.replace("Issues", "Other")
+    assert "lacks Issues:" in long_description(tmp_path / "c", address=all_but_one, publication="1")
 
 
 @pytest.mark.parametrize("text", ["`[a](b.md)`", "```\n[a](b.md)\n```", "[a](https://b.invalid)", "[a](#b)"])
