@@ -102,6 +102,7 @@ lint: $(VENV)/installed-lint ## what check does, without the documentation
 	$(BIN)/ruff check .
 	$(BIN)/mypy
 	$(BIN)/python tools/kernel_stub.py --check
+	$(BIN)/python -m tools.bill --check
 	$(BIN)/python tools/tracked_text.py
 	PATH=$(CURDIR)/$(BIN):$$PATH npm --prefix stereodel/web/script --silent run check
 	$(BIN)/zizmor --offline --quiet --strict-collection .github

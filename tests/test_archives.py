@@ -1,10 +1,12 @@
 """The check of `make dist`: what must be in the source archive and in the wheel, and what must not."""
 
+import json
 import os
 import re
 import shutil
 import subprocess
 import sys
+import zipfile
 from importlib.metadata import distribution
 from pathlib import Path
 
@@ -79,6 +81,23 @@ def test_what_is_compiled_in_has_its_notice():
     rights = {line for path in headers for line in re.findall(r"Copyright.*", path.read_text(encoding="utf-8"))}
     assert rights  # what nanobind brings along
     assert [line for line in rights if line not in notices] == []
+
+
+def test_a_wheel_whose_data_are_not_those_of_its_bill_is_refused(tmp_path):
+    bill = (ROOT / "NOTICES.cdx.json").read_bytes()
+    listed = [part["name"] for part in json.loads(bill)["components"] if part.get("type") == "data"]
+    assert len(listed) > 10
+
+    def problems(changed=None, named="NOTICES.cdx.json"):
+        with zipfile.ZipFile(tmp_path / "made.whl", "w") as wheel:
+            wheel.writestr(f"stereodel-1.dist-info/sboms/{named}", bill)
+            for name in listed:
+                wheel.writestr(name, b"" if name == changed else (ROOT / name).read_bytes())
+            return archives.bill_problems(wheel)
+
+    assert problems() == []
+    assert set(problems(changed=listed[0])) == {f"not as the bill of materials says: {listed[0]}"}
+    assert problems(named="other.json") == ["no bill of materials in the wheel"]
 
 
 # The README in the metadata
