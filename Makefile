@@ -22,7 +22,7 @@ BUILD := $(BIN)/python -m tools.build --scripts figures --out $(OUT) $(if $(STYL
 
 .PHONY: help install system opengl browser librsvg inkscape figures poster animations test test-thorough test-large mutations coverage \
 	test-source test-pythons test-lowest sanitize fuzz fuzz-files check \
-	lint web built stub bench dist dist-again source check-archives wheels cross baselines names readme-images web-images docs clean
+	lint web built stub bench peers dist dist-again source check-archives wheels cross baselines names readme-images web-images docs clean
 
 help: ## list the targets
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1|\2/p' $(firstword $(MAKEFILE_LIST)) | column -t -s '|'
@@ -120,6 +120,10 @@ bench: $(VENV)/installed-library ## measure against other libraries, which are i
 	benchmarks/install_peers.sh
 	$(BIN)/python -m benchmarks
 	$(BIN)/python -m benchmarks.rasters
+
+peers: $(VENV)/installed-test ## run the lines of the pages for users of other libraries, with those libraries
+	benchmarks/install_peers.sh
+	$(BIN)/python -m pytest $(PYTEST_ARGS) tests/peers.py
 
 dist: $(VENV)/installed-wheels opengl ## source archive, wheel and npm archive into dist/, each tried as users get it
 	tools/dist.sh $(VENV)
