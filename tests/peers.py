@@ -1,4 +1,4 @@
-"""The neighbours' lines of the pages `docs/from`, run with the neighbours themselves: `make peers` installs and asks them.
+"""The neighbours' lines of the pages `docs/from`, run with the neighbours: `make peers` installs and asks them.
 
 No file of pytest's by its name, as `make test` has no neighbours: `python -m pytest tests/peers.py`.
 """
