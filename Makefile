@@ -22,7 +22,7 @@ BUILD := $(BIN)/python -m tools.build --scripts figures --out $(OUT) $(if $(STYL
 
 .PHONY: help install system opengl browser librsvg inkscape figures poster animations test test-thorough test-large mutations coverage \
 	test-source test-pythons test-lowest sanitize fuzz fuzz-files check \
-	lint web built stub bench peers dist dist-again source check-archives wheels cross baselines names readme-images web-images docs clean
+	lint web built stub bench peers dist dist-again source check-archives rehearse wheels cross baselines names readme-images web-images docs clean
 
 help: ## list the targets
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1|\2/p' $(firstword $(MAKEFILE_LIST)) | column -t -s '|'
@@ -136,6 +136,9 @@ source: $(VENV)/installed-wheels ## the source archive into dist/
 
 check-archives: $(VENV)/installed-wheels ## check the archives in dist/: their texts, and the interface of wheels for several Pythons
 	tools/check_archives.sh $(VENV)
+
+rehearse: $(VENV)/installed-wheels opengl ## a release as if it were published: bare roots, a local index and a local registry; ends with a table of what was tried
+	tools/rehearse.sh $(VENV)
 
 MACHINES := x86_64 aarch64
 wheels: $(VENV)/installed-wheels ## source archive and wheels for Linux on MACHINES into dist/, by zig, checked and tried on each Python found
