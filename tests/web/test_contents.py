@@ -30,7 +30,7 @@ const rings = (found) => found && {{ lonlat: [...found.lonlat], offsets: [...fou
 
 
 def read_rings(node, text):
-    found = read(node, "rings(await contents.land('50m'))", {"land-50m": text})
+    found = read(node, "rings(await contents.rings('land-50m'))", {"land-50m": text})
     return np.reshape(found["lonlat"], (-1, 2)), found["offsets"]
 
 
@@ -52,8 +52,8 @@ def test_doubles_come_back_to_the_bit(node, rng):
 
 
 def test_what_a_page_has_not(node):
-    nothing = "Promise.all([contents.land('50m'), contents.set('stars').then((s) => s.length), contents.given()])"
-    assert read(node, nothing, {}) == [None, 0, None]
+    nothing = "Promise.all([contents.rings('land-50m'), contents.given()])"
+    assert read(node, nothing, {}) == [None, None]
     assert read(node, "contents.kernel().catch((error) => error.message)", {}) == "the page has no kernel"
 
 
@@ -90,7 +90,7 @@ def test_land_is_that_of_the_package_without_seams(node, resolution):
 @pytest.mark.parametrize("name", ["cities", "airports", "stars"])
 def test_the_sets_are_places_of_the_package(node, name):
     whole = getattr(data, name)().lonlat
-    found = np.reshape(read(node, f"contents.set('{name}').then((s) => [...s])", {name: sites(name)}), (-1, 2))
+    found = np.reshape(read(node, f"contents.rings('{name}').then((s) => [...s.lonlat])", {name: sites(name)}), (-1, 2))
     assert 100 < len(found) < 300
     assert {tuple(place) for place in found.tolist()} <= {tuple(place) for place in whole.tolist()}
     assert len(np.unique(found, axis=0)) == len(found)
@@ -98,7 +98,8 @@ def test_the_sets_are_places_of_the_package(node, name):
 
 @pytest.mark.parametrize(("name", "places"), scattered().items())
 def test_the_sets_that_rooms_begin_with(node, name, places):
-    assert read(node, f"contents.set('{name}').then((s) => [...s])", {name: sites(name)}) == places.ravel().tolist()
+    found = read(node, f"contents.rings('{name}').then((s) => [...s.lonlat])", {name: sites(name)})
+    assert found == places.ravel().tolist()
 
 
 def test_too_many_points():

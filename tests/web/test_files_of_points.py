@@ -127,7 +127,7 @@ for (const [name, content] of Object.entries(files)) {{
     const values = Object.fromEntries([...found.values].map(([name, all]) => [name, [...all]]));
     answers[name] = {{ ...found, places: [...found.places], values }};
   }} catch (error) {{
-    answers[name] = {{ error: error.message, columns: error.names }};
+    answers[name] = {{ error: error.message, columns: error.columns }};
   }}
 }}
 export default answers;

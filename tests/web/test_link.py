@@ -8,7 +8,9 @@ import numpy as np
 from .conftest import SCRIPT, asking
 
 ask = asking(f"""
-import {{ LinkError, LinkValues, packPlaces, readLink, writeLink, writeNumber }} from "{SCRIPT}/link.ts";
+import {{ number, whole, word }} from "{SCRIPT}/fields.ts";
+import {{ LinkError, readLink, writeLink, writeNumber }} from "{SCRIPT}/link.ts";
+import {{ tableOf, tableValues }} from "{SCRIPT}/rooms/site_room.ts";
 const attempt = (body) => {{
   try {{ return body(); }} catch (error) {{ return error instanceof LinkError ? "refused" : String(error); }}
 }};
@@ -16,8 +18,8 @@ const attempt = (body) => {{
 
 
 READ = "given.map((hash) => attempt(() => { const { room, values } = readLink(hash); return [room, [...values]]; }))"
-PACKED = "given.map((places) => packPlaces(Float64Array.from(places)))"
-UNPACKED = "given.map((sites) => attempt(() => [...new LinkValues([['sites', sites]]).places('sites')]))"
+PACKED = "given.map((places) => tableValues({ places: Float64Array.from(places) }, true).sites)"
+UNPACKED = "given.map((sites) => attempt(() => [...tableOf(new Map([['sites', sites]]), 'plane').places]))"
 
 
 def test_a_state_comes_back(node):
@@ -40,15 +42,15 @@ def test_hostile_links_are_refused(node):
 def test_numbers_out_of_range_and_what_is_none_are_refused(node):
     wrong = ["NaN", "Infinity", "1e999", "0x10", "", " 5", "5 ", "--5", "1e5e5", "91", "-90.0001", "<b>", "null"]
     wrong += ["1" * 40]
-    number = "given.map((lat) => attempt(() => new LinkValues([['lat', lat]]).number('lat', -90, 90, 0)))"
+    number = "given.map((lat) => attempt(() => number('lat', -90, 90).read(new Map([['lat', lat]]), 0)))"
     assert ask(node, number, wrong) == ["refused"] * len(wrong)
 
 
 def test_numbers_and_words_are_read_and_numbers_written_short(node):
-    read = "[new LinkValues(given).number('lat', -90, 90, 7), new LinkValues(given).number('no', 0, 1, 0.5)]"
+    read = "[number('lat', -90, 90).read(new Map(given), 7), number('no', 0, 1).read(new Map(given), 0.5)]"
     assert ask(node, read, [["lat", "-53.125"]]) == [-53.125, 0.5]
-    assert ask(node, "attempt(() => new LinkValues(given).whole('k', 0, 9))", [["k", "2.5"]]) == "refused"
-    words = "given.map((each) => attempt(() => new LinkValues(each).word('click', ['keep', 'add'], 'keep')))"
+    assert ask(node, "attempt(() => whole('k', 9).read(new Map(given), null))", [["k", "2.5"]]) == "refused"
+    words = "given.map((each) => attempt(() => word('click', ['keep', 'add']).read(new Map(each), 'keep')))"
     assert ask(node, words, [[["click", "add"]], [], [["click", "toString"]]]) == ["add", "keep", "refused"]
     written = ask(
         node, "given.map((each) => writeNumber(...each))", [[5, 4], [-0.00001, 3], [1.25, 1], [100, 0], [-2.5, 4]]
