@@ -68,24 +68,29 @@ class Looks:
         """Contents of the page by name; none where nothing is said."""
         if not self.said:
             return {}
-        told: dict[str, Any] = {"title": self.title, "source": self.source}
+        dots, entries = self.dots(len(lonlat))
+        scales = [entry for entry in entries.values() if isinstance(entry, ColorScale)]
         lines: dict[str, str] = {}
-        if self.size is not None or self.color is not None or self.values is not None:
-            given = (self.size, self.color, self.values, self.scale, self.legend, None, self.size_legend)
-            dots = DotLooks.of(len(lonlat), replace(MAP_DOT, radius=BY_VALUE), *given)
-            colors = np.array([dots.style.color]) if dots.colors is None else dots.colors
-            inks, number = np.unique(np.round(colors * 255) / 255, axis=0, return_inverse=True)
-            told |= {
-                "inks": [_css(ink) for ink in inks],
-                "ink": np.broadcast_to(number.ravel(), len(lonlat)).tolist(),
-                "radii": np.round(np.array(dots.radii(len(lonlat))) * PIXELS, 2).tolist(),
-                "legend": legend(dots.entries),
-                "columns": self._columns(),
-            }
-            scales = [entry for entry in dots.entries.values() if isinstance(entry, ColorScale)]
-            if scales and len(lonlat) <= MOST_CONTOURED:
-                lines = _isolines(lonlat, np.asarray(self.values, dtype=np.float64), scales[0], latitude)
+        if scales and len(lonlat) <= MOST_CONTOURED:
+            lines = _isolines(lonlat, np.asarray(self.values, dtype=np.float64), scales[0], latitude)
+        told = {"title": self.title, "source": self.source, "legend": legend(entries)} | dots
         return {"owner": packed(json.dumps(told).encode("utf-8", "replace"))} | lines
+
+    def dots(self, count: int) -> tuple[dict[str, Any], dict[str, LegendEntry]]:
+        """Inks, radii and values of so many places, if anything is said of them, and what a legend says."""
+        if self.size is None and self.color is None and self.values is None:
+            return {}, {}
+        given = (self.size, self.color, self.values, self.scale, self.legend, None, self.size_legend)
+        dots = DotLooks.of(count, replace(MAP_DOT, radius=BY_VALUE), *given)
+        colors = np.array([dots.style.color]) if dots.colors is None else dots.colors
+        inks, number = np.unique(np.round(colors * 255) / 255, axis=0, return_inverse=True)
+        told = {
+            "inks": [css(ink) for ink in inks],
+            "ink": np.broadcast_to(number.ravel(), count).tolist(),
+            "radii": np.round(np.array(dots.radii(count)) * PIXELS, 2).tolist(),
+            "columns": self._columns(),
+        }
+        return told, dots.entries
 
     def _columns(self) -> list[tuple[str, list[Any]]]:
         """Titles and values, those of both scales once if they are the same; what is missing is null."""
@@ -109,7 +114,7 @@ def _isolines(lonlat: FloatArray, values: FloatArray, scale: ColorScale, latitud
     return {"isolines": packed_places(Ragged(np.concatenate([line.lonlat for line in found]), offsets), ISOLINE_DIGITS)}
 
 
-def _css(color: ColorLike) -> str:
+def css(color: ColorLike) -> str:
     """A colour as CSS writes it."""
     red, green, blue, opacity = as_color(color)
     return f"rgb({round(255 * red)} {round(255 * green)} {round(255 * blue)} / {opacity:.3g})"

@@ -156,6 +156,20 @@ def test_pictures_have_title_legend_and_source_and_no_handle(page):
     assert (foot < 100).sum() > 500  # letters of the legend and of the source
 
 
+def test_a_print_is_one_sheet_with_the_legend(page, tmp_path):
+    import pypdfium2
+
+    shown = page()
+    shown.page.pdf(path=tmp_path / "towns.pdf")
+    with pypdfium2.PdfDocument(tmp_path / "towns.pdf") as document:
+        assert len(document) == 1
+        text = document[0].get_textpage().get_text_range()
+        said = [word in text for word in ("Sixty towns & more", "Invented", "Drag", "Five small", "Magnification")]
+        assert said == [True, True, False, False, False]
+        sheet = document[0].render(scale=1).to_numpy()
+    assert (sheet[140:190, -235:-50].std(axis=2) > 20).mean() > 0.04  # the bar of the legend, on the right
+
+
 @pytest.mark.parametrize("size", [(900, 500), pytest.param((360, 640), marks=pytest.mark.thorough)])
 def test_a_frame_has_the_drawing_alone(towns, visit, tmp_path, size):
     host = tmp_path / "host.html"

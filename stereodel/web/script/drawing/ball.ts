@@ -35,13 +35,20 @@ function layerOf(points: Float64Array, draw: Layer["draw"]): Layer {
   return { directions: new Directions(points), draw };
 }
 
-/** Lines: arcs of three points each, an end, a point between, the other end. */
-export function arcLayer(style: StyleName, points: Float64Array): Layer {
-  return layerOf(points, (pen, disc, images) => drawArcs(pen, disc, style, images));
+/** Lines: arcs of three points each, an end, a point between, the other end; an ink is of the data. */
+export function arcLayer(style: StyleName, points: Float64Array, ink?: string): Layer {
+  return layerOf(points, (pen, disc, images) => drawArcs(pen, disc, style, images, "front", ink));
 }
 
 /** Draws arcs of three points each, axes of the view. */
-export function drawArcs(pen: Pen, disc: Disc, style: StyleName, p: ArrayLike<number>, side: Side = "front"): void {
+export function drawArcs(
+  pen: Pen,
+  disc: Disc,
+  style: StyleName,
+  p: ArrayLike<number>,
+  side: Side = "front",
+  ink?: string,
+): void {
   const [sign, half] = [side === "front" ? 1 : -1, disc.r / 2];
   const lines = new Float64Array(p.length / 3);
   for (let i = 0, at = 0; i < p.length; i += 9, at += 3) {
@@ -51,7 +58,7 @@ export function drawArcs(pen: Pen, disc: Disc, style: StyleName, p: ArrayLike<nu
     const isSeen = sign * p[i + 2] >= 0 || sign * p[i + 8] >= 0;
     lines[at + 2] = isSeen ? disc.r * Math.hypot(p[i + 6] - p[i], p[i + 7] - p[i + 1]) : 0;
   }
-  pen.lines(style, lines, (path, k) => traceArc(path, disc, p, 3 * k, side));
+  pen.lines(style, lines, (path, k) => traceArc(path, disc, p, 3 * k, side), ink);
 }
 
 /** Draws lines as they are. @param ends x, y, x, y in turn. */

@@ -77,7 +77,7 @@ export abstract class Pen {
   /** Draws a path in a style, or in an ink of the data; regions are those about which the path winds. */
   abstract draw(name: StyleName, trace: Trace, ink?: string, style?: Style): void;
   /** Draws lines by the x and y of their middles and their lengths; those of nets weaker where they are dense. */
-  lines(name: StyleName, lines: Float64Array, lay: (path: Path, k: number) => void): void {
+  lines(name: StyleName, lines: Float64Array, lay: (path: Path, k: number) => void, ink?: string): void {
     const style: Style = STYLES[name];
     const width = (style.width ?? 1) * this.weight;
     const area = (k: number): number => width * Math.min(SQUARE, lines[3 * k + 2]); // what is longer lies apart
@@ -86,7 +86,7 @@ export abstract class Pen {
       const thin: Style = { ...style, width: size * (style.width ?? 1), strokeOpacity: part / size };
       for (let from = 0; from < numbers.length; from += MOST_ARCS) {
         const those = numbers.slice(from, from + MOST_ARCS);
-        this.draw(name, (path) => those.forEach((k) => lay(path, k)), undefined, thin);
+        this.draw(name, (path) => those.forEach((k) => lay(path, k)), ink, thin);
       }
     });
   }

@@ -47,6 +47,7 @@ export const STYLES = {
   touch: { stroke: "ink", width: 1 },
   tissot: { fill: "tissot", stroke: "coast", width: 0.6 },
   tint: { fill: "paper", stroke: "paper", width: 0.6 },
+  line: { stroke: "ink", width: 1.2 },
   "isoline-halo": { stroke: "halo", width: 2.4 },
   isoline: { stroke: "ink", width: 0.8 },
   "spot-line": { stroke: "limb", width: 0.6 },

@@ -15,11 +15,11 @@ import { capToCap, lensMap, scaleAt } from "../view/lens.ts";
 import { View } from "../view/view.ts";
 import { counted, latitude, longitude, scale } from "../words.ts";
 import { Choice, mark, NumberField, PlaceFields, tellNamed } from "./controls.ts";
-import { BubbleGlobe, FisheyeGlobe, FiveViews } from "./globe_plates.ts";
+import { BubbleGlobe, FisheyeGlobe, FiveViews, type GlobeHost } from "./globe_plates.ts";
 import { GlobeScene, type Places } from "./globe_scene.ts";
-import { BEGINNING, GLOBE, PRESETS, sideView } from "./globe_state.ts";
+import { BEGINNING, GLOBE, magnificationWords, placeWords, PRESETS, sideView, sightWords } from "./globe_state.ts";
 import type { GlobeState } from "./globe_state.ts";
-import { placeSentence, toldOf, valueWords } from "./owner.ts";
+import { area, placeSentence, toldOf, valueWords } from "./owner.ts";
 import { TableRoom, tableOf, tableValues } from "./site_room.ts";
 
 /** Steps of the slider for a magnification of ten times. */
@@ -36,9 +36,10 @@ export function globeRoom(host: RoomHost, given: Places | null, latitude: Latitu
   return new GlobeRoom(host, given, latitude);
 }
 
-export class GlobeRoom extends TableRoom implements Room {
+export class GlobeRoom extends TableRoom implements Room, GlobeHost {
   readonly scene: GlobeScene;
   /** The drawing stands alone in a frame of another page. */
+  readonly place = document.documentElement;
   readonly isFramed = document.documentElement.classList.contains("framed");
   /** What the room begins with: places that are there, fitted. */
   beginning = BEGINNING;
@@ -67,6 +68,10 @@ export class GlobeRoom extends TableRoom implements Room {
   /** Whether anybody has pointed at the globe. */
   get hasPointed(): boolean {
     return angle(this.#state.pointer, BEGINNING.pointer) > UNMOVED;
+  }
+
+  get isNorthUp(): boolean {
+    return this.switches.isOn("north");
   }
 
   get shown(): GlobeState {
@@ -259,7 +264,7 @@ export class GlobeRoom extends TableRoom implements Room {
   }
 
   protected override pointed(place: number | null): void {
-    if (place !== null) this.host.announcer.say(placeSentence(this.scene, place, area(this.scene.area(place))));
+    if (place !== null) this.host.announcer.say(placeSentence(this.scene, place));
     this.hover(place);
   }
 
@@ -335,7 +340,7 @@ export class GlobeRoom extends TableRoom implements Room {
   /** A sentence below the globe: that of the place which is lit, if there is one. */
   #say(name: string, words: string): void {
     const { lit } = this.scene;
-    const told = lit === null ? words : placeSentence(this.scene, lit, area(this.scene.area(lit)));
+    const told = lit === null ? words : placeSentence(this.scene, lit);
     say(this.out(name), told);
     // In a frame there is no room for it but where the pointer is.
     if (this.isFramed) find(this.section, ".globe-spread canvas").title = lit === null ? "" : plain(told);
@@ -376,8 +381,7 @@ export class GlobeRoom extends TableRoom implements Room {
     if (lens === "bubble") {
       return `Globe with the bubble of ${from.radius.toFixed(1)}° sent onto one of ${to.radius.toFixed(1)}°`;
     }
-    const seen = placeWords(sight.view.onBall([0, 0, 1]));
-    return `Globe through a fisheye, ${magnificationWords(this.#state)}, seen from ${seen}`;
+    return `Globe through a fisheye, ${sightWords(sight)}`;
   }
 
   #announce(change: Partial<GlobeState>): void {
@@ -387,7 +391,7 @@ export class GlobeRoom extends TableRoom implements Room {
       const [middle, rim] = this.#bubbleScales();
       announcer.say(`${middle} times in the middle, ${rim} times at the rim`);
     } else if (change.sight && change.sight.lens !== this.#said) {
-      announcer.say(magnificationWords(this.#state));
+      announcer.say(magnificationWords(sight));
     } else if (change.sight || change.before || change.after) {
       const view = change.before ?? change.after ?? sight.view;
       const [lon, lat] = view.middle;
@@ -405,18 +409,3 @@ const AREAS: Record<Latitude, string> = {
   geodetic: "Areas on a sphere with the directions from the centre of the ellipsoid (geodetic).",
   authalic: "Areas are those of the ellipsoid WGS84 (authalic).",
 };
-
-function magnificationWords({ sight }: GlobeState): string {
-  const [lon, lat] = lonLatOf(sight.lens.focus);
-  return `${scale(sight.lens.magnification)} times at ${latitude(lat)}, ${longitude(lon)}`;
-}
-
-function placeWords(direction: Vector): string {
-  const [lon, lat] = lonLatOf(direction);
-  return `${latitude(lat)} ${longitude(lon)}`;
-}
-
-/** Square kilometres: whole ones, or three digits of what is smaller. */
-function area(size: number): string {
-  return size >= 100 ? counted(Math.round(size)) : size.toPrecision(3);
-}

@@ -70,8 +70,11 @@ export class GlobeScene {
   places: Places | null = null;
   latitude: Latitude;
   picture: Painted | null = null;
-  /** The place whose row the pointer or the focus is on. */
+  /** The place whose row the pointer or the focus is on, and those that are selected. */
   lit: number | null = null;
+  selected: readonly number[] = [];
+  /** Shapes of the data on the land. */
+  layers: readonly Layer[] = [];
 
   constructor(latitude: Latitude) {
     this.latitude = latitude;
@@ -133,11 +136,13 @@ export class GlobeScene {
     return { place, at, radius: places.owner?.radii?.[place] ?? 0 };
   }
 
-  /** What is drawn of the place that is lit. */
-  get held(): balls.Layer | null {
-    const { places, lit } = this;
-    if (places === null || lit === null) return null;
-    return balls.dotLayer("held", lonlatToXyz(places.lonlat.subarray(2 * lit, 2 * lit + 2)));
+  /** What is drawn of the places that are lit or selected. */
+  get held(): Layer | null {
+    const { places, lit, selected } = this;
+    if (places === null) return null;
+    const held = [...selected, lit ?? []].flat();
+    const lonlat = held.flatMap((k) => [...places.lonlat.subarray(2 * k, 2 * k + 2)]);
+    return balls.dotLayer("held", lonlatToXyz(Float64Array.from(lonlat)));
   }
 
   get parts(): Part<Ball>[] {
@@ -166,6 +171,7 @@ export class GlobeScene {
           balls.drawLayers(pen, disc, map, [land(isMoving)?.outlines ?? null]);
         },
       },
+      { draw: (pen, { disc, map }) => balls.drawLayers(pen, disc, map, this.layers) },
       { layer: "graticule", ...drawn(() => this.#graticule) },
       { layer: "tissot", ...drawn(() => this.#tissot) },
       {

@@ -34,8 +34,13 @@ export function valueWords(value: number | string | null): string {
   return value < 0 ? `\u2212${text}` : text;
 }
 
+/** Square kilometres: whole ones, or three digits of what is smaller. */
+export function area(size: number): string {
+  return size >= 100 ? counted(Math.round(size)) : size.toPrecision(3);
+}
+
 /** All that there is to say of a place, as `say` takes it. */
-export function placeSentence(scene: GlobeScene, place: number, area: string): string {
+export function placeSentence(scene: GlobeScene, place: number): string {
   const { lonlat, names } = scene.places!;
   // The letters that are marks for `say` look as others do.
   const plain = (text: string): string => text.replaceAll("*", "\u2217").replaceAll("_", "\u02cd");
@@ -47,7 +52,7 @@ export function placeSentence(scene: GlobeScene, place: number, area: string): s
   });
   const { neighbours, nearest, kilometres } = scene.around(place);
   const away = fixed(kilometres, kilometres < 100 ? 1 : 0);
-  const cell = `its cell has _${area}_ km² and _${neighbours}_ ${neighbours === 1 ? "neighbour" : "neighbours"}`;
+  const cell = `its cell has _${area(scene.area(place))}_ km² and _${neighbours}_ ${neighbours === 1 ? "neighbour" : "neighbours"}`;
   const next = nearest === null ? "" : `, the nearest is ${name(nearest)}, _${away}_ km away`;
   return `${name(place)}, ${at}${values.map((each) => `, ${each}`).join("")}; ${cell}${next}.`;
 }
