@@ -126,7 +126,7 @@ abstract class GlobePlate implements Turnable {
     if (pointed === null) return;
     const { pointer } = this.room.shown;
     const images = map.apply(Float64Array.from(circlePoints(pointer, CIRCLE_RADIUS).flat()));
-    const rim = arcThrough(images, 0, 1, 2, true);
+    const rim = arcThrough(images, 0, true);
     const at = lenses.imageOf(map, pointer);
     if (rim === null || at[2] <= 0) return;
     pen.draw("seen", (path) => traceCap(path, disc, rim));
