@@ -130,7 +130,7 @@ export function drawMoved(pen: Pen, drawing: Drawing, scene: SphereScene, ground
   for (const each of united(window(ground.scene, before), window(scene, round))) {
     const seen = sitesIn(scene.sites, each, round);
     const trace = (path: Path): void => traceCorners(path, cornersOf(...each));
-    pen.clipped(trace, () => {
+    pen.within({ region: trace }, () => {
       pen.draw("paper", trace);
       drawing.draw(
         pen,
@@ -153,7 +153,7 @@ export function ballDrawing(disc: Disc): Drawing {
       const hidden = sourceOf(map, [0, 0, -1]);
       // Through its sites: of a small circle a centre and a radius say less.
       const rimOf = (bubble: Bubble): Circle | null =>
-        arcThrough(map.apply(bubble.sites.flatMap((k) => [...site(k)])), 0, 1, 2, true);
+        arcThrough(map.apply(bubble.sites.flatMap((k) => [...site(k)])), 0, true);
       const pole = poleLabel(disc, scene);
       const seats = new Seats(pen, disc, pole === null ? [] : [pole.box]);
       const ball: Picture = {
@@ -253,7 +253,7 @@ export function planeDrawing(frame: PlaneFrame): Drawing {
           });
         },
       };
-      pen.clipped(whole, () => drawStratum(pen, plane, scene, stratum));
+      pen.within({ region: whole }, () => drawStratum(pen, plane, scene, stratum));
       if (stratum === "ground") pen.draw("frame", whole);
     },
     round: ({ sites, twin }) =>
