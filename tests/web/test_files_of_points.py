@@ -89,7 +89,6 @@ WRONG = {
     "one_coordinate.geojson": (geojson(point(5)), "row 1: a Point has two or three coordinates, not [5]"),
     "null.geojson": (geojson(point(1, None)), "row 1: a Point has two or three coordinates, not [1,null]"),
     "latitude.geojson": (geojson(point(1, 97.2)), "row 1: latitude 97.2 is outside [-90, 90]"),
-    "other_system.geojson": (geojson(point(1, 2), crs=crs("EPSG:3857")), "the file is in EPSG:3857"),
     "cities.xyz": (b"\x89PNG\r\n\x1a\n\x00", "neither a picture nor a table in text that the page can read"),
 }
 

@@ -40,10 +40,6 @@ interface Elsewhere {
   readonly columns?: [string, string];
 }
 
-export function isPicture(file: File): boolean {
-  return file.type.startsWith("image/");
-}
-
 /**
  * Reads points from the bytes of a file.
  * @param chosen names of the two columns, where they are known.
@@ -145,7 +141,7 @@ export async function openPoints(
   opened: (points: Points) => void,
   chosen?: [string, string],
 ): Promise<void> {
-  if (isPicture(file)) return host.pass("globe", file);
+  if (file.type.startsWith("image/")) return host.pass("globe", file);
   const { messages } = host;
   const named = `${file.name}:`;
   const unchanged = (said: string): string => `${said}${/[.?!]$/.test(said) ? "" : "."} Nothing has changed.`;
