@@ -54,7 +54,6 @@ READABLE = {
     "feature_alone.geojson": json.dumps({"type": "Feature", "geometry": point(1, 2)}),
     "multipoint.geojson": geojson({"type": "MultiPoint", "coordinates": [[1, 2]]}),
     "degrees.geojson": geojson(point(1, 2), crs=crs("urn:ogc:def:crs:OGC:1.3:CRS84")),
-    "lines.geojsonl": "\n".join(json.dumps({"geometry": point(k, 2 * k)}) for k in range(3)),
 }
 
 WRONG = {

@@ -52,7 +52,7 @@ export async function readPoints(
   chosen?: [string, string],
 ): Promise<Points | Elsewhere> {
   const { text, guess } = decoded(await unpacked(content), file);
-  const isJson = /^[\s\x1e]*[{[]/.test(text);
+  const isJson = /^\s*[{[]/.test(text);
   if (isJson && kind === "plane") return { room: "globe" };
   const read = isJson ? geojsonPoints(text) : ofText(text, kind, chosen);
   if ("room" in read) return read;

@@ -107,14 +107,8 @@ class Page implements RoomHost {
         if (values.size > 0) this.#paint(COLOURS.read(values, ""));
         room.restore(values);
       };
-      this.guarded(
-        () =>
-          isNew &&
-          this.#read(
-            () => restore(link.values),
-            () => restore(new Map()),
-          ),
-      );
+      const anew = (): void => restore(new Map());
+      this.guarded(() => isNew && this.#read(() => restore(link.values), anew));
       this.#python();
     } catch (error) {
       this.#failed(error);

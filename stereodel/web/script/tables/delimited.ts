@@ -132,13 +132,18 @@ export function writeTable(
 ): string {
   const digits = (value: number): string => (Object.is(value, -0) ? "-0.0" : Number.isFinite(value) ? `${value}` : "");
   const quoted = (cell: string): string => (/[",\r\n]/.test(cell) ? `"${cell.replaceAll('"', '""')}"` : cell);
-  const head = [...axes, ...(names === null ? [] : ["name"]), ...[...values.keys()].map(quoted)];
-  const rows = Array.from({ length: places.length / 2 }, (_, row) => {
-    const name = names === null ? [] : [quoted(names[row])];
-    const others = [...values.values()].map((column) => digits(column[row]));
-    return [digits(places[2 * row]), digits(places[2 * row + 1]), ...name, ...others].join(",");
-  });
-  return `${[head.join(","), ...rows].join("\n")}\n`;
+  const columns = [
+    ...axes.map((axis, k) => [
+      axis,
+      ...Array.from(
+        places.filter((_, at) => at % 2 === k),
+        digits,
+      ),
+    ]),
+    ...(names === null ? [] : [["name", ...names].map(quoted)]),
+    ...[...values].map(([title, column]) => [quoted(title), ...Array.from(column, digits)]),
+  ];
+  return columns[0].map((_, row) => `${columns.map((column) => column[row]).join()}\n`).join("");
 }
 
 /** A table that cannot be read; the message begins with the row where there is one. */

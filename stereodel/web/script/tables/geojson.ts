@@ -1,4 +1,4 @@
-/** Points of GeoJSON: a collection, a feature alone, or a sequence of features. */
+/** Points of GeoJSON: a collection, or a feature alone. */
 
 import { onEarth } from "./coordinates.ts";
 import { TableError, type PlacedTable } from "./delimited.ts";
@@ -30,18 +30,11 @@ function member(value: unknown, name: string): unknown {
   return typeof value === "object" && value !== null ? (value as Record<string, unknown>)[name] : undefined;
 }
 
-/** A document of JSON, or a sequence of features (RFC 8142, or one a line) as a collection. */
 function document(text: string): unknown {
   try {
     return JSON.parse(text);
   } catch (error) {
-    const lines = text.split("\n").map((line) => line.replace(/^[\x1e \t\r]+|[\x1e \t\r]+$/g, ""));
-    try {
-      if (!lines[0].endsWith("}")) throw error;
-      return { features: lines.filter((line) => line !== "").map((line) => JSON.parse(line) as unknown) };
-    } catch {
-      throw new TableError(`the file is not JSON: ${error instanceof Error ? error.message : String(error)}`);
-    }
+    throw new TableError(`the file is not JSON: ${error instanceof Error ? error.message : String(error)}`);
   }
 }
 
