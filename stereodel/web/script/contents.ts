@@ -5,6 +5,7 @@
  */
 
 import type { Owner } from "./rooms/owner.ts";
+import type { Places } from "./rooms/globe_scene.ts";
 
 /** Regions by rings that have them on their left; joined where maps are cut, at ±180° and along the poles. */
 export interface Rings {
@@ -12,21 +13,6 @@ export interface Rings {
   readonly lonlat: Float64Array;
   /** Ring i has the points from `offsets[i]` up to `offsets[i + 1]`; the first one is not repeated at its end. */
   readonly offsets: Uint32Array;
-}
-
-/** Points that the page's maker gave. */
-export interface Given {
-  /** What the maker says of them. */
-  readonly owner: Owner | null;
-  /** The numbers among the values, by their titles. */
-  readonly values: ReadonlyMap<string, Float64Array>;
-  /** Lines of equal values, rows of places. */
-  readonly isolines: Rings | null;
-  /** What they are called, such as "cities.csv". */
-  readonly name: string;
-  /** Longitude and latitude in turn, degrees, to the bit. */
-  readonly lonlat: Float64Array;
-  readonly names: readonly string[] | null;
 }
 
 /** What a page, or a widget, carries with it. */
@@ -57,22 +43,17 @@ export class Contents {
   }
 
   /** The points that the page was made for, or null. */
-  async given(): Promise<Given | null> {
+  async given(): Promise<Places | null> {
     const bytes = await this.#bytes("given");
     if (bytes === null) return null;
     const parsed = async (name: string): Promise<unknown> => JSON.parse((await this.text(name)) ?? "null");
     const owner = (await parsed("owner")) as Owner | null;
-    const numbers = owner?.columns?.filter(({ values }) =>
-      Array.from(values).every((each) => typeof each !== "string"),
-    );
     return {
       name: String(await parsed("given-name")),
       lonlat: doubles(bytes),
       names: (await parsed("given-names")) as string[] | null,
       owner,
-      values: new Map(
-        numbers?.map(({ title, values }) => [title, Float64Array.from(values as number[], (v) => v ?? NaN)]),
-      ),
+      values: new Map(owner?.columns),
       isolines: await this.rings("isolines"),
     };
   }

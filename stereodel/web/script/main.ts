@@ -1,6 +1,7 @@
 /** The page: head and foot, rooms by the fragment of the address, files that are dropped, exports, states. */
 
-import { Contents, type Given } from "./contents.ts";
+import { Contents } from "./contents.ts";
+import type { Places } from "./rooms/globe_scene.ts";
 import { field, find } from "./dom.ts";
 import type { Exchange } from "./exchange.ts";
 import { word } from "./fields.ts";
@@ -43,12 +44,12 @@ class Page implements RoomHost {
   readonly #source: Node;
   /** What a page that was saved shows before anything else; its table is there for links that name it. */
   readonly #saved: Link | null;
-  readonly #given: Given | null;
+  readonly #given: Places | null;
   #name: RoomName = "sphere";
   #timer: ReturnType<typeof setTimeout> | undefined;
   #isStep = false;
 
-  constructor(contents: Contents, makers: Makers, source: Node, saved: string, given: Given | null) {
+  constructor(contents: Contents, makers: Makers, source: Node, saved: string, given: Places | null) {
     this.contents = contents;
     this.#makers = makers;
     [this.#source, this.#given] = [source, given];
@@ -228,7 +229,7 @@ class Page implements RoomHost {
 
   async #export(kind: string, room: Room, exchange: Exchange): Promise<void> {
     const name = `stereodel-${this.#name}`;
-    if (kind === "svg") exchange.download(`${name}.svg`, exchange.sheetSvg(room.sheet()));
+    if (kind === "svg") exchange.download(`${name}.svg`, await exchange.sheetSvg(room.sheet()));
     else if (kind === "png") {
       const scale = field(document, "png-scale").valueAsNumber;
       exchange.download(`${name}.png`, await exchange.sheetPng(room.sheet(), scale));

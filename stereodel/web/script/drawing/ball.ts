@@ -43,13 +43,20 @@ function layerOf(points: Float64Array, draw: Layer["draw"]): Layer {
   return { directions: new Directions(points), draw };
 }
 
-/** Lines: arcs of three points each, an end, a point between, the other end. */
-export function arcLayer(style: StyleName, points: Float64Array): Layer {
-  return layerOf(points, (pen, disc, images) => drawArcs(pen, disc, style, images));
+/** Lines: arcs of three points each, an end, a point between, the other end; an ink is of the data. */
+export function arcLayer(style: StyleName, points: Float64Array, ink?: string): Layer {
+  return layerOf(points, (pen, disc, images) => drawArcs(pen, disc, style, images, "front", ink));
 }
 
 /** Draws arcs of three points each, axes of the view. */
-export function drawArcs(pen: Pen, disc: Disc, style: StyleName, p: ArrayLike<number>, side: Side = "front"): void {
+export function drawArcs(
+  pen: Pen,
+  disc: Disc,
+  style: StyleName,
+  p: ArrayLike<number>,
+  side: Side = "front",
+  ink?: string,
+): void {
   const sign = side === "front" ? 1 : -1;
   const ends = new Float64Array((4 * p.length) / 9);
   for (let i = 0, at = 0; i < p.length; i += 9, at += 4) {
@@ -58,7 +65,7 @@ export function drawArcs(pen: Pen, disc: Disc, style: StyleName, p: ArrayLike<nu
     [ends[at], ends[at + 1]] = [disc.x + disc.r * p[i], disc.y - disc.r * p[i + 1]];
     [ends[at + 2], ends[at + 3]] = [disc.x + disc.r * p[j], disc.y - disc.r * p[j + 1]];
   }
-  pen.lines(style, ends, (path, k) => traceArc(path, disc, p, 3 * k, 3 * k + 1, 3 * k + 2, side));
+  pen.lines(style, ends, (path, k) => traceArc(path, disc, p, 3 * k, 3 * k + 1, 3 * k + 2, side), ink);
 }
 
 /** Draws lines as they are. @param ends x, y, x, y in turn. */

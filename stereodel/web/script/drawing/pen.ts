@@ -20,8 +20,8 @@ export interface Disc {
   readonly r: number;
 }
 
-/** A picture that is laid into the drawing. */
-export type Picture = HTMLCanvasElement | OffscreenCanvas;
+/** A picture that is laid into the drawing; an image is one of SVG with its text in its address. */
+export type Picture = HTMLCanvasElement | OffscreenCanvas | HTMLImageElement;
 
 /** Where the light falls on a ball of radius 1, as on those of the library (`stereodel/render/vector/paper.py`): the
  * focus of the gradient, middle and radius of its last circle, y down; and how much of its fall lies before some places. */
@@ -72,7 +72,7 @@ export abstract class Pen {
     this.path(name, STYLES[name], trace, ink);
   }
   /** Draws lines by their ends, x, y, x, y in turn, which `lay` joins; those of nets weaker where they are dense. */
-  lines(name: StyleName, ends: ArrayLike<number>, lay: (path: Path, k: number) => void): void {
+  lines(name: StyleName, ends: ArrayLike<number>, lay: (path: Path, k: number) => void, ink?: string): void {
     const style: Style = STYLES[name];
     const { width = 1, isNet } = style;
     const middles = Float64Array.from({ length: ends.length / 2 }, (_, at) => {
@@ -87,7 +87,7 @@ export abstract class Pen {
       const size = Math.max(FINEST, Math.sqrt(part));
       const thin: Style = { ...style, width: size * width, strokeOpacity: part / size };
       for (let from = 0; from < numbers.length; from += MOST_ARCS)
-        this.path(name, thin, (path) => numbers.slice(from, from + MOST_ARCS).forEach((k) => lay(path, k)));
+        this.path(name, thin, (path) => numbers.slice(from, from + MOST_ARCS).forEach((k) => lay(path, k)), ink);
     });
   }
   /** Draws what lies behind, faintly. */

@@ -67,8 +67,7 @@ export class SvgPen extends Pen {
     const line = this.#line(STYLES["spot-line"]);
     inks.forEach((ink, k) => {
       const [x, y, r] = [places[3 * k], places[3 * k + 1], places[3 * k + 2]].map(number);
-      const fill = ink === "transparent" ? "" : ` ${paint("fill", ink)}`;
-      this.#parts.push(`<circle class="spot" cx="${x}" cy="${y}" r="${r}"${fill} ${line}/>`);
+      this.#parts.push(`<circle class="spot" cx="${x}" cy="${y}" r="${r}" ${paint("fill", ink)} ${line}/>`);
     });
   }
 
@@ -87,6 +86,10 @@ export class SvgPen extends Pen {
   }
 
   picture(picture: Picture, x: number, y: number, width: number, height: number): void {
+    if (picture instanceof HTMLImageElement) {
+      const svg = decodeURIComponent(picture.src.slice(picture.src.indexOf(",") + 1));
+      return this.#group(`transform="translate(${number(x)} ${number(y)})"`, () => this.#parts.push(svg));
+    }
     const canvas = document.createElement("canvas");
     [canvas.width, canvas.height] = [picture.width, picture.height];
     canvas.getContext("2d")!.drawImage(picture, 0, 0);

@@ -12,6 +12,7 @@ import type { SiteSet } from "../sets.ts";
 import { SiteTable, type Rows } from "../table.ts";
 import { counted } from "../words.ts";
 import { Switches, tellNamed } from "./controls.ts";
+import type { Column } from "./owner.ts";
 import type { Origin } from "./python.ts";
 
 /** The name of sites that are no set of the list: opened, or changed by hand. */
@@ -45,11 +46,17 @@ function ofSet(set: SiteSet): NamedSites {
 }
 
 /** What a link says of a table: all of it, or where it is too long for one and need not be whole the name of its file. */
-export function tableValues({ places, names, name, values }: Table, isWhole: boolean): Record<string, string> {
+export function tableValues(
+  { places, names, name, values }: Omit<Table, "values"> & { readonly values?: ReadonlyMap<string, Column> },
+  isWhole: boolean,
+): Record<string, string> {
   const named = { file: name ?? "sites" };
   if (!isWhole && places.length > 2 * MOST_SITES) return named;
   const lines = (texts: readonly string[]): string => texts.map((text) => text.replaceAll("\n", " ")).join("\n");
-  const columns = [...(values ?? [])].flatMap(([title, column]) => [title, column.join().replaceAll("NaN", "")]);
+  const columns = [...(values ?? [])].flatMap(([title, column]) => [
+    title,
+    Array.from(column).join().replaceAll("NaN", ""),
+  ]);
   const table = {
     sites: places.join(),
     ...(names && { names: lines(names) }),

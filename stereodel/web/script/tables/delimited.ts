@@ -1,6 +1,6 @@
 /** Tables as delimited text: what separates the fields and which row is the header is found out. */
 
-import type { Points } from "../files.ts";
+import type { Column } from "../rooms/owner.ts";
 import { findLonLat, NUMBER } from "./words.ts";
 
 /** A comma comes first: where several marks give as many fields, it is the one. */
@@ -125,25 +125,25 @@ function headed(rows: readonly Row[]): { names: string[]; data: readonly Row[] }
   return { names, data: rows.slice(at) };
 }
 
-/** Places, names and columns of numbers as a table, with all digits of all numbers. */
-export function writeTable(
-  axes: readonly [string, string],
-  { places, names = null, values = new Map() }: Partial<Pick<Points, "names" | "values">> & Pick<Points, "places">,
-): string {
-  const digits = (value: number): string => (Object.is(value, -0) ? "-0.0" : Number.isFinite(value) ? `${value}` : "");
-  const quoted = (cell: string): string => (/[",\r\n]/.test(cell) ? `"${cell.replaceAll('"', '""')}"` : cell);
-  const columns = [
-    ...axes.map((axis, k) => [
-      axis,
-      ...Array.from(
-        places.filter((_, at) => at % 2 === k),
-        digits,
-      ),
-    ]),
-    ...(names === null ? [] : [["name", ...names].map(quoted)]),
-    ...[...values].map(([title, column]) => [quoted(title), ...Array.from(column, digits)]),
-  ];
-  return columns[0].map((_, row) => `${columns.map((column) => column[row]).join()}\n`).join("");
+/** Places, names and columns as a table, with all digits of all numbers. */
+export function writeTable(axes: readonly [string, string], { places, names, values }: Columned): string {
+  const cell = (value: number | string | null): string => {
+    if (typeof value === "string") return /[",\r\n]/.test(value) ? `"${value.replaceAll('"', '""')}"` : value;
+    return Object.is(value, -0) ? "-0.0" : Number.isFinite(value) ? String(value) : "";
+  };
+  const columns: (readonly [string, Column])[] = [...(names ? [["name", names] as const] : []), ...(values ?? [])];
+  const head = [...axes, ...columns.map(([title]) => title)];
+  const rows = Array.from({ length: places.length / 2 }, (_, row) => {
+    return [places[2 * row], places[2 * row + 1], ...columns.map(([, column]) => column[row])];
+  });
+  return [head, ...rows].map((row) => `${row.map(cell).join()}\n`).join("");
+}
+
+/** A table to write. */
+interface Columned {
+  readonly places: Float64Array;
+  readonly names?: readonly string[] | null;
+  readonly values?: ReadonlyMap<string, Column>;
 }
 
 /** A table that cannot be read; the message begins with the row where there is one. */
