@@ -13,7 +13,7 @@ import { LinkError, readLink, ROOMS, writeLink, type Link, type LinkValues, type
 import { Announcer, Messages } from "./messages.ts";
 import type { Room, RoomHost } from "./room.ts";
 import { Choice, NAMED, NumberField } from "./rooms/controls.ts";
-import { globeRoom } from "./rooms/globe.ts";
+import { GlobeRoom } from "./rooms/globe.ts";
 import { sphereRoom } from "./rooms/sphere.ts";
 
 /** Milliseconds of rest after which the address tells the state. */
@@ -282,7 +282,7 @@ async function main(): Promise<void> {
   const makers: Makers = {
     sphere: (host) => sphereRoom(host, stored, given),
     lift: async (host) => (await lift())(host, stored["sheet"]),
-    globe: (host) => globeRoom(host, given, latitude),
+    globe: (host) => new GlobeRoom(host, given, latitude),
   };
   const page = new Page(contents, makers, source, saved, given);
   await page.start();
