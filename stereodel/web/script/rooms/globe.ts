@@ -174,7 +174,7 @@ export class GlobeRoom extends TableRoom implements Room, GlobeHost {
 
   open(file: File, exchange: Exchange): Promise<void> {
     const { messages, guarded } = this.host;
-    if (exchange.isPicture(file)) {
+    if (file.type.startsWith("image/")) {
       return exchange.openPanorama(file, messages, (picture) => this.#paintedBy((this.#picture = picture)));
     }
     return exchange.openPoints(file, "lonlat", this.host, ({ places: lonlat, names, values }) => {
