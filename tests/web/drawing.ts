@@ -146,7 +146,7 @@ export function arcs(count: number): { worst: number; seen: number; missing: num
     const steps = [0, 0.5, 1, 0.1, 0.25, 0.4, 0.6, 0.75, 0.9];
     const images = map.apply(Float64Array.from(steps.flatMap(at)));
     const path = new Recorder();
-    traceArc(path, DISC, images, 0, 1, 2);
+    traceArc(path, DISC, images);
     for (let step = 0; step < steps.length; ++step) {
       const [x, y, z] = row(images, step);
       const away = path.distanceTo([DISC.x + DISC.r * x, DISC.y - DISC.r * y]);
@@ -264,7 +264,7 @@ export function caps(count: number, grid: number): [number, number][] {
   return Array.from({ length: count }, () => {
     const center = direction();
     const radius = 179 * random() + 0.5;
-    const circle = arcThrough(circlePoints(center, radius).flat(), 0, 1, 2, true)!;
+    const circle = arcThrough(circlePoints(center, radius).flat(), 0, true)!;
     const path = new Recorder();
     traceCap(path, DISC, circle);
     let held = 0;

@@ -6,7 +6,7 @@ import type { Surface } from "../drawing/ball.ts";
 import { drawParts, type IsOn, type Part } from "../drawing/parts.ts";
 import { cornersOf, traceCorners, traceDisc, traceSegment } from "../drawing/pen.ts";
 import type { Disc, Path, Pen, Point } from "../drawing/pen.ts";
-import type { LabelStyle } from "../drawing/styles.ts";
+import { FAINT, type LabelStyle } from "../drawing/styles.ts";
 import { cross, unit, type Vector } from "../space.ts";
 import type { View } from "../view/view.ts";
 import type { LiftSites, Sheet } from "./lift_sites.ts";
@@ -114,7 +114,7 @@ export class LiftPicture {
       { layer: "seeing", draw: (pen, on) => on.#drawSeeing(pen) },
       { isThere: isBent, draw: (pen, on) => on.#drawBehind(pen, isOn("triangles") && !isMoving) },
       { layer: "triangles", draw: (pen, on) => on.#drawEdges(pen) },
-      { layer: "cells", draw: (pen, on) => pen.clipped(on.#region, () => on.#drawRidges(pen)) },
+      { layer: "cells", draw: (pen, on) => pen.within({ region: on.#region }, () => on.#drawRidges(pen)) },
       { draw: (pen, on) => pen.draw("side", isFlat ? on.#region : (path) => on.#traceBorder(path, "front")) },
       { draw: (pen, on) => drawDots(pen, on.surface, "site", Array(sites.count).keys()) },
       { isThere: isBent, draw: (pen, on) => on.#drawPlane(pen) },
@@ -152,9 +152,11 @@ export class LiftPicture {
     // Seen from behind the ball is its mirror image: rings run the other way.
     const border = this.#border().map(([x, y, z]): Vector => [x, y, -z]);
     const mirrored = ringOf(border.reverse());
-    pen.behind(() => pen.draw("sheet", (path) => traceRegions(path, this.#disc, mirrored, this.#holds([0, 0, 1]))));
+    pen.within(FAINT, () =>
+      pen.draw("sheet", (path) => traceRegions(path, this.#disc, mirrored, this.#holds([0, 0, 1]))),
+    );
     pen.draw("sheet", this.#region);
-    pen.behind(() => {
+    pen.within(FAINT, () => {
       pen.draw("side", (path) => this.#traceBorder(path, "back"));
       if (hasTriangles) this.#drawEdges(pen, "back");
     });
@@ -182,7 +184,7 @@ export class LiftPicture {
     const [x, y] = this.contact;
     pen.draw("sheet-plane", this.#plane);
     // The triangles as they were: "behind" is as weak as what lies beyond the ball.
-    if (this.#scene.isOn("triangles") && !this.#scene.isMoving) pen.behind(() => this.#drawEdges(pen, "flat"));
+    if (this.#scene.isOn("triangles") && !this.#scene.isMoving) pen.within(FAINT, () => this.#drawEdges(pen, "flat"));
     pen.draw("touch", (path) => {
       traceSegment(path, [x - 4.5, y], [x + 4.5, y]);
       traceSegment(path, [x, y - 3.5], [x, y + 3.5]);
@@ -243,7 +245,7 @@ export class LiftPicture {
   #traceBorder(path: Path, side: Side): void {
     for (const [[ax, ay], [bx, by]] of this.#sides) {
       const rows = [...this.#look(ax, ay), ...this.#look((ax + bx) / 2, (ay + by) / 2), ...this.#look(bx, by)];
-      traceArc(path, this.#disc, rows, 0, 1, 2, side);
+      traceArc(path, this.#disc, rows, 0, side);
     }
   }
 

@@ -146,7 +146,7 @@ export function drawMoved(pen: Pen, drawing: Drawing, scene: SphereScene, ground
   for (const each of united(window(ground), window({ sites, round }))) {
     const seen = sitesIn(sites, each, round);
     const trace = (path: Path): void => traceCorners(path, cornersOf(...each));
-    pen.clipped(trace, () => {
+    pen.within({ region: trace }, () => {
       pen.draw("paper", trace);
       drawing.draw(pen, { ...scene, sites: seen, layers: ballLayers(seen), seeing: seen.seeing(twin.pole) }, "ground");
     });
@@ -183,7 +183,7 @@ function drawBall(pen: Pen, disc: Disc, scene: SphereScene, stratum: Stratum): v
   const hidden = sourceOf(map, [0, 0, -1]);
   // Through its sites: of a small circle a centre and a radius say less.
   const rimOf = (bubble: Bubble): Circle | null =>
-    arcThrough(map.apply(bubble.sites.flatMap((k) => [...site(k)])), 0, 1, 2, true);
+    arcThrough(map.apply(bubble.sites.flatMap((k) => [...site(k)])), 0, true);
   const pole = poleLabel(disc, scene);
   const seats = new Seats(pen, disc, pole === null ? [] : [pole.box]);
   const ball: Picture = {
@@ -280,7 +280,7 @@ function drawPlane(pen: Pen, frame: PlaneFrame, scene: SphereScene, stratum: Str
       });
     },
   };
-  pen.clipped(whole, () => drawStratum(pen, plane, scene, stratum));
+  pen.within({ region: whole }, () => drawStratum(pen, plane, scene, stratum));
   if (stratum === "ground") pen.draw("frame", whole);
 }
 
