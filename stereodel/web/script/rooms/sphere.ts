@@ -24,35 +24,14 @@ import { Choice, PlaceFields, siteForm, stepControl } from "./controls.ts";
 import { edited, SiteRoom, type NamedSites } from "./site_room.ts";
 import { ballDrawing, ballLayers, drawMoved, planeDrawing, poleSeen, sphereParts } from "./sphere_drawing.ts";
 import type { Drawing, Ground, SphereScene } from "./sphere_drawing.ts";
-import {
-  ofBubble,
-  ofDuplicates,
-  ofLens,
-  ofPictures,
-  ofSite,
-  ofStep,
-  SphereSites,
-  withoutTriangles,
-  type Bubble,
-  type Insertion,
-} from "./sphere_sites.ts";
-import {
-  BEGINNING,
-  directionAt,
-  handPlace,
-  MOST,
-  sightOf,
-  sphereFields,
-  type Click,
-  type SphereState,
-} from "./sphere_state.ts";
+import { ofBubble, ofDuplicates, ofLens, ofPictures, ofSite, ofStep } from "./sphere_sites.ts";
+import { SphereSites, withoutTriangles, type Bubble, type Insertion } from "./sphere_sites.ts";
+import { BEGINNING, directionAt, handPlace, MOST, sightOf, sphereFields } from "./sphere_state.ts";
+import type { Click, SphereState } from "./sphere_state.ts";
 import { planeFrame, reachAround, Twin, type Around, type PlaneFrame } from "./twin.ts";
 
 /** Sites from which on cells are left out while something moves. */
 const MANY = 3_000;
-
-/** Of the table. */
-const HEADS = ["Latitude", "Longitude", "Neighbours"];
 
 /** What the sum of facets is made of. */
 const SUM = ["on the sphere", "in the plane", "\u00a0*P*"] as const;
@@ -116,7 +95,7 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
     this.#showSite = siteForm(section, {
       add: (place) => guarded(() => this.#add(directionAt(place))),
       move: (place) => guarded(() => this.#moveHeld(place)),
-      remove: () => guarded(() => this.#remove(this.#held)),
+      remove: () => guarded(() => this.#remove(this.#state.held)),
     });
     find(section, "[data-do=undo]").addEventListener("click", () => this.#undo());
     const under = (at: Point): Vector => this.#twin.inverse(...this.#frame.point(at));
@@ -136,7 +115,7 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
     };
     const over = (pen: Pen, isMoving: boolean): void => {
       const scene = this.#scene(isMoving);
-      if (ground.scene.sites !== scene.sites) drawMoved(pen, drawing(), scene, ground, this.#held!);
+      if (ground.scene.sites !== scene.sites) drawMoved(pen, drawing(), scene, ground, this.#state.held!);
       drawing().draw(pen, scene, "over");
     };
     const canvas = find<HTMLCanvasElement>(this.section, `#sphere-${which}`);
@@ -153,14 +132,6 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
   /** The state goes on, as a link tells it. */
   #put(change: Partial<SphereState>): void {
     this.#state = sphereFields(this.#sites.count).settle({ ...this.#state, ...change });
-  }
-
-  get #held(): number | null {
-    return this.#state.held;
-  }
-
-  set #held(held: number | null) {
-    this.#state = { ...this.#state, held };
   }
 
   override restore(values: LinkValues): void {
@@ -188,7 +159,7 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
     if (this.#state.step !== null && this.#state.step >= sites.count) this.#put({ step: null });
     this.show(named, {
       count: sites.count,
-      heads: HEADS,
+      heads: ["Latitude", "Longitude", "Neighbours"],
       cells: (site) => [...sites.words(site), String(sites.neighborCounts[site])],
     });
     find(this.section, "[data-show=closing]").hidden = !sites.hasClosing;
@@ -247,13 +218,13 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
       isOn: this.shown(isMoving, MANY),
       bubble: this.#bubble,
       aim: this.#state.aim,
-      held: [this.#held, this.lit].filter((site) => site !== null && site < this.#sites.count) as number[],
+      held: [this.#state.held, this.lit].filter((site) => site !== null && site < this.#sites.count) as number[],
       step: this.#step,
     };
   }
 
   #say(): void {
-    const [sites, step, held] = [this.#sites, this.#step, this.#held];
+    const [sites, step, held] = [this.#sites, this.#step, this.#state.held];
     const alone = withoutTriangles(sites);
     const ofAll =
       alone ??
@@ -463,7 +434,7 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
 
   /** Shows what a hand has made of the sites, and says it. */
   #edit(named: NamedSites, held: number | null, words: () => string, reason: Reason = "state"): void {
-    this.#held = held;
+    this.#state = { ...this.#state, held };
     this.#take(named, reason);
     this.changed(words());
   }
@@ -476,9 +447,9 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
   }
 
   #moveHeld(place: Place): void {
-    if (this.#held === null) return;
+    if (this.#state.held === null) return;
     this.#history.push(this.named);
-    this.#moveSite(this.#held, directionAt(place));
+    this.#moveSite(this.#state.held, directionAt(place));
   }
 
   #add(direction: Vector): void {
@@ -543,8 +514,8 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
     const withSites: Record<string, () => void> = {
       ",": () => this.#walk(-1),
       ".": () => this.#walk(1),
-      Delete: () => this.#remove(this.#held),
-      Backspace: () => this.#remove(this.#held),
+      Delete: () => this.#remove(this.#state.held),
+      Backspace: () => this.#remove(this.#state.held),
       Enter: () => this.#press(middle, null),
       Escape: () => this.#set({ isPinned: false }, null),
     };
@@ -553,14 +524,14 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
 
   /** Moves the site that is held by degrees. */
   #nudge(east: number, north: number): void {
-    if (this.#held === null) return;
-    const [lon, lat] = this.#sites.lonlat.subarray(2 * this.#held);
+    if (this.#state.held === null) return;
+    const [lon, lat] = this.#sites.lonlat.subarray(2 * this.#state.held);
     this.#moveHeld([lon + east, Math.max(-90, Math.min(90, lat + north))]);
   }
 
   #walk(by: number): void {
     const { count } = this.#sites;
-    const site = this.#held === null ? (by > 0 ? 0 : count - 1) : (this.#held + by + count) % count;
+    const site = this.#state.held === null ? (by > 0 ? 0 : count - 1) : (this.#state.held + by + count) % count;
     this.chosen(site);
     this.table.reveal(site);
   }

@@ -204,14 +204,9 @@ export function withoutTriangles(sites: SphereSites): string | null {
 export function ofPictures(
   has: Readonly<Record<"triangles" | "cells" | "seeing" | "steps", boolean>>,
 ): [string, string] {
-  const lines = has.cells ? "Delaunay triangles in strong lines, Voronoi cells in thin ones." : "Delaunay triangles.";
-  const ball = has.steps
-    ? "Delaunay triangles, new ones dashed."
-    : has.triangles
-      ? lines
-      : has.cells
-        ? "Voronoi cells."
-        : "";
+  const strong = "Delaunay triangles in strong lines, Voronoi cells in thin ones.";
+  const lines = ["", "Voronoi cells.", "Delaunay triangles.", strong][2 * Number(has.triangles) + Number(has.cells)];
+  const ball = has.steps ? "Delaunay triangles, new ones dashed." : lines;
   const plane = [
     has.triangles && "The same triangles.",
     has.seeing && "Hatched is where the facets go that see *P*.",
