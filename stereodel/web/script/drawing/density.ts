@@ -2,6 +2,9 @@
 
 import type { Path, Trace } from "./pen.ts";
 
+/** Lines of a net, or dots, up to which all are drawn in full, as the lines of Python draw them. */
+const FEW = 1000;
+
 /** Side of the squares in which ink is measured, pixels. */
 const SQUARE = 24;
 
@@ -55,7 +58,7 @@ export class Ink {
   /** Calls back with places by the parts of their ink that they keep, the weakest first; from then on all is measured. */
   each(places: ArrayLike<number>, most: number, visit: (part: number, numbers: readonly number[]) => void): void {
     const [steps, groups] = [
-      (this.#steps ??= this.#measured(most)),
+      (this.#steps ??= this.#measured(places.length > 2 * FEW ? most : Infinity)),
       Array.from({ length: STEPS + 1 }, (): number[] => []),
     ];
     for (let k = 0; 2 * k < places.length; ++k) {
