@@ -17,7 +17,7 @@ from stereodel._arrays import FloatArray
 from stereodel.curves.ragged import Ragged
 from stereodel.drawing.page.colors import ColorLike, as_color
 from stereodel.drawing.page.scales import ColorScale, SizeScale
-from stereodel.drawing.page.style import MAP_DOT, DotStyle, LengthLike, LineStyle
+from stereodel.drawing.page.style import MAP_DOT, DotStyle, LengthLike, LineStyle, as_length
 from stereodel.drawing.page.ticks import MOST_TICKS
 from stereodel.drawing.scene.by_value import DotLooks, ScaleLike
 from stereodel.drawing.scene.legend import LegendEntry
@@ -81,12 +81,30 @@ class Looks:
                 "ink": np.broadcast_to(number.ravel(), len(lonlat)).tolist(),
                 "radii": np.round(np.array(dots.radii(len(lonlat))) * PIXELS, 2).tolist(),
                 "legend": [_entry(title, entry) for title, entry in dots.entries.items()],
-                "columns": self._columns(),
+                "columns": (columns := self._columns()),
+                "lines": self._lines(dots, columns),
             }
             scales = [entry for entry in dots.entries.values() if isinstance(entry, ColorScale)]
             if scales and len(lonlat) <= MOST_CONTOURED:
                 lines = _isolines(lonlat, np.asarray(self.values, dtype=np.float64), scales[0], latitude)
         return {"owner": packed(json.dumps(told).encode("utf-8", "replace"))} | lines
+
+    def _lines(self, dots: DotLooks, columns: list[dict[str, Any]]) -> dict[str, str]:
+        """Parts of the lines of Python that draw these looks in pixels, from a table with the columns of the page."""
+        scales = {type(entry): entry for entry in dots.entries.values()}
+        color, amounts = scales.get(ColorScale), scales.get(SizeScale)
+        lines, points = {}, {"color": "shades"}
+        if color is not None:
+            lines = {"scale": repr(color), "valued": json.dumps(columns[0]["title"], ensure_ascii=False)}
+            points = {"values": "values", "scale": "scale", "legend": repr(self.legend or "value")}
+        elif dots.colors is None:
+            points = {"color": repr(tuple(dots.style.color))}
+        points["size"] = repr(round(2 * dots.style.radius * PIXELS, 2))
+        if isinstance(amounts, SizeScale):
+            title = columns[-1]["title"]
+            points["size"], points["size_legend"] = f"table.column({title!r})", repr(self.size_legend or "size")
+            points["size_scale"] = f"SizeScale({amounts.high!r}, {as_length(amounts.largest, 'largest') * PIXELS!r})"
+        return lines | {"points": ", ".join(f"{name}={value}" for name, value in points.items())}
 
     def _columns(self) -> list[dict[str, Any]]:
         """Values by title, those of both scales once if they are the same; what is missing is null."""

@@ -113,6 +113,9 @@ export function globePython(
   const { lens, sight, from, to, before, after, pointer } = state;
   const { places, latitude, picture, resolution } = scene;
   const bubble = lens === "bubble";
+  const { owner, names, lonlat = new Float64Array(0) } = places ?? {};
+  const file = `read_points(${JSON.stringify(places?.name ?? "")})`;
+  const isMany = lonlat.length > 2 * MOST_WRITTEN || owner?.lines !== undefined;
   const kind = places === null || latitude === "spherical" ? "" : `, latitude="${latitude}"`;
   const at = (direction: Vector): string => {
     const place = `(${numbers(lonLatOf(direction))})`;
@@ -124,7 +127,14 @@ export function globePython(
     magnification: numbers([sight.lens.magnification]),
     taken: `${at(from.center)}, ${numbers([from.radius])}`,
     filled: `${at(to.center)}, ${numbers([to.radius])}`,
-    places: coordinates(places?.lonlat ?? new Float64Array(0), readPoints(places?.name ?? "")),
+    ...owner?.lines,
+    file,
+    places: coordinates(lonlat, `${file}.lonlat`),
+    words: isMany ? `${file}.column("name")` : JSON.stringify(names),
+    inks: (owner?.inks ?? []).map((ink) => `[${ink.match(/[\d.]+/g)!.join(", ")}]`).join(", "),
+    ink: (owner?.ink ?? []).join(", "),
+    title: owner?.title ? `, title=${JSON.stringify(owner.title)}` : "",
+    legend: owner?.legend ? ", legend=True" : "",
     latitude: kind,
     picture: JSON.stringify(picture?.name ?? ""),
     resolution,
@@ -138,7 +148,15 @@ export function globePython(
   return filled(
     GLOBE,
     values,
-    { bubble, picture: picture !== null, places: places !== null, pointed: isPointed },
+    {
+      bubble,
+      picture: picture !== null,
+      places: places !== null,
+      pointed: isPointed,
+      owned: owner?.lines !== undefined,
+      scaled: owner?.lines?.scale !== undefined,
+      named: !!names,
+    },
     isOn,
   );
 }
