@@ -13,7 +13,7 @@ from typing import Any, Final
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import FloatArray
+from stereodel._arrays import FloatArray, Indices
 from stereodel.curves.ragged import Ragged
 from stereodel.drawing.page.colors import ColorLike, as_color
 from stereodel.drawing.page.scales import ColorScale, SizeScale
@@ -69,7 +69,8 @@ class Looks:
         """Contents of the page by name; none where nothing is said."""
         if not self.said:
             return {}
-        told: dict[str, Any] = {"title": self.title, "source": self.source}
+        title = {"title": f", title={self.title!r}"} if self.title else {}
+        told: dict[str, Any] = {"title": self.title, "source": self.source, "lines": title}
         lines: dict[str, str] = {}
         if self.size is not None or self.color is not None or self.values is not None:
             given = (self.size, self.color, self.values, self.scale, self.legend, None, self.size_legend)
@@ -82,23 +83,24 @@ class Looks:
                 "radii": np.round(np.array(dots.radii(len(lonlat))) * PIXELS, 2).tolist(),
                 "legend": [_entry(title, entry) for title, entry in dots.entries.items()],
                 "columns": (columns := self._columns()),
-                "lines": self._lines(dots, columns),
+                "lines": title | self._lines(dots, columns, inks, number.ravel()),
             }
             scales = [entry for entry in dots.entries.values() if isinstance(entry, ColorScale)]
             if scales and len(lonlat) <= MOST_CONTOURED:
                 lines = _isolines(lonlat, np.asarray(self.values, dtype=np.float64), scales[0], latitude)
         return {"owner": packed(json.dumps(told).encode("utf-8", "replace"))} | lines
 
-    def _lines(self, dots: DotLooks, columns: list[dict[str, Any]]) -> dict[str, str]:
+    def _lines(self, dots: DotLooks, columns: list[dict[str, Any]], inks: FloatArray, ink: Indices) -> dict[str, str]:
         """Parts of the lines of Python that draw these looks in pixels, from a table with the columns of the page."""
         scales = {type(entry): entry for entry in dots.entries.values()}
         color, amounts = scales.get(ColorScale), scales.get(SizeScale)
-        lines, points = {}, {"color": "shades"}
         if color is not None:
             lines = {"scale": repr(color), "valued": json.dumps(columns[0]["title"], ensure_ascii=False)}
             points = {"values": "values", "scale": "scale", "legend": repr(self.legend or "value")}
-        elif dots.colors is None:
-            points = {"color": repr(tuple(dots.style.color))}
+        elif dots.colors is not None:
+            lines, points = {"shades": f"np.array({inks.round(4).tolist()})[{ink.tolist()}]"}, {"color": "shades"}
+        else:
+            lines, points = {"shades": f"[{dots.style.color}] * len(places)"}, {"color": str(dots.style.color)}
         points["size"] = repr(round(2 * dots.style.radius * PIXELS, 2))
         if isinstance(amounts, SizeScale):
             title = columns[-1]["title"]

@@ -2,14 +2,11 @@
 
 import type { Path, Trace } from "./pen.ts";
 
-/** Lines of a net, or dots, up to which all are drawn in full, as the lines of Python draw them. */
-const FEW = 1000;
-
 /** Side of the squares in which ink is measured, pixels. */
 const SQUARE = 24;
 
-/** Parts of the ground that lines of one net, and dots, may cover; what covers more is weaker by steps, so much each. */
-const [MOST_LINES, MOST_DOTS] = [0.16, 0.07];
+/** Parts of the ground that lines of one net, and dots, may cover if they are not few; what covers more is weaker by steps, so much each. */
+const [MOST_LINES, MOST_DOTS, FEW] = [0.16, 0.07, 1000];
 const [STEP, STEPS] = [0.8, 50];
 
 /** The finest lines and the smallest dots as parts of the usual, and the faintest ink that eight bits a colour tell. */

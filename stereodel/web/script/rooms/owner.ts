@@ -24,8 +24,8 @@ export interface Owner {
   readonly inks?: readonly string[];
   readonly ink?: readonly number[];
   readonly radii?: readonly number[];
-  /** Parts of lines of Python: arguments of `add_points`, the scale, and the column that it is of. */
-  readonly lines?: Readonly<Partial<Record<"points" | "scale" | "valued", string>>>;
+  /** Parts of lines of Python, by their names in `globe.txt`. */
+  readonly lines?: Readonly<Record<string, string>>;
   /** Values of the places, null where one is missing; the title ends with their unit after a comma. */
   readonly columns?: readonly Column[];
 }

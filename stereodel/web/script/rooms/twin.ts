@@ -93,9 +93,7 @@ export function reachAround(sites: SphereSites, twin: Twin): { reach: number; mi
   const images = Array.from({ length: sites.count }, (_, k) => twin.forward(sites.site(k)));
   const frameAbout = (middle: Point): { reach: number; middle: Point; outside: number } => {
     const away = ([u, v]: Point): number => Math.max(Math.abs(u - middle[0]), Math.abs(v - middle[1]));
-    const sizes = Float64Array.from(images, away)
-      .filter((size) => size < FAR / 2)
-      .sort();
+    const sizes = Float64Array.from(images.map(away).filter((size) => size < FAR / 2)).sort();
     const nearly = sizes[Math.floor(((OUTSIDE - 1) / OUTSIDE) * (sizes.length - 1))] ?? 1;
     const all = sizes[sizes.length - 1] ?? 1;
     const reach = ROOM * (all < 2 * nearly ? all : nearly) || 1;
