@@ -53,7 +53,7 @@ MAY_IMPORT = {
     "render": MATHEMATICS | {"curves", "drawing"},
     "mpl": MATHEMATICS | {"curves", "data", "drawing", "io"},
     "globe": MATHEMATICS | {"_kernel", "curves", "data", "drawing", "io"},
-    "web": BASE | {"curves", "data", "drawing", "interpolation", "sphere", "triangulation"},
+    "web": BASE | {"curves", "data", "drawing", "interpolation", "io", "render", "sphere", "triangulation"},
     "film": MATHEMATICS | {"_kernel", "curves", "drawing", "globe", "render"},
     "cli": MATHEMATICS
     | {"__init__", "curves", "data", "drawing", "earth", "film", "globe", "interpolation", "io"}

@@ -12,7 +12,8 @@ ask = asking(f"""
 const context = {{ measureText: (text) => ({{ width: 6 * text.length }}) }};
 globalThis.document = {{ createElement: () => ({{ append() {{}}, getContext: () => context }}) }};
 const {{ drawNames, Seats }} = await import("{SCRIPT}/drawing/names.ts");
-const {{ eachDots, eachLines, Ink }} = await import("{SCRIPT}/drawing/density.ts");
+const {{ drawSegments }} = await import("{SCRIPT}/drawing/ball.ts");
+const {{ Pen }} = await import("{SCRIPT}/drawing/pen.ts");
 """)
 
 R, SIZE = 300.0, 13
@@ -30,7 +31,7 @@ def frames(node, names, turned, moving):
             const label = (text, x, y) => {{ if (text in labels) throw new Error("twice"); labels[text] = [x, y]; }};
             const pen = {{ width: {2 * R}, height: {2 * R}, label }};
             const named = {{ names: given.names, standing, isMoving: given.moving[at] }};
-            drawNames(pen, new Seats(pen, disc), disc, named, images, {STYLE});
+            drawNames(new Seats(pen, disc), named, images, {STYLE});
             return labels;
           }});
         }})()""",
@@ -70,23 +71,25 @@ def test_names_never_collide_stay_in_the_disc_and_keep_their_sides_while_the_glo
 
 def test_lines_and_dots_are_weaker_only_where_they_are_dense(node):
     expression = """(() => {
-      const size = { width: 600, height: 300 };
       const each = (visit) => {
         for (let x = 0; x < 600; x += x < 300 ? 2.5 : 60) {
           for (let y = 0; y < 300; y += x < 300 ? 2.5 : 60) visit(x > 299 ? x + 55 : x, y);
         }
       };
-      const found = [];
-      const net = (path) => each((x, y) => { path.moveTo(x, y); path.lineTo(x + 2, y); });
-      eachLines(net, 1.1, new Ink(size), (size, opacity, part) => {
-        const count = [[0, 0], [0, 0]];
-        part({ moveTo: (x) => ++count[0][x < 300 ? 0 : 1], lineTo: (x) => ++count[1][x < 302 ? 0 : 1] });
-        found.push([size * opacity, ...count]);
-      });
-      const places = [];
-      each((x, y) => places.push(x, y));
-      const dots = [];
-      eachDots(places, 15, new Ink(size), (size, opacity, those) => dots.push([size ** 2 * opacity, those.length / 2]));
+      const [found, dots] = [[], []];
+      class Found extends Pen {
+        draw(_, trace, ink, { width, strokeOpacity }) {
+          const count = [[0, 0], [0, 0]];
+          trace({ moveTo: (x) => ++count[0][x < 300 ? 0 : 1], lineTo: (x) => ++count[1][x < 302 ? 0 : 1] });
+          found.push([width * strokeOpacity / 1.1, ...count]);
+        }
+        discs(_, { radius, opacity }, places) { dots.push([(radius / 2.2) ** 2 * opacity, places.length / 2]); }
+      }
+      const pen = new Found(600, 300, {}, 1);
+      const [ends, places] = [[], []];
+      each((x, y) => { ends.push(x, y, x + 2, y); places.push(x, y); });
+      drawSegments(pen, "delaunay", ends);
+      pen.dots("site", places);
       return { found, dots };
     })()"""
     answer = ask(node, expression)

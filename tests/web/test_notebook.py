@@ -1,4 +1,4 @@
-"""The widget in JupyterLab: drawn, turned, set from both sides, ten at once, and as it was when it is opened again."""
+"""The widget, alone and in JupyterLab: drawn, turned, set from both sides, ten at once, opened again as it was."""
 
 import json
 import os
@@ -11,10 +11,12 @@ import urllib.error
 import urllib.request
 from contextlib import suppress
 
+import numpy as np
 import pytest
 
-from stereodel import fisheye
+from stereodel import fisheye, lonlat_to_xyz
 from stereodel.drawing import View
+from stereodel.io import PointTable
 from stereodel.web import GlobeWidget
 from tools.browser import Visit
 
@@ -22,7 +24,8 @@ FIRST = """
 from pathlib import Path
 from stereodel.web import GlobeWidget
 
-globe = GlobeWidget(lonlat=[(10.0, 48.4), (-78.5, -0.2), (3.4, 6.5)], focus=(10, 48.4), magnification=3, view=(10, 30))
+places = [(10.0, 48.4), (-78.5, -0.2), (3.4, 6.5)]
+globe = GlobeWidget(places, focus=(10, 48.4), magnification=3, view=(10, 30), layout={"width": "700px"})
 said = lambda change: Path(f"{change['name']}.txt").write_text(str(change["new"]))
 globe.observe(said, ["lens", "view", "selection"])
 globe
@@ -148,6 +151,7 @@ def test_a_notebook_from_the_first_run_to_the_next_time(notebook, folder, lab, b
     assert page.evaluate(FRAMES) == drawn  # JupyterLab itself draws now and then, such as its list of files
 
     first = page.locator(".stereodel-globe canvas").first
+    assert first.bounding_box()["width"] == pytest.approx(700, abs=20)  # as its layout says, and not 640
     first.focus()
     first.press("+")
     lens = came_back(folder, "lens", 1 * patience)
@@ -222,7 +226,108 @@ def reopened(browser, lab, patience):
     return visit
 
 
+# The widget alone, with a model that keeps what it is told
+
+ALONE = """<!doctype html><meta charset="utf-8"><style>%s</style><div id="here"></div><script type="module">
+const read = (_, value) => (value?.doubles ? new DataView(Float64Array.from(value.doubles).buffer) : value);
+const [state, heard] = [JSON.parse(%s, read), {}];
+const set = (name, value) => { state[name] = value; heard["change:" + name]?.(); };
+window.model = { get: (name) => state[name], set, save_changes() {}, on: (name, act) => (heard[name] = act), off() {} };
+const script = URL.createObjectURL(new Blob([%s], { type: "text/javascript" }));
+const { default: widget } = await import(script);
+await widget.render({ model, el: document.querySelector("#here") });
+window.isShown = true;
+</script>"""
+
+SHOWN = ("sites", "names", "look", "layers", "lens", "view", "selection")
+
+
+def alone(visit, tmp_path, widget):
+    """A page of a widget's traits, and where places of the Earth are on it."""
+    state = {name: getattr(widget, name) for name in SHOWN}
+    text = json.dumps(state, default=lambda value: {"doubles": np.frombuffer(value).tolist()})
+    file = tmp_path / "alone.html"
+    file.write_text(ALONE % (widget._css, json.dumps(text), json.dumps(widget._esm)), encoding="utf-8")
+    page = visit(file, height=1000)
+    page.until("window.isShown")
+    page.rest()
+    box = page.page.locator("canvas").first.bounding_box()
+    middle, radius = np.array([box["x"], box["y"]]) + box["width"] / 2, box["width"] / 2 - 7
+
+    def at(lon, lat):
+        x, y, _ = View(**widget.view).matrix @ fisheye(**widget.lens)(lonlat_to_xyz((lon, lat)))
+        return middle + radius * np.array([x, -y])
+
+    return page, at
+
+
+def test_places_layers_and_the_hand(visit, tmp_path):
+    globe = GlobeWidget(
+        PLACES, names=["Quito", "Lagos", "Ulm"], values=[2.5, 15.5, 0.1], legend="people, M", view=(10, 20)
+    )
+    box = [[-20, 0], [20, 0], [20, 20], [-20, 20], [-20, 0]]
+    hole = [[-5, 5], [-5, 15], [5, 15], [5, 5], [-5, 5]]
+    globe.add_layer({"type": "Polygon", "coordinates": [box, hole]}, color="#ff0000", legend="a region")
+    globe.add_layer({"type": "LineString", "coordinates": [[-40, 60], [60, 60]]}, color="#00ff00")
+    page, at = alone(visit, tmp_path, globe)
+    pixels = page.picture().astype(int)
+
+    def redness(*place):
+        x, y = np.rint(at(*place)).astype(int)
+        return (pixels[y, x] - pixels[y, x].mean()).tolist()[0]
+
+    assert redness(-12, 10) > 100 < redness(12, 3)
+    assert redness(0, 10) < 40 > redness(30, 10)
+    x, y = np.rint(at(30, 60)).astype(int)  # on the parallel and not on the great circle
+    assert (pixels[y - 2 : y + 3, x, 1] - pixels[y - 2 : y + 3, x, 0]).max() > 60
+    assert "a region" in page.page.locator(".legend").inner_text()
+
+    page.page.mouse.move(*at(3.4, 6.5))
+    said = page.page.locator("[role=status]").inner_text().replace("\u202f", " ")
+    assert said.startswith("Lagos, 6.50° N 3.40° E, people 15.5 M")
+    page.page.mouse.click(*at(3.4, 6.5))
+    assert page.page.evaluate("model.get('selection')") == [1]
+    page.page.mouse.wheel(0, -100)
+    page.until("model.get('lens').magnification > 1.1")
+    page.page.evaluate("model.set('lens', { focus: [10, 48], magnification: 500 })")
+    page.page.mouse.wheel(0, -100)
+    page.rest()
+    assert page.page.evaluate("model.get('lens').magnification") == 500  # what Python asks for is no less by hand
+
+
 # The Python side
+
+PLACES = [(-78.5, -0.2), (3.4, 6.5), (10.0, 48.4)]
+
+
+def test_tables_and_frames_give_places_names_and_values():
+    table = PointTable(PLACES, {"name": ["Quito", "Lagos", "Ulm"], "people": [2.5, 15.5, np.nan]})
+    pandas = pytest.importorskip("pandas")
+    frame = pandas.DataFrame({"lat": [p[1] for p in PLACES], "lon": [p[0] for p in PLACES], **table.columns})
+    for given in (table, frame):
+        globe = GlobeWidget(given, values="people")
+        assert globe.lonlat.tolist() == [list(place) for place in PLACES]
+        assert globe.names == ["Quito", "Lagos", "Ulm"]
+        assert globe.look["columns"] == [("people", [2.5, 15.5, None])]
+        assert json.dumps(globe.look, allow_nan=False)
+    globe.lonlat = PLACES[:2]
+    assert (globe.names, globe.look) == ([], {"legend": ""})
+
+
+def test_properties_set_the_lens_and_nothing_is_taken_silently():
+    globe = GlobeWidget(lonlat=PLACES, layout={"width": "900px"})
+    globe.magnification, globe.focus = 5, (10, 48)
+    assert globe.lens == {"focus": (10.0, 48.0), "magnification": 5.0}
+    assert globe.layout.width == "900px"
+    for name in ("lens", "view"):
+        with pytest.raises(TypeError, match="set widget"):
+            getattr(globe, name)["magnification"] = 9
+    with pytest.raises(TypeError, match="no argument magnifcation; did you mean magnification"):
+        GlobeWidget(lonlat=PLACES, magnifcation=9)
+    with pytest.raises(ValueError, match="names has 1 entries, but there are 3 places"):
+        GlobeWidget(PLACES, names=["Quito"])
+    with pytest.raises(ValueError, match="there is no column 'size'"):
+        GlobeWidget(PLACES, values="size")
 
 
 def test_arguments_are_checked_and_results_are_arguments():

@@ -49,21 +49,23 @@ def test_looks_are_those_of_pictures():
     assert np.abs(shades - 255 * SCALE(VALUES)[:, :3]).max() <= 0.5001
     sizes = picture.legend["people"]
     assert np.abs(np.array(owner["radii"]) * 72 / 96 * 2 - sizes(AMOUNTS)).max() < 0.01
-    bar, circles = owner["legend"]
-    assert [entry["title"] for entry in (bar, circles)] == list(picture.legend)
-    assert {text for _, text in bar["ticks"]} <= set(SCALE.ticks.values())
-    assert [text for _, text in circles["circles"]] == list(sizes.ticks.values())
-    assert [column["values"] for column in owner["columns"]] == [VALUES.tolist(), AMOUNTS.tolist()]
+    written = re.findall(">([^<]+)</text>", owner["legend"])
+    assert (
+        {*picture.legend, *sizes.ticks.values()}
+        < {*written}
+        <= {*picture.legend, *sizes.ticks.values(), *SCALE.ticks.values()}
+    )
+    assert owner["columns"] == [["temperature, °C", VALUES.tolist()], ["people", AMOUNTS.tolist()]]
 
 
 def test_classes_words_and_gaps():
     gaps = np.where(np.arange(len(VALUES)) == 3, np.nan, VALUES)
     owner = told(values=gaps, scale=lambda values: ColorScale.classes(values, "quantiles", 4))
-    assert (len(owner["inks"]), len(owner["legend"][0]["bar"])) == (5, 4)
-    assert owner["legend"][0]["missing"][0] == "no value"
-    assert owner["columns"][0]["values"][3] is None
+    assert len(owner["inks"]) == 5
+    assert ">no value</text>" in owner["legend"]
+    assert owner["columns"][0][1][3] is None
     words = np.array(["hill", "coast"] * 30)[: len(VALUES)]
-    assert [entry["title"] for entry in told(values=words)["legend"]] == ["coast", "hill"]
+    assert re.findall(">([^<]+)</text>", told(values=words)["legend"]) == ["coast", "hill"]
     assert Looks().blocks(LONLAT, "authalic") == {}
 
 
@@ -121,7 +123,7 @@ def test_it_opens_fitted_and_says_everything_of_a_place(page):
     globe, seen = seen_in(shown, LONLAT)
     away = np.linalg.norm(seen - globe.middle, axis=1) / globe.radius
     assert 0.7 < away.max() < 0.95
-    assert shown.page.get_attribute(".legend canvas", "aria-label").startswith("temperature, °C 0")
+    assert shown.page.get_by_role("img", name="temperature, °C: colours, linear from 0").is_visible()
     apart = np.linalg.norm(seen[:, None] - seen, axis=2) + np.where(np.eye(len(seen)), np.inf, 0)
     k = int(np.argmax(apart.min(axis=1)))
     x, y = np.rint(seen[k]).astype(int)
@@ -152,6 +154,20 @@ def test_pictures_have_title_legend_and_source_and_no_handle(page):
     assert height > disc + 100
     foot = np.asarray(image.convert("L"))[int(2 * disc) + 100 :]
     assert (foot < 100).sum() > 500  # letters of the legend and of the source
+
+
+def test_a_print_is_one_sheet_with_the_legend(page, tmp_path):
+    import pypdfium2
+
+    shown = page()
+    shown.page.pdf(path=tmp_path / "towns.pdf")
+    with pypdfium2.PdfDocument(tmp_path / "towns.pdf") as document:
+        assert len(document) == 1
+        text = document[0].get_textpage().get_text_range()
+        said = [word in text for word in ("Sixty towns & more", "Invented", "Drag", "Five small", "Magnification")]
+        assert said == [True, True, False, False, False]
+        sheet = document[0].render(scale=1).to_numpy()
+    assert (sheet[140:190, -235:-50].std(axis=2) > 20).mean() > 0.04  # the bar of the legend, on the right
 
 
 @pytest.mark.parametrize("size", [(900, 500), pytest.param((360, 640), marks=pytest.mark.thorough)])
@@ -206,7 +222,7 @@ def test_the_owner_is_silent_about_other_places(page, tmp_path):
     (tmp_path / "two.csv").write_text("lon,lat,height\n100,10,5\n101,11,-1234.5\n", encoding="utf-8")
     opened(shown, "globe", tmp_path / "two.csv")
     assert shown.page.inner_text("#room-globe h1") == "Every angle true, every size your choice"
-    assert not shown.page.is_visible(".legend canvas")
+    assert not shown.page.is_visible(".legend")
     shown.page.hover("#room-globe .sites tr[data-site='1'] td:nth-child(2)")
     assert "Place 2, 11.00°\u202fN 101.00°\u202fE, height −1234.5; its cell has" in said(shown, "globe", "pointer")
     assert said(shown, "globe", "pointer").endswith("1 neighbour, the nearest is Place 1, 156 km away.")

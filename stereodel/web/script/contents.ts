@@ -4,8 +4,8 @@
  * Each is a text by name that `stereodel/web/contents.py` wrote: base64 of deflated bytes.
  */
 
-import type { Latitude } from "./kernel/api.ts";
 import type { Owner } from "./rooms/owner.ts";
+import type { Places } from "./rooms/globe_scene.ts";
 
 /** Regions by rings that have them on their left; joined where maps are cut, at ±180° and along the poles. */
 export interface Rings {
@@ -13,21 +13,6 @@ export interface Rings {
   readonly lonlat: Float64Array;
   /** Ring i has the points from `offsets[i]` up to `offsets[i + 1]`; the first one is not repeated at its end. */
   readonly offsets: Uint32Array;
-}
-
-/** Points that the page's maker gave. */
-export interface Given {
-  /** What the maker says of them. */
-  readonly owner: Owner | null;
-  /** The numbers among the values, by their titles. */
-  readonly values: ReadonlyMap<string, Float64Array>;
-  /** Lines of equal values, rows of places. */
-  readonly isolines: Rings | null;
-  /** What they are called, such as "cities.csv". */
-  readonly name: string;
-  /** Longitude and latitude in turn, degrees, to the bit. */
-  readonly lonlat: Float64Array;
-  readonly names: readonly string[] | null;
 }
 
 /** What a page, or a widget, carries with it. */
@@ -45,84 +30,46 @@ export class Contents {
   }
 
   /** The kernel, as bytes of WebAssembly. */
-  kernel(): Promise<Uint8Array<ArrayBuffer>> {
-    return this.#needed("kernel");
+  async kernel(): Promise<Uint8Array<ArrayBuffer>> {
+    const bytes = await this.#bytes("kernel");
+    if (bytes === null) throw new Error("the page has no kernel");
+    return bytes;
   }
 
-  /** The text of a script that is compiled at first need. */
-  async script(name: string): Promise<string> {
-    return new TextDecoder().decode(await this.#needed(name));
-  }
-
-  /** Land for maps of 1 : 50 or 1 : 110 million; null where the page does not have it, which may be so of the former. */
-  async land(resolution: "50m" | "110m"): Promise<Rings | null> {
-    return this.#rings(`land-${resolution}`);
-  }
-
-  async #rings(name: string): Promise<Rings | null> {
+  /** Land for maps of 1 : 50 or 1 : 110 million, lines, or the points of a set, by name; null where the page has none. */
+  async rings(name: string): Promise<Rings | null> {
     const bytes = await this.#bytes(name);
     return bytes && places(bytes);
   }
 
-  /** The points of a set: longitude and latitude in turn, degrees, or x and y of the sheet. */
-  async set(name: string): Promise<Float64Array> {
-    return (await this.#rings(name))?.lonlat ?? new Float64Array(0);
-  }
-
   /** The points that the page was made for, or null. */
-  async given(): Promise<Given | null> {
-    const [name, bytes, names] = [
-      await this.#text("given-name"),
-      await this.#bytes("given"),
-      await this.#text("given-names"),
-    ];
-    if (name === null || bytes === null) return null;
-    const owner = JSON.parse((await this.#text("owner")) ?? "null") as Owner | null;
-    const numbers = owner?.columns?.filter(({ values }) =>
-      Array.from(values).every((value) => typeof value !== "string"),
-    );
+  async given(): Promise<Places | null> {
+    const bytes = await this.#bytes("given");
+    if (bytes === null) return null;
+    const parsed = async (name: string): Promise<unknown> => JSON.parse((await this.text(name)) ?? "null");
+    const owner = (await parsed("owner")) as Owner | null;
     return {
-      name: String(JSON.parse(name)),
+      name: String(await parsed("given-name")),
       lonlat: doubles(bytes),
-      names: JSON.parse(names ?? "null") as string[] | null,
+      names: (await parsed("given-names")) as string[] | null,
       owner,
-      values: new Map(
-        numbers?.map(({ title, values }) => [title, Float64Array.from(values as number[], (v) => v ?? NaN)]),
-      ),
-      isolines: await this.#rings("isolines"),
+      values: new Map(owner?.columns),
+      isolines: await this.rings("isolines"),
     };
   }
 
-  /** The state of a page that was saved by its reader, as a link without its `#`; empty on any other page. */
-  async state(): Promise<string> {
-    return (await this.#text("state")) ?? "";
-  }
-
-  /** What latitudes of places are on this page: those of the ellipsoid with equal areas, if it does not say. */
-  async latitude(): Promise<Latitude> {
-    return ((await this.#text("latitude")) as Latitude | null) ?? "authalic";
-  }
-
-  async #needed(name: string): Promise<Uint8Array<ArrayBuffer>> {
-    const bytes = await this.#bytes(name);
-    if (bytes === null) throw new Error(`the page has no ${name}`);
-    return bytes;
-  }
-
-  async #text(name: string): Promise<string | null> {
+  /** A script that is compiled at first need, or what else is said of the page in a word. */
+  async text(name: string): Promise<string | null> {
     const bytes = await this.#bytes(name);
     return bytes && new TextDecoder().decode(bytes);
   }
 
   async #bytes(name: string): Promise<Uint8Array<ArrayBuffer> | null> {
     const text = this.#blocks(name);
-    return text === null ? null : inflated(text);
+    if (text === null) return null;
+    const stream = new Blob([fromBase64(text)]).stream().pipeThrough(new DecompressionStream("deflate"));
+    return new Uint8Array(await new Response(stream).arrayBuffer());
   }
-}
-
-async function inflated(text: string): Promise<Uint8Array<ArrayBuffer>> {
-  const stream = new Blob([fromBase64(text)]).stream().pipeThrough(new DecompressionStream("deflate"));
-  return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
 /** Rows of places: digits, number of rows, their sizes, steps of all longitudes, steps of all latitudes. */

@@ -8,7 +8,7 @@ import { SvgPen } from "./drawing/svg_pen.ts";
 import { isPicture, openPoints } from "./files.ts";
 import { geojson } from "./geojson.ts";
 import { openPanorama } from "./panorama.ts";
-import { framed, legendBlock, legendWords } from "./rooms/legend.ts";
+import { framed } from "./rooms/framed.ts";
 import { globePython, liftPython, spherePython } from "./rooms/python.ts";
 import { savedPage } from "./saved_page.ts";
 import { writeTable } from "./tables/delimited.ts";
@@ -22,16 +22,16 @@ function download(name: string, content: Blob | string, type = "text/plain"): vo
 }
 
 /** The picture as SVG, in the colours of the screen. */
-function sheetSvg(sheet: Sheet): string {
-  const { title, width, height, weight, paint } = framed(sheet);
+async function sheetSvg(sheet: Sheet): Promise<string> {
+  const { title, width, height, weight, paint } = await framed(sheet, colours().ink);
   const pen = new SvgPen(width, height, colours(), weight);
   paint(pen);
   return pen.text(title);
 }
 
 /** The picture as PNG with so many pixels for one of the screen. */
-function sheetPng(sheet: Sheet, scale: number): Promise<Blob> {
-  const { width, height, weight, paint } = framed(sheet);
+async function sheetPng(sheet: Sheet, scale: number): Promise<Blob> {
+  const { width, height, weight, paint } = await framed(sheet, colours().ink);
   const canvas = make("canvas", { width: Math.round(width * scale), height: Math.round(height * scale) });
   const context = canvas.getContext("2d")!;
   context.fillStyle = colours().paper;
@@ -48,8 +48,6 @@ const exchange = {
   geojson,
   globePython,
   isPicture,
-  legendBlock,
-  legendWords,
   liftPython,
   openPanorama,
   openPoints,

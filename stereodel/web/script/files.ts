@@ -8,7 +8,7 @@ import type { RoomName } from "./link.ts";
 import type { Messages } from "./messages.ts";
 import type { RoomHost } from "./room.ts";
 import { findXY, lonLatPlaces, numberColumns, planePlaces } from "./tables/coordinates.ts";
-import { ColumnsError, readTable, TableError, type PlacedTable, type TextTable } from "./tables/delimited.ts";
+import { readTable, TableError, type PlacedTable, type TextTable } from "./tables/delimited.ts";
 import { geojsonPoints } from "./tables/geojson.ts";
 import { findLonLat, NOT_WESTERN } from "./tables/words.ts";
 import { counted } from "./words.ts";
@@ -51,7 +51,7 @@ export function isPicture(file: File): boolean {
 /**
  * Reads points from the bytes of a file.
  * @param chosen names of the two columns, where they are known.
- * @throws TableError in words for the reader; ColumnsError where the columns must be chosen.
+ * @throws TableError in words for the reader.
  */
 export async function readPoints(
   file: string,
@@ -102,7 +102,7 @@ function ofText(text: string, kind: Kind, chosen?: [string, string]): Elsewhere 
   const sure = table.isHeaded ? findLonLat(all, true) : null;
   const axes = chosen ?? (kind === "lonlat" ? findLonLat(all) : findXY(all));
   if (axes === null && sure !== null) return { room: "globe" };
-  if (axes === null) throw new ColumnsError(all);
+  if (axes === null) throw new TableError("the table has no two columns of coordinates", all);
   const places = (kind === "lonlat" ? lonLatPlaces : planePlaces)(table, ...axes);
   // Numbers of a plane, where no name says that they are degrees.
   const beyond = [...table.wrong.keys()].filter((row) => Number.isFinite(places[2 * row] + places[2 * row + 1]));
@@ -158,9 +158,9 @@ export async function openPoints(
     points = await readPoints(file.name, new Uint8Array(await file.arrayBuffer()), kind, chosen);
   } catch (error) {
     const again = (...both: [string, string]): Promise<void> => openPoints(file, kind, host, opened, both);
-    if (error instanceof ColumnsError && error.names.length > 1)
-      return askColumns(file.name, error.names, kind, messages, again);
-    return messages.show(named, unchanged(error instanceof TableError ? error.message : "the file cannot be read"));
+    if (!(error instanceof TableError)) return messages.show(named, unchanged("the file cannot be read"));
+    if (error.columns.length > 1) return askColumns(file.name, error.columns, kind, messages, again);
+    return messages.show(named, unchanged(error.message));
   }
   if ("room" in points) return host.pass(points.room, file, points.columns);
   const found = points;

@@ -12,13 +12,13 @@ export function laterScript<T>(contents: Contents, name: string): () => Promise<
   };
   return () =>
     (loaded ??= contents
-      .script(name)
+      .text(name)
       .then((code) => run<T>(code, name))
       .catch(failed));
 }
 
 /** Runs code that the policy of the page allows by its hash. */
-function run<T>(code: string, name: string): T {
+function run<T>(code: string | null, name: string): T {
   const element: HTMLScriptElement & { offers?: T } = document.createElement("script");
   Object.assign(element, { shared, textContent: code });
   document.head.append(element); // runs it, to its end

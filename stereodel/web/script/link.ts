@@ -25,55 +25,8 @@ export interface Link {
   readonly values: LinkValues;
 }
 
-/** Values of a room by name, as text, with readers that check. */
-export class LinkValues extends Map<string, string> {
-  /** Text, or `otherwise` where the link does not say. */
-  text(name: string, otherwise: string): string {
-    return this.get(name) ?? otherwise;
-  }
-
-  /** One of some words, of which `otherwise` is one. */
-  word<T extends string>(name: string, words: readonly T[], otherwise: T): T {
-    const word = words.find((word) => word === this.text(name, otherwise));
-    if (word === undefined) throw new LinkError(`${name} is not one of ${words.join(", ")}`);
-    return word;
-  }
-
-  /** A number in [low, high]. */
-  number(name: string, low: number, high: number, otherwise: number): number {
-    const text = this.get(name);
-    if (text === undefined) return otherwise;
-    const value = numberOf(text);
-    if (!(value >= low && value <= high)) throw new LinkError(`${name} is not a number from ${low} to ${high}`);
-    return value;
-  }
-
-  /** A whole number in [low, high]. */
-  whole(name: string, low: number, high: number): number {
-    const value = this.number(name, low, high, NaN);
-    if (!Number.isInteger(value)) throw new LinkError(`${name} is not a whole number`);
-    return value;
-  }
-
-  /** Pairs of coordinates, (n, 2); null where the link holds none. */
-  places(name: string): Float64Array | null {
-    const text = this.get(name);
-    if (text === undefined) return null;
-    const places = text === "" ? new Float64Array(0) : numbersOf(text);
-    if (places.length % 2 !== 0 || !places.every(Number.isFinite))
-      throw new LinkError("the link holds half a site, or one that is nowhere");
-    return places;
-  }
-
-  /** Those of the Earth: longitude and latitude in degrees. */
-  lonlat(name: string): Float64Array | null {
-    const lonlat = this.places(name);
-    if (lonlat?.some((value, k) => k % 2 === 1 && Math.abs(value) > 90)) {
-      throw new LinkError("the link holds sites beyond the poles");
-    }
-    return lonlat;
-  }
-}
+/** Values of a room by name, as text. */
+export type LinkValues = Map<string, string>;
 
 /**
  * Reads the fragment of an address, with or without its `#`.
@@ -84,7 +37,7 @@ export function readLink(hash: string, longest = LONGEST): Link {
   const text = hash.replace(/^#/, "");
   if (text.length > longest) throw new LinkError("the link is too long");
   const alone = ROOMS.find((room) => room === (text || "sphere"));
-  if (alone !== undefined) return { room: alone, values: new LinkValues() };
+  if (alone !== undefined) return { room: alone, values: new Map() };
   const values = valuesOf(text.split("&"));
   if (values.get("v") !== "1") throw new LinkError("the link is of no known version");
   const room = ROOMS.find((room) => room === values.get("room"));
@@ -97,7 +50,7 @@ export function readLink(hash: string, longest = LONGEST): Link {
 function valuesOf(parts: readonly string[]): LinkValues {
   try {
     const pairs = parts.map((part) => /^([^=]+)=(.*)$/s.exec(part)!.slice(1).map(decodeURIComponent));
-    const values = new LinkValues(pairs as [string, string][]);
+    const values: LinkValues = new Map(pairs as [string, string][]);
     if (values.size === parts.length) return values;
   } catch {
     // a part of another form, or a percent sign without its digits: told below
@@ -121,17 +74,12 @@ export function writeNumber(value: number, decimals: number): string {
   return String(Number(value.toFixed(decimals)));
 }
 
-/** Pairs of coordinates as `LinkValues.places` reads them: numbers with all their digits. */
-export function packPlaces(places: Float64Array): string {
-  return places.join(",");
-}
-
 /** Numbers between commas. */
 export function numbersOf(text: string): Float64Array {
   return Float64Array.from(text.split(","), numberOf);
 }
 
 /** NaN for what is no plain number. */
-function numberOf(text: string): number {
+export function numberOf(text: string): number {
   return /^-?\d{1,40}(\.\d{1,40})?(e[-+]?\d{1,3})?$/.test(text) ? Number(text) : NaN;
 }

@@ -1,12 +1,15 @@
 /** The page: head and foot, rooms by the fragment of the address, files that are dropped, exports, states. */
 
-import { Contents, type Given } from "./contents.ts";
+import { Contents } from "./contents.ts";
+import type { Places } from "./rooms/globe_scene.ts";
 import { field, find } from "./dom.ts";
 import type { Exchange } from "./exchange.ts";
+import { word } from "./fields.ts";
+import type { Latitude } from "./kernel/api.ts";
 import { load } from "./kernel/instance.ts";
 import { laterScript } from "./later_script.ts";
 import type { LiftRoomMaker } from "./lift.ts";
-import { LinkError, LinkValues, readLink, ROOMS, writeLink, type Link, type RoomName } from "./link.ts";
+import { LinkError, readLink, ROOMS, writeLink, type Link, type LinkValues, type RoomName } from "./link.ts";
 import { Announcer, Messages } from "./messages.ts";
 import type { Room, RoomHost } from "./room.ts";
 import { Choice, NAMED, NumberField } from "./rooms/controls.ts";
@@ -16,26 +19,26 @@ import { sphereRoom } from "./rooms/sphere.ts";
 /** Milliseconds of rest after which the address tells the state. */
 const REST = 300;
 
-/** What the colours may be; without a word those of the system. */
-const COLOURS = ["", "light", "dark"] as const;
-type Colours = (typeof COLOURS)[number];
+/** Without a word the colours are those of the system. */
+type Colours = "" | "light" | "dark";
+const COLOURS = word<Colours>("colours", ["", "light", "dark"]);
 
 /** What a link says of a table. */
 const TABLE = ["sites", "names", "name", "values"];
 
 type Makers = Record<RoomName, (host: RoomHost) => Room | Promise<Room>>;
 
-class Page {
-  readonly #contents: Contents;
+class Page implements RoomHost {
+  readonly contents: Contents;
   readonly #makers: Makers;
-  readonly #exchange: () => Promise<Exchange>;
-  readonly #messages = new Messages(find(document, "#messages"));
-  readonly #announcer = new Announcer(find(document, "#status"));
+  readonly exchange: () => Promise<Exchange>;
+  readonly messages = new Messages(find(document, "#messages"));
+  readonly announcer = new Announcer(find(document, "#status"));
   readonly #rooms = new Map<RoomName, Room>();
   readonly #colours = new Choice<Colours>(document, "colours", () => {
     this.#paint(this.#colours.value);
-    this.#guarded(() => this.#room?.redraw());
-    this.#changed(false);
+    this.guarded(() => this.#room?.redraw());
+    this.changed();
   });
   /** The document as it came. */
   readonly #source: Node;
@@ -48,13 +51,13 @@ class Page {
   #timer: ReturnType<typeof setTimeout> | undefined;
   #isStep = false;
 
-  constructor(contents: Contents, makers: Makers, source: Node, saved: string, given: Given | null) {
-    this.#contents = contents;
+  constructor(contents: Contents, makers: Makers, source: Node, saved: string, given: Places | null) {
+    this.contents = contents;
     this.#makers = makers;
     [this.#begin, this.#title] = [given === null ? "sphere" : "globe", given?.owner?.title ?? ""];
     this.#source = source;
     this.#saved = saved === "" ? null : readLink(saved, Infinity);
-    this.#exchange = laterScript(contents, "exchange");
+    this.exchange = laterScript(contents, "exchange");
   }
 
   /** Shows what the address says, and follows it from now on. */
@@ -80,15 +83,7 @@ class Page {
 
   /** A room, which is made when it is first entered. */
   async #made(name: RoomName): Promise<Room> {
-    const made = await this.#makers[name]({
-      contents: this.#contents,
-      announcer: this.#announcer,
-      messages: this.#messages,
-      exchange: this.#exchange,
-      changed: (isStep = false) => this.#changed(isStep),
-      guarded: (body) => this.#guarded(body),
-      pass: (...what) => this.#pass(...what),
-    });
+    const made = await this.#makers[name](this);
     const room = this.#rooms.get(name) ?? made; // it may have been entered twice meanwhile
     if (!this.#rooms.has(name)) room.attach(find(document, `#room-${name}`));
     this.#rooms.set(name, room);
@@ -101,7 +96,7 @@ class Page {
     const link = this.#read(
       () =>
         (location.hash === "" && this.#rooms.size === 0 ? this.#saved : null) ?? readLink(location.hash || this.#begin),
-      () => ({ room: this.#name, values: new LinkValues() }),
+      () => ({ room: this.#name, values: new Map() }),
     );
     const saved = this.#saved?.values;
     if (saved?.has("name") && saved.get("name") === link.values.get("file"))
@@ -111,11 +106,18 @@ class Page {
     try {
       const room = this.#room ?? (await this.#made(link.room));
       if (this.#name !== link.room) return; // the reader is in another room by now
-      const [restore, anew] = [link.values, new LinkValues()].map((values) => () => {
-        if (values.size > 0) this.#paint(values.word("colours", COLOURS, ""));
+      const restore = (values: LinkValues): void => {
+        if (values.size > 0) this.#paint(COLOURS.read(values, ""));
         room.restore(values);
-      });
-      this.#guarded(() => isNew && this.#read(restore, anew));
+      };
+      this.guarded(
+        () =>
+          isNew &&
+          this.#read(
+            () => restore(link.values),
+            () => restore(new Map()),
+          ),
+      );
       this.#python();
     } catch (error) {
       this.#failed(error);
@@ -128,7 +130,7 @@ class Page {
       return body();
     } catch (error) {
       if (!(error instanceof LinkError)) throw error;
-      this.#messages.show("", "This link cannot be read, so here is the room as it begins.");
+      this.messages.show("", "This link cannot be read, so here is the room as it begins.");
       return otherwise();
     }
   }
@@ -145,7 +147,7 @@ class Page {
   }
 
   /** The address and the Python lines follow the state once the hand rests. */
-  #changed(isStep: boolean): void {
+  changed(isStep = false): void {
     this.#isStep ||= isStep;
     clearTimeout(this.#timer);
     this.#timer = setTimeout(() => {
@@ -167,20 +169,20 @@ class Page {
     document.documentElement.dataset["colours"] = this.#colours.value = colours;
   }
 
-  #guarded(body: () => void): void {
+  readonly guarded = (body: () => void): void => {
     try {
       body();
       this.#section.classList.remove("failed");
     } catch (error) {
       this.#failed(error);
     }
-  }
+  };
 
   #failed(error: unknown): void {
     console.error(error);
     this.#section.classList.add("failed");
-    const again = { words: "Draw again", act: () => this.#guarded(() => this.#room?.redraw()) };
-    this.#messages.show("", "The computation failed and was stopped. Your sites are still here.", again);
+    const again = { words: "Draw again", act: () => this.guarded(() => this.#room?.redraw()) };
+    this.messages.show("", "The computation failed and was stopped. Your sites are still here.", again);
   }
 
   /** Files may be dropped anywhere. */
@@ -219,7 +221,7 @@ class Page {
   #exchanging(body: (room: Room, exchange: Exchange) => void | Promise<void>): void {
     const room = this.#room;
     if (room === undefined) return;
-    const done = this.#exchange().then((exchange) => body(room, exchange));
+    const done = this.exchange().then((exchange) => body(room, exchange));
     done.catch((error: unknown) => this.#failed(error));
   }
 
@@ -227,7 +229,7 @@ class Page {
     if (file !== undefined) this.#exchanging((room, exchange) => room.open(file, exchange, columns));
   }
 
-  async #pass(name: RoomName, file: File, columns?: [string, string]): Promise<void> {
+  async pass(name: RoomName, file: File, columns?: [string, string]): Promise<void> {
     history.pushState(null, "", `#${name}`);
     await this.#follow();
     this.#open(file, columns);
@@ -235,16 +237,14 @@ class Page {
 
   async #export(kind: string, room: Room, exchange: Exchange): Promise<void> {
     const name = `stereodel-${this.#name}`;
-    if (kind === "svg") exchange.download(`${name}.svg`, exchange.sheetSvg(room.sheet()), "image/svg+xml");
+    if (kind === "svg") exchange.download(`${name}.svg`, await exchange.sheetSvg(room.sheet()), "image/svg+xml");
     else if (kind === "png") {
       const scale = field(document, "png-scale").valueAsNumber;
       exchange.download(`${name}.png`, await exchange.sheetPng(room.sheet(), scale));
-    } else if (kind === "geojson") {
-      const text = room.geojson(exchange);
-      if (text !== null) exchange.download(`${name}.geojson`, text, "application/geo+json");
-    } else if (kind === "csv") {
-      const text = room.csv(exchange);
-      if (text !== null) exchange.download("sites.csv", text, "text/csv"); // as the lines of Python call it
+    } else if (kind === "geojson" || kind === "csv") {
+      const text = room[kind](exchange);
+      const [file, type] = kind === "csv" ? ["sites.csv", "text/csv"] : [`${name}.geojson`, "application/geo+json"]; // as the lines of Python call it
+      if (text !== null) exchange.download(file, text, type);
     } else if (kind === "page") {
       exchange.download(`${name}.html`, await exchange.savedPage(this.#source, this.#link(room.state(true))));
     } else {
@@ -255,7 +255,7 @@ class Page {
       const what = "file" in state ? "file" : "picture";
       const left = `The link names the ${what} but does not hold its ${NAMED[what]}; ${what === "file" ? "save the page" : "send the file along"}.`;
       const words = problem ? "Nothing can be copied here; the link is the page's address." : "Link copied.";
-      this.#messages.show("", what in state && !problem ? left : words);
+      this.messages.show("", what in state && !problem ? left : words);
     }
   }
 
@@ -285,9 +285,10 @@ async function main(): Promise<void> {
   const loaded = contents.kernel().then(load);
   const stored: Record<string, Float64Array> = {}; // before the rooms are made, so that links can name them
   for (const name of ["gap", "everywhere", "hemisphere", "cities", "airports", "stars", "sheet"])
-    stored[name] = await contents.set(name);
-  const [given, saved] = [await contents.given(), await contents.state()];
-  const latitude = await contents.latitude();
+    stored[name] = (await contents.rings(name))?.lonlat ?? new Float64Array(0);
+  const [given, saved] = [await contents.given(), (await contents.text("state")) ?? ""];
+  // Those of the ellipsoid with equal areas, if the page does not say.
+  const latitude = ((await contents.text("latitude")) ?? "authalic") as Latitude;
   const lift = laterScript<LiftRoomMaker>(contents, "lift");
   await loaded;
   document.body.classList.remove("loading");

@@ -1,32 +1,40 @@
-/** A globe in a place of its own, such as the output of a cell: its drawing, and what hands and keys do to it. */
+/** A globe in a place of its own, such as the output of a cell: the fisheye of the Globe room, of what a model has. */
 
-import type { Rings } from "./contents.ts";
-import { make } from "./dom.ts";
-import {
-  arcLayer,
-  dotLayer,
-  drawLayers,
-  graticuleArcs,
-  landLayer,
-  placeOf,
-  ridgeArcs,
-  type Layer,
-} from "./drawing/ball.ts";
-import { traceDisc, type Disc, type Pen } from "./drawing/pen.ts";
-import { Plate } from "./drawing/plate.ts";
-import { lonlatToXyz, MoebiusMap, SphericalVoronoi } from "./kernel/api.ts";
-import { lonLatOf, row, type Vector } from "./space.ts";
-import { arrowStep, grabBall, type Turnable } from "./view/ball_hand.ts";
-import { distance, follow, isCommand, type Gestures, type Place } from "./view/hand.ts";
-import { seenThrough, sourceOf } from "./view/lens.ts";
-import { Motion } from "./view/motion.ts";
-import { pointUnder, View } from "./view/view.ts";
-import { latitude, longitude } from "./words.ts";
+import { make, plain, say } from "./dom.ts";
+import { arcLayer, lineArcs, regionLayer, spotLayer, type Layer } from "./drawing/ball.ts";
+import type { IsOn } from "./drawing/parts.ts";
+import type { Reason } from "./drawing/plate.ts";
+import { lonlatToXyz } from "./kernel/api.ts";
+import { FisheyeGlobe, type GlobeHost } from "./rooms/globe_plates.ts";
+import type { GlobeScene } from "./rooms/globe_scene.ts";
+import { BEGINNING, sightWords, type GlobeState } from "./rooms/globe_state.ts";
+import { placeSentence, type Owner } from "./rooms/owner.ts";
+import { directionOf, lonLatOf } from "./space.ts";
+import { isCommand, type Gestures } from "./view/hand.ts";
+import { imageOf, lensMap, MOST, type Sight } from "./view/lens.ts";
+import { View } from "./view/view.ts";
+import { counted } from "./words.ts";
 
-/** What is shown. */
-export interface Shown {
+/** Shapes of one ink: rows of places, and of a region a place and whether that is in it. */
+interface Shapes {
+  readonly kind: "region" | "line" | "point";
+  readonly ink: string;
+  readonly lonlat: DataView;
+  readonly offsets: readonly number[];
+  readonly place: readonly [number, number];
+  readonly inside: boolean;
+}
+
+/** Traits of a model. */
+export const TRAITS = ["sites", "names", "look", "layers", "lens", "view", "selection"] as const;
+
+/** What a model has. */
+export interface Shown extends Record<(typeof TRAITS)[number], unknown> {
   /** Longitude and latitude in turn, degrees: doubles at any place of a buffer. */
   sites: DataView;
+  names: readonly string[];
+  look: Partial<Owner>;
+  layers: readonly Shapes[];
   /** A fisheye, by the arguments of `stereodel.fisheye`. */
   lens: { readonly focus: readonly [number, number]; readonly magnification: number };
   /** By the arguments of `stereodel.drawing.View`. */
@@ -38,219 +46,218 @@ export interface Shown {
 /** Hears what a hand has changed. */
 type Changed = <K extends keyof Shown>(name: K, value: Shown[K]) => void;
 
-/** By which + and − magnify. */
-const STEP = 1.25;
+/** Radius of the points of a layer, pixels. */
+const POINT = 3;
 
-/** The strongest lens by hand. */
-const STRONGEST = 1e6;
+const KEYS = "arrows turn, + and − magnify, F sets the focus, comma and full stop walk the sites, Enter selects";
+const HINT = "Drag to turn; after a click the wheel magnifies; a double click sets the focus.";
 
-/** Sites beyond which cells are left out while the globe moves. */
-const MANY_SITES = 10_000;
+/** The globe whose places can be selected. */
+class SelectingGlobe extends FisheyeGlobe {
+  declare protected readonly room: NotebookGlobe;
 
-export class NotebookGlobe implements Turnable {
-  readonly isNorthUp = false; // but by keys
-  readonly #root = make("div", "stereodel-globe");
+  /** That of the page, or what Python asks for beyond it. */
+  override get most(): number {
+    return Math.max(MOST, this.sight.lens.magnification);
+  }
+
+  protected override gestures(): Gestures {
+    const { click, doubleClick, key, ...others } = super.gestures();
+    return {
+      ...others,
+      click: (at, reach) => {
+        click?.(at, reach);
+        this.room.press();
+      },
+      doubleClick: (at, reach) => {
+        this.room.press(); // back to what it was before the first of the two
+        doubleClick?.(at, reach);
+      },
+      key: (event) => this.room.key(event) || key?.(event) === true,
+    };
+  }
+}
+
+export class NotebookGlobe implements GlobeHost {
+  readonly scene: GlobeScene;
+  readonly place = make("div", "stereodel-globe");
+  readonly hasPointed = false; // no circle at the pointer
+  readonly host = {
+    guarded: (body: () => void): void => {
+      body();
+      this.place.dataset["frames"] = String(this.#globe.plate.frames + 1);
+    },
+  };
   readonly #canvas = make("canvas", {
     tabIndex: 0,
     role: "application",
     ariaRoleDescription: "globe to turn",
-    ariaDescription:
-      "arrows turn, + and − magnify, F sets the focus, comma and full stop walk the sites, Enter selects",
+    ariaDescription: `${HINT} Keys: ${KEYS}, 0 takes the lens off`,
   });
   readonly #status = make("p", { role: "status" });
-  readonly #plate: Plate;
+  readonly #legend = make("div", "legend");
+  readonly #globe: SelectingGlobe;
   readonly #changed: Changed;
-  readonly #ground: readonly (Layer | null)[];
   readonly #themes: MutationObserver; // notebooks change colours by attributes of the body
-  readonly #motion = new Motion();
-  readonly #release: () => void;
-  #cells: Layer | null = null;
-  #dots: Layer | null = null;
-  #sites: Float64Array = new Float64Array(0);
-  #lens = MoebiusMap.identity();
-  #focus: readonly [number, number] = [0, 0];
-  #view = View.above(0, 0);
-  #selection: readonly number[] = [];
-  #walked = -1;
+  #state = BEGINNING;
+  #look: Partial<Owner> = {};
+  #shown: Shown | null = null;
 
-  constructor(place: HTMLElement, land: Rings | null, changed: Changed) {
-    this.#changed = changed;
-    this.#ground = [land && landLayer(land), arcLayer("graticule", graticuleArcs(10))];
-    this.#root.append(this.#canvas, this.#status);
-    place.append(this.#root);
-    this.#plate = new Plate(this.#canvas, (pen, isMoving) => this.#paint(pen, isMoving), undefined, this.#root);
-    this.#themes = new MutationObserver(() => this.#plate.redraw("colours"));
+  constructor(element: HTMLElement, scene: GlobeScene, changed: Changed) {
+    [this.scene, this.#changed] = [scene, changed];
+    this.place.append(this.#canvas, this.#status, this.#legend, make("p", "hint", HINT));
+    element.append(this.place);
+    this.#globe = new SelectingGlobe(this.#canvas, this);
+    this.#themes = new MutationObserver(() => this.#globe.plate.redraw("colours"));
     this.#themes.observe(document.body, { attributes: true });
-    this.#release = follow(this.#plate, this.#gestures());
     this.#canvas.addEventListener("pointerdown", (event) => {
       event.preventDefault(); // the notebook would take the focus
       this.#canvas.focus({ preventScroll: true });
     });
+    this.place.addEventListener("keydown", (event) => {
+      if (event.defaultPrevented) event.stopPropagation(); // the notebook has keys of its own
+    });
   }
 
-  /** Shows what Python has set. */
-  show({ sites, lens, view, selection }: Partial<Shown>): void {
-    if (sites !== undefined) {
-      const bytes = sites.buffer.slice(sites.byteOffset, sites.byteOffset + sites.byteLength);
-      this.#sites = lonlatToXyz(new Float64Array(bytes));
-      this.#cells = arcLayer("cell", ridgeArcs(new SphericalVoronoi(this.#sites)));
-      this.#dots = dotLayer("site", this.#sites);
-      this.#walked = -1;
+  /** Shows what a model has. */
+  show(shown: Shown): void {
+    const { sites, names, look, layers, lens, view, selection } = shown;
+    const isNew = (name: keyof Shown): boolean => shown[name] !== this.#shown?.[name];
+    if (isNew("sites") || isNew("names") || isNew("look")) {
+      const lonlat = doubles(sites);
+      const count = lonlat.length / 2;
+      this.#look = look.ink === undefined || look.ink.length === count ? look : {};
+      const owner = { title: "", source: "", ...this.#look };
+      this.scene.show({
+        name: "",
+        lonlat,
+        names: names.length === count ? names : null,
+        values: new Map(look.columns),
+        owner,
+      });
     }
-    if (lens !== undefined) {
-      this.#focus = lens.focus;
-      this.#lens = MoebiusMap.fisheye([...lens.focus], lens.magnification);
-    }
-    if (view !== undefined) this.#view = View.above(view.lon, view.lat, view.roll);
-    this.#selection = selection ?? this.#selection;
-    this.#update();
+    if (isNew("layers")) this.scene.layers = layers.map(layerOf);
+    const sight = {
+      lens: { ...lens, focus: directionOf(...lens.focus) },
+      view: View.above(view.lon, view.lat, view.roll),
+    };
+    this.#state = { ...this.#state, sight };
+    if (isNew("look")) this.#legend.innerHTML = look.legend ?? ""; // of the script's own side
+    [this.#shown, this.scene.selected] = [shown, selection];
+    this.#update("state");
   }
 
   dispose(): void {
-    this.#motion.stop();
-    this.#release();
+    this.#globe.motion.stop();
     this.#themes.disconnect();
-    this.#plate.dispose();
-    this.#root.remove();
+    this.#globe.plate.dispose();
+    this.place.remove();
   }
 
-  get disc(): Disc {
-    return this.#plate.disc;
+  get shown(): GlobeState {
+    return this.#state;
   }
 
-  get view(): View {
-    return this.#view;
+  /** Without a lens. */
+  get beginning(): GlobeState {
+    const { lens, view } = this.#state.sight;
+    return { ...this.#state, sight: { lens: { ...lens, magnification: 1 }, view } };
   }
 
-  /** From the Earth to the axes of the view. */
-  get #map(): MoebiusMap {
-    return seenThrough(this.#lens, this.#view);
+  /** North stays up until it is turned away from Python. */
+  get isNorthUp(): boolean {
+    return this.#state.sight.view.roll === 0;
   }
 
-  #update(): void {
-    const { magnification } = this.#lens;
-    const [lon, lat] = this.#view.middle;
-    const lens = `${magnification.toPrecision(3)} times at ${latitude(this.#focus[1])}, ${longitude(this.#focus[0])}`;
-    const count = this.#sites.length / 3;
-    const text =
-      `Seen from ${latitude(lat)}, ${longitude(lon)}` +
-      (magnification === 1 ? "" : `; ${lens}`) +
-      (count === 0 ? "" : `; ${count} ${count === 1 ? "site" : "sites"}`) +
-      (this.#selection.length === 0 ? "" : `, selected: ${this.#selection.slice(0, 5).join(", ")}`);
-    this.#canvas.ariaLabel = this.#status.textContent = text;
-    this.#plate.redraw("state");
+  /** A plain globe has no focus to be seen. */
+  get isFramed(): boolean {
+    return this.#state.sight.lens.magnification === 1;
   }
 
-  #paint(pen: Pen, isMoving: boolean): void {
-    const { disc } = this;
-    const map = this.#map;
-    const withCells = !isMoving || this.#sites.length <= 3 * MANY_SITES;
-    const chosen = this.#selection.flatMap((number) => row(this.#sites, number));
-    const layers = [withCells ? this.#cells : null, this.#dots, dotLayer("held", Float64Array.from(chosen))];
-    pen.ball(disc, "ocean");
-    drawLayers(pen, disc, map, this.#ground);
-    pen.shade(disc);
-    drawLayers(pen, disc, map, layers);
-    pen.draw("limb", (path) => traceDisc(path, disc));
-    this.#root.dataset["frames"] = String(this.#plate.frames + 1);
-  }
+  readonly isOn: IsOn = (layer) => layer !== "tissot" && layer !== "fills" && (layer !== "cells" || !this.#look.inks);
 
-  // Hands
-
-  #gestures(): Gestures {
-    const plate = this.#plate;
-    return {
-      take: (at) => grabBall(this, this.#motion, at),
-      click: (at, reach) => this.#selectNear(at, reach),
-      doubleClick: (at, reach) => {
-        this.#selectNear(at, reach); // back to what it was before the first of the two
-        this.#focusAt(pointUnder(plate.disc, at));
-      },
-      pinch: (_, spread) => {
-        const { magnification } = this.#lens;
-        return { move: (_, now) => this.#magnify(((now / spread) * magnification) / this.#lens.magnification) };
-      },
-      wheel: (_, factor) => this.#magnify(factor),
-      key: (event) => this.#key(event),
+  /** What a hand has changed is shown as it is told, to the last digit. */
+  set(change: Partial<GlobeState>, reason: Reason): void {
+    const before = this.#state.sight;
+    this.#state = { ...this.#state, ...change };
+    const { lens, view } = this.#state.sight;
+    const [lon, lat, roll] = [...view.middle, view.roll].map(rounded);
+    const [east, north] = lonLatOf(lens.focus).map(rounded);
+    const sight: Sight = {
+      lens: lens === before.lens ? lens : { ...lens, focus: directionOf(east, north) },
+      view: view === before.view ? view : View.above(lon, lat, roll),
     };
+    this.#state = { ...this.#state, sight };
+    if (sight.lens !== before.lens) this.#changed("lens", { focus: [east, north], magnification: lens.magnification });
+    if (sight.view !== before.view) this.#changed("view", { lon, lat, roll });
+    if (reason !== "pointer") this.#update(reason);
   }
 
-  #key(event: KeyboardEvent): boolean {
-    if (isCommand(event)) return false;
-    const step = arrowStep(event);
+  hover(place: number | null): void {
+    if (this.scene.lit === place) return;
+    this.scene.lit = place;
+    this.#update("pointer");
+  }
+
+  /** Selects the place that is lit, or no longer. */
+  press(): void {
+    const { lit, selected } = this.scene;
+    if (lit === null) return;
+    this.#select(selected.includes(lit) ? selected.filter((each) => each !== lit) : [...selected, lit]);
+  }
+
+  key(event: KeyboardEvent): boolean {
     const acts: Record<string, () => void> = {
-      "+": () => this.#magnify(STEP),
-      "-": () => this.#magnify(1 / STEP),
-      "0": () => this.#magnify(1 / this.#lens.magnification),
-      f: () => this.#focusAt([0, 0, 1]),
       ",": () => this.#walk(-1),
       ".": () => this.#walk(1),
-      Enter: () => this.#toggle(this.#walked),
-      Escape: () => this.#set("selection", []),
+      Enter: () => this.press(),
+      Escape: () => this.#select([]),
     };
-    const act = step === null ? acts[event.key] : () => this.turn(this.#view.stepped(...step, true));
-    if (act === undefined) return false;
-    event.stopPropagation(); // the notebook has keys of its own
-    this.#motion.stop();
-    act();
-    return true;
+    const act = isCommand(event) ? undefined : acts[event.key];
+    act?.();
+    return act !== undefined;
   }
 
-  turn(view: View): void {
-    this.#view = view;
-    const [lon, lat, roll] = [...view.middle, view.roll].map(rounded);
-    this.#update();
-    this.#plate.redraw("hand");
-    this.#changed("view", { lon, lat, roll });
-  }
-
-  #magnify(factor: number): void {
-    const magnification = Math.min(STRONGEST, Math.max(1 / STRONGEST, this.#lens.magnification * factor));
-    this.#set("lens", { focus: this.#focus, magnification });
-    this.#plate.redraw("hand");
-  }
-
-  /** Moves the focus to what is seen at a point of the view. */
-  #focusAt(point: Vector): void {
-    const [lon, lat] = lonLatOf(sourceOf(this.#map, point)).map(rounded);
-    this.#set("lens", { focus: [lon, lat], magnification: this.#lens.magnification });
-  }
-
-  /** Shows what a hand has changed, and tells it. */
-  #set<K extends keyof Shown>(name: K, value: Shown[K]): void {
-    this.show({ [name]: value });
-    this.#changed(name, value);
-  }
-
-  // Sites
-
-  /** Selects the nearest of the sites in sight, or no longer. */
-  #selectNear(at: Place, reach: number): void {
-    const { disc } = this.#plate;
-    const images = this.#map.apply(this.#sites);
-    let [nearest, least] = [-1, reach];
-    for (let k = 0; 3 * k < images.length; ++k) {
-      const image = row(images, k);
-      const apart = distance(placeOf(disc, image), at);
-      if (image[2] >= 0 && apart < least) [nearest, least] = [k, apart];
-    }
-    this.#toggle(nearest);
-  }
-
-  #toggle(number: number): void {
-    if (number < 0) return;
-    const others = this.#selection.filter((each) => each !== number);
-    this.#set("selection", others.length < this.#selection.length ? others : [...others, number]);
+  #select(selection: readonly number[]): void {
+    this.scene.selected = selection;
+    this.#changed("selection", selection);
+    this.#update("state");
   }
 
   /** To the next site in either direction, which comes to the middle of the view. */
   #walk(step: number): void {
-    const count = this.#sites.length / 3;
+    const { lonlat } = this.scene.places!;
+    const count = lonlat.length / 2;
     if (count === 0) return;
-    this.#walked = (Math.max(this.#walked, step < 0 ? 0 : -1) + step + count) % count;
-    const [lon, lat] = lonLatOf(row(this.#lens.apply(row(this.#sites, this.#walked)), 0));
-    this.turn(View.above(lon, lat));
+    const place = (Math.max(this.scene.lit ?? -1, step < 0 ? 0 : -1) + step + count) % count;
+    const image = imageOf(lensMap(this.#state.sight.lens), directionOf(lonlat[2 * place], lonlat[2 * place + 1]));
+    this.#globe.turn(View.above(...lonLatOf(image)), "state");
+    this.hover(place);
   }
+
+  #update(reason: Reason): void {
+    const { lit, selected, places } = this.scene;
+    const count = (places?.lonlat.length ?? 0) / 2;
+    const chosen = selected.length === 0 ? "" : `, selected: ${selected.slice(0, 5).join(", ")}`;
+    const sites = count === 0 ? "" : `; ${counted(count)} ${count === 1 ? "site" : "sites"}${chosen}`;
+    const words = sightWords(this.#state.sight) + sites;
+    say(this.#status, lit === null ? words : placeSentence(this.scene, lit));
+    this.#canvas.ariaLabel = plain(words);
+    this.#globe.plate.redraw(reason);
+  }
+}
+
+function layerOf({ kind, ink, lonlat, offsets, place, inside }: Shapes): Layer {
+  const [places, whole] = [doubles(lonlat), Uint32Array.from(offsets)];
+  if (kind === "line") return arcLayer("line", lineArcs({ lonlat: places, offsets: whole }), ink);
+  const points = lonlatToXyz(places);
+  if (kind === "region") return regionLayer("tint", "coast", points, whole, directionOf(...place), inside, ink);
+  const count = places.length / 2;
+  return spotLayer(points, new Array<number>(count).fill(POINT), new Array<string>(count).fill(ink));
+}
+
+function doubles({ buffer, byteOffset, byteLength }: DataView): Float64Array {
+  return new Float64Array(buffer.slice(byteOffset, byteOffset + byteLength));
 }
 
 /** Degrees without the last digits of arithmetic: to 0.1 mm on the Earth. */

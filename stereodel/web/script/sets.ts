@@ -1,6 +1,6 @@
 /** Sets of sites to begin with: those that come with the page, and those that are made here. */
 
-import type { Given } from "./contents.ts";
+import type { Places } from "./rooms/globe_scene.ts";
 import { lonLatOf, type Vector } from "./space.ts";
 
 /** A set: its name in links, its words in the list, its places (n, 2). */
@@ -16,7 +16,7 @@ export interface SiteSet {
 export type Stored = Readonly<Record<string, Float64Array>>;
 
 /** The sets of the sphere: those that the page was made for and carries, and a dodecahedron. */
-export function sphereSets(stored: Stored, given: Given | null): SiteSet[] {
+export function sphereSets(stored: Stored, given: Places | null): SiteSet[] {
   const kept = (name: string, words: string, places = stored[name], names: SiteSet["names"] = null): SiteSet[] =>
     places?.length > 0 ? [{ name, words, names, make: () => places }] : [];
   return [

@@ -23,14 +23,6 @@ export interface Rows {
   mark?(site: number): string;
 }
 
-/** What a row does. */
-export interface Actions {
-  /** The number of a site was pressed. */
-  chosen(site: number): void;
-  /** The pointer or the focus is on a row; null when it leaves. */
-  pointed(site: number | null): void;
-}
-
 export class SiteTable {
   readonly #place: HTMLElement;
   readonly #table = make("table");
@@ -41,21 +33,25 @@ export class SiteTable {
   #begin = 0;
   #height = 0;
 
-  /** `place` scrolls: an element of the class `sites`. */
-  constructor(place: HTMLElement, actions: Actions) {
+  /**
+   * @param place scrolls: an element of the class `sites`.
+   * @param chosen The number of a site was pressed.
+   * @param pointed The pointer or the focus is on a row; null when it leaves.
+   */
+  constructor(place: HTMLElement, chosen: (site: number) => void, pointed: (site: number | null) => void) {
     this.#place = place;
     this.#table.append(this.#head, this.#body);
     place.append(this.#table);
     place.addEventListener("scroll", () => this.#fill(), { passive: true });
     this.#body.addEventListener("click", (event) => {
       const site = siteOf(event.target);
-      if (site !== null && (event.target as Element).closest("button")) actions.chosen(site);
+      if (site !== null && (event.target as Element).closest("button")) chosen(site);
     });
     for (const type of ["pointerover", "focusin"] as const) {
-      this.#body.addEventListener(type, (event) => actions.pointed(siteOf(event.target)));
+      this.#body.addEventListener(type, (event) => pointed(siteOf(event.target)));
     }
     for (const type of ["pointerleave", "focusout"] as const) {
-      this.#body.addEventListener(type, () => actions.pointed(null));
+      this.#body.addEventListener(type, () => pointed(null));
     }
   }
 

@@ -1,12 +1,13 @@
 /**
- * The globe in a notebook, as anywidget asks for it: sites in; lens, view and selection in and back.
+ * The globe in a notebook, as anywidget asks for it: places, their look and layers in; lens, view and selection in and back.
  * `stereodel/web/assemble.py` writes the constant `CONTENTS` before this module. A notebook loads the module anew for
  * each widget, so that what they share, the compiled kernel, stands where all of them find it.
  */
 
 import { Contents } from "./contents.ts";
 import { load } from "./kernel/instance.ts";
-import { NotebookGlobe, type Shown } from "./notebook_globe.ts";
+import { NotebookGlobe, TRAITS, type Shown } from "./notebook_globe.ts";
+import { GlobeScene } from "./rooms/globe_scene.ts";
 
 declare const CONTENTS: Readonly<Record<string, string>>;
 
@@ -39,22 +40,27 @@ function compiled(contents: Contents): Promise<WebAssembly.Module> {
 async function render({ model, el }: { model: Model; el: HTMLElement }): Promise<() => void> {
   const contents = new Contents((name) => CONTENTS[name] ?? null);
   await load(await compiled(contents));
+  const scene = new GlobeScene("authalic");
+  await scene.load(contents);
 
   let timer: ReturnType<typeof setTimeout> | undefined;
-  const globe = new NotebookGlobe(el, await contents.land("110m"), (name, value) => {
+  let isOwn = false; // what the globe tells is shown already
+  const globe = new NotebookGlobe(el, scene, (name, value) => {
+    isOwn = true;
     model.set(name, value);
+    isOwn = false;
     clearTimeout(timer);
     timer = setTimeout(() => model.save_changes(), REST);
   });
-  const heard = (["sites", "lens", "view", "selection"] as const).map((name) => {
-    const act = (): void => globe.show({ [name]: model.get(name) });
-    act();
-    model.on(`change:${name}`, act);
-    return () => model.off(`change:${name}`, act);
-  });
+  const act = (): void => {
+    if (isOwn) return;
+    globe.show(Object.fromEntries(TRAITS.map((name) => [name, model.get(name)])) as unknown as Shown);
+  };
+  act();
+  for (const name of TRAITS) model.on(`change:${name}`, act);
   return () => {
     clearTimeout(timer);
-    for (const forget of heard) forget();
+    for (const name of TRAITS) model.off(`change:${name}`, act);
     globe.dispose();
   };
 }

@@ -39,11 +39,11 @@ export function circle(n: Vector, d: number): Circle {
 }
 
 /**
- * The arc from row a over row m to row b; null where two of them are one point.
+ * The arc from row a over the next one to that after it; null where two of them are one point.
  * @param whole The whole circle through the three.
  */
-export function arcThrough(p: ArrayLike<number>, a: number, m: number, b: number, whole = false): Circle | null {
-  const [i, j, k] = [3 * a, 3 * m, 3 * b];
+export function arcThrough(p: ArrayLike<number>, a = 0, whole = false): Circle | null {
+  const [i, j, k] = [3 * a, 3 * a + 3, 3 * a + 6];
   const [ux, uy, uz] = [p[j] - p[i], p[j + 1] - p[i + 1], p[j + 2] - p[i + 2]];
   const [vx, vy, vz] = [p[k] - p[i], p[k + 1] - p[i + 1], p[k + 2] - p[i + 2]];
   const [nx, ny, nz] = [uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx];
@@ -64,7 +64,7 @@ function angleOf({ n, d, e }: Circle, p: ArrayLike<number>, i: number): number {
 }
 
 /** The parts on one side of the ball, as pairs of angles. */
-export function partsOf(arc: Circle, side: Side = "front"): number[] {
+function partsOf(arc: Circle, side: Side = "front"): number[] {
   const { n, d, r, e, from, to } = arc;
   const sign = side === "front" ? 1 : -1;
   const [middle, reach] = [sign * d * n[2], sign * r * (n[0] * e[1] - n[1] * e[0])]; // z = middle + reach sin t
@@ -91,13 +91,11 @@ export function pointAt({ n, d, r, e }: Circle, t: number): Vector {
   ];
 }
 
-/** Lays a part of a circle into a path; it begins a line of its own unless it is a `continued` one. */
-export function tracePart(path: Path, disc: Disc, arc: Circle, from: number, to: number, continued = false): void {
+/** Lays a part of a circle into a path. */
+function tracePart(path: Path, disc: Disc, arc: Circle, from: number, to: number): void {
   const { n, d, r, e } = arc;
-  if (!continued) {
-    const [x, y] = pointAt(arc, from);
-    path.moveTo(disc.x + disc.r * x, disc.y - disc.r * y);
-  }
+  const begin = pointAt(arc, from);
+  path.moveTo(disc.x + disc.r * begin[0], disc.y - disc.r * begin[1]);
   // The drawing's y points down: angles turn the other way, and once more where n points away.
   const sign = n[2] >= 0 ? -1 : 1;
   const [x, y] = [disc.x + disc.r * d * n[0], disc.y - disc.r * d * n[1]];
@@ -111,25 +109,18 @@ export function traceCircle(path: Path, disc: Disc, arc: Circle, side: Side = "f
   for (let k = 0; k < parts.length; k += 2) tracePart(path, disc, arc, parts[k], parts[k + 1]);
 }
 
-/** Lays the arc from row a over row m to row b into a path. */
-export function traceArc(
-  path: Path,
-  disc: Disc,
-  p: ArrayLike<number>,
-  a: number,
-  m: number,
-  b: number,
-  side: Side = "front",
-): void {
+/** Lays the arc from row a over the next one to that after it into a path. */
+export function traceArc(path: Path, disc: Disc, p: ArrayLike<number>, a = 0, side: Side = "front"): void {
   const sign = side === "front" ? 1 : -1;
-  const [isAIn, isBIn] = [sign * p[3 * a + 2] >= 0, sign * p[3 * b + 2] >= 0];
-  if (isAIn === isBIn && bow(p, a, m, b) * disc.r < UNSEEN_BOW) {
+  const i = 3 * a;
+  const [isAIn, isBIn] = [sign * p[i + 2] >= 0, sign * p[i + 8] >= 0];
+  if (isAIn === isBIn && bow(p, a) * disc.r < UNSEEN_BOW) {
     if (!isAIn) return;
-    path.moveTo(disc.x + disc.r * p[3 * a], disc.y - disc.r * p[3 * a + 1]);
-    path.lineTo(disc.x + disc.r * p[3 * b], disc.y - disc.r * p[3 * b + 1]);
+    path.moveTo(disc.x + disc.r * p[i], disc.y - disc.r * p[i + 1]);
+    path.lineTo(disc.x + disc.r * p[i + 6], disc.y - disc.r * p[i + 7]);
     return;
   }
-  const arc = arcThrough(p, a, m, b);
+  const arc = arcThrough(p, a);
   if (arc !== null) traceCircle(path, disc, arc, side);
 }
 
@@ -138,8 +129,8 @@ export function traceArc(
  * The middle point may lie anywhere on the arc, even next to an end: if it is h from the chord c and p and q from the
  * ends, the circle has the radius ρ = p q / (2 h), and the arc the height c² / 4 / (ρ + √(ρ² − c² / 4)).
  */
-export function bow(p: ArrayLike<number>, a: number, m: number, b: number): number {
-  const [i, j, k] = [3 * a, 3 * m, 3 * b];
+function bow(p: ArrayLike<number>, a = 0): number {
+  const [i, j, k] = [3 * a, 3 * a + 3, 3 * a + 6];
   const [ux, uy, uz] = [p[j] - p[i], p[j + 1] - p[i + 1], p[j + 2] - p[i + 2]];
   const [vx, vy, vz] = [p[k] - p[i], p[k + 1] - p[i + 1], p[k + 2] - p[i + 2]];
   const [wx, wy, wz] = [p[j] - p[k], p[j + 1] - p[k + 1], p[j + 2] - p[k + 2]];
@@ -166,31 +157,12 @@ export interface Rings {
 const UNSEEN_STEP = 0.5;
 
 /** Lays rings into a path as lines, cut at the limb. */
-export function traceOutlines(path: Path, disc: Disc, { points: p, offsets }: Rings): void {
-  for (let ring = 0; ring + 1 < offsets.length; ++ring) {
-    const [begin, count] = [offsets[ring], offsets[ring + 1] - offsets[ring]];
-    let [x, y, before] = [0, 0, -1];
-    for (let n = 0; n <= count; ++n) {
-      const i = 3 * (begin + (n % count));
-      const [px, py, isIn] = [disc.x + disc.r * p[i], disc.y - disc.r * p[i + 1], p[i + 2] >= 0];
-      if (n > 0 && isIn !== p[before + 2] >= 0) {
-        const t = p[before + 2] / (p[before + 2] - p[i + 2]);
-        const [cx, cy] = [p[before] + t * (p[i] - p[before]), p[before + 1] + t * (p[i + 1] - p[before + 1])];
-        const scale = disc.r / Math.hypot(cx, cy);
-        [x, y] = [disc.x + scale * cx, disc.y - scale * cy];
-        if (isIn) path.moveTo(x, y);
-        else path.lineTo(x, y);
-      }
-      if (isIn && n === 0) path.moveTo((x = px), (y = py));
-      else if (isIn && (Math.abs(px - x) + Math.abs(py - y) > UNSEEN_STEP || n === count))
-        path.lineTo((x = px), (y = py));
-      before = i;
-    }
-  }
+export function traceOutlines(path: Path, disc: Disc, { points, offsets }: Rings): void {
+  for (let ring = 0; ring + 1 < offsets.length; ++ring)
+    traceRing(path, disc, points, offsets[ring], offsets[ring + 1], false);
 }
 
 const TURN = 2 * Math.PI;
-const HALF_TURN = Math.PI;
 
 /**
  * Lays regions into a path.
@@ -210,11 +182,11 @@ export function traceRegions(path: Path, disc: Disc, rings: Rings, holdsHidden: 
   for (; discs < 0; ++discs) traceWhole(path, disc, true);
 }
 
-/** One ring; a ring that is all hidden is not drawn, and its turns about M are returned. */
-function traceRing(path: Path, disc: Disc, p: Float64Array, begin: number, end: number): number {
+/** One ring, filled or as a line; one that is filled and all hidden is not drawn, and its turns about M are returned. */
+function traceRing(path: Path, disc: Disc, p: Float64Array, begin: number, end: number, isFilled = true): number {
   let first = begin;
   while (first < end && p[3 * first + 2] < 0) ++first;
-  if (first === end) return Math.round(turnsOf(p, begin, end) / TURN);
+  if (first === end) return isFilled ? Math.round(turnsOf(p, begin, end) / TURN) : 0;
   let [x, y] = [disc.x + disc.r * p[3 * first], disc.y - disc.r * p[3 * first + 1]];
   path.moveTo(x, y);
   let [from, turn] = [0, 0]; // along the limb, while the ring is hidden
@@ -225,23 +197,20 @@ function traceRing(path: Path, disc: Disc, p: Float64Array, begin: number, end: 
     if (z >= 0 !== w >= 0) {
       const t = z / (z - w);
       const azimuth = Math.atan2(p[i + 1] + t * (p[j + 1] - p[i + 1]), p[i] + t * (p[j] - p[i]));
+      [x, y] = [disc.x + disc.r * Math.cos(azimuth), disc.y - disc.r * Math.sin(azimuth)];
       if (w < 0) {
-        [from, turn] = [azimuth, 0];
-        path.lineTo(disc.x + disc.r * Math.cos(azimuth), disc.y - disc.r * Math.sin(azimuth));
-        turn += wrapped(Math.atan2(p[j + 1], p[j]) - azimuth);
-      } else {
-        turn += wrapped(azimuth - from - turn);
-        traceLimb(path, disc, from, turn);
-        [x, y] = [Infinity, Infinity];
-      }
-    } else if (w < 0) turn += wrapped(Math.atan2(p[j + 1], p[j]) - from - turn);
+        path.lineTo(x, y);
+        [from, turn] = [azimuth, wrapped(Math.atan2(p[j + 1], p[j]) - azimuth)];
+      } else if (isFilled) traceLimb(path, disc, from, turn + wrapped(azimuth - from - turn));
+      else path.moveTo(x, y);
+    } else if (w < 0 && isFilled) turn += wrapped(Math.atan2(p[j + 1], p[j]) - from - turn);
     if (w >= 0) {
       const [nx, ny] = [disc.x + disc.r * p[j], disc.y - disc.r * p[j + 1]];
-      if (Math.abs(nx - x) + Math.abs(ny - y) > UNSEEN_STEP) path.lineTo((x = nx), (y = ny));
+      if (Math.abs(nx - x) + Math.abs(ny - y) > UNSEEN_STEP || n === 1) path.lineTo((x = nx), (y = ny));
     }
     i = j;
   }
-  path.closePath();
+  if (isFilled) path.closePath();
   return 0;
 }
 
@@ -304,24 +273,21 @@ export function traceCap(path: Path, disc: Disc, cap: Circle): void {
   // A part that goes on over the circle's beginning is one.
   if (parts.length === 4) parts.splice(0, 4, parts[2], parts[1] + TURN);
   tracePart(path, disc, cap, parts[0], parts[1]);
-  if (parts[1] - parts[0] < TURN) traceHidden(path, disc, cap, parts[1], parts[0] + TURN);
+  if (parts[1] - parts[0] < TURN) {
+    // Its hidden part, along the limb.
+    const [from, middle, to] = [parts[1], (parts[0] + parts[1] + TURN) / 2, parts[0] + TURN].map((t) => {
+      const [x, y] = pointAt(cap, t);
+      return Math.atan2(y, x);
+    });
+    traceLimb(path, disc, from, wrapped(middle - from) + wrapped(to - middle));
+  }
   path.closePath();
   if (-n[2] > d) traceWhole(path, disc, false);
 }
 
-/** The hidden part of a circle, along the limb. */
-function traceHidden(path: Path, disc: Disc, cap: Circle, begin: number, end: number): void {
-  const azimuth = (t: number): number => {
-    const [x, y] = pointAt(cap, t);
-    return Math.atan2(y, x);
-  };
-  const [from, middle, to] = [azimuth(begin), azimuth((begin + end) / 2), azimuth(end)];
-  traceLimb(path, disc, from, wrapped(middle - from) + wrapped(to - middle));
-}
-
 /** Goes on along the limb, counterclockwise for positive turns; a canvas forgets all turns of an arc but one. */
 function traceLimb(path: Path, { x, y, r }: Disc, from: number, turn: number): void {
-  const pieces = Math.ceil(Math.abs(turn) / HALF_TURN);
+  const pieces = Math.ceil(Math.abs(turn) / Math.PI);
   for (let k = 0; k < pieces; ++k) {
     const [begin, end] = [from + (turn * k) / pieces, from + (turn * (k + 1)) / pieces];
     path.ellipse(x, y, r, r, 0, -begin, -end, turn > 0);
@@ -333,8 +299,6 @@ const SHORT = 8;
 
 /** Largest distance of an outline from its points' polygon, pixels: less than half the width of a coast. */
 const LEAST_BOW = 0.3;
-
-const AXES = [0, 1, 2];
 
 /** Points of one side at the most: of half a circle round the whole ball they are some pixels apart. */
 const MOST_PIECES = 128;
@@ -348,52 +312,40 @@ const MOST_PIECES = 128;
  */
 export function bentRings(source: Float64Array, rings: Rings, map: MoebiusMap, radius: number): Rings {
   const { points: p, offsets } = rings;
-  const sides: { from: number; to: number; pieces: number }[] = [];
+  const sides: { from: number; to: number }[] = [];
   const least = (SHORT / radius) ** 2;
   for (let ring = 0; ring + 1 < offsets.length; ++ring) {
     for (let from = offsets[ring]; from < offsets[ring + 1]; ++from) {
       const to = from + 1 < offsets[ring + 1] ? from + 1 : offsets[ring];
       const [i, j] = [3 * from, 3 * to];
       const [x, y, z] = [p[j] - p[i], p[j + 1] - p[i + 1], p[j + 2] - p[i + 2]];
-      if (x * x + y * y + z * z > least) sides.push({ from, to, pieces: 1 });
+      if (x * x + y * y + z * z > least) sides.push({ from, to });
     }
   }
-  const coordinate = (row: number, k: number): number => source[3 * row + k];
-  const middles = sides.flatMap(({ from, to }) => AXES.map((k) => coordinate(from, k) + coordinate(to, k)));
-  const images = map.apply(Float64Array.from(middles));
-  const between: number[] = [];
-  sides.forEach((side, at) => {
-    const { from, to } = side;
-    const three = [...row(p, from), ...row(images, at), ...row(p, to)];
-    const pieces = Math.ceil(Math.sqrt((radius * bow(three, 0, 1, 2)) / LEAST_BOW));
-    side.pieces = Math.max(1, Math.min(MOST_PIECES, pieces));
-    for (let piece = 1; piece < side.pieces; ++piece) {
-      const t = piece / side.pieces;
-      for (const k of AXES) between.push(coordinate(from, k) + t * (coordinate(to, k) - coordinate(from, k)));
-    }
+  const on = ({ from, to }: (typeof sides)[0], t: number): number[] =>
+    [0, 1, 2].map((k) => (1 - t) * source[3 * from + k] + t * source[3 * to + k]);
+  const middles = map.apply(Float64Array.from(sides.flatMap((side) => on(side, 0.5))));
+  const between = sides.map((side, at): number[] => {
+    const three = [...row(p, side.from), ...row(middles, at), ...row(p, side.to)];
+    const pieces = Math.ceil(Math.sqrt((radius * bow(three)) / LEAST_BOW));
+    const count = Math.max(1, Math.min(MOST_PIECES, pieces));
+    return Array.from({ length: count - 1 }, (_, k) => on(side, (k + 1) / count)).flat();
   });
-  return between.length === 0 ? rings : merged(rings, sides, map.apply(Float64Array.from(between)));
-}
-
-function merged(
-  { points, offsets }: Rings,
-  sides: readonly { from: number; pieces: number }[],
-  between: Float64Array,
-): Rings {
-  const more = new Float64Array(points.length + between.length);
-  const moved = new Uint32Array(offsets.length);
-  let [at, taken, side] = [0, 0, 0];
-  for (let ring = 0; ring + 1 < offsets.length; ++ring) {
-    for (let k = offsets[ring]; k < offsets[ring + 1]; ++k) {
-      more.set(points.subarray(3 * k, 3 * k + 3), at);
-      at += 3;
-      if (side === sides.length || sides[side].from !== k) continue;
-      const length = 3 * (sides[side++].pieces - 1);
-      more.set(between.subarray(taken, taken + length), at);
-      at += length;
-      taken += length;
-    }
-    moved[ring + 1] = at / 3;
-  }
-  return { points: more.subarray(0, at), offsets: moved };
+  const images = map.apply(Float64Array.from(between.flat()));
+  if (images.length === 0) return rings;
+  const bent = new Float64Array(p.length + images.length);
+  const moved = Uint32Array.from(offsets);
+  let [ring, done, taken] = [0, 0, 0];
+  const follow = (end: number): void => {
+    bent.set(p.subarray(done, end), done + taken);
+    for (done = end; 3 * offsets[ring] < end; ++ring) moved[ring] += taken / 3;
+  };
+  sides.forEach(({ from }, at) => {
+    follow(3 * from + 3);
+    const more = images.subarray(taken, taken + between[at].length);
+    bent.set(more, done + taken);
+    taken += more.length;
+  });
+  follow(p.length + 1); // the last offset, too
+  return { points: bent, offsets: moved };
 }

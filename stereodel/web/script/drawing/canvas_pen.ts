@@ -1,18 +1,12 @@
 /** The pen of the screen: a canvas with two dimensions. */
 
-import { LIGHT, Pen, textParts, traceDisc } from "./pen.ts";
-import type { Disc, Gradient, Path, Picture, Trace } from "./pen.ts";
+import { LIGHT, MOST_ARCS, Pen, textParts, traceDisc } from "./pen.ts";
+import type { Bounds, Disc, Gradient, Picture, Trace } from "./pen.ts";
 import * as styles from "./styles.ts";
 import type { Colours, DotName, DotStyle, LabelStyle, Style, StyleName } from "./styles.ts";
 
-/** Arcs of ellipses that are stroked at once: browsers need quadratic time for paths of thousands. */
-const MOST_ARCS = 256;
-
 /** Radius of dots, pixels, that look like squares of their area, which are filled in a tenth of the time. */
 const TINY = 1.6;
-
-/** Dots beyond which all are squares. */
-const MANY_DOTS = 20_000;
 
 type Context = CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D;
 
@@ -28,51 +22,40 @@ export class CanvasPen extends Pen {
     context.imageSmoothingQuality = "high";
   }
 
-  protected path(_: StyleName, style: Style, trace: Trace, ink?: string): void {
+  draw(name: StyleName, trace: Trace, ink?: string, style: Style = styles.STYLES[name]): void {
     const context = this.#context;
-    if (style.fill === undefined && style.hatch === undefined) {
-      this.#line(style);
-      const path = strokedPath(context);
-      this.#faint(style.strokeOpacity, () => {
-        trace(path);
-        path.flush();
-      });
-      return;
-    }
     context.beginPath();
     trace(context);
     if (style.hatch !== undefined) this.#hatch(style.hatch === "crossed");
     if (style.fill !== undefined) {
       context.fillStyle = ink ?? this.colours[style.fill];
-      this.#faint(style.fillOpacity, () => context.fill());
+      this.within({ opacity: style.fillOpacity }, () => context.fill());
     }
     if (style.stroke !== undefined) {
       this.#line(style, ink);
-      context.stroke();
+      this.within({ opacity: style.strokeOpacity }, () => context.stroke());
     }
   }
 
-  behind(body: () => void): void {
-    this.#kept(() => {
-      this.#context.globalAlpha = styles.BEHIND;
-      body();
-    });
-  }
-
-  clipped(trace: Trace, body: () => void): void {
-    this.#kept(() => {
-      this.#context.beginPath();
-      trace(this.#context);
-      this.#context.clip();
-      body();
-    });
+  within({ opacity = 1, region, corner = [0, 0] }: Bounds, body: () => void): void {
+    const context = this.#context;
+    context.save();
+    context.globalAlpha *= opacity;
+    context.translate(...corner);
+    if (region) {
+      context.beginPath();
+      region(context);
+      context.clip();
+    }
+    body();
+    context.restore();
   }
 
   protected discs(_: DotName, { radius: r, fill, rim, rimWidth, opacity }: DotStyle, places: ArrayLike<number>): void {
     const context = this.#context;
-    this.#faint(opacity, () => {
-      if (r < TINY || places.length > 2 * MANY_DOTS) {
-        const side = Math.sqrt(Math.PI) * Math.min(r, TINY);
+    this.within({ opacity }, () => {
+      if (r < TINY) {
+        const side = Math.sqrt(Math.PI) * r;
         context.fillStyle = this.colours[fill];
         for (let k = 0; k < places.length; k += 2)
           context.fillRect(places[k] - side / 2, places[k + 1] - side / 2, side, side);
@@ -81,13 +64,6 @@ export class CanvasPen extends Pen {
       this.#discs(places, r + rimWidth / 2, this.colours[rim]);
       this.#discs(places, r - rimWidth / 2, this.colours[fill]);
     });
-  }
-
-  #faint(opacity = 1, body: () => void): void {
-    const before = this.#context.globalAlpha;
-    this.#context.globalAlpha *= opacity;
-    body();
-    this.#context.globalAlpha = before;
   }
 
   /** Discs about places; some at a time, as a call for each takes longer than the discs. */
@@ -120,37 +96,26 @@ export class CanvasPen extends Pen {
     });
   }
 
-  lowered(by: number, body: () => void): void {
-    this.#kept(() => {
-      this.#context.translate(0, by);
-      body();
-    });
-  }
-
   label(text: string, x: number, y: number, style: LabelStyle): void {
     const context = this.#context;
     const parts = textParts(text, style.italic ?? false).map((part) => {
-      const font = `${part.italic ? "italic " : ""}${style.size}px ${styles.SERIF}`;
-      context.font = font;
+      const font = (context.font = styles.fontOf(style, part.italic));
       return { text: part.text, font, width: context.measureText(part.text).width };
     });
     const length = parts.reduce((sum, part) => sum + part.width, 0);
     const start = x - (style.align === "center" ? length / 2 : style.align === "right" ? length : 0);
-    const each = (body: (text: string, at: number) => void): void => {
-      let at = start;
-      for (const part of parts) {
-        context.font = part.font;
-        body(part.text, at);
-        at += part.width;
-      }
-    };
-    context.textAlign = "left";
     context.setLineDash([]);
     context.lineWidth = styles.HALO_WIDTH;
     context.strokeStyle = this.inkOf(style.halo);
     context.fillStyle = this.inkOf(style.ink);
-    each((words, at) => context.strokeText(words, at, y));
-    each((words, at) => context.fillText(words, at, y));
+    for (const letters of ["strokeText", "fillText"] as const) {
+      let at = start;
+      for (const part of parts) {
+        context.font = part.font;
+        context[letters](part.text, at, y);
+        at += part.width;
+      }
+    }
   }
 
   picture(picture: Picture, x: number, y: number, width: number, height: number): void {
@@ -163,15 +128,9 @@ export class CanvasPen extends Pen {
     this.#context.setLineDash([...(style.dash ?? [])]);
   }
 
-  #kept(body: () => void): void {
-    this.#context.save();
-    body();
-    this.#context.restore();
-  }
-
   /** Lines over the path that stands, 45° steep. */
   #hatch(crossed: boolean): void {
-    this.#kept(() => {
+    this.within({}, () => {
       const context = this.#context;
       const { width, height } = this;
       context.clip();
@@ -207,29 +166,4 @@ export class CanvasPen extends Pen {
     traceDisc(context, disc);
     context.fill();
   }
-}
-
-/** Strokes what it was given before its arcs are too many; only where a new line begins. */
-function strokedPath(context: Context): Path & { flush(): void } {
-  let arcs = 0;
-  context.beginPath();
-  return {
-    moveTo(x, y) {
-      if (arcs >= MOST_ARCS) {
-        this.flush();
-        context.beginPath();
-      }
-      context.moveTo(x, y);
-    },
-    lineTo: (x, y) => context.lineTo(x, y),
-    ellipse(...given) {
-      ++arcs;
-      context.ellipse(...given);
-    },
-    closePath: () => context.closePath(),
-    flush() {
-      context.stroke();
-      arcs = 0;
-    },
-  };
 }

@@ -1,27 +1,12 @@
 /** The one interface through which rooms draw: the same trace becomes pixels or SVG. Pixels of the screen, y down. */
 
 import type { Owner } from "../rooms/owner.ts";
-import { eachDots, eachLines, Ink } from "./density.ts";
-import { DOTS, HANDLE_CROSS, HANDLE_RADIUS, STYLES } from "./styles.ts";
+import { Ink, SQUARE } from "./density.ts";
+import { DOTS, STYLES } from "./styles.ts";
 import type { Colours, DotName, DotStyle, LabelStyle, Style, StyleName, Token } from "./styles.ts";
 
 /** What a trace is laid into: a part of the canvas's own interface. */
-export interface Path {
-  moveTo(x: number, y: number): void;
-  lineTo(x: number, y: number): void;
-  /** Continues with a line to the arc's beginning, if there is a point before. */
-  ellipse(
-    x: number,
-    y: number,
-    radiusX: number,
-    radiusY: number,
-    rotation: number,
-    from: number,
-    to: number,
-    counterclockwise?: boolean,
-  ): void;
-  closePath(): void;
-}
+export type Path = Pick<CanvasPath, "moveTo" | "lineTo" | "ellipse" | "closePath">;
 
 export type Trace = (path: Path) => void;
 
@@ -35,8 +20,8 @@ export interface Disc {
   readonly r: number;
 }
 
-/** A picture that is laid into the drawing. */
-export type Picture = HTMLCanvasElement | OffscreenCanvas;
+/** A picture that is laid into the drawing; an image is one of SVG with its text in its address. */
+export type Picture = HTMLCanvasElement | OffscreenCanvas | HTMLImageElement;
 
 /** Where the light falls on a ball of radius 1, as on those of the library (`stereodel/render/vector/paper.py`): the
  * focus of the gradient, middle and radius of its last circle, y down; and how much of its fall lies before some places. */
@@ -58,6 +43,22 @@ function falling(id: string, ...ends: [string, string]): Gradient {
   return { id, stops: stops.map(([at, inks]) => [at, `rgb(${inks.replace(/ (\S+)$/, " / $1")})`]) };
 }
 
+/** Parts of the ground that lines of one net, and dots, may cover. */
+const [MOST_LINES, MOST_DOTS] = [0.16, 0.07];
+
+/** The finest lines and the smallest dots, as parts of the usual. */
+const [FINEST, SMALLEST] = [0.55, 0.4];
+
+/** Arcs of ellipses in one path: browsers need quadratic time for paths of thousands. */
+export const MOST_ARCS = 256;
+
+/** How something is drawn: faintly, inside a region alone, or with its corner elsewhere. */
+export interface Bounds {
+  readonly opacity?: number | undefined;
+  readonly region?: Trace;
+  readonly corner?: Point;
+}
+
 export abstract class Pen {
   /** Of the drawing, pixels of the screen. */
   readonly width: number;
@@ -73,30 +74,38 @@ export abstract class Pen {
     [this.width, this.height, this.colours, this.weight] = [width, height, colours, weight];
   }
 
-  /** Draws a path in a style, or in an ink of the data; regions are those about which the path winds, and dense nets are weaker. */
-  draw(name: StyleName, trace: Trace, ink?: string): void {
+  /** Draws a path in a style, or in an ink of the data; regions are those about which the path winds. */
+  abstract draw(name: StyleName, trace: Trace, ink?: string, style?: Style): void;
+  /** Draws lines by the x and y of their middles and their lengths; those of nets weaker where they are dense. */
+  lines(name: StyleName, lines: Float64Array, lay: (path: Path, k: number) => void, ink?: string): void {
     const style: Style = STYLES[name];
-    if (!style.isNet) return this.path(name, style, trace, ink);
-    const { width = 1 } = style;
-    eachLines(trace, width * this.weight, this.#ink(name), (size, opacity, part) =>
-      this.path(name, { ...style, width: size * width, strokeOpacity: opacity }, part, ink),
-    );
+    const width = (style.width ?? 1) * this.weight;
+    const area = (k: number): number => width * Math.min(SQUARE, lines[3 * k + 2]); // what is longer lies apart
+    this.#ink(name).each(lines, 3, area, style.isNet ? MOST_LINES : Infinity, (part, numbers) => {
+      const size = Math.max(FINEST, Math.sqrt(part));
+      const thin: Style = { ...style, width: size * (style.width ?? 1), strokeOpacity: part / size };
+      for (let from = 0; from < numbers.length; from += MOST_ARCS) {
+        const those = numbers.slice(from, from + MOST_ARCS);
+        this.draw(name, (path) => those.forEach((k) => lay(path, k)), ink, thin);
+      }
+    });
   }
-  /** Draws what lies behind, faintly. */
-  abstract behind(body: () => void): void;
-  /** Draws only inside a region. */
-  abstract clipped(trace: Trace, body: () => void): void;
+  /** Draws something within bounds. */
+  abstract within(bounds: Bounds, body: () => void): void;
   /** Dots at x, y in turn; where they are dense, smaller and weaker. */
   dots(name: DotName, places: ArrayLike<number>): void {
     const { radius, rimWidth, ...inks }: DotStyle = DOTS[name];
-    eachDots(places, Math.PI * radius * radius, this.#ink(name), (size, opacity, those) =>
-      this.discs(name, { ...inks, radius: size * radius, rimWidth: size * rimWidth, opacity }, those),
-    );
+    const area = (): number => Math.PI * radius * radius;
+    this.#ink(name).each(places, 2, area, MOST_DOTS, (part, numbers) => {
+      const size = Math.max(SMALLEST, Math.sqrt(part));
+      const style = { ...inks, radius: size * radius, rimWidth: size * rimWidth, opacity: part / size ** 2 };
+      const those = new Float64Array(2 * numbers.length);
+      for (let at = 0; at < those.length; ++at) those[at] = places[2 * numbers[at >> 1] + (at & 1)];
+      this.discs(name, style, those);
+    });
   }
   /** Dots with radii and inks of their own, x, y, r in turn, the lowest first, each with a line around it. */
   abstract spots(places: ArrayLike<number>, inks: readonly string[]): void;
-  /** Draws something so many pixels lower. */
-  abstract lowered(by: number, body: () => void): void;
   /** Text at a point of its baseline. */
   abstract label(text: string, x: number, y: number, style: LabelStyle): void;
   /** A picture, fitted into a rectangle. */
@@ -111,7 +120,6 @@ export abstract class Pen {
     return this.colours[colour as Token] ?? colour;
   }
 
-  protected abstract path(name: StyleName, style: Style, trace: Trace, ink?: string): void;
   /** First all rims: where dots lie close, none is hidden by the rim of another. */
   protected abstract discs(name: DotName, style: DotStyle, places: ArrayLike<number>): void;
   protected abstract fillDisc(disc: Disc, fill: string | Gradient): void;
@@ -171,8 +179,8 @@ export function cornersOf(left: number, low: number, right: number, high: number
 
 /** A ring to drag: filled and crossed in front, empty behind the ball, filled on a rim. */
 export function drawHandle(pen: Pen, x: number, y: number, kind: "front" | "behind" | "rim"): void {
-  const c = HANDLE_CROSS;
-  pen.draw(kind === "behind" ? "handle-behind" : "handle", (path) => traceDisc(path, { x, y, r: HANDLE_RADIUS }));
+  const [r, c] = [5, 2]; // of the ring, and half of the cross
+  pen.draw(kind === "behind" ? "handle-behind" : "handle", (path) => traceDisc(path, { x, y, r }));
   if (kind !== "front") return;
   pen.draw("handle-cross", (path) => {
     traceSegment(path, [x - c, y], [x + c, y]);

@@ -47,8 +47,7 @@ export const STYLES = {
   touch: { stroke: "ink", width: 1 },
   tissot: { fill: "tissot", stroke: "coast", width: 0.6 },
   tint: { fill: "paper", stroke: "paper", width: 0.6 },
-  swatch: { fill: "paper" },
-  tick: { stroke: "ink-2", width: 0.7 },
+  line: { stroke: "ink", width: 1.2 },
   "isoline-halo": { stroke: "halo", width: 2.4 },
   isoline: { stroke: "ink", width: 0.8 },
   "spot-line": { stroke: "limb", width: 0.6 },
@@ -96,44 +95,22 @@ export const HALO_WIDTH = 4;
 export const HATCH_PITCH = 6;
 export const HATCH_WIDTH = 0.8;
 
-/** Ring of a handle, and the half of the cross in it, pixels. */
-export const HANDLE_RADIUS = 5;
-export const HANDLE_CROSS = 2;
-
-/** Opacity of what lies behind. */
-export const BEHIND = 0.38;
-
-/** Widths of lines in a narrow window, and how narrow that is. */
-export const NARROW_WEIGHT = 0.8;
-export const NARROW = "(max-width: 43.75rem)";
+/** What lies behind. */
+export const FAINT = { opacity: 0.38 };
 
 /** The type of the page, as in its style sheet. */
 export const SERIF =
   '"STIX Two Text", STIXGeneral, STIX, XITS, "Times New Roman", "Nimbus Roman", "TeX Gyre Termes", "Liberation Serif", Times, serif';
 
-const TOKENS = [
-  "paper",
-  "ink",
-  "ink-2",
-  "ink-3",
-  "accent",
-  "accent-text",
-  "accent-wash",
-  "ball",
-  "ball-rim",
-  "delaunay",
-  "voronoi",
-  "limb",
-  "graticule",
-  "hatch",
-  "hull",
-  "sheet",
-  "ocean",
-  "land",
-  "halo",
-  "coast",
-  "tissot",
-] as const;
+/** The font of a label. */
+export function fontOf({ size }: LabelStyle, italic: boolean): string {
+  return `${italic ? "italic " : ""}${size}px ${SERIF}`;
+}
+
+const INKS = ["paper", "ink", "ink-2", "accent", "accent-text", "accent-wash", "hatch", "halo"] as const;
+const OF_BALLS = ["ball", "ball-rim", "delaunay", "voronoi", "limb", "hull", "sheet"] as const;
+const OF_MAPS = ["graticule", "ocean", "land", "coast", "tissot"] as const;
+const TOKENS = [...INKS, ...OF_BALLS, ...OF_MAPS];
 
 export type Token = (typeof TOKENS)[number];
 
@@ -143,7 +120,7 @@ export type Colours = Readonly<Record<Token, string>>;
 /** What the colours depend on, besides the reader's choice on the page. */
 const QUERIES = ["(prefers-color-scheme: dark)", "(prefers-contrast: more)", "print"];
 
-const known = new WeakMap<Element, { key: string; probe: HTMLElement; colours: Colours }>();
+const known = new WeakMap<Element, { key: string; colours: Colours }>();
 
 /** The colours that hold now in a part of the document. */
 export function colours(within: HTMLElement = document.documentElement): Colours {
@@ -151,28 +128,24 @@ export function colours(within: HTMLElement = document.documentElement): Colours
   const key = [...QUERIES.map((query) => matchMedia(query).matches), ...choice].join();
   const read = known.get(within);
   if (read?.key === key) return read.colours;
-  const probe = read?.probe ?? within.appendChild(make("span", { hidden: true }));
-  probe.style.setProperty("forced-color-adjust", "none"); // drawings keep their inks
-  const found = readColours(probe);
-  known.set(within, { key, probe, colours: found });
-  return found;
+  // Custom properties come as they were written; the colour of an element that uses one comes resolved.
+  const probe = within.appendChild(make("span", { hidden: true }));
+  const { style } = probe;
+  style.setProperty("forced-color-adjust", "none"); // drawings keep their inks
+  const seen = getComputedStyle(probe);
+  const entries = TOKENS.map((token): [Token, string] => {
+    style.color = `var(--${token})`;
+    return [token, seen.color];
+  });
+  probe.remove();
+  const colours = Object.fromEntries(entries) as Record<Token, string>;
+  known.set(within, { key, colours });
+  return colours;
 }
 
 /** Calls back when the system's colours change, until the function that is returned is called. */
 export function onColours(changed: () => void): () => void {
-  const lists = QUERIES.map((query) => matchMedia(query));
-  for (const list of lists) list.addEventListener("change", changed);
-  return () => {
-    for (const list of lists) list.removeEventListener("change", changed);
-  };
-}
-
-/** Custom properties come as they were written; the colour of an element that uses one comes resolved. */
-function readColours(probe: HTMLElement): Colours {
-  const style = getComputedStyle(probe);
-  const entries = TOKENS.map((token): [Token, string] => {
-    probe.style.color = `var(--${token})`;
-    return [token, style.color];
-  });
-  return Object.fromEntries(entries) as Record<Token, string>;
+  const end = new AbortController();
+  for (const query of QUERIES) matchMedia(query).addEventListener("change", changed, { signal: end.signal });
+  return () => end.abort();
 }

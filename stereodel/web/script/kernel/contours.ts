@@ -1,6 +1,7 @@
 /** `geoContour`: where values at sites of the sphere reach thresholds, by linear interpolation along the edges of triangles. */
 
-import { after, ListedDelaunay, placesOf, type Place } from "./d3.ts";
+import { ListedDelaunay, placesOf, type Place } from "./d3.ts";
+import { following } from "./topology.ts";
 
 /** Where values are at least `value`, and below `valueMax` if that is given; wound as d3-geo wants it. */
 export interface ContourPolygon {
@@ -93,7 +94,7 @@ export function geoContour<Datum = [number, number, number]>(): Contours<Datum> 
 /** Rings around what is at least a threshold: from triangle to triangle, each by the side that goes up, once. */
 function ringsAt(delaunay: ListedDelaunay, values: number[], threshold: number): Place[][] {
   const { triangles, halfedges } = delaunay;
-  const up = (e: number): boolean => values[triangles[e]] < threshold && values[triangles[after(e)]] >= threshold;
+  const up = (e: number): boolean => values[triangles[e]] < threshold && values[triangles[following(e)]] >= threshold;
   const visited = new Uint8Array(triangles.length);
   const rings: Place[][] = [];
   for (let first = 0; first < triangles.length; ++first) {
@@ -101,12 +102,12 @@ function ringsAt(delaunay: ListedDelaunay, values: number[], threshold: number):
     for (let e = first; visited[e] === 0 && up(e);) {
       visited[e] = 1;
       ring.push(e);
-      e = after(halfedges[e]);
-      if (!up(e)) e = after(e);
+      e = following(halfedges[e]);
+      if (!up(e)) e = following(e);
     }
     if (ring.length === 0) continue;
     const xyz = ring.flatMap((e) => {
-      const [i, j] = [triangles[e], triangles[after(e)]];
+      const [i, j] = [triangles[e], triangles[following(e)]];
       return between(delaunay.points, i, j, (threshold - values[i]) / (values[j] - values[i]));
     });
     const places = placesOf(Float64Array.from(xyz));
@@ -126,31 +127,24 @@ function between(points: Float64Array, i: number, j: number, part: number): numb
 
 /** About so many round numbers from below the least value to above the greatest one. */
 function roundThresholds(values: number[], count: number): number[] {
-  let low = Infinity;
-  let high = -Infinity;
-  for (const value of values) [low, high] = [Math.min(low, value), Math.max(high, value)];
+  let [low, high] = values.reduce(([least, most], x) => [Math.min(least, x), Math.max(most, x)], [Infinity, -Infinity]);
   if (!(low < high)) return low === high ? [low] : [];
-  for (let [last, pass] = [NaN, 0]; pass < 10; ++pass) {
-    const step = roundStep(low, high, 10);
-    if (step === last) break;
-    [low, high] = [rounded(Math.floor, low, step), rounded(Math.ceil, high, step)];
-    last = step;
+  for (let [step, last] = [roundStep((high - low) / 10), NaN]; step !== last;) {
+    [low, high] = [multiple(Math.floor(parts(low, step)), step), multiple(Math.ceil(parts(high, step)), step)];
+    [step, last] = [roundStep((high - low) / 10), step];
   }
-  const step = roundStep(low, high, count);
-  const ticks: number[] = [];
-  const nearest = (value: number): number => Math.round(step > 0 ? value / step : value * -step);
-  for (let k = nearest(low); k <= nearest(high); ++k) ticks.push(step > 0 ? k * step : k / -step);
-  return ticks.filter((tick) => tick >= low && tick <= high);
+  const step = roundStep((high - low) / count);
+  const [from, to] = [Math.ceil(parts(low, step)), Math.floor(parts(high, step))];
+  return Array.from({ length: to - from + 1 }, (_, k) => multiple(from + k, step));
 }
 
-/** 1, 2 or 5 times a power of ten: a step into about so many; below 1 the negative of its inverse, which is a whole number. */
-function roundStep(low: number, high: number, count: number): number {
-  const step = (high - low) / count;
-  const power = Math.floor(Math.log10(step));
-  const error = step / 10 ** power;
-  const factor = error >= Math.sqrt(50) ? 10 : error >= Math.sqrt(10) ? 5 : error >= Math.SQRT2 ? 2 : 1;
-  return power < 0 ? -(10 ** -power) / factor : 10 ** power * factor;
+/** 1, 2 or 5 times a power of ten near a number. */
+function roundStep(width: number): number {
+  const power = 10 ** Math.floor(Math.log10(width));
+  const error = width / power;
+  return power * (error >= Math.sqrt(50) ? 10 : error >= Math.sqrt(10) ? 5 : error >= Math.SQRT2 ? 2 : 1);
 }
 
-const rounded = (round: (value: number) => number, value: number, step: number): number =>
-  step > 0 ? round(value / step) * step : round(value * -step) / -step;
+// Steps below 1 have inverses that are whole numbers, and they are not.
+const multiple = (k: number, step: number): number => (step < 1 ? k / Math.round(1 / step) : k * step);
+const parts = (value: number, step: number): number => (step < 1 ? value * Math.round(1 / step) : value / step);

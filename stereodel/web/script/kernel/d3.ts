@@ -6,8 +6,9 @@
 
 import { lonlatToXyz } from "./coordinates.ts";
 import { SphericalDelaunay } from "./delaunay.ts";
-import { ordered, type Faces } from "./d3_order.ts";
 import { lazy } from "./lazy.ts";
+import { firstCorners, halfedgesOf, MOST, preceding, sweepHull } from "./sweep_hull.ts";
+import { following } from "./topology.ts";
 import { SphericalVoronoi } from "./voronoi.ts";
 
 export { geoContour, type ContourPolygon, type Contours } from "./contours.ts";
@@ -15,10 +16,15 @@ export { geoContour, type ContourPolygon, type Contours } from "./contours.ts";
 /** Longitude and latitude in degrees. */
 export type Place = [number, number];
 
+interface Geometry {
+  type: string;
+  coordinates?: Place[][] | Place[];
+}
+
 /** What is drawn: an object of GeoJSON. */
 interface Feature<Properties> {
   type: "Feature";
-  geometry: { type: string; coordinates?: Place[][] | Place[] } | null;
+  geometry: Geometry | null;
   properties: Properties;
 }
 
@@ -32,20 +38,15 @@ interface MultiLineString {
   coordinates: [Place, Place][];
 }
 
-/** The exact triangulation, and what d3-delaunay has of it besides: triangles in the order of all results here. */
+/** The exact triangulation, listed in the order of d3-geo-voronoi, and what d3-delaunay has of it besides. */
 export class ListedDelaunay extends SphericalDelaunay {
-  private readonly lonlat: Float64Array;
-  private listed: Faces | null = null;
   private around: Cells | null = null;
 
   constructor(lonlat: Float64Array) {
     super(lonlatToXyz(lonlat));
-    this.lonlat = lonlat;
-  }
-
-  /** @internal Triangles, what lies beyond them, and their centers. */
-  get faces(): Faces {
-    return (this.listed ??= ordered(this, this.lonlat));
+    if (this.dimension === 2 && this.size <= MOST) {
+      this.list(firstCorners(this.simplices, theirTriangles(lonlat)));
+    }
   }
 
   /** @internal What lies around each site. */
@@ -55,22 +56,62 @@ export class ListedDelaunay extends SphericalDelaunay {
 
   /** Three sites each, counterclockwise. */
   get triangles(): Int32Array {
-    return this.faces.corners;
+    return this.simplices;
   }
 
   /** Of each side of a triangle, from its first site on, the same side of the triangle beyond it. */
   get halfedges(): Int32Array {
-    const { corners, beyond } = this.faces;
-    return corners.map((_, e) => {
-      const row = 3 * beyond[before(e)];
-      return row + corners.subarray(row, row + 3).indexOf(corners[after(e)]);
-    });
+    return halfedgesOf(this.simplices, this.neighbors);
   }
 }
 
-/** @internal The corner after one of a triangle. */
-export const after = (corner: number): number => (corner % 3 === 2 ? corner - 2 : corner + 1);
-const before = (corner: number): number => (corner % 3 === 0 ? corner + 2 : corner - 1);
+/** An angle as d3-geo turns it, within half a turn. */
+const wrapped = (angle: number): number =>
+  Math.abs(angle) > Math.PI ? angle - Math.round(angle / TURN) * TURN : angle;
+
+/** Triangles as delaunator makes them of the sites seen from the first one, which is its point far away; those of less than three are left in. */
+function theirTriangles(lonlat: Float64Array): Int32Array {
+  const angles = lonlat.map((degrees) => degrees / DEGREES);
+  const count = lonlat.length / 2;
+  // Each number as d3-geo has it, since rounding decides which of equal distances is less.
+  const [east, north] = angles;
+  const opposite = [Math.atan2(Math.sin(Math.PI), -Math.cos(north)), Math.asin(Math.sin(north))];
+  const [turn, rise] = [wrapped(opposite[0] - (east % TURN)), opposite[1]].map((x) => ((x * DEGREES) % 360) / DEGREES);
+  const xy = new Float64Array(2 * count + 6);
+  const far: number[] = [];
+  let most = 1;
+  for (let i = 0; i < count; ++i) {
+    const [moved, lat] = [wrapped(angles[2 * i] + (turn % TURN)), angles[2 * i + 1]];
+    const [x, y, z] = [Math.cos(moved) * Math.cos(lat), Math.sin(moved) * Math.cos(lat), Math.sin(lat)];
+    const up = Math.asin(Math.max(-1, Math.min(1, z * Math.cos(rise) + x * Math.sin(rise))));
+    const along = Math.atan2(y, x * Math.cos(rise) - z * Math.sin(rise));
+    const scale = 1 + Math.cos(along) * Math.cos(up);
+    xy.set([(Math.cos(up) * Math.sin(along)) / scale, -Math.sin(up) / scale], 2 * i);
+    const square = xy[2 * i] ** 2 + xy[2 * i + 1] ** 2;
+    if (square <= 1e32) most = Math.max(most, square);
+    else far.push(i);
+  }
+  // Three more places as far as the first one make a square around all.
+  const edge = 1e6 * Math.sqrt(most);
+  for (const i of far) xy.set([edge, 0], 2 * i);
+  xy.set([0, edge, -edge, 0, 0, -edge], 2 * count);
+  const { triangles, halfedges } = sweepHull(xy);
+  for (let e = 0; e < triangles.length; ++e) {
+    if (halfedges[e] >= 0) {
+      if (triangles[e] >= count) triangles[e] = 0;
+      continue;
+    }
+    // A side of the square: the triangle goes, and its neighbours become each other's.
+    const [one, other] = [following(e), preceding(e)];
+    const [a, b] = [halfedges[one], halfedges[other]];
+    if (a >= 0) halfedges[a] = b;
+    if (b >= 0) halfedges[b] = a;
+    halfedges[one] = halfedges[other] = -1;
+    triangles[e] = triangles[one] = triangles[other] = 0;
+    e += 2 - (e % 3);
+  }
+  return triangles;
+}
 
 /** Triangulation and cells as indices of places and centers. */
 export interface GeoDelaunay {
@@ -113,7 +154,7 @@ export function geoDelaunay(places: readonly (readonly [number, number])[]): Geo
   const geo: GeoDelaunay = lazy<GeoDelaunay>({
     delaunay: () => delaunay,
     edges: () => edgesOf(delaunay),
-    triangles: () => clockwise(delaunay.triangles),
+    triangles: () => clockwise(delaunay.simplices),
     centers: () => delaunay.cells.centers,
     neighbors: () => delaunay.cells.neighbors,
     polygons: () => polygonsOf(delaunay.cells),
@@ -125,17 +166,9 @@ export function geoDelaunay(places: readonly (readonly [number, number])[]): Geo
   return geo;
 }
 
-// Loops rather than Array.from, which takes several times as long.
-
-function clockwise(numbers: Int32Array): [number, number, number][] {
+function clockwise(corners: Int32Array): [number, number, number][] {
   const rows: [number, number, number][] = [];
-  for (let k = 0; k < numbers.length; k += 3) rows.push([numbers[k], numbers[k + 2], numbers[k + 1]]);
-  return rows;
-}
-
-function pairs(numbers: ArrayLike<number>): [number, number][] {
-  const rows: [number, number][] = [];
-  for (let k = 0; k < numbers.length; k += 2) rows.push([numbers[k], numbers[k + 1]]);
+  for (let k = 0; k < corners.length; k += 3) rows.push([corners[k], corners[k + 2], corners[k + 1]]);
   return rows;
 }
 
@@ -160,22 +193,22 @@ export function placesOf(xyz: Float64Array): Place[] {
 }
 
 const DEGREES = 180 / Math.PI;
+const TURN = 2 * Math.PI;
 
 /** Those of triangles smaller than a hemisphere, triangle by triangle; without triangles neighbours on the great circle. */
 function edgesOf(delaunay: ListedDelaunay): [number, number][] {
-  if (delaunay.dimension < 2) {
-    const around = pairs(new SphericalVoronoi(delaunay).ridgePoints);
-    return around.filter(([i, j], k) => k === 0 || around[k - 1][0] !== i || around[k - 1][1] !== j);
-  }
-  const { corners, beyond, closing } = delaunay.faces;
   const edges: [number, number][] = [];
-  for (let row = 0; row < corners.length; row += 3) {
+  const { simplices, neighbors, closing } = delaunay;
+  const add = (i: number, j: number): void => void edges.push(i < j ? [i, j] : [j, i]);
+  if (delaunay.dimension < 2) {
+    const circle = delaunay.flatOrder;
+    circle.forEach((i, k) => (k > 0 || circle.length > 2) && add(i, circle.at(k - 1)!));
+  }
+  for (let row = 0; row < simplices.length; row += 3) {
     if (closing[row / 3] === 1) continue;
     for (const opposite of [row + 1, row, row + 2]) {
-      const other = beyond[opposite]; // has the edge already if it comes earlier
-      if (other < row / 3 && closing[other] === 0) continue;
-      const [i, j] = [corners[after(opposite)], corners[before(opposite)]];
-      edges.push(i < j ? [i, j] : [j, i]);
+      const other = neighbors[opposite]; // has the edge already if it comes earlier
+      if (other >= row / 3 || closing[other] === 1) add(simplices[following(opposite)], simplices[preceding(opposite)]);
     }
   }
   return edges;
@@ -183,17 +216,17 @@ function edgesOf(delaunay: ListedDelaunay): [number, number][] {
 
 /** Cells clockwise, one center a triangle, and the sites beyond their sides: around each site triangles lie near in memory. */
 function cellsOf(delaunay: ListedDelaunay): Cells {
-  const { corners, beyond, centers, listed } = delaunay.faces;
+  const { simplices: corners, neighbors: beyond, size } = delaunay;
   if (corners.length <= 6) return lunesOf(delaunay);
-  const first = new Int32Array(delaunay.size);
-  const starts = new Int32Array(delaunay.size + 1);
+  const first = new Int32Array(size);
+  const starts = new Int32Array(size + 1);
   for (let e = corners.length - 1; e >= 0; --e) {
     first[corners[e]] = e;
     ++starts[corners[e] + 1];
   }
   const ring = new Int32Array(corners.length);
-  const neighbors: number[][] = new Array(delaunay.size);
-  for (let site = 0; site < first.length; ++site) {
+  const neighbors: number[][] = new Array(size);
+  for (let site = 0; site < size; ++site) {
     const around: number[] = new Array(starts[site + 1]);
     starts[site + 1] += starts[site];
     for (let k = 0, row = first[site] - (first[site] % 3); k < around.length; ++k) {
@@ -205,82 +238,54 @@ function cellsOf(delaunay: ListedDelaunay): Cells {
     }
     neighbors[site] = around;
   }
-  if (listed) {
+  if (size <= MOST) {
     const filled = first.fill(0);
     for (const [i, j] of clockwiseSides(corners)) neighbors[i][filled[i]++] = j;
   }
-  return { centers: placesOf(centers), neighbors, starts, ring };
+  return { centers: placesOf(delaunay.circumcenters), neighbors, starts, ring };
 }
 
-/** Without triangles, or with three sites: each cell between two poles, by way of a middle on either side. */
+/** Of sites on one circle: each cell between its two poles, by way of a middle on either side. */
 function lunesOf(delaunay: ListedDelaunay): Cells {
-  const neighbors = Array.from({ length: delaunay.size }, (): number[] => []);
+  const { points, size, dimension, simplices } = delaunay;
+  const neighbors = Array.from({ length: size }, (): number[] => []);
   const polygons = neighbors.map((): number[] => []);
-  const cells = (centers: number[][]): Cells => {
-    const starts = new Int32Array(delaunay.size + 1);
-    polygons.forEach((polygon, site) => (starts[site + 1] = starts[site] + polygon.length));
-    return {
-      centers: placesOf(Float64Array.from(centers.flat())),
-      neighbors,
-      starts,
-      ring: Int32Array.from(polygons.flat()),
-    };
-  };
-  if (delaunay.dimension < 1) return cells([]);
-  const flat = delaunay.dimension < 2;
-  const sides = flat
-    ? edgesOf(delaunay).flatMap(([i, j]) => [
-        [i, j],
-        [j, i],
-      ])
-    : clockwiseSides(delaunay.triangles);
+  const flat = dimension < 2;
+  const circle = dimension < 1 ? [] : Array.from(flat ? delaunay.flatOrder : simplices.subarray(0, 3));
+  const xyz = flat ? new SphericalVoronoi(delaunay).vertices : delaunay.circumcenters;
+  let centers: Vector[] = dimension < 1 ? [] : [vector(xyz, 0), vector(xyz, 1)];
+  const sides = flat ? edgesOf(delaunay).flatMap(([i, j]) => [[i, j], [j, i]]) : clockwiseSides(simplices); // prettier-ignore
   for (const [i, j] of sides) neighbors[i].push(j);
-  const diagram = new SphericalVoronoi(delaunay);
-  const [ridges, ends, normals] = [pairs(diagram.ridgePoints), pairs(diagram.ridgeVertices), diagram.ridgeNormals()];
-  const row = (rows: Float64Array, k: number): Float64Array => rows.subarray(3 * k, 3 * k + 3);
-  const poles = [row(diagram.vertices, 0), row(diagram.vertices, 1)];
-  // The middle between two sites if it lies well on their ridge, or that of the ridge.
-  const middles = ridges.map(([i, j], k) => {
-    const quarter = cross(row(normals, k), poles[ends[k][0]]);
-    const sum = row(delaunay.points, i).map((x, axis) => x + delaunay.points[3 * j + axis]);
+  // The middle between each site of the circle, which is counterclockwise about the first pole, and the next one.
+  const middles = circle.map((i, k) => {
+    const [a, b] = [i, circle[(k + 1) % circle.length]].map((site) => vector(points, site));
+    const quarter = cross(centers[0], a);
+    const sum = a.map((x, axis) => x + b[axis]) as Vector;
     const side = dot(sum, quarter);
     const length = Math.sign(side) * Math.hypot(...sum);
-    return Math.abs(side) < 1e-9 * Math.abs(length) || length === 0 ? quarter : [...sum].map((x) => x / length);
+    return Math.abs(side) < 1e-9 * Math.abs(length) || length === 0 ? quarter : (sum.map((x) => x / length) as Vector);
   });
-  if (ridges.length === 2) {
-    const [[i, j]] = ridges;
-    const near = dot(middles[0], row(delaunay.points, i)) < 0 ? 1 : 0;
-    const axis = cross(middles[near], poles[ends[near][1]]);
-    const corners = [middles[near]];
-    while (corners.length < 4) corners.push(cross(corners[corners.length - 1], axis)); // quarter turns
-    [polygons[i], polygons[j]] = [
-      [0, 1, 2, 3],
-      [3, 2, 1, 0],
-    ];
-    return cells(corners);
+  if (circle.length === 2) {
+    const near = dot(middles[0], vector(points, circle[0])) < 0 ? 1 : 0;
+    const axis = cross(middles[near], centers[near]);
+    centers = [middles[near]];
+    while (centers.length < 4) centers.push(cross(centers[centers.length - 1], axis)); // quarter turns
+    [polygons[circle[near]], polygons[circle[1 - near]]] = [[0, 1, 2, 3], [3, 2, 1, 0]]; // prettier-ignore
+  } else {
+    const numbers = new Map<Vector, number>();
+    const number = (middle: Vector): number =>
+      numbers.get(middle) ?? (numbers.set(middle, centers.push(middle) - 1), centers.length - 1);
+    polygons.forEach((_, site) => {
+      const k = circle.indexOf(site);
+      if (k < 0) return;
+      const last = number(middles.at(k - 1)!);
+      polygons[site] = [0, number(middles[k]), 1, last];
+    });
   }
-  // Of three sites the poles are the centers of both triangles in their order.
-  const far = flat || delaunay.faces.centers[0] === poles[0][0] ? 0 : 1;
-  ridges.forEach(([i, j], k) => {
-    // The ridge runs counterclockwise around i and clockwise around j, backwards in a polygon that is clockwise.
-    for (const [site, start] of [
-      [i, ends[k][1]],
-      [j, ends[k][0]],
-    ]) {
-      if (polygons[site].length === 0) polygons[site] = [0, 0, 1, 0];
-      polygons[site][start === far ? 1 : 3] = k;
-    }
-  });
-  const points = [poles[far], poles[1 - far]].map((pole) => [...pole]);
-  const numbers = new Map<number, number>();
-  for (const ring of polygons) {
-    for (const at of ring.length === 0 ? [] : [3, 1]) {
-      const middle = ring[at];
-      if (!numbers.has(middle)) numbers.set(middle, points.push(middles[middle]) - 1);
-      ring[at] = numbers.get(middle)!;
-    }
-  }
-  return cells(points);
+  const starts = new Int32Array(size + 1);
+  polygons.forEach((polygon, site) => (starts[site + 1] = starts[site] + polygon.length));
+  const ring = Int32Array.from(polygons.flat());
+  return { centers: placesOf(Float64Array.from(centers.flat())), neighbors, starts, ring };
 }
 
 function polygonsOf({ starts, ring }: Cells): GeoDelaunay["polygons"] {
@@ -305,62 +310,28 @@ function meshOf(polygons: (number[] | undefined)[]): [number, number][] {
   return mesh;
 }
 
-/** Closer to a side of the hull, in radians, a site is on it as far as doubles can tell: two ulps of its coordinates. */
-const ON_SIDE = 2 ** -51;
+/** Closer to its longest side, in radians, a site of a triangle is on it as far as doubles can tell: two ulps of coordinates. */
+const FLAT = 2 ** -51;
 
-/** The facets that are no triangles of the hull: those that close it, and slivers of three sites on one of its sides. */
-function outsideOf({ points, faces: { corners, beyond, closing } }: ListedDelaunay): Uint8Array {
-  const outside = closing.slice();
-  const onHull = new Uint8Array(points.length / 3);
-  const open: number[] = [];
-  closing.forEach((flag, face) => flag === 1 && open.push(face));
-  for (const face of open) for (let e = 3 * face; e < 3 * face + 3; ++e) onHull[corners[e]] = 1;
-  for (let face = open.pop(); face !== undefined; face = open.pop()) {
-    for (let e = 3 * face; e < 3 * face + 3; ++e) {
-      const [u, v, inner] = [corners[after(e)], corners[before(e)], beyond[e]];
-      if (outside[inner] === 1) continue;
-      const apex = corners.subarray(3 * inner, 3 * inner + 3).find((corner) => corner !== u && corner !== v)!;
-      if (onHull[apex] === 1 || height(points, u, v, apex) > ON_SIDE) continue;
-      outside[inner] = onHull[apex] = 1;
-      open.push(inner);
-    }
-  }
-  return outside;
-}
-
-/** The sine of the angle between the third point and the great circle through two. */
-function height(points: Float64Array, i: number, j: number, k: number): number {
-  const row = (at: number): Float64Array => points.subarray(3 * at, 3 * at + 3);
-  const a = row(i);
-  const [b, c] = [j, k].map((at) => row(at).map((x, axis) => x - a[axis]));
-  const normal = cross(a, b);
-  return Math.abs(dot(normal, c)) / Math.hypot(...normal);
-}
-
-const dot = ([x, y, z]: Float64Array | number[], [u, v, w]: Float64Array | number[]): number => x * u + y * v + z * w;
-
-function cross(
-  [x, y, z]: ArrayLike<number> & Iterable<number>,
-  [u, v, w]: ArrayLike<number> & Iterable<number>,
-): Vector {
-  return [y * w - z * v, z * u - x * w, x * v - y * u];
-}
+const vector = (xyz: Float64Array, k: number): Vector => [xyz[3 * k], xyz[3 * k + 1], xyz[3 * k + 2]];
+const dot = ([x, y, z]: Vector, [u, v, w]: Vector): number => x * u + y * v + z * w;
+const difference = ([x, y, z]: Vector, [u, v, w]: Vector): Vector => [x - u, y - v, z - w];
+const cross = ([x, y, z]: Vector, [u, v, w]: Vector): Vector => [y * w - z * v, z * u - x * w, x * v - y * u];
 
 type Vector = [number, number, number];
 
-/** Clockwise; the outer facets add their sides one by one, which settles the first corner. */
-function hullOf(delaunay: ListedDelaunay): number[] {
-  const { corners } = delaunay.faces;
-  const border = new Map<string, [number, number]>();
-  outsideOf(delaunay).forEach((flag, face) => {
-    if (flag === 0) return;
-    const [a, b, c] = corners.subarray(3 * face, 3 * face + 3);
-    for (const [from, to] of [
-      [c, a],
-      [b, c],
-      [a, b],
-    ]) {
-      if (!border.delete(`${to} ${from}`)) border.set(`${from} ${to}`, [from, to]);
+/** Sides of the triangles that close the hull, and of flat ones on its sides, clockwise; the last one begins, as there. */
+function hullOf({ points, simplices, closing }: ListedDelaunay): number[] {
+  const border = new Map<number, [number, number]>();
+  closing.forEach((flag, face) => {
+    const corners = simplices.subarray(3 * face, 3 * face + 3);
+    const [a, b, c] = [...corners].map((site) => vector(points, site));
+    const [u, v, w] = [difference(b, a), difference(c, a), difference(c, b)];
+    const normal = cross(u, v);
+    const longest = Math.max(...[u, v, w].map((side) => Math.hypot(...side)));
+    if (flag === 0 && Math.abs(dot(normal, a)) > FLAT * longest) return;
+    for (const [to, from] of clockwiseSides(corners)) {
+      if (!border.delete(from * 2 ** 26 + to)) border.set(to * 2 ** 26 + from, [from, to]);
     }
   });
   const next = new Map(border.values());
@@ -370,13 +341,15 @@ function hullOf(delaunay: ListedDelaunay): number[] {
   return hull;
 }
 
-function urquhart(delaunay: ListedDelaunay, edges: [number, number][], distances: ArrayLike<number>): boolean[] {
+function urquhart(
+  { simplices, closing }: ListedDelaunay,
+  edges: [number, number][],
+  distances: ArrayLike<number>,
+): boolean[] {
   const lengths = new Map(edges.map(([i, j], k) => [key(i, j), distances[k]]));
   const longest = new Set<number>();
-  const { corners, closing } = delaunay.faces;
   closing.forEach((flag, face) => {
-    const [a, b, c] = corners.subarray(3 * face, 3 * face + 3);
-    const sides = [key(a, c), key(c, b), key(b, a)];
+    const sides = clockwiseSides(simplices.subarray(3 * face, 3 * face + 3)).map(([i, j]) => key(i, j));
     if (flag === 0) longest.add(sides.reduce((most, side) => (lengths.get(side)! > lengths.get(most)! ? side : most)));
   });
   return edges.map(([i, j]) => !longest.has(key(i, j)));
@@ -452,84 +425,81 @@ export function geoVoronoi<Datum = Place>(data?: GeoData<Datum>): GeoVoronoi<Dat
       at[axis] = given;
       return diagram;
     }) as GeoVoronoi<Datum>["x"];
-  const segments = (ends: [Place, Place][]): MultiLineString => ({ type: "MultiLineString", coordinates: ends });
-  const collection = <T>(features: Feature<T>[]): Collection<T> => ({ type: "FeatureCollection", features });
-
+  const mesh = (ends: [number, number][], places: Place[]): MultiLineString => {
+    return { type: "MultiLineString", coordinates: ends.map(([i, j]) => [places[i], places[j]]) };
+  };
   diagram.points = [];
   diagram.valid = [];
   diagram.delaunay = null;
   [diagram.x, diagram.y] = [accessor(0), accessor(1)];
 
-  // Plain loops over arrays of known length: functions per feature take half as long again.
   diagram.polygons = method(({ delaunay }) => {
     const { points, valid } = diagram;
     const { centers, neighbors, starts, ring } = delaunay.cells;
-    const features: Feature<OfSite<Datum>>[] = new Array(points.length);
-    for (let k = 0; k < points.length; ++k) {
+    return collection(points.length, (k) => {
       const [start, size] = [starts[k], starts[k + 1] - starts[k]];
-      let geometry: Feature<unknown>["geometry"] = delaunay.dimension === 0 && k === 0 ? { type: "Sphere" } : null;
+      let geometry: Geometry | null = delaunay.dimension === 0 && k === 0 ? { type: "Sphere" } : null;
       if (size > 0) {
-        const places: Place[] = new Array(size + 1);
+        const places: Place[] = new Array(size + 1); // of known length: half as fast again as one that grows
         for (let corner = 0; corner < size; ++corner) places[corner] = centers[ring[start + corner]];
         places[size] = places[0];
         geometry = { type: "Polygon", coordinates: [places] };
       }
-      const properties = { site: valid[k], sitecoordinates: points[k], neighbours: neighbors[k] };
-      features[k] = { type: "Feature", geometry, properties };
-    }
-    return collection(features);
-  });
-  diagram.triangles = method(({ triangles, centers, delaunay: { faces } }) => {
-    const features = triangles.map((corners, t): Feature<{ circumcenter: Place }> => {
-      const geometry = polygon(corners.map((corner) => diagram.points[corner]));
-      return { type: "Feature", properties: { circumcenter: centers[t] }, geometry };
+      return [geometry, { site: valid[k], sitecoordinates: points[k], neighbours: neighbors[k] }];
     });
-    const { closing } = faces;
-    return collection(features.filter((_, t) => closing[t] === 0));
   });
-  diagram.links = method(({ edges, urquhart: kept, delaunay: { points } }) => {
-    const lengths = edges.map(([i, j]) => angle(points.subarray(3 * i, 3 * i + 3), points.subarray(3 * j, 3 * j + 3)));
+  diagram.triangles = method(({ triangles, centers, delaunay: { closing } }) => {
+    const shown = Array.from(triangles.keys()).filter((t) => closing[t] === 0);
+    return collection(shown.length, (k) => {
+      return [polygon(triangles[shown[k]].map((site) => diagram.points[site])), { circumcenter: centers[shown[k]] }];
+    });
+  });
+  diagram.links = method(({ edges, urquhart: kept, delaunay: { points: xyz } }) => {
+    const { points, valid } = diagram;
+    const lengths = edges.map(([i, j]) => angle(vector(xyz, i), vector(xyz, j)));
     const urquhart = kept(lengths);
-    return collection(
-      edges.map(([i, j], k) => ({
-        type: "Feature",
-        properties: { source: diagram.valid[i], target: diagram.valid[j], length: lengths[k], urquhart: urquhart[k] },
-        geometry: { type: "LineString", coordinates: [diagram.points[i], diagram.points[j]] },
-      })),
-    );
+    return collection(edges.length, (k) => {
+      const [i, j] = edges[k];
+      const geometry: Geometry = { type: "LineString", coordinates: [points[i], points[j]] };
+      return [geometry, { source: valid[i], target: valid[j], length: lengths[k], urquhart: urquhart[k] }];
+    });
   });
-  diagram.mesh = method(({ edges }) => segments(edges.map(([i, j]) => [diagram.points[i], diagram.points[j]])));
-  diagram.cellMesh = method(({ mesh, centers }) => segments(mesh.map(([p, q]) => [centers[p], centers[q]])));
+  diagram.mesh = method(({ edges }) => mesh(edges, diagram.points));
+  diagram.cellMesh = method((made) => mesh(made.mesh, made.centers));
   diagram.find = (lon, lat, radius) => {
     const found = diagram.delaunay?.find(lon, lat);
     if (found === undefined || !radius) return found;
     const xyz = lonlatToXyz([lon, lat, ...diagram.points[found]]);
-    return angle(xyz.subarray(0, 3), xyz.subarray(3)) * DEGREES < radius ? found : undefined;
+    return angle(vector(xyz, 0), vector(xyz, 1)) * DEGREES < radius ? found : undefined;
   };
-  const hull = method((made) => made.hull.map((site) => diagram.points[site]));
   diagram.hull = (given) => {
-    const ring = hull(given);
-    return ring && ring.length > 0 ? polygon(ring) : null;
+    if (given !== undefined) diagram(given);
+    const ring = diagram.delaunay?.hull.map((site) => diagram.points[site]) ?? [];
+    return ring.length > 0 ? polygon(ring) : null;
   };
   return data === undefined ? diagram : diagram(data);
 }
 
-const polygon = (ring: Place[]): { type: "Polygon"; coordinates: Place[][] } => {
-  return { type: "Polygon", coordinates: [[...ring, ring[0]]] };
-};
+function collection<T>(size: number, make: (k: number) => [Geometry | null, T]): Collection<T> {
+  const features: Feature<T>[] = new Array(size);
+  for (let k = 0; k < size; ++k) {
+    const [geometry, properties] = make(k);
+    features[k] = { type: "Feature", geometry, properties };
+  }
+  return { type: "FeatureCollection", features };
+}
+
+const polygon = (ring: Place[]) => ({ type: "Polygon" as const, coordinates: [[...ring, ring[0]]] });
 
 /** The angle between two unit vectors in radians. */
-function angle([x, y, z]: Float64Array, [u, v, w]: Float64Array): number {
-  return 2 * Math.atan2(Math.hypot(x - u, y - v, z - w), Math.hypot(x + u, y + v, z + w));
+function angle(a: Vector, b: Vector): number {
+  return 2 * Math.atan2(Math.hypot(...difference(a, b)), Math.hypot(a[0] + b[0], a[1] + b[1], a[2] + b[2]));
 }
 
 /** The first two numbers of an array, of a point of GeoJSON or of a feature that is one. */
 function placeOf(datum: unknown): Place {
-  if (Array.isArray(datum) && typeof datum[0] === "number" && typeof datum[1] === "number") return [datum[0], datum[1]];
-  if (datum === null || typeof datum !== "object") return [NaN, NaN];
-  const { geometry = datum } = datum as { geometry?: unknown };
-  const { coordinates = geometry } = (geometry ?? {}) as { coordinates?: unknown };
-  if (!Array.isArray(coordinates)) return [NaN, NaN];
-  const [lon, lat] = (coordinates as unknown[]).slice(0, 2).map((value) => (value === null ? NaN : Number(value)));
-  return [lon ?? NaN, lat ?? NaN];
+  let found = datum as { geometry?: unknown; coordinates?: unknown } | null;
+  if (found?.geometry !== undefined) found = found.geometry as typeof found;
+  const [lon, lat] = ((found?.coordinates ?? found ?? []) as (number | null)[]).slice?.(0, 2) ?? [];
+  return [lon, lat].map((value) => (value === null ? NaN : Number(value))) as Place;
 }

@@ -254,11 +254,8 @@ export class Voronoi {
   }
 
   private prepare(): void {
-    const { points, triangles, halfedges, exact, rows, inedges } = this.delaunay;
-    const centers = exact.circumcenters;
-    this.circumcenters = new Float64Array((2 * triangles.length) / 3).map(
-      (_, k) => centers[2 * rows[k >> 1] + (k % 2)],
-    );
+    const { points, triangles, halfedges, exact, inedges } = this.delaunay;
+    this.circumcenters = triangles.length > 0 ? exact.circumcenters : new Float64Array(0);
     this.vectors = new Float64Array(4 * inedges.length);
     halfedges.forEach((other, edge) => {
       if (other >= 0) return;

@@ -158,6 +158,22 @@ export abstract class Delaunay {
     return (this.derived.order ??= answered(types, `${this.space}_flat_diagram`, this.forKernel[0], this.size)[3]);
   }
 
+  /** @internal Lists the triangles anew, each by the entry of `simplices` that becomes its first corner. */
+  list(firsts: number[]): void {
+    const { simplices, neighbors } = this;
+    const place = new Int32Array(firsts.length);
+    firsts.forEach((first, row) => (place[Math.floor(first / 3)] = row));
+    const from = simplices.map((_, e) => {
+      const first = firsts[Math.floor(e / 3)];
+      return first - (first % 3) + ((first + e) % 3);
+    });
+    const arrays = {
+      simplices: from.map((at) => simplices[at]),
+      neighbors: from.map((at) => place[neighbors[at]] ?? -1),
+    };
+    this.hold({ ...(this as Arrays), ...arrays }, this.forKernel[0]);
+  }
+
   private forQueries(): Argument[] {
     const [points, , simplices, neighbors, count] = this.forKernel;
     return [points, simplices, neighbors, this.closed, count];

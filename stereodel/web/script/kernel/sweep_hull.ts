@@ -6,11 +6,17 @@
  */
 
 import { orient2d } from "./predicates.ts";
+import { following } from "./topology.ts";
+
+/** More points than these are listed as the kernel has them: to follow the other order would take as long as to triangulate. */
+export const MOST = 4096;
 
 /** Triangles, three points each, clockwise, and for each side, from its first point on, the same side of the next one or -1. */
 export interface Swept {
   triangles: Int32Array;
   halfedges: Int32Array;
+  /** With which point the list of the hull begins. */
+  start: number;
 }
 
 /** Nearer ones are one point. */
@@ -61,11 +67,12 @@ export function sweepHull(xy: Float64Array): Swept {
     const [x, y] = i === seed || i === second || second < 0 ? [Infinity, 0] : toCenter(seed, second, i);
     return x * x + y * y;
   });
-  if (third < 0) return { triangles: new Int32Array(0), halfedges: new Int32Array(0) };
+  if (third < 0) return { triangles: new Int32Array(0), halfedges: new Int32Array(0), start: -1 };
   if (turn(seed, second, third) > 0) [second, third] = [third, second];
   const [dx, dy] = toCenter(seed, second, third);
   const [x0, y0] = [xy[2 * seed] + dx, xy[2 * seed + 1] + dy];
-  const order = sorted(Float64Array.from({ length: count }, (_, i) => squared(i, x0, y0)));
+  const distances = Float64Array.from({ length: count }, (_, i) => squared(i, x0, y0));
+  const order = Int32Array.from(distances, (_, i) => i).sort((i, j) => distances[i] - distances[j]);
 
   const triangles = new Int32Array(6 * count);
   const halfedges = new Int32Array(6 * count);
@@ -87,7 +94,7 @@ export function sweepHull(xy: Float64Array): Swept {
   }
 
   function add(a: number, b: number, c: number, ab: number, bc: number, ca: number): number {
-    triangles.set([a, b, c], used);
+    [triangles[used], triangles[used + 1], triangles[used + 2]] = [a, b, c];
     link(used, ab);
     link(used + 1, bc);
     link(used + 2, ca);
@@ -104,10 +111,10 @@ export function sweepHull(xy: Float64Array): Swept {
   }
 
   /** Flips until all circles beyond a side are empty; the side before it of its triangle. */
+  const open: number[] = [];
   function legalize(first: number): number {
-    const open = [first];
     let before = 0;
-    for (let a = open.pop(); a !== undefined;) {
+    for (let a: number | undefined = first; a !== undefined;) {
       const [b, row] = [halfedges[a], a - (a % 3)];
       before = row + ((a + 2) % 3);
       const far = b - (b % 3) + ((b + 2) % 3);
@@ -117,18 +124,8 @@ export function sweepHull(xy: Float64Array): Swept {
       }
       triangles[a] = triangles[far];
       triangles[b] = triangles[before];
-      const beyond = halfedges[far];
-      if (beyond < 0) {
-        let e = start;
-        do {
-          if (side[e] === far) {
-            side[e] = a;
-            break;
-          }
-          e = previous[e];
-        } while (e !== start);
-      }
-      link(a, beyond);
+      if (halfedges[far] < 0) side[triangles[a]] = a;
+      link(a, halfedges[far]);
       link(b, halfedges[before]);
       link(before, far);
       open.push(b - (b % 3) + ((b + 1) % 3));
@@ -180,42 +177,43 @@ export function sweepHull(xy: Float64Array): Swept {
     buckets[bucket(i)] = i;
     buckets[bucket(e)] = e;
   }
-  return { triangles: triangles.subarray(0, used), halfedges: halfedges.subarray(0, used) };
+  return { triangles: triangles.subarray(0, used), halfedges: halfedges.subarray(0, used), start };
 }
 
-/** Indices by their keys, equal ones as a quicksort leaves them that takes the middle of three and leaves twenty to insertion. */
-function sorted(keys: Float64Array): Int32Array {
-  const order = Int32Array.from(keys, (_, i) => i);
-  const swap = (i: number, j: number): void => void ([order[i], order[j]] = [order[j], order[i]]);
-  function sort(left: number, right: number): void {
-    if (right - left <= 20) {
-      for (let i = left + 1; i <= right; ++i) {
-        const moved = order[i];
-        let j = i;
-        for (; j > left && keys[order[j - 1]] > keys[moved]; --j) order[j] = order[j - 1];
-        order[j] = moved;
-      }
-      return;
-    }
-    let [i, j] = [left + 1, right];
-    swap((left + right) >> 1, i);
-    if (keys[order[left]] > keys[order[right]]) swap(left, right);
-    if (keys[order[i]] > keys[order[right]]) swap(i, right);
-    if (keys[order[left]] > keys[order[i]]) swap(left, i);
-    const middle = order[i];
-    for (;;) {
-      do ++i;
-      while (keys[order[i]] < keys[middle]);
-      do --j;
-      while (keys[order[j]] > keys[middle]);
-      if (j < i) break;
-      swap(i, j);
-    }
-    order[left + 1] = order[j];
-    order[j] = middle;
-    sort(left, j - 1);
-    sort(i, right);
+/**
+ * Where in `simplices` the first corners of triangles are that come as in a list of the same kind; those that it does not
+ * have come before.
+ */
+export function firstCorners(simplices: Int32Array, list: Int32Array): number[] {
+  const rows = new Map<number, number>();
+  for (let e = 0; e < simplices.length; e += 3) rows.set(simplices[e] * MOST + simplices[e + 1], e);
+  const firsts: number[] = [];
+  for (let e = 0; e < list.length; e += 3) {
+    const low = Math.min(list[e], list[e + 1], list[e + 2]);
+    const turn = list[e] === low ? 0 : list[e + 1] === low ? 1 : 2;
+    const side = low * MOST + list[e + ((turn + 1) % 3)];
+    const row = rows.get(side);
+    if (row === undefined || simplices[row + 2] !== list[e + ((turn + 2) % 3)]) continue;
+    firsts.push(row + ((3 - turn) % 3));
+    rows.delete(side);
   }
-  sort(0, keys.length - 1);
-  return order;
+  return [...rows.values(), ...firsts];
+}
+
+/** Rows of three the other way around, from their first numbers on. */
+export function mirrored(rows: Int32Array): Int32Array {
+  const turned = rows.slice();
+  for (let e = 1; e < rows.length; e += 3) [turned[e], turned[e + 1]] = [rows[e + 1], rows[e]];
+  return turned;
+}
+
+/** The entry before one in its row of three. */
+export const preceding = (entry: number): number => (entry % 3 === 0 ? entry + 2 : entry - 1);
+
+/** Of each side of a triangle, from its first point on, the same side of the one beyond it, or -1. */
+export function halfedgesOf(triangles: Int32Array, beyond: Int32Array): Int32Array {
+  return triangles.map((_, e) => {
+    const [row, to] = [3 * beyond[preceding(e)], triangles[following(e)]];
+    return row < 0 ? -1 : triangles[row] === to ? row : triangles[row + 1] === to ? row + 1 : row + 2;
+  });
 }

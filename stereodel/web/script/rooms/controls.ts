@@ -141,9 +141,9 @@ export const NAMED = { file: "sites", picture: "pixels" };
 
 /** Says that a link names something that it does not hold, where it does. */
 export function tellNamed(messages: Messages, values: LinkValues, what: keyof typeof NAMED): void {
-  if (!values.has(what)) return;
+  const name = values.get(what);
   const words = `is named by this link, which does not hold its ${NAMED[what]}. Open the file here.`;
-  messages.show(values.text(what, ""), words);
+  if (name !== undefined) messages.show(name, words);
 }
 
 /** The form of a site; what is returned shows the place of the site that is held: without one there is nothing to move. */

@@ -2,8 +2,8 @@
 
 import { field, find, plain, say } from "../dom.ts";
 import { regionsOf } from "../drawing/parts.ts";
-import type { Pen, Sheet } from "../drawing/pen.ts";
-import { Plate, type Reason } from "../drawing/plate.ts";
+import type { Sheet } from "../drawing/pen.ts";
+import type { Reason } from "../drawing/plate.ts";
 import type { Exchange } from "../exchange.ts";
 import type { Latitude } from "../kernel/api.ts";
 import type { LinkValues } from "../link.ts";
@@ -15,12 +15,11 @@ import { capToCap, lensMap, scaleAt } from "../view/lens.ts";
 import { View } from "../view/view.ts";
 import { counted, latitude, longitude, scale } from "../words.ts";
 import { Choice, mark, NumberField, PlaceFields, tellNamed } from "./controls.ts";
-import { BubbleGlobe, FisheyeGlobe, FiveViews } from "./globe_plates.ts";
+import { BubbleGlobe, FisheyeGlobe, FiveViews, type GlobeHost } from "./globe_plates.ts";
 import { GlobeScene, type Places } from "./globe_scene.ts";
-import { BEGINNING, GLOBE, PRESETS, sideView } from "./globe_state.ts";
+import { BEGINNING, GLOBE, magnificationWords, placeWords, PRESETS, sideView, sightWords } from "./globe_state.ts";
 import type { GlobeState } from "./globe_state.ts";
-import type { Block } from "./legend.ts";
-import { columnsOf, placeSentence, valueWords } from "./owner.ts";
+import { area, placeSentence, toldOf, valueWords } from "./owner.ts";
 import { TableRoom, tableOf, tableValues } from "./site_room.ts";
 
 /** Steps of the slider for a magnification of ten times. */
@@ -37,16 +36,15 @@ export function globeRoom(host: RoomHost, given: Places | null, latitude: Latitu
   return new GlobeRoom(host, given, latitude);
 }
 
-export class GlobeRoom extends TableRoom implements Room {
+export class GlobeRoom extends TableRoom implements Room, GlobeHost {
   readonly scene: GlobeScene;
   /** The drawing stands alone in a frame of another page. */
+  readonly place = document.documentElement;
   readonly isFramed = document.documentElement.classList.contains("framed");
   /** What the room begins with: places that are there, fitted. */
   beginning = BEGINNING;
   readonly #heading: string;
   #state = BEGINNING;
-  #legend!: Plate;
-  #legendBlock: Block | null = null;
   #globe!: FisheyeGlobe;
   #views!: FiveViews;
   #bubbles!: readonly BubbleGlobe[];
@@ -72,6 +70,10 @@ export class GlobeRoom extends TableRoom implements Room {
     return angle(this.#state.pointer, BEGINNING.pointer) > UNMOVED;
   }
 
+  get isNorthUp(): boolean {
+    return this.switches.isOn("north");
+  }
+
   get shown(): GlobeState {
     return this.#state;
   }
@@ -90,20 +92,27 @@ export class GlobeRoom extends TableRoom implements Room {
     this.#lens = new Choice(section, "lens", () => guarded(lens));
     const center = (place: readonly [number, number]): void => this.#center(directionOf(...place));
     this.#focus = new PlaceFields(section, "focus", (place) => guarded(() => center(place)), "change");
-    const radius = (which: "from" | "to"): NumberField =>
-      new NumberField(section, `${which}-radius`, 1, (value) => guarded(() => this.#setRadius(which, value)), "change");
+    const radius = (which: "from" | "to"): NumberField => {
+      const set = (radius: number): void => this.set({ [which]: { ...this.#state[which], radius } }, "state");
+      return new NumberField(section, `${which}-radius`, 1, (value) => guarded(() => set(value)), "change");
+    };
     this.#radii = { from: radius("from"), to: radius("to") };
     const on = (target: Element, act: () => void, type = "click"): void =>
       target.addEventListener(type, () => guarded(act));
     const slider = field(section, "mag");
-    on(slider, () => this.#magnify(10 ** (slider.valueAsNumber / SLIDER_TEN)), "input");
+    const magnify = (): void => {
+      const { lens, view } = this.#state.sight;
+      this.#globe.motion.stop();
+      this.set(
+        { sight: { lens: { ...lens, magnification: 10 ** (slider.valueAsNumber / SLIDER_TEN) }, view } },
+        "hand",
+      );
+    };
+    on(slider, magnify, "input");
     for (const button of section.querySelectorAll<HTMLButtonElement>(".presets button")) {
       on(button, () => this.#begin(button.value === "places" ? this.beginning : PRESETS[button.value]));
     }
     on(find(section, "[data-do=earth]"), () => this.#paintedBy(null));
-    const legend = find<HTMLCanvasElement>(section, ".legend canvas");
-    const paint = (pen: Pen): void => this.#legendBlock?.draw(pen, 0, 0);
-    this.#legend = new Plate(legend, paint, guarded);
     for (const button of views) on(button, () => this.#flyToSide(button));
     this.#show(this.#given);
     void this.#load();
@@ -136,13 +145,12 @@ export class GlobeRoom extends TableRoom implements Room {
     this.#globe.motion.stop();
     const { messages } = this.host;
     if (again === null) tellNamed(messages, values, "file");
-    this.scene.picture = values.text("picture", "") === this.#picture?.name ? this.#picture : null;
+    this.scene.picture = values.get("picture") === this.#picture?.name ? this.#picture : null;
     if (this.scene.picture === null) tellNamed(messages, values, "picture");
     this.set(state, "state");
   }
 
   redraw(reason: Reason = "state"): void {
-    if (reason === "state") this.#legend.redraw(reason);
     if (this.#state.lens === "bubble") for (const bubble of this.#bubbles) bubble.plate.redraw(reason);
     else {
       this.#globe.plate.redraw(reason);
@@ -210,23 +218,14 @@ export class GlobeRoom extends TableRoom implements Room {
     this.switches.offer("fills", owner?.inks !== undefined);
     this.switches.offer("isolines", !!isolines);
     const legend = find(this.section, ".legend");
-    const entries = owner?.legend ?? [];
-    legend.hidden = entries.length === 0;
-    if (legend.hidden) return;
-    void this.host.exchange().then(({ legendBlock, legendWords }) => {
-      this.#legendBlock = legendBlock(entries, 0);
-      const height = `${this.#legendBlock.height}px`;
-      const [canvas] = legend.children as HTMLCollectionOf<HTMLElement>;
-      canvas.ariaLabel = legendWords(entries);
-      canvas.style.height = height;
-      document.documentElement.style.setProperty("--legend", height);
-      this.#legend.redraw("state");
-    });
+    legend.innerHTML = owner?.legend ?? ""; // of the page itself, which has no other scripts
+    legend.hidden = !owner?.legend;
+    document.documentElement.style.setProperty("--legend", `${legend.offsetHeight}px`);
   }
 
   /** The room begins with places, if there are any, in sight. */
   #fit({ lonlat, owner }: Places, hasPlaces: boolean): void {
-    this.switches.begin("cells", hasPlaces && lonlat.length <= 2 * MOST_WITH_CELLS && !owner?.columns);
+    this.switches.begin("cells", hasPlaces && lonlat.length <= 2 * MOST_WITH_CELLS && !owner?.inks);
     this.switches.begin("tissot", !hasPlaces);
     const sight = fitted(lonlat);
     if (sight === null) return void (this.beginning = BEGINNING);
@@ -245,7 +244,7 @@ export class GlobeRoom extends TableRoom implements Room {
     const { lonlat, names, name } = places ?? NO_PLACES;
     this.#fit(places ?? NO_PLACES, places !== null);
     this.#tell(places ?? NO_PLACES);
-    const columns = columnsOf(places ?? NO_PLACES);
+    const told = toldOf(places ?? NO_PLACES);
     const count = lonlat.length / 2;
     const words = count === 0 ? "No places in" : count === 1 ? "The place of" : `The ${counted(count)} places of`;
     this.out("places").textContent = `${words} ${name}`;
@@ -254,18 +253,18 @@ export class GlobeRoom extends TableRoom implements Room {
       count,
       noun: "Place",
       names: names ?? null,
-      heads: ["Latitude", "Longitude", ...columns.map(({ title }) => title), "Cell, km²"],
+      heads: ["Latitude", "Longitude", ...told.map(([title]) => title), "Cell, km²"],
       cells: (place) => [
         latitude(lonlat[2 * place + 1]),
         longitude(lonlat[2 * place]),
-        ...columns.map(({ values }) => valueWords(values[place])),
+        ...told.map(([, column]) => valueWords(column[place])),
         area(this.scene.area(place)),
       ],
     });
   }
 
   protected override pointed(place: number | null): void {
-    if (place !== null) this.host.announcer.say(placeSentence(this.scene, place, area(this.scene.area(place))));
+    if (place !== null) this.host.announcer.say(placeSentence(this.scene, place));
     this.hover(place);
   }
 
@@ -291,21 +290,11 @@ export class GlobeRoom extends TableRoom implements Room {
 
   /** Another state: the drawings, the words, the controls and the link follow. */
   set(change: Partial<GlobeState>, reason: Reason, isStep = false): void {
-    this.#state = GLOBE.settle({ ...this.#state, ...change }, this.#state);
+    this.#state = GLOBE.settle({ ...this.#state, ...change });
     this.redraw(reason);
     this.#write();
     this.host.changed(isStep);
     if (reason !== "pointer") this.#announce(change);
-  }
-
-  #magnify(magnification: number): void {
-    const { sight } = this.#state;
-    this.#globe.motion.stop();
-    this.set({ sight: { ...sight, lens: { ...sight.lens, magnification } } }, "hand");
-  }
-
-  #setRadius(which: "from" | "to", radius: number): void {
-    this.set({ [which]: { ...this.#state[which], radius } }, "state");
   }
 
   #begin(preset: Partial<GlobeState> | undefined): void {
@@ -351,7 +340,7 @@ export class GlobeRoom extends TableRoom implements Room {
   /** A sentence below the globe: that of the place which is lit, if there is one. */
   #say(name: string, words: string): void {
     const { lit } = this.scene;
-    const told = lit === null ? words : placeSentence(this.scene, lit, area(this.scene.area(lit)));
+    const told = lit === null ? words : placeSentence(this.scene, lit);
     say(this.out(name), told);
     // In a frame there is no room for it but where the pointer is.
     if (this.isFramed) find(this.section, ".globe-spread canvas").title = lit === null ? "" : plain(told);
@@ -373,9 +362,8 @@ export class GlobeRoom extends TableRoom implements Room {
     this.#say("pointer", words);
     const ruler = this.out("scale");
     const share = magnification > 1 ? Math.log(here) / Math.log(magnification) : 0;
-    const [first, last] = ends(magnification);
-    mark(ruler, ".mark-at.first", first);
-    mark(ruler, ".mark-at.last", last);
+    mark(ruler, ".mark-at.first", magnification > 1 ? scale(1 / magnification) : "");
+    mark(ruler, ".mark-at.last", magnification > 1 ? strength : "");
     mark(ruler, ".needle", `${scale(here)}×`, 50 * (share + 1));
   }
 
@@ -393,8 +381,7 @@ export class GlobeRoom extends TableRoom implements Room {
     if (lens === "bubble") {
       return `Globe with the bubble of ${from.radius.toFixed(1)}° sent onto one of ${to.radius.toFixed(1)}°`;
     }
-    const seen = placeWords(sight.view.onBall([0, 0, 1]));
-    return `Globe through a fisheye, ${magnificationWords(this.#state)}, seen from ${seen}`;
+    return `Globe through a fisheye, ${sightWords(sight)}`;
   }
 
   #announce(change: Partial<GlobeState>): void {
@@ -404,7 +391,7 @@ export class GlobeRoom extends TableRoom implements Room {
       const [middle, rim] = this.#bubbleScales();
       announcer.say(`${middle} times in the middle, ${rim} times at the rim`);
     } else if (change.sight && change.sight.lens !== this.#said) {
-      announcer.say(magnificationWords(this.#state));
+      announcer.say(magnificationWords(sight));
     } else if (change.sight || change.before || change.after) {
       const view = change.before ?? change.after ?? sight.view;
       const [lon, lat] = view.middle;
@@ -422,25 +409,3 @@ const AREAS: Record<Latitude, string> = {
   geodetic: "Areas on a sphere with the directions from the centre of the ellipsoid (geodetic).",
   authalic: "Areas are those of the ellipsoid WGS84 (authalic).",
 };
-
-function magnificationWords({ sight }: GlobeState): string {
-  const [lon, lat] = lonLatOf(sight.lens.focus);
-  return `${scale(sight.lens.magnification)} times at ${latitude(lat)}, ${longitude(lon)}`;
-}
-
-function placeWords(direction: Vector): string {
-  const [lon, lat] = lonLatOf(direction);
-  return `${latitude(lat)} ${longitude(lon)}`;
-}
-
-/** Square kilometres: whole ones, or three digits of what is smaller. */
-function area(size: number): string {
-  return size >= 100 ? counted(Math.round(size)) : size.toPrecision(3);
-}
-
-/** The ends of a ruler from 1/S to S: a fraction where S is whole. */
-function ends(magnification: number): [string, string] {
-  if (magnification === 1) return ["", ""];
-  if (!Number.isInteger(magnification)) return [scale(1 / magnification), scale(magnification)];
-  return [magnification === 3 ? "⅓" : `1⁄${magnification}`, String(magnification)];
-}

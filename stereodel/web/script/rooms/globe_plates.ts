@@ -4,11 +4,12 @@ import { arcThrough, circle, pointAt, traceCap, traceCircle, type Circle } from 
 import { arcLayer, circlePoints, drawLayers, graticuleArcs, placeOf, regionLayer } from "../drawing/ball.ts";
 import type { Layer } from "../drawing/ball.ts";
 import { widthOf, type Box } from "../drawing/names.ts";
-import { drawParts } from "../drawing/parts.ts";
+import { drawParts, type IsOn } from "../drawing/parts.ts";
 import { cornersOf, drawHandle, traceDisc, type Disc, type Pen } from "../drawing/pen.ts";
 import { Plate, type Reason } from "../drawing/plate.ts";
 import type { LabelStyle } from "../drawing/styles.ts";
 import { MoebiusMap, Rotation } from "../kernel/api.ts";
+import type { RoomHost } from "../room.ts";
 import { angle, cross, directionOf, lonLatOf, row, type Vector } from "../space.ts";
 import { arrowed, grabBall, keyFactor, lensGestures, type Magnifiable, type Turnable } from "../view/ball_hand.ts";
 import { distance, follow, isCommand, type Gestures, type Hold, type Place } from "../view/hand.ts";
@@ -17,8 +18,7 @@ import type { Cap, Lens, Sight } from "../view/lens.ts";
 import { Motion } from "../view/motion.ts";
 import { pointUnder, type View } from "../view/view.ts";
 import { fixed, scale } from "../words.ts";
-import type { GlobeRoom } from "./globe.ts";
-import { CIRCLE_RADIUS, STEP } from "./globe_scene.ts";
+import { CIRCLE_RADIUS, STEP, type GlobeScene } from "./globe_scene.ts";
 import { BEGINNING, sideView, type GlobeState } from "./globe_state.ts";
 
 /** Pixels beyond a dot within which the pointer is on it. */
@@ -27,13 +27,32 @@ const REACHED = 8;
 const LABEL: LabelStyle = { ink: "accent-text", halo: "halo", size: 14 };
 const LETTER: LabelStyle = { ...LABEL, size: 15, italic: true };
 
+/** Who has globes: the room, or the output of a notebook's cell. */
+export interface GlobeHost {
+  readonly scene: GlobeScene;
+  readonly shown: GlobeState;
+  /** What 0 begins anew. */
+  readonly beginning: GlobeState;
+  readonly isNorthUp: boolean;
+  /** Nothing is drawn that only a hand needs. */
+  readonly isFramed: boolean;
+  readonly hasPointed: boolean;
+  readonly isOn: IsOn;
+  readonly host: Pick<RoomHost, "guarded">;
+  /** The part of the document whose colours hold. */
+  readonly place: HTMLElement;
+  set(change: Partial<GlobeState>, reason: Reason, isStep?: boolean): void;
+  /** The pointer is on a place, or on none. */
+  hover(place: number | null): void;
+}
+
 /** What the globes have in common: what is drawn of the Earth, the circle at the pointer, the hand. */
 abstract class GlobePlate implements Turnable {
   readonly plate: Plate;
   readonly motion = new Motion();
-  protected readonly room: GlobeRoom;
+  protected readonly room: GlobeHost;
 
-  constructor(canvas: HTMLCanvasElement, room: GlobeRoom) {
+  constructor(canvas: HTMLCanvasElement, room: GlobeHost) {
     this.room = room;
     const standing = new Map();
     const paint = (pen: Pen, isMoving: boolean): void => {
@@ -47,7 +66,7 @@ abstract class GlobePlate implements Turnable {
       this.#paintPointer(pen);
       this.paintHeld(pen);
     };
-    this.plate = new Plate(canvas, paint, room.host.guarded, document.documentElement, overlay);
+    this.plate = new Plate(canvas, paint, room.host.guarded, room.place, overlay);
     follow(this.plate, { hover: (at) => this.point(at), ...this.gestures() });
   }
 
@@ -71,7 +90,7 @@ abstract class GlobePlate implements Turnable {
   }
 
   get isNorthUp(): boolean {
-    return this.room.switches.isOn("north");
+    return this.room.isNorthUp;
   }
 
   /** Whether there is a circle at the pointer. */
@@ -108,7 +127,7 @@ abstract class GlobePlate implements Turnable {
     if (pointed === null) return;
     const { pointer } = this.room.shown;
     const images = map.apply(Float64Array.from(circlePoints(pointer, CIRCLE_RADIUS).flat()));
-    const rim = arcThrough(images, 0, 1, 2, true);
+    const rim = arcThrough(images, 0, true);
     const at = lenses.imageOf(map, pointer);
     if (rim === null || at[2] <= 0) return;
     pen.draw("seen", (path) => traceCap(path, disc, rim));
@@ -127,7 +146,9 @@ abstract class GlobePlate implements Turnable {
 
 /** The large globe through the fisheye: turned, magnified and focused by hand. */
 export class FisheyeGlobe extends GlobePlate implements Magnifiable {
-  readonly most = lenses.MOST;
+  get most(): number {
+    return lenses.MOST;
+  }
 
   /** Over places of the reader's own, nothing before anybody has pointed. */
   protected get pointed(): "scale" | null {
@@ -210,7 +231,8 @@ export class FisheyeGlobe extends GlobePlate implements Magnifiable {
 
   #take(at: Place, reach: number): Hold | null {
     const { lens, view } = this.sight;
-    if (distance(at, placeOf(this.disc, view.seen(lens.focus))) > reach) return grabBall(this, this.motion, at);
+    const away = distance(at, placeOf(this.disc, view.seen(lens.focus)));
+    if (this.room.isFramed || away > reach) return grabBall(this, this.motion, at);
     this.motion.stop();
     // The fisheye leaves its focus where it is: the ring is at the pointer where the view stays as it is.
     return { move: (to) => this.change({ sight: { lens: { ...lens, focus: view.onBall(this.under(to)) }, view } }) };
@@ -235,7 +257,7 @@ const TRIED = 180;
 export class BubbleGlobe extends GlobePlate {
   readonly #which: "before" | "after";
 
-  constructor(canvas: HTMLCanvasElement, which: "before" | "after", room: GlobeRoom) {
+  constructor(canvas: HTMLCanvasElement, which: "before" | "after", room: GlobeHost) {
     super(canvas, room);
     this.#which = which;
   }
@@ -359,12 +381,12 @@ const MARGIN = 1;
 
 /** Five small globes: the lens from five sides, as the panels of Figures 10 to 12, with the surroundings of the focus. */
 export class FiveViews {
-  readonly #room: GlobeRoom;
+  readonly #room: GlobeHost;
   readonly #plates: Plate[];
   readonly #graticule = arcLayer("graticule", graticuleArcs(STEP));
   #shown: Lens | null = null;
 
-  constructor(buttons: readonly HTMLButtonElement[], room: GlobeRoom) {
+  constructor(buttons: readonly HTMLButtonElement[], room: GlobeHost) {
     this.#room = room;
     this.#plates = buttons.map((button) => {
       const paint = (pen: Pen): void => this.#paint(pen, Number(button.value));

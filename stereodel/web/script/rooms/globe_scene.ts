@@ -13,7 +13,7 @@ import { tableLonlat } from "../kernel/coordinates.ts";
 import { lazy } from "../kernel/lazy.ts";
 import type { Painted } from "../panorama.ts";
 import { angle, directionOf, lonLatOf, row, type Vector } from "../space.ts";
-import type { Owner } from "./owner.ts";
+import type { Column, Owner } from "./owner.ts";
 
 /** The radius of the equal circles on Earth, kilometres, and in degrees of a sphere with the Earth's mean radius. */
 const CIRCLE_KILOMETRES = 150;
@@ -51,8 +51,8 @@ export interface Places {
   readonly lonlat: Float64Array;
   /** Of the places, where their file has such a column. */
   readonly names?: readonly string[] | null;
-  /** Its columns of numbers. */
-  readonly values?: ReadonlyMap<string, Float64Array>;
+  /** Its columns of numbers, or what its owner chose. */
+  readonly values?: ReadonlyMap<string, Column>;
   /** What their owner says of them, and lines of equal values. */
   readonly owner?: Owner | null;
   readonly isolines?: Rings | null;
@@ -70,8 +70,11 @@ export class GlobeScene {
   places: Places | null = null;
   latitude: Latitude;
   picture: Painted | null = null;
-  /** The place whose row the pointer or the focus is on. */
+  /** The place whose row the pointer or the focus is on, and those that are selected. */
   lit: number | null = null;
+  selected: readonly number[] = [];
+  /** Shapes of the data on the land. */
+  layers: readonly Layer[] = [];
 
   constructor(latitude: Latitude) {
     this.latitude = latitude;
@@ -85,7 +88,7 @@ export class GlobeScene {
 
   /** Unpacks the land that the page carries. */
   async load(contents: Contents): Promise<void> {
-    const [coarse, fine] = await Promise.all([contents.land("110m"), contents.land("50m")]);
+    const [coarse, fine] = await Promise.all([contents.rings("land-110m"), contents.rings("land-50m")]);
     if (coarse !== null) this.#coarse = balls.landLayer(coarse);
     if (fine !== null) this.#fine = balls.landLayer(fine);
   }
@@ -133,11 +136,13 @@ export class GlobeScene {
     return { place, at, radius: places.owner?.radii?.[place] ?? 0 };
   }
 
-  /** What is drawn of the place that is lit. */
-  get held(): balls.Layer | null {
-    const { places, lit } = this;
-    if (places === null || lit === null) return null;
-    return balls.dotLayer("held", lonlatToXyz(places.lonlat.subarray(2 * lit, 2 * lit + 2)));
+  /** What is drawn of the places that are lit or selected. */
+  get held(): Layer | null {
+    const { places, lit, selected } = this;
+    if (places === null) return null;
+    const held = [...selected, lit ?? []].flat();
+    const lonlat = held.flatMap((k) => [...places.lonlat.subarray(2 * k, 2 * k + 2)]);
+    return balls.dotLayer("held", lonlatToXyz(Float64Array.from(lonlat)));
   }
 
   get parts(): Part<Ball>[] {
@@ -147,7 +152,7 @@ export class GlobeScene {
     const drawn = (layer: (isMoving: boolean) => Layer | null): Pick<Part<Ball>, "draw"> => ({
       draw: (pen, { disc, map, isMoving }) => balls.drawLayers(pen, disc, map, [layer(isMoving)]),
     });
-    const land = drawn((isMoving) => (isMoving ? this.#coarse : (this.#fine ?? this.#coarse)));
+    const land = (isMoving: boolean): Layer | null => (isMoving ? this.#coarse : (this.#fine ?? this.#coarse));
     const hasInks = hasPlaces && places?.owner?.inks !== undefined;
     const isMuch = lonlat.length > 2 * MANY_PLACES;
     return [
@@ -156,17 +161,17 @@ export class GlobeScene {
         isThere: hasPicture,
         draw: (pen, { disc, map, isMoving }) => picture!.draw(pen, disc, map, isMoving),
       },
-      { layer: "land", isThere: !hasPicture, ...land },
+      { layer: "land", isThere: !hasPicture, ...drawn(land) },
       {
         layer: "fills",
         isThere: hasInks,
         draw: (pen, { disc, map, isMoving }) => {
           if (isMoving && isMuch) return;
           balls.drawLayers(pen, disc, map, this.#made!.fills);
-          const land = isMoving ? this.#coarse : (this.#fine ?? this.#coarse);
-          balls.drawLayers(pen, disc, map, [land?.outlines ?? null]);
+          balls.drawLayers(pen, disc, map, [land(isMoving)?.outlines ?? null]);
         },
       },
+      { draw: (pen, { disc, map }) => balls.drawLayers(pen, disc, map, this.layers) },
       { layer: "graticule", ...drawn(() => this.#graticule) },
       { layer: "tissot", ...drawn(() => this.#tissot) },
       {
@@ -189,7 +194,7 @@ export class GlobeScene {
         draw: (pen, { disc, map, isMoving, standing, taken }) => {
           const { directions, ...named } = this.#made!.named;
           const seats = new Seats(pen, disc, taken);
-          drawNames(pen, seats, disc, { ...named, standing, isMoving }, map.apply(directions), this.lettered(NAME));
+          drawNames(seats, { ...named, standing, isMoving }, map.apply(directions), this.lettered(NAME));
         },
       },
     ];
@@ -213,7 +218,7 @@ interface Made {
   readonly regions: readonly Region[];
 }
 
-function madeOf({ lonlat, names, owner, isolines }: Places, latitude: Latitude): Made {
+function madeOf({ lonlat, names, values, owner, isolines }: Places, latitude: Latitude): Made {
   // Points of the cells' sphere are where the globe shows them: at the latitudes of a table.
   const drawn = (xyz: Float64Array): Float64Array =>
     latitude === "spherical" ? xyz : lonlatToXyz(tableLonlat(xyzToLonlat(xyz), latitude));
@@ -236,11 +241,14 @@ function madeOf({ lonlat, names, owner, isolines }: Places, latitude: Latitude):
   /** Dots of one place of so many. */
   const dots = (of: number): Layer => {
     const { inks, ink = [], radii = [] } = owner ?? {};
-    const some = <T>(all: readonly T[]): readonly T[] => (of === 1 ? all : all.filter((_, k) => k % of === 0));
-    const xyz = lonlatToXyz(of === 1 ? lonlat : lonlat.filter((_, k) => (k >> 1) % of === 0));
+    const some = <T>(all: readonly T[]): readonly T[] => all.filter((_, k) => k % of === 0);
+    const xyz = lonlatToXyz(lonlat.filter((_, k) => (k >> 1) % of === 0));
     if (inks === undefined) return balls.dotLayer("site", xyz);
-    const colours = some(ink).map((number) => inks[number]);
-    return balls.spotLayer(xyz, some(radii), colours);
+    return balls.spotLayer(
+      xyz,
+      some(radii),
+      some(ink).map((number) => inks[number]),
+    );
   };
   const made: Made = lazy({
     dots: () => dots(1),
@@ -266,9 +274,9 @@ function madeOf({ lonlat, names, owner, isolines }: Places, latitude: Latitude):
     regions: () =>
       Array.from({ length: lonlat.length / 2 }, (_, site) => {
         const [longitude, latitude] = lonlat.subarray(2 * site, 2 * site + 2);
-        const own = (owner?.columns ?? []).map(({ title, values }) => [title, values[site]]);
+        const own = Object.fromEntries([...(values ?? [])].map(([title, column]) => [title, column[site]]));
         const name = names ? { name: names[site] } : {};
-        return cellOf(made.voronoi, site, { site: site + 1, ...name, longitude, latitude, ...Object.fromEntries(own) });
+        return cellOf(made.voronoi, site, { site: site + 1, ...name, longitude, latitude, ...own });
       }).flat(),
   });
   return made;

@@ -4,6 +4,7 @@ import { direction, fields, number, view, word, type Field } from "../fields.ts"
 import { directionOf, lonLatOf, type Vector } from "../space.ts";
 import { MOST, type Cap, type Lens, type Sight } from "../view/lens.ts";
 import { View } from "../view/view.ts";
+import { latitude, longitude, scale } from "../words.ts";
 
 export interface GlobeState {
   readonly lens: "fisheye" | "bubble";
@@ -81,3 +82,18 @@ export const GLOBE = fields<GlobeState>({
   before: view("before"),
   after: view("after"),
 });
+
+export function magnificationWords({ lens }: Sight): string {
+  const [lon, lat] = lonLatOf(lens.focus);
+  return `${scale(lens.magnification)} times at ${latitude(lat)}, ${longitude(lon)}`;
+}
+
+export function placeWords(direction: Vector): string {
+  const [lon, lat] = lonLatOf(direction);
+  return `${latitude(lat)} ${longitude(lon)}`;
+}
+
+/** What is seen, for those who do not see it. */
+export function sightWords(sight: Sight): string {
+  return `${magnificationWords(sight)}, seen from ${placeWords(sight.view.onBall([0, 0, 1]))}`;
+}

@@ -214,14 +214,14 @@ class LiftRoom extends SiteRoom implements Room {
   // What can be done
 
   #bend(bend: number): void {
-    this.#state = STATE.settle({ ...this.#state, bend }, this.#state);
+    this.#state = STATE.settle({ ...this.#state, bend });
     this.#update("hand");
     this.changed(ofBend(this.#bent));
   }
 
   #turn(side: number, height: number, reason: Reason = "state"): void {
     if (!Number.isFinite(side) || !Number.isFinite(height)) return;
-    this.#state = STATE.settle({ ...this.#state, side: wrap(side), height }, this.#state);
+    this.#state = STATE.settle({ ...this.#state, side: wrap(side), height });
     this.#showView();
     this.redraw(reason);
     this.changed(

@@ -1,11 +1,12 @@
 /** The picture of the Lift room: a sheet that bends onto a ball, under the plane that it was. */
 
 import { traceArc, traceRegions, type Side } from "../drawing/arcs.ts";
-import { ballSurface, drawDots, planeSurface, traceGreat, type Surface } from "../drawing/ball.ts";
+import { arcBetween, ballSurface, drawArcs, drawDots, drawSegments, planeSurface } from "../drawing/ball.ts";
+import type { Surface } from "../drawing/ball.ts";
 import { drawParts, type IsOn, type Part } from "../drawing/parts.ts";
 import { cornersOf, traceCorners, traceDisc, traceSegment } from "../drawing/pen.ts";
 import type { Disc, Path, Pen, Point } from "../drawing/pen.ts";
-import type { LabelStyle } from "../drawing/styles.ts";
+import { FAINT, type LabelStyle } from "../drawing/styles.ts";
 import { cross, unit, type Vector } from "../space.ts";
 import type { View } from "../view/view.ts";
 import type { LiftSites, Sheet } from "./lift_sites.ts";
@@ -113,7 +114,7 @@ export class LiftPicture {
       { layer: "seeing", draw: (pen, on) => on.#drawSeeing(pen) },
       { isThere: isBent, draw: (pen, on) => on.#drawBehind(pen, isOn("triangles") && !isMoving) },
       { layer: "triangles", draw: (pen, on) => on.#drawEdges(pen) },
-      { layer: "cells", draw: (pen, on) => pen.clipped(on.#region, () => pen.draw("voronoi", on.#ridges)) },
+      { layer: "cells", draw: (pen, on) => pen.within({ region: on.#region }, () => on.#drawRidges(pen)) },
       { draw: (pen, on) => pen.draw("side", isFlat ? on.#region : (path) => on.#traceBorder(path, "front")) },
       { draw: (pen, on) => drawDots(pen, on.surface, "site", Array(sites.count).keys()) },
       { isThere: isBent, draw: (pen, on) => on.#drawPlane(pen) },
@@ -137,12 +138,13 @@ export class LiftPicture {
 
   #drawEdges(pen: Pen, side?: Side | "flat"): void {
     const { edges } = this.#scene.sites.delaunay;
-    pen.draw("delaunay", (path) => {
-      for (let k = 0; k < edges.length; k += 2) {
-        if (side === "flat") traceSegment(path, this.above(edges[k]), this.above(edges[k + 1]));
-        else this.surface.line(path, edges[k], edges[k + 1], side);
-      }
-    });
+    if (side === "flat")
+      drawSegments(
+        pen,
+        "delaunay",
+        [...edges].flatMap((site) => this.above(site)),
+      );
+    else this.surface.lines(pen, "delaunay", edges, side);
   }
 
   /** The bent sheet and what is faint of it, with the far side of its triangles. */
@@ -150,9 +152,11 @@ export class LiftPicture {
     // Seen from behind the ball is its mirror image: rings run the other way.
     const border = this.#border().map(([x, y, z]): Vector => [x, y, -z]);
     const mirrored = ringOf(border.reverse());
-    pen.behind(() => pen.draw("sheet", (path) => traceRegions(path, this.#disc, mirrored, this.#holds([0, 0, 1]))));
+    pen.within(FAINT, () =>
+      pen.draw("sheet", (path) => traceRegions(path, this.#disc, mirrored, this.#holds([0, 0, 1]))),
+    );
     pen.draw("sheet", this.#region);
-    pen.behind(() => {
+    pen.within(FAINT, () => {
       pen.draw("side", (path) => this.#traceBorder(path, "back"));
       if (hasTriangles) this.#drawEdges(pen, "back");
     });
@@ -180,7 +184,7 @@ export class LiftPicture {
     const [x, y] = this.contact;
     pen.draw("sheet-plane", this.#plane);
     // The triangles as they were: "behind" is as weak as what lies beyond the ball.
-    if (this.#scene.isOn("triangles") && !this.#scene.isMoving) pen.behind(() => this.#drawEdges(pen, "flat"));
+    if (this.#scene.isOn("triangles") && !this.#scene.isMoving) pen.within(FAINT, () => this.#drawEdges(pen, "flat"));
     pen.draw("touch", (path) => {
       traceSegment(path, [x - 4.5, y], [x + 4.5, y]);
       traceSegment(path, [x, y - 3.5], [x, y + 3.5]);
@@ -241,7 +245,7 @@ export class LiftPicture {
   #traceBorder(path: Path, side: Side): void {
     for (const [[ax, ay], [bx, by]] of this.#sides) {
       const rows = [...this.#look(ax, ay), ...this.#look((ax + bx) / 2, (ay + by) / 2), ...this.#look(bx, by)];
-      traceArc(path, this.#disc, rows, 0, 1, 2, side);
+      traceArc(path, this.#disc, rows, 0, side);
     }
   }
 
@@ -261,12 +265,10 @@ export class LiftPicture {
   }
 
   /** Sides of the cells; on the ball from the centre of a facet's circle to those of the facets across its edges. */
-  readonly #ridges = (path: Path): void => {
+  #drawRidges(pen: Pen): void {
     const { sites, sheet } = this.#scene;
-    if (sheet.isFlat) {
-      for (const [a, b] of sites.ridges) traceSegment(path, this.#flat(a), this.#flat(b));
-      return;
-    }
+    if (sheet.isFlat) return drawSegments(pen, "voronoi", sites.ridges.flat().flatMap(this.#flat));
+    const arcs: number[] = [];
     const facets = [...sites.delaunay.simplices, ...sites.closing];
     const looks = facets.map((site) => this.#look(...sites.place(site)));
     const centers = new Map<string, Vector>();
@@ -275,9 +277,10 @@ export class LiftPicture {
       const center = facetCenter(looks[first], looks[first + 1], looks[first + 2]);
       const beyond = centers.get(`${to} ${from}`);
       if (beyond === undefined) centers.set(`${from} ${to}`, center);
-      else traceGreat(path, this.#disc, center, beyond);
+      else arcs.push(...arcBetween(center, beyond).flat());
     });
-  };
+    drawArcs(pen, this.#disc, "voronoi", arcs);
+  }
 }
 
 function ringOf(points: readonly Vector[]): { points: Float64Array; offsets: number[] } {

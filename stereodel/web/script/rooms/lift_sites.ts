@@ -14,7 +14,11 @@ export class LiftSites {
   readonly places: Float64Array;
   readonly rectangle: Rectangle;
   readonly delaunay: PlanarDelaunay;
-  #closing: Int32Array | null = null;
+  /**
+   * The facets of the lifted sites that see the pole, (m, 3): those whose circle in the plane has no site outside. They
+   * are the same however far the sheet is bent.
+   */
+  readonly closing: Int32Array;
   #ridges: [Place, Place][] | null = null;
 
   /** @param sides Width and height of the sheet, where it is not the smallest rectangle round the sites. */
@@ -22,6 +26,7 @@ export class LiftSites {
     this.places = places;
     this.rectangle = rectangleAround(places, sides);
     this.delaunay = new PlanarDelaunay(places);
+    this.closing = this.#facetsThatSee();
   }
 
   get count(): number {
@@ -50,14 +55,6 @@ export class LiftSites {
       const [[ax, ay], [bx, by]] = [this.place(site), this.place(hull[(k + 1) % hull.length])];
       return (bx - ax) * (y - ay) - (by - ay) * (x - ax) >= 0;
     });
-  }
-
-  /**
-   * The facets of the lifted sites that see the pole, (m, 3): those whose circle in the plane has no site outside. They
-   * are the same however far the sheet is bent.
-   */
-  get closing(): Int32Array {
-    return (this.#closing ??= this.#facetsThatSee());
   }
 
   /** Sides of the cells of the plane, each from end to end; those without an end go on far beyond the sheet. */

@@ -5,13 +5,14 @@ import type { IsOn, Switch } from "../drawing/parts.ts";
 import type { Reason } from "../drawing/plate.ts";
 import type { Exchange } from "../exchange.ts";
 import type { Points } from "../files.ts";
-import type { Place } from "../fields.ts";
-import { LETTERS, LinkError, MOST_SITES, numbersOf, packPlaces, type LinkValues } from "../link.ts";
+import { word, type Place } from "../fields.ts";
+import { LETTERS, LinkError, MOST_SITES, numbersOf, type LinkValues } from "../link.ts";
 import type { RoomHost } from "../room.ts";
 import type { SiteSet } from "../sets.ts";
 import { SiteTable, type Rows } from "../table.ts";
 import { counted } from "../words.ts";
 import { Switches, tellNamed } from "./controls.ts";
+import type { Column } from "./owner.ts";
 import type { Origin } from "./python.ts";
 
 /** The name of sites that are no set of the list: opened, or changed by hand. */
@@ -45,13 +46,19 @@ function ofSet(set: SiteSet): NamedSites {
 }
 
 /** What a link says of a table: all of it, or where it is too long for one and need not be whole the name of its file. */
-export function tableValues({ places, names, name, values }: Table, isWhole: boolean): Record<string, string> {
+export function tableValues(
+  { places, names, name, values }: Omit<Table, "values"> & { readonly values?: ReadonlyMap<string, Column> },
+  isWhole: boolean,
+): Record<string, string> {
   const named = { file: name ?? "sites" };
   if (!isWhole && places.length > 2 * MOST_SITES) return named;
   const lines = (texts: readonly string[]): string => texts.map((text) => text.replaceAll("\n", " ")).join("\n");
-  const columns = [...(values ?? [])].flatMap(([title, column]) => [title, column.join().replaceAll("NaN", "")]);
+  const columns = [...(values ?? [])].flatMap(([title, column]) => [
+    title,
+    Array.from(column).join().replaceAll("NaN", ""),
+  ]);
   const table = {
-    sites: packPlaces(places),
+    sites: places.join(),
     ...(names && { names: lines(names) }),
     ...(name && { name }),
     ...(columns.length * places.length > 0 && { values: lines(columns) }),
@@ -62,10 +69,14 @@ export function tableValues({ places, names, name, values }: Table, isWhole: boo
 
 /** The table of a link, or null. @throws LinkError where it cannot be read. */
 export function tableOf(values: LinkValues, kind: "lonlat" | "plane"): Table | null {
-  const places = kind === "plane" ? values.places("sites") : values.lonlat("sites");
+  const sites = values.get("sites");
+  if (sites === undefined) return null;
+  const places = sites === "" ? new Float64Array(0) : numbersOf(sites);
+  const isPlace = (value: number, k: number): boolean =>
+    Number.isFinite(value) && (kind === "plane" || k % 2 === 0 || Math.abs(value) <= 90);
+  if (places.length % 2 !== 0 || !places.every(isPlace)) throw new LinkError("half a site, or one that is nowhere");
   const lines = values.get("values")?.split("\n") ?? [];
   const columns = lines.flatMap((title, k) => (k % 2 === 0 ? [[title, numbersOf(lines[k + 1] ?? "")] as const] : []));
-  if (places === null) return null;
   if (columns.some(([, column]) => column.length !== places.length / 2)) throw new LinkError("a column is too short");
   const names = values.get("names")?.split("\n") ?? null;
   return { places, names, name: values.get("name") ?? null, values: new Map(columns) };
@@ -94,10 +105,11 @@ export abstract class TableRoom {
 
   attach(section: HTMLElement): void {
     this.section = section;
-    this.table = new SiteTable(find(section, ".sites"), {
-      chosen: (site) => this.host.guarded(() => this.chosen(site)),
-      pointed: (site) => this.pointed(site),
-    });
+    this.table = new SiteTable(
+      find(section, ".sites"),
+      (site) => this.host.guarded(() => this.chosen(site)),
+      (site) => this.pointed(site),
+    );
     this.switches = new Switches(section, (name) => {
       this.host.guarded(() => this.switched(name));
       this.host.changed();
@@ -159,7 +171,7 @@ export abstract class SiteRoom extends TableRoom {
 
   /** The sites of a link; nothing is shown yet. @throws LinkError where they cannot be read. */
   protected sitesOf(values: LinkValues): NamedSites {
-    const name = values.word("set", [...this.sets.map((set) => set.name), OWN], this.sets[0].name);
+    const name = word("set", [...this.sets.map((set) => set.name), OWN]).read(values, this.sets[0].name);
     const table = tableOf(values, this.#kind);
     if (table !== null) return ownSites(table);
     return ofSet(this.sets.find((set) => set.name === name) ?? this.sets[0]);
@@ -222,20 +234,15 @@ export abstract class SiteRoom extends TableRoom {
 
 /** The sites with one of them elsewhere, one more at the end, or, without a place, one less: its number is the next one's. */
 export function edited(table: NamedSites, site: number, place: Place | null): NamedSites {
-  const places = spliced(table.places, 2 * site, 2, place ?? []);
-  if (place !== null && 2 * site < table.places.length) return ownSites({ ...table, places });
-  const names = table.names && [...table.names.slice(0, site), ...(place ? [""] : table.names.slice(site + 1))];
-  const column = (values: Float64Array): Float64Array => spliced(values, site, 1, place ? [NaN] : []);
-  const values = new Map([...(table.values ?? [])].map(([title, numbers]) => [title, column(numbers)]));
-  return ownSites({ places, names, name: table.name, values });
-}
-
-/** With other numbers instead of some. */
-function spliced(numbers: Float64Array, at: number, count: number, put: readonly number[]): Float64Array {
-  const end = numbers.subarray(at + count);
-  const result = new Float64Array(at + put.length + end.length);
-  result.set(numbers.subarray(0, at));
-  result.set(put, at);
-  result.set(end, at + put.length);
-  return result;
+  if (place !== null && 2 * site < table.places.length) {
+    const places = table.places.slice();
+    places.set(place, 2 * site);
+    return ownSites({ ...table, places });
+  }
+  const edit = <T>(all: ArrayLike<T>, added: T): T[] =>
+    place ? [...Array.from(all), added] : Array.from(all).filter((_, k) => k !== site);
+  const places = place ? [...table.places, ...place] : table.places.filter((_, k) => k >> 1 !== site);
+  const values = [...(table.values ?? [])].map(([title, all]) => [title, Float64Array.from(edit(all, NaN))] as const);
+  const names = table.names && edit(table.names, "");
+  return ownSites({ places: Float64Array.from(places), names, name: table.name, values: new Map(values) });
 }

@@ -1,6 +1,6 @@
 /** The Sphere room: sites on a ball, and in the plane that they are projected to (Theorem 1, and the insertion). */
 
-import type { Given } from "../contents.ts";
+import type { Places } from "./globe_scene.ts";
 import { find, plain, say } from "../dom.ts";
 import { placeOf } from "../drawing/ball.ts";
 import type { Named } from "../drawing/names.ts";
@@ -67,7 +67,7 @@ const MOST_STEPS_BACK = 100;
 const GAP = 32;
 
 /** @param stored Sets that the page carries. @param given The points that it was made for. */
-export function sphereRoom(host: RoomHost, stored: Stored, given: Given | null): Room {
+export function sphereRoom(host: RoomHost, stored: Stored, given: Places | null): Room {
   return new SphereRoom(host, sphereSets(stored, given), "lonlat");
 }
 
@@ -157,7 +157,7 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
 
   /** The state goes on, as a link tells it. */
   #put(change: Partial<SphereState>): void {
-    this.#state = sphereFields(this.#sites.count).settle({ ...this.#state, ...change }, this.#state);
+    this.#state = sphereFields(this.#sites.count).settle({ ...this.#state, ...change });
   }
 
   get #held(): number | null {

@@ -115,7 +115,7 @@ export function sphereParts({ sites, named, seeing, bubble, held, step }: Sphere
     { isThere, isOver: true, draw: (pen, on) => balls.drawDots(pen, on, "held", [...(bubble?.sites ?? []), ...held]) },
     // Names first: they stay while the bubble follows the pointer.
     { layer: "names", isThere: isThere && named !== null, isOver: true, draw: (_, on) => on.names?.(named!) },
-    { layer: "bubble", isThere: isAimed, isOver: true, draw: (pen, on) => drawNumbers(pen, on, bubble!) },
+    { layer: "bubble", isThere: isAimed, isOver: true, draw: (_, on) => drawNumbers(on, bubble!) },
   ];
 }
 
@@ -146,7 +146,7 @@ export function drawMoved(pen: Pen, drawing: Drawing, scene: SphereScene, ground
   for (const each of united(window(ground), window({ sites, round }))) {
     const seen = sitesIn(sites, each, round);
     const trace = (path: Path): void => traceCorners(path, cornersOf(...each));
-    pen.clipped(trace, () => {
+    pen.within({ region: trace }, () => {
       pen.draw("paper", trace);
       drawing.draw(pen, { ...scene, sites: seen, layers: ballLayers(seen), seeing: seen.seeing(twin.pole) }, "ground");
     });
@@ -183,7 +183,7 @@ function drawBall(pen: Pen, disc: Disc, scene: SphereScene, stratum: Stratum): v
   const hidden = sourceOf(map, [0, 0, -1]);
   // Through its sites: of a small circle a centre and a radius say less.
   const rimOf = (bubble: Bubble): Circle | null =>
-    arcThrough(map.apply(bubble.sites.flatMap((k) => [...site(k)])), 0, 1, 2, true);
+    arcThrough(map.apply(bubble.sites.flatMap((k) => [...site(k)])), 0, true);
   const pole = poleLabel(disc, scene);
   const seats = new Seats(pen, disc, pole === null ? [] : [pole.box]);
   const ball: Picture = {
@@ -208,7 +208,7 @@ function drawBall(pen: Pen, disc: Disc, scene: SphereScene, stratum: Stratum): v
       pen.draw("triangle", (path) => surface.ring(path, bubble.sites));
     },
     dots: () => balls.drawLayers(pen, disc, map, [layers.dots]),
-    names: (named) => drawNames(pen, seats, disc, named, map.apply(layers.dots.directions), NAME),
+    names: (named) => drawNames(seats, named, map.apply(layers.dots.directions), NAME),
     side(bubble, site) {
       const [point, rim] = [imageOf(map, sites.site(site)), rimOf(bubble)];
       if (rim === null || point[2] < LEAST_HEIGHT) return null;
@@ -252,11 +252,8 @@ function drawPlane(pen: Pen, frame: PlaneFrame, scene: SphereScene, stratum: Str
     seats: new Seats(pen),
     // The outline runs clockwise on the picture, as the frame does: turned round, the path winds once between them.
     hatch: (outline) => pen.draw("hatch", (path) => surface.region(path, [...outline].reverse(), true)),
-    triangles: () =>
-      pen.draw("delaunay", (path) => {
-        eachEdge(sites.delaunay.simplices, seeing, (a, b) => surface.line(path, a, b));
-      }),
-    cells: () => pen.draw("voronoi", (path) => planeRidges(path, frame, scene)),
+    triangles: () => surface.lines(pen, "delaunay", edgesOf(sites.delaunay.simplices, seeing)),
+    cells: () => balls.drawSegments(pen, "voronoi", planeRidges(frame, scene)),
     bubble(bubble) {
       const image = twin.circle(bubble.center, bubble.cosine);
       if (image.kind === "line") {
@@ -295,17 +292,17 @@ function drawPlane(pen: Pen, frame: PlaneFrame, scene: SphereScene, stratum: Str
       });
     },
   };
-  pen.clipped(whole, () => drawStratum(pen, plane, scene, stratum));
+  pen.within({ region: whole }, () => drawStratum(pen, plane, scene, stratum));
   if (stratum === "ground") pen.draw("frame", whole);
 }
 
 /** The numbers of a bubble's sites. */
-function drawNumbers(pen: Pen, on: Picture, bubble: Bubble): void {
-  for (const site of bubble.sites) on.seats.takeDot(on.place(site), 3, site + 1);
+function drawNumbers(on: Picture, bubble: Bubble): void {
+  for (const site of bubble.sites) on.seats.takeDot(on.place(site), 3);
   for (const site of bubble.sites) {
     const out = on.side(bubble, site);
     if (out === null) continue;
-    on.seats.set(pen, String(site + 1), on.place(site), on.label, site + 1, sidesToward(out[0], -out[1]));
+    on.seats.set(String(site + 1), on.place(site), on.label, sidesToward(out[0], -out[1]));
   }
 }
 
@@ -316,9 +313,7 @@ function drawStep(pen: Pen, on: Picture, { site, insertion, beforeSeeing, fanSee
     // Facets of the fan that see the pole are no triangles of the plane, nor are sides between two of them its sides.
     const isThere = (k: number): boolean => !on.isPlane || !fanSeeing[(k + outline.length) % outline.length];
     if (outline.length > 0) pen.draw("seen", (path) => on.opening(path, insertion, isThere));
-    pen.draw("delaunay", (path) => {
-      eachEdge(before, on.isPlane ? beforeSeeing : null, (a, b) => on.line(path, a, b));
-    });
+    on.lines(pen, "delaunay", edgesOf(before, on.isPlane ? beforeSeeing : null));
     pen.draw("fan", (path) => {
       outline.forEach((a, k) => (isThere(k) || isThere(k - 1)) && on.line(path, site, a));
     });
@@ -357,25 +352,21 @@ function poleLabel(disc: Disc, { map, twin }: SphereScene) {
 }
 
 /** Ridges between the triangles of the plane, and rays where one has no neighbour: the centres are those of its circles. */
-function planeRidges(path: Path, frame: PlaneFrame, { sites, twin, seeing }: SphereScene): void {
+function planeRidges(frame: PlaneFrame, { sites, twin, seeing }: SphereScene): number[] {
   const { simplices, neighbors } = sites.delaunay;
-  const middles = new Map<number, Point>();
-  const middle = (facet: number): Point => {
-    let found = middles.get(facet);
-    if (found === undefined) {
-      const { center, cosine } = sites.bubble(facet);
-      const image = twin.circle(center, cosine);
-      found = image.kind === "circle" ? image.middle : [0, 0];
-      middles.set(facet, found);
-    }
-    return found;
+  const middleOf = ({ center, cosine }: Bubble): Point => {
+    const image = twin.circle(center, cosine);
+    return image.kind === "circle" ? image.middle : [0, 0];
   };
+  const middles: Point[] = [];
+  const middle = (facet: number): Point => (middles[facet] ??= middleOf(sites.bubble(facet)));
+  const ends: number[] = [];
   for (let at = 0; at < neighbors.length; ++at) {
     const facet = Math.floor(at / 3);
     const beyond = neighbors[at];
     if (seeing[facet] || (!seeing[beyond] && beyond < facet)) continue;
     if (!seeing[beyond]) {
-      traceSegment(path, frame.place(middle(facet)), frame.place(middle(beyond)));
+      ends.push(...frame.place(middle(facet)), ...frame.place(middle(beyond)));
       continue;
     }
     // The side opposite the corner runs counterclockwise: outward is to its right.
@@ -383,18 +374,20 @@ function planeRidges(path: Path, frame: PlaneFrame, { sites, twin, seeing }: Sph
     const length = Math.hypot(b[0] - a[0], b[1] - a[1]);
     const [u, v] = middle(facet);
     const far = (4 * frame.reach + Math.hypot(u - frame.middle[0], v - frame.middle[1])) / length;
-    traceSegment(path, frame.place([u, v]), frame.place([u + far * (b[1] - a[1]), v - far * (b[0] - a[0])]));
+    ends.push(...frame.place([u, v]), ...frame.place([u + far * (b[1] - a[1]), v - far * (b[0] - a[0])]));
   }
+  return ends;
 }
 
 /** Every edge of facets once; with `seeing` those of the plane, of whose facets one at least does not see the pole. */
-function eachEdge(facets: Int32Array, seeing: Uint8Array | null, visit: (a: number, b: number) => void): void {
-  const drawn = new Set<number>();
+function edgesOf(facets: Int32Array, seeing: Uint8Array | null): number[] {
+  const [drawn, edges] = [new Set<number>(), [] as number[]];
   for (let k = 0; k < facets.length; ++k) {
     const [a, b] = [facets[k], facets[k % 3 === 2 ? k - 2 : k + 1]];
     const name = Math.min(a, b) * 2 ** 26 + Math.max(a, b);
     if (seeing === null ? a > b : seeing[Math.floor(k / 3)] || drawn.has(name)) continue;
     drawn.add(name);
-    visit(a, b);
+    edges.push(a, b);
   }
+  return edges;
 }

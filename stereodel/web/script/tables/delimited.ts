@@ -1,6 +1,6 @@
 /** Tables as delimited text: what separates the fields and which row is the header is found out. */
 
-import type { Points } from "../files.ts";
+import type { Column } from "../rooms/owner.ts";
 import { findLonLat, NUMBER } from "./words.ts";
 
 /** A comma comes first: where several marks give as many fields, it is the one. */
@@ -125,32 +125,34 @@ function headed(rows: readonly Row[]): { names: string[]; data: readonly Row[] }
   return { names, data: rows.slice(at) };
 }
 
-/** Places, names and columns of numbers as a table, with all digits of all numbers. */
-export function writeTable(
-  axes: readonly [string, string],
-  { places, names = null, values = new Map() }: Partial<Pick<Points, "names" | "values">> & Pick<Points, "places">,
-): string {
-  const digits = (value: number): string => (Object.is(value, -0) ? "-0.0" : Number.isFinite(value) ? `${value}` : "");
-  const quoted = (cell: string): string => (/[",\r\n]/.test(cell) ? `"${cell.replaceAll('"', '""')}"` : cell);
-  const head = [...axes, ...(names === null ? [] : ["name"]), ...[...values.keys()].map(quoted)];
+/** Places, names and columns as a table, with all digits of all numbers. */
+export function writeTable(axes: readonly [string, string], { places, names, values }: Columned): string {
+  const cell = (value: number | string | null): string => {
+    if (typeof value === "string") return /[",\r\n]/.test(value) ? `"${value.replaceAll('"', '""')}"` : value;
+    return Object.is(value, -0) ? "-0.0" : Number.isFinite(value) ? String(value) : "";
+  };
+  const columns: (readonly [string, Column])[] = [...(names ? [["name", names] as const] : []), ...(values ?? [])];
+  const head = [...axes, ...columns.map(([title]) => title)];
   const rows = Array.from({ length: places.length / 2 }, (_, row) => {
-    const name = names === null ? [] : [quoted(names[row])];
-    const others = [...values.values()].map((column) => digits(column[row]));
-    return [digits(places[2 * row]), digits(places[2 * row + 1]), ...name, ...others].join(",");
+    return [places[2 * row], places[2 * row + 1], ...columns.map(([, column]) => column[row])];
   });
-  return `${[head.join(","), ...rows].join("\n")}\n`;
+  return [head, ...rows].map((row) => `${row.map(cell).join()}\n`).join("");
+}
+
+/** A table to write. */
+interface Columned {
+  readonly places: Float64Array;
+  readonly names?: readonly string[] | null;
+  readonly values?: ReadonlyMap<string, Column>;
 }
 
 /** A table that cannot be read; the message begins with the row where there is one. */
-export class TableError extends Error {}
+export class TableError extends Error {
+  /** The columns of which the reader is asked for two. */
+  readonly columns: readonly string[];
 
-/** No column, or several, look like what is needed: the reader is asked which. */
-export class ColumnsError extends TableError {
-  /** The columns there are. */
-  readonly names: readonly string[];
-
-  constructor(names: readonly string[]) {
-    super("the table has no two columns of coordinates");
-    this.names = names;
+  constructor(message: string, columns: readonly string[] = []) {
+    super(message);
+    this.columns = columns;
   }
 }

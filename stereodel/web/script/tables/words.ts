@@ -19,45 +19,37 @@ const IDEOGRAPHS = "\u3040";
  * null where they must be asked.
  */
 export function findLonLat(names: readonly string[], isSure = false): [string, string] | null {
-  const pair = (["lon", "lat"] as const).map((axis) => {
+  const [lon, lat] = (["lon", "lat"] as const).map((axis) => {
     const [sure, unsure] = [WORDS[axis], WORDS[`unsure_${axis}`]];
-    const plain = (name: string): string => name.trim().toLowerCase();
-    const isPart = (word: string, name: string): boolean =>
-      plain(name).includes(word) && (word > IDEOGRAPHS || wordsOf(name).includes(word));
-    const own = (name: string): string[] => wordsOf(name).filter((word) => !WORDS.beside.includes(word));
-    const ways: ((name: string) => boolean)[] = [
-      (name) => sure.includes(plain(name)),
-      (name) => sure.some((word) => isPart(word, name)),
-      (name) => unsure.includes(plain(name)) || (own(name).length > 0 && own(name).every((w) => unsure.includes(w))),
+    const ways: ((name: string, words: readonly string[]) => boolean)[] = [
+      (name) => sure.includes(name),
+      (name, words) => sure.some((word) => words.includes(word) || (word > IDEOGRAPHS && name.includes(word))),
+      (_, words) => words.length > 0 && words.every((word) => unsure.includes(word)),
     ];
-    const found = ways.slice(0, isSure ? 2 : 3).map((fits) => names.filter(fits));
-    const matching = found.find((some) => some.length > 0);
-    return matching?.length === 1 ? matching[0] : null;
+    const fitting = ways
+      .slice(0, isSure ? 2 : 3)
+      .map((fits) => names.filter((name) => fits(name.trim().toLowerCase(), wordsOf(name))));
+    const found = fitting.find((some) => some.length > 0);
+    return found?.length === 1 ? found[0] : null;
   });
-  const [lon, lat] = pair;
   return lon === null || lat === null || lon === lat ? null : [lon, lat];
 }
 
-/** Words of a column's name in lower case, split at signs and where a capital follows a small letter. */
+/** Words of a column's name in lower case, split at signs and where a capital follows a small letter, but for "deg" and the like. */
 function wordsOf(name: string): string[] {
   const parted = name.replace(/(?<=[a-z])(?=[A-Z])/g, " ").toLowerCase();
-  return parted.split(/[^\p{L}]+/u).filter(Boolean);
+  return parted.split(/[^\p{L}]+/u).filter((word) => word !== "" && !WORDS.beside.includes(word));
 }
 
 /** A column that holds the letters of the points of the compass for the one before it. */
 export const LETTERED = new RegExp(`^(?:${WORDS.lettered})$`, "iu");
 
-const UNPRINTED = new RegExp(`[${WORDS.printed}${WORDS.unseen}]|\\p{Nd}`, "gu");
+const UNTYPED = new RegExp(`[${WORDS.printed}${WORDS.unseen}]`, "gu");
 
-/** A cell with the characters of the keyboard in place of those of printers and of other scripts. */
+/** A cell with the characters of the keyboard in place of those of printers. */
 export function typed(cell: string): string {
-  const plain = (sign: string): string => {
-    const zero = [...WORDS.zeros].find((zero) => sign >= zero && sign.charCodeAt(0) - zero.charCodeAt(0) < 10);
-    if (zero !== undefined) return String(sign.charCodeAt(0) - zero.charCodeAt(0));
-    const at = WORDS.printed.indexOf(sign);
-    return at < 0 ? (WORDS.unseen.includes(sign) ? "" : sign) : WORDS.typed[at];
-  };
-  return cell.replace(UNPRINTED, plain).trim().replace(/\s+/g, " ");
+  const plain = cell.replace(UNTYPED, (sign) => WORDS.typed[WORDS.printed.indexOf(sign)] ?? "");
+  return plain.trim().replace(/\s+/g, " ");
 }
 
 const POINTS = new Map(
@@ -84,26 +76,18 @@ export function angle(cell: string): { degrees: number; point: string } | null {
   if (!found) return null;
   const { before, after, sign } = found;
   const parts = [found["degrees"], found["minutes"], found["seconds"]].filter((part) => part !== undefined);
+  const numbers = parts.map((part) => part.replace(",", ".").replace(/\.$/, ""));
   const point = (before ?? after) ? pointOf((before ?? after)!) : "";
   const isWhole = parts.slice(0, -1).every((part) => /^[0-9]+$/.test(part));
-  const numbers = parts.map((part) => part.replace(",", ".").replace(/\.$/, ""));
   const isWrong = point === undefined || (before && after) || (point && sign) || !isWhole;
   if (isWrong || numbers.slice(1).some((part) => Number(part) >= 60)) return null;
   const isNegative = point === "W" || point === "S" || sign === "-";
   return { degrees: (isNegative ? -1 : 1) * (point === "O" ? NaN : sexagesimal(numbers)), point };
 }
 
-/** The double nearest to degrees, minutes and seconds. */
+/** The double nearest to degrees, minutes and seconds: one division of whole numbers, if these have at most 15 digits. */
 function sexagesimal(parts: readonly string[]): number {
   if (parts.length === 1) return Number(parts[0]);
-  const digits = parts[parts.length - 1].split(".")[1]?.length ?? 0;
-  const [degrees, minutes, seconds = 0n] = parts.map((part, k) => {
-    const isLast = k === parts.length - 1;
-    return BigInt(part.replace(".", "")) * (isLast ? 1n : 10n ** BigInt(digits));
-  });
-  const [above, below] = [(degrees * 60n + minutes) * 60n + seconds, 3600n * 10n ** BigInt(digits)];
-  // More digits than a double has, and one behind them that tells whether there are others.
-  const shift = 128 + below.toString(2).length;
-  const scaled = above << BigInt(shift);
-  return Number((scaled / below) | (scaled % below === 0n ? 0n : 1n)) / 2 ** shift;
+  const unit = 10 ** (parts[parts.length - 1].split(".")[1]?.length ?? 0);
+  return parts.reduce((sum, part) => 60 * sum + Math.round(Number(part) * unit), 0) / (unit * 60 ** (parts.length - 1));
 }

@@ -57,9 +57,9 @@ interface Finger {
   readonly track: { at: Place; time: number }[];
 }
 
-/** Follows the hand on a drawing until the function that is returned is called. */
-export function follow(plate: Plate, gestures: Gestures): () => void {
-  return new Hand(plate, gestures).start();
+/** Follows the hand on a drawing. */
+export function follow(plate: Plate, gestures: Gestures): void {
+  new Hand(plate, gestures).start();
 }
 
 class Hand {
@@ -74,11 +74,10 @@ class Hand {
     this.#gestures = gestures;
   }
 
-  start(): () => void {
+  start(): void {
     const { canvas } = this.#plate;
-    const abort = new AbortController();
     const on = <K extends keyof HTMLElementEventMap>(name: K, act: (event: HTMLElementEventMap[K]) => void): void =>
-      canvas.addEventListener(name, act, { signal: abort.signal });
+      canvas.addEventListener(name, act);
     on("pointerdown", (event) => this.#down(event));
     on("pointermove", (event) => this.#move(event));
     on("pointerup", (event) => this.#up(event, false));
@@ -90,7 +89,6 @@ class Hand {
     on("keydown", (event) => {
       if (!event.altKey && this.#gestures.key?.(event)) event.preventDefault();
     });
-    return () => abort.abort();
   }
 
   #down(event: PointerEvent): void {
