@@ -61,7 +61,7 @@ class Looks:
     def said(self) -> list[str]:
         """Names of what is said."""
         return [
-            name for name, part in vars(self).items() if part is not None and not (isinstance(part, str) and not part)
+            name for name, part in vars(self).items() if not (part is None or (isinstance(part, str) and part == ""))
         ]
 
     def blocks(self, lonlat: FloatArray, latitude: Latitude) -> dict[str, str]:
@@ -116,15 +116,12 @@ class Looks:
         return lines | {"points": ", ".join(f"{name}={value}" for name, value in points.items())}
 
     def _columns(self) -> list[tuple[str, list[Any]]]:
-        """Titles and values, those of both scales once if they are the same; what is missing is null."""
-        columns: dict[str, list[Any]] = {}
-        for title, values in ((self.legend or "value", self.values), (self.size_legend or "size", self.size)):
-            if values is None or isinstance(values, str) or np.ndim(values) == 0:
-                continue
-            listed = [None if value is None or value != value else value for value in np.asarray(values).tolist()]
-            if listed not in columns.values():
-                columns[f"{title} (size)" if title in columns else title] = listed
-        return list(columns.items())
+        """Titles and values, those of both scales once if they are called the same; what is missing is null."""
+        named = ((self.legend or "value", self.values), (self.size_legend or "size", self.size))
+        columns = {
+            title: np.asarray(values).tolist() for title, values in named if values is not None and np.ndim(values)
+        }
+        return [(title, [None if each != each else each for each in column]) for title, column in columns.items()]
 
 
 def _isolines(lonlat: FloatArray, values: FloatArray, scale: ColorScale, latitude: Latitude) -> dict[str, str]:

@@ -56,7 +56,6 @@ READABLE = {
     "feature_alone.geojson": json.dumps({"type": "Feature", "geometry": point(1, 2)}),
     "multipoint.geojson": geojson({"type": "MultiPoint", "coordinates": [[1, 2]]}),
     "degrees.geojson": geojson(point(1, 2), crs=crs("urn:ogc:def:crs:OGC:1.3:CRS84")),
-    "lines.geojsonl": "\n".join(json.dumps({"geometry": point(k, 2 * k)}) for k in range(3)),
 }
 
 WRONG = {
@@ -91,7 +90,6 @@ WRONG = {
     "one_coordinate.geojson": (geojson(point(5)), "row 1: a Point has two or three coordinates, not [5]"),
     "null.geojson": (geojson(point(1, None)), "row 1: a Point has two or three coordinates, not [1,null]"),
     "latitude.geojson": (geojson(point(1, 97.2)), "row 1: latitude 97.2 is outside [-90, 90]"),
-    "other_system.geojson": (geojson(point(1, 2), crs=crs("EPSG:3857")), "the file is in EPSG:3857"),
     "cities.xyz": (b"\x89PNG\r\n\x1a\n\x00", "neither a picture nor a table in text that the page can read"),
 }
 

@@ -167,25 +167,21 @@ def test_without_triangles_the_sentence_says_so(room, sites):
     assert page.ink(BALL) > 0.001
 
 
-def test_captions_follow_what_is_drawn(room):
-    page = room("sphere")
+HATCHED, CELLS = "Hatched is where the facets go that see P.", "Cells differ: centres are not sent to centres."
+STRONG = "Delaunay triangles in strong lines, Voronoi cells in thin ones."
+CAPTIONS = {
+    "on=triangles,seeing": ("Delaunay triangles.", f"The same triangles. {HATCHED}"),
+    "on=triangles,cells,seeing": (STRONG, f"The same triangles. {HATCHED} {CELLS}"),
+    "on=cells": ("Voronoi cells.", CELLS),
+    "on=cells&step=34": ("Delaunay triangles, new ones dashed.", "The same triangles."),
+    "on=cells&sites=0,0": ("", ""),
+}
 
-    def captions():
-        return output(page, "on-ball"), output(page, "in-plane")
 
-    hatched, cells = "Hatched is where the facets go that see P.", "Cells differ: centres are not sent to centres."
-    assert captions() == ("Delaunay triangles.", f"The same triangles. {hatched}")
-    page.page.check(f"{ROOM} [name=cells]")
-    strong = "Delaunay triangles in strong lines, Voronoi cells in thin ones."
-    assert captions() == (strong, f"The same triangles. {hatched} {cells}")
-    for switched in ("triangles", "seeing"):
-        page.page.uncheck(f"{ROOM} [name={switched}]")
-    assert captions() == ("Voronoi cells.", cells)
-    page.page.fill("#step", "34")
-    assert captions() == ("Delaunay triangles, new ones dashed.", "The same triangles.")
-    page.page.evaluate("location.hash = 'v=1&room=sphere&sites=0,0&on=cells'")
-    page.until(f"document.querySelector('{ROOM} [data-out=on-ball]').textContent === ''")
-    assert captions() == ("", "")
+@pytest.mark.parametrize("state", CAPTIONS)
+def test_captions_follow_what_is_drawn(room, state):
+    page = room(f"v=1&room=sphere&{state}")
+    assert (output(page, "on-ball"), output(page, "in-plane")) == CAPTIONS[state]
 
 
 def test_names_stand_in_the_table_are_said_and_follow_the_hand_and_undo(room, tmp_path):

@@ -51,7 +51,7 @@ export const STYLES = {
   "isoline-halo": { stroke: "halo", width: 2.4 },
   isoline: { stroke: "ink", width: 0.8 },
   "spot-line": { stroke: "limb", width: 0.6 },
-  "patch-line": { stroke: "accent", width: 1 },
+  patch: { fill: "accent-wash", stroke: "accent", width: 1 },
   handle: { stroke: "accent", width: 1.8, fill: "paper" },
   "handle-behind": { stroke: "accent", width: 1.2 },
   "handle-cross": { stroke: "accent", width: 1 },
