@@ -84,7 +84,7 @@ def test_bubbles_and_their_images_are_circles_of_the_library(node, lonlat):
 def test_a_circle_through_the_pole_becomes_a_line(node):
     """The image of a point of the circle opposite the pole lies on it."""
     line = ask(node, "new Twin([0, 0, 1]).circle([0.6, 0, 0.8], 0.8)")
-    assert line["kind"] == "line"
+    assert line["isLine"]
     image = Stereographic((0.0, -90.0)).forward([0.96, 0, 0.28])
     assert np.dot(line["normal"], image) == pytest.approx(line["offset"]) != 0
 
@@ -114,8 +114,8 @@ def test_inserting_into_squares_keeps_a_triangulation(node):
 
 def test_without_facets_nothing_sees_a_site_and_one_that_is_there_already_lies_in_no_bubble(node, lonlat):
     circle = [[lon, 0] for lon in (0, 20, 50, 90, 200)]
-    expression = "[sitesOf(given).insertion(4), sitesOf([]).facetAt([1, 0, 0]), sitesOf(given).facetCount]"
-    assert ask(node, expression, circle) == [None, None, 0]
+    expression = "[sitesOf(given).insertion(4).seeing, sitesOf([]).facetAt([1, 0, 0]), sitesOf(given).facetCount]"
+    assert ask(node, expression, circle) == [[], None, 0]
     sites = [*lonlat.tolist(), lonlat[7].tolist()]
     step = ask(node, f"(({{ seeing, outline }}) => [seeing, outline])(sitesOf(given).insertion({len(lonlat)}))", sites)
     assert step == [[], []]

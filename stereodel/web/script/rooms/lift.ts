@@ -58,16 +58,12 @@ class LiftRoom extends SiteRoom implements Room {
 
   override attach(section: HTMLElement): void {
     super.attach(section);
-    const paint = (pen: Pen, moving: boolean): void => this.#picture(moving, pen.width, pen.height).draw(pen);
+    const paint = (pen: Pen, moving: boolean): void => this.#picture(moving, pen).draw(pen);
     this.#plate = new Plate(find(section, "#lift-plate"), paint, this.host.guarded);
-    const number = (name: string, typed: (value: number) => void): NumberField =>
-      new NumberField(section, name, 0, typed);
-    const turn = (): void => {
-      this.#turn(field(section, "view-side").valueAsNumber, field(section, "view-height").valueAsNumber);
-    };
+    const number = (name: string, typed: (value: number) => void) => new NumberField(section, name, 0, typed);
     this.#fields = {
-      height: number("view-height", turn),
-      side: number("view-side", turn),
+      height: number("view-height", (height) => this.#turn(this.#state.side, height)),
+      side: number("view-side", (side) => this.#turn(side, this.#state.height)),
       p: number("p", (site) => this.#setPair("p", site - 1)),
       q: number("q", (site) => this.#setPair("q", site - 1)),
     };
@@ -128,10 +124,10 @@ class LiftRoom extends SiteRoom implements Room {
     const { height, side, p, q } = this.#state;
     const isOn = this.shown(isMoving, MANY);
     const view = View.above(side - 90, height);
-    return { sites: this.#sites, sheet: this.#bent, view, height, isOn, isMoving, p, q, lit: this.lit };
+    return { sites: this.#sites, sheet: this.#bent, view, isOn, isMoving, p, q, lit: this.lit };
   }
 
-  #picture(isMoving = false, width = this.#plate.width, height = this.#plate.height): LiftPicture {
+  #picture(isMoving = false, { width, height }: Pick<Pen, "width" | "height"> = this.#plate): LiftPicture {
     return new LiftPicture(this.#scene(isMoving), width, height);
   }
 
@@ -222,7 +218,6 @@ class LiftRoom extends SiteRoom implements Room {
   }
 
   #turn(side: number, height: number, reason: Reason = "state"): void {
-    if (!Number.isFinite(side) || !Number.isFinite(height)) return;
     this.#state = liftFields(this.#sites.count).settle({ ...this.#state, side: wrap(side), height });
     this.#showView();
     this.redraw(reason);

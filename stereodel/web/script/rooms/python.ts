@@ -43,12 +43,12 @@ export function spherePython(
   sizes: Values,
 ): string {
   const { sites, view, bubble, aim, step } = scene;
-  const isOn = (layer: Switch): boolean => step === "done" && scene.isOn(layer);
-  const held = [...((isOn("bubble") && bubble?.sites) || []), ...(step === "done" ? scene.held : [step.site])];
+  const isOn = (layer: Switch): boolean => step === null && scene.isOn(layer);
+  const held = [...((isOn("bubble") && bubble?.sites) || []), ...(step === null ? scene.held : [step.site])];
   const marks = {
     facets: sites.facetCount > 0,
     hemisphere: sites.hasClosing,
-    step: step !== "done" && step.insertion !== null,
+    step: step !== null && step.before.length > 0,
     aimed: bubble !== null,
     held: held.length > 0,
     pole: poleSeen !== null,
@@ -64,8 +64,8 @@ export function spherePython(
     focus: numbers(lonLatOf(state.lens.focus)),
     magnification: state.lens.magnification,
     held: held.join(", "),
-    step: step === "done" ? "" : step.site + 1,
-    count: step === "done" ? "" : step.site + 1,
+    step: step === null ? "" : step.site + 1,
+    count: step === null ? "" : step.site + 1,
   };
   return filled(SPHERE, values, marks, isOn);
 }
@@ -82,7 +82,7 @@ export function liftPython(scene: LiftScene, picture: LiftPicture, origin: Origi
     area: sites.rectangle.width > 0 && sites.rectangle.height > 0,
     letters: p !== undefined,
     pair: q !== undefined && p !== q,
-    pole: picture.seenPole(height) !== null,
+    pole: picture.seenPole !== null,
   };
   const values = {
     points: coordinates(

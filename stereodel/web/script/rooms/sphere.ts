@@ -10,7 +10,6 @@ import { Plate, type Reason } from "../drawing/plate.ts";
 import type { Exchange } from "../exchange.ts";
 import type { Place } from "../fields.ts";
 import type { MoebiusMap } from "../kernel/api.ts";
-import { lazy } from "../kernel/lazy.ts";
 import type { LinkValues } from "../link.ts";
 import type { Room, RoomHost } from "../room.ts";
 import { sphereSets, type Stored } from "../sets.ts";
@@ -24,7 +23,7 @@ import { counted, latitude, longitude, ofFacets, wrap } from "../words.ts";
 import { Choice, PlaceFields, siteForm, stepControl } from "./controls.ts";
 import { edited, SiteRoom, type NamedSites } from "./site_room.ts";
 import { ballDrawing, ballLayers, drawMoved, planeDrawing, poleSeen, sphereParts } from "./sphere_drawing.ts";
-import type { Drawing, Ground, SphereScene, Step } from "./sphere_drawing.ts";
+import type { Drawing, Ground, SphereScene } from "./sphere_drawing.ts";
 import {
   ofBubble,
   ofDuplicates,
@@ -35,6 +34,7 @@ import {
   SphereSites,
   withoutTriangles,
   type Bubble,
+  type Insertion,
 } from "./sphere_sites.ts";
 import {
   BEGINNING,
@@ -46,7 +46,7 @@ import {
   type Click,
   type SphereState,
 } from "./sphere_state.ts";
-import { planeFrame, reachAround, Twin, type PlaneFrame } from "./twin.ts";
+import { planeFrame, reachAround, Twin, type Around, type PlaneFrame } from "./twin.ts";
 
 /** Sites from which on cells are left out while something moves. */
 const MANY = 3_000;
@@ -59,9 +59,6 @@ const SUM = ["on the sphere", "in the plane", "\u00a0*P*"] as const;
 
 /** Pixels within which a site is caught to be moved: nearer than a handle, so that the ball can be turned between sites. */
 const REACH_OF_SITES = 8;
-
-/** Changes by hand that can be undone. */
-const MOST_STEPS_BACK = 100;
 
 /** Between the pictures of a file, px. */
 const GAP = 32;
@@ -82,7 +79,7 @@ interface Picture {
 }
 
 class SphereRoom extends SiteRoom implements Room, Magnifiable {
-  /** Sites as they were before the last changes by hand. */
+  /** Sites as they were before the changes by hand. */
   #history: NamedSites[] = [];
   readonly #motion = new Motion();
   readonly isNorthUp = true;
@@ -96,17 +93,15 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
   #viewFields!: PlaceFields;
 
   #state = BEGINNING;
-  #reach = 1;
-  #middle: Point = [0, 0];
+  #around: Around = { reach: 1, middle: [0, 0], outside: 0 };
 
   // What follows from the state; made anew when it changes.
-  #mapped: (Pick<SphereState, "lens" | "view"> & { readonly map: MoebiusMap }) | null = null;
   #sites = new SphereSites(new Float64Array(0));
   #layers = ballLayers(this.#sites);
   readonly #standing: Named["standing"] = new Map();
   #twin = new Twin([0, 0, 1]);
   #seeing: Uint8Array = new Uint8Array(0);
-  #step: Step | "done" = "done";
+  #step: Insertion | null = null;
   #bubble: Bubble | null = null;
 
   override attach(section: HTMLElement): void {
@@ -115,7 +110,7 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
     this.#ball = this.#plate("ball", () => ballDrawing(this.disc));
     this.#plane = this.#plate("plane", () => planeDrawing(this.#frame));
     this.#poleFields = new PlaceFields(section, "pole", (place) => guarded(() => this.#movePole(place)));
-    this.#viewFields = new PlaceFields(section, "view", (place) => guarded(() => this.#turn(place)));
+    this.#viewFields = new PlaceFields(section, "view", (place) => guarded(() => this.turn(View.above(...place))));
     this.#click = new Choice(section, "click", () => this.host.changed());
     this.#showStep = stepControl(section, (count) => guarded(() => this.#setStep(count)));
     this.#showSite = siteForm(section, {
@@ -136,12 +131,12 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
     let ground: Ground;
     const paint = (pen: Pen, isMoving: boolean): void => {
       const scene = this.#scene(isMoving);
-      ground = lazy<Ground>({ sites: () => scene.sites, round: () => drawing().round(scene), inks: () => pen.inks });
+      ground = { scene, inks: pen.inks };
       drawing().draw(pen, scene, "ground");
     };
     const over = (pen: Pen, isMoving: boolean): void => {
       const scene = this.#scene(isMoving);
-      if (ground.sites !== scene.sites) drawMoved(pen, drawing(), scene, ground, this.#held!);
+      if (ground.scene.sites !== scene.sites) drawMoved(pen, drawing(), scene, ground, this.#held!);
       drawing().draw(pen, scene, "over");
     };
     const canvas = find<HTMLCanvasElement>(this.section, `#sphere-${which}`);
@@ -199,26 +194,20 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
     find(this.section, "[data-show=closing]").hidden = !sites.hasClosing;
     const label = `Sphere with ${counted(sites.count)} ${sites.count === 1 ? "site" : "sites"}`;
     this.#ball.canvas.setAttribute("aria-label", label);
-    this.#project();
-    if (reason === "state") this.#rescale();
+    this.#project(reason === "state");
     this.#update(reason);
   }
 
-  /** The pole has moved, or the sites. */
-  #project(): void {
+  /** The pole has moved, or the sites. The frame of the plane holds nearly all of these; it changes when the hand rests. */
+  #project(rests: boolean): void {
     const pole = directionAt(this.#state.pole);
     this.#twin = new Twin(pole);
     this.#seeing = this.#sites.seeing(pole);
-  }
-
-  /** The frame of the plane holds nearly all sites; it changes only when the hand rests. */
-  #rescale(): void {
-    const { reach, middle, outside } = reachAround(this.#sites, this.#twin);
-    [this.#reach, this.#middle] = [reach, middle];
-    this.out("outside").textContent =
-      outside === 0
-        ? ""
-        : `${outside === 1 ? "One site lies" : `${counted(outside)} sites lie`} outside the frame, near the pole.`;
+    if (!rests) return;
+    this.#around = reachAround(this.#sites, this.#twin);
+    const { outside } = this.#around;
+    const words = `${counted(outside)} ${outside === 1 ? "site lies" : "sites lie"} outside the frame, near the pole.`;
+    this.out("outside").textContent = outside === 0 ? "" : words;
   }
 
   // Drawing and words
@@ -235,7 +224,7 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
   /** Everything that is said and drawn, after the state has changed. */
   #update(reason: Reason = "state"): void {
     this.#bubble = this.#findBubble();
-    this.#step = this.#findStep();
+    this.#step = this.#state.step === null ? null : this.#sites.insertion(this.#state.step - 1);
     this.#say();
     this.redraw(reason);
   }
@@ -244,15 +233,6 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
     if (!this.switches.isOn("bubble") || this.#state.step !== null) return null;
     const facet = this.#sites.facetAt(this.#state.aim);
     return facet === null ? null : this.#sites.bubble(facet);
-  }
-
-  #findStep(): Step | "done" {
-    if (this.#state.step === null) return "done";
-    const site = this.#state.step - 1;
-    const insertion = this.#sites.insertion(site);
-    const seeing = (facets: Int32Array | undefined): Uint8Array =>
-      facets === undefined ? new Uint8Array(0) : this.#sites.seeing(this.#twin.pole, facets);
-    return { site, insertion, beforeSeeing: seeing(insertion?.before), fanSeeing: seeing(insertion?.fan) };
   }
 
   #scene(isMoving: boolean): SphereScene {
@@ -275,16 +255,20 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
   #say(): void {
     const [sites, step, held] = [this.#sites, this.#step, this.#held];
     const alone = withoutTriangles(sites);
-    const ofAll = alone ?? (this.#bubble === null ? POINT : ofBubble(this.#bubble, sites, this.#twin));
-    const words = step === "done" ? [ofAll, ofDuplicates(sites)] : [ofStep(step.insertion, step.site)];
+    const ofAll =
+      alone ??
+      (this.#bubble === null
+        ? "Point at a triangle for the circle round it."
+        : ofBubble(this.#bubble, sites, this.#twin));
+    const words = step === null ? [ofAll, ofDuplicates(sites)] : [ofStep(step)];
     say(this.out("sentence"), words.filter(Boolean).join(" "));
     say(this.out("sum"), alone === null ? ofFacets(sites.facetCount - this.#seeingCount, this.#seeingCount, SUM) : "");
-    this.out("sum").hidden = step !== "done" || alone !== null;
-    const isDrawn = (layer: Switch): boolean => alone === null && step === "done" && this.isOn(layer);
-    const steps = step !== "done" && step.insertion !== null;
+    this.out("sum").hidden = step !== null || alone !== null;
+    const isDrawn = (layer: Switch): boolean => alone === null && step === null && this.isOn(layer);
+    const steps = step !== null && step.before.length > 0;
     const [onBall, inPlane] = ofPictures({
       triangles: steps || isDrawn("triangles"),
-      cells: isDrawn("cells") || (sites.delaunay.dimension === 1 && step === "done" && this.isOn("cells")),
+      cells: isDrawn("cells") || (sites.delaunay.dimension === 1 && step === null && this.isOn("cells")),
       seeing: isDrawn("seeing") && this.#seeingCount > 0,
       steps,
     });
@@ -321,18 +305,17 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
 
   /** Through the lens, to the axes of the view. */
   get #map(): MoebiusMap {
-    const { lens, view } = this.#state;
-    if (this.#mapped?.lens !== lens || this.#mapped.view !== view)
-      this.#mapped = { lens, view, map: sightMap(this.sight) };
-    return this.#mapped.map;
+    return sightMap(this.sight);
   }
 
   get #frame(): PlaneFrame {
-    return planeFrame(1, 1, Math.min(this.#plane.width, this.#plane.height) - 2, this.#reach, this.#middle);
+    return planeFrame(1, 1, Math.min(this.#plane.width, this.#plane.height) - 2, this.#around);
   }
 
-  turn(view: View, reason: Reason): void {
-    this.#turn(view.middle, reason);
+  /** Turns the ball, and says it. */
+  turn({ middle: [lon, lat] }: View, reason: Reason = "state"): void {
+    this.#see([lon, lat], reason);
+    this.host.announcer.say(`Seen from ${latitude(lat, 0)}, ${longitude(lon, 0)}`);
   }
 
   see({ lens, view }: Sight, reason: Reason = "hand"): void {
@@ -384,7 +367,7 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
     let isFirst = true;
     return {
       move: (to) => {
-        if (isFirst) this.#note();
+        if (isFirst) this.#history.push(this.named);
         isFirst = false;
         this.host.guarded(() => this.#moveSite(site, this.#onBall.under(to), "pointer"));
       },
@@ -431,7 +414,7 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
   /** The hand has let go: the frame fits again, and what was left out is drawn. */
   #rest(): void {
     this.host.guarded(() => {
-      this.#rescale();
+      this.#project(true);
       this.#update();
     });
     this.host.changed();
@@ -447,12 +430,6 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
     this.host.changed();
   }
 
-  /** Turns the ball, and says it. */
-  #turn(place: Place, reason: Reason = "state"): void {
-    this.#see(place, reason);
-    this.host.announcer.say(`Seen from ${latitude(place[1], 0)}, ${longitude(place[0], 0)}`);
-  }
-
   /** Flies to another view; why is for others to say. */
   #fly(to: Place): void {
     const from = this.#state.view;
@@ -464,8 +441,7 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
 
   #movePole(place: Place, rests = true): void {
     this.#put({ pole: place });
-    this.#project();
-    if (rests) this.#rescale();
+    this.#project(rests);
     this.#update(rests ? "state" : "hand");
     this.host.changed();
     const seeing = this.#seeingCount;
@@ -499,20 +475,15 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
     this.#edit(edited(this.named, site, [lon, lat]), site, words, reason);
   }
 
-  /** Keeps the sites to go back to. */
-  #note(): void {
-    this.#history = [...this.#history.slice(1 - MOST_STEPS_BACK), this.named];
-  }
-
   #moveHeld(place: Place): void {
     if (this.#held === null) return;
-    this.#note();
+    this.#history.push(this.named);
     this.#moveSite(this.#held, directionAt(place));
   }
 
   #add(direction: Vector): void {
     const { count } = this.#sites;
-    this.#note();
+    this.#history.push(this.named);
     this.#edit(edited(this.named, count, handPlace(lonLatOf(direction), this.#state.lens.magnification)), count, () => {
       const same = this.#sites.sameAs(count);
       return same === null
@@ -524,7 +495,7 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
 
   #remove(site: number | null): void {
     if (site === null) return;
-    this.#note();
+    this.#history.push(this.named);
     this.#edit(edited(this.named, site, null), null, () => `Site ${site + 1} removed`);
   }
 
@@ -543,7 +514,7 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
 
   #setStep(step: number | null): void {
     this.#set({ step }, null);
-    if (this.#step !== "done") this.host.announcer.say(ofStep(this.#step.insertion, this.#step.site));
+    if (this.#step !== null) this.host.announcer.say(ofStep(this.#step));
   }
 
   // Keys
@@ -551,7 +522,7 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
   #key(event: KeyboardEvent): boolean {
     this.#motion.stop();
     const view = arrowed(this, event);
-    const action = view === null ? this.#keyed(event) : () => this.#turn(view.middle);
+    const action = view === null ? this.#keyed(event) : () => this.turn(view);
     if (action !== null) this.host.guarded(action);
     return action !== null;
   }
@@ -601,7 +572,7 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
     const size = this.#ball.width;
     const { disc } = this;
     const scene = this.#scene(false);
-    const frame = planeFrame(size + GAP + 1, 1, size - 2, this.#reach, this.#middle);
+    const frame = planeFrame(size + GAP + 1, 1, size - 2, this.#around);
     return {
       title: this.title,
       width: 2 * size + GAP,
@@ -622,12 +593,12 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
   }
 
   python(exchange: Exchange): string {
-    const sizes = { size: this.#ball.width, ball: this.disc.r, reach: this.#reach, gap: GAP };
+    const sizes = { size: this.#ball.width, ball: this.disc.r, gap: GAP, ...this.#around };
     const scene = this.#scene(false);
     const pole = poleSeen(this.#map, this.#twin);
-    return exchange.spherePython(scene, this.#state, pole, this.origin, { ...sizes, middle: this.#middle.join(", ") });
+    return exchange.spherePython(scene, this.#state, pole, this.origin, {
+      ...sizes,
+      middle: this.#around.middle.join(", "),
+    });
   }
 }
-
-/** What is said of sites with triangles while no bubble is drawn. */
-const POINT = "Point at a triangle for the circle round it.";
