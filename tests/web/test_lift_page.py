@@ -88,10 +88,9 @@ def test_tables_of_a_plane_are_opened_and_asked_about(room, tmp_path):
 
     file.write_text("x,y\n1,2\n")
     opened(page, "lift", file)
-    assert output(page, "separation") == "Two sites are needed."
+    assert (output(page, "separation"), output(page, "count")) == ("Two sites are needed.", "The site")
     assert [page.page.input_value(f"{ROOM} input[name={letter}]") for letter in "pq"] == ["", ""]
-    assert output(page, "count") == "The site"
-    assert page.page.locator(PLATE).get_attribute("aria-label") == "Sheet with 1 site, and ball"
+    assert page.page.get_attribute(PLATE, "aria-label") == "Sheet with 1 site, and ball"
 
 
 MARKS = f"""[...document.querySelectorAll("{ROOM} .bounds .mark-at")]

@@ -3,8 +3,8 @@
 /** Side of the squares in which ink is measured, pixels. */
 export const SQUARE = 24;
 
-/** What covers more than it may is weaker by steps, so much each. */
-const STEP = 0.8;
+/** What covers more than it may is weaker by steps, so much each, where there are more than a few lines or dots. */
+const [STEP, FEW] = [0.8, 1000];
 
 /** Ink by squares of a drawing, with a row and a column round it that have none. */
 export class Ink {
@@ -31,7 +31,7 @@ export class Ink {
     visit: (part: number, numbers: readonly number[]) => void,
   ): void {
     const groups: number[][] = [];
-    const steps = (this.#steps ??= this.#measured(places, row, area, most));
+    const steps = (this.#steps ??= this.#measured(places, row, area, places.length > row * FEW ? most : Infinity));
     for (let k = 0; row * k < places.length; ++k) {
       // Between the middles of four squares, so that these are not seen.
       const [u, v] = [places[row * k] / SQUARE - 0.5, places[row * k + 1] / SQUARE - 0.5];

@@ -310,6 +310,7 @@ export class GlobeRoom extends TableRoom implements Room, GlobeHost {
     this.#lens.value = this.#state.lens;
     field(this.section, "mag").value = String(SLIDER_TEN * Math.log10(magnification));
     this.out("mag").textContent = scale(magnification);
+    field(this.section, "mag").ariaValueText = `${scale(magnification)} times`;
     this.#focus.value = lonLatOf(this.#state.lens === "bubble" ? from.center : sight.lens.focus);
     [this.#radii.from.value, this.#radii.to.value] = [from.radius, to.radius];
     this.out("tissot").hidden = !this.switches.isOn("tissot");

@@ -180,7 +180,14 @@ export function ballDrawing(disc: Disc): Drawing {
           if (rim === null || point[2] < LEAST_HEIGHT) return null;
           return [point[0] - rim.n[0], point[1] - rim.n[1]];
         },
-        opening: (path, step) => surface.region(path, step.outline, holdsDirection(step, sites, hidden)),
+        opening: (path, { before, seeing }) =>
+          seeing.forEach((facet) => {
+            const three = [...before.subarray(3 * facet, 3 * facet + 3)];
+            const [a, b, c] = three.map(site);
+            const normals = [cross(a, b), cross(b, c), cross(c, a)];
+            const holds = normals.every((n) => dot(n, hidden) >= 0);
+            if (dot(normals[0], c) > 0) surface.region(path, three, holds); // others only close the hull
+          }),
       };
       if (stratum === "ground") pen.ball(disc, "ball");
       drawStratum(pen, ball, scene, stratum);
@@ -295,14 +302,6 @@ function drawStep(pen: Pen, on: Picture, { sites, twin }: SphereScene, step: Ins
   );
   balls.drawDots(pen, on, "site", Array(site + 1).keys());
   balls.drawDots(pen, on, "held", [site]);
-}
-
-/** Whether the region of the facets that see a new site holds a direction. */
-function holdsDirection({ before, seeing }: Insertion, sites: SphereSites, direction: Vector): boolean {
-  return seeing.some((facet) => {
-    const [a, b, c] = [0, 1, 2].map((k) => sites.site(before[3 * facet + k]));
-    return [cross(a, b), cross(b, c), cross(c, a)].every((normal) => dot(direction, normal) >= 0);
-  });
 }
 
 /** Magnification up to which the pole is shown behind: above it all that is behind is one point. */

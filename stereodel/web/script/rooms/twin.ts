@@ -7,6 +7,9 @@ import type { SphereSites } from "./sphere_sites.ts";
 /** Cosines nearer to each other than this are those of a circle through the pole: its radius would be 1e12 ball radii. */
 const THROUGH_POLE = 1e-12;
 
+/** Where the plane ends, ball radii. */
+const FAR = 1e9;
+
 /**
  * The projection from `pole`, in ball radii, with the axes of the library's `Stereographic`: u east and v north at the
  * point of contact.
@@ -26,10 +29,12 @@ export class Twin {
     this.#north = [-Math.sin(lat) * Math.cos(lon), -Math.sin(lat) * Math.sin(lon), Math.cos(lat)];
   }
 
-  /** The image of a point of the sphere; infinite at the pole. */
+  /** The image of a point of the sphere; that of the pole is `FAR` away. */
   forward(point: Vector): [number, number] {
-    const stretch = 2 / (1 + dot(point, this.#south));
-    return [stretch * dot(point, this.#east), stretch * dot(point, this.#north)];
+    const [x, y, z] = this.pole;
+    const away: Vector = [point[0] - x, point[1] - y, point[2] - z]; // of the pole itself without rounding
+    const stretch = 4 / dot(away, away);
+    return stretch === Infinity ? [FAR, FAR] : [stretch * dot(away, this.#east), stretch * dot(away, this.#north)];
   }
 
   /** The point of the sphere with this image. */
@@ -89,11 +94,11 @@ export function reachAround(sites: SphereSites, twin: Twin): Around {
   const images = Array.from({ length: sites.count }, (_, k) => twin.forward(sites.site(k)));
   const frameAbout = (middle: Point): Around => {
     const away = ([u, v]: Point): number => Math.max(Math.abs(u - middle[0]), Math.abs(v - middle[1]));
-    const sizes = Float64Array.from(images, away).sort();
+    const sizes = Float64Array.from(images.map(away).filter((size) => size < FAR / 2)).sort();
     const nearly = sizes[Math.floor(((OUTSIDE - 1) / OUTSIDE) * (sizes.length - 1))] ?? 1;
     const all = sizes[sizes.length - 1] ?? 1;
     const reach = ROOM * (all < 2 * nearly ? all : nearly) || 1;
-    return { reach, middle, outside: sizes.filter((size) => size > reach).length };
+    return { reach, middle, outside: images.length - sizes.filter((size) => size <= reach).length };
   };
   const half = (k: 0 | 1): number => Float64Array.from(images, (image) => image[k]).sort()[images.length >> 1] ?? 0;
   const [about, own] = [frameAbout([0, 0]), frameAbout([half(0), half(1)])];
