@@ -22,7 +22,7 @@ BUILD := $(BIN)/python -m tools.build --scripts figures --out $(OUT) $(if $(STYL
 
 .PHONY: help install system opengl browser librsvg inkscape figures poster animations test test-thorough test-large mutations coverage \
 	test-source test-pythons test-lowest sanitize fuzz fuzz-files check \
-	lint web built stub bench dist dist-again source check-archives wheels cross baselines names readme-images web-images docs clean
+	lint web built stub bench peers dist dist-again source check-archives rehearse wheels cross baselines names readme-images web-images docs clean
 
 help: ## list the targets
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1|\2/p' $(firstword $(MAKEFILE_LIST)) | column -t -s '|'
@@ -102,6 +102,7 @@ lint: $(VENV)/installed-lint ## what check does, without the documentation
 	$(BIN)/ruff check .
 	$(BIN)/mypy
 	$(BIN)/python tools/kernel_stub.py --check
+	$(BIN)/python -m tools.bill --check
 	$(BIN)/python tools/tracked_text.py
 	PATH=$(CURDIR)/$(BIN):$$PATH npm --prefix stereodel/web/script --silent run check
 	$(BIN)/zizmor --offline --quiet --strict-collection .github
@@ -120,6 +121,10 @@ bench: $(VENV)/installed-library ## measure against other libraries, which are i
 	$(BIN)/python -m benchmarks
 	$(BIN)/python -m benchmarks.rasters
 
+peers: $(VENV)/installed-test ## run the lines of the pages for users of other libraries, with those libraries
+	benchmarks/install_peers.sh
+	$(BIN)/python -m pytest $(PYTEST_ARGS) tests/peers.py
+
 dist: $(VENV)/installed-wheels opengl ## source archive, wheel and npm archive into dist/, each tried as users get it
 	tools/dist.sh $(VENV)
 
@@ -131,6 +136,9 @@ source: $(VENV)/installed-wheels ## the source archive into dist/
 
 check-archives: $(VENV)/installed-wheels ## check the archives in dist/: their texts, and the interface of wheels for several Pythons
 	tools/check_archives.sh $(VENV)
+
+rehearse: $(VENV)/installed-wheels opengl ## a release as if it were published: bare roots, a local index and a local registry; ends with a table of what was tried
+	tools/rehearse.sh $(VENV)
 
 MACHINES := x86_64 aarch64
 wheels: $(VENV)/installed-wheels ## source archive and wheels for Linux on MACHINES into dist/, by zig, checked and tried on each Python found

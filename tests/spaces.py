@@ -17,8 +17,7 @@ import pytest
 from hypothesis import strategies as st
 
 from stereodel import HullInsertion, PlanarDelaunay, PlanarVoronoi, SphericalDelaunay, SphericalVoronoi, _kernel
-from stereodel import _kernel_probe as probe
-from stereodel.predicates import orient2d
+from stereodel.predicates import orient2d, orient3d
 from stereodel.triangulation import check_delaunay
 from stereodel.triangulation.sites import PlaneSites, RaySites
 from tests.reference import ray, sign_of_roots
@@ -101,7 +100,7 @@ class Space:
 
     def sides(self, a, b, queries):
         """On which sides of edges queries lie."""
-        return orient2d(a, b, queries) if self.width == 2 else probe.turn(a, b, queries)
+        return orient2d(a, b, queries) if self.width == 2 else turn(a, b, queries)
 
     def lowest_holder(self, points, simplices, query):
         """The lowest triangle that holds a query, boundary included, by asking all; on the sphere, not closing ones."""
@@ -109,8 +108,13 @@ class Space:
         queries = np.broadcast_to(np.asarray(query, dtype=float), corners[:, 0].shape)
         holds = np.all([self.sides(corners[:, k - 2], corners[:, k - 1], queries) >= 0 for k in range(3)], axis=0)
         if self.width == 3:
-            holds &= probe.turn(*np.moveaxis(corners, 1, 0).copy()) > 0
+            holds &= turn(*np.moveaxis(corners, 1, 0)) > 0
         return int(np.flatnonzero(holds)[0]) if holds.any() else -1
+
+
+def turn(a, b, c):
+    """On which side of the great circle from direction a to b each c lies."""
+    return orient3d(np.zeros_like(a), a, b, c)
 
 
 PLANE = Space("plane", 2, _kernel.plane, PlanarDelaunay, PlanarVoronoi)

@@ -1,10 +1,12 @@
 """The check of `make dist`: what must be in the source archive and in the wheel, and what must not."""
 
+import json
 import os
 import re
 import shutil
 import subprocess
 import sys
+import zipfile
 from importlib.metadata import distribution
 from pathlib import Path
 
@@ -81,10 +83,27 @@ def test_what_is_compiled_in_has_its_notice():
     assert [line for line in rights if line not in notices] == []
 
 
+def test_a_wheel_whose_data_are_not_those_of_its_bill_is_refused(tmp_path):
+    bill = (ROOT / "NOTICES.cdx.json").read_bytes()
+    listed = [part["name"] for part in json.loads(bill)["components"] if part.get("type") == "data"]
+    assert len(listed) > 10
+
+    def problems(changed=None, named="NOTICES.cdx.json"):
+        with zipfile.ZipFile(tmp_path / "made.whl", "w") as wheel:
+            wheel.writestr(f"stereodel-1.dist-info/sboms/{named}", bill)
+            for name in listed:
+                wheel.writestr(name, b"" if name == changed else (ROOT / name).read_bytes())
+            return archives.bill_problems(wheel)
+
+    assert problems() == []
+    assert set(problems(changed=listed[0])) == {f"not as the bill of materials says: {listed[0]}"}
+    assert problems(named="other.json") == ["no bill of materials in the wheel"]
+
+
 # The README in the metadata
 
 WHERE = "https://example.invalid/stereodel"
-ADDRESS = f'[project.urls]\nSource = "{WHERE}"\n\n'
+ADDRESS = "[project.urls]\n" + "".join(f'{name} = "{WHERE}"\n' for name in readme_metadata.ADDRESSES) + "\n"
 
 
 def long_description(folder, *, address="", publication=""):
@@ -124,7 +143,10 @@ def test_an_index_shows_pictures_and_links_of_the_readme(tmp_path):
 @pytest.mark.thorough
 def test_without_an_address_the_readme_is_that_of_the_repository_and_nothing_is_published(tmp_path):
     assert long_description(tmp_path / "a").strip() == (ROOT / "README.md").read_text(encoding="utf-8").strip()
-    assert "pyproject.toml has no Source in project.urls" in long_description(tmp_path / "b", publication="1")
+    without = "project.urls of pyproject.toml lacks Homepage, Documentation, Source, Issues, Changelog:"
+    assert without in long_description(tmp_path / "b", publication="1")
+    all_but_one = ADDRESS.replace("Issues", "Other")
+    assert "lacks Issues:" in long_description(tmp_path / "c", address=all_but_one, publication="1")
 
 
 @pytest.mark.parametrize("text", ["`[a](b.md)`", "```\n[a](b.md)\n```", "[a](https://b.invalid)", "[a](#b)"])

@@ -64,6 +64,24 @@ def test_the_citation_has_what_its_form_asks_for():
     assert str(cited["version"]) == stereodel.__version__
 
 
+def test_the_npm_package_has_the_version_too():
+    assert json.loads(read("stereodel/web/script/package.json"))["version"] == stereodel.__version__
+
+
+def test_the_release_page_says_what_the_changelog_says():
+    def notes(version):
+        line = [ROOT / "tools" / "release_notes.sh", version]
+        return subprocess.run(line, capture_output=True, text=True, check=False)
+
+    said = notes("Unreleased").stdout
+    assert said.startswith("### ")
+    assert "\n## [" not in said
+    assert said.strip() in read("CHANGELOG.md")
+    nothing = notes("99.0.0")
+    assert (nothing.returncode, nothing.stdout) == (1, "")
+    assert "nothing under the heading [99.0.0]" in nothing.stderr
+
+
 def test_classifiers_are_the_pythons_that_are_allowed():
     allowed = SpecifierSet(PROJECT["project"]["requires-python"])
     assert len(PYTHONS) >= 4
@@ -84,7 +102,7 @@ def test_classifiers_are_the_pythons_that_are_allowed():
     ["CITATION.cff", "SECURITY.md", "CODE_OF_CONDUCT.md", "paper/paper.md", "paper/paper.bib", "conda/recipe.yaml"],
 )
 def test_no_address_and_no_identifier(path):
-    """They are known at publication; docs/development.md lists them."""
+    """They are known at publication; docs/publishing.md lists them."""
     text = read(path)
     assert not re.search(r"[\w.]+@[\w-]+\.\w+", text)
     assert not re.search(r"(?i)\b(?:doi|orcid|swhid)\b", text)
@@ -195,7 +213,9 @@ def test_only_the_job_that_publishes_may_prove_who_it_is():
 
 def test_publication_waits_for_the_tests_and_asks_for_texts_fit_for_it():
     jobs = workflow("release")["jobs"]
-    assert set(wanted(jobs["publish"])) == set(jobs) - {"publish"} == {"version", "archives", "tests", "wheels"}
+    before = {"version", "archives", "tests", "wheels"}
+    assert set(wanted(jobs["publish"])) == set(jobs) - {"publish", "page"} == before
+    assert wanted(jobs["page"]) == ["publish"]
     assert jobs["wheels"]["with"] == {"publication": True}
     assert workflow("wheels")["env"] == {"STEREODEL_PUBLICATION": "${{ inputs.publication && '1' || '' }}"}
     # Of Linux the wheels are built in a container, which gets what is named.

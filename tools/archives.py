@@ -1,13 +1,16 @@
 """Check what the source archive and the wheel hold.
 
 The archive: every tracked file but stored pictures, without which its tests do. The wheel: the package with its stub,
-its compiled kernel, what was built for the interactive page and the licences, and no source of either.
+its compiled kernel, what was built for the interactive page, the licences and the bill of materials, which names each
+file of data by its checksum, and no source of either.
 
     python tools/archives.py ARCHIVE WHEEL
 """
 
 from __future__ import annotations
 
+import hashlib
+import json
 import subprocess
 import sys
 import tarfile
@@ -41,6 +44,22 @@ def wheel_problems(names: set[str], tracked: set[str]) -> list[str]:
     return found if len(kernels) == 1 else [*found, f"one compiled kernel wanted, not {sorted(kernels)}"]
 
 
+def bill_problems(wheel: zipfile.ZipFile) -> list[str]:
+    """Where the wheel's bill of materials is not of what is in it."""
+    names = [member.filename for member in wheel.infolist() if not member.is_dir()]
+    bills = [name for name in names if name.endswith(".dist-info/sboms/NOTICES.cdx.json")]
+    if len(bills) != 1:
+        return ["no bill of materials in the wheel"]
+    listed = {
+        part["name"]: each["content"]
+        for part in json.loads(wheel.read(bills[0]))["components"]
+        for each in part.get("hashes", [])
+    }
+    data = [name for name in names if name.startswith("stereodel/data/") and not name.endswith((".py", ".json", ".md"))]
+    found = {name: hashlib.sha256(wheel.read(name)).hexdigest() for name in data}
+    return [f"not as the bill of materials says: {name}" for name, _ in sorted(listed.items() ^ found.items())]
+
+
 def main(archive: str, wheel: str) -> None:
     """Report; end with 1 where something is wrong."""
     listing = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, capture_output=True, text=True, check=True)
@@ -48,7 +67,7 @@ def main(archive: str, wheel: str) -> None:
     with tarfile.open(archive) as source, zipfile.ZipFile(wheel) as built:
         members = {member.name.partition("/")[2] for member in source.getmembers() if member.isfile()}
         packed = {member.filename for member in built.infolist() if not member.is_dir()}
-        found = archive_problems(members, tracked) + wheel_problems(packed, tracked)
+        found = archive_problems(members, tracked) + wheel_problems(packed, tracked) + bill_problems(built)
     print(f"{len(members)} files in {archive}, {len(packed)} in {wheel}")
     sys.exit("\n".join(found) or 0)
 

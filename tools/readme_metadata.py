@@ -2,7 +2,8 @@
 
 The build backend calls `dynamic_metadata` (``tool.dynamic-metadata`` in pyproject.toml). The address of the sources is
 ``Source`` of ``project.urls``. Without it links stay as they are in the repository, but a build for publication, with
-``STEREODEL_PUBLICATION=1`` in the environment, fails: what an index has been given stays as it is.
+``STEREODEL_PUBLICATION=1`` in the environment, fails where it or another address is missing: what an index has been
+given stays as it is.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ from typing import Any
 
 README = Path(__file__).resolve().parent.parent / "README.md"
 PUBLICATION = "STEREODEL_PUBLICATION"
+ADDRESSES = ("Homepage", "Documentation", "Source", "Issues", "Changelog")
 CODE = re.compile(r"^```.*?^```$|`[^`\n]*`", re.MULTILINE | re.DOTALL)
 LINK = re.compile(r'(!?\[[^\[\]]*\]\(|\b(?:src|href)=")(?![a-z]+:|#)([^)"\s]+)')
 """Paths within the repository, in Markdown and in HTML."""
@@ -22,11 +24,13 @@ LINK = re.compile(r'(!?\[[^\[\]]*\]\(|\b(?:src|href)=")(?![a-z]+:|#)([^)"\s]+)')
 
 def dynamic_metadata(settings: Mapping[str, Any], project: Mapping[str, Any]) -> dict[str, Any]:
     """The fields of ``project`` that this provider adds; `project` has the version already."""
-    source = project.get("urls", {}).get("Source", "")
-    if os.environ.get(PUBLICATION) and not source:
+    urls = project.get("urls", {})
+    source = urls.get("Source", "")
+    missing = [name for name in ADDRESSES if not urls.get(name)]
+    if os.environ.get(PUBLICATION) and missing:
         raise RuntimeError(
-            f"{PUBLICATION} is set, but pyproject.toml has no Source in project.urls: an index would show the README "
-            "without its pictures; add the address of the sources"
+            f"{PUBLICATION} is set, but project.urls of pyproject.toml lacks {', '.join(missing)}: an index would show "
+            "the README without its pictures, and lead nowhere; docs/publishing.md says what else is missing"
         )
     text = README.read_text(encoding="utf-8")
     if source:

@@ -1,10 +1,17 @@
 #!/usr/bin/env bash
-# Usage: tools/try_wheel.sh PYTHON WHEEL
-# Try a wheel as users get it, in a new environment of PYTHON and with no compiler to be found: with NumPy alone, with
-# the command line, then by the README's first line, after which all its commands and pictures must come out.
+# Usage: tools/try_wheel.sh PYTHON WHEEL|INDEX
+# Try a wheel, or what an index at an address has, as users get it, in a new environment of PYTHON and with no compiler to
+# be found: with NumPy alone, with the command line, then by the README's first line, after which all its commands and
+# pictures must come out.
 source "$(dirname "${BASH_SOURCE[0]}")/shell.sh"
 python=$1
-wheel=$(cd "$(dirname "$2")" && pwd)/${2##*/}
+if [[ $2 == http* ]]; then
+    first=stereodel
+    where=(--extra-index-url "$2")
+else
+    first=$(cd "$(dirname "$2")" && pwd)/${2##*/}
+    where=(--find-links "${first%/*}")
+fi
 root=$PWD
 pins=$PWD/constraints.txt
 work=$(mktemp -d)
@@ -22,7 +29,7 @@ for compiler in cc c++ gcc g++ clang clang++ cmake ninja make; do
 done
 install() {
     bare python -m pip --disable-pip-version-check -qq install --only-binary :all: --constraint "$pins" \
-        --find-links "${wheel%/*}" "$1"
+        "${where[@]}" "$1"
 }
 refused() { if bare "$@" >said 2>&1; then die "$* should fail"; fi; }
 advice() { bare python -c 'import sys; from stereodel._extras import installing; print(installing(sys.argv[1]))' "$1"; } # EXTRA
@@ -30,7 +37,7 @@ expect() { grep -qF -- "$2" "$1" || { cat "$1" >&2; die "no $2 in the above"; };
 cd "$work"
 printf 'name,lon,lat\nQuito,-78.5,-0.2\nUlm,10.0,48.4\nKyoto,135.8,35.0\nPerth,115.9,-32.0\n' >cities.csv
 
-install "$wheel"
+install "$first"
 site=$(bare python -c 'import sysconfig; print(sysconfig.get_path("purelib"))')
 # Without bytecode, and without pip, which the environment brings of itself.
 megabytes=$(find "$site" -type f ! -name '*.pyc' ! -path '*/pip/*' ! -path '*/setuptools/*' -printf '%s\n' |

@@ -17,7 +17,6 @@ from collections.abc import Mapping, Sequence
 from functools import cache
 from importlib import resources
 from pathlib import Path
-from types import MappingProxyType
 from typing import Final
 
 import numpy.typing as npt
@@ -109,8 +108,7 @@ def web(
     if given is None and looks.said:
         raise ValueError(f"{looks.said[0]} is of points; give lonlat, too")
     own = {} if given is None else looks.blocks(given.lonlat, latitude)
-    text = html(resolution, given, latitude, own)
-    write_whole(path, text)
+    write_whole(path, html(resolution, given, latitude, own))
     return Path(path)
 
 
@@ -118,18 +116,15 @@ def html(
     resolution: str,
     given: Given | None = None,
     latitude: Latitude = "authalic",
-    own: Mapping[str, str] = MappingProxyType({}),
+    own: Mapping[str, str] | None = None,
 ) -> str:
     """The page as HTML: land at a resolution, optional points, the latitude of places, and what their owner says."""
     script, style = (_inline(built(f"page.{kind}").decode("utf-8")) for kind in ("js", "css"))
     later = {name: built(f"{name}.js") for name in ("exchange", "lift")}  # what files take, and the second room
     sources = [_source(code) for code in (script, *(code.decode("utf-8") for code in later.values()))]
     policy = POLICY.format(script=" ".join(sources), style=_source(style))
-    carried = (
-        contents(resolution, given, latitude=latitude)
-        | dict(own)
-        | {name: packed(code) for name, code in later.items()}
-    )
+    carried = contents(resolution, given, latitude=latitude) | dict(own or {})
+    carried |= {name: packed(code) for name, code in later.items()}
     scripts = [f'<script type="text/plain" id="block-{name}">{text}</script>' for name, text in carried.items()]
     scripts.append(f"<script>{script}</script>")
     page = template()

@@ -15,12 +15,12 @@ from typing import Any, Final
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import FloatArray
+from stereodel._arrays import FloatArray, Indices
 from stereodel.curves.ragged import Ragged
 from stereodel.drawing.page import Page
 from stereodel.drawing.page.colors import ColorLike, as_color
-from stereodel.drawing.page.scales import ColorScale
-from stereodel.drawing.page.style import MAP_DOT, LengthLike
+from stereodel.drawing.page.scales import ColorScale, SizeScale
+from stereodel.drawing.page.style import MAP_DOT, LengthLike, as_length
 from stereodel.drawing.scene.by_value import DotLooks, ScaleLike
 from stereodel.drawing.scene.legend import LegendEntry, with_legend
 from stereodel.interpolation import contours
@@ -61,7 +61,7 @@ class Looks:
     def said(self) -> list[str]:
         """Names of what is said."""
         return [
-            name for name, part in vars(self).items() if part is not None and not (isinstance(part, str) and not part)
+            name for name, part in vars(self).items() if not (part is None or (isinstance(part, str) and part == ""))
         ]
 
     def blocks(self, lonlat: FloatArray, latitude: Latitude) -> dict[str, str]:
@@ -73,7 +73,9 @@ class Looks:
         lines: dict[str, str] = {}
         if scales and len(lonlat) <= MOST_CONTOURED:
             lines = _isolines(lonlat, np.asarray(self.values, dtype=np.float64), scales[0], latitude)
+        title = {"title": f", title={self.title!r}"} if self.title else {}
         told = {"title": self.title, "source": self.source, "legend": legend(entries)} | dots
+        told["lines"] = title | dots.get("lines", {})
         return {"owner": packed(json.dumps(told).encode("utf-8", "replace"))} | lines
 
     def dots(self, count: int) -> tuple[dict[str, Any], dict[str, LegendEntry]]:
@@ -88,20 +90,38 @@ class Looks:
             "inks": [css(ink) for ink in inks],
             "ink": np.broadcast_to(number.ravel(), count).tolist(),
             "radii": np.round(np.array(dots.radii(count)) * PIXELS, 2).tolist(),
-            "columns": self._columns(),
+            "columns": (columns := self._columns()),
+            "lines": self._lines(dots, columns, inks, number.ravel()),
         }
         return told, dots.entries
 
+    def _lines(
+        self, dots: DotLooks, columns: list[tuple[str, list[Any]]], inks: FloatArray, ink: Indices
+    ) -> dict[str, str]:
+        """Parts of the lines of Python that draw these looks in pixels, from a table with the columns of the page."""
+        scales = {type(entry): entry for entry in dots.entries.values()}
+        color, amounts = scales.get(ColorScale), scales.get(SizeScale)
+        if color is not None:
+            lines = {"scale": repr(color), "valued": json.dumps(columns[0][0], ensure_ascii=False)}
+            points = {"values": "values", "scale": "scale", "legend": repr(self.legend or "value")}
+        elif dots.colors is not None:
+            lines, points = {"shades": f"np.array({inks.round(4).tolist()})[{ink.tolist()}]"}, {"color": "shades"}
+        else:
+            lines, points = {"shades": f"[{dots.style.color}] * len(places)"}, {"color": str(dots.style.color)}
+        points["size"] = repr(round(2 * dots.style.radius * PIXELS, 2))
+        if isinstance(amounts, SizeScale):
+            title = columns[-1][0]
+            points["size"], points["size_legend"] = f"table.column({title!r})", repr(self.size_legend or "size")
+            points["size_scale"] = f"SizeScale({amounts.high!r}, {as_length(amounts.largest, 'largest') * PIXELS!r})"
+        return lines | {"points": ", ".join(f"{name}={value}" for name, value in points.items())}
+
     def _columns(self) -> list[tuple[str, list[Any]]]:
-        """Titles and values, those of both scales once if they are the same; what is missing is null."""
-        columns: dict[str, list[Any]] = {}
-        for title, values in ((self.legend or "value", self.values), (self.size_legend or "size", self.size)):
-            if values is None or isinstance(values, str) or np.ndim(values) == 0:
-                continue
-            listed = [None if value is None or value != value else value for value in np.asarray(values).tolist()]
-            if listed not in columns.values():
-                columns[f"{title} (size)" if title in columns else title] = listed
-        return list(columns.items())
+        """Titles and values, those of both scales once if they are called the same; what is missing is null."""
+        named = ((self.legend or "value", self.values), (self.size_legend or "size", self.size))
+        columns = {
+            title: np.asarray(values).tolist() for title, values in named if values is not None and np.ndim(values)
+        }
+        return [(title, [None if each != each else each for each in column]) for title, column in columns.items()]
 
 
 def _isolines(lonlat: FloatArray, values: FloatArray, scale: ColorScale, latitude: Latitude) -> dict[str, str]:

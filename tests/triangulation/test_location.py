@@ -7,10 +7,9 @@ from hypothesis import strategies as st
 from scipy.spatial import cKDTree
 
 from stereodel import PlanarDelaunay, SphericalDelaunay
-from stereodel import _kernel_probe as probe
 from stereodel.triangulation.topology import neighbors_of
 from tests import sets
-from tests.spaces import BOTH, PLANE, SPHERE, readable, space_of
+from tests.spaces import BOTH, PLANE, SPHERE, readable, space_of, turn
 
 HOLDING = [case for case in sets.of("few") if case.id not in ("plane none", "sphere none")]
 FINITE = st.floats(allow_nan=False, allow_infinity=False)
@@ -21,7 +20,7 @@ def kernel_arrays(points):
     simplices = readable(points).simplices
     closing = None
     if points.shape[1] == 3:
-        closing = probe.turn(*np.moveaxis(points[simplices], 1, 0).copy()) <= 0
+        closing = turn(*np.moveaxis(points[simplices], 1, 0)) <= 0
     return (points, simplices, neighbors_of(simplices)), closing
 
 

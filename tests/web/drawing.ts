@@ -4,10 +4,9 @@ import { Contents, type Rings } from "../../stereodel/web/script/contents.ts";
 import { arcThrough, traceArc, traceCap } from "../../stereodel/web/script/drawing/arcs.ts";
 import { circlePoints, perpendicular, regionLayer } from "../../stereodel/web/script/drawing/ball.ts";
 import type { Disc, Path, Pen } from "../../stereodel/web/script/drawing/pen.ts";
-import { SvgPen } from "../../stereodel/web/script/drawing/svg_pen.ts";
 import { lonlatToXyz, MoebiusMap, Rotation } from "../../stereodel/web/script/kernel/api.ts";
 import { load } from "../../stereodel/web/script/kernel/instance.ts";
-import { cross, dot, row, unit, type Vector } from "../../stereodel/web/script/space.ts";
+import { cross, dot, row, type Vector } from "../../stereodel/web/script/space.ts";
 import * as lenses from "../../stereodel/web/script/view/lens.ts";
 import { pointUnder, View } from "../../stereodel/web/script/view/view.ts";
 import { readFileSync } from "node:fs";
@@ -147,7 +146,7 @@ export function arcs(count: number): { worst: number; seen: number; missing: num
     const steps = [0, 0.5, 1, 0.1, 0.25, 0.4, 0.6, 0.75, 0.9];
     const images = map.apply(Float64Array.from(steps.flatMap(at)));
     const path = new Recorder();
-    traceArc(path, DISC, images, 0, 1, 2);
+    traceArc(path, DISC, images);
     for (let step = 0; step < steps.length; ++step) {
       const [x, y, z] = row(images, step);
       const away = path.distanceTo([DISC.x + DISC.r * x, DISC.y - DISC.r * y]);
@@ -200,7 +199,7 @@ class Inside {
 const AT_SEA = lonlatToXyz([-123.4, -48.9]);
 
 async function land(block: string): Promise<Rings> {
-  const rings = await new Contents((name) => (name === "land-110m" ? block : null)).land("110m");
+  const rings = await new Contents((name) => (name === "land-110m" ? block : null)).rings("land-110m");
   return rings!;
 }
 
@@ -265,7 +264,7 @@ export function caps(count: number, grid: number): [number, number][] {
   return Array.from({ length: count }, () => {
     const center = direction();
     const radius = 179 * random() + 0.5;
-    const circle = arcThrough(circlePoints(center, radius).flat(), 0, 1, 2, true)!;
+    const circle = arcThrough(circlePoints(center, radius).flat(), 0, true)!;
     const path = new Recorder();
     traceCap(path, DISC, circle);
     let held = 0;
@@ -330,33 +329,4 @@ export function grabbed(count: number): Record<string, number> {
     }
   }
   return worst;
-}
-
-/** Paths of SVG of one picture, for their form. */
-export function svg(): string {
-  const colours = new Proxy({}, { get: () => "rgba(1, 2, 3, 0.5)" }) as never;
-  const pen = new SvgPen(620, 580, colours, 1);
-  const circle = arcThrough(circlePoints([0, 0.6, 0.8], 30).flat(), 0, 1, 2, true)!;
-  pen.draw("bubble", (path) => traceCap(path, DISC, circle));
-  pen.label("*P*, behind <&>", 10, 20, { ink: "ink", halo: "halo", size: 14 });
-  return pen.text("A bubble");
-}
-
-/** Arcs of random circles as SVG has them, each with points that a canvas draws of the same trace. */
-export function svgArcs(count: number): { d: string; points: [number, number][] }[] {
-  const colours = new Proxy({}, { get: () => "rgba(1, 2, 3, 1)" }) as never;
-  return Array.from({ length: count }, () => {
-    const map = lenses.seenThrough(MoebiusMap.fisheye(direction(), 10 ** (2 * random())), view());
-    const images = map.apply(Float64Array.from(circlePoints(direction(), 5 + 80 * random()).flat()));
-    const trace = (path: Path): void => traceArc(path, DISC, images, 0, 1, 2);
-    const path = new Recorder();
-    trace(path);
-    const pen = new SvgPen(620, 580, colours, 1);
-    pen.draw("bubble-open", trace);
-    const d = /<path [^>]* d="([^"]*)"/.exec(pen.text(""))?.[1] ?? "";
-    const points = path.pieces.flatMap(({ at, from, to }) =>
-      [0, 0.2, 0.5, 0.8, 1].map((t) => at(from + t * (to - from))),
-    );
-    return { d, points };
-  });
 }

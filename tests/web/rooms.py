@@ -8,6 +8,9 @@ DRAWINGS = {"sphere": "#sphere-ball", "lift": "#lift-plate", "globe": "#globe-pl
 DISCS = {name: DRAWINGS[name] for name in ("sphere", "globe")}
 """Those that are turned."""
 
+PIXELS = """(room) => [...document.querySelectorAll(`#room-${room} canvas`)]
+  .filter((each) => each.checkVisibility()).map((each) => each.toDataURL())"""
+
 CANNOT_BE_READ = "This link cannot be read, so here is the room as it begins."
 
 
@@ -15,6 +18,11 @@ def said(page, room, name):
     """Text of an output of a room."""
     text = page.page.locator(f"#room-{room} [data-out={name}]").inner_text()
     return text.replace("\u2009", "").replace("\u2002", " ")
+
+
+def pixels(page, room):
+    """The drawings of a room that are seen, without the ring round what has the focus."""
+    return page.page.evaluate(PIXELS, room)
 
 
 def link(page):

@@ -8,19 +8,10 @@ import pytest
 
 from stereodel.web import assemble, contents, web
 
-TEMPLATE = """<!doctype html>
-<html lang="en">
-<head>
-<meta charset="utf-8" />
-<title>A page</title>
-<link rel="stylesheet" href="page.css" />
-</head>
-<body>
-<p id="said">Nothing yet</p>
-<script src="page.js"></script>
-</body>
-</html>
-"""
+PLACES = ['<meta charset="utf-8" />', '<link rel="stylesheet" href="page.css" />', '<script src="page.js"></script>']
+TEMPLATE = """<!doctype html><html lang="en"><head>{}<title>A page</title>{}</head>
+<body><p id="said">Nothing yet</p>{}</body></html>
+""".format(*PLACES)
 SCRIPT = """
 const end = "</script><!--<script>";
 const inflate = async (id) => {
@@ -88,8 +79,7 @@ def test_a_page_runs_by_itself(built, visit, tmp_path):
     page.until("window.report")
     expected = dict.fromkeys(("eval", "function", "third", "fetch"), "refused")
     expected |= {"end": "</script><!--<script>", "module": True, "name": '</script><script>alert("x")</script>'}
-    expected |= {"second": "before and after", "colour": "rgb(1, 2, 3)"}
-    assert page.page.evaluate("report") == expected
+    assert page.page.evaluate("report") == expected | {"second": "before and after", "colour": "rgb(1, 2, 3)"}
     assert page.requests == [file.as_uri()]
 
 
@@ -97,19 +87,15 @@ def test_the_same_page_every_time(built):
     assert assemble.html("110m") == assemble.html("110m")
     given = contents.Given(np.array([(1.0, 2.0)]), "one")
     blocks = set(re.findall('id="block-([^"]+)"', assemble.html("50m", given)))
-    sets = {"airports", "cities", "stars", *contents.scattered()}
-    own = {"given", "given-name", "latitude"}
-    assert blocks == {"land-110m", "land-50m", "kernel", "exchange", "lift"} | sets | own
+    expected = {"land-110m", "land-50m", "kernel", "exchange", "lift", "airports", "cities", "stars"}
+    assert blocks == expected | {*contents.scattered(), "given", "given-name", "latitude"}
     assert "land-50m" not in assemble.html("110m")
     of_the_widget = assemble.module("110m")
     assert of_the_widget.endswith("export default {};")
     assert set(re.findall('"([a-z0-9-]+)": "', of_the_widget)) == {"kernel", "land-110m"}
 
 
-@pytest.mark.parametrize(
-    "place",
-    ['<meta charset="utf-8" />', '<link rel="stylesheet" href="page.css" />', '<script src="page.js"></script>'],
-)
+@pytest.mark.parametrize("place", PLACES)
 def test_a_template_without_a_place_or_with_two_is_an_error(built, place):
     for text in (TEMPLATE.replace(place, ""), TEMPLATE.replace(place, place + place)):
         built["page.html"] = text
@@ -124,14 +110,14 @@ def test_names_that_are_missing_or_no_text(built):
     assert contents.contents("110m", given, latitude=None)["given-names"] == shown
 
 
-@pytest.mark.parametrize(
-    ("wrong", "said"),
-    [
-        ({"resolution": "10m"}, "resolution is '10m', but must be one of '50m', '110m'"),
-        ({"lonlat": [(0, 91)]}, r"lonlat\[0, 1\] is latitude 91"),
-        ({"lonlat": [(0, 1), (2, 3)], "names": ["one"]}, "names has 1 entries, but there are 2 points"),
-    ],
-)
+WRONG = [
+    ({"resolution": "10m"}, "resolution is '10m', but must be one of '50m', '110m'"),
+    ({"lonlat": [(0, 91)]}, r"lonlat\[0, 1\] is latitude 91"),
+    ({"lonlat": [(0, 1), (2, 3)], "names": ["one"]}, "names has 1 entries, but there are 2 points"),
+]
+
+
+@pytest.mark.parametrize(("wrong", "said"), WRONG)
 def test_wrong_arguments_and_nothing_written(built, tmp_path, wrong, said):
     with pytest.raises(ValueError, match=said):
         web(tmp_path / "page.html", **wrong)

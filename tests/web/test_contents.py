@@ -8,16 +8,7 @@ import pytest
 from stereodel import data
 from stereodel.curves.ragged import Ragged
 from stereodel.data import land
-from stereodel.web.contents import (
-    MOST_POINTS,
-    Given,
-    land_rings,
-    packed,
-    packed_doubles,
-    packed_places,
-    scattered,
-    sites,
-)
+from stereodel.web import contents
 
 from .conftest import SCRIPT, asking
 
@@ -37,14 +28,17 @@ def read_rings(node, text):
 def test_places_come_back_to_the_bit(node, rng):
     degrees = np.round(rng.uniform((-180, -90), (180, 90), size=(1000, 2)), 6)
     degrees[:4] = [(-180, -90), (180, 90), (0, 0), (-0.000001, 0.000001)]
-    lonlat, offsets = read_rings(node, packed_places(Ragged(degrees, np.array([0, 3, 3, 1000])), 6))
+    lonlat, offsets = read_rings(node, contents.packed_places(Ragged(degrees, np.array([0, 3, 3, 1000])), 6))
     np.testing.assert_array_equal(lonlat, degrees)
     assert offsets == [0, 3, 3, 1000]
 
 
 def test_doubles_come_back_to_the_bit(node, rng):
     degrees = np.concatenate([rng.uniform(-90, 90, size=(50, 2)), [[-0.0, 5e-324], [1 / 3, -90]]])
-    blocks = {"given": packed_doubles(degrees), "given-name": packed(json.dumps('Orte, "neu" ∂').encode())}
+    blocks = {
+        "given": contents.packed_doubles(degrees),
+        "given-name": contents.packed(json.dumps('Orte, "neu" ∂').encode()),
+    }
     expression = "contents.given().then(({ name, lonlat }) => [name, [...new Uint8Array(lonlat.buffer)]])"
     found = read(node, expression, blocks)
     assert found[0] == 'Orte, "neu" ∂'
@@ -68,7 +62,7 @@ def area(rings):
 
 @pytest.mark.parametrize("resolution", ["110m", pytest.param("50m", marks=pytest.mark.thorough)])
 def test_land_is_that_of_the_package_without_seams(node, resolution):
-    lonlat, offsets = read_rings(node, land_rings(resolution))
+    lonlat, offsets = read_rings(node, contents.land_rings(resolution))
     rings = Ragged(lonlat, np.array(offsets))
     after = lonlat[rings.following]
     assert rings.sizes.min() > 2
@@ -90,18 +84,20 @@ def test_land_is_that_of_the_package_without_seams(node, resolution):
 @pytest.mark.parametrize("name", ["cities", "airports", "stars"])
 def test_the_sets_are_places_of_the_package(node, name):
     whole = getattr(data, name)().lonlat
-    found = np.reshape(read(node, f"contents.rings('{name}').then((s) => [...s.lonlat])", {name: sites(name)}), (-1, 2))
+    found = np.reshape(
+        read(node, f"contents.rings('{name}').then((s) => [...s.lonlat])", {name: contents.sites(name)}), (-1, 2)
+    )
     assert 100 < len(found) < 300
     assert {tuple(place) for place in found.tolist()} <= {tuple(place) for place in whole.tolist()}
     assert len(np.unique(found, axis=0)) == len(found)
 
 
-@pytest.mark.parametrize(("name", "places"), scattered().items())
+@pytest.mark.parametrize(("name", "places"), contents.scattered().items())
 def test_the_sets_that_rooms_begin_with(node, name, places):
-    found = read(node, f"contents.rings('{name}').then((s) => [...s.lonlat])", {name: sites(name)})
+    found = read(node, f"contents.rings('{name}').then((s) => [...s.lonlat])", {name: contents.sites(name)})
     assert found == places.ravel().tolist()
 
 
 def test_too_many_points():
     with pytest.raises(ValueError, match=r"stars\.csv has 1000001 points, but a page takes up to 1000000"):
-        Given(np.zeros((MOST_POINTS + 1, 2)), "stars.csv")
+        contents.Given(np.zeros((contents.MOST_POINTS + 1, 2)), "stars.csv")

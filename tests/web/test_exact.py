@@ -98,22 +98,22 @@ def text(array):
     return base64.b64encode(np.ascontiguousarray(array, dtype=float).tobytes()).decode("ascii")
 
 
+ENTRY = f"""
+import bytes from "{WEB}/built/stereodel.wasm";
+import {{ load }} from "{WEB}/script/kernel/instance.ts";
+export * from "{ROOT}/tests/web/exact.ts";
+export const ready = load(bytes);
+export const doubles = (text) => new Float64Array(Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer);
+"""
+
+
 @pytest.fixture(scope="session")
 def bundle(tmp_path_factory):
     """exact.ts with the module inside: `web.ready` and its functions, for any engine."""
-    folder = tmp_path_factory.mktemp("exact")
-    entry, made = folder / "entry.ts", folder / "exact.js"
-    entry.write_text(
-        f'import bytes from "{WEB}/built/stereodel.wasm";\n'
-        f'import {{ load }} from "{WEB}/script/kernel/instance.ts";\n'
-        f'export * from "{ROOT}/tests/web/exact.ts";\n'
-        "export const ready = load(bytes);\n"
-        "const bytesOf = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0));\n"
-        "export const doubles = (text) => new Float64Array(bytesOf(text).buffer);\n",
-        encoding="utf-8",
-    )
+    made = tmp_path_factory.mktemp("exact") / "exact.js"
     options = ["--bundle", "--format=iife", "--global-name=web", "--loader:.wasm=binary", "--target=es2022"]
-    subprocess.run([ESBUILD, entry, *options, f"--outfile={made}", "--log-level=error"], check=True)
+    line = [ESBUILD, *options, f"--outfile={made}", "--log-level=error"]
+    subprocess.run(line, cwd=WEB, input=ENTRY, encoding="utf-8", check=True)
     return made
 
 

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from .rooms import DRAWINGS
+from .rooms import DRAWINGS, pixels
 
 CONTROLS = """(room) => {
   const controls = "canvas.plate, button, select, input:not([type=file])";
@@ -27,9 +27,6 @@ SLIDE = """(slider, share) => {
   slider.valueAsNumber = Number(slider.min) + share * (slider.max - slider.min);
   slider.dispatchEvent(new Event("input", { bubbles: true }));
 }"""
-
-PIXELS = """(room) => [...document.querySelectorAll(`#room-${room} canvas`)]
-  .filter((each) => each.checkVisibility()).map((each) => each.toDataURL())"""
 
 KEYS = ["ArrowLeft", "Shift+ArrowUp", "ArrowDown", "Control+ArrowRight", "Control+z", "Delete", "Enter", "Escape"]
 KEYS += ["+", "-", "0", ".", ",", "f", "n"]
@@ -87,10 +84,10 @@ def shown(page, name):
     page.page.mouse.move(1, 1)
     page.page.evaluate("document.activeElement.blur()")
     page.rest(still=0.45)
-    return page.page.evaluate(PIXELS, name)
+    return pixels(page, name)
 
 
-def pixels(drawing):
+def array(drawing):
     with Image.open(io.BytesIO(base64.b64decode(drawing.partition(",")[2]))) as image:
         return np.asarray(image).astype(int)
 
@@ -116,7 +113,7 @@ def test_a_link_shows_the_same_pixels(room, page_file, name, states):
             fresh.until("document.documentElement.dataset.ready")
         there = shown(fresh, name)
         if there != here:
-            pairs = zip(map(pixels, here), map(pixels, there), strict=True)
+            pairs = zip(map(array, here), map(array, there), strict=True)
             different.append((state, [(np.abs(a - b).max(axis=-1) > 0).sum() for a, b in pairs], page.link))
     assert different == []
     assert len(pictures) > 1 + states // 2

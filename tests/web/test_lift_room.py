@@ -33,16 +33,10 @@ def test_the_hemisphere_is_that_of_the_rectangle(node, places):
     answer = ask(node, "imagesOf(sitesOf(given), 90)", places.tolist())
     np.testing.assert_allclose([direction for direction, _, _ in answer], on_top(lift.forward(places)), atol=1e-14)
     np.testing.assert_allclose([scale for _, scale, _ in answer], lift.scale_factor(places), rtol=1e-13)
-    radius, least, corner = ask(
-        node,
-        "((sheet, { middle: [x, y], width, height }) => "
-        "[sheet.radius, sheet.leastScale, sheet.direction(x + width / 2, y + height / 2)])"
-        "(sitesOf(given).sheet(90), sitesOf(given).rectangle)",
-        places.tolist(),
-    )
-    assert radius == pytest.approx(lift.sphere.radius / lift.diagonal) == pytest.approx(0.25)
-    assert least == pytest.approx(0.5)
-    assert corner[2] == pytest.approx(0, abs=1e-14)
+    corner = "[rectangle.middle[0] + rectangle.width / 2, rectangle.middle[1] + rectangle.height / 2]"
+    expression = f"(({{ rectangle }}, sheet) => [sheet.radius, sheet.leastScale, sheet.direction(...{corner})[2]])"
+    answer = ask(node, f"{expression}(sitesOf(given), sitesOf(given).sheet(90))", places.tolist())
+    assert answer == pytest.approx([lift.sphere.radius / lift.diagonal, 0.5, 0], abs=1e-14)
 
 
 @pytest.mark.parametrize("corner", [1, 30, 60, 75])
@@ -75,7 +69,7 @@ def test_separations_stay_between_the_bounds_which_are_reached(node, places, rng
     corners = np.array([[-1, -1], [1, 1], [1, -1], [-1, 1]]) * [lift.width / 2, lift.height / 2]
     inside = rng.uniform(-0.5, 0.5, size=(300, 2)) * [lift.width, lift.height]
     pairs = np.concatenate([inside.reshape(-1, 2, 2), np.stack([inside, -inside], 1), [corners[:2], corners[[0, 2]]]])
-    pairs = pairs + lift.center
+    pairs += lift.center
     distance = np.minimum(np.linalg.norm(pairs[:, 0] - pairs[:, 1], axis=1), lift.diagonal)
     images = lift.forward(pairs)
     angles = angular_distance(images[:, 0], images[:, 1])

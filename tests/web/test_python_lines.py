@@ -10,10 +10,14 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from .rooms import DRAWINGS, downloaded, opened, python_lines
+from stereodel.drawing.page.labels import title_height
+from stereodel.web import web
 
-BLOCK, LEVELS, DENSE = 64, 6.0, 40.0
-"""Pixels; levels of 255, and those where many sites lie close: the page draws their lines and dots weaker."""
+from .rooms import DRAWINGS, downloaded, opened, python_lines
+from .test_owner import GIVEN, LONLAT, NAMES
+
+BLOCK, LEVELS = 64, 6.0
+"""Pixels; levels of 255."""
 PAPER = (0xFD, 0xFC, 0xFA, 255)
 
 BARE = """for (const kind of ["fillText", "strokeText"]) CanvasRenderingContext2D.prototype[kind] = () => {}; 0"""
@@ -34,10 +38,11 @@ STATES = {
         "s=6&focus-lon=20&focus-lat=10&view-lon=20&view-lat=10&pin=1&on=triangles,cells,bubble,seeing,closing",
         "sites=10,50,10.01,50,10.005,50.01,10.02,50.02,10.01,49.99&on=triangles,cells",
         "step=20",
-        "step=9&set=dodecahedron",
+        "step=5&set=dodecahedron&view-lat=-60",
         "step=2",
         "sites=",
         "sites=10,20",
+        "sites=20,-30,10,20,120,0,-110,10,-160,-50,60,70&pole-lon=20&pole-lat=-30&on=triangles,cells,seeing",
         "sites=0,0,180,0&on=cells",
         "sites=10,20,60,0,20,-30,10,20,-50,10&on=triangles,cells,seeing",
         "sites=0,0,40,0,80,0,120,0,-160,0,-90,0&on=triangles,cells",
@@ -127,24 +132,27 @@ def blocks(pixels):
     return whole.reshape(whole.shape[0] // BLOCK, BLOCK, -1, BLOCK, 3).mean(axis=(1, 3))
 
 
-def compare(page, visit, room, folder, monkeypatch, levels=LEVELS):
+def compare(page, visit, room, folder, monkeypatch):
     """Assert that the lines of a page draw what it shows."""
     pictures = seen(page, room)
     made = drawn(visit, python_lines(page), room, folder, monkeypatch)
     for number, picture in enumerate(pictures):
         part = made[:, made.shape[1] * number // len(pictures) : made.shape[1] * (number + 1) // len(pictures)]
-        part = middle(part, picture.shape)
-        assert part.shape == picture.shape
-        assert np.ptp(blocks(picture)) > 10
-        assert np.abs(blocks(part) - blocks(picture)).max() < levels
+        close(middle(part, picture.shape), picture)
+
+
+def close(part, picture):
+    """Assert that two pictures are alike, and not empty."""
+    assert part.shape == picture.shape
+    assert np.ptp(blocks(picture)) > 10
+    assert np.abs(blocks(part) - blocks(picture)).max() < LEVELS
 
 
 @pytest.mark.parametrize(("name", "values"), list(states()))
 def test_the_lines_of_python_draw_the_picture(room, visit, tmp_path, monkeypatch, name, values):
     page = room(f"v=1&room={name}&{values}".rstrip("&"))
     assert page.page.locator("[role=alert]").count() == 0
-    dense = any(f"set={each}&" in f"{values}&" for each in ("cities", "airports", "stars"))
-    compare(page, visit, name, tmp_path, monkeypatch, DENSE if dense else LEVELS)
+    compare(page, visit, name, tmp_path, monkeypatch)
 
 
 @pytest.mark.parametrize("name", [pytest.param(name, marks=pytest.mark.thorough) for name in DRAWINGS])
@@ -161,4 +169,28 @@ def test_many_places_come_from_the_table_that_the_page_exports(room, visit, tmp_
     assert named in (file, "places.csv")
     (tmp_path / named).write_bytes(content)
     page.page.click(".foot summary")
-    compare(page, visit, name, tmp_path, monkeypatch, DENSE)
+    compare(page, visit, name, tmp_path, monkeypatch)
+
+
+@pytest.mark.parametrize(
+    ("layers", "title", "given"),
+    [
+        ("land,cells,names", "Sixty towns", GIVEN),
+        pytest.param("land,fills,isolines", "Sixty towns", GIVEN, marks=pytest.mark.thorough),
+        pytest.param("land,fills", "", {"values": ["hill", "coast"] * 30, "size": 9}, marks=pytest.mark.thorough),
+        pytest.param("land,fills", "", {"size": GIVEN["size"], "color": "teal"}, marks=pytest.mark.thorough),
+    ],
+)
+def test_the_lines_of_an_owner_draw_values_below_a_title(visit, tmp_path, monkeypatch, layers, title, given):
+    file = tmp_path / "towns.html"
+    web(file, lonlat=LONLAT, names=NAMES, name="towns.csv", title=title, resolution="110m", **given)
+    page = visit(f"{file.as_uri()}#v=1&room=globe&on={layers}")
+    page.until("document.documentElement.dataset.ready")
+    page.rest(still=0.3)
+    (tmp_path / "towns.csv").write_bytes(downloaded(page, "csv")[1])
+    [picture] = seen(page, "globe")
+    lines = python_lines(page)
+    assert "legend=True" in lines
+    made = drawn(visit, lines, "globe", tmp_path, monkeypatch)[round(title_height(title)) :]
+    picture = picture[36 * bool(title) :][: round(page.page.locator("#globe-plate").bounding_box()["height"])]
+    close(middle(made[: made.shape[1]], picture.shape), picture)

@@ -5,7 +5,7 @@ import { CanvasPen } from "./drawing/canvas_pen.ts";
 import type { Sheet } from "./drawing/pen.ts";
 import { colours } from "./drawing/styles.ts";
 import { SvgPen } from "./drawing/svg_pen.ts";
-import { isPicture, openPoints } from "./files.ts";
+import { openPoints } from "./files.ts";
 import { geojson } from "./geojson.ts";
 import { openPanorama } from "./panorama.ts";
 import { framed } from "./rooms/framed.ts";
@@ -14,8 +14,8 @@ import { savedPage } from "./saved_page.ts";
 import { writeTable } from "./tables/delimited.ts";
 
 /** Saves a file under the reader's downloads. */
-function download(name: string, content: Blob | string, type = "text/plain"): void {
-  const blob = typeof content === "string" ? new Blob([content], { type: `${type};charset=utf-8` }) : content;
+function download(name: string, content: Blob | string): void {
+  const blob = new Blob([content]);
   const link = make("a", { href: URL.createObjectURL(blob), download: name });
   link.click();
   setTimeout(() => URL.revokeObjectURL(link.href), 60_000); // browsers read it after the click
@@ -47,7 +47,6 @@ const exchange = {
   download,
   geojson,
   globePython,
-  isPicture,
   liftPython,
   openPanorama,
   openPoints,

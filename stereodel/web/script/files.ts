@@ -16,10 +16,6 @@ import { counted } from "./words.ts";
 /** Points that the page takes. */
 export const MOST_POINTS = 1_000_000;
 
-const PICTURES = /\.(jpe?g|png|webp|avif)$/i;
-const TEXT = /\.(csv|tsv|txt)(\.gz)?$/i;
-const JSON_TEXT = /\.(geojson|json|geojsonl|geojsons)(\.gz)?$/i;
-
 /** Points of a file: (n, 2), longitude and latitude in degrees or x and y; rows without a place are left out. */
 export interface Points {
   readonly file: string;
@@ -44,10 +40,6 @@ interface Elsewhere {
   readonly columns?: [string, string];
 }
 
-export function isPicture(file: File): boolean {
-  return file.type.startsWith("image/") || PICTURES.test(file.name);
-}
-
 /**
  * Reads points from the bytes of a file.
  * @param chosen names of the two columns, where they are known.
@@ -60,7 +52,7 @@ export async function readPoints(
   chosen?: [string, string],
 ): Promise<Points | Elsewhere> {
   const { text, guess } = decoded(await unpacked(content), file);
-  const isJson = JSON_TEXT.test(file) || (!TEXT.test(file) && /^[\s\x1e]*\{/.test(text));
+  const isJson = /^\s*[{[]/.test(text);
   if (isJson && kind === "plane") return { room: "globe" };
   const read = isJson ? geojsonPoints(text) : ofText(text, kind, chosen);
   if ("room" in read) return read;
@@ -149,30 +141,28 @@ export async function openPoints(
   opened: (points: Points) => void,
   chosen?: [string, string],
 ): Promise<void> {
-  if (isPicture(file)) return host.pass("globe", file);
+  if (file.type.startsWith("image/")) return host.pass("globe", file);
   const { messages } = host;
   const named = `${file.name}:`;
   const unchanged = (said: string): string => `${said}${/[.?!]$/.test(said) ? "" : "."} Nothing has changed.`;
-  let points: Points | Elsewhere;
   try {
-    points = await readPoints(file.name, new Uint8Array(await file.arrayBuffer()), kind, chosen);
+    const points = await readPoints(file.name, new Uint8Array(await file.arrayBuffer()), kind, chosen);
+    if ("room" in points) return host.pass(points.room, file, points.columns);
+    const { leftOut, wrong, guess } = points;
+    const open = (): void => {
+      messages.close();
+      opened(points);
+      if (guess !== null) messages.show(named, `it does not say its encoding; read as ${guess}.`);
+    };
+    if (leftOut === 0) return open();
+    const rows = leftOut === 1 ? "this row" : `these ${counted(leftOut)} rows`;
+    messages.show(named, unchanged(wrong), { words: `Open without ${rows}`, act: open });
   } catch (error) {
+    if (!(error instanceof TableError)) throw error;
     const again = (...both: [string, string]): Promise<void> => openPoints(file, kind, host, opened, both);
-    if (!(error instanceof TableError)) return messages.show(named, unchanged("the file cannot be read"));
-    if (error.columns.length > 1) return askColumns(file.name, error.columns, kind, messages, again);
-    return messages.show(named, unchanged(error.message));
+    if (error.columns.length > 1) askColumns(file.name, error.columns, kind, messages, again);
+    else messages.show(named, unchanged(error.message));
   }
-  if ("room" in points) return host.pass(points.room, file, points.columns);
-  const found = points;
-  const { leftOut, wrong, guess } = found;
-  const open = (): void => {
-    messages.close();
-    opened(found);
-    if (guess !== null) messages.show(named, `it does not say its encoding; read as ${guess}.`);
-  };
-  if (leftOut === 0) return open();
-  const rows = leftOut === 1 ? "this row" : `these ${counted(leftOut)} rows`;
-  messages.show(named, unchanged(wrong), { words: `Open without ${rows}`, act: open });
 }
 
 /** Asks which columns of a file are meant; `chosen` gets two names. */

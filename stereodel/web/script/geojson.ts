@@ -41,14 +41,11 @@ function sphericalPolygon(corners: readonly Vector[], kind: Latitude): Geometry 
   );
   const turn = Math.round((ring[ring.length - 1][0] - ring[0][0]) / 360);
   const closed = turn === 0 ? ring : aroundPole(ring, turn);
+  const digits = (degrees: number): number => Number(degrees.toFixed(DECIMALS));
   const pieces = windows(closed).map((polygon): Polygon => [polygon.map(([lon, lat]) => [digits(lon), digits(lat)])]);
   return pieces.length === 1
     ? { type: "Polygon", coordinates: pieces[0] }
     : { type: "MultiPolygon", coordinates: pieces };
-}
-
-function digits(degrees: number): number {
-  return Number(degrees.toFixed(DECIMALS));
 }
 
 /** Longitudes and latitudes of a ring, closed, whose longitudes go on beyond ±180 instead of jumping. */

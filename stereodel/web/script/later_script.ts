@@ -6,15 +6,11 @@ import { shared } from "page:shared";
 /** What such a script offers, when it is first asked for; after a failure the next call tries again. */
 export function laterScript<T>(contents: Contents, name: string): () => Promise<T> {
   let loaded: Promise<T> | null = null;
-  const failed = (error: unknown): never => {
-    loaded = null;
-    throw error;
+  return () => {
+    loaded ??= contents.text(name).then((code) => run<T>(code, name));
+    loaded.catch(() => (loaded = null));
+    return loaded;
   };
-  return () =>
-    (loaded ??= contents
-      .text(name)
-      .then((code) => run<T>(code, name))
-      .catch(failed));
 }
 
 /** Runs code that the policy of the page allows by its hash. */

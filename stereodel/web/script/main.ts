@@ -13,7 +13,7 @@ import { LinkError, readLink, ROOMS, writeLink, type Link, type LinkValues, type
 import { Announcer, Messages } from "./messages.ts";
 import type { Room, RoomHost } from "./room.ts";
 import { Choice, NAMED, NumberField } from "./rooms/controls.ts";
-import { globeRoom } from "./rooms/globe.ts";
+import { GlobeRoom } from "./rooms/globe.ts";
 import { sphereRoom } from "./rooms/sphere.ts";
 
 /** Milliseconds of rest after which the address tells the state. */
@@ -44,9 +44,7 @@ class Page implements RoomHost {
   readonly #source: Node;
   /** What a page that was saved shows before anything else; its table is there for links that name it. */
   readonly #saved: Link | null;
-  /** The room of an address that names none, and what its maker calls the page. */
-  readonly #begin: RoomName;
-  readonly #title: string;
+  readonly #given: Places | null;
   #name: RoomName = "sphere";
   #timer: ReturnType<typeof setTimeout> | undefined;
   #isStep = false;
@@ -54,8 +52,7 @@ class Page implements RoomHost {
   constructor(contents: Contents, makers: Makers, source: Node, saved: string, given: Places | null) {
     this.contents = contents;
     this.#makers = makers;
-    [this.#begin, this.#title] = [given === null ? "sphere" : "globe", given?.owner?.title ?? ""];
-    this.#source = source;
+    [this.#source, this.#given] = [source, given];
     this.#saved = saved === "" ? null : readLink(saved, Infinity);
     this.exchange = laterScript(contents, "exchange");
   }
@@ -93,9 +90,10 @@ class Page implements RoomHost {
   /** Enters the room of the address in its state; what cannot be read is said, and the room begins anew. */
   async #follow(): Promise<void> {
     clearTimeout(this.#timer);
+    const begin = this.#given === null ? "sphere" : "globe";
+    const first = location.hash === "" && this.#rooms.size === 0 ? this.#saved : null;
     const link = this.#read(
-      () =>
-        (location.hash === "" && this.#rooms.size === 0 ? this.#saved : null) ?? readLink(location.hash || this.#begin),
+      () => first ?? readLink(location.hash || begin),
       () => ({ room: this.#name, values: new Map() }),
     );
     const saved = this.#saved?.values;
@@ -110,14 +108,8 @@ class Page implements RoomHost {
         if (values.size > 0) this.#paint(COLOURS.read(values, ""));
         room.restore(values);
       };
-      this.guarded(
-        () =>
-          isNew &&
-          this.#read(
-            () => restore(link.values),
-            () => restore(new Map()),
-          ),
-      );
+      const anew = (): void => restore(new Map());
+      this.guarded(() => isNew && this.#read(() => restore(link.values), anew));
       this.#python();
     } catch (error) {
       this.#failed(error);
@@ -142,7 +134,7 @@ class Page implements RoomHost {
     for (const link of document.querySelectorAll<HTMLAnchorElement>(".rooms a")) {
       link.ariaCurrent = link.hash === `#${name}` ? "page" : null;
     }
-    const title = name === "globe" && this.#title;
+    const title = name === "globe" && this.#given?.owner?.title;
     document.title = title || `${name[0].toUpperCase()}${name.slice(1)} · stereodel`;
   }
 
@@ -237,14 +229,14 @@ class Page implements RoomHost {
 
   async #export(kind: string, room: Room, exchange: Exchange): Promise<void> {
     const name = `stereodel-${this.#name}`;
-    if (kind === "svg") exchange.download(`${name}.svg`, await exchange.sheetSvg(room.sheet()), "image/svg+xml");
+    if (kind === "svg") exchange.download(`${name}.svg`, await exchange.sheetSvg(room.sheet()));
     else if (kind === "png") {
       const scale = field(document, "png-scale").valueAsNumber;
       exchange.download(`${name}.png`, await exchange.sheetPng(room.sheet(), scale));
     } else if (kind === "geojson" || kind === "csv") {
       const text = room[kind](exchange);
-      const [file, type] = kind === "csv" ? ["sites.csv", "text/csv"] : [`${name}.geojson`, "application/geo+json"]; // as the lines of Python call it
-      if (text !== null) exchange.download(file, text, type);
+      const file = kind === "csv" ? "sites.csv" : `${name}.geojson`; // as the lines of Python call it
+      if (text !== null) exchange.download(file, text);
     } else if (kind === "page") {
       exchange.download(`${name}.html`, await exchange.savedPage(this.#source, this.#link(room.state(true))));
     } else {
@@ -269,16 +261,11 @@ class Page implements RoomHost {
   }
 }
 
-/** Puts marks of rulers in their places: the policy of the page allows no styles in its HTML. */
-function placeMarks(): void {
-  for (const mark of document.querySelectorAll<HTMLElement>("[data-at]")) {
-    mark.style.setProperty("--at", mark.dataset["at"] ?? "0%");
-  }
-}
-
 async function main(): Promise<void> {
   const source = document.documentElement.cloneNode(true);
-  placeMarks();
+  // Marks of rulers in their places: the policy of the page allows no styles in its HTML.
+  for (const mark of document.querySelectorAll<HTMLElement>("[data-at]"))
+    mark.style.setProperty("--at", mark.dataset["at"]!);
   // The drawing alone, in a frame of another page.
   if (new URLSearchParams(location.search).has("frame")) document.documentElement.classList.add("framed");
   const contents = Contents.ofDocument();
@@ -295,7 +282,7 @@ async function main(): Promise<void> {
   const makers: Makers = {
     sphere: (host) => sphereRoom(host, stored, given),
     lift: async (host) => (await lift())(host, stored["sheet"]),
-    globe: (host) => globeRoom(host, given, latitude),
+    globe: (host) => new GlobeRoom(host, given, latitude),
   };
   const page = new Page(contents, makers, source, saved, given);
   await page.start();

@@ -23,22 +23,21 @@ export class Messages {
    */
   show(what: string, text: string, action?: Action, inputs: readonly Node[] = []): void {
     const line = make("p", "", ...(what ? [make("b", "", what), " "] : []), text);
-    const actions = [...(action ? [action] : []), { words: "Close", act: () => {} }];
-    const buttons = make("span", "line", ...inputs, ...actions.map((each) => this.#button(each)));
-    this.#place.replaceChildren(make("div", { className: "message", role: "alert" }, line, buttons));
+    const buttons = [...(action ? [action] : []), { words: "Close", act: () => {} }].map(({ words, act }) => {
+      const button = make("button", { className: "quiet", type: "button" }, words);
+      button.addEventListener("click", () => {
+        this.close();
+        act();
+      });
+      return button;
+    });
+    this.#place.replaceChildren(
+      make("div", { className: "message", role: "alert" }, line, make("span", "line", ...inputs, ...buttons)),
+    );
   }
 
   close(): void {
     this.#place.replaceChildren();
-  }
-
-  #button(action: Action): HTMLButtonElement {
-    const button = make("button", { className: "quiet", type: "button" }, action.words);
-    button.addEventListener("click", () => {
-      this.close();
-      action.act();
-    });
-    return button;
   }
 }
 

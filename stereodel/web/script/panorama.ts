@@ -1,7 +1,7 @@
 /** A picture of the whole sphere on a globe: drawn by the graphics processor while it moves, by the kernel at rest. */
 
 import { make } from "./dom.ts";
-import type { Disc, Pen } from "./drawing/pen.ts";
+import { traceDisc, type Disc, type Pen } from "./drawing/pen.ts";
 import { Raster, type MoebiusMap } from "./kernel/api.ts";
 import type { Messages } from "./messages.ts";
 
@@ -61,9 +61,8 @@ export class Painted {
     const scale = isMoving && this.#shader === null ? ROUGH : Math.min(SHARP, devicePixelRatio);
     const size = Math.max(1, Math.ceil(2 * disc.r * scale));
     const picture = isMoving && this.#shader !== null ? this.#shader(map, size) : this.#exact(map, size);
-    pen.clipped(
-      (path) => path.ellipse(disc.x, disc.y, disc.r, disc.r, 0, 0, 2 * Math.PI),
-      () => pen.picture(picture, disc.x - disc.r, disc.y - disc.r, 2 * disc.r, 2 * disc.r),
+    pen.within({ region: (path) => traceDisc(path, disc) }, () =>
+      pen.picture(picture, disc.x - disc.r, disc.y - disc.r, 2 * disc.r, 2 * disc.r),
     );
   }
 

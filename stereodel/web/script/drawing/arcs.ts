@@ -39,11 +39,11 @@ export function circle(n: Vector, d: number): Circle {
 }
 
 /**
- * The arc from row a over row m to row b; null where two of them are one point.
+ * The arc from row a over the next one to that after it; null where two of them are one point.
  * @param whole The whole circle through the three.
  */
-export function arcThrough(p: ArrayLike<number>, a: number, m: number, b: number, whole = false): Circle | null {
-  const [i, j, k] = [3 * a, 3 * m, 3 * b];
+export function arcThrough(p: ArrayLike<number>, a = 0, whole = false): Circle | null {
+  const [i, j, k] = [3 * a, 3 * a + 3, 3 * a + 6];
   const [ux, uy, uz] = [p[j] - p[i], p[j + 1] - p[i + 1], p[j + 2] - p[i + 2]];
   const [vx, vy, vz] = [p[k] - p[i], p[k + 1] - p[i + 1], p[k + 2] - p[i + 2]];
   const [nx, ny, nz] = [uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx];
@@ -64,7 +64,7 @@ function angleOf({ n, d, e }: Circle, p: ArrayLike<number>, i: number): number {
 }
 
 /** The parts on one side of the ball, as pairs of angles. */
-export function partsOf(arc: Circle, side: Side = "front"): number[] {
+function partsOf(arc: Circle, side: Side = "front"): number[] {
   const { n, d, r, e, from, to } = arc;
   const sign = side === "front" ? 1 : -1;
   const [middle, reach] = [sign * d * n[2], sign * r * (n[0] * e[1] - n[1] * e[0])]; // z = middle + reach sin t
@@ -91,13 +91,11 @@ export function pointAt({ n, d, r, e }: Circle, t: number): Vector {
   ];
 }
 
-/** Lays a part of a circle into a path; it begins a line of its own unless it is a `continued` one. */
-export function tracePart(path: Path, disc: Disc, arc: Circle, from: number, to: number, continued = false): void {
+/** Lays a part of a circle into a path. */
+function tracePart(path: Path, disc: Disc, arc: Circle, from: number, to: number): void {
   const { n, d, r, e } = arc;
-  if (!continued) {
-    const [x, y] = pointAt(arc, from);
-    path.moveTo(disc.x + disc.r * x, disc.y - disc.r * y);
-  }
+  const begin = pointAt(arc, from);
+  path.moveTo(disc.x + disc.r * begin[0], disc.y - disc.r * begin[1]);
   // The drawing's y points down: angles turn the other way, and once more where n points away.
   const sign = n[2] >= 0 ? -1 : 1;
   const [x, y] = [disc.x + disc.r * d * n[0], disc.y - disc.r * d * n[1]];
@@ -111,25 +109,18 @@ export function traceCircle(path: Path, disc: Disc, arc: Circle, side: Side = "f
   for (let k = 0; k < parts.length; k += 2) tracePart(path, disc, arc, parts[k], parts[k + 1]);
 }
 
-/** Lays the arc from row a over row m to row b into a path. */
-export function traceArc(
-  path: Path,
-  disc: Disc,
-  p: ArrayLike<number>,
-  a: number,
-  m: number,
-  b: number,
-  side: Side = "front",
-): void {
+/** Lays the arc from row a over the next one to that after it into a path. */
+export function traceArc(path: Path, disc: Disc, p: ArrayLike<number>, a = 0, side: Side = "front"): void {
   const sign = side === "front" ? 1 : -1;
-  const [isAIn, isBIn] = [sign * p[3 * a + 2] >= 0, sign * p[3 * b + 2] >= 0];
-  if (isAIn === isBIn && bow(p, a, m, b) * disc.r < UNSEEN_BOW) {
+  const i = 3 * a;
+  const [isAIn, isBIn] = [sign * p[i + 2] >= 0, sign * p[i + 8] >= 0];
+  if (isAIn === isBIn && bow(p, a) * disc.r < UNSEEN_BOW) {
     if (!isAIn) return;
-    path.moveTo(disc.x + disc.r * p[3 * a], disc.y - disc.r * p[3 * a + 1]);
-    path.lineTo(disc.x + disc.r * p[3 * b], disc.y - disc.r * p[3 * b + 1]);
+    path.moveTo(disc.x + disc.r * p[i], disc.y - disc.r * p[i + 1]);
+    path.lineTo(disc.x + disc.r * p[i + 6], disc.y - disc.r * p[i + 7]);
     return;
   }
-  const arc = arcThrough(p, a, m, b);
+  const arc = arcThrough(p, a);
   if (arc !== null) traceCircle(path, disc, arc, side);
 }
 
@@ -138,8 +129,8 @@ export function traceArc(
  * The middle point may lie anywhere on the arc, even next to an end: if it is h from the chord c and p and q from the
  * ends, the circle has the radius ρ = p q / (2 h), and the arc the height c² / 4 / (ρ + √(ρ² − c² / 4)).
  */
-export function bow(p: ArrayLike<number>, a: number, m: number, b: number): number {
-  const [i, j, k] = [3 * a, 3 * m, 3 * b];
+function bow(p: ArrayLike<number>, a = 0): number {
+  const [i, j, k] = [3 * a, 3 * a + 3, 3 * a + 6];
   const [ux, uy, uz] = [p[j] - p[i], p[j + 1] - p[i + 1], p[j + 2] - p[i + 2]];
   const [vx, vy, vz] = [p[k] - p[i], p[k + 1] - p[i + 1], p[k + 2] - p[i + 2]];
   const [wx, wy, wz] = [p[j] - p[k], p[j + 1] - p[k + 1], p[j + 2] - p[k + 2]];
@@ -172,7 +163,6 @@ export function traceOutlines(path: Path, disc: Disc, { points, offsets }: Rings
 }
 
 const TURN = 2 * Math.PI;
-const HALF_TURN = Math.PI;
 
 /**
  * Lays regions into a path.
@@ -283,24 +273,21 @@ export function traceCap(path: Path, disc: Disc, cap: Circle): void {
   // A part that goes on over the circle's beginning is one.
   if (parts.length === 4) parts.splice(0, 4, parts[2], parts[1] + TURN);
   tracePart(path, disc, cap, parts[0], parts[1]);
-  if (parts[1] - parts[0] < TURN) traceHidden(path, disc, cap, parts[1], parts[0] + TURN);
+  if (parts[1] - parts[0] < TURN) {
+    // Its hidden part, along the limb.
+    const [from, middle, to] = [parts[1], (parts[0] + parts[1] + TURN) / 2, parts[0] + TURN].map((t) => {
+      const [x, y] = pointAt(cap, t);
+      return Math.atan2(y, x);
+    });
+    traceLimb(path, disc, from, wrapped(middle - from) + wrapped(to - middle));
+  }
   path.closePath();
   if (-n[2] > d) traceWhole(path, disc, false);
 }
 
-/** The hidden part of a circle, along the limb. */
-function traceHidden(path: Path, disc: Disc, cap: Circle, begin: number, end: number): void {
-  const azimuth = (t: number): number => {
-    const [x, y] = pointAt(cap, t);
-    return Math.atan2(y, x);
-  };
-  const [from, middle, to] = [azimuth(begin), azimuth((begin + end) / 2), azimuth(end)];
-  traceLimb(path, disc, from, wrapped(middle - from) + wrapped(to - middle));
-}
-
 /** Goes on along the limb, counterclockwise for positive turns; a canvas forgets all turns of an arc but one. */
 function traceLimb(path: Path, { x, y, r }: Disc, from: number, turn: number): void {
-  const pieces = Math.ceil(Math.abs(turn) / HALF_TURN);
+  const pieces = Math.ceil(Math.abs(turn) / Math.PI);
   for (let k = 0; k < pieces; ++k) {
     const [begin, end] = [from + (turn * k) / pieces, from + (turn * (k + 1)) / pieces];
     path.ellipse(x, y, r, r, 0, -begin, -end, turn > 0);
@@ -340,7 +327,7 @@ export function bentRings(source: Float64Array, rings: Rings, map: MoebiusMap, r
   const middles = map.apply(Float64Array.from(sides.flatMap((side) => on(side, 0.5))));
   const between = sides.map((side, at): number[] => {
     const three = [...row(p, side.from), ...row(middles, at), ...row(p, side.to)];
-    const pieces = Math.ceil(Math.sqrt((radius * bow(three, 0, 1, 2)) / LEAST_BOW));
+    const pieces = Math.ceil(Math.sqrt((radius * bow(three)) / LEAST_BOW));
     const count = Math.max(1, Math.min(MOST_PIECES, pieces));
     return Array.from({ length: count - 1 }, (_, k) => on(side, (k + 1) / count)).flat();
   });

@@ -6,16 +6,8 @@ import type { MoebiusMap, SphericalDelaunay, SphericalVoronoi } from "../kernel/
 import { angle, cross, DEGREE, directionOf, dot, row, unit, type Vector } from "../space.ts";
 import { arcThrough, bentRings, holdsHidden, traceArc, traceCap, traceOutlines, traceRegions } from "./arcs.ts";
 import type { Side } from "./arcs.ts";
-import {
-  traceCorners,
-  traceDisc,
-  traceSegment,
-  type Disc,
-  type Path,
-  type Pen,
-  type Point,
-  type Trace,
-} from "./pen.ts";
+import { traceCorners, traceDisc, traceSegment } from "./pen.ts";
+import type { Disc, Path, Pen, Point, Trace } from "./pen.ts";
 import type { DotName, StyleName } from "./styles.ts";
 
 /** The longest arc of a circle that is drawn by three points, radians: they are well apart, and tell its sense. */
@@ -57,22 +49,29 @@ export function drawArcs(
   side: Side = "front",
   ink?: string,
 ): void {
-  const sign = side === "front" ? 1 : -1;
-  const ends = new Float64Array((4 * p.length) / 9);
-  for (let i = 0, at = 0; i < p.length; i += 9, at += 4) {
-    // Without a length, and so without ink, where both are hidden.
-    const j = sign * p[i + 2] >= 0 || sign * p[i + 8] >= 0 ? i + 6 : i;
-    [ends[at], ends[at + 1]] = [disc.x + disc.r * p[i], disc.y - disc.r * p[i + 1]];
-    [ends[at + 2], ends[at + 3]] = [disc.x + disc.r * p[j], disc.y - disc.r * p[j + 1]];
+  const [sign, half] = [side === "front" ? 1 : -1, disc.r / 2];
+  const lines = new Float64Array(p.length / 3);
+  for (let i = 0, at = 0; i < p.length; i += 9, at += 3) {
+    lines[at] = disc.x + half * (p[i] + p[i + 6]);
+    lines[at + 1] = disc.y - half * (p[i + 1] + p[i + 7]);
+    // What is hidden has no ink.
+    const isSeen = sign * p[i + 2] >= 0 || sign * p[i + 8] >= 0;
+    lines[at + 2] = isSeen ? disc.r * Math.hypot(p[i + 6] - p[i], p[i + 7] - p[i + 1]) : 0;
   }
-  pen.lines(style, ends, (path, k) => traceArc(path, disc, p, 3 * k, 3 * k + 1, 3 * k + 2, side), ink);
+  pen.lines(style, lines, (path, k) => traceArc(path, disc, p, 3 * k, side), ink);
 }
 
 /** Draws lines as they are. @param ends x, y, x, y in turn. */
 export function drawSegments(pen: Pen, style: StyleName, ends: readonly number[]): void {
-  pen.lines(style, ends, (path, k) =>
-    traceSegment(path, [ends[4 * k], ends[4 * k + 1]], [ends[4 * k + 2], ends[4 * k + 3]]),
-  );
+  const lines = new Float64Array((3 * ends.length) / 4);
+  for (let at = 0; at < ends.length; at += 4) {
+    const [x, y, u, v] = ends.slice(at, at + 4);
+    lines.set([(x + u) / 2, (y + v) / 2, Math.hypot(u - x, v - y)], (3 * at) / 4);
+  }
+  pen.lines(style, lines, (path, k) => {
+    path.moveTo(ends[4 * k], ends[4 * k + 1]);
+    path.lineTo(ends[4 * k + 2], ends[4 * k + 3]);
+  });
 }
 
 /** Caps by three points of each circle, counterclockwise about the cap. */
@@ -80,7 +79,7 @@ export function capLayer(style: StyleName, points: Float64Array): Layer {
   return layerOf(points, (pen, disc, images) => {
     // One after the other: where they overlap, both are seen.
     for (let k = 0; 3 * k < images.length; k += 3) {
-      const circle = arcThrough(images, k, k + 1, k + 2, true);
+      const circle = arcThrough(images, k, true);
       if (circle !== null) pen.draw(style, (path) => traceCap(path, disc, circle));
     }
   });
@@ -102,13 +101,11 @@ export function spotLayer(points: Float64Array, radii: ArrayLike<number>, inks: 
   const order = Array.from(inks.keys()).filter((k) => radii[k] > 0);
   order.sort((a, b) => radii[b] - radii[a] || (inks[a] < inks[b] ? -1 : inks[a] > inks[b] ? 1 : a - b));
   return layerOf(Float64Array.from(order.flatMap((k) => row(points, k))), (pen, disc, images) => {
-    const seen = order.map((_, i) => i).filter((i) => images[3 * i + 2] >= 0);
+    const seen = [...order.keys()].filter((i) => images[3 * i + 2] >= 0);
     const places = seen.flatMap((i) => [...placeOf(disc, row(images, i)), radii[order[i]]]);
     const shown = seen.map((i) => inks[order[i]]);
-    pen.clipped(
-      (path) => traceDisc(path, disc),
-      () => pen.spots(places, shown),
-    ); // the margin has no room for large ones
+    // The margin has no room for large ones.
+    pen.within({ region: (path) => traceDisc(path, disc) }, () => pen.spots(places, shown));
   });
 }
 
@@ -210,17 +207,13 @@ export function circlePoints(center: Vector, radius: number): Vector[] {
   });
 }
 
-/** Degrees between points along the side of a region. */
-const FINE = 1;
-
 /** Lines through places, rows of longitude and latitude in degrees, as arcs. */
 export function lineArcs({ lonlat, offsets }: Places): Float64Array {
   const points = lonlatToXyz(lonlat);
   const arcs: number[] = [];
   for (let line = 0; line + 1 < offsets.length; ++line) {
     for (let k = offsets[line] + 1; k < offsets[line + 1]; ++k) {
-      const [a, b] = [row(points, k - 1), row(points, k)];
-      pushAll(arcs, ...arcBetween(a, b));
+      pushAll(arcs, ...arcBetween(row(points, k - 1), row(points, k)));
     }
   }
   return Float64Array.from(arcs);
@@ -260,7 +253,7 @@ export function ballSurface(disc: Disc, look: (site: number) => Vector, map: Moe
   const sides = (sites: readonly number[]): [number, number][] =>
     sites.map((a, k) => [a, sites[(k + 1) % sites.length]]);
   const line = (path: Path, a: number, b: number, side?: Side): void =>
-    traceArc(path, disc, seen(arcBetween(look(a), look(b))), 0, 1, 2, side);
+    traceArc(path, disc, seen(arcBetween(look(a), look(b))), 0, side);
   return {
     place: (site) => placeOf(disc, image(site)),
     isSeen: (site) => image(site)[2] >= 0,
@@ -306,7 +299,7 @@ export function along(a: Vector, b: Vector): Vector[] {
   const n = cross(a, b);
   const sine = Math.hypot(n[0], n[1], n[2]);
   const whole = Math.atan2(sine, dot(a, b));
-  const count = Math.max(1, Math.ceil((whole * 180) / Math.PI / FINE));
+  const count = Math.max(1, Math.ceil((whole * 180) / Math.PI));
   return Array.from({ length: count }, (_, k) => {
     const t = (whole * k) / count;
     const [s, u] = sine === 0 ? [1, 0] : [Math.sin(whole - t) / sine, Math.sin(t) / sine];

@@ -1,7 +1,7 @@
 /** The pen of the screen: a canvas with two dimensions. */
 
 import { LIGHT, MOST_ARCS, Pen, textParts, traceDisc } from "./pen.ts";
-import type { Disc, Gradient, Picture, Trace } from "./pen.ts";
+import type { Bounds, Disc, Gradient, Picture, Trace } from "./pen.ts";
 import * as styles from "./styles.ts";
 import type { Colours, DotName, DotStyle, LabelStyle, Style, StyleName } from "./styles.ts";
 
@@ -22,40 +22,38 @@ export class CanvasPen extends Pen {
     context.imageSmoothingQuality = "high";
   }
 
-  protected path(_: StyleName, style: Style, trace: Trace, ink?: string): void {
+  draw(name: StyleName, trace: Trace, ink?: string, style: Style = styles.STYLES[name]): void {
     const context = this.#context;
     context.beginPath();
     trace(context);
     if (style.hatch !== undefined) this.#hatch(style.hatch === "crossed");
     if (style.fill !== undefined) {
       context.fillStyle = ink ?? this.colours[style.fill];
-      this.#faint(style.fillOpacity, () => context.fill());
+      this.within({ opacity: style.fillOpacity }, () => context.fill());
     }
     if (style.stroke !== undefined) {
       this.#line(style, ink);
-      this.#faint(style.strokeOpacity, () => context.stroke());
+      this.within({ opacity: style.strokeOpacity }, () => context.stroke());
     }
   }
 
-  behind(body: () => void): void {
-    this.#kept(() => {
-      this.#context.globalAlpha = styles.BEHIND;
-      body();
-    });
-  }
-
-  clipped(trace: Trace, body: () => void): void {
-    this.#kept(() => {
-      this.#context.beginPath();
-      trace(this.#context);
-      this.#context.clip();
-      body();
-    });
+  within({ opacity = 1, region, corner = [0, 0] }: Bounds, body: () => void): void {
+    const context = this.#context;
+    context.save();
+    context.globalAlpha *= opacity;
+    context.translate(...corner);
+    if (region) {
+      context.beginPath();
+      region(context);
+      context.clip();
+    }
+    body();
+    context.restore();
   }
 
   protected discs(_: DotName, { radius: r, fill, rim, rimWidth, opacity }: DotStyle, places: ArrayLike<number>): void {
     const context = this.#context;
-    this.#faint(opacity, () => {
+    this.within({ opacity }, () => {
       if (r < TINY) {
         const side = Math.sqrt(Math.PI) * r;
         context.fillStyle = this.colours[fill];
@@ -66,13 +64,6 @@ export class CanvasPen extends Pen {
       this.#discs(places, r + rimWidth / 2, this.colours[rim]);
       this.#discs(places, r - rimWidth / 2, this.colours[fill]);
     });
-  }
-
-  #faint(opacity = 1, body: () => void): void {
-    const before = this.#context.globalAlpha;
-    this.#context.globalAlpha *= opacity;
-    body();
-    this.#context.globalAlpha = before;
   }
 
   /** Discs about places; some at a time, as a call for each takes longer than the discs. */
@@ -102,13 +93,6 @@ export class CanvasPen extends Pen {
       context.fillStyle = ink;
       context.fill();
       context.stroke();
-    });
-  }
-
-  lowered(by: number, body: () => void): void {
-    this.#kept(() => {
-      this.#context.translate(0, by);
-      body();
     });
   }
 
@@ -144,15 +128,9 @@ export class CanvasPen extends Pen {
     this.#context.setLineDash([...(style.dash ?? [])]);
   }
 
-  #kept(body: () => void): void {
-    this.#context.save();
-    body();
-    this.#context.restore();
-  }
-
   /** Lines over the path that stands, 45° steep. */
   #hatch(crossed: boolean): void {
-    this.#kept(() => {
+    this.within({}, () => {
       const context = this.#context;
       const { width, height } = this;
       context.clip();

@@ -72,7 +72,7 @@ export class Seats {
     return sides.find((side) => {
       const box = boxOf(dot, radius, side, width, style.size);
       if (!this.#isFree(box)) return false;
-      this.#taken.push([box[0] - APART, box[1], box[2] + APART, box[3]]);
+      this.#taken.push([box[0] - APART, box[1] - APART / 2, box[2] + APART, box[3] + APART / 2]);
       this.#pen.label(text, box[0], box[3] - DESCENT * style.size, style);
       return true;
     });

@@ -2,7 +2,7 @@
 
 import type { Owner } from "../rooms/owner.ts";
 import { Ink, SQUARE } from "./density.ts";
-import { DOTS, HANDLE_CROSS, HANDLE_RADIUS, STYLES } from "./styles.ts";
+import { DOTS, STYLES } from "./styles.ts";
 import type { Colours, DotName, DotStyle, LabelStyle, Style, StyleName, Token } from "./styles.ts";
 
 /** What a trace is laid into: a part of the canvas's own interface. */
@@ -52,6 +52,13 @@ const [FINEST, SMALLEST] = [0.55, 0.4];
 /** Arcs of ellipses in one path: browsers need quadratic time for paths of thousands. */
 export const MOST_ARCS = 256;
 
+/** How something is drawn: faintly, inside a region alone, or with its corner elsewhere. */
+export interface Bounds {
+  readonly opacity?: number | undefined;
+  readonly region?: Trace;
+  readonly corner?: Point;
+}
+
 export abstract class Pen {
   /** Of the drawing, pixels of the screen. */
   readonly width: number;
@@ -68,55 +75,37 @@ export abstract class Pen {
   }
 
   /** Draws a path in a style, or in an ink of the data; regions are those about which the path winds. */
-  draw(name: StyleName, trace: Trace, ink?: string): void {
-    this.path(name, STYLES[name], trace, ink);
-  }
-  /** Draws lines by their ends, x, y, x, y in turn, which `lay` joins; those of nets weaker where they are dense. */
-  lines(name: StyleName, ends: ArrayLike<number>, lay: (path: Path, k: number) => void, ink?: string): void {
+  abstract draw(name: StyleName, trace: Trace, ink?: string, style?: Style): void;
+  /** Draws lines by the x and y of their middles and their lengths; those of nets weaker where they are dense. */
+  lines(name: StyleName, lines: Float64Array, lay: (path: Path, k: number) => void, ink?: string): void {
     const style: Style = STYLES[name];
-    const { width = 1, isNet } = style;
-    const middles = Float64Array.from({ length: ends.length / 2 }, (_, at) => {
-      const x = 2 * at - (at & 1);
-      return (ends[x] + ends[x + 2]) / 2;
-    });
-    const area = (k: number): number =>
-      width *
-      this.weight *
-      Math.min(SQUARE, Math.hypot(ends[4 * k + 2] - ends[4 * k], ends[4 * k + 3] - ends[4 * k + 1]));
-    this.#ink(name).each(middles, area, isNet ? MOST_LINES : Infinity, (part, numbers) => {
+    const width = (style.width ?? 1) * this.weight;
+    const area = (k: number): number => width * Math.min(SQUARE, lines[3 * k + 2]); // what is longer lies apart
+    this.#ink(name).each(lines, 3, area, style.isNet ? MOST_LINES : Infinity, (part, numbers) => {
       const size = Math.max(FINEST, Math.sqrt(part));
-      const thin: Style = { ...style, width: size * width, strokeOpacity: part / size };
-      for (let from = 0; from < numbers.length; from += MOST_ARCS)
-        this.path(name, thin, (path) => numbers.slice(from, from + MOST_ARCS).forEach((k) => lay(path, k)), ink);
+      const thin: Style = { ...style, width: size * (style.width ?? 1), strokeOpacity: part / size };
+      for (let from = 0; from < numbers.length; from += MOST_ARCS) {
+        const those = numbers.slice(from, from + MOST_ARCS);
+        this.draw(name, (path) => those.forEach((k) => lay(path, k)), ink, thin);
+      }
     });
   }
-  /** Draws what lies behind, faintly. */
-  abstract behind(body: () => void): void;
-  /** Draws only inside a region. */
-  abstract clipped(trace: Trace, body: () => void): void;
+  /** Draws something within bounds. */
+  abstract within(bounds: Bounds, body: () => void): void;
   /** Dots at x, y in turn; where they are dense, smaller and weaker. */
   dots(name: DotName, places: ArrayLike<number>): void {
     const { radius, rimWidth, ...inks }: DotStyle = DOTS[name];
-    const area = Math.PI * radius * radius;
-    this.#ink(name).each(
-      places,
-      () => area,
-      MOST_DOTS,
-      (part, numbers) => {
-        const size = Math.max(SMALLEST, Math.sqrt(part));
-        const style = { ...inks, radius: size * radius, rimWidth: size * rimWidth, opacity: part / size ** 2 };
-        const those = Float64Array.from(
-          { length: 2 * numbers.length },
-          (_, at) => places[2 * numbers[at >> 1] + (at & 1)],
-        );
-        this.discs(name, style, those);
-      },
-    );
+    const area = (): number => Math.PI * radius * radius;
+    this.#ink(name).each(places, 2, area, MOST_DOTS, (part, numbers) => {
+      const size = Math.max(SMALLEST, Math.sqrt(part));
+      const style = { ...inks, radius: size * radius, rimWidth: size * rimWidth, opacity: part / size ** 2 };
+      const those = new Float64Array(2 * numbers.length);
+      for (let at = 0; at < those.length; ++at) those[at] = places[2 * numbers[at >> 1] + (at & 1)];
+      this.discs(name, style, those);
+    });
   }
   /** Dots with radii and inks of their own, x, y, r in turn, the lowest first, each with a line around it. */
   abstract spots(places: ArrayLike<number>, inks: readonly string[]): void;
-  /** Draws something so many pixels lower. */
-  abstract lowered(by: number, body: () => void): void;
   /** Text at a point of its baseline. */
   abstract label(text: string, x: number, y: number, style: LabelStyle): void;
   /** A picture, fitted into a rectangle. */
@@ -131,7 +120,6 @@ export abstract class Pen {
     return this.colours[colour as Token] ?? colour;
   }
 
-  protected abstract path(name: StyleName, style: Style, trace: Trace, ink?: string): void;
   /** First all rims: where dots lie close, none is hidden by the rim of another. */
   protected abstract discs(name: DotName, style: DotStyle, places: ArrayLike<number>): void;
   protected abstract fillDisc(disc: Disc, fill: string | Gradient): void;
@@ -191,8 +179,8 @@ export function cornersOf(left: number, low: number, right: number, high: number
 
 /** A ring to drag: filled and crossed in front, empty behind the ball, filled on a rim. */
 export function drawHandle(pen: Pen, x: number, y: number, kind: "front" | "behind" | "rim"): void {
-  const c = HANDLE_CROSS;
-  pen.draw(kind === "behind" ? "handle-behind" : "handle", (path) => traceDisc(path, { x, y, r: HANDLE_RADIUS }));
+  const [r, c] = [5, 2]; // of the ring, and half of the cross
+  pen.draw(kind === "behind" ? "handle-behind" : "handle", (path) => traceDisc(path, { x, y, r }));
   if (kind !== "front") return;
   pen.draw("handle-cross", (path) => {
     traceSegment(path, [x - c, y], [x + c, y]);

@@ -2,7 +2,7 @@
 
 import { CanvasPen } from "./canvas_pen.ts";
 import type { Disc, Pen, Sheet } from "./pen.ts";
-import { colours, NARROW, NARROW_WEIGHT, onColours } from "./styles.ts";
+import { colours, onColours } from "./styles.ts";
 
 /** Why a drawing is made: its kind decides how much of it may be left out. */
 export type Reason = "size" | "colours" | "state" | "hand" | "flight" | "rest" | "pointer";
@@ -18,9 +18,12 @@ type Painter = (pen: Pen, isMoving: boolean) => void;
 
 export class Plate {
   readonly canvas: HTMLCanvasElement;
-  /** Frames that were drawn, and what asked for the last one. */
+  /** Pixels of the screen; 0 while the room is not shown. */
+  width = 0;
+  height = 0;
+  /** Frames that were drawn. */
   frames = 0;
-  reason: Reason | null = null;
+  #reason: Reason | null = null;
   readonly #paint: Painter;
   readonly #overlay: Painter | null;
   readonly #ground = document.createElement("canvas"); // what lies below the overlay; a movement's whole frame
@@ -30,8 +33,6 @@ export class Plate {
   readonly #observer: ResizeObserver;
   readonly #forget: () => void;
   #asked = 0;
-  #width = 0;
-  #height = 0;
   #resting: ReturnType<typeof setTimeout> | undefined;
 
   /**
@@ -56,15 +57,6 @@ export class Plate {
     this.#forget = onColours(() => this.#draw("colours"));
   }
 
-  /** Pixels of the screen; 0 while the room is not shown. */
-  get width(): number {
-    return this.#width;
-  }
-
-  get height(): number {
-    return this.#height;
-  }
-
   /** The disc of a ball that fills the drawing. */
   get disc(): Disc {
     const [x, y] = [this.width / 2, this.height / 2];
@@ -73,8 +65,8 @@ export class Plate {
 
   /** Asks for a drawing with the next frame; moves are followed by one in full. */
   redraw(reason: Reason): void {
-    if (reason !== "pointer" || this.#asked === 0) this.reason = reason;
-    if (this.#asked === 0) this.#asked = requestAnimationFrame(() => this.#draw(this.reason ?? reason));
+    if (reason !== "pointer" || this.#asked === 0) this.#reason = reason;
+    if (this.#asked === 0) this.#asked = requestAnimationFrame(() => this.#draw(this.#reason ?? reason));
   }
 
   /** The place of a pointer in the drawing. */
@@ -100,13 +92,13 @@ export class Plate {
   }
 
   get #weight(): number {
-    return matchMedia(NARROW).matches ? NARROW_WEIGHT : 1;
+    return matchMedia("(max-width: 43.75rem)").matches ? 0.8 : 1; // lines are finer in a narrow window
   }
 
   #resize(): void {
-    const [scale, wasHidden] = [devicePixelRatio, this.#width === 0];
+    const [scale, wasHidden] = [devicePixelRatio, this.width === 0];
     // Asked for here alone: in the midst of a movement the question would have the whole page laid out.
-    [this.#width, this.#height] = [this.canvas.clientWidth, this.canvas.clientHeight];
+    [this.width, this.height] = [this.canvas.clientWidth, this.canvas.clientHeight];
     const [width, height] = [Math.round(this.width * scale), Math.round(this.height * scale)];
     if (width === 0 || height === 0) return;
     if (!wasHidden && this.canvas.width === width && this.canvas.height === height) return;
@@ -117,7 +109,7 @@ export class Plate {
   #draw(reason: Reason): void {
     cancelAnimationFrame(this.#asked);
     this.#asked = 0;
-    this.reason = reason;
+    this.#reason = reason;
     if (this.width === 0 || this.height === 0) return;
     const isMoving = reason === "hand" || reason === "flight";
     if (reason !== "pointer") clearTimeout(this.#resting);

@@ -51,7 +51,7 @@ export const STYLES = {
   "isoline-halo": { stroke: "halo", width: 2.4 },
   isoline: { stroke: "ink", width: 0.8 },
   "spot-line": { stroke: "limb", width: 0.6 },
-  "patch-line": { stroke: "accent", width: 1 },
+  patch: { fill: "accent-wash", stroke: "accent", width: 1 },
   handle: { stroke: "accent", width: 1.8, fill: "paper" },
   "handle-behind": { stroke: "accent", width: 1.2 },
   "handle-cross": { stroke: "accent", width: 1 },
@@ -95,16 +95,8 @@ export const HALO_WIDTH = 4;
 export const HATCH_PITCH = 6;
 export const HATCH_WIDTH = 0.8;
 
-/** Ring of a handle, and the half of the cross in it, pixels. */
-export const HANDLE_RADIUS = 5;
-export const HANDLE_CROSS = 2;
-
-/** Opacity of what lies behind. */
-export const BEHIND = 0.38;
-
-/** Widths of lines in a narrow window, and how narrow that is. */
-export const NARROW_WEIGHT = 0.8;
-export const NARROW = "(max-width: 43.75rem)";
+/** What lies behind. */
+export const FAINT = { opacity: 0.38 };
 
 /** The type of the page, as in its style sheet. */
 export const SERIF =
@@ -153,9 +145,7 @@ export function colours(within: HTMLElement = document.documentElement): Colours
 
 /** Calls back when the system's colours change, until the function that is returned is called. */
 export function onColours(changed: () => void): () => void {
-  const lists = QUERIES.map((query) => matchMedia(query));
-  for (const list of lists) list.addEventListener("change", changed);
-  return () => {
-    for (const list of lists) list.removeEventListener("change", changed);
-  };
+  const end = new AbortController();
+  for (const query of QUERIES) matchMedia(query).addEventListener("change", changed, { signal: end.signal });
+  return () => end.abort();
 }

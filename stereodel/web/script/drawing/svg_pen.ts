@@ -1,8 +1,8 @@
 /** The pen of SVG: the same trace as on the screen, with true arcs of ellipses. */
 
 import { writeNumber } from "../link.ts";
-import { LIGHT, Pen, textParts, type Disc, type Gradient, type Picture, type Trace } from "./pen.ts";
-import { BEHIND, HALO_WIDTH, HATCH_PITCH, HATCH_WIDTH, SERIF, STYLES } from "./styles.ts";
+import { LIGHT, Pen, textParts, type Bounds, type Disc, type Gradient, type Picture, type Trace } from "./pen.ts";
+import { HALO_WIDTH, HATCH_PITCH, HATCH_WIDTH, SERIF, STYLES } from "./styles.ts";
 import type { DotName, DotStyle, LabelStyle, Style, StyleName } from "./styles.ts";
 
 /** Decimals of a coordinate, pixels of the screen. */
@@ -29,7 +29,7 @@ export class SvgPen extends Pen {
     return `${lines.join("\n")}\n</g>\n</svg>\n`;
   }
 
-  protected path(name: StyleName, style: Style, trace: Trace, ink?: string): void {
+  draw(name: StyleName, trace: Trace, ink?: string, style: Style = STYLES[name]): void {
     const d = pathData(trace);
     if (d === "") return;
     const looks: string[] = [];
@@ -39,14 +39,15 @@ export class SvgPen extends Pen {
     this.#parts.push(`<path class="${name}" ${looks.join(" ")} d="${d}"/>`);
   }
 
-  behind(body: () => void): void {
-    this.#group(`opacity="${BEHIND}"`, body);
-  }
-
-  clipped(trace: Trace, body: () => void): void {
+  within({ opacity = 1, region, corner }: Bounds, body: () => void): void {
     const id = `clip-${this.#definitions.length}`;
-    this.#definitions.push(`<clipPath id="${id}"><path d="${pathData(trace)}"/></clipPath>`);
-    this.#group(`clip-path="url(#${id})"`, body);
+    if (region) this.#definitions.push(`<clipPath id="${id}"><path d="${pathData(region)}"/></clipPath>`);
+    const clip = region ? ` clip-path="url(#${id})"` : "";
+    const seen = opacity < 1 ? ` opacity="${opacity}"` : "";
+    const place = corner ? ` transform="translate(${corner.map(number).join(" ")})"` : "";
+    this.#parts.push(`<g${clip}${seen}${place}>`);
+    body();
+    this.#parts.push("</g>");
   }
 
   protected discs(name: DotName, style: DotStyle, places: ArrayLike<number>): void {
@@ -71,10 +72,6 @@ export class SvgPen extends Pen {
     });
   }
 
-  lowered(by: number, body: () => void): void {
-    this.#group(`transform="translate(0 ${number(by)})"`, body);
-  }
-
   label(text: string, x: number, y: number, style: LabelStyle): void {
     const anchor = { left: "start", center: "middle", right: "end" }[style.align ?? "left"];
     const words = textParts(text, style.italic ?? false)
@@ -88,7 +85,7 @@ export class SvgPen extends Pen {
   picture(picture: Picture, x: number, y: number, width: number, height: number): void {
     if (picture instanceof HTMLImageElement) {
       const svg = decodeURIComponent(picture.src.slice(picture.src.indexOf(",") + 1));
-      return this.#group(`transform="translate(${number(x)} ${number(y)})"`, () => this.#parts.push(svg));
+      return this.within({ corner: [x, y] }, () => this.#parts.push(svg));
     }
     const canvas = document.createElement("canvas");
     [canvas.width, canvas.height] = [picture.width, picture.height];
@@ -101,12 +98,6 @@ export class SvgPen extends Pen {
     const dash = style.dash === undefined ? "" : ` stroke-dasharray="${style.dash.join(" ")}"`;
     const width = number((style.width ?? 1) * this.weight);
     return `${paint("stroke", ink, style.strokeOpacity)} stroke-width="${width}"${dash}`;
-  }
-
-  #group(attributes: string, body: () => void): void {
-    this.#parts.push(`<g ${attributes}>`);
-    body();
-    this.#parts.push("</g>");
   }
 
   protected fillDisc({ x, y, r }: Disc, fill: string | Gradient): void {

@@ -13,8 +13,6 @@ export interface Inconclusive {
   readonly exact: number;
 }
 
-type Arrays = Pick<Delaunay, "points" | "simplices" | "neighbors" | "duplicates" | "dimension" | "inconclusive">;
-
 /** Points from which on a fresh start is faster than inserting (removing) one for so many present ones: measured. */
 const REBUILD_INSERTING = 3;
 const REBUILD_REMOVING = 6;
@@ -106,15 +104,11 @@ export abstract class Delaunay {
    */
   remove(indices: Numbers): Int32Array {
     const gone = asIndices(indices, this.size);
-    const number = new Int32Array(this.size);
-    for (const k of gone) number[k] = -1;
+    const isGone = new Uint8Array(this.size);
+    for (const k of gone) isGone[k] = 1;
     let left = 0;
-    for (let k = 0; k < number.length; ++k) if (number[k] === 0) number[k] = left++;
-    const rest = new Float64Array(this.width * left);
-    for (let k = 0; k < number.length; ++k) {
-      if (number[k] < 0) continue;
-      rest.set(this.points.subarray(this.width * k, this.width * (k + 1)), this.width * number[k]);
-    }
+    const number = Int32Array.from(isGone, (is) => (is ? -1 : left++));
+    const rest = this.points.filter((_, at) => !isGone[Math.floor(at / this.width)]);
     if (this.dimension < 2 || REBUILD_REMOVING * (number.length - left) > left) this.fresh(rest);
     else if (gone.length > 0) this.change("remove", [gone, gone.length], rest);
     return number;
@@ -167,11 +161,12 @@ export abstract class Delaunay {
       const first = firsts[Math.floor(e / 3)];
       return first - (first % 3) + ((first + e) % 3);
     });
-    const arrays = {
-      simplices: from.map((at) => simplices[at]),
-      neighbors: from.map((at) => place[neighbors[at]] ?? -1),
-    };
-    this.hold({ ...(this as Arrays), ...arrays }, this.forKernel[0]);
+    const moved = Int32Array.from(from, (at) => place[neighbors[at]] ?? -1);
+    this.hold(
+      this.forKernel[0],
+      Int32Array.from(from, (at) => simplices[at]),
+      moved,
+    );
   }
 
   private forQueries(): Argument[] {
@@ -203,23 +198,35 @@ export abstract class Delaunay {
 
   private fresh(points: Float64Array): void {
     const kept = new Kept(points);
-    const open: Inconclusive = { filter: 0, curvature: 0, doubleDouble: 0, exact: 0 };
-    this.hold(triangulated(points, open, `${this.space}_triangulate`, kept, points.length / this.width), kept);
+    const none: Inconclusive = { filter: 0, curvature: 0, doubleDouble: 0, exact: 0 };
+    this.take(points, kept, none, "triangulate", kept, points.length / this.width);
   }
 
   /** The version after a change of this one; from the points alone if no triangles are left. */
   private change(what: "insert" | "remove", given: Argument[], points: Float64Array): void {
     const now = [...this.forKernel, this.duplicates, this.duplicates.length / 2, ...given];
-    const changed = triangulated(points, this.inconclusive, `${this.space}_${what}`, ...now);
-    if (changed.dimension === 2) this.hold(changed, new Kept(points));
-    else this.fresh(points);
+    this.take(points, new Kept(points), this.inconclusive, what, ...now);
+    if (this.dimension < 2) this.fresh(points);
   }
 
-  private hold(arrays: Arrays, points: Kept): void {
-    const { simplices, neighbors } = arrays;
-    const size = arrays.points.length / this.width;
-    const forKernel = [points, size, new Kept(simplices), new Kept(neighbors), simplices.length / 3];
-    Object.assign(this, arrays, { forKernel, derived: {} });
+  /** What the kernel makes of points; tests are counted on from those before. */
+  private take(points: Float64Array, kept: Kept, before: Inconclusive, what: string, ...given: Argument[]): void {
+    const types = [Int32Array, Int32Array, Int32Array, Int32Array, Float64Array] as const;
+    const name = `${this.space}_${what}`;
+    const [simplices, neighbors, duplicates, [dimension], open] = answered(types, name, ...given);
+    const inconclusive = {
+      filter: before.filter + open[0],
+      curvature: before.curvature + open[1],
+      doubleDouble: before.doubleDouble + open[2],
+      exact: before.exact + open[3],
+    };
+    Object.assign(this, { points, duplicates, dimension, inconclusive });
+    this.hold(kept, simplices, neighbors);
+  }
+
+  private hold(points: Kept, simplices: Int32Array, neighbors: Int32Array): void {
+    const forKernel = [points, this.size, new Kept(simplices), new Kept(neighbors), simplices.length / 3];
+    Object.assign(this, { simplices, neighbors, forKernel, derived: {} });
   }
 }
 
@@ -266,17 +273,4 @@ export class SphericalDelaunay extends Delaunay {
   get closing(): Uint8Array {
     return this.closed!.values as Uint8Array;
   }
-}
-
-/** What the kernel makes of points; tests are counted on from those before. */
-function triangulated(points: Float64Array, before: Inconclusive, name: string, ...given: Argument[]): Arrays {
-  const types = [Int32Array, Int32Array, Int32Array, Int32Array, Float64Array] as const;
-  const [simplices, neighbors, duplicates, [dimension], open] = answered(types, name, ...given);
-  const inconclusive = {
-    filter: before.filter + open[0],
-    curvature: before.curvature + open[1],
-    doubleDouble: before.doubleDouble + open[2],
-    exact: before.exact + open[3],
-  };
-  return { points, simplices, neighbors, duplicates, dimension, inconclusive };
 }

@@ -42,35 +42,6 @@ export class Kept {
   }
 }
 
-/** @internal A compiled module and its present instance. */
-export class Kernel {
-  private readonly module: WebAssembly.Module;
-  private instance: Instance | null = null;
-
-  constructor(module: WebAssembly.Module) {
-    this.module = module;
-  }
-
-  /** Runs `body`, which calls functions of the module. */
-  run<T>(body: (session: Instance) => T): T {
-    const instance = (this.instance ??= new Instance(this.module));
-    try {
-      const result = body(instance);
-      instance.clean();
-      return result;
-    } catch (error) {
-      this.instance = null;
-      if (error instanceof WebAssembly.RuntimeError) throw new KernelError(`the kernel stopped: ${error.message}`);
-      throw error;
-    }
-  }
-
-  /** Bytes that the module's memory has now. */
-  get memoryBytes(): number {
-    return this.instance?.memory.buffer.byteLength ?? 0;
-  }
-}
-
 /** @internal One call after another; arrays that are handed in are given back when all are done. */
 class Instance {
   readonly memory: WebAssembly.Memory;
@@ -89,9 +60,9 @@ class Instance {
     this.invoke("_initialize");
   }
 
-  /** The address of as many bytes, which a function will fill. */
-  place(bytes: number): number {
-    const address = this.allocate(bytes);
+  /** The address of as many bytes, those of an array, or which a function will fill. */
+  place(bytes: number, array?: NumberArray): number {
+    const address = this.allocate(bytes, array);
     this.taken.push(address);
     return address;
   }
@@ -106,17 +77,6 @@ class Instance {
     return unsigned(this.invoke(name, ...given.map((argument) => this.addressOf(argument))));
   }
 
-  /** Calls one that answers with arrays of these types, whose lengths it finds out. */
-  ask(types: readonly ArrayMaker<NumberArray>[], name: string, given: Argument[]): NumberArray[] {
-    const answer = this.call(name, ...given);
-    const arrays = types.map((Type, slot) => {
-      const [address, length] = Array.from(this.copy(Int32Array, answer + 8 * slot, 2), unsigned);
-      return this.copy(Type, address, length);
-    });
-    this.invoke("discard", answer);
-    return arrays;
-  }
-
   /** Gives back what was handed in, and of what may stay the longest unused. */
   clean(): void {
     for (const address of this.taken.splice(0)) this.invoke("release", address);
@@ -129,33 +89,22 @@ class Instance {
   }
 
   private addressOf(argument: Argument): number {
-    if (argument === null) return 0;
-    if (typeof argument === "number") return argument;
-    if (argument instanceof Kept) return this.keep(argument.values);
-    const address = this.copyIn(argument);
-    this.taken.push(address);
+    if (argument === null || typeof argument === "number") return argument ?? 0;
+    if (!(argument instanceof Kept)) return this.place(argument.byteLength, argument);
+    const { values } = argument;
+    const known = this.kept.get(values);
+    if (known === undefined) this.keptBytes += values.byteLength;
+    this.kept.delete(values); // the one used last stands at the end
+    const address = known ?? this.allocate(values.byteLength, values);
+    this.kept.set(values, address);
     return address;
   }
 
-  private keep(array: NumberArray): number {
-    const known = this.kept.get(array);
-    const address = known ?? this.copyIn(array);
-    if (known === undefined) this.keptBytes += array.byteLength;
-    this.kept.delete(array); // the one used last stands at the end
-    this.kept.set(array, address);
-    return address;
-  }
-
-  private copyIn(array: NumberArray): number {
-    const address = this.allocate(array.byteLength);
-    const bytes = new Uint8Array(array.buffer, array.byteOffset, array.byteLength);
-    new Uint8Array(this.memory.buffer, address).set(bytes);
-    return address;
-  }
-
-  private allocate(bytes: number): number {
+  private allocate(bytes: number, array?: NumberArray): number {
     if (bytes >= 2 ** 32) throw new KernelError(OUT_OF_MEMORY);
-    return unsigned(this.invoke("allocate", Math.max(bytes, 1)));
+    const address = unsigned(this.invoke("allocate", Math.max(bytes, 1)));
+    if (array) new Uint8Array(this.memory.buffer, address).set(new Uint8Array(array.buffer, array.byteOffset, bytes));
+    return address;
   }
 
   private invoke(name: string, ...numbers: number[]): number {
@@ -170,7 +119,8 @@ class Instance {
   }
 }
 
-let current: Kernel | null = null;
+let module: WebAssembly.Module | null = null;
+let instance: Instance | null = null;
 let loading: Promise<void> | null = null;
 
 /** What is asked of a response of `fetch`: programs without the browser's types have these. */
@@ -196,7 +146,7 @@ export type KernelSource = ArrayBuffer | ArrayBufferView | KernelResponse | Prom
  */
 export function load(source: KernelSource): Promise<void> {
   loading ??= compiled(source)
-    .then((module) => void (current = new Kernel(module)))
+    .then((made) => void (module = made))
     .catch((error: unknown) => {
       loading = null;
       throw error;
@@ -213,10 +163,19 @@ async function compiled(source: KernelSource): Promise<WebAssembly.Module> {
   return WebAssembly.compile(await response.arrayBuffer());
 }
 
-/** @internal The kernel that was loaded. */
-export function kernel(): Kernel {
-  if (current === null) throw new KernelError("the kernel is not loaded: await load() first");
-  return current;
+/** @internal Runs `body`, which calls functions of the module that was loaded. */
+export function run<T>(body: (session: Instance) => T): T {
+  if (module === null) throw new KernelError("the kernel is not loaded: await load() first");
+  const session = (instance ??= new Instance(module));
+  try {
+    const result = body(session);
+    session.clean();
+    return result;
+  } catch (error) {
+    instance = null;
+    if (error instanceof WebAssembly.RuntimeError) throw new KernelError(`the kernel stopped: ${error.message}`);
+    throw error;
+  }
 }
 
 /** So many numbers that a function of the kernel fills in behind its other arguments. */
@@ -226,7 +185,7 @@ export function filled<A extends NumberArray>(
   name: string,
   ...given: Argument[]
 ): A {
-  return kernel().run((session) => {
+  return run((session) => {
     const out = session.place(length * Type.BYTES_PER_ELEMENT);
     session.call(name, ...given, out);
     return session.copy(Type, out, length);
@@ -239,7 +198,15 @@ export function answered<T extends NumberArray[]>(
   name: string,
   ...given: Argument[]
 ): T {
-  return kernel().run((session) => session.ask(types, name, given)) as T;
+  return run((session) => {
+    const answer = session.call(name, ...given);
+    const arrays = types.map((Type: ArrayMaker<NumberArray>, slot) => {
+      const [address, length] = Array.from(session.copy(Int32Array, answer + 8 * slot, 2), unsigned);
+      return session.copy(Type, address, length);
+    });
+    session.call("discard", answer);
+    return arrays as T;
+  });
 }
 
 /** So many doubles. */

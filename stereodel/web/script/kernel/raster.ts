@@ -1,7 +1,7 @@
 /** A picture of the whole sphere on a globe, through a lens, pixel by pixel. */
 
 import { asCount } from "./checks.ts";
-import { filled, Kept, kernel } from "./instance.ts";
+import { filled, Kept, run } from "./instance.ts";
 import type { MoebiusMap } from "./moebius.ts";
 
 const EDGES = Float64Array.of(-Math.PI, -Math.PI / 2, Math.PI, Math.PI / 2); // west, south, east, north in radians
@@ -32,7 +32,7 @@ export class Raster {
       throw new RangeError(`pixels has ${pixels.length} numbers, and not ${whole} is twice as wide as high`);
     }
     this.texels = new Kept(premultiplied(pixels));
-    const size = kernel().run((session) => session.call("raster_levels_size", this.width, this.height));
+    const size = run((session) => session.call("raster_levels_size", this.width, this.height));
     const given = [this.texels, this.width, this.height, EDGES];
     this.levels = new Kept(filled(Uint8Array, size, "raster_levels", ...given));
   }

@@ -27,7 +27,7 @@ export async function framed(sheet: Sheet, ink: string): Promise<Sheet> {
     height: foot + (notes.length > 0 ? notes.length * 17 + 10 : 0),
     paint(pen) {
       lines.forEach((line, k) => pen.label(line, width / 2, 26 + 30 * k, TITLE));
-      pen.lowered(top, () => paint(pen));
+      pen.within({ corner: [0, top] }, () => paint(pen));
       if (owner.legend) pen.picture(legend, (width - legend.width) / 2, below, legend.width, legend.height);
       notes.forEach((line, k) => pen.label(line, width / 2, foot + 14 + 17 * k, SOURCE));
     },

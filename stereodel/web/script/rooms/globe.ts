@@ -17,7 +17,16 @@ import { counted, latitude, longitude, scale } from "../words.ts";
 import { Choice, mark, NumberField, PlaceFields, tellNamed } from "./controls.ts";
 import { BubbleGlobe, FisheyeGlobe, FiveViews, type GlobeHost } from "./globe_plates.ts";
 import { GlobeScene, type Places } from "./globe_scene.ts";
-import { BEGINNING, GLOBE, magnificationWords, placeWords, PRESETS, sideView, sightWords } from "./globe_state.ts";
+import {
+  BEGINNING,
+  beginningOf,
+  GLOBE,
+  magnificationWords,
+  placeWords,
+  PRESETS,
+  sideView,
+  sightWords,
+} from "./globe_state.ts";
 import type { GlobeState } from "./globe_state.ts";
 import { area, placeSentence, toldOf, valueWords } from "./owner.ts";
 import { TableRoom, tableOf, tableValues } from "./site_room.ts";
@@ -30,11 +39,6 @@ const UNMOVED = 1e-6;
 
 /** Places up to which their cells are drawn from the beginning. */
 const MOST_WITH_CELLS = 2000;
-
-/** @param given The points that the page was made for. */
-export function globeRoom(host: RoomHost, given: Places | null, latitude: Latitude): Room {
-  return new GlobeRoom(host, given, latitude);
-}
 
 export class GlobeRoom extends TableRoom implements Room, GlobeHost {
   readonly scene: GlobeScene;
@@ -57,8 +61,9 @@ export class GlobeRoom extends TableRoom implements Room, GlobeHost {
   #opened: Places | null = null;
   #picture: Painted | null = null;
   /** The lens that was announced last. */
-  #said = BEGINNING.sight.lens;
+  #said = JSON.stringify(BEGINNING.sight.lens);
 
+  /** @param given The points that the page was made for. */
   constructor(host: RoomHost, given: Places | null, latitude: Latitude) {
     super(host);
     [this.scene, this.#given] = [new GlobeScene(latitude), given];
@@ -110,12 +115,23 @@ export class GlobeRoom extends TableRoom implements Room, GlobeHost {
     };
     on(slider, magnify, "input");
     for (const button of section.querySelectorAll<HTMLButtonElement>(".presets button")) {
-      on(button, () => this.#begin(button.value === "places" ? this.beginning : PRESETS[button.value]));
+      on(button, () => {
+        const begin = button.value === "places" ? this.beginning : PRESETS[button.value];
+        const isHere = this.#state.lens === "fisheye" && begin.lens === "fisheye";
+        if (isHere && begin.sight !== undefined) this.#globe.fly(begin.sight);
+        else this.set(begin, "state", true);
+      });
     }
     on(find(section, "[data-do=earth]"), () => this.#paintedBy(null));
-    for (const button of views) on(button, () => this.#flyToSide(button));
+    for (const button of views) {
+      on(button, () => {
+        const { lens } = this.#state.sight;
+        this.#globe.fly({ lens, view: sideView(Number(button.value), lens.focus) });
+        this.host.announcer.say(button.textContent?.trim().replace(/^\d\s*/, "") ?? "");
+      });
+    }
     this.#show(this.#given);
-    void this.#load();
+    void this.scene.load(this.host.contents).then(() => this.redraw()); // until then the globe is water
   }
 
   state(isWhole: boolean): Record<string, string> {
@@ -124,9 +140,7 @@ export class GlobeRoom extends TableRoom implements Room, GlobeHost {
     const { lonlat, name, names = null, values = new Map() } = places ?? NO_PLACES;
     return {
       ...GLOBE.write(fisheye.lens === "fisheye" ? fisheye : this.#state),
-      ...(places === null || places === this.#given
-        ? {}
-        : tableValues({ places: lonlat, name, names, values }, isWhole)),
+      ...(places !== this.#given && places && tableValues({ places: lonlat, name, names, values }, isWhole)),
       ...this.switches.values,
       ...(picture === null ? {} : { picture: picture.name }),
     };
@@ -160,7 +174,7 @@ export class GlobeRoom extends TableRoom implements Room, GlobeHost {
 
   open(file: File, exchange: Exchange): Promise<void> {
     const { messages, guarded } = this.host;
-    if (exchange.isPicture(file)) {
+    if (file.type.startsWith("image/")) {
       return exchange.openPanorama(file, messages, (picture) => this.#paintedBy((this.#picture = picture)));
     }
     return exchange.openPoints(file, "lonlat", this.host, ({ places: lonlat, names, values }) => {
@@ -198,12 +212,6 @@ export class GlobeRoom extends TableRoom implements Room, GlobeHost {
     return exchange.globePython(this.#state, this.scene, this.isOn, 2 * globes[0].disc.r, isPointed);
   }
 
-  /** Unpacks what the page carries; until then the globe is water. */
-  async #load(): Promise<void> {
-    await this.scene.load(this.host.contents);
-    this.redraw();
-  }
-
   /** A picture covers the Earth, or no longer. */
   #paintedBy(picture: Painted | null): void {
     this.scene.picture = picture;
@@ -223,17 +231,6 @@ export class GlobeRoom extends TableRoom implements Room, GlobeHost {
     document.documentElement.style.setProperty("--legend", `${legend.offsetHeight}px`);
   }
 
-  /** The room begins with places, if there are any, in sight. */
-  #fit({ lonlat, owner }: Places, hasPlaces: boolean): void {
-    this.switches.begin("cells", hasPlaces && lonlat.length <= 2 * MOST_WITH_CELLS && !owner?.inks);
-    this.switches.begin("tissot", !hasPlaces);
-    const sight = fitted(lonlat);
-    if (sight === null) return void (this.beginning = BEGINNING);
-    const [{ view }, center] = [sight, sight.lens.focus];
-    const [from, to] = [BEGINNING.from, BEGINNING.to].map(({ radius }) => ({ center, radius }));
-    this.beginning = { ...BEGINNING, sight, from, to, before: view, after: view };
-  }
-
   #show(places: Places | null): void {
     if (places !== null && places === this.scene.places) return;
     this.scene.show(places);
@@ -241,8 +238,10 @@ export class GlobeRoom extends TableRoom implements Room, GlobeHost {
     this.switches.offer("cells", places !== null);
     this.switches.offer("names", !!places?.names);
     for (const part of ["[data-show=places]", "[value=places]"]) find(this.section, part).hidden = places === null;
-    const { lonlat, names, name } = places ?? NO_PLACES;
-    this.#fit(places ?? NO_PLACES, places !== null);
+    const { lonlat, names = null, name, owner } = places ?? NO_PLACES;
+    this.switches.begin("cells", places !== null && lonlat.length <= 2 * MOST_WITH_CELLS && !owner?.inks);
+    this.switches.begin("tissot", places === null);
+    this.beginning = beginningOf(fitted(lonlat));
     this.#tell(places ?? NO_PLACES);
     const told = toldOf(places ?? NO_PLACES);
     const count = lonlat.length / 2;
@@ -252,7 +251,7 @@ export class GlobeRoom extends TableRoom implements Room, GlobeHost {
     this.table.show({
       count,
       noun: "Place",
-      names: names ?? null,
+      names,
       heads: ["Latitude", "Longitude", ...told.map(([title]) => title), "Cell, km²"],
       cells: (place) => [
         latitude(lonlat[2 * place + 1]),
@@ -297,13 +296,6 @@ export class GlobeRoom extends TableRoom implements Room, GlobeHost {
     if (reason !== "pointer") this.#announce(change);
   }
 
-  #begin(preset: Partial<GlobeState> | undefined): void {
-    if (preset === undefined) return;
-    const isHere = this.#state.lens === "fisheye" && preset.lens === "fisheye";
-    if (isHere && preset.sight !== undefined) this.#globe.fly(preset.sight);
-    else this.set(preset, "state", true);
-  }
-
   /** Something is drawn, or no longer; north is up again, or may turn. */
   protected override switched(name: string): void {
     const { sight, before, after } = this.#state;
@@ -312,18 +304,13 @@ export class GlobeRoom extends TableRoom implements Room, GlobeHost {
     this.set(isLeveled ? level : {}, "state");
   }
 
-  #flyToSide(button: HTMLButtonElement): void {
-    const { lens } = this.#state.sight;
-    this.#globe.fly({ lens, view: sideView(Number(button.value), lens.focus) });
-    this.host.announcer.say(button.textContent?.trim().replace(/^\d\s*/, "") ?? "");
-  }
-
   #write(): void {
     const { sight, from, to } = this.#state;
     const { magnification } = sight.lens;
     this.#lens.value = this.#state.lens;
     field(this.section, "mag").value = String(SLIDER_TEN * Math.log10(magnification));
     this.out("mag").textContent = scale(magnification);
+    field(this.section, "mag").ariaValueText = `${scale(magnification)} times`;
     this.#focus.value = lonLatOf(this.#state.lens === "bubble" ? from.center : sight.lens.focus);
     [this.#radii.from.value, this.#radii.to.value] = [from.radius, to.radius];
     this.out("tissot").hidden = !this.switches.isOn("tissot");
@@ -390,14 +377,14 @@ export class GlobeRoom extends TableRoom implements Room, GlobeHost {
     if (change.from || change.to) {
       const [middle, rim] = this.#bubbleScales();
       announcer.say(`${middle} times in the middle, ${rim} times at the rim`);
-    } else if (change.sight && change.sight.lens !== this.#said) {
+    } else if (change.sight && JSON.stringify(sight.lens) !== this.#said) {
       announcer.say(magnificationWords(sight));
     } else if (change.sight || change.before || change.after) {
       const view = change.before ?? change.after ?? sight.view;
       const [lon, lat] = view.middle;
       announcer.say(`Seen from ${latitude(lat, 0)}, ${longitude(lon, 0)}`);
     }
-    this.#said = sight.lens;
+    this.#said = JSON.stringify(sight.lens);
   }
 }
 

@@ -1,20 +1,19 @@
 /** Drawings of the Globe room: the Earth through a fisheye, two globes with bubbles, and the fisheye from five sides. */
 
 import { arcThrough, circle, pointAt, traceCap, traceCircle, type Circle } from "../drawing/arcs.ts";
-import { arcLayer, circlePoints, drawLayers, graticuleArcs, placeOf, regionLayer } from "../drawing/ball.ts";
-import type { Layer } from "../drawing/ball.ts";
+import { arcLayer, capLayer, circlePoints, drawLayers, graticuleArcs, placeOf } from "../drawing/ball.ts";
 import { widthOf, type Box } from "../drawing/names.ts";
 import { drawParts, type IsOn } from "../drawing/parts.ts";
-import { cornersOf, drawHandle, traceDisc, type Disc, type Pen } from "../drawing/pen.ts";
+import { drawHandle, traceDisc, type Disc, type Pen } from "../drawing/pen.ts";
 import { Plate, type Reason } from "../drawing/plate.ts";
 import type { LabelStyle } from "../drawing/styles.ts";
 import { MoebiusMap, Rotation } from "../kernel/api.ts";
 import type { RoomHost } from "../room.ts";
-import { angle, cross, directionOf, lonLatOf, row, type Vector } from "../space.ts";
+import { angle, row, type Vector } from "../space.ts";
 import { arrowed, grabBall, keyFactor, lensGestures, type Magnifiable, type Turnable } from "../view/ball_hand.ts";
 import { distance, follow, isCommand, type Gestures, type Hold, type Place } from "../view/hand.ts";
 import * as lenses from "../view/lens.ts";
-import type { Cap, Lens, Sight } from "../view/lens.ts";
+import type { Cap, Sight } from "../view/lens.ts";
 import { Motion } from "../view/motion.ts";
 import { pointUnder, type View } from "../view/view.ts";
 import { fixed, scale } from "../words.ts";
@@ -127,7 +126,7 @@ abstract class GlobePlate implements Turnable {
     if (pointed === null) return;
     const { pointer } = this.room.shown;
     const images = map.apply(Float64Array.from(circlePoints(pointer, CIRCLE_RADIUS).flat()));
-    const rim = arcThrough(images, 0, 1, 2, true);
+    const rim = arcThrough(images, 0, true);
     const at = lenses.imageOf(map, pointer);
     if (rim === null || at[2] <= 0) return;
     pen.draw("seen", (path) => traceCap(path, disc, rim));
@@ -250,8 +249,8 @@ export class FisheyeGlobe extends GlobePlate implements Magnifiable {
 /** Where a rim has its handle: the point of the rim that lies farthest this way in the drawing. */
 const TOWARD = [0.8, -1] as const;
 
-/** Points of a rim that are tried for the handle. */
-const TRIED = 180;
+/** Points of a rim, less than a reach apart. */
+const POINTS = 180;
 
 /** The bubble that is taken, or the one that it fills; rims and insides are dragged in either. */
 export class BubbleGlobe extends GlobePlate {
@@ -322,13 +321,17 @@ export class BubbleGlobe extends GlobePlate {
     return [[x - 48, y - 20, x + 48, y + 18]]; // on either side
   }
 
+  /** Points of the rim in front. */
+  get #seen(): Vector[] {
+    const rim = this.#rim;
+    const points = Array.from({ length: POINTS }, (_, k) => pointAt(rim, (2 * Math.PI * k) / POINTS));
+    return points.filter((point) => point[2] >= 0);
+  }
+
   /** The handle's point of the view, or null while the rim is behind. */
   #handle(): Vector | null {
-    const rim = this.#rim;
     const toward = ([x, y]: Vector): number => TOWARD[0] * x + TOWARD[1] * y;
-    const points = Array.from({ length: TRIED }, (_, k) => pointAt(rim, (2 * Math.PI * k) / TRIED));
-    const seen = points.filter((point) => point[2] >= 0);
-    return seen.length === 0 ? null : seen.reduce((a, b) => (toward(b) > toward(a) ? b : a));
+    return this.#seen.reduce<Vector | null>((a, b) => (a === null || toward(b) > toward(a) ? b : a), null);
   }
 
   protected gestures(): Gestures {
@@ -347,15 +350,8 @@ export class BubbleGlobe extends GlobePlate {
     const start = this.#cap;
     const point = this.under(at);
     const center = this.view.seen(start.center);
-    // Near the rim, in the drawing: one degree of it is not so many pixels everywhere.
-    const axis = cross(center, point);
-    const rim =
-      Math.hypot(...axis) === 0
-        ? circlePoints(center, start.radius)[0]
-        : row(Rotation.about(axis, start.radius).apply(center), 0);
-    const isNear = (place: Vector | null): boolean =>
-      place !== null && place[2] >= 0 && distance(at, placeOf(this.disc, place)) <= reach;
-    const isRim = isNear(rim) || isNear(this.#handle());
+    // In the drawing: one degree of the rim is not so many pixels everywhere.
+    const isRim = this.#seen.some((place) => distance(at, placeOf(this.disc, place)) <= reach);
     if (!isRim && angle(center, point) > start.radius) return grabBall(this, this.motion, at);
     this.motion.stop();
     return {
@@ -369,12 +365,9 @@ export class BubbleGlobe extends GlobePlate {
   }
 }
 
-/** Half the side of the tinted surroundings as in the figures, degrees: 8 up to S = 4, then as large as they are seen. */
+/** The radius of the tinted surroundings, degrees: 8 up to S = 4, then as large as they are seen. */
 const REACH = 8;
 const REACH_TIMES_S = 32;
-
-/** Points of each of their sides. */
-const POINTS = 16;
 
 /** Between limb and edge of the small globes, pixels. */
 const MARGIN = 1;
@@ -384,7 +377,7 @@ export class FiveViews {
   readonly #room: GlobeHost;
   readonly #plates: Plate[];
   readonly #graticule = arcLayer("graticule", graticuleArcs(STEP));
-  #shown: Lens | null = null;
+  #shown = "";
 
   constructor(buttons: readonly HTMLButtonElement[], room: GlobeHost) {
     this.#room = room;
@@ -396,7 +389,7 @@ export class FiveViews {
 
   /** Draws what has changed: while the ball turns under a lens that stays, nothing has. */
   redraw(reason: Reason): void {
-    const { lens } = this.#room.shown.sight;
+    const lens = JSON.stringify(this.#room.shown.sight.lens);
     const isMoving = reason === "hand" || reason === "flight";
     if (isMoving && this.#shown === lens) return;
     this.#shown = lens;
@@ -408,24 +401,8 @@ export class FiveViews {
     const disc = { x: pen.width / 2, y: pen.height / 2, r: Math.max(pen.width / 2 - MARGIN, 1) };
     const map = lenses.seenThrough(lenses.lensMap(lens), sideView(panel, lens.focus));
     pen.ball(disc, "ball");
-    drawLayers(pen, disc, map, [patchLayer(lens), this.#graticule]);
+    const around = circlePoints(lens.focus, Math.min(REACH, REACH_TIMES_S / lens.magnification));
+    drawLayers(pen, disc, map, [capLayer("patch", Float64Array.from(around.flat())), this.#graticule]);
     pen.draw("limb-small", (path) => traceDisc(path, disc));
   }
-}
-
-/** A box of longitudes and latitudes round the focus; near a pole it ends there. */
-function patchLayer({ focus, magnification }: Lens): Layer {
-  const [lon, lat] = lonLatOf(focus);
-  const reach = Math.min(REACH, REACH_TIMES_S / magnification);
-  const [south, north] = [Math.max(lat - reach, -89), Math.min(lat + reach, 89)];
-  const corners = cornersOf(lon - reach, south, lon + reach, north);
-  const ring = corners.flatMap(([x, y], k) => {
-    const [toX, toY] = corners[(k + 1) % 4];
-    return Array.from({ length: POINTS }, (_, n) => {
-      const t = n / POINTS;
-      return [...directionOf(x + t * (toX - x), y + t * (toY - y))];
-    });
-  });
-  const opposite: Vector = [-focus[0], -focus[1], -focus[2]];
-  return regionLayer("seen", "patch-line", Float64Array.from(ring.flat()), [0, ring.length], opposite, false);
 }

@@ -58,13 +58,6 @@ export interface Places {
   readonly isolines?: Rings | null;
 }
 
-/** What lies around a place: how many cells share a side with its own, and which place is nearest. */
-interface Around {
-  readonly neighbours: number;
-  readonly nearest: number | null;
-  readonly kilometres: number;
-}
-
 /** Places are drawn at their latitudes as they stand; their cells are those of the sphere that `latitude` names. */
 export class GlobeScene {
   places: Places | null = null;
@@ -114,7 +107,8 @@ export class GlobeScene {
     return { ...style, ink: style.ink === "ink" ? ink : accent, halo };
   }
 
-  around(place: number): Around {
+  /** What lies around a place: how many cells share a side with its own, and which place is nearest. */
+  around(place: number): { neighbours: number; nearest: number | null; kilometres: number } {
     const { voronoi, points } = this.#made!;
     const { regionOffsets, regionNeighbors } = voronoi;
     const kept = regionOffsets[place + 1] > regionOffsets[place] ? place : voronoi.pointRegion[place];

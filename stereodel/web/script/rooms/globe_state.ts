@@ -32,6 +32,14 @@ export const BEGINNING: GlobeState = {
   after: View.above(10, 42),
 };
 
+/** What the room begins with where places are to be in sight. */
+export function beginningOf(sight: Sight | null): GlobeState {
+  if (sight === null) return BEGINNING;
+  const [{ view }, center] = [sight, sight.lens.focus];
+  const [from, to] = [BEGINNING.from, BEGINNING.to].map(({ radius }) => ({ center, radius }));
+  return { ...BEGINNING, sight, from, to, before: view, after: view };
+}
+
 /** Degrees of the smallest bubble and of the largest: the complement of the smallest. */
 const LEAST_RADIUS = 0.1;
 const MOST_RADIUS = 180 - LEAST_RADIUS;

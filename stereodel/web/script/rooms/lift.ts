@@ -4,11 +4,11 @@ import { field, find, plain, say } from "../dom.ts";
 import type { Pen, Point, Sheet } from "../drawing/pen.ts";
 import { Plate, type Reason } from "../drawing/plate.ts";
 import type { Exchange } from "../exchange.ts";
-import { fields, number, whole } from "../fields.ts";
+import { fields, number, whole, type Fields } from "../fields.ts";
 import type { LinkValues } from "../link.ts";
 import type { Room, RoomHost } from "../room.ts";
 import { arrowStep } from "../view/ball_hand.ts";
-import { distance, follow, isCommand, type Gestures, type Hold } from "../view/hand.ts";
+import { distance, follow, isCommand, type Hold } from "../view/hand.ts";
 import { View } from "../view/view.ts";
 import { counted, fixed, ofFacets, wrap } from "../words.ts";
 import { mark, NumberField } from "./controls.ts";
@@ -19,20 +19,20 @@ import { SiteRoom, type NamedSites } from "./site_room.ts";
 
 /** How the room begins: corners of the sheet, height and side of the view, degrees; P and Q by their indices. */
 const HEMISPHERE = 90;
-const BEGINNING = { bend: HEMISPHERE, height: 35, side: 17 };
 const PAIR = { p: 43, q: 1 };
-
 type Letter = keyof typeof PAIR;
+type LiftState = Readonly<Record<"bend" | "height" | "side", number> & Record<Letter, number | null>>;
+const BEGINNING: LiftState = { bend: HEMISPHERE, height: 35, side: 17, p: null, q: null };
 
-/** Hundredths of a degree are invisible. */
-const STATE = fields<typeof BEGINNING>({
-  bend: number("bend", 0, HEMISPHERE, 2),
-  height: number("height", 0, 90, 2),
-  side: number("side", -360, 360, 2),
-});
-
-const pairFields = (count: number) =>
-  fields<Record<Letter, number | null>>({ p: whole("p", count, 1), q: whole("q", count, 1) });
+/** Of so many sites; hundredths of a degree are invisible. */
+const liftFields = (count: number): Fields<LiftState> =>
+  fields<LiftState>({
+    bend: number("bend", 0, HEMISPHERE, 2),
+    height: number("height", 0, 90, 2),
+    side: number("side", -360, 360, 2),
+    p: whole("p", count, 1),
+    q: whole("q", count, 1),
+  });
 
 /** What the sum of facets is made of. */
 const SUM = ["on the ball", "of the sheet", " the pole"] as const;
@@ -54,47 +54,44 @@ class LiftRoom extends SiteRoom implements Room {
 
   #sites = new LiftSites(new Float64Array(0));
   #state = BEGINNING;
-  #pair: Record<Letter, number | null> = { p: null, q: null };
   #next: Letter = "p";
 
   override attach(section: HTMLElement): void {
     super.attach(section);
-    const paint = (pen: Pen, moving: boolean): void => this.#picture(moving, pen.width, pen.height).draw(pen);
+    const paint = (pen: Pen, moving: boolean): void => this.#picture(moving, pen).draw(pen);
     this.#plate = new Plate(find(section, "#lift-plate"), paint, this.host.guarded);
-    const number = (name: string, typed: (value: number) => void): NumberField =>
-      new NumberField(section, name, 0, typed);
-    const turn = (): void => {
-      this.#turn(field(section, "view-side").valueAsNumber, field(section, "view-height").valueAsNumber);
-    };
+    const number = (name: string, typed: (value: number) => void) => new NumberField(section, name, 0, typed);
     this.#fields = {
-      height: number("view-height", turn),
-      side: number("view-side", turn),
+      height: number("view-height", (height) => this.#turn(this.#state.side, height)),
+      side: number("view-side", (side) => this.#turn(side, this.#state.height)),
       p: number("p", (site) => this.#setPair("p", site - 1)),
       q: number("q", (site) => this.#setPair("q", site - 1)),
     };
     const slider = field(section, "bend");
     slider.addEventListener("input", () => this.host.guarded(() => this.#bend(slider.valueAsNumber)));
-    follow(this.#plate, this.#gestures());
+    follow(this.#plate, {
+      take: (at, reach) => this.#grab(at, reach),
+      click: (at, reach) => {
+        const site = this.#siteAt(at, reach);
+        if (site !== null) this.chosen(site);
+      },
+      key: (event) => this.#key(event),
+    });
   }
 
   // State
 
   state(isWhole: boolean): Record<string, string> {
-    return {
-      ...this.siteValues(isWhole),
-      ...STATE.write(this.#state),
-      ...pairFields(this.#sites.count).write(this.#pair),
-    };
+    return { ...this.siteValues(isWhole), ...liftFields(this.#sites.count).write(this.#state) };
   }
 
   override restore(values: LinkValues): void {
-    const state = STATE.read(values, BEGINNING);
     const named = this.sitesOf(values);
-    const { p, q } = pairFields(named.places.length / 2).read(values, this.#pair);
-    this.#state = state;
+    const state = liftFields(named.places.length / 2).read(values, BEGINNING);
     super.restore(values);
     this.begin(named);
-    this.#pair = { p: p ?? this.#pair.p, q: q ?? this.#pair.q };
+    const { p, q } = this.#state;
+    this.#state = { ...state, p: state.p ?? p, q: state.q ?? q };
     this.#update();
   }
 
@@ -103,7 +100,8 @@ class LiftRoom extends SiteRoom implements Room {
     const isFirst = named.set === this.sets[0].name;
     this.#sites = new LiftSites(named.places, SHEET_SIDES[named.set]);
     const { count } = this.#sites;
-    this.#pair = count < 2 ? { p: null, q: null } : isFirst ? PAIR : { p: 0, q: count - 1 };
+    const ends = count < 2 ? { p: null, q: null } : { p: 0, q: count - 1 };
+    this.#state = { ...this.#state, ...(isFirst ? PAIR : ends) };
     const label = `Sheet with ${counted(count)} ${count === 1 ? "site" : "sites"}, and ball`;
     this.#plate.canvas.setAttribute("aria-label", label);
     for (const letter of ["p", "q"] as const) {
@@ -123,13 +121,13 @@ class LiftRoom extends SiteRoom implements Room {
   }
 
   #scene(isMoving: boolean): LiftScene {
-    const { height, side } = this.#state;
+    const { height, side, p, q } = this.#state;
     const isOn = this.shown(isMoving, MANY);
     const view = View.above(side - 90, height);
-    return { sites: this.#sites, sheet: this.#bent, view, height, isOn, isMoving, ...this.#pair, lit: this.lit };
+    return { sites: this.#sites, sheet: this.#bent, view, isOn, isMoving, p, q, lit: this.lit };
   }
 
-  #picture(isMoving = false, width = this.#plate.width, height = this.#plate.height): LiftPicture {
+  #picture(isMoving = false, { width, height }: Pick<Pen, "width" | "height"> = this.#plate): LiftPicture {
     return new LiftPicture(this.#scene(isMoving), width, height);
   }
 
@@ -160,7 +158,7 @@ class LiftRoom extends SiteRoom implements Room {
   /** The sentence, and the ruler with the bounds and the angle of the moment. */
   #showPair(): void {
     const bounds = find(this.section, ".bounds");
-    const { p, q } = this.#pair;
+    const { p, q } = this.#state;
     const isEnd = this.#state.bend === HEMISPHERE;
     bounds.classList.toggle("flat", !isEnd);
     bounds.classList.toggle("plane", this.#state.bend === 0);
@@ -206,22 +204,21 @@ class LiftRoom extends SiteRoom implements Room {
         const [x, y] = this.#sites.place(site);
         return [measured(x, sheet.diagonal), measured(y, sheet.diagonal), fixed(sheet.scale(x, y), 3)];
       },
-      mark: (site) => (site === this.#pair.p ? "P" : site === this.#pair.q ? "Q" : ""),
+      mark: (site) => (site === this.#state.p ? "P" : site === this.#state.q ? "Q" : ""),
     });
-    this.table.hold(Object.values(this.#pair).filter((site) => site !== null));
+    this.table.hold([this.#state.p, this.#state.q].filter((site) => site !== null));
   }
 
   // What can be done
 
   #bend(bend: number): void {
-    this.#state = STATE.settle({ ...this.#state, bend });
+    this.#state = liftFields(this.#sites.count).settle({ ...this.#state, bend });
     this.#update("hand");
     this.changed(ofBend(this.#bent));
   }
 
   #turn(side: number, height: number, reason: Reason = "state"): void {
-    if (!Number.isFinite(side) || !Number.isFinite(height)) return;
-    this.#state = STATE.settle({ ...this.#state, side: wrap(side), height });
+    this.#state = liftFields(this.#sites.count).settle({ ...this.#state, side: wrap(side), height });
     this.#showView();
     this.redraw(reason);
     this.changed(
@@ -242,10 +239,10 @@ class LiftRoom extends SiteRoom implements Room {
 
   #setPair(letter: Letter, site: number): void {
     if (!Number.isInteger(site) || site < 0 || site >= this.#sites.count) return;
-    this.#pair = { ...this.#pair, [letter]: site };
+    this.#state = { ...this.#state, [letter]: site };
     this.host.guarded(() => this.#update());
     this.host.changed();
-    const { p, q } = this.#pair;
+    const { p, q } = this.#state;
     if (p === null || q === null) return;
     const now = separation(this.#sites, this.#bent, p, q);
     this.host.announcer.say(plain(`${letter.toUpperCase()} is site ${site + 1}. ${ofPair(now, this.#state.bend)}`));
@@ -253,26 +250,15 @@ class LiftRoom extends SiteRoom implements Room {
 
   // The hand
 
-  #gestures(): Gestures {
-    return {
-      take: (at, reach) => this.#grab(at, reach),
-      click: (at, reach) => {
-        const site = this.#siteAt(at, reach);
-        if (site !== null) this.chosen(site);
-      },
-      key: (event) => this.#key(event),
-    };
-  }
-
   /** P or Q, by its name, its place or its image; or the picture, to turn it. */
   #grab(at: Point, reach: number): Hold {
     for (const letter of ["q", "p"] as const) {
-      const site = this.#pair[letter];
+      const site = this.#state[letter];
       if (site === null || !this.#placesOf(site).some((place) => distance(place, at) <= reach)) continue;
       return {
         move: (to) => {
           const nearest = this.#siteAt(to, Infinity);
-          if (nearest !== null && nearest !== this.#pair[letter]) this.#setPair(letter, nearest);
+          if (nearest !== null && nearest !== this.#state[letter]) this.#setPair(letter, nearest);
         },
       };
     }
@@ -319,7 +305,7 @@ class LiftRoom extends SiteRoom implements Room {
   /** The next site becomes Q. */
   #walk(by: number): void {
     const { count } = this.#sites;
-    if (this.#pair.q !== null) this.#setPair("q", (this.#pair.q + by + count) % count);
+    if (this.#state.q !== null) this.#setPair("q", (this.#state.q + by + count) % count);
   }
 
   // Files and what can be taken along

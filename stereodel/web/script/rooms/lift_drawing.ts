@@ -6,8 +6,9 @@ import type { Surface } from "../drawing/ball.ts";
 import { drawParts, type IsOn, type Part } from "../drawing/parts.ts";
 import { cornersOf, traceCorners, traceDisc, traceSegment } from "../drawing/pen.ts";
 import type { Disc, Path, Pen, Point } from "../drawing/pen.ts";
-import type { LabelStyle } from "../drawing/styles.ts";
-import { cross, unit, type Vector } from "../space.ts";
+import { FAINT, type LabelStyle } from "../drawing/styles.ts";
+import { following } from "../kernel/topology.ts";
+import { cross, DEGREE, unit, type Vector } from "../space.ts";
 import type { View } from "../view/view.ts";
 import type { LiftSites, Sheet } from "./lift_sites.ts";
 
@@ -16,8 +17,6 @@ export interface LiftScene {
   readonly sites: LiftSites;
   readonly sheet: Sheet;
   readonly view: View;
-  /** Height of the view above the sheet, degrees: it says how large the picture can be. */
-  readonly height: number;
   readonly isOn: IsOn;
   readonly isMoving: boolean;
   readonly p: number | null;
@@ -61,7 +60,7 @@ export class LiftPicture {
     const { sheet, sites, view } = scene;
     [this.#scene, this.width, this.height] = [scene, width, height];
     const unit = Math.min(width / BOX.width, height / BOX.height);
-    const steep = Math.sin((Math.max(HIGH, scene.height) * Math.PI) / 180) / Math.sin((HIGH * Math.PI) / 180);
+    const steep = Math.sin(Math.max(HIGH, view.middle[1]) * DEGREE) / Math.sin(HIGH * DEGREE);
     this.scale = (DIAGONAL * unit) / steep;
     this.contact = [width / 2, (height - BOX.height * unit) / 2 + BOX.contact * unit];
     const [x, y] = this.place([0, 0, -sheet.radius]);
@@ -103,32 +102,34 @@ export class LiftPicture {
   static parts({ sites, sheet, isOn, isMoving, p, q, lit }: LiftScene): Part<LiftPicture>[] {
     const { isFlat, corner } = sheet;
     const isBent = !isFlat;
+    const sides: Side[] = isFlat ? ["front"] : ["front", "back"];
     const letters = [p, q].map((site, k): Part<LiftPicture>[] => [
       { layer: "rays", isThere: isBent && site !== null, draw: (pen, on) => on.#drawRay(pen, site!) },
       { isThere: site !== null, draw: (pen, on) => on.#drawLetter(pen, site!, "PQ"[k]) },
     ]);
     return [
       { isThere: isBent && corner >= BALL_FROM, draw: (pen, on) => pen.ball(on.#disc, "ball") },
-      { isThere: isBent && corner >= OUTLINE_FROM, draw: (pen, on) => pen.draw("limb-soft", on.#limb) },
+      {
+        isThere: isBent && corner >= OUTLINE_FROM,
+        draw: (pen, on) => pen.draw("limb-soft", (path) => traceDisc(path, on.#disc)),
+      },
       { isThere: isFlat, draw: (pen, on) => pen.draw("sheet", on.#region) },
       { layer: "seeing", draw: (pen, on) => on.#drawSeeing(pen) },
       { isThere: isBent, draw: (pen, on) => on.#drawBehind(pen, isOn("triangles") && !isMoving) },
       { layer: "triangles", draw: (pen, on) => on.#drawEdges(pen) },
-      { layer: "cells", draw: (pen, on) => pen.clipped(on.#region, () => on.#drawRidges(pen)) },
+      { layer: "cells", draw: (pen, on) => pen.within({ region: on.#region }, () => on.#drawRidges(pen)) },
       { draw: (pen, on) => pen.draw("side", isFlat ? on.#region : (path) => on.#traceBorder(path, "front")) },
       { draw: (pen, on) => drawDots(pen, on.surface, "site", Array(sites.count).keys()) },
       { isThere: isBent, draw: (pen, on) => on.#drawPlane(pen) },
       {
-        isThere: p !== null && q !== null,
-        draw: (pen, on) => p !== q && pen.draw("span", (path) => on.#traceSpan(path, p!, q!)),
+        isThere: p !== null && q !== null && p !== q,
+        draw: (pen, on) => pen.draw("span", (path) => sides.forEach((side) => on.surface.line(path, p!, q!, side))),
       },
       ...letters.flat(),
       { isThere: isBent, draw: (pen, on) => on.#drawPole(pen) },
       { isThere: lit !== null && lit < sites.count, draw: (pen, on) => pen.dots("held", on.surface.place(lit!)) },
     ];
   }
-
-  readonly #limb = (path: Path): void => traceDisc(path, this.#disc);
 
   /** The sheet on the ball, or the plane's rectangle. */
   readonly #region = (path: Path): void => {
@@ -152,9 +153,11 @@ export class LiftPicture {
     // Seen from behind the ball is its mirror image: rings run the other way.
     const border = this.#border().map(([x, y, z]): Vector => [x, y, -z]);
     const mirrored = ringOf(border.reverse());
-    pen.behind(() => pen.draw("sheet", (path) => traceRegions(path, this.#disc, mirrored, this.#holds([0, 0, 1]))));
+    pen.within(FAINT, () =>
+      pen.draw("sheet", (path) => traceRegions(path, this.#disc, mirrored, this.#holds([0, 0, 1]))),
+    );
     pen.draw("sheet", this.#region);
-    pen.behind(() => {
+    pen.within(FAINT, () => {
       pen.draw("side", (path) => this.#traceBorder(path, "back"));
       if (hasTriangles) this.#drawEdges(pen, "back");
     });
@@ -171,7 +174,7 @@ export class LiftPicture {
       if (sheet.isFlat) this.surface.ring(path, hull);
       else
         closing.forEach((a, k) => {
-          const b = closing[k % 3 === 2 ? k - 2 : k + 1];
+          const b = closing[following(k)];
           if (a < b || hull.includes(a)) this.surface.line(path, a, b);
         });
     });
@@ -182,21 +185,16 @@ export class LiftPicture {
     const [x, y] = this.contact;
     pen.draw("sheet-plane", this.#plane);
     // The triangles as they were: "behind" is as weak as what lies beyond the ball.
-    if (this.#scene.isOn("triangles") && !this.#scene.isMoving) pen.behind(() => this.#drawEdges(pen, "flat"));
+    if (this.#scene.isOn("triangles") && !this.#scene.isMoving) pen.within(FAINT, () => this.#drawEdges(pen, "flat"));
     pen.draw("touch", (path) => {
       traceSegment(path, [x - 4.5, y], [x + 4.5, y]);
       traceSegment(path, [x, y - 3.5], [x, y + 3.5]);
     });
   }
 
-  #traceSpan(path: Path, p: number, q: number): void {
-    this.surface.line(path, p, q);
-    if (!this.#scene.sheet.isFlat) this.surface.line(path, p, q, "back");
-  }
-
   /** From the pole, or where that is out of sight from a site's image, to its place in the plane. */
   #drawRay(pen: Pen, site: number): void {
-    const from = this.seenPole(pen.height) ?? this.surface.place(site);
+    const from = this.seenPole ?? this.surface.place(site);
     pen.draw("ray", (path) => traceSegment(path, from, this.above(site)));
   }
 
@@ -209,15 +207,15 @@ export class LiftPicture {
   }
 
   #drawPole(pen: Pen): void {
-    const pole = this.seenPole(pen.height);
+    const pole = this.seenPole;
     if (pole === null) return;
     pen.dots("pole", pole);
     pen.label("pole", pole[0] + 7, pole[1] + 6, WORD);
   }
 
-  seenPole(height: number): Point | null {
+  get seenPole(): Point | null {
     const pole = this.place(this.#scene.sheet.pole);
-    return pole[1] < height - 20 ? pole : null;
+    return pole[1] < this.height - 20 ? pole : null;
   }
 
   /** A place of the bent sheet, axes of the view. */
@@ -231,11 +229,9 @@ export class LiftPicture {
 
   /** Directions along the sheet's sides, axes of the view. */
   #border(): Vector[] {
+    const parts = Array.from({ length: PER_SIDE }, (_, j) => j / PER_SIDE);
     return this.#sides.flatMap(([[ax, ay], [bx, by]]) =>
-      Array.from({ length: PER_SIDE }, (_, j) => {
-        const t = j / PER_SIDE;
-        return this.#look(ax + t * (bx - ax), ay + t * (by - ay));
-      }),
+      parts.map((t) => this.#look(ax + t * (bx - ax), ay + t * (by - ay))),
     );
   }
 
@@ -243,16 +239,16 @@ export class LiftPicture {
   #traceBorder(path: Path, side: Side): void {
     for (const [[ax, ay], [bx, by]] of this.#sides) {
       const rows = [...this.#look(ax, ay), ...this.#look((ax + bx) / 2, (ay + by) / 2), ...this.#look(bx, by)];
-      traceArc(path, this.#disc, rows, 0, 1, 2, side);
+      traceArc(path, this.#disc, rows, 0, side);
     }
   }
 
   /** The place of the plane, in its units, whose image is a direction in the axes of the view. */
   #flatOf(seen: Vector): Point {
-    const { sheet, view } = this.#scene;
+    const { sheet, sites, view } = this.#scene;
     const [x, y, z] = view.onBall(seen);
     const stretch = (2 * sheet.radius * sheet.diagonal) / (1 + z);
-    return [sheet.rectangle.middle[0] + stretch * x, sheet.rectangle.middle[1] + stretch * y];
+    return [sites.rectangle.middle[0] + stretch * x, sites.rectangle.middle[1] + stretch * y];
   }
 
   /** Whether the bent sheet holds a direction in the axes of the view. */
@@ -271,7 +267,7 @@ export class LiftPicture {
     const looks = facets.map((site) => this.#look(...sites.place(site)));
     const centers = new Map<string, Vector>();
     facets.forEach((from, at) => {
-      const [first, to] = [at - (at % 3), facets[at % 3 === 2 ? at - 2 : at + 1]];
+      const [first, to] = [at - (at % 3), facets[following(at)]];
       const center = facetCenter(looks[first], looks[first + 1], looks[first + 2]);
       const beyond = centers.get(`${to} ${from}`);
       if (beyond === undefined) centers.set(`${from} ${to}`, center);

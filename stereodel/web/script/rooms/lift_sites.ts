@@ -15,8 +15,9 @@ export class LiftSites {
   readonly rectangle: Rectangle;
   readonly delaunay: PlanarDelaunay;
   /**
-   * The facets of the lifted sites that see the pole, (m, 3): those whose circle in the plane has no site outside. They
-   * are the same however far the sheet is bent.
+   * The facets of the lifted sites that see the pole, (m, 3): those whose circle in the plane has no site outside, of the
+   * hull of the rays (2u, 2v, 1 − u² − v²) through them. They are the same however far the sheet is bent. The unit is a
+   * power of two, so that a grid of small whole numbers is lifted without rounding and its squares stay squares.
    */
   readonly closing: Int32Array;
   #ridges: [Place, Place][] | null = null;
@@ -45,9 +46,9 @@ export class LiftSites {
   /** Sites of the convex hull, counterclockwise. */
   get hull(): number[] {
     const { convexHull } = this.delaunay;
-    const next = new Map<number, number>();
-    for (let k = 0; k < convexHull.length; k += 2) next.set(convexHull[k], convexHull[k + 1]);
-    return chained(next);
+    return chained(
+      new Map(Array.from({ length: convexHull.length / 2 }, (_, k) => [convexHull[2 * k], convexHull[2 * k + 1]])),
+    );
   }
 
   isInHull([x, y]: Point): boolean {
@@ -57,32 +58,6 @@ export class LiftSites {
     });
   }
 
-  /** Sides of the cells of the plane, each from end to end; those without an end go on far beyond the sheet. */
-  get ridges(): [Place, Place][] {
-    return (this.#ridges ??= this.#ridgesOfPlane());
-  }
-
-  #ridgesOfPlane(): [Place, Place][] {
-    if (this.count < 2) return [];
-    const { vertices, ridgeVertices, ridgePoints } = new PlanarVoronoi(this.delaunay);
-    const far = 4 * Math.hypot(this.rectangle.width, this.rectangle.height);
-    return Array.from({ length: ridgeVertices.length / 2 }, (_, k): [Place, Place] => {
-      const [[ax, ay], [bx, by]] = [this.place(ridgePoints[2 * k]), this.place(ridgePoints[2 * k + 1])];
-      // Site a is on the left of the way from start to end.
-      const size = Math.hypot(bx - ax, by - ay);
-      const [u, v] = [(far * (ay - by)) / size, (far * (bx - ax)) / size];
-      const [start, end] = [ridgeVertices[2 * k], ridgeVertices[2 * k + 1]].map((vertex): Place | null =>
-        vertex < 0 ? null : [vertices[2 * vertex], vertices[2 * vertex + 1]],
-      );
-      const [x, y] = start ?? end ?? [(ax + bx) / 2, (ay + by) / 2];
-      return [start ?? [x - u, y - v], end ?? [x + u, y + v]];
-    });
-  }
-
-  /**
-   * The hull of the rays (2u, 2v, 1 − u² − v²) through the lifted sites. The unit is a power of two, so that a grid of
-   * small whole numbers is lifted without rounding and its squares stay squares.
-   */
   #facetsThatSee(): Int32Array {
     const { middle, width, height } = this.rectangle;
     const unit = 2 ** -Math.round(Math.log2(Math.hypot(width, height) || 1));
@@ -95,27 +70,39 @@ export class LiftSites {
     const signs = bubbleSigns(rays, simplices, [0, 0, -1]);
     return simplices.filter((_, k) => signs[Math.floor(k / 3)] >= 0);
   }
+
+  /** Sides of the cells of the plane, each from end to end; those without an end go on far beyond the sheet. */
+  get ridges(): [Place, Place][] {
+    if (this.#ridges !== null) return this.#ridges;
+    if (this.count < 2) return [];
+    const { vertices, ridgeVertices, ridgePoints } = new PlanarVoronoi(this.delaunay);
+    const far = 4 * Math.hypot(this.rectangle.width, this.rectangle.height);
+    this.#ridges = Array.from({ length: ridgeVertices.length / 2 }, (_, k): [Place, Place] => {
+      const [[ax, ay], [bx, by]] = [this.place(ridgePoints[2 * k]), this.place(ridgePoints[2 * k + 1])];
+      // Site a is on the left of the way from start to end.
+      const size = Math.hypot(bx - ax, by - ay);
+      const [u, v] = [(far * (ay - by)) / size, (far * (bx - ax)) / size];
+      const [start, end] = [ridgeVertices[2 * k], ridgeVertices[2 * k + 1]].map((vertex): Place | null =>
+        vertex < 0 ? null : [vertices[2 * vertex], vertices[2 * vertex + 1]],
+      );
+      const [x, y] = start ?? end ?? [(ax + bx) / 2, (ay + by) / 2];
+      return [start ?? [x - u, y - v], end ?? [x + u, y + v]];
+    });
+    return this.#ridges;
+  }
 }
 
-/** A rectangle along the axes: its middle and its sides. */
-export interface Rectangle {
-  readonly middle: readonly [number, number];
-  readonly width: number;
-  readonly height: number;
-}
+export type Rectangle = ReturnType<typeof rectangleAround>;
 
-/** The smallest rectangle around places (n, 2), or one about the origin with given sides. */
-function rectangleAround(places: Float64Array, sides?: readonly [number, number]): Rectangle {
-  if (sides) return { middle: [0, 0], width: sides[0], height: sides[1] };
-  const low = [Infinity, Infinity];
-  const high = [-Infinity, -Infinity];
-  places.forEach((value, k) => {
-    low[k % 2] = Math.min(low[k % 2], value);
-    high[k % 2] = Math.max(high[k % 2], value);
+/** The smallest rectangle along the axes around places (n, 2), or one about the origin with given sides. */
+function rectangleAround(places: Float64Array, sides?: readonly [number, number]) {
+  if (sides || places.length === 0) return { middle: [0, 0], width: sides?.[0] ?? 3, height: sides?.[1] ?? 2 };
+  const [[left, right], [low, high]] = [0, 1].map((axis) => {
+    const values = places.filter((_, k) => k % 2 === axis);
+    return [values.reduce((a, b) => Math.min(a, b)), values.reduce((a, b) => Math.max(a, b))];
   });
-  if (places.length === 0) return { middle: [0, 0], width: 3, height: 2 };
-  const [width, height] = [high[0] - low[0], high[1] - low[1]];
-  return { middle: [low[0] + width / 2, low[1] + height / 2], width, height };
+  const [width, height] = [right - left, high - low];
+  return { middle: [left + width / 2, low + height / 2], width, height };
 }
 
 /**
@@ -233,18 +220,17 @@ const DECIMALS = 4;
 export function sheetSets(sheet: Float64Array): SiteSet[] {
   return [
     { name: "sheet", words: "Scattered over a sheet of 3 by 2", make: () => sheet },
-    { name: "grid", words: "A square grid", make: grid },
+    {
+      name: "grid",
+      words: "A square grid",
+      make: () => Float64Array.from({ length: 108 }, (_, k) => (k % 2 === 0 ? (k >> 1) % 9 : Math.floor(k / 18))),
+    },
     { name: "flat", words: "Nearly flat, where the plain test fails", make: () => nearlyFlat(sheet) },
   ];
 }
 
 /** Corners of the rectangle that a set of the sheet stands on, where it is not the smallest one: width and height. */
 export const SHEET_SIDES: Readonly<Record<string, readonly [number, number]>> = { sheet: [3, 2] };
-
-/** Nine by six sites at whole coordinates. */
-function grid(): Float64Array {
-  return Float64Array.from({ length: 108 }, (_, k) => (k % 2 === 0 ? (k >> 1) % 9 : Math.floor(k / 18)));
-}
 
 /** A sheet of 30 by 20 centimetres in metres of a country's grid: squares of its coordinates leave no digits for it. */
 function nearlyFlat(sheet: Float64Array): Float64Array {

@@ -12,6 +12,8 @@ export interface Owner {
   readonly inks?: readonly string[];
   readonly ink?: readonly number[];
   readonly radii?: readonly number[];
+  /** Parts of lines of Python, by their names in `globe.txt`. */
+  readonly lines?: Readonly<Record<string, string>>;
   /** Of the places. */
   readonly columns?: readonly (readonly [string, Column])[];
 }

@@ -7,7 +7,7 @@ import SPHERE from "../lines/sphere.txt";
 import { writeNumber } from "../link.ts";
 import { lonLatOf, type Vector } from "../space.ts";
 import type { View } from "../view/view.ts";
-import { CIRCLE_RADIUS, STEP, type GlobeScene } from "./globe_scene.ts";
+import type { GlobeScene } from "./globe_scene.ts";
 import type { GlobeState } from "./globe_state.ts";
 import type { LiftPicture, LiftScene } from "./lift_drawing.ts";
 import type { SphereScene } from "./sphere_drawing.ts";
@@ -32,7 +32,7 @@ export interface Origin {
 }
 
 type Values = Readonly<Record<string, string | number>>;
-type Marks = Readonly<Record<string, boolean>>;
+type Marks = Readonly<Record<string, unknown>>;
 
 /** Lines that draw the ball and the plane. @param sizes Of both pictures, as the text names them. */
 export function spherePython(
@@ -43,12 +43,12 @@ export function spherePython(
   sizes: Values,
 ): string {
   const { sites, view, bubble, aim, step } = scene;
-  const isOn = (layer: Switch): boolean => step === "done" && scene.isOn(layer);
-  const held = [...((isOn("bubble") && bubble?.sites) || []), ...(step === "done" ? scene.held : [step.site])];
+  const isOn = (layer: Switch): boolean => step === null && scene.isOn(layer);
+  const held = [...((isOn("bubble") && bubble?.sites) || []), ...(step === null ? scene.held : [step.site])];
   const marks = {
     facets: sites.facetCount > 0,
     hemisphere: sites.hasClosing,
-    step: step !== "done" && step.insertion !== null,
+    step: step !== null && step.before.length > 0,
     aimed: bubble !== null,
     held: held.length > 0,
     pole: poleSeen !== null,
@@ -57,15 +57,13 @@ export function spherePython(
   };
   const values = {
     ...sizes,
-    sites: SETS[origin.set] ?? coordinates(sites.lonlat, readPoints(origin.file)),
+    sites: SETS[origin.set] ?? coordinates(sites.lonlat, `${readPoints(origin.file)}.lonlat`),
     pole: numbers(state.pole),
     view: numbers(view.middle),
     aim: lonLatOf(aim).join(", "),
-    focus: numbers(lonLatOf(state.lens.focus)),
-    magnification: state.lens.magnification,
+    lens: `(${numbers(lonLatOf(state.lens.focus))}), magnification=${state.lens.magnification}`,
     held: held.join(", "),
-    step: step === "done" ? "" : step.site + 1,
-    count: step === "done" ? "" : step.site + 1,
+    step: step === null ? "" : step.site + 1,
   };
   return filled(SPHERE, values, marks, isOn);
 }
@@ -82,7 +80,7 @@ export function liftPython(scene: LiftScene, picture: LiftPicture, origin: Origi
     area: sites.rectangle.width > 0 && sites.rectangle.height > 0,
     letters: p !== undefined,
     pair: q !== undefined && p !== q,
-    pole: picture.seenPole(height) !== null,
+    pole: picture.seenPole !== null,
   };
   const values = {
     points: coordinates(
@@ -103,16 +101,12 @@ export function liftPython(scene: LiftScene, picture: LiftPicture, origin: Origi
 }
 
 /** Lines that draw the globe, or both of a bubble. @param width Of a disc. @param isPointed Whether the pointer has its circle. */
-export function globePython(
-  state: GlobeState,
-  scene: GlobeScene,
-  isOn: IsOn,
-  width: number,
-  isPointed: boolean,
-): string {
+export function globePython(state: GlobeState, scene: GlobeScene, isOn: IsOn, width: number, pointed: boolean): string {
   const { lens, sight, from, to, before, after, pointer } = state;
   const { places, latitude, picture, resolution } = scene;
   const bubble = lens === "bubble";
+  const { owner, names, lonlat = new Float64Array(0) } = places ?? {};
+  const file = readPoints(places?.name ?? "");
   const kind = places === null || latitude === "spherical" ? "" : `, latitude="${latitude}"`;
   const at = (direction: Vector): string => {
     const place = `(${numbers(lonLatOf(direction))})`;
@@ -124,23 +118,21 @@ export function globePython(
     magnification: numbers([sight.lens.magnification]),
     taken: `${at(from.center)}, ${numbers([from.radius])}`,
     filled: `${at(to.center)}, ${numbers([to.radius])}`,
-    places: coordinates(places?.lonlat ?? new Float64Array(0), readPoints(places?.name ?? "")),
+    title: "",
+    ...owner?.lines,
+    file,
+    places: coordinates(lonlat, `${file}.lonlat`),
+    words: lonlat.length > 2 * MOST_WRITTEN ? `${file}.column("name")` : JSON.stringify(names),
     latitude: kind,
     picture: JSON.stringify(picture?.name ?? ""),
     resolution,
-    step: STEP,
-    radius: CIRCLE_RADIUS.toFixed(4),
     pointer: at(pointer),
     before: seen(before),
     view: seen(bubble ? after : sight.view),
     width: numbers([1.03 * width * (bubble ? 2 : 1)]),
   };
-  return filled(
-    GLOBE,
-    values,
-    { bubble, picture: picture !== null, places: places !== null, pointed: isPointed },
-    isOn,
-  );
+  const { points, scale } = owner?.lines ?? {};
+  return filled(GLOBE, values, { bubble, picture, places, pointed, owned: points, scaled: scale, named: names }, isOn);
 }
 
 /**
@@ -148,7 +140,7 @@ export function globePython(
  * `[!a]` where a does not; and names are imported for lines that are there alone.
  */
 function filled(text: string, values: Values, marks: Marks, isOn: IsOn): string {
-  const holds = (name: string): boolean => marks[name] ?? isOn(name as Switch);
+  const holds = (name: string): boolean => (name in marks ? Boolean(marks[name]) : isOn(name as Switch));
   const lines = text.split("\n").flatMap((line) => {
     const [, names, rest] = /^(?:\[([!a-z ]+)\] )?(.*)$/.exec(line)!;
     const isThere = names?.split(" ").every((name) => (name.startsWith("!") ? !holds(name.slice(1)) : holds(name)));
@@ -167,18 +159,11 @@ function filled(text: string, values: Values, marks: Marks, isOn: IsOn): string 
 function coordinates(values: Float64Array, file: string): string {
   if (values.length > 2 * MOST_WRITTEN) return file;
   const rows = Array.from({ length: values.length / 2 }, (_, k) => `[${values[2 * k]}, ${values[2 * k + 1]}]`);
-  const lines: string[] = [];
-  for (const row of rows) {
-    const last = lines[lines.length - 1];
-    if (last !== undefined && last.length + row.length < 84) lines[lines.length - 1] = `${last} ${row},`;
-    else lines.push(`    ${row},`);
-  }
-  return lines.length === 0 ? "np.zeros((0, 2))" : `np.array([\n${lines.join("\n")}\n])`;
+  const lines = rows.join(", ").replace(/(.{1,82}\],) /g, "$1\n    ");
+  return rows.length === 0 ? "np.zeros((0, 2))" : `np.array([\n    ${lines},\n])`;
 }
 
-function readPoints(file: string): string {
-  return `read_points(${JSON.stringify(file)}).lonlat`;
-}
+const readPoints = (file: string): string => `read_points(${JSON.stringify(file)})`;
 
 /** Numbers to seven digits behind the point, as links have them. */
 function numbers(values: readonly number[]): string {

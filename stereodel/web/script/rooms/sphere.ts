@@ -10,7 +10,6 @@ import { Plate, type Reason } from "../drawing/plate.ts";
 import type { Exchange } from "../exchange.ts";
 import type { Place } from "../fields.ts";
 import type { MoebiusMap } from "../kernel/api.ts";
-import { lazy } from "../kernel/lazy.ts";
 import type { LinkValues } from "../link.ts";
 import type { Room, RoomHost } from "../room.ts";
 import { sphereSets, type Stored } from "../sets.ts";
@@ -24,44 +23,21 @@ import { counted, latitude, longitude, ofFacets, wrap } from "../words.ts";
 import { Choice, PlaceFields, siteForm, stepControl } from "./controls.ts";
 import { edited, SiteRoom, type NamedSites } from "./site_room.ts";
 import { ballDrawing, ballLayers, drawMoved, planeDrawing, poleSeen, sphereParts } from "./sphere_drawing.ts";
-import type { Drawing, Ground, SphereScene, Step } from "./sphere_drawing.ts";
-import {
-  ofBubble,
-  ofDuplicates,
-  ofLens,
-  ofPictures,
-  ofSite,
-  ofStep,
-  SphereSites,
-  withoutTriangles,
-  type Bubble,
-} from "./sphere_sites.ts";
-import {
-  BEGINNING,
-  directionAt,
-  handPlace,
-  MOST,
-  sightOf,
-  sphereFields,
-  type Click,
-  type SphereState,
-} from "./sphere_state.ts";
-import { planeFrame, reachAround, Twin, type PlaneFrame } from "./twin.ts";
+import type { Drawing, Ground, SphereScene } from "./sphere_drawing.ts";
+import { ofBubble, ofDuplicates, ofLens, ofPictures, ofSite, ofStep } from "./sphere_sites.ts";
+import { SphereSites, withoutTriangles, type Bubble, type Insertion } from "./sphere_sites.ts";
+import { BEGINNING, directionAt, handPlace, MOST, sightOf, sphereFields } from "./sphere_state.ts";
+import type { Click, SphereState } from "./sphere_state.ts";
+import { planeFrame, reachAround, Twin, type Around, type PlaneFrame } from "./twin.ts";
 
 /** Sites from which on cells are left out while something moves. */
 const MANY = 3_000;
-
-/** Of the table. */
-const HEADS = ["Latitude", "Longitude", "Neighbours"];
 
 /** What the sum of facets is made of. */
 const SUM = ["on the sphere", "in the plane", "\u00a0*P*"] as const;
 
 /** Pixels within which a site is caught to be moved: nearer than a handle, so that the ball can be turned between sites. */
 const REACH_OF_SITES = 8;
-
-/** Changes by hand that can be undone. */
-const MOST_STEPS_BACK = 100;
 
 /** Between the pictures of a file, px. */
 const GAP = 32;
@@ -82,7 +58,7 @@ interface Picture {
 }
 
 class SphereRoom extends SiteRoom implements Room, Magnifiable {
-  /** Sites as they were before the last changes by hand. */
+  /** Sites as they were before the changes by hand. */
   #history: NamedSites[] = [];
   readonly #motion = new Motion();
   readonly isNorthUp = true;
@@ -96,17 +72,15 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
   #viewFields!: PlaceFields;
 
   #state = BEGINNING;
-  #reach = 1;
-  #middle: Point = [0, 0];
+  #around: Around = { reach: 1, middle: [0, 0], outside: 0 };
 
   // What follows from the state; made anew when it changes.
-  #mapped: (Pick<SphereState, "lens" | "view"> & { readonly map: MoebiusMap }) | null = null;
   #sites = new SphereSites(new Float64Array(0));
   #layers = ballLayers(this.#sites);
   readonly #standing: Named["standing"] = new Map();
   #twin = new Twin([0, 0, 1]);
   #seeing: Uint8Array = new Uint8Array(0);
-  #step: Step | "done" = "done";
+  #step: Insertion | null = null;
   #bubble: Bubble | null = null;
 
   override attach(section: HTMLElement): void {
@@ -115,13 +89,13 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
     this.#ball = this.#plate("ball", () => ballDrawing(this.disc));
     this.#plane = this.#plate("plane", () => planeDrawing(this.#frame));
     this.#poleFields = new PlaceFields(section, "pole", (place) => guarded(() => this.#movePole(place)));
-    this.#viewFields = new PlaceFields(section, "view", (place) => guarded(() => this.#turn(place)));
+    this.#viewFields = new PlaceFields(section, "view", (place) => guarded(() => this.turn(View.above(...place))));
     this.#click = new Choice(section, "click", () => this.host.changed());
     this.#showStep = stepControl(section, (count) => guarded(() => this.#setStep(count)));
     this.#showSite = siteForm(section, {
       add: (place) => guarded(() => this.#add(directionAt(place))),
       move: (place) => guarded(() => this.#moveHeld(place)),
-      remove: () => guarded(() => this.#remove(this.#held)),
+      remove: () => guarded(() => this.#remove(this.#state.held)),
     });
     find(section, "[data-do=undo]").addEventListener("click", () => this.#undo());
     const under = (at: Point): Vector => this.#twin.inverse(...this.#frame.point(at));
@@ -136,12 +110,12 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
     let ground: Ground;
     const paint = (pen: Pen, isMoving: boolean): void => {
       const scene = this.#scene(isMoving);
-      ground = lazy<Ground>({ sites: () => scene.sites, round: () => drawing().round(scene), inks: () => pen.inks });
+      ground = { scene, inks: pen.inks };
       drawing().draw(pen, scene, "ground");
     };
     const over = (pen: Pen, isMoving: boolean): void => {
       const scene = this.#scene(isMoving);
-      if (ground.sites !== scene.sites) drawMoved(pen, drawing(), scene, ground, this.#held!);
+      if (ground.scene.sites !== scene.sites) drawMoved(pen, drawing(), scene, ground, this.#state.held!);
       drawing().draw(pen, scene, "over");
     };
     const canvas = find<HTMLCanvasElement>(this.section, `#sphere-${which}`);
@@ -158,14 +132,6 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
   /** The state goes on, as a link tells it. */
   #put(change: Partial<SphereState>): void {
     this.#state = sphereFields(this.#sites.count).settle({ ...this.#state, ...change });
-  }
-
-  get #held(): number | null {
-    return this.#state.held;
-  }
-
-  set #held(held: number | null) {
-    this.#state = { ...this.#state, held };
   }
 
   override restore(values: LinkValues): void {
@@ -193,32 +159,26 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
     if (this.#state.step !== null && this.#state.step >= sites.count) this.#put({ step: null });
     this.show(named, {
       count: sites.count,
-      heads: HEADS,
+      heads: ["Latitude", "Longitude", "Neighbours"],
       cells: (site) => [...sites.words(site), String(sites.neighborCounts[site])],
     });
     find(this.section, "[data-show=closing]").hidden = !sites.hasClosing;
     const label = `Sphere with ${counted(sites.count)} ${sites.count === 1 ? "site" : "sites"}`;
     this.#ball.canvas.setAttribute("aria-label", label);
-    this.#project();
-    if (reason === "state") this.#rescale();
+    this.#project(reason === "state");
     this.#update(reason);
   }
 
-  /** The pole has moved, or the sites. */
-  #project(): void {
+  /** The pole has moved, or the sites. The frame of the plane holds nearly all of these; it changes when the hand rests. */
+  #project(rests: boolean): void {
     const pole = directionAt(this.#state.pole);
     this.#twin = new Twin(pole);
     this.#seeing = this.#sites.seeing(pole);
-  }
-
-  /** The frame of the plane holds nearly all sites; it changes only when the hand rests. */
-  #rescale(): void {
-    const { reach, middle, outside } = reachAround(this.#sites, this.#twin);
-    [this.#reach, this.#middle] = [reach, middle];
-    this.out("outside").textContent =
-      outside === 0
-        ? ""
-        : `${outside === 1 ? "One site lies" : `${counted(outside)} sites lie`} outside the frame, near the pole.`;
+    if (!rests) return;
+    this.#around = reachAround(this.#sites, this.#twin);
+    const { outside } = this.#around;
+    const words = `${counted(outside)} ${outside === 1 ? "site lies" : "sites lie"} outside the frame, near the pole.`;
+    this.out("outside").textContent = outside === 0 ? "" : words;
   }
 
   // Drawing and words
@@ -235,7 +195,7 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
   /** Everything that is said and drawn, after the state has changed. */
   #update(reason: Reason = "state"): void {
     this.#bubble = this.#findBubble();
-    this.#step = this.#findStep();
+    this.#step = this.#state.step === null ? null : this.#sites.insertion(this.#state.step - 1);
     this.#say();
     this.redraw(reason);
   }
@@ -244,15 +204,6 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
     if (!this.switches.isOn("bubble") || this.#state.step !== null) return null;
     const facet = this.#sites.facetAt(this.#state.aim);
     return facet === null ? null : this.#sites.bubble(facet);
-  }
-
-  #findStep(): Step | "done" {
-    if (this.#state.step === null) return "done";
-    const site = this.#state.step - 1;
-    const insertion = this.#sites.insertion(site);
-    const seeing = (facets: Int32Array | undefined): Uint8Array =>
-      facets === undefined ? new Uint8Array(0) : this.#sites.seeing(this.#twin.pole, facets);
-    return { site, insertion, beforeSeeing: seeing(insertion?.before), fanSeeing: seeing(insertion?.fan) };
   }
 
   #scene(isMoving: boolean): SphereScene {
@@ -267,24 +218,28 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
       isOn: this.shown(isMoving, MANY),
       bubble: this.#bubble,
       aim: this.#state.aim,
-      held: [this.#held, this.lit].filter((site) => site !== null && site < this.#sites.count) as number[],
+      held: [this.#state.held, this.lit].filter((site) => site !== null && site < this.#sites.count) as number[],
       step: this.#step,
     };
   }
 
   #say(): void {
-    const [sites, step, held] = [this.#sites, this.#step, this.#held];
+    const [sites, step, held] = [this.#sites, this.#step, this.#state.held];
     const alone = withoutTriangles(sites);
-    const ofAll = alone ?? (this.#bubble === null ? POINT : ofBubble(this.#bubble, sites, this.#twin));
-    const words = step === "done" ? [ofAll, ofDuplicates(sites)] : [ofStep(step.insertion, step.site)];
+    const ofAll =
+      alone ??
+      (this.#bubble === null
+        ? "Point at a triangle for the circle round it."
+        : ofBubble(this.#bubble, sites, this.#twin));
+    const words = step === null ? [ofAll, ofDuplicates(sites)] : [ofStep(step)];
     say(this.out("sentence"), words.filter(Boolean).join(" "));
     say(this.out("sum"), alone === null ? ofFacets(sites.facetCount - this.#seeingCount, this.#seeingCount, SUM) : "");
-    this.out("sum").hidden = step !== "done" || alone !== null;
-    const isDrawn = (layer: Switch): boolean => alone === null && step === "done" && this.isOn(layer);
-    const steps = step !== "done" && step.insertion !== null;
+    this.out("sum").hidden = step !== null || alone !== null;
+    const isDrawn = (layer: Switch): boolean => alone === null && step === null && this.isOn(layer);
+    const steps = step !== null && step.before.length > 0;
     const [onBall, inPlane] = ofPictures({
       triangles: steps || isDrawn("triangles"),
-      cells: isDrawn("cells") || (sites.delaunay.dimension === 1 && step === "done" && this.isOn("cells")),
+      cells: isDrawn("cells") || (sites.delaunay.dimension === 1 && step === null && this.isOn("cells")),
       seeing: isDrawn("seeing") && this.#seeingCount > 0,
       steps,
     });
@@ -321,18 +276,17 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
 
   /** Through the lens, to the axes of the view. */
   get #map(): MoebiusMap {
-    const { lens, view } = this.#state;
-    if (this.#mapped?.lens !== lens || this.#mapped.view !== view)
-      this.#mapped = { lens, view, map: sightMap(this.sight) };
-    return this.#mapped.map;
+    return sightMap(this.sight);
   }
 
   get #frame(): PlaneFrame {
-    return planeFrame(1, 1, Math.min(this.#plane.width, this.#plane.height) - 2, this.#reach, this.#middle);
+    return planeFrame(1, 1, Math.min(this.#plane.width, this.#plane.height) - 2, this.#around);
   }
 
-  turn(view: View, reason: Reason): void {
-    this.#turn(view.middle, reason);
+  /** Turns the ball, and says it. */
+  turn({ middle: [lon, lat] }: View, reason: Reason = "state"): void {
+    this.#see([lon, lat], reason);
+    this.host.announcer.say(`Seen from ${latitude(lat, 0)}, ${longitude(lon, 0)}`);
   }
 
   see({ lens, view }: Sight, reason: Reason = "hand"): void {
@@ -384,7 +338,7 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
     let isFirst = true;
     return {
       move: (to) => {
-        if (isFirst) this.#note();
+        if (isFirst) this.#history.push(this.named);
         isFirst = false;
         this.host.guarded(() => this.#moveSite(site, this.#onBall.under(to), "pointer"));
       },
@@ -431,7 +385,7 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
   /** The hand has let go: the frame fits again, and what was left out is drawn. */
   #rest(): void {
     this.host.guarded(() => {
-      this.#rescale();
+      this.#project(true);
       this.#update();
     });
     this.host.changed();
@@ -447,12 +401,6 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
     this.host.changed();
   }
 
-  /** Turns the ball, and says it. */
-  #turn(place: Place, reason: Reason = "state"): void {
-    this.#see(place, reason);
-    this.host.announcer.say(`Seen from ${latitude(place[1], 0)}, ${longitude(place[0], 0)}`);
-  }
-
   /** Flies to another view; why is for others to say. */
   #fly(to: Place): void {
     const from = this.#state.view;
@@ -464,8 +412,7 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
 
   #movePole(place: Place, rests = true): void {
     this.#put({ pole: place });
-    this.#project();
-    if (rests) this.#rescale();
+    this.#project(rests);
     this.#update(rests ? "state" : "hand");
     this.host.changed();
     const seeing = this.#seeingCount;
@@ -487,7 +434,7 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
 
   /** Shows what a hand has made of the sites, and says it. */
   #edit(named: NamedSites, held: number | null, words: () => string, reason: Reason = "state"): void {
-    this.#held = held;
+    this.#state = { ...this.#state, held };
     this.#take(named, reason);
     this.changed(words());
   }
@@ -499,20 +446,15 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
     this.#edit(edited(this.named, site, [lon, lat]), site, words, reason);
   }
 
-  /** Keeps the sites to go back to. */
-  #note(): void {
-    this.#history = [...this.#history.slice(1 - MOST_STEPS_BACK), this.named];
-  }
-
   #moveHeld(place: Place): void {
-    if (this.#held === null) return;
-    this.#note();
-    this.#moveSite(this.#held, directionAt(place));
+    if (this.#state.held === null) return;
+    this.#history.push(this.named);
+    this.#moveSite(this.#state.held, directionAt(place));
   }
 
   #add(direction: Vector): void {
     const { count } = this.#sites;
-    this.#note();
+    this.#history.push(this.named);
     this.#edit(edited(this.named, count, handPlace(lonLatOf(direction), this.#state.lens.magnification)), count, () => {
       const same = this.#sites.sameAs(count);
       return same === null
@@ -524,7 +466,7 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
 
   #remove(site: number | null): void {
     if (site === null) return;
-    this.#note();
+    this.#history.push(this.named);
     this.#edit(edited(this.named, site, null), null, () => `Site ${site + 1} removed`);
   }
 
@@ -543,7 +485,7 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
 
   #setStep(step: number | null): void {
     this.#set({ step }, null);
-    if (this.#step !== "done") this.host.announcer.say(ofStep(this.#step.insertion, this.#step.site));
+    if (this.#step !== null) this.host.announcer.say(ofStep(this.#step));
   }
 
   // Keys
@@ -551,7 +493,7 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
   #key(event: KeyboardEvent): boolean {
     this.#motion.stop();
     const view = arrowed(this, event);
-    const action = view === null ? this.#keyed(event) : () => this.#turn(view.middle);
+    const action = view === null ? this.#keyed(event) : () => this.turn(view);
     if (action !== null) this.host.guarded(action);
     return action !== null;
   }
@@ -572,8 +514,8 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
     const withSites: Record<string, () => void> = {
       ",": () => this.#walk(-1),
       ".": () => this.#walk(1),
-      Delete: () => this.#remove(this.#held),
-      Backspace: () => this.#remove(this.#held),
+      Delete: () => this.#remove(this.#state.held),
+      Backspace: () => this.#remove(this.#state.held),
       Enter: () => this.#press(middle, null),
       Escape: () => this.#set({ isPinned: false }, null),
     };
@@ -582,14 +524,14 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
 
   /** Moves the site that is held by degrees. */
   #nudge(east: number, north: number): void {
-    if (this.#held === null) return;
-    const [lon, lat] = this.#sites.lonlat.subarray(2 * this.#held);
+    if (this.#state.held === null) return;
+    const [lon, lat] = this.#sites.lonlat.subarray(2 * this.#state.held);
     this.#moveHeld([lon + east, Math.max(-90, Math.min(90, lat + north))]);
   }
 
   #walk(by: number): void {
     const { count } = this.#sites;
-    const site = this.#held === null ? (by > 0 ? 0 : count - 1) : (this.#held + by + count) % count;
+    const site = this.#state.held === null ? (by > 0 ? 0 : count - 1) : (this.#state.held + by + count) % count;
     this.chosen(site);
     this.table.reveal(site);
   }
@@ -601,7 +543,7 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
     const size = this.#ball.width;
     const { disc } = this;
     const scene = this.#scene(false);
-    const frame = planeFrame(size + GAP + 1, 1, size - 2, this.#reach, this.#middle);
+    const frame = planeFrame(size + GAP + 1, 1, size - 2, this.#around);
     return {
       title: this.title,
       width: 2 * size + GAP,
@@ -622,12 +564,12 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
   }
 
   python(exchange: Exchange): string {
-    const sizes = { size: this.#ball.width, ball: this.disc.r, reach: this.#reach, gap: GAP };
+    const sizes = { size: this.#ball.width, ball: this.disc.r, gap: GAP, ...this.#around };
     const scene = this.#scene(false);
     const pole = poleSeen(this.#map, this.#twin);
-    return exchange.spherePython(scene, this.#state, pole, this.origin, { ...sizes, middle: this.#middle.join(", ") });
+    return exchange.spherePython(scene, this.#state, pole, this.origin, {
+      ...sizes,
+      middle: this.#around.middle.join(", "),
+    });
   }
 }
-
-/** What is said of sites with triangles while no bubble is drawn. */
-const POINT = "Point at a triangle for the circle round it.";

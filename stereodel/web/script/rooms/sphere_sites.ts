@@ -2,6 +2,7 @@
 
 import { cellOf, type Region } from "../drawing/parts.ts";
 import { inBubble, lonlatToXyz, SphericalDelaunay, SphericalVoronoi } from "../kernel/api.ts";
+import { following } from "../kernel/topology.ts";
 import { angle, dot, lonLatOf, row, type Vector } from "../space.ts";
 import { counted, latitude, longitude, scale, several, sized } from "../words.ts";
 import type { Lens } from "../view/lens.ts";
@@ -54,14 +55,11 @@ export class SphereSites {
 
   /** How many cells lie beside that of each site: across edges, or across the ridges of sites on one great circle. */
   get neighborCounts(): Int32Array {
-    if (this.#neighborCounts === null) {
-      this.#neighborCounts = new Int32Array(this.count);
-      const { delaunay } = this;
-      // As many facets meet at a site as edges do, where there are any; on one circle it has the two next to it.
-      const ends =
-        delaunay.dimension === 2 ? delaunay.simplices : delaunay.dimension === 1 ? this.voronoi.ridgePoints : [];
-      for (const k of ends) ++this.#neighborCounts[k];
-    }
+    if (this.#neighborCounts !== null) return this.#neighborCounts;
+    const { simplices, dimension } = this.delaunay;
+    this.#neighborCounts = new Int32Array(this.count);
+    // As many facets meet at a site as edges do, where there are any; on one circle it has the two next to it.
+    for (const k of dimension === 1 ? this.voronoi.ridgePoints : simplices) ++this.#neighborCounts[k];
     return this.#neighborCounts;
   }
 
@@ -91,11 +89,9 @@ export class SphereSites {
     return Uint8Array.from(bubbleSigns(this.xyz, facets, pole), (sign) => (sign >= 0 ? 1 : 0));
   }
 
-  /** The sites around the facets that see the pole, which are on the left; as a line of the plane, its convex hull. */
-  outline(seeing: Uint8Array): number[] {
-    const chosen: number[] = [];
-    for (let facet = 0; facet < seeing.length; ++facet) if (seeing[facet] === 1) chosen.push(facet);
-    return outlineOf(this.delaunay.simplices, chosen);
+  /** The sites around the facets that are marked, such as those that see the pole, which are on the left. */
+  outline(marked: Uint8Array): number[] {
+    return outlineOf(this.delaunay.simplices, (facet) => marked[facet] === 1);
   }
 
   /** Whether all sites lie in a hemisphere, so that some facets are no spherical triangles. */
@@ -103,17 +99,11 @@ export class SphereSites {
     return this.delaunay.closing.includes(1);
   }
 
-  /** The sites around the facets that are spherical triangles, where there are others: these are on the left. */
-  get closingOutline(): number[] {
-    return this.outline(this.delaunay.closing);
-  }
-
-  /** Whether the region of the facets that see the pole holds a direction. */
-  regionHolds(seeing: Uint8Array, direction: Vector): boolean {
+  /** Whether the region of the facets that are marked holds a direction. */
+  regionHolds(marked: Uint8Array, direction: Vector): boolean {
     const facet = this.facetAt(direction);
-    if (facet !== null) return seeing[facet] === 1;
-    const { closing } = this.delaunay;
-    return seeing.some((sees, k) => sees === 1 && closing[k] === 1);
+    if (facet !== null) return marked[facet] === 1;
+    return this.delaunay.closing.some((isClosing, k) => isClosing === 1 && marked[k] === 1);
   }
 
   /** The sites' cells; that of a site alone is all of the sphere. */
@@ -137,11 +127,13 @@ export class SphereSites {
     });
   }
 
-  /** What it does to insert a site into those before it; null while these have no facets. */
-  insertion(site: number): Insertion | null {
-    const before = new SphericalDelaunay(this.xyz.subarray(0, 3 * site));
-    if (before.dimension < 2) return null;
-    return insertion(site, before.simplices, bubbleSigns(this.xyz, before.simplices, this.site(site)));
+  /** What it does to insert a site into those before it. One that lies on the bubble of a facet displaces nothing there. */
+  insertion(site: number): Insertion {
+    const before = new SphericalDelaunay(this.xyz.subarray(0, 3 * site)).simplices;
+    const signs = bubbleSigns(this.xyz, before, this.site(site));
+    const outline = outlineOf(before, (facet) => signs[facet] > 0);
+    const fan = Int32Array.from(outline.flatMap((corner, k) => [corner, outline[(k + 1) % outline.length], site]));
+    return { site, before, seeing: [...signs.keys()].filter((facet) => signs[facet] > 0), outline, fan };
   }
 }
 
@@ -164,7 +156,7 @@ export function bubbleSigns(xyz: Float64Array, simplices: Int32Array, point: Vec
 export interface Insertion {
   /** Index of the new site. */
   readonly site: number;
-  /** Facets of the sites before, (m, 3) flat. */
+  /** Facets of the sites before, (m, 3) flat; none where these lie on one great circle. */
   readonly before: Int32Array;
   /** Indices of those that see the site. */
   readonly seeing: readonly number[];
@@ -174,27 +166,14 @@ export interface Insertion {
   readonly fan: Int32Array;
 }
 
-/**
- * The step that inserts `site` into the facets `before`.
- * @param signs of `in_bubble(a, b, c, site)`, one a facet: above 0 inside. A site on the bubble displaces nothing.
- */
-export function insertion(site: number, before: Int32Array, signs: ArrayLike<number>): Insertion {
-  const seeing = Array.from({ length: before.length / 3 }, (_, k) => k).filter((k) => signs[k] > 0);
-  const outline = outlineOf(before, seeing);
-  const fan = Int32Array.from(outline.flatMap((corner, k) => [corner, outline[(k + 1) % outline.length], site]));
-  return { site, before, seeing, outline, fan };
-}
-
 /** The one closed line around some facets, on their left: their sides without a facet of theirs across. */
-function outlineOf(facets: Int32Array, chosen: readonly number[]): number[] {
+function outlineOf(facets: Int32Array, isChosen: (facet: number) => boolean): number[] {
   const sides = new Map<string, [number, number]>();
-  for (const k of chosen) {
-    for (let corner = 0; corner < 3; ++corner) {
-      const a = facets[3 * k + corner];
-      const b = facets[3 * k + ((corner + 1) % 3)];
-      if (!sides.delete(`${b} ${a}`)) sides.set(`${a} ${b}`, [a, b]);
-    }
-  }
+  facets.forEach((a, at) => {
+    if (!isChosen(Math.floor(at / 3))) return;
+    const b = facets[following(at)];
+    if (!sides.delete(`${b} ${a}`)) sides.set(`${a} ${b}`, [a, b]);
+  });
   return chained(new Map(sides.values()));
 }
 
@@ -208,11 +187,6 @@ export function chained(next: Map<number, number>): number[] {
     at = to;
   }
   return outline;
-}
-
-/** Sites as "7 · 22 · 41". */
-function numbers(sites: readonly number[]): string {
-  return sites.map((site) => String(site + 1)).join("\u2009·\u2009");
 }
 
 /** What there is to say of sites without triangles; null where there are triangles. */
@@ -230,14 +204,9 @@ export function withoutTriangles(sites: SphereSites): string | null {
 export function ofPictures(
   has: Readonly<Record<"triangles" | "cells" | "seeing" | "steps", boolean>>,
 ): [string, string] {
-  const lines = has.cells ? "Delaunay triangles in strong lines, Voronoi cells in thin ones." : "Delaunay triangles.";
-  const ball = has.steps
-    ? "Delaunay triangles, new ones dashed."
-    : has.triangles
-      ? lines
-      : has.cells
-        ? "Voronoi cells."
-        : "";
+  const strong = "Delaunay triangles in strong lines, Voronoi cells in thin ones.";
+  const lines = ["", "Voronoi cells.", "Delaunay triangles.", strong][2 * Number(has.triangles) + Number(has.cells)];
+  const ball = has.steps ? "Delaunay triangles, new ones dashed." : lines;
   const plane = [
     has.triangles && "The same triangles.",
     has.seeing && "Hatched is where the facets go that see *P*.",
@@ -248,9 +217,10 @@ export function ofPictures(
 
 /** What the circle round a triangle is on the sphere and in the plane. */
 export function ofBubble(bubble: Bubble, sites: SphereSites, twin: Twin): string {
-  const radius = `The circle round _${numbers(bubble.sites)}_ has the radius _${sized(angle(bubble.center, sites.site(bubble.sites[0])), 2)}°_ on the sphere`;
+  const names = bubble.sites.map((site) => site + 1).join("\u2009·\u2009");
+  const radius = `The circle round _${names}_ has the radius _${sized(angle(bubble.center, sites.site(bubble.sites[0])), 2)}°_ on the sphere`;
   const image = twin.circle(bubble.center, bubble.cosine);
-  if (image.kind === "line" || image.holdsPole) {
+  if (image.isLine || image.holdsPole) {
     return `${radius}. This bubble holds *P*: in the plane it is the outside of the circle, and its facet is left out.`;
   }
   // The kernel's signs, without rounding; the plane's circle holds the images of what the bubble holds.
@@ -271,15 +241,13 @@ export function ofLens({ focus, magnification }: Lens): string {
 }
 
 /** What inserting a site does. */
-export function ofStep(step: Insertion | null, site: number): string {
-  if (step === null)
-    return `Site _${site + 1}_ is one of the first: all before it lie on one great circle and have no facets.`;
-  if (step.seeing.length === 0)
-    return `Site _${site + 1}_ sees no facet: it lies exactly on one before it, or on their bubbles.`;
-  return (
-    `Site _${site + 1}_ sees ${several(step.seeing.length, "facet")}. They make room: their outline has ` +
-    `_${step.outline.length}_ sides, and as many new facets meet at the site.`
-  );
+export function ofStep({ site, before, seeing, outline }: Insertion): string {
+  const name = `Site _${site + 1}_`;
+  if (before.length === 0)
+    return `${name} is one of the first: all before it lie on one great circle and have no facets.`;
+  if (seeing.length === 0) return `${name} sees no facet: it lies exactly on one before it, or on their bubbles.`;
+  const words = `They make room: their outline has _${outline.length}_ sides, and as many new facets meet at the site.`;
+  return `${name} sees ${several(seeing.length, "facet")}. ${words}`;
 }
 
 /** The first duplicate, if there is one. */

@@ -7,6 +7,9 @@ import type { SphereSites } from "./sphere_sites.ts";
 /** Cosines nearer to each other than this are those of a circle through the pole: its radius would be 1e12 ball radii. */
 const THROUGH_POLE = 1e-12;
 
+/** Where the plane ends, ball radii. */
+const FAR = 1e9;
+
 /**
  * The projection from `pole`, in ball radii, with the axes of the library's `Stereographic`: u east and v north at the
  * point of contact.
@@ -26,10 +29,12 @@ export class Twin {
     this.#north = [-Math.sin(lat) * Math.cos(lon), -Math.sin(lat) * Math.sin(lon), Math.cos(lat)];
   }
 
-  /** The image of a point of the sphere; infinite at the pole. */
+  /** The image of a point of the sphere; that of the pole is `FAR` away. */
   forward(point: Vector): [number, number] {
-    const stretch = 2 / (1 + dot(point, this.#south));
-    return [stretch * dot(point, this.#east), stretch * dot(point, this.#north)];
+    const [x, y, z] = this.pole;
+    const away: Vector = [point[0] - x, point[1] - y, point[2] - z]; // of the pole itself without rounding
+    const stretch = 4 / dot(away, away);
+    return stretch === Infinity ? [FAR, FAR] : [stretch * dot(away, this.#east), stretch * dot(away, this.#north)];
   }
 
   /** The point of the sphere with this image. */
@@ -48,11 +53,12 @@ export class Twin {
    */
   circle(center: Vector, cosine: number) {
     const along = dot(center, this.#south);
-    const across: [number, number] = [dot(center, this.#east), dot(center, this.#north)];
-    const lead = cosine + along;
-    if (Math.abs(lead) < THROUGH_POLE) return { kind: "line" as const, normal: across, offset: cosine - along };
+    const across: Point = [dot(center, this.#east), dot(center, this.#north)];
+    const lead = cosine + along || THROUGH_POLE / 2; // no division by 0
     return {
-      kind: "circle" as const,
+      isLine: Math.abs(lead) < THROUGH_POLE, // of points X with normal·X = offset
+      normal: across,
+      offset: cosine - along,
       middle: [(2 * across[0]) / lead, (2 * across[1]) / lead] as Point,
       radius: (2 * Math.sqrt(Math.max(0, 1 - cosine * cosine))) / Math.abs(lead),
       holdsPole: lead < 0,
@@ -68,11 +74,11 @@ const ROOM = 1.07;
 
 export type PlaneFrame = ReturnType<typeof planeFrame>;
 
-/**
- * A square of a picture, from its upper left corner, px, and what it shows of the plane: half its side and its middle,
- * ball radii.
- */
-export function planeFrame(x: number, y: number, size: number, reach: number, middle: Point = [0, 0]) {
+/** What a frame shows of the plane: half its side and its middle, ball radii; and how many sites lie outside. */
+export type Around = Readonly<{ reach: number; middle: Point; outside: number }>;
+
+/** A square of a picture, from its upper left corner, px, and what it shows. */
+export function planeFrame(x: number, y: number, size: number, { reach, middle }: Around) {
   const scale = size / 2 / reach;
   const [left, top] = [x + size / 2, y + size / 2];
   const place = ([u, v]: Point): Point => [left + scale * (u - middle[0]), top - scale * (v - middle[1])];
@@ -83,16 +89,16 @@ export function planeFrame(x: number, y: number, size: number, reach: number, mi
 /** Sites that need less than this part of a frame about the point of contact have one of their own. */
 const OWN_FRAME = 0.5;
 
-/** The frame that holds nearly all sites: half its side and its middle, ball radii, and how many sites lie outside. */
-export function reachAround(sites: SphereSites, twin: Twin): { reach: number; middle: Point; outside: number } {
+/** The frame that holds nearly all sites. */
+export function reachAround(sites: SphereSites, twin: Twin): Around {
   const images = Array.from({ length: sites.count }, (_, k) => twin.forward(sites.site(k)));
-  const frameAbout = (middle: Point): { reach: number; middle: Point; outside: number } => {
+  const frameAbout = (middle: Point): Around => {
     const away = ([u, v]: Point): number => Math.max(Math.abs(u - middle[0]), Math.abs(v - middle[1]));
-    const sizes = Float64Array.from(images, away).sort();
+    const sizes = Float64Array.from(images.map(away).filter((size) => size < FAR / 2)).sort();
     const nearly = sizes[Math.floor(((OUTSIDE - 1) / OUTSIDE) * (sizes.length - 1))] ?? 1;
     const all = sizes[sizes.length - 1] ?? 1;
     const reach = ROOM * (all < 2 * nearly ? all : nearly) || 1;
-    return { reach, middle, outside: sizes.filter((size) => size > reach).length };
+    return { reach, middle, outside: images.length - sizes.filter((size) => size <= reach).length };
   };
   const half = (k: 0 | 1): number => Float64Array.from(images, (image) => image[k]).sort()[images.length >> 1] ?? 0;
   const [about, own] = [frameAbout([0, 0]), frameAbout([half(0), half(1)])];

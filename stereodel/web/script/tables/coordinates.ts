@@ -49,29 +49,19 @@ export function planePlaces(table: TextTable, first: string, second: string): Fl
 export function numberColumns(columns: TextTable["columns"], others: ReadonlySet<string>): Map<string, Float64Array> {
   const mark = decimalMark(columns);
   const isNumber = (cell: string): boolean => NUMBER.test(cell) && !CODE.test(cell) && !isUnsure(cell, mark);
-  const result = new Map<string, Float64Array>();
-  for (const [name, column] of columns) {
-    const known = (cell: string): boolean => isMissing(cell) || isNumber(cell.trim());
-    if (others.has(name) || !column.every(known) || column.every(isMissing)) continue;
-    result.set(
-      name,
-      Float64Array.from(column, (cell) => (isMissing(cell) ? NaN : decimal(cell.trim()))),
-    );
-  }
-  return result;
+  const known = (cell: string): boolean => isMissing(cell) || isNumber(cell.trim());
+  const kept = [...columns].filter(
+    ([name, cells]) => !others.has(name) && cells.every(known) && !cells.every(isMissing),
+  );
+  const value = (cell: string): number => (isMissing(cell) ? NaN : decimal(cell.trim()));
+  return new Map(kept.map(([name, cells]) => [name, Float64Array.from(cells, value)]));
 }
 
 /** The decimal mark by numbers that have no other reading; a point if there is none, both if they disagree. */
 function decimalMark(columns: TextTable["columns"]): string {
-  const found = new Set<string>();
-  for (const cells of columns.values()) {
-    for (const cell of cells) {
-      if (!/[.,]/.test(cell)) continue;
-      const text = cell.trim();
-      if (NUMBER.test(text) && !GROUPED.test(text)) found.add(markOf(text));
-    }
-  }
-  return [...found].join("") || ".";
+  const marked = [...columns.values()].flatMap((cells) => cells.filter((cell) => /[.,]/.test(cell)));
+  const sure = marked.map((cell) => cell.trim()).filter((cell) => NUMBER.test(cell) && !GROUPED.test(cell));
+  return [...new Set(sure.map(markOf))].join("") || ".";
 }
 
 const markOf = (cell: string): string => (cell.includes(",") ? "," : ".");
@@ -101,14 +91,11 @@ function lettered({ columns }: TextTable, name: string, axis: string): readonly 
   const [cells, names] = [columns.get(name)!, [...columns.keys()]];
   const beside = names[names.indexOf(name) + 1] ?? "";
   if (!LETTERED.test(beside)) return cells;
-  const [read, letters] = [cells, columns.get(beside)!].map((all) =>
-    all.map((cell) => (isMissing(typed(cell)) ? "" : typed(cell))),
-  );
+  const letters = columns.get(beside)!.map((cell) => (isMissing(typed(cell)) ? "" : typed(cell)));
   const points = letters.filter(Boolean).map((letter) => pointOf(letter) ?? "?");
   const isAxis = points.length > 0 && points.every((point) => (axis === "latitude" ? "NS" : "EWO").includes(point));
-  return isAxis && !read.some((cell) => cell.includes("-"))
-    ? read.map((cell, row) => cell && `${cell} ${letters[row]}`.trim())
-    : cells;
+  if (!isAxis || cells.some((cell) => typed(cell).includes("-") && !isMissing(cell))) return cells;
+  return cells.map((cell, row) => (isMissing(cell) ? "" : `${cell} ${letters[row]}`.trim()));
 }
 
 const plain = (cell: string): number => (NUMBER.test(cell) ? decimal(cell) : NaN);

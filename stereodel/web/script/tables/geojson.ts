@@ -1,4 +1,4 @@
-/** Points of GeoJSON: a collection, a feature alone, or a sequence of features. */
+/** Points of GeoJSON: a collection, or a feature alone. */
 
 import { onEarth } from "./coordinates.ts";
 import { TableError, type PlacedTable } from "./delimited.ts";
@@ -8,7 +8,6 @@ export function geojsonPoints(text: string): PlacedTable {
   const collection = document(text);
   const features = member(collection, "type") === "Feature" ? [collection] : member(collection, "features");
   if (!Array.isArray(features)) throw new TableError("the file is not a GeoJSON FeatureCollection of points");
-  refuseOtherSystems(collection);
   const wrong = new Map<number, string>();
   const positions = features.map((feature, row) => {
     const found = position(feature);
@@ -31,18 +30,11 @@ function member(value: unknown, name: string): unknown {
   return typeof value === "object" && value !== null ? (value as Record<string, unknown>)[name] : undefined;
 }
 
-/** A document of JSON, or a sequence of features (RFC 8142, or one a line) as a collection. */
 function document(text: string): unknown {
   try {
     return JSON.parse(text);
   } catch (error) {
-    const lines = text.split("\n").map((line) => line.replace(/^[\x1e \t\r]+|[\x1e \t\r]+$/g, ""));
-    try {
-      if (!lines[0].endsWith("}")) throw error;
-      return { features: lines.filter((line) => line !== "").map((line) => JSON.parse(line) as unknown) };
-    } catch {
-      throw new TableError(`the file is not JSON: ${error instanceof Error ? error.message : String(error)}`);
-    }
+    throw new TableError(`the file is not JSON: ${error instanceof Error ? error.message : String(error)}`);
   }
 }
 
@@ -57,15 +49,4 @@ function position(feature: unknown): number[] | string {
   const pair = Array.isArray(place) ? place.slice(0, 2) : [];
   const isPair = pair.length === 2 && pair.every(Number.isFinite);
   return isPair ? pair : `a Point has two or three coordinates, not ${JSON.stringify(place)}`;
-}
-
-/** Coordinate systems as GeoJSON named them before RFC 7946: the page has none but degrees. */
-function refuseOtherSystems(collection: unknown): void {
-  const crs = member(collection, "crs") ?? null;
-  if (crs === null) return;
-  const name = String(member(member(crs, "properties"), "name"));
-  if (/(CRS84|EPSG::4326|EPSG:4326)$/i.test(name)) return;
-  throw new TableError(
-    `the file is in ${name}, the page reads degrees; to make a page of it, type: stereodel web FILE`,
-  );
 }
