@@ -110,6 +110,8 @@ def test_names_are_drawn_taken_along_and_switched_off(room, tmp_path):
     switch = page.page.locator("#room-globe [name=names]")
     assert not switch.is_visible()
     opened(page, "globe", file)
+    page.page.click("#room-globe button[value=figure-10]")  # seen from 40° N 0° E, with Perth behind
+    page.rest()
     svg = downloaded(page, "svg")[1].decode()
     assert [name in svg for name in ("Oslo<", ">∗Lagos∗<", "Perth", "&lt;i&gt;Rome<")] == [True, True, False, True]
     before = page.digest("#globe-plate")
