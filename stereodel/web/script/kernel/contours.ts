@@ -1,6 +1,6 @@
 /** `geoContour`: where values at sites of the sphere reach thresholds, by linear interpolation along the edges of triangles. */
 
-import { ListedDelaunay, placesOf, setting, type Place, type Setting } from "./d3.ts";
+import { geoDelaunay, placesOf, setting, type ListedDelaunay, type Place, type Setting } from "./d3.ts";
 import { following } from "./topology.ts";
 
 /** Where values are at least `value`, and below `valueMax` if that is given; wound as d3-geo wants it. */
@@ -41,7 +41,7 @@ export function geoContour<Datum = [number, number, number]>(): Contours<Datum> 
     const wrong = values.findIndex((each) => !Number.isFinite(each));
     if (wrong >= 0)
       throw new RangeError(`the value of datum ${wrong} is ${values[wrong]}, which is not a finite number`);
-    const delaunay = new ListedDelaunay(Float64Array.from(data.flatMap((d, k) => [x(d, k), y(d, k)])));
+    const delaunay = geoDelaunay(data.map((d, k) => [x(d, k), y(d, k)])).delaunay;
     return {
       rings: (threshold) => ringsAt(delaunay, values, threshold),
       thresholds: typeof thresholds === "object" ? thresholds : roundThresholds(values, thresholds ?? 10),

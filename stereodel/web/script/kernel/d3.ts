@@ -7,7 +7,7 @@
 import { lonlatToXyz } from "./coordinates.ts";
 import { SphericalDelaunay } from "./delaunay.ts";
 import { lazy } from "./lazy.ts";
-import { firstCorners, halfedgesOf, MOST, preceding, sweepHull } from "./sweep_hull.ts";
+import { cornersAs, halfedgesOf, MOST, preceding, sweepHull } from "./sweep_hull.ts";
 import { following } from "./topology.ts";
 import { SphericalVoronoi } from "./voronoi.ts";
 
@@ -36,15 +36,21 @@ export function setting<Value, Owner>(owner: Owner, value: Value): Setting<Value
   return method as Setting<Value, Owner>;
 }
 
-/** The exact triangulation, listed in the order of d3-geo-voronoi, and what d3-delaunay has of it besides. */
+/** The exact triangulation, and what d3-delaunay has of it besides. */
 export class ListedDelaunay extends SphericalDelaunay {
   private around: Cells | null = null;
+  private unlisted: Float64Array | null;
 
   constructor(lonlat: Float64Array) {
     super(lonlatToXyz(lonlat));
-    if (this.dimension === 2 && this.size <= MOST) {
-      this.list(firstCorners(this.simplices, theirTriangles(lonlat)));
-    }
+    this.unlisted = this.dimension === 2 && this.size <= MOST ? lonlat : null;
+  }
+
+  /** @internal Itself in the order of d3-geo-voronoi, which takes as long again as all before. */
+  listed(): this {
+    if (this.unlisted !== null) this.list(cornersAs(theirTriangles(this.unlisted), this.simplices));
+    this.unlisted = null;
+    return this;
   }
 
   /** @internal What lies around each site. */
@@ -69,31 +75,34 @@ const wrapped = (angle: number): number =>
 
 /** Triangles as delaunator makes them of the sites seen from the first one, which is its point far away; those of less than three are left in. */
 function theirTriangles(lonlat: Float64Array): Int32Array {
-  const angles = lonlat.map((degrees) => degrees / DEGREES);
-  const count = lonlat.length / 2;
+  const size = lonlat.length;
   // Each number as d3-geo has it, since rounding decides which of equal distances is less.
-  const [east, north] = angles;
+  const [east, north] = [lonlat[0] / DEGREES, lonlat[1] / DEGREES];
   const opposite = [Math.atan2(Math.sin(Math.PI), -Math.cos(north)), Math.asin(Math.sin(north))];
   const [turn, rise] = [wrapped(opposite[0] - (east % TURN)), opposite[1]].map((x) => ((x * DEGREES) % 360) / DEGREES);
-  const xy = new Float64Array(2 * count + 6);
+  const [across, upright] = [Math.sin(rise), Math.cos(rise)];
+  const xy = new Float64Array(size + 6);
   const far: number[] = [];
   let most = 1;
-  for (let i = 0; i < count; ++i) {
-    const [moved, lat] = [wrapped(angles[2 * i] + (turn % TURN)), angles[2 * i + 1]];
-    const [x, y, z] = [Math.cos(moved) * Math.cos(lat), Math.sin(moved) * Math.cos(lat), Math.sin(lat)];
-    const up = Math.asin(Math.max(-1, Math.min(1, z * Math.cos(rise) + x * Math.sin(rise))));
-    const along = Math.atan2(y, x * Math.cos(rise) - z * Math.sin(rise));
+  for (let k = 0; k < size; k += 2) {
+    const moved = wrapped(lonlat[k] / DEGREES + (turn % TURN));
+    const lat = lonlat[k + 1] / DEGREES;
+    const x = Math.cos(moved) * Math.cos(lat);
+    const z = Math.sin(lat);
+    const up = Math.asin(Math.max(-1, Math.min(1, z * upright + x * across)));
+    const along = Math.atan2(Math.sin(moved) * Math.cos(lat), x * upright - z * across);
     const scale = 1 + Math.cos(along) * Math.cos(up);
-    xy.set([(Math.cos(up) * Math.sin(along)) / scale, -Math.sin(up) / scale], 2 * i);
-    const square = xy[2 * i] ** 2 + xy[2 * i + 1] ** 2;
+    xy[k] = (Math.cos(up) * Math.sin(along)) / scale;
+    xy[k + 1] = -Math.sin(up) / scale;
+    const square = xy[k] * xy[k] + xy[k + 1] * xy[k + 1];
     if (square <= 1e32) most = Math.max(most, square);
-    else far.push(i);
+    else far.push(k);
   }
   // Three more places as far as the first one make a square around all.
   const edge = 1e6 * Math.sqrt(most);
-  for (const i of far) xy.set([edge, 0], 2 * i);
-  xy.set([0, edge, -edge, 0, 0, -edge], 2 * count);
-  return sweepHull(xy).triangles.map((site) => (site < count ? site : 0));
+  for (const k of far) xy.set([edge, 0], k);
+  xy.set([0, edge, -edge, 0, 0, -edge], size);
+  return sweepHull(xy).triangles.map((site) => (2 * site < size ? site : 0));
 }
 
 /** Triangulation and cells as indices of places and centers. */
@@ -135,15 +144,15 @@ export function geoDelaunay(places: readonly (readonly [number, number])[]): Geo
   }
   const delaunay = new ListedDelaunay(lonlat);
   const geo: GeoDelaunay = lazy<GeoDelaunay>({
-    delaunay: () => delaunay,
-    edges: () => edgesOf(delaunay),
-    triangles: () => clockwise(delaunay.simplices),
-    centers: () => delaunay.cells.centers,
-    neighbors: () => delaunay.cells.neighbors,
-    polygons: () => polygonsOf(delaunay.cells),
+    delaunay: () => delaunay.listed(),
+    edges: () => edgesOf(geo.delaunay),
+    triangles: () => clockwise(geo.delaunay.simplices),
+    centers: () => geo.delaunay.cells.centers,
+    neighbors: () => geo.delaunay.cells.neighbors,
+    polygons: () => polygonsOf(geo.delaunay.cells),
     mesh: () => meshOf(geo.polygons),
-    hull: () => hullOf(delaunay),
-    urquhart: () => (distances) => urquhart(delaunay, geo.edges, distances),
+    hull: () => hullOf(geo.delaunay),
+    urquhart: () => (distances) => urquhart(geo.delaunay, geo.edges, distances),
     find: () => (lon, lat) => delaunay.nearest(lonlatToXyz([lon, lat]))[0],
   });
   return geo;
@@ -163,8 +172,9 @@ const clockwiseSides = (corners: Int32Array): [number, number][] =>
 export function placesOf(xyz: Float64Array): Place[] {
   const places: Place[] = new Array(xyz.length / 3);
   for (let k = 0; k < places.length; ++k) {
-    const [x, y, z] = [xyz[3 * k], xyz[3 * k + 1], xyz[3 * k + 2]];
-    places[k] = [Math.atan2(y, x) * DEGREES, Math.atan2(z, Math.sqrt(x * x + y * y)) * DEGREES];
+    const x = xyz[3 * k];
+    const y = xyz[3 * k + 1];
+    places[k] = [Math.atan2(y, x) * DEGREES, Math.atan2(xyz[3 * k + 2], Math.sqrt(x * x + y * y)) * DEGREES];
   }
   return places;
 }
@@ -183,7 +193,8 @@ function edgesOf(delaunay: ListedDelaunay): [number, number][] {
   }
   for (let row = 0; row < simplices.length; row += 3) {
     if (closing[row / 3] === 1) continue;
-    for (const opposite of [row + 1, row, row + 2]) {
+    for (let k = 0; k < 3; ++k) {
+      const opposite = row + (k === 2 ? 2 : 1 - k);
       const other = neighbors[opposite]; // has the edge already if it comes earlier
       if (other >= row / 3 || closing[other] === 1) add(simplices[following(opposite)], simplices[preceding(opposite)]);
     }
@@ -216,8 +227,8 @@ function cellsOf(delaunay: ListedDelaunay): Cells {
     neighbors[site] = around;
   }
   if (size <= MOST) {
-    const filled = first.fill(0);
-    for (const [i, j] of clockwiseSides(corners)) neighbors[i][filled[i]++] = j;
+    first.fill(0);
+    corners.forEach((site, e) => (neighbors[site][first[site]++] = corners[preceding(e)]));
   }
   return { centers: placesOf(delaunay.circumcenters), neighbors, starts, ring };
 }
@@ -266,10 +277,20 @@ function lunesOf(delaunay: ListedDelaunay): Cells {
 }
 
 const polygonsOf = ({ neighbors, starts, ring }: Cells): GeoDelaunay["polygons"] =>
-  neighbors.map((_, k) => (starts[k] < starts[k + 1] ? [...ring.subarray(starts[k], starts[k + 1])] : undefined));
+  neighbors.map((_, k) => {
+    return starts[k] < starts[k + 1] ? Array.from(ring.subarray(starts[k], starts[k + 1])) : undefined;
+  });
 
-const meshOf = (polygons: GeoDelaunay["polygons"]): [number, number][] =>
-  polygons.flatMap((ring = []) => ring.map((q, k): [number, number] => [ring.at(k - 1)!, q]).filter(([p, q]) => q > p));
+function meshOf(polygons: GeoDelaunay["polygons"]): [number, number][] {
+  const sides: [number, number][] = [];
+  for (const ring of polygons) {
+    ring?.forEach((q, k) => {
+      const p = ring[(k || ring.length) - 1];
+      if (q > p) sides.push([p, q]);
+    });
+  }
+  return sides;
+}
 
 /** Closer to its longest side, in radians, a site of a triangle is on it as far as doubles can tell: two ulps of coordinates. */
 const FLAT = 2 ** -51;
@@ -369,13 +390,14 @@ export function geoVoronoi<Datum = Place>(data?: GeoData<Datum>): GeoVoronoi<Dat
   const diagram = ((given: GeoData<Datum>) => {
     const items = "features" in given ? given.features : given;
     const [x, y] = [diagram.x(), diagram.y()];
-    [diagram.points, diagram.valid] = [[], []];
+    const [points, valid]: [Place[], Datum[]] = [[], []];
     for (const datum of items) {
       const place: Place = x === first && y === second ? placeOf(datum) : [x(datum), y(datum)];
       if (!Number.isFinite(place[0]) || !Number.isFinite(place[1])) continue;
-      diagram.points.push(place);
-      diagram.valid.push(datum);
+      points.push(place);
+      valid.push(datum);
     }
+    Object.assign(diagram, { points, valid });
     diagram.delaunay = geoDelaunay(diagram.points);
     return diagram;
   }) as GeoVoronoi<Datum>;
@@ -462,6 +484,8 @@ function angle(a: Vector, b: Vector): number {
 function placeOf(datum: unknown): Place {
   let found = datum as { geometry?: unknown; coordinates?: unknown } | null;
   if (found?.geometry !== undefined) found = found.geometry as typeof found;
-  const [lon, lat] = ((found?.coordinates ?? found ?? []) as (number | null)[]).slice?.(0, 2) ?? [];
-  return [lon, lat].map((value) => (value === null ? NaN : Number(value))) as Place;
+  const at = (found?.coordinates ?? found ?? []) as readonly (number | null)[];
+  return [numberOf(at[0]), numberOf(at[1])];
 }
+
+const numberOf = (value: number | null): number => (value === null ? NaN : Number(value));

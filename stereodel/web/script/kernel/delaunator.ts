@@ -7,7 +7,7 @@
  */
 
 import { PlanarDelaunay } from "./delaunay.ts";
-import { firstCorners, halfedgesOf, mirrored, MOST, sweepHull } from "./sweep_hull.ts";
+import { cornersAs, halfedgesOf, mirrored, MOST, sweepHull } from "./sweep_hull.ts";
 import { following } from "./topology.ts";
 
 type Points<Point> = ArrayLike<Point> | Iterable<Point>;
@@ -58,7 +58,7 @@ export default class Delaunator<Coords extends ArrayLike<number> = ArrayLike<num
     this.exact = new PlanarDelaunay(Float64Array.from(this.coords).subarray(0, this.coords.length & ~1));
     const { points, size, dimension } = this.exact;
     const swept = dimension === 2 && size <= MOST ? sweepHull(points) : null;
-    if (swept !== null) this.exact.list(firstCorners(this.exact.simplices, mirrored(swept.triangles)));
+    if (swept !== null) this.exact.list(cornersAs(mirrored(swept.triangles), this.exact.simplices));
     const triangles = mirrored(this.exact.simplices);
     this.triangles = new Uint32Array(triangles);
     this.halfedges = halfedgesOf(triangles, mirrored(this.exact.neighbors));

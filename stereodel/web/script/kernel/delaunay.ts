@@ -152,21 +152,13 @@ export abstract class Delaunay {
     return (this.derived.order ??= answered(types, `${this.space}_flat_diagram`, this.forKernel[0], this.size)[3]);
   }
 
-  /** @internal Lists the triangles anew, each by the entry of `simplices` that becomes its first corner. */
-  list(firsts: number[]): void {
+  /** @internal Lists the triangles anew, by the places in `simplices` of what becomes their corners. */
+  list(from: Int32Array): void {
     const { simplices, neighbors } = this;
-    const place = new Int32Array(firsts.length);
-    firsts.forEach((first, row) => (place[Math.floor(first / 3)] = row));
-    const from = simplices.map((_, e) => {
-      const first = firsts[Math.floor(e / 3)];
-      return first - (first % 3) + ((first + e) % 3);
-    });
-    const moved = Int32Array.from(from, (at) => place[neighbors[at]] ?? -1);
-    this.hold(
-      this.forKernel[0],
-      Int32Array.from(from, (at) => simplices[at]),
-      moved,
-    );
+    const place = new Int32Array(from.length / 3);
+    for (let row = 0; row < place.length; ++row) place[Math.floor(from[3 * row] / 3)] = row;
+    const beyond = from.map((at) => (neighbors[at] < 0 ? -1 : place[neighbors[at]]));
+    this.hold(this.forKernel[0], from.map((at) => simplices[at]), beyond); // prettier-ignore
   }
 
   private forQueries(): Argument[] {

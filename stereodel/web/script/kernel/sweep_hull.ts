@@ -21,53 +21,66 @@ const ROUNDING = 2 ** -51;
 
 export function sweepHull(xy: Float64Array): Swept {
   const count = xy.length / 2;
-  const squared = (i: number, x: number, y: number): number => (xy[2 * i] - x) ** 2 + (xy[2 * i + 1] - y) ** 2;
 
-  /** 1 if the points turn left, -1 right, 0 on one line; exactly. */
+  function squared(i: number, x: number, y: number): number {
+    const dx = xy[2 * i] - x;
+    const dy = xy[2 * i + 1] - y;
+    return dx * dx + dy * dy;
+  }
+
+  /** Above 0 if the points turn left, below right, 0 on one line; exactly. */
   function turn(a: number, b: number, c: number): number {
     const one = (xy[2 * a] - xy[2 * c]) * (xy[2 * b + 1] - xy[2 * c + 1]);
     const other = (xy[2 * a + 1] - xy[2 * c + 1]) * (xy[2 * b] - xy[2 * c]);
-    if (Math.abs(one - other) > ROUNDING * (Math.abs(one) + Math.abs(other))) return Math.sign(one - other);
-    return orient2d(
-      ...([a, b, c].map((i) => xy.subarray(2 * i, 2 * i + 2)) as [Float64Array, Float64Array, Float64Array]),
-    )[0];
+    if (Math.abs(one - other) > ROUNDING * (Math.abs(one) + Math.abs(other))) return one - other;
+    const [p, q, r] = [a, b, c].map((i) => xy.subarray(2 * i, 2 * i + 2));
+    return orient2d(p, q, r)[0];
   }
 
-  /** From the first point to the centre of the circle through all three. */
-  function toCenter(a: number, b: number, c: number): [number, number] {
-    const [dx, dy] = [xy[2 * b] - xy[2 * a], xy[2 * b + 1] - xy[2 * a + 1]];
-    const [ex, ey] = [xy[2 * c] - xy[2 * a], xy[2 * c + 1] - xy[2 * a + 1]];
-    const [dd, ee, half] = [dx * dx + dy * dy, ex * ex + ey * ey, 0.5 / (dx * ey - dy * ex)];
-    return [(ey * dd - dy * ee) * half, (dx * ee - ex * dd) * half];
+  /** From the first point to the centre of the circle through all three, left in dx and dy; its square. */
+  let [dx, dy] = [0, 0];
+  function toCenter(a: number, b: number, c: number): number {
+    const bx = xy[2 * b] - xy[2 * a];
+    const by = xy[2 * b + 1] - xy[2 * a + 1];
+    const cx = xy[2 * c] - xy[2 * a];
+    const cy = xy[2 * c + 1] - xy[2 * a + 1];
+    const bb = bx * bx + by * by;
+    const cc = cx * cx + cy * cy;
+    const half = 0.5 / (bx * cy - by * cx);
+    dx = (cy * bb - by * cc) * half;
+    dy = (bx * cc - cx * bb) * half;
+    return dx * dx + dy * dy;
   }
 
   /** The point of which something is least, the first one of several, -1 if it is finite for none. */
   function least(measure: (i: number) => number): number {
-    let [found, lowest] = [-1, Infinity];
-    for (let i = 0; i < count; ++i) {
+    let found = -1;
+    for (let i = 0, lowest = Infinity; i < count; ++i) {
       const value = measure(i);
-      if (value < lowest) [found, lowest] = [i, value];
+      if (!(value < lowest)) continue;
+      found = i;
+      lowest = value;
     }
     return found;
   }
 
   let [left, right, low, high] = [Infinity, -Infinity, Infinity, -Infinity];
   for (let k = 0; k < xy.length; k += 2) {
-    [left, right] = [Math.min(left, xy[k]), Math.max(right, xy[k])];
-    [low, high] = [Math.min(low, xy[k + 1]), Math.max(high, xy[k + 1])];
+    left = Math.min(left, xy[k]);
+    right = Math.max(right, xy[k]);
+    low = Math.min(low, xy[k + 1]);
+    high = Math.max(high, xy[k + 1]);
   }
   const seed = least((i) => squared(i, (left + right) / 2, (low + high) / 2));
   let second = least((i) => squared(i, xy[2 * seed], xy[2 * seed + 1]) || Infinity);
-  let third = least((i) => {
-    const [x, y] = i === seed || i === second || second < 0 ? [Infinity, 0] : toCenter(seed, second, i);
-    return x * x + y * y;
-  });
+  let third = least((i) => (i === seed || i === second || second < 0 ? Infinity : toCenter(seed, second, i)));
   if (third < 0) return { triangles: new Int32Array(0), start: -1 };
   if (turn(seed, second, third) > 0) [second, third] = [third, second];
-  const [dx, dy] = toCenter(seed, second, third);
+  toCenter(seed, second, third);
   const [x0, y0] = [xy[2 * seed] + dx, xy[2 * seed + 1] + dy];
-  const distances = Float64Array.from({ length: count }, (_, i) => squared(i, x0, y0));
-  const order = Int32Array.from(distances, (_, i) => i).sort((i, j) => distances[i] - distances[j]);
+  const distances = new Float64Array(count);
+  for (let i = 0; i < count; ++i) distances[i] = squared(i, x0, y0);
+  const order = ranks(distances);
 
   const triangles = new Int32Array(6 * count);
   const halfedges = new Int32Array(6 * count);
@@ -78,7 +91,8 @@ export function sweepHull(xy: Float64Array): Swept {
   let start = seed;
 
   function bucket(i: number): number {
-    const [x, y] = [xy[2 * i] - x0, xy[2 * i + 1] - y0];
+    const x = xy[2 * i] - x0;
+    const y = xy[2 * i + 1] - y0;
     const p = x / (Math.abs(x) + Math.abs(y));
     return Math.floor(((y > 0 ? 3 - p : 1 + p) / 4) * buckets.length) % buckets.length;
   }
@@ -89,7 +103,9 @@ export function sweepHull(xy: Float64Array): Swept {
   }
 
   function add(a: number, b: number, c: number, ab: number, bc: number, ca: number): number {
-    [triangles[used], triangles[used + 1], triangles[used + 2]] = [a, b, c];
+    triangles[used] = a;
+    triangles[used + 1] = b;
+    triangles[used + 2] = c;
     link(used, ab);
     link(used + 1, bc);
     link(used + 2, ca);
@@ -98,11 +114,17 @@ export function sweepHull(xy: Float64Array): Swept {
 
   /** Whether the fourth point lies in the circle of the three. */
   function inside(a: number, b: number, c: number, p: number): boolean {
-    const [x, y] = [xy[2 * p], xy[2 * p + 1]];
-    const [ax, ay, bx, by] = [xy[2 * a] - x, xy[2 * a + 1] - y, xy[2 * b] - x, xy[2 * b + 1] - y];
-    const [cx, cy] = [xy[2 * c] - x, xy[2 * c + 1] - y];
-    const [aa, bb, cc] = [ax * ax + ay * ay, bx * bx + by * by, cx * cx + cy * cy];
-    return ax * (by * cc - bb * cy) - ay * (bx * cc - bb * cx) + aa * (bx * cy - by * cx) < 0;
+    const x = xy[2 * p];
+    const y = xy[2 * p + 1];
+    const ax = xy[2 * a] - x;
+    const ay = xy[2 * a + 1] - y;
+    const bx = xy[2 * b] - x;
+    const by = xy[2 * b + 1] - y;
+    const cx = xy[2 * c] - x;
+    const cy = xy[2 * c + 1] - y;
+    const bb = bx * bx + by * by;
+    const cc = cx * cx + cy * cy;
+    return ax * (by * cc - bb * cy) - ay * (bx * cc - bb * cx) + (ax * ax + ay * ay) * (bx * cy - by * cx) < 0;
   }
 
   /** Flips until all circles beyond a side are empty; the side before it of its triangle. */
@@ -110,10 +132,10 @@ export function sweepHull(xy: Float64Array): Swept {
   function legalize(first: number): number {
     let before = 0;
     for (let a: number | undefined = first; a !== undefined;) {
-      const [b, row] = [halfedges[a], a - (a % 3)];
-      before = row + ((a + 2) % 3);
-      const far = b - (b % 3) + ((b + 2) % 3);
-      if (b < 0 || !inside(triangles[before], triangles[a], triangles[row + ((a + 1) % 3)], triangles[far])) {
+      const b = halfedges[a];
+      before = preceding(a);
+      const far = preceding(b);
+      if (b < 0 || !inside(triangles[before], triangles[a], triangles[following(a)], triangles[far])) {
         a = open.pop();
         continue;
       }
@@ -123,7 +145,7 @@ export function sweepHull(xy: Float64Array): Swept {
       link(a, halfedges[far]);
       link(b, halfedges[before]);
       link(before, far);
-      open.push(b - (b % 3) + ((b + 1) % 3));
+      open.push(following(b));
     }
     return before;
   }
@@ -133,10 +155,11 @@ export function sweepHull(xy: Float64Array): Swept {
     [next[i], previous[i], side[i]] = [seeds[(k + 1) % 3], seeds[(k + 2) % 3], k];
     buckets[bucket(i)] = i;
   });
-  let [x, y] = [NaN, NaN];
-  for (const i of order) {
+  for (let rank = 0, x = NaN, y = NaN; rank < count; ++rank) {
+    const i = order[rank];
     if (Math.abs(xy[2 * i] - x) <= SAME && Math.abs(xy[2 * i + 1] - y) <= SAME) continue;
-    [x, y] = [xy[2 * i], xy[2 * i + 1]];
+    x = xy[2 * i];
+    y = xy[2 * i + 1];
     if (i === seed || i === second || i === third) continue;
     let from = 0;
     for (let k = 0, key = bucket(i); k < buckets.length; ++k) {
@@ -175,30 +198,52 @@ export function sweepHull(xy: Float64Array): Swept {
   return { triangles: triangles.subarray(0, used), start };
 }
 
-/**
- * Where in `simplices` the first corners of triangles are that come as in a list of the same kind; those that it does not
- * have come before.
- */
-export function firstCorners(simplices: Int32Array, list: Int32Array): number[] {
-  const rows = new Map<number, number>();
-  for (let e = 0; e < simplices.length; e += 3) rows.set(simplices[e] * MOST + simplices[e + 1], e);
-  const firsts: number[] = [];
-  for (let e = 0; e < list.length; e += 3) {
-    const low = Math.min(list[e], list[e + 1], list[e + 2]);
-    const turn = list[e] === low ? 0 : list[e + 1] === low ? 1 : 2;
-    const side = low * MOST + list[e + ((turn + 1) % 3)];
-    const row = rows.get(side);
-    if (row === undefined || simplices[row + 2] !== list[e + ((turn + 2) % 3)]) continue;
-    firsts.push(row + ((3 - turn) % 3));
-    rows.delete(side);
+/** Indices by their values, of equal ones in their order. A sort that calls a function takes some times as long. */
+function ranks(values: Float64Array): Int32Array {
+  const sorted = values.slice().sort();
+  const found = new Int32Array(values.length);
+  const equal = new Int32Array(values.length);
+  for (let i = 0; i < values.length; ++i) {
+    let at = 0;
+    for (let end = values.length; at < end;) {
+      const middle = (at + end) >> 1;
+      if (sorted[middle] < values[i]) at = middle + 1;
+      else end = middle;
+    }
+    found[at + equal[at]++] = i;
   }
-  return [...rows.values(), ...firsts];
+  return found;
+}
+
+/**
+ * Where in `simplices` the corners are of triangles that come as in a list of the same kind, their first ones as there;
+ * those that it does not have come before.
+ */
+export function cornersAs(list: Int32Array, simplices: Int32Array): Int32Array {
+  const rows = new Map<number, number>(); // by their first two points, of which the first one is the lowest
+  for (let e = 0; e < simplices.length; e += 3) rows.set(simplices[e] * MOST + simplices[e + 1], e);
+  const found = new Int32Array(simplices.length);
+  let at = simplices.length;
+  for (let e = list.length - 3; e >= 0; e -= 3) {
+    let low = list[e + 1] < list[e] ? e + 1 : e;
+    if (list[e + 2] < list[low]) low = e + 2;
+    const side = list[low] * MOST + list[following(low)];
+    const row = rows.get(side);
+    if (row === undefined || simplices[row + 2] !== list[preceding(low)]) continue;
+    rows.delete(side);
+    for (let k = 2; k >= 0; --k) found[--at] = row + ((k + 3 - (low - e)) % 3);
+  }
+  for (const row of [...rows.values()].reverse()) for (let k = 2; k >= 0; --k) found[--at] = row + k;
+  return found;
 }
 
 /** Rows of three the other way around, from their first numbers on. */
 export function mirrored(rows: Int32Array): Int32Array {
   const turned = rows.slice();
-  for (let e = 1; e < rows.length; e += 3) [turned[e], turned[e + 1]] = [rows[e + 1], rows[e]];
+  for (let e = 1; e < rows.length; e += 3) {
+    turned[e] = rows[e + 1];
+    turned[e + 1] = rows[e];
+  }
   return turned;
 }
 
@@ -208,7 +253,8 @@ export const preceding = (entry: number): number => (entry % 3 === 0 ? entry + 2
 /** Of each side of a triangle, from its first point on, the same side of the one beyond it, or -1. */
 export function halfedgesOf(triangles: Int32Array, beyond: Int32Array): Int32Array {
   return triangles.map((_, e) => {
-    const [row, to] = [3 * beyond[preceding(e)], triangles[following(e)]];
+    const row = 3 * beyond[preceding(e)];
+    const to = triangles[following(e)];
     return row < 0 ? -1 : triangles[row] === to ? row : triangles[row + 1] === to ? row + 1 : row + 2;
   });
 }
