@@ -21,17 +21,13 @@ const ROUNDING = 2 ** -51;
 
 export function sweepHull(xy: Float64Array): Swept {
   const count = xy.length / 2;
-
-  function squared(i: number, x: number, y: number): number {
-    const dx = xy[2 * i] - x;
-    const dy = xy[2 * i + 1] - y;
-    return dx * dx + dy * dy;
-  }
+  const [xs, ys] = [0, 1].map((axis) => xy.filter((_, k) => k % 2 === axis));
+  const squared = (i: number, x: number, y: number): number => (xs[i] - x) * (xs[i] - x) + (ys[i] - y) * (ys[i] - y);
 
   /** Above 0 if the points turn left, below right, 0 on one line; exactly. */
   function turn(a: number, b: number, c: number): number {
-    const one = (xy[2 * a] - xy[2 * c]) * (xy[2 * b + 1] - xy[2 * c + 1]);
-    const other = (xy[2 * a + 1] - xy[2 * c + 1]) * (xy[2 * b] - xy[2 * c]);
+    const one = (xs[a] - xs[c]) * (ys[b] - ys[c]);
+    const other = (ys[a] - ys[c]) * (xs[b] - xs[c]);
     if (Math.abs(one - other) > ROUNDING * (Math.abs(one) + Math.abs(other))) return one - other;
     const [p, q, r] = [a, b, c].map((i) => xy.subarray(2 * i, 2 * i + 2));
     return orient2d(p, q, r)[0];
@@ -40,10 +36,10 @@ export function sweepHull(xy: Float64Array): Swept {
   /** From the first point to the centre of the circle through all three, left in dx and dy; its square. */
   let [dx, dy] = [0, 0];
   function toCenter(a: number, b: number, c: number): number {
-    const bx = xy[2 * b] - xy[2 * a];
-    const by = xy[2 * b + 1] - xy[2 * a + 1];
-    const cx = xy[2 * c] - xy[2 * a];
-    const cy = xy[2 * c + 1] - xy[2 * a + 1];
+    const bx = xs[b] - xs[a];
+    const by = ys[b] - ys[a];
+    const cx = xs[c] - xs[a];
+    const cy = ys[c] - ys[a];
     const bb = bx * bx + by * by;
     const cc = cx * cx + cy * cy;
     const half = 0.5 / (bx * cy - by * cx);
@@ -54,33 +50,24 @@ export function sweepHull(xy: Float64Array): Swept {
 
   /** The point of which something is least, the first one of several, -1 if it is finite for none. */
   function least(measure: (i: number) => number): number {
-    let found = -1;
-    for (let i = 0, lowest = Infinity; i < count; ++i) {
+    let [found, lowest] = [-1, Infinity];
+    for (let i = 0; i < count; ++i) {
       const value = measure(i);
-      if (!(value < lowest)) continue;
-      found = i;
-      lowest = value;
+      if (value < lowest) [found, lowest] = [i, value];
     }
     return found;
   }
 
-  let [left, right, low, high] = [Infinity, -Infinity, Infinity, -Infinity];
-  for (let k = 0; k < xy.length; k += 2) {
-    left = Math.min(left, xy[k]);
-    right = Math.max(right, xy[k]);
-    low = Math.min(low, xy[k + 1]);
-    high = Math.max(high, xy[k + 1]);
-  }
-  const seed = least((i) => squared(i, (left + right) / 2, (low + high) / 2));
-  let second = least((i) => squared(i, xy[2 * seed], xy[2 * seed + 1]) || Infinity);
+  const [x, y] = [xs, ys].map((values) => (Math.min(...values) + Math.max(...values)) / 2);
+  const seed = least((i) => squared(i, x, y));
+  let second = least((i) => squared(i, xs[seed], ys[seed]) || Infinity);
   let third = least((i) => (i === seed || i === second || second < 0 ? Infinity : toCenter(seed, second, i)));
   if (third < 0) return { triangles: new Int32Array(0), start: -1 };
   if (turn(seed, second, third) > 0) [second, third] = [third, second];
   toCenter(seed, second, third);
-  const [x0, y0] = [xy[2 * seed] + dx, xy[2 * seed + 1] + dy];
-  const distances = new Float64Array(count);
-  for (let i = 0; i < count; ++i) distances[i] = squared(i, x0, y0);
-  const order = ranks(distances);
+  const [x0, y0] = [xs[seed] + dx, ys[seed] + dy];
+  const distances = xs.map((_, i) => squared(i, x0, y0));
+  const order = Int32Array.from(distances.keys()).sort((i, j) => distances[i] - distances[j]);
 
   const triangles = new Int32Array(6 * count);
   const halfedges = new Int32Array(6 * count);
@@ -91,8 +78,8 @@ export function sweepHull(xy: Float64Array): Swept {
   let start = seed;
 
   function bucket(i: number): number {
-    const x = xy[2 * i] - x0;
-    const y = xy[2 * i + 1] - y0;
+    const x = xs[i] - x0;
+    const y = ys[i] - y0;
     const p = x / (Math.abs(x) + Math.abs(y));
     return Math.floor(((y > 0 ? 3 - p : 1 + p) / 4) * buckets.length) % buckets.length;
   }
@@ -114,14 +101,12 @@ export function sweepHull(xy: Float64Array): Swept {
 
   /** Whether the fourth point lies in the circle of the three. */
   function inside(a: number, b: number, c: number, p: number): boolean {
-    const x = xy[2 * p];
-    const y = xy[2 * p + 1];
-    const ax = xy[2 * a] - x;
-    const ay = xy[2 * a + 1] - y;
-    const bx = xy[2 * b] - x;
-    const by = xy[2 * b + 1] - y;
-    const cx = xy[2 * c] - x;
-    const cy = xy[2 * c + 1] - y;
+    const ax = xs[a] - xs[p];
+    const ay = ys[a] - ys[p];
+    const bx = xs[b] - xs[p];
+    const by = ys[b] - ys[p];
+    const cx = xs[c] - xs[p];
+    const cy = ys[c] - ys[p];
     const bb = bx * bx + by * by;
     const cc = cx * cx + cy * cy;
     return ax * (by * cc - bb * cy) - ay * (bx * cc - bb * cx) + (ax * ax + ay * ay) * (bx * cy - by * cx) < 0;
@@ -155,11 +140,10 @@ export function sweepHull(xy: Float64Array): Swept {
     [next[i], previous[i], side[i]] = [seeds[(k + 1) % 3], seeds[(k + 2) % 3], k];
     buckets[bucket(i)] = i;
   });
-  for (let rank = 0, x = NaN, y = NaN; rank < count; ++rank) {
+  for (let rank = 0, last = -1; rank < count; ++rank) {
     const i = order[rank];
-    if (Math.abs(xy[2 * i] - x) <= SAME && Math.abs(xy[2 * i + 1] - y) <= SAME) continue;
-    x = xy[2 * i];
-    y = xy[2 * i + 1];
+    if (Math.abs(xs[i] - xs[last]) <= SAME && Math.abs(ys[i] - ys[last]) <= SAME) continue;
+    last = i;
     if (i === seed || i === second || i === third) continue;
     let from = 0;
     for (let k = 0, key = bucket(i); k < buckets.length; ++k) {
@@ -196,23 +180,6 @@ export function sweepHull(xy: Float64Array): Swept {
     buckets[bucket(e)] = e;
   }
   return { triangles: triangles.subarray(0, used), start };
-}
-
-/** Indices by their values, of equal ones in their order. A sort that calls a function takes some times as long. */
-function ranks(values: Float64Array): Int32Array {
-  const sorted = values.slice().sort();
-  const found = new Int32Array(values.length);
-  const equal = new Int32Array(values.length);
-  for (let i = 0; i < values.length; ++i) {
-    let at = 0;
-    for (let end = values.length; at < end;) {
-      const middle = (at + end) >> 1;
-      if (sorted[middle] < values[i]) at = middle + 1;
-      else end = middle;
-    }
-    found[at + equal[at]++] = i;
-  }
-  return found;
 }
 
 /**
