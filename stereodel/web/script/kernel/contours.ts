@@ -1,6 +1,6 @@
 /** `geoContour`: where values at sites of the sphere reach thresholds, by linear interpolation along the edges of triangles. */
 
-import { geoDelaunay, placesOf, setting, type ListedDelaunay, type Place, type Setting } from "./d3.ts";
+import { angle, geoDelaunay, placesOf, setting, vector, type ListedDelaunay, type Place, type Setting } from "./d3.ts";
 import { following } from "./topology.ts";
 
 /** Where values are at least `value`, and below `valueMax` if that is given; wound as d3-geo wants it. */
@@ -103,10 +103,9 @@ function ringsAt(delaunay: ListedDelaunay, values: number[], threshold: number):
 
 /** The point at a part of the way between two. */
 function between(points: Float64Array, i: number, j: number, part: number): number[] {
-  const [a, b] = [i, j].map((k) => [...points.subarray(3 * k, 3 * k + 3)]);
-  const length = (sign: number): number => Math.hypot(...a.map((x, axis) => x + sign * b[axis]));
-  const angle = 2 * Math.atan2(length(-1), length(1));
-  const [one, other] = [1 - part, part].map((fraction) => Math.sin(fraction * angle) / Math.sin(angle));
+  const [a, b] = [vector(points, i), vector(points, j)];
+  const whole = angle(a, b);
+  const [one, other] = [1 - part, part].map((fraction) => Math.sin(fraction * whole) / Math.sin(whole));
   return a.map((x, axis) => one * x + other * b[axis]);
 }
 

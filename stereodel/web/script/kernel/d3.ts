@@ -218,12 +218,12 @@ function cellsOf(delaunay: ListedDelaunay): Cells {
   for (let site = 0; site < size; ++site) {
     const around = row(starts[site + 1]);
     starts[site + 1] += starts[site];
-    for (let k = 0, row = first[site] - (first[site] % 3); k < around.length; ++k) {
-      const at = corners[row] === site ? 0 : corners[row + 1] === site ? 1 : 2;
-      ring[starts[site] + k] = row / 3;
-      const last = row + (at === 0 ? 2 : at - 1);
-      around[k] = corners[last];
-      row = 3 * beyond[at === 2 ? row + 1 : at === 1 ? row : row + 2];
+    for (let k = 0, face = Math.floor(first[site] / 3); k < around.length; ++k) {
+      ring[starts[site] + k] = face;
+      const e = 3 * face;
+      const before = corners[e] === site ? e + 2 : corners[e + 1] === site ? e : e + 1;
+      around[k] = corners[before];
+      face = beyond[before];
     }
     neighbors[site] = around;
   }
@@ -261,15 +261,13 @@ function lunesOf(delaunay: ListedDelaunay): Cells {
     while (centers.length < 4) centers.push(cross(centers[centers.length - 1], axis)); // quarter turns
     [polygons[circle[near]], polygons[circle[1 - near]]] = [[0, 1, 2, 3], [3, 2, 1, 0]]; // prettier-ignore
   } else {
-    const numbers = new Map<Vector, number>();
-    const number = (middle: Vector): number =>
-      numbers.get(middle) ?? (numbers.set(middle, centers.push(middle) - 1), centers.length - 1);
-    polygons.forEach((_, site) => {
+    const numbers: number[] = [];
+    const number = (k: number): number => (numbers[k] ??= centers.push(middles[k]) - 1);
+    for (const site of circle.slice().sort((i, j) => i - j)) {
       const k = circle.indexOf(site);
-      if (k < 0) return;
-      const last = number(middles.at(k - 1)!);
-      polygons[site] = [0, number(middles[k]), 1, last];
-    });
+      const last = number((k || circle.length) - 1);
+      polygons[site] = [0, number(k), 1, last];
+    }
   }
   const starts = new Int32Array(size + 1);
   polygons.forEach((polygon, site) => (starts[site + 1] = starts[site] + polygon.length));
@@ -284,17 +282,14 @@ const polygonsOf = ({ neighbors, starts, ring }: Cells): GeoDelaunay["polygons"]
 
 function meshOf(polygons: GeoDelaunay["polygons"]): [number, number][] {
   const sides: [number, number][] = [];
-  polygons.forEach((ring = []) => {
-    for (let k = 0, p = ring[ring.length - 1]; k < ring.length; p = ring[k++])
-      if (ring[k] > p) sides.push([p, ring[k]]);
-  });
+  for (const ring of polygons) ring?.reduce((p, q) => (q > p && sides.push([p, q]), q), ring[ring.length - 1]);
   return sides;
 }
 
 /** Closer to its longest side, in radians, a site of a triangle is on it as far as doubles can tell: two ulps of coordinates. */
 const FLAT = 2 ** -51;
 
-const vector = (xyz: Float64Array, k: number): Vector => [xyz[3 * k], xyz[3 * k + 1], xyz[3 * k + 2]];
+export const vector = (xyz: Float64Array, k: number): Vector => [xyz[3 * k], xyz[3 * k + 1], xyz[3 * k + 2]];
 const dot = ([x, y, z]: Vector, [u, v, w]: Vector): number => x * u + y * v + z * w;
 const difference = ([x, y, z]: Vector, [u, v, w]: Vector): Vector => [x - u, y - v, z - w];
 const cross = ([x, y, z]: Vector, [u, v, w]: Vector): Vector => [y * w - z * v, z * u - x * w, x * v - y * u];
@@ -322,14 +317,9 @@ function hullOf({ points, simplices, neighbors, closing }: ListedDelaunay): numb
     }
   }
   const next = new Map(border.values());
-  const hull: number[] = [];
-  for (let at = [...next.keys()].pop(); at !== undefined && next.has(at);) {
-    const onwards = next.get(at);
-    hull.push(at);
-    next.delete(at);
-    at = onwards;
-  }
-  return hull;
+  const hull = new Set<number>();
+  for (let at = [...next.keys()].pop(); at !== undefined && !hull.has(at); at = next.get(at)) hull.add(at);
+  return [...hull];
 }
 
 function urquhart(
@@ -411,9 +401,7 @@ export function geoVoronoi<Datum = Place>(data?: GeoData<Datum>): GeoVoronoi<Dat
   const mesh = (ends: [number, number][], places: Place[]): MultiLineString => {
     return { type: "MultiLineString", coordinates: ends.map(([i, j]) => [places[i], places[j]]) };
   };
-  diagram.points = [];
-  diagram.valid = [];
-  diagram.delaunay = null;
+  Object.assign(diagram, { points: [], valid: [], delaunay: null });
   [diagram.x, diagram.y] = [setting(diagram, first), setting(diagram, second)];
 
   diagram.polygons = method(({ delaunay }) => {
@@ -485,7 +473,7 @@ function collection<T>(size: number, make: (k: number) => [Geometry | null, T]):
 const polygon = (ring: Place[]) => ({ type: "Polygon" as const, coordinates: [[...ring, ring[0]]] });
 
 /** The angle between two unit vectors in radians. */
-function angle(a: Vector, b: Vector): number {
+export function angle(a: Vector, b: Vector): number {
   return 2 * Math.atan2(Math.hypot(...difference(a, b)), Math.hypot(a[0] + b[0], a[1] + b[1], a[2] + b[2]));
 }
 

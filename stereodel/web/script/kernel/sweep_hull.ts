@@ -11,15 +11,13 @@ import { following } from "./topology.ts";
 /** More points than these are listed as the kernel has them: to follow the other order would take as long as to triangulate. */
 export const MOST = 4096;
 
-/** Triangles, three points each, clockwise, and with which point the list of the hull begins. */
-export type Swept = { triangles: Int32Array; start: number };
-
 /** Nearer ones are one point. */
 const SAME = 2 ** -52;
 /** Bound of the rounding of a determinant of two rows of differences, in parts of the sum of its two products. */
 const ROUNDING = 2 ** -51;
 
-export function sweepHull(xy: Float64Array): Swept {
+/** Triangles, three points each, clockwise, and with which point the list of the hull begins. */
+export function sweepHull(xy: Float64Array): { triangles: Int32Array; start: number } {
   const count = xy.length / 2;
   const [xs, ys] = [0, 1].map((axis) => xy.filter((_, k) => k % 2 === axis));
   const squared = (i: number, x: number, y: number): number => (xs[i] - x) * (xs[i] - x) + (ys[i] - y) * (ys[i] - y);
@@ -29,7 +27,7 @@ export function sweepHull(xy: Float64Array): Swept {
     const one = (xs[a] - xs[c]) * (ys[b] - ys[c]);
     const other = (ys[a] - ys[c]) * (xs[b] - xs[c]);
     if (Math.abs(one - other) > ROUNDING * (Math.abs(one) + Math.abs(other))) return one - other;
-    const [p, q, r] = [a, b, c].map((i) => xy.subarray(2 * i, 2 * i + 2));
+    const [p, q, r] = [a, b, c].map((i) => [xs[i], ys[i]]);
     return orient2d(p, q, r)[0];
   }
 
