@@ -1,4 +1,4 @@
-"""What shows only after long: memory over ten thousand pictures in one process, a film of twenty-four thousand frames."""
+"""What shows only after long: memory over ten thousand pictures in one process, a film of 24 000 frames."""
 
 import gc
 from functools import partial
