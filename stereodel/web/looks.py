@@ -146,7 +146,7 @@ def legend(entries: Mapping[str, LegendEntry]) -> str:
 
     if not entries:
         return ""
-    blank = Page((0.0, 1.0, -1e-9, 0.0), width=LEGEND, background=(0.0, 0.0, 0.0, 0.0))
+    blank = Page((0.0, 1.0, -0.001, 0.0), width=LEGEND, background=(0.0, 0.0, 0.0, 0.0))
     text = svg(with_legend(blank, entries))
     own = f"legend-{zlib.crc32(text.encode()):x}-"  # other than those of another legend in the same document
     for pattern, other in (
