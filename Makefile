@@ -20,7 +20,7 @@ BIN := $(VENV)/bin
 PYTEST = $(BIN)/python -m pytest -n $(JOBS) $(PYTEST_ARGS)
 BUILD := $(BIN)/python -m tools.build --scripts figures --out $(OUT) $(if $(STYLE),--style $(STYLE))
 
-.PHONY: help install system opengl browser librsvg inkscape figures poster animations test test-thorough test-large mutations coverage \
+.PHONY: help install system opengl browser librsvg inkscape figures poster animations test test-thorough test-large long-run mutations coverage \
 	test-source test-pythons test-lowest sanitize fuzz fuzz-files check \
 	lint web built stub bench peers dist dist-again source check-archives rehearse wheels cross baselines names readme-images web-images docs clean
 
@@ -74,6 +74,9 @@ test-thorough: $(VENV)/installed-test system inkscape ## the same for more cases
 
 test-large: $(VENV)/installed-test ## the tests that take minutes or gigabytes
 	$(BIN)/python -m pytest -m large -o faulthandler_timeout=3600 $(PYTEST_ARGS)
+
+long-run: $(VENV)/installed-test system inkscape ## three hours of what shows only after long: kills, damaged files, random bytes, millions of points, mistakes, memory, long films
+	tools/long_run.sh $(VENV)
 
 mutations: $(VENV)/installed-test system ## change the library at one place after another: the tests named for each must fail
 	$(BIN)/python -m tools.mutate

@@ -142,11 +142,11 @@ def css(color: ColorLike) -> str:
 
 def legend(entries: Mapping[str, LegendEntry]) -> str:
     """The legend of pictures as SVG, whose type and lines have the ink and the font of what is around it."""
-    from stereodel.render.vector.svg import svg
-
     if not entries:
         return ""
-    blank = Page((0.0, 1.0, -1e-9, 0.0), width=LEGEND, background=(0.0, 0.0, 0.0, 0.0))
+    from stereodel.render.vector.svg import svg
+
+    blank = Page((0.0, 1.0, -0.001, 0.0), width=LEGEND, background=(0.0, 0.0, 0.0, 0.0))
     text = svg(with_legend(blank, entries))
     own = f"legend-{zlib.crc32(text.encode()):x}-"  # other than those of another legend in the same document
     for pattern, other in (

@@ -21,7 +21,7 @@ from tests.tiers import by_day
 SECONDS = 10
 """In which the processes of a run that was killed end, on a machine that does much else."""
 
-SOAKS, KILLS = 5, 20
+SOAKS, KILLS = int(os.environ.get("STEREODEL_TEST_SOAKS", "5")), 20
 """A hundred kills in tests of less than a minute, or of some minutes on a machine that does much else."""
 
 SIGNALS = (signal.SIGTERM, signal.SIGKILL, signal.SIGINT)

@@ -2,7 +2,9 @@
 
 import subprocess
 import xml.etree.ElementTree as ET
+from pathlib import Path
 
+import matplotlib as mpl
 import numpy as np
 import pytest
 from PIL import Image
@@ -11,12 +13,13 @@ from stereodel.drawing import ColorScale, StereographicView
 from stereodel.globe import Globe
 from tests.render.test_librsvg import apart, shown
 from tests.render.test_vector import INKSCAPE, SVG
+from tools.browser import FONTS
 
 pytestmark = pytest.mark.thorough  # `make test-thorough` installs the program; without it they fail
 
 SIZE, BLOCK = 1200, 64
 LEVELS = 6
-"""By which means of blocks may differ: type is in another font where ours is not installed."""
+"""By which means of blocks may differ. The programs are given our fonts: they know none that a file brings."""
 
 NAMES = ["Ulm", "Côte d’Or", "12 °c", "Ulm"]
 
@@ -57,7 +60,11 @@ def told(root):
     return layers, named, ["".join(text.itertext()) for text in root.iter(f"{SVG}text")]
 
 
-def test_inkscape_opens_changes_and_saves_a_file(tmp_path):
+def test_inkscape_opens_changes_and_saves_a_file(tmp_path, monkeypatch):
+    (fonts := tmp_path / "fonts.conf").write_text(
+        FONTS.format(fonts=Path(mpl.get_data_path(), "fonts", "ttf"), cache=tmp_path)
+    )
+    monkeypatch.setenv("FONTCONFIG_FILE", str(fonts))
     first, saved = page().save(tmp_path / "page.svg"), tmp_path / "saved.svg"
     before, ours = pixels(first), page().pixels(size=SIZE).astype(float)
     assert apart(ours, before, BLOCK).max() < LEVELS
