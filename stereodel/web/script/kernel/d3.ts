@@ -214,9 +214,8 @@ function cellsOf(delaunay: ListedDelaunay): Cells {
   }
   const ring = new Int32Array(corners.length);
   const neighbors: number[][] = new Array(size);
-  const row = rows(0);
   for (let site = 0; site < size; ++site) {
-    const around = row(starts[site + 1]);
+    const around: number[] = new Array(starts[site + 1]);
     starts[site + 1] += starts[site];
     for (let k = 0, face = Math.floor(first[site] / 3); k < around.length; ++k) {
       ring[starts[site] + k] = face;
@@ -406,14 +405,13 @@ export function geoVoronoi<Datum = Place>(data?: GeoData<Datum>): GeoVoronoi<Dat
 
   diagram.polygons = method(({ delaunay }) => {
     const { points, valid } = diagram;
-    const { centers, neighbors, starts, ring: corners } = delaunay.cells;
-    const ring = rows(points[0]);
+    const { centers, neighbors, starts, ring } = delaunay.cells;
     return collection(points.length, (k) => {
       const [start, size] = [starts[k], starts[k + 1] - starts[k]];
       let geometry: Geometry | null = delaunay.dimension === 0 && k === 0 ? { type: "Sphere" } : null;
       if (size > 0) {
-        const places = ring(size + 1);
-        for (let corner = 0; corner < size; ++corner) places[corner] = centers[corners[start + corner]];
+        const places: Place[] = new Array(size + 1); // of known length: half as fast again as one that grows
+        for (let corner = 0; corner < size; ++corner) places[corner] = centers[ring[start + corner]];
         places[size] = places[0];
         geometry = { type: "Polygon", coordinates: [places] };
       }
@@ -450,15 +448,6 @@ export function geoVoronoi<Datum = Place>(data?: GeoData<Datum>): GeoVoronoi<Dat
     return ring.length > 0 ? polygon(ring) : null;
   };
   return data === undefined ? diagram : diagram(data);
-}
-
-/** Makes arrays of any length, without holes, which are read faster than those with them. */
-function rows<T>(entry: T): (length: number) => T[] {
-  const longest: T[] = [];
-  return (length) => {
-    while (longest.length < length) longest.push(entry);
-    return longest.slice(0, length);
-  };
 }
 
 function collection<T>(size: number, make: (k: number) => [Geometry | null, T]): Collection<T> {
