@@ -2,9 +2,8 @@
 # Usage: tools/rehearse.sh VENV
 # A release as if it were published, on this machine: source archive, wheels and npm archive are made and checked; each wheel
 # is tried in a bare root; a local index of Python and a local registry of npm take the upload, and what is installed from
-# them makes the README's pictures, tables and page; each interpreter builds the source archive; the lines of the workflows
-# that release are run, as far as they need no host. Ends with a table of what was tried; docs/support.md has it.
-# Files that exist already are taken as they are with REHEARSE_DIST=folder.
+# them makes the README's pictures, tables and page; each interpreter builds the source archive. Ends with a table of what
+# was tried. Files that exist already are taken as they are with REHEARSE_DIST=folder.
 source "$(dirname "${BASH_SOURCE[0]}")/shell.sh"
 use "$1"
 shopt -s nullglob
