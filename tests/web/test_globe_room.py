@@ -286,6 +286,7 @@ def test_a_panorama_is_taken_along_and_named_by_the_link(room, tmp_path):
     page.rest(still=0.4)
     painted = page.digest("#globe-plate")
     assert painted != water
+    assert not page.page.is_visible("#room-globe input[name=land]")
     assert downloaded(page, "svg")[1].count(b'href="data:image/png;base64,') == 1
     lines = python_lines(page)
     assert 'globe.add_raster("rooms.png")' in lines
@@ -300,6 +301,19 @@ def test_a_panorama_is_taken_along_and_named_by_the_link(room, tmp_path):
         assert page.digest("#globe-plate") == drawn
     told = room(link).page.inner_text("[role=alert]")
     assert told.startswith("rooms.png is named by this link, which does not hold its pixels. Open the file here.")
+    page.page.click("text=Back to land and coasts")
+    page.rest(still=0.4)
+    assert page.digest("#globe-plate") == water
+    assert page.page.is_checked("#room-globe input[name=land]")
+
+
+def test_a_preset_forgets_the_pointer(room):
+    pages, presets = [room("globe"), room("globe")], "document.querySelector('[value=new-york]').click()"
+    pages[0].page.mouse.move(*np.add(pages[0].middle("#globe-plate"), 60))
+    for page in pages:
+        page.page.evaluate(presets)
+        page.rest(still=0.4)
+    assert pages[0].digest("#globe-before") == pages[1].digest("#globe-before")
 
 
 STROKE = "CanvasRenderingContext2D.prototype.stroke"

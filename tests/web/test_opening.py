@@ -140,11 +140,3 @@ def test_a_step_of_the_insertion_is_taken_along_as_its_triangles(room):
     features = json.loads(downloaded(page, "geojson")[1])["features"]
     assert {each["properties"]["kind"] for each in features} == {"triangle"}
     assert {each["properties"][corner] for each in features for corner in "abc"} == set(range(9))
-
-
-@pytest.mark.parametrize("lat", [0, 30])
-def test_sites_on_a_circle_have_triangles_unless_it_is_a_great_one(room, lat):
-    sites = ",".join(f"{lon},{lat}" for lon in range(0, 360, 30))
-    page = room(f"v=1&room=sphere&sites={sites}")
-    alone = "All sites lie on one great circle: there are no triangles."
-    assert (said(page, "sphere", "sentence") == alone) == (lat == 0)

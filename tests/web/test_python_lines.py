@@ -181,12 +181,10 @@ def test_many_places_come_from_the_table_that_the_page_exports(room, visit, tmp_
         pytest.param("land,fills", "", {"size": GIVEN["size"], "color": "teal"}, marks=pytest.mark.thorough),
     ],
 )
-def test_the_lines_of_an_owner_draw_values_below_a_title(visit, tmp_path, monkeypatch, layers, title, given):
+def test_the_lines_of_an_owner_draw_values_below_a_title(room, visit, tmp_path, monkeypatch, layers, title, given):
     file = tmp_path / "towns.html"
     web(file, lonlat=LONLAT, names=NAMES, name="towns.csv", title=title, resolution="110m", **given)
-    page = visit(f"{file.as_uri()}#v=1&room=globe&on={layers}")
-    page.until("document.documentElement.dataset.ready")
-    page.rest(still=0.3)
+    page = room(f"v=1&room=globe&on={layers}", file=file)
     (tmp_path / "towns.csv").write_bytes(downloaded(page, "csv")[1])
     [picture] = seen(page, "globe")
     lines = python_lines(page)

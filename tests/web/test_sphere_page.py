@@ -147,38 +147,6 @@ def test_the_insertion_goes_step_by_step(room):
     assert link(page)["step"] == "34"
 
 
-WITHOUT_TRIANGLES = {
-    "": "No sites yet. Click the ball, or open a file.",
-    "0,0": "All sites lie at one place: its cell is the whole sphere, and there are no triangles.",
-    "0,0,90,0": "Two sites: each has half of the sphere, and there are no triangles.",
-}
-
-
-@pytest.mark.parametrize("sites", WITHOUT_TRIANGLES)
-def test_without_triangles_the_sentence_says_so(room, sites):
-    page = room(f"v=1&room=sphere&sites={sites}")
-    assert output(page, "sentence") == WITHOUT_TRIANGLES[sites]
-    assert page.page.locator("#messages").inner_text() == ""
-    assert page.ink(BALL) > 0.001
-
-
-HATCHED, CELLS = "Hatched is where the facets go that see P.", "Cells differ: centres are not sent to centres."
-STRONG = "Delaunay triangles in strong lines, Voronoi cells in thin ones."
-CAPTIONS = {
-    "on=triangles,seeing": ("Delaunay triangles.", f"The same triangles. {HATCHED}"),
-    "on=triangles,cells,seeing": (STRONG, f"The same triangles. {HATCHED} {CELLS}"),
-    "on=cells": ("Voronoi cells.", CELLS),
-    "on=cells&step=34": ("Delaunay triangles, new ones dashed.", "The same triangles."),
-    "on=cells&sites=0,0": ("", ""),
-}
-
-
-@pytest.mark.parametrize("state", CAPTIONS)
-def test_captions_follow_what_is_drawn(room, state):
-    page = room(f"v=1&room=sphere&{state}")
-    assert (output(page, "on-ball"), output(page, "in-plane")) == CAPTIONS[state]
-
-
 def test_names_stand_in_the_table_are_said_and_follow_the_hand_and_undo(room, tmp_path):
     file = tmp_path / "towns.csv"
     file.write_text("name,lat,lon\nUlm,48.4,10\nQuito,-0.2,-78.5\n<b>Lagos</b>,6.5,3.4\nPerth,-31.9,115.9\n")
