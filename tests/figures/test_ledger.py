@@ -120,9 +120,8 @@ def incircle(a, b, c, d):
 
 
 @pytest.mark.parametrize("size", [1e-4, 1e-6, 1e-8, 1e-10])
-def test_curvature_decides_the_exact_sign_in_a_flat_region(size):
+def test_curvature_decides_the_exact_sign_in_a_flat_region(rng, size):
     """Four points next to one small circle: the curvature form has the exact sign, the plain one guesses."""
-    rng = np.random.default_rng(9)
     fours, plain, signs, decided = [], [], [], []
     for _ in range(200):
         axis, u, v = np.linalg.qr(rng.normal(size=(3, 3)))[0]
@@ -236,10 +235,7 @@ def broken_in_plane(points, image):
     return len(triangles(PlanarDelaunay(points).simplices) ^ triangles(PlanarDelaunay(image).simplices))
 
 
-SIMILITUDES = [[[3, -4], [4, 3]], [[3, 4], [4, -3]], [[-2, 0], [0, -2]], [[0, 1], [1, 0]]]
-
-
-@pytest.mark.parametrize("matrix", SIMILITUDES)
+@pytest.mark.parametrize("matrix", [[[3, -4], [4, 3]], [[3, 4], [4, -3]], [[-2, 0], [0, -2]], [[0, 1], [1, 0]]])
 def test_similitudes_of_the_plane_keep_triangles(matrix):
     points = np.random.default_rng(8).integers(-(2**20), 2**20, size=(200, 2)).astype(float)
     assert broken_in_plane(points, points @ np.array(matrix, dtype=float).T + [5.0, -7.0]) == 0
@@ -271,10 +267,9 @@ def test_maps_that_keep_lines_or_triangles_but_not_both():
     assert len(triangles(PlanarDelaunay(points).simplices) & triangles(PlanarDelaunay(inverted).simplices)) > 300
 
 
-def test_from_the_sphere_to_the_plane_nothing_keeps_edges_and_triangles():
+def test_from_the_sphere_to_the_plane_nothing_keeps_edges_and_triangles(rng):
     points = sites_of_a_cap()
     arcs = [great_circle_points(points[i], points[i + 1], 9) for i in range(40)]
-    rng = np.random.default_rng(10)
     for _ in range(5):
         after = rng.normal(size=(2, 2))
         images = [Gnomonic(PLACE).forward(arc) @ after for arc in arcs]

@@ -85,8 +85,7 @@ def test_the_view_follows_the_focus():
     np.testing.assert_allclose(dots.centers, [np.array(page.extent[1::2]) / 2], atol=1e-12)
 
 
-def test_hemispheres_show_everything_once():
-    rng = np.random.default_rng(4)
+def test_hemispheres_show_everything_once(rng):
     places = np.stack([rng.uniform(-180, 180, 100), np.degrees(np.arcsin(rng.uniform(-1, 1, 100)))], axis=1)
     globe = Globe()
     globe.add_points(places)
@@ -110,10 +109,9 @@ def test_panels_have_titles_and_rows():
         panels([])
 
 
-def test_few_colours_are_paths_and_many_are_a_picture():
+def test_few_colours_are_paths_and_many_are_a_picture(rng):
     sites = data.airports().lonlat[::100]
     voronoi = SphericalVoronoi.from_lonlat(sites)
-    rng = np.random.default_rng(1)
     for colors, pictured in (
         (np.tile([0.5, 0.6, 0.7], (len(sites), 1)), [False]),
         (rng.random((len(sites), 3)), [True]),

