@@ -6,16 +6,10 @@ from hypothesis import strategies as st
 from stereodel import MoebiusMap
 from stereodel.curves.view import StereographicView, View
 
-places = st.tuples(st.floats(-180, 180), st.floats(-90, 90))
 views = st.one_of(
     st.builds(View, st.floats(-180, 180), st.floats(-90, 90)),
     st.builds(StereographicView, st.floats(-180, 180), st.floats(-90, 90), angular_radius=st.floats(20, 150)),
 )
-
-
-def sizes(low, high):
-    """Magnifications between two powers of ten."""
-    return st.floats(low, high).map(lambda exponent: 10.0**exponent)
 
 
 def distance(points, line):

@@ -14,8 +14,9 @@ from stereodel.drawing.page import Dots, Polygons, Polylines, Stroke
 from stereodel.globe import Globe, Panel, Raster, hemispheres, panels
 from stereodel.sphere import SphereCircle
 from tests.examples import examples
-from tests.globe.sights import places, sizes, views
+from tests.globe.sights import views
 from tests.refused import refused
+from tests.strategies import LONLAT, decades
 
 PARIS = (2.35, 48.86)
 
@@ -28,7 +29,7 @@ def items_of(page, kind):
 
 
 @examples(0.5)
-@given(focus=places, size=sizes(-1, 3), view=views)
+@given(focus=LONLAT, size=decades(-1, 3), view=views)
 @example(focus=(0.0, 2.5), size=1.0, view=View(112.0, 0.0))  # a pole on the rim
 def test_paper_and_pixels_fill_the_same_land(focus, size, view):
     """What the loops bound is what the triangles cover, each place once, and within the disc."""

@@ -28,15 +28,11 @@ def points_for(name, count, seed=0):
     return np.random.default_rng(seed).integers(1, 6, size=(len(names), count, width)).astype(float)
 
 
-def one_by_one(predicate, points):
-    return [predicate(*row) for row in zip(*(p.tolist() for p in points), strict=True)]
-
-
 @EACH
 def test_rows_and_single_points_agree(name):
     predicate, kernel, _, _ = PREDICATES[name]
     points = points_for(name, 60)
-    expected = one_by_one(predicate, points)
+    expected = [predicate(*row) for row in zip(*(p.tolist() for p in points), strict=True)]
     assert {-1, 0, 1} == set(expected)
     assert all(type(sign) is int for sign in expected)
     assert predicate(*points).tolist() == kernel(*points).tolist() == expected

@@ -20,11 +20,6 @@ SOME = [
 FEW = sets.named("sphere", "octahedron", "cube", "rim and pole", "rim and poles", "tilted rim and pole", "two circles")
 
 
-def distinct(one):
-    points = one.drawn(60)
-    return points[np.unique(space_of(points).names(points), return_index=True)[1]]
-
-
 def rows(facets):
     return {tuple(row) for row in canonical(np.asarray(facets)).tolist()}
 
@@ -57,7 +52,8 @@ def inserted(points):
 @pytest.mark.parametrize("one", FEW)
 def test_against_all_triples(one):
     """The facets are the triples that no other point sees: closed, 2n − 4, without any engine."""
-    points = distinct(one)
+    points = one.drawn(60)
+    points = points[np.unique(space_of(points).names(points), return_index=True)[1]]
     sites, numbers = asked(points), range(len(points))
     facets = [
         triple
