@@ -13,7 +13,7 @@ from tests.sets import unit as units
 
 def off_lines(points, lines):
     """How far points (n, d) are from the nearest chord of lines."""
-    return np.min([distance(points, line) for line in lines], axis=0, initial=np.inf)
+    return np.min([np.full(len(points), np.inf), *(distance(points, line) for line in lines)], axis=0)
 
 
 def ring(points):

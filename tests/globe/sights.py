@@ -14,9 +14,10 @@ views = st.one_of(
 
 def distance(points, line):
     """Of points (n, d) from a line through points (m, d)."""
-    a, way = line[:-1], np.diff(line, axis=0)
-    share = np.sum((points[:, None] - a) * way, axis=-1) / np.maximum(np.sum(way**2, axis=-1), 1e-300)
-    return np.linalg.norm(points[:, None] - a - np.clip(share, 0, 1)[..., None] * way, axis=-1).min(axis=1)
+    start, way = line[:-1], np.diff(line, axis=0)
+    share = np.einsum("ijk,jk->ij", points[:, None] - start, way) / np.maximum(np.sum(way**2, axis=1), 1e-300)
+    nearest = start + np.clip(share, 0, 1)[..., None] * way
+    return np.linalg.norm(points[:, None] - nearest, axis=-1).min(axis=1)
 
 
 def winding(loops, places):
