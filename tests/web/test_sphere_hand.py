@@ -86,7 +86,7 @@ def test_what_is_said_follows_what_is_drawn(room):
         for output, words in outputs.items():
             expect(page.page.locator(f"#room-sphere [data-out={output}]")).to_have_text(words)
         assert page.page.locator("#messages").inner_text() == ""
-        assert page.ink(BALL) > 0.001
+        assert "on=" in state or page.ink(BALL) > 0.001
 
 
 @pytest.mark.thorough
