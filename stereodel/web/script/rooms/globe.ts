@@ -198,7 +198,8 @@ export class GlobeRoom extends TableRoom implements Room, GlobeHost {
 
   csv(exchange: Exchange): string | null {
     const { places } = this.scene;
-    return places === null ? this.#noPlaces() : exchange.csv(["lon", "lat"], { ...places, places: places.lonlat });
+    if (places === null) return this.#noPlaces();
+    return exchange.csv(["lon", "lat"], places.lonlat, places.names, places.values);
   }
 
   #noPlaces(): null {
