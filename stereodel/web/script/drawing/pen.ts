@@ -148,10 +148,10 @@ export interface Sheet {
   readonly owner?: Owner | null;
 }
 
-/** A whole circle. */
-export function traceDisc(path: Path, { x, y, r }: Disc): void {
+/** A whole circle, clockwise to the eye if it is not said otherwise. */
+export function traceDisc(path: Path, { x, y, r }: Disc, counterclockwise = false): void {
   path.moveTo(x + r, y);
-  path.ellipse(x, y, r, r, 0, 0, 2 * Math.PI);
+  path.ellipse(x, y, r, r, 0, 0, counterclockwise ? -2 * Math.PI : 2 * Math.PI, counterclockwise);
   path.closePath();
 }
 

@@ -8,7 +8,7 @@ import { cornersOf, traceCorners, traceDisc, traceSegment } from "../drawing/pen
 import type { Disc, Path, Pen, Point } from "../drawing/pen.ts";
 import { FAINT, type LabelStyle } from "../drawing/styles.ts";
 import { following } from "../kernel/topology.ts";
-import { cross, DEGREE, unit, type Vector } from "../space.ts";
+import { cross, DEGREE, minus, unit, type Vector } from "../space.ts";
 import type { View } from "../view/view.ts";
 import type { LiftSites, Sheet } from "./lift_sites.ts";
 
@@ -283,5 +283,5 @@ function ringOf(points: readonly Vector[]): { points: Float64Array; offsets: num
 
 /** The middle of a facet's circle on the ball, on the outer side of its plane. */
 function facetCenter(a: Vector, b: Vector, c: Vector): Vector {
-  return unit(cross([b[0] - a[0], b[1] - a[1], b[2] - a[2]], [c[0] - a[0], c[1] - a[1], c[2] - a[2]]));
+  return unit(cross(minus(b, a), minus(c, a)));
 }
