@@ -49,29 +49,16 @@ export function drawArcs(
   side: Side = "front",
   ink?: string,
 ): void {
-  const [sign, half] = [side === "front" ? 1 : -1, disc.r / 2];
-  const lines = new Float64Array(p.length / 3);
-  for (let i = 0, at = 0; i < p.length; i += 9, at += 3) {
-    lines[at] = disc.x + half * (p[i] + p[i + 6]);
-    lines[at + 1] = disc.y - half * (p[i + 1] + p[i + 7]);
-    // What is hidden has no ink.
-    const isSeen = sign * p[i + 2] >= 0 || sign * p[i + 8] >= 0;
-    lines[at + 2] = isSeen ? disc.r * Math.hypot(p[i + 6] - p[i], p[i + 7] - p[i + 1]) : 0;
+  const sign = side === "front" ? 1 : -1;
+  const ends = new Float64Array((4 * p.length) / 9);
+  for (let i = 0, at = 0; i < p.length; i += 9, at += 4) {
+    const j = sign * p[i + 2] >= 0 || sign * p[i + 8] >= 0 ? i + 6 : i; // what is hidden has no ink
+    ends[at] = disc.x + disc.r * p[i];
+    ends[at + 1] = disc.y - disc.r * p[i + 1];
+    ends[at + 2] = disc.x + disc.r * p[j];
+    ends[at + 3] = disc.y - disc.r * p[j + 1];
   }
-  pen.lines(style, lines, (path, k) => traceArc(path, disc, p, 3 * k, side), ink);
-}
-
-/** Draws lines as they are. @param ends x, y, x, y in turn. */
-export function drawSegments(pen: Pen, style: StyleName, ends: readonly number[]): void {
-  const lines = new Float64Array((3 * ends.length) / 4);
-  for (let at = 0; at < ends.length; at += 4) {
-    const [x, y, u, v] = ends.slice(at, at + 4);
-    lines.set([(x + u) / 2, (y + v) / 2, Math.hypot(u - x, v - y)], (3 * at) / 4);
-  }
-  pen.lines(style, lines, (path, k) => {
-    path.moveTo(ends[4 * k], ends[4 * k + 1]);
-    path.lineTo(ends[4 * k + 2], ends[4 * k + 3]);
-  });
+  pen.lines(style, ends, (path, k) => traceArc(path, disc, p, 3 * k, side), ink);
 }
 
 /** Caps by three points of each circle, counterclockwise about the cap. */
@@ -280,7 +267,7 @@ export function planeSurface(place: (site: number) => Point, frame: Trace): Surf
     place,
     isSeen: () => true,
     line: (path, a, b) => traceSegment(path, place(a), place(b)),
-    lines: (pen, style, sites) => drawSegments(pen, style, Array.from(sites).flatMap(place)),
+    lines: (pen, style, sites) => pen.lines(style, Array.from(sites).flatMap(place)),
     ring,
     region(path, sites, holds) {
       if (holds) frame(path);

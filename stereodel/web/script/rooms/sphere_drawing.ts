@@ -221,7 +221,7 @@ export function planeDrawing(frame: PlaneFrame): Drawing {
         hatch: (style, marked) =>
           pen.draw(style, (path) => surface.region(path, sites.outline(marked).reverse(), true)),
         triangles: () => surface.lines(pen, "delaunay", edgesOf(sites.delaunay.simplices, seeing)),
-        cells: () => balls.drawSegments(pen, "voronoi", planeRidges(frame, scene)),
+        cells: () => pen.lines("voronoi", planeRidges(frame, scene)),
         bubble(bubble) {
           const image = twin.circle(bubble.center, bubble.cosine);
           if (image.isLine) {
