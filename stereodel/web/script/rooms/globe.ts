@@ -193,7 +193,7 @@ export class GlobeRoom extends TableRoom implements Room, GlobeHost {
 
   geojson(exchange: Exchange): string | null {
     const { places, parts, latitude } = this.scene;
-    return places === null ? this.#noPlaces() : exchange.geojson(regionsOf(parts, this.isOn), latitude);
+    return places === null ? this.#noPlaces() : exchange.geojson(regionsOf(parts), latitude);
   }
 
   csv(exchange: Exchange): string | null {
