@@ -2,7 +2,7 @@
 
 import type { Rings as Places } from "../contents.ts";
 import { Directions, lonlatToXyz } from "../kernel/api.ts";
-import type { MoebiusMap, SphericalDelaunay, SphericalVoronoi } from "../kernel/api.ts";
+import type { MoebiusMap, SphericalVoronoi } from "../kernel/api.ts";
 import { angle, cross, DEGREE, directionOf, dot, row, unit, type Vector } from "../space.ts";
 import { arcThrough, bentRings, holdsHidden, traceArc, traceCap, traceOutlines, traceRegions } from "./arcs.ts";
 import type { Side } from "./arcs.ts";
@@ -131,12 +131,11 @@ export function landLayer({ lonlat, offsets }: Places): Layer {
   return regionLayer("land", "coast", lonlatToXyz(lonlat), offsets, AT_SEA, false);
 }
 
-/** Edges of a triangulation as arcs. */
-export function edgeArcs({ points, edges }: SphericalDelaunay): Float64Array {
+/** The shorter arcs between points, two of them by their numbers for each. */
+export function arcsBetween(points: Float64Array, pairs: ArrayLike<number>): Float64Array {
   const arcs: number[] = [];
-  for (let k = 0; k < edges.length; k += 2) {
-    pushAll(arcs, ...arcBetween(unit(row(points, edges[k])), unit(row(points, edges[k + 1]))));
-  }
+  for (let k = 0; k < pairs.length; k += 2)
+    pushAll(arcs, ...arcBetween(row(points, pairs[k]), row(points, pairs[k + 1])));
   return Float64Array.from(arcs);
 }
 
@@ -196,14 +195,10 @@ export function circlePoints(center: Vector, radius: number): Vector[] {
 
 /** Lines through places, rows of longitude and latitude in degrees, as arcs. */
 export function lineArcs({ lonlat, offsets }: Places): Float64Array {
-  const points = lonlatToXyz(lonlat);
-  const arcs: number[] = [];
-  for (let line = 0; line + 1 < offsets.length; ++line) {
-    for (let k = offsets[line] + 1; k < offsets[line + 1]; ++k) {
-      pushAll(arcs, ...arcBetween(row(points, k - 1), row(points, k)));
-    }
-  }
-  return Float64Array.from(arcs);
+  const pairs: number[] = [];
+  for (let line = 0; line + 1 < offsets.length; ++line)
+    for (let k = offsets[line] + 1; k < offsets[line + 1]; ++k) pairs.push(k - 1, k);
+  return arcsBetween(lonlatToXyz(lonlat), pairs);
 }
 
 /** Where a direction is on the picture. */
