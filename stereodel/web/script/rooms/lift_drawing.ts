@@ -1,14 +1,14 @@
 /** The picture of the Lift room: a sheet that bends onto a ball, under the plane that it was. */
 
 import { traceArc, traceRegions, type Side } from "../drawing/arcs.ts";
-import { arcBetween, ballSurface, drawArcs, drawDots, drawSegments, planeSurface } from "../drawing/ball.ts";
+import { arcBetween, ballSurface, drawArcs, drawDots, planeSurface } from "../drawing/ball.ts";
 import type { Surface } from "../drawing/ball.ts";
 import { drawParts, type IsOn, type Part } from "../drawing/parts.ts";
 import { cornersOf, traceCorners, traceDisc, traceSegment } from "../drawing/pen.ts";
 import type { Disc, Path, Pen, Point } from "../drawing/pen.ts";
 import { FAINT, type LabelStyle } from "../drawing/styles.ts";
 import { following } from "../kernel/topology.ts";
-import { cross, DEGREE, unit, type Vector } from "../space.ts";
+import { cross, DEGREE, minus, unit, type Vector } from "../space.ts";
 import type { View } from "../view/view.ts";
 import type { LiftSites, Sheet } from "./lift_sites.ts";
 
@@ -139,13 +139,9 @@ export class LiftPicture {
 
   #drawEdges(pen: Pen, side?: Side | "flat"): void {
     const { edges } = this.#scene.sites.delaunay;
-    if (side === "flat")
-      drawSegments(
-        pen,
-        "delaunay",
-        [...edges].flatMap((site) => this.above(site)),
-      );
-    else this.surface.lines(pen, "delaunay", edges, side);
+    if (side !== "flat") return this.surface.lines(pen, "delaunay", edges, side);
+    const ends = [...edges].flatMap((site) => this.above(site));
+    pen.lines("delaunay", ends);
   }
 
   /** The bent sheet and what is faint of it, with the far side of its triangles. */
@@ -261,7 +257,7 @@ export class LiftPicture {
   /** Sides of the cells; on the ball from the centre of a facet's circle to those of the facets across its edges. */
   #drawRidges(pen: Pen): void {
     const { sites, sheet } = this.#scene;
-    if (sheet.isFlat) return drawSegments(pen, "voronoi", sites.ridges.flat().flatMap(this.#flat));
+    if (sheet.isFlat) return pen.lines("voronoi", sites.ridges.flat().flatMap(this.#flat));
     const arcs: number[] = [];
     const facets = [...sites.delaunay.simplices, ...sites.closing];
     const looks = facets.map((site) => this.#look(...sites.place(site)));
@@ -283,5 +279,5 @@ function ringOf(points: readonly Vector[]): { points: Float64Array; offsets: num
 
 /** The middle of a facet's circle on the ball, on the outer side of its plane. */
 function facetCenter(a: Vector, b: Vector, c: Vector): Vector {
-  return unit(cross([b[0] - a[0], b[1] - a[1], b[2] - a[2]], [c[0] - a[0], c[1] - a[1], c[2] - a[2]]));
+  return unit(cross(minus(b, a), minus(c, a)));
 }
