@@ -14,7 +14,7 @@ import { counted, fixed, ofFacets, wrap } from "../words.ts";
 import { mark, NumberField } from "./controls.ts";
 import { LiftPicture, type LiftScene } from "./lift_drawing.ts";
 import { LiftSites, SHEET_SIDES, sheetSets, type Sheet as BentSheet } from "./lift_sites.ts";
-import { measured, ofBend, ofBounds, ofPair, separation, withoutTriangles } from "./lift_sites.ts";
+import { measured, ofBend, ofBounds, ofPair, separation, WITHOUT_TRIANGLES } from "./lift_sites.ts";
 import { SiteRoom, type NamedSites } from "./site_room.ts";
 
 /** How the room begins: corners of the sheet, height and side of the view, degrees; P and Q by their indices. */
@@ -136,9 +136,9 @@ class LiftRoom extends SiteRoom implements Room {
     this.#showBend();
     this.#showPair();
     this.#showSites(named);
-    const alone = withoutTriangles(this.#sites);
-    const { simplices } = this.#sites.delaunay;
-    say(this.out("sum"), alone ?? ofFacets(simplices.length / 3, this.#sites.closing.length / 3, SUM));
+    const { simplices, dimension } = this.#sites.delaunay;
+    const sum = (): string => ofFacets(simplices.length / 3, this.#sites.closing.length / 3, SUM);
+    say(this.out("sum"), WITHOUT_TRIANGLES[dimension] ?? sum());
     this.#showView();
     this.redraw(reason);
   }

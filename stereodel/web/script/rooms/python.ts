@@ -48,7 +48,7 @@ export function spherePython(
   const marks = {
     facets: sites.facetCount > 0,
     hemisphere: sites.hasClosing,
-    step: step !== null && step.before.length > 0,
+    step: step !== null && step.before.dimension === 2,
     aimed: bubble !== null,
     held: held.length > 0,
     pole: poleSeen !== null,

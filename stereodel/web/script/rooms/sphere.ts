@@ -25,7 +25,7 @@ import { edited, SiteRoom, type NamedSites } from "./site_room.ts";
 import { ballDrawing, ballLayers, drawMoved, planeDrawing, poleSeen, sphereParts } from "./sphere_drawing.ts";
 import type { Drawing, Ground, SphereScene } from "./sphere_drawing.ts";
 import { ofBubble, ofDuplicates, ofLens, ofPictures, ofSite, ofStep } from "./sphere_sites.ts";
-import { SphereSites, withoutTriangles, type Bubble, type Insertion } from "./sphere_sites.ts";
+import { SphereSites, WITHOUT_TRIANGLES, type Bubble, type Insertion } from "./sphere_sites.ts";
 import { BEGINNING, directionAt, handPlace, MOST, sightOf, sphereFields } from "./sphere_state.ts";
 import type { Click, SphereState } from "./sphere_state.ts";
 import { planeFrame, reachAround, Twin, type Around, type PlaneFrame } from "./twin.ts";
@@ -225,7 +225,7 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
 
   #say(): void {
     const [sites, step, held] = [this.#sites, this.#step, this.#state.held];
-    const alone = withoutTriangles(sites);
+    const alone = WITHOUT_TRIANGLES[sites.delaunay.dimension] ?? null;
     const ofAll =
       alone ??
       (this.#bubble === null
@@ -236,7 +236,7 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
     say(this.out("sum"), alone === null ? ofFacets(sites.facetCount - this.#seeingCount, this.#seeingCount, SUM) : "");
     this.out("sum").hidden = step !== null || alone !== null;
     const isDrawn = (layer: Switch): boolean => alone === null && step === null && this.isOn(layer);
-    const steps = step !== null && step.before.length > 0;
+    const steps = step !== null && step.before.dimension === 2;
     const [onBall, inPlane] = ofPictures({
       triangles: steps || isDrawn("triangles"),
       cells: isDrawn("cells") || (sites.delaunay.dimension === 1 && step === null && this.isOn("cells")),
@@ -455,12 +455,11 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
   #add(direction: Vector): void {
     const { count } = this.#sites;
     this.#history.push(this.named);
-    this.#edit(edited(this.named, count, handPlace(lonLatOf(direction), this.#state.lens.magnification)), count, () => {
-      const same = this.#sites.sameAs(count);
-      return same === null
-        ? `Site ${count + 1} added, ${this.#sites.neighborCounts[count]} neighbours`
-        : `Site ${count + 1} lies exactly on site ${same + 1} and counts once.`;
-    });
+    this.#edit(
+      edited(this.named, count, handPlace(lonLatOf(direction), this.#state.lens.magnification)),
+      count,
+      () => `Site ${count + 1} added, ${this.#sites.neighborCounts[count]} neighbours`,
+    );
     this.table.reveal(count);
   }
 
