@@ -297,7 +297,7 @@ function drawPole(pen: Pen, { seats }: Picture, { map, twin }: SphereScene): voi
   const [isFront, at] = [pole[2] >= 0, balls.placeOf(seats.disc, pole)];
   drawHandle(pen, ...at, isFront ? "front" : "behind");
   seats.takeDot(at, HANDLE);
-  seats.set(isFront ? "*P*" : "*P*, behind", at, BALL_LABEL, sidesToward(-pole[0], pole[1]), HANDLE);
+  seats.set(isFront ? "*P*" : "*P*, behind", at, BALL_LABEL, sidesToward(-pole[0], 0), HANDLE);
 }
 
 /** Every edge once of facets of which one at least does not see the pole. */
