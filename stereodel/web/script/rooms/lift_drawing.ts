@@ -1,14 +1,15 @@
 /** The picture of the Lift room: a sheet that bends onto a ball, under the plane that it was. */
 
-import { holdsHidden, traceArc, traceRegions, type Rings, type Side } from "../drawing/arcs.ts";
-import { arcBetween, ballSurface, drawArcs, drawDots, drawSegments, planeSurface } from "../drawing/ball.ts";
+import { holdsHidden, traceOutlines, traceRegions, type Rings, type Side } from "../drawing/arcs.ts";
+import { ballSurface, drawArcs, drawDots, drawSegments, planeSurface, ridgeArcs } from "../drawing/ball.ts";
 import type { Surface } from "../drawing/ball.ts";
 import { drawParts, type IsOn, type Part } from "../drawing/parts.ts";
 import { cornersOf, traceCorners, traceDisc, traceSegment } from "../drawing/pen.ts";
 import type { Disc, Path, Pen, Point } from "../drawing/pen.ts";
 import { FAINT, type LabelStyle } from "../drawing/styles.ts";
+import { SphericalVoronoi } from "../kernel/api.ts";
 import { following } from "../kernel/topology.ts";
-import { cross, DEGREE, unit, type Vector } from "../space.ts";
+import { DEGREE, type Vector } from "../space.ts";
 import type { View } from "../view/view.ts";
 import type { LiftSites, Sheet } from "./lift_sites.ts";
 
@@ -121,7 +122,10 @@ export class LiftPicture {
       { isThere: isBent, draw: (pen, on) => on.#drawBehind(pen, isOn("triangles") && !isMoving) },
       { layer: "triangles", draw: (pen, on) => on.surface.lines(pen, "delaunay", sites.delaunay.edges) },
       { layer: "cells", draw: (pen, on) => pen.within({ region: on.#region }, () => on.#drawRidges(pen)) },
-      { draw: (pen, on) => pen.draw("side", isFlat ? on.#region : (path) => on.#traceBorder(path, "front")) },
+      {
+        draw: (pen, on) =>
+          pen.draw("side", isFlat ? on.#region : (path) => traceOutlines(path, on.#disc, on.#border("front"))),
+      },
       { draw: (pen, on) => drawDots(pen, on.surface, "site", Array(sites.count).keys()) },
       { isThere: isBent, draw: (pen, on) => on.#drawPlane(pen) },
       {
@@ -137,23 +141,21 @@ export class LiftPicture {
   /** The sheet on the ball, or the plane's rectangle. */
   readonly #region = (path: Path): void => {
     if (this.#scene.sheet.isFlat) this.#plane(path);
-    else this.#traceSheet(path, 1);
+    else this.#traceSheet(path, "front");
   };
 
-  /** The bent sheet, which does not hold the pole. @param toward 1, or -1 for its mirror image, as from behind the ball. */
-  #traceSheet(path: Path, toward: 1 | -1): void {
-    const mirrored = ([x, y, z]: Vector): Vector => [x, y, toward * z];
-    const border = this.#border().map(mirrored);
-    const rings = ringOf(toward === 1 ? border : border.reverse()); // the other way round
-    traceRegions(path, this.#disc, rings, holdsHidden(rings, mirrored(this.#away), false));
+  /** The bent sheet, which does not hold the pole. */
+  #traceSheet(path: Path, side: Side): void {
+    const [rings, [x, y, z]] = [this.#border(side), this.#away];
+    traceRegions(path, this.#disc, rings, holdsHidden(rings, [x, y, side === "front" ? z : -z], false));
   }
 
   /** The bent sheet and what is faint of it, with the far side of its triangles. */
   #drawBehind(pen: Pen, hasTriangles: boolean): void {
-    pen.within(FAINT, () => pen.draw("sheet", (path) => this.#traceSheet(path, -1)));
+    pen.within(FAINT, () => pen.draw("sheet", (path) => this.#traceSheet(path, "back")));
     pen.draw("sheet", this.#region);
     pen.within(FAINT, () => {
-      pen.draw("side", (path) => this.#traceBorder(path, "back"));
+      pen.draw("side", (path) => traceOutlines(path, this.#disc, this.#border("back")));
       if (hasTriangles) this.surface.lines(pen, "delaunay", this.#scene.sites.delaunay.edges, "back");
     });
   }
@@ -221,24 +223,14 @@ export class LiftPicture {
     return this.#scene.view.seen(this.#scene.sheet.direction(x, y));
   }
 
-  get #sides(): [Point, Point][] {
-    return this.#corners.map((a, k) => [a, this.#corners[(k + 1) % 4]]);
-  }
-
-  /** Directions along the sheet's sides, axes of the view. */
-  #border(): Vector[] {
+  /** The sides of the bent sheet; from the back those of the mirror image that is seen there, which run the other way. */
+  #border(side: Side): Rings {
     const parts = Array.from({ length: PER_SIDE }, (_, j) => j / PER_SIDE);
-    return this.#sides.flatMap(([[ax, ay], [bx, by]]) =>
-      parts.map((t) => this.#look(ax + t * (bx - ax), ay + t * (by - ay))),
-    );
-  }
-
-  /** The sheet's sides: arcs of circles through the pole. */
-  #traceBorder(path: Path, side: Side): void {
-    for (const [[ax, ay], [bx, by]] of this.#sides) {
-      const rows = [...this.#look(ax, ay), ...this.#look((ax + bx) / 2, (ay + by) / 2), ...this.#look(bx, by)];
-      traceArc(path, this.#disc, rows, 0, side);
-    }
+    const points = this.#corners.flatMap(([ax, ay], k) => {
+      const [bx, by] = this.#corners[(k + 1) % 4];
+      return parts.map((t) => this.#look(ax + t * (bx - ax), ay + t * (by - ay)));
+    });
+    return ringOf(side === "front" ? points : points.reverse().map(([x, y, z]) => [x, y, -z]));
   }
 
   /** The direction of the pole, axes of the view. */
@@ -246,33 +238,18 @@ export class LiftPicture {
     return this.#scene.view.seen([0, 0, -1]);
   }
 
-  /** Sides of the cells; on the ball from the centre of a facet's circle to those of the facets across its edges. */
+  /** Sides of the cells, which on the ball are not the images of those in the plane. */
   #drawRidges(pen: Pen): void {
     const { sites, sheet } = this.#scene;
     if (sheet.isFlat) {
       const places = sites.ridges.flatMap((y, k, ends) => (k % 2 === 0 ? [] : this.#flat([ends[k - 1], y])));
       return drawSegments(pen, "voronoi", places);
     }
-    const arcs: number[] = [];
-    const facets = [...sites.delaunay.simplices, ...sites.closing];
-    const looks = facets.map((site) => this.#look(...sites.place(site)));
-    const centers = new Map<string, Vector>();
-    facets.forEach((from, at) => {
-      const [first, to] = [at - (at % 3), facets[following(at)]];
-      const center = facetCenter(looks[first], looks[first + 1], looks[first + 2]);
-      const beyond = centers.get(`${to} ${from}`);
-      if (beyond === undefined) centers.set(`${from} ${to}`, center);
-      else arcs.push(...arcBetween(center, beyond).flat());
-    });
-    drawArcs(pen, this.#disc, "voronoi", arcs);
+    const looks = Array.from({ length: sites.count }, (_, site) => this.#look(...sites.place(site)));
+    drawArcs(pen, this.#disc, "voronoi", ridgeArcs(new SphericalVoronoi(looks.flat())));
   }
 }
 
 function ringOf(points: readonly Vector[]): Rings {
   return { points: Float64Array.from(points.flat()), offsets: [0, points.length] };
-}
-
-/** The middle of a facet's circle on the ball, on the outer side of its plane. */
-function facetCenter(a: Vector, b: Vector, c: Vector): Vector {
-  return unit(cross([b[0] - a[0], b[1] - a[1], b[2] - a[2]], [c[0] - a[0], c[1] - a[1], c[2] - a[2]]));
 }

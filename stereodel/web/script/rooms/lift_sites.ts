@@ -163,9 +163,7 @@ export function measured(value: number, diagonal: number): string {
   const size = diagonal || Math.abs(value) || 1;
   const decimals = Math.max(0, 3 - Math.floor(Math.log10(size)));
   if (decimals > MOST_DECIMALS || Math.abs(value) >= 1e15) return value.toPrecision(4).replace(/-/g, "\u2212");
-  const [whole, rest] = fixed(Math.abs(value), decimals).split(".");
-  const text = rest === undefined ? counted(Number(whole)) : `${counted(Number(whole))}.${rest}`;
-  return value < 0 && /[1-9]/.test(text) ? `\u2212${text}` : text;
+  return fixed(value, decimals).replace(/\d+/, (whole) => counted(Number(whole)));
 }
 
 /** What there is to say of sites without triangles, by their dimension. */

@@ -26,7 +26,7 @@ import type { Drawing, Ground, SphereScene } from "./sphere_drawing.ts";
 import { ofBubble, ofDuplicates, ofLens, ofPictures, ofSite, ofStep } from "./sphere_sites.ts";
 import { SphereSites, WITHOUT_TRIANGLES, type Bubble, type Insertion } from "./sphere_sites.ts";
 import { BEGINNING, directionAt, handPlace, MOST, sightOf, sphereFields } from "./sphere_state.ts";
-import type { Click, SphereState } from "./sphere_state.ts";
+import type { SphereState } from "./sphere_state.ts";
 import { planeFrame, reachAround, Twin, type Around, type PlaneFrame } from "./twin.ts";
 
 /** Sites from which on cells are left out while something moves. */
@@ -60,7 +60,7 @@ class SphereRoom extends SiteRoom<SphereState> implements Room, Magnifiable {
   readonly most = MOST;
   #ball!: Plate;
   #plane!: Plate;
-  #click!: Choice<Click>;
+  #click!: Choice<SphereState["click"]>;
   #showStep!: ReturnType<typeof stepControl>;
   #showSite!: ReturnType<typeof siteForm>;
   #poleFields!: PlaceFields;
@@ -177,16 +177,12 @@ class SphereRoom extends SiteRoom<SphereState> implements Room, Magnifiable {
 
   /** Everything that is said and drawn, after the state has changed. */
   #update(reason: Reason = "state"): void {
-    this.#bubble = this.#findBubble();
-    this.#step = this.now.step === null ? null : this.#sites.insertion(this.now.step - 1);
+    const { step, aim } = this.now;
+    const facet = step === null && this.isOn("bubble") ? this.#sites.facetAt(aim) : null;
+    this.#bubble = facet === null ? null : this.#sites.bubble(facet);
+    this.#step = step === null ? null : this.#sites.insertion(step - 1);
     this.#say();
     this.redraw(reason);
-  }
-
-  #findBubble(): Bubble | null {
-    if (!this.switches.isOn("bubble") || this.now.step !== null) return null;
-    const facet = this.#sites.facetAt(this.now.aim);
-    return facet === null ? null : this.#sites.bubble(facet);
   }
 
   #scene(isMoving: boolean): SphereScene {
@@ -207,22 +203,19 @@ class SphereRoom extends SiteRoom<SphereState> implements Room, Magnifiable {
   }
 
   #say(): void {
-    const [sites, step, held] = [this.#sites, this.#step, this.now.held];
-    const alone = WITHOUT_TRIANGLES[sites.delaunay.dimension] ?? null;
-    const ofAll =
-      alone ??
-      (this.#bubble === null
-        ? "Point at a triangle for the circle round it."
-        : ofBubble(this.#bubble, sites, this.#twin));
-    const words = step === null ? [ofAll, ofDuplicates(sites)] : [ofStep(step)];
+    const [sites, step, bubble, { held }] = [this.#sites, this.#step, this.#bubble, this.now];
+    const { dimension } = sites.delaunay;
+    const aimed =
+      bubble === null ? "Point at a triangle for the circle round it." : ofBubble(bubble, sites, this.#twin);
+    const words = step === null ? [WITHOUT_TRIANGLES[dimension] ?? aimed, ofDuplicates(sites)] : [ofStep(step)];
     say(this.out("sentence"), words.filter(Boolean).join(" "));
-    say(this.out("sum"), alone === null ? ofFacets(sites.facetCount - this.#seeingCount, this.#seeingCount, SUM) : "");
-    this.out("sum").hidden = step !== null || alone !== null;
-    const isDrawn = (layer: Switch): boolean => alone === null && step === null && this.isOn(layer);
+    say(this.out("sum"), ofFacets(sites.facetCount - this.#seeingCount, this.#seeingCount, SUM));
+    this.out("sum").hidden = step !== null || dimension < 2;
+    const isDrawn = (layer: Switch, least = 2): boolean => dimension >= least && step === null && this.isOn(layer);
     const steps = step !== null && step.before.dimension === 2;
     const [onBall, inPlane] = ofPictures({
       triangles: steps || isDrawn("triangles"),
-      cells: isDrawn("cells") || (sites.delaunay.dimension === 1 && step === null && this.isOn("cells")),
+      cells: isDrawn("cells", 1),
       seeing: isDrawn("seeing") && this.#seeingCount > 0,
       steps,
     });
@@ -234,7 +227,7 @@ class SphereRoom extends SiteRoom<SphereState> implements Room, Magnifiable {
     this.#showStep(this.now.step, sites.count);
     this.#poleFields.value = this.now.pole;
     this.#viewFields.value = this.view.middle;
-    this.table.hold([...(this.#bubble?.sites ?? []), ...(held === null ? [] : [held])]);
+    this.table.hold([...(bubble?.sites ?? []), ...(held === null ? [] : [held])]);
     find<HTMLButtonElement>(this.section, "[data-do=undo]").disabled = this.#history.length === 0;
     this.#showSite(held === null ? null : [sites.lonlat[2 * held], sites.lonlat[2 * held + 1]]);
   }
@@ -538,12 +531,8 @@ class SphereRoom extends SiteRoom<SphereState> implements Room, Magnifiable {
   }
 
   python(exchange: Exchange): string {
-    const sizes = { size: this.#ball.width, ball: this.disc.r, gap: GAP, ...this.#around };
-    const scene = this.#scene(false);
-    const pole = poleSeen(this.#map, this.#twin);
-    return exchange.spherePython(scene, this.now, pole, this.origin, {
-      ...sizes,
-      middle: this.#around.middle.join(", "),
-    });
+    const { reach, middle } = this.#around;
+    const sizes = { size: this.#ball.width, ball: this.disc.r, gap: GAP, reach, middle: middle.join(", ") };
+    return exchange.spherePython(this.#scene(false), this.now, this.origin, sizes);
   }
 }

@@ -56,7 +56,6 @@ export function ballLayers(sites: SphereSites): BallLayers {
 /** The ball or the plane: a surface, and what is drawn on it in its own way. */
 interface Picture extends Surface {
   readonly isPlane: boolean;
-  readonly label: LabelStyle;
   /** Where numbers and names are set. */
   readonly seats: Seats;
   /** The region of the facets that are marked. */
@@ -65,14 +64,13 @@ interface Picture extends Surface {
   cells(): void;
   bubble(bubble: Bubble): void;
   dots(): void;
-  names?(named: Named): void;
   /** A facet, unless it is none of the triangles there. */
   facet(path: Path, sites: Vector): void;
 }
 
 /** What both pictures show. */
 export function sphereParts(scene: SphereScene): Part<Picture>[] {
-  const { sites, named, seeing, bubble, held, step } = scene;
+  const { sites, layers, map, named, seeing, bubble, held, step } = scene;
   const isThere = step === null;
   const whole = { isThere, always: ["geojson"] as const }; // all sites, whatever is drawn of them, at any step
   const isAimed = isThere && bubble !== null;
@@ -92,7 +90,12 @@ export function sphereParts(scene: SphereScene): Part<Picture>[] {
     { isThere, isOver: true, draw: (pen, on) => balls.drawDots(pen, on, "held", [...(bubble?.sites ?? []), ...held]) },
     // Then names: they stay while the bubble follows the pointer.
     { isOver: true, draw: (pen, on) => on.isPlane || drawPole(pen, on, scene) },
-    { layer: "names", isThere: isThere && named !== null, isOver: true, draw: (_, on) => on.names?.(named!) },
+    {
+      layer: "names",
+      isThere: isThere && named !== null,
+      isOver: true,
+      draw: (_, on) => on.isPlane || drawNames(on.seats, named!, map.apply(layers.dots.directions), NAME),
+    },
     { layer: "bubble", isThere: isAimed, isOver: true, draw: (_, on) => drawNumbers(on, bubble!.sites) },
   ];
 }
@@ -148,7 +151,6 @@ export function ballDrawing(disc: Disc): Drawing {
       const ball: Picture = {
         ...surface,
         isPlane: false,
-        label: BALL_LABEL,
         seats,
         hatch(style, marked) {
           pen.draw(style, (path) => surface.region(path, sites.outline(marked), sites.regionHolds(marked, hidden)));
@@ -164,7 +166,6 @@ export function ballDrawing(disc: Disc): Drawing {
           pen.draw("triangle", (path) => surface.ring(path, bubble.sites));
         },
         dots: () => balls.drawLayers(pen, disc, map, [layers.dots]),
-        names: (named) => drawNames(seats, named, map.apply(layers.dots.directions), NAME),
         facet(path, sites) {
           const [a, b, c] = sites.map(site);
           const normals = [cross(a, b), cross(b, c), cross(c, a)];
@@ -198,7 +199,6 @@ export function planeDrawing(frame: PlaneFrame): Drawing {
       const plane: Picture = {
         ...surface,
         isPlane: true,
-        label: { ...BALL_LABEL, halo: "halo" },
         seats: new Seats(pen),
         // The outline runs clockwise on the picture, as the frame does: turned round, the path winds once between them.
         hatch: (style, marked) =>
@@ -249,7 +249,8 @@ function drawStratum(pen: Pen, on: Picture, scene: SphereScene, stratum: Stratum
 }
 
 /** The numbers of sites, on the sides that point away from their middle. */
-function drawNumbers({ seats, place, isSeen, label }: Picture, sites: Vector): void {
+function drawNumbers({ seats, place, isSeen, isPlane }: Picture, sites: Vector): void {
+  const label: LabelStyle = { ...BALL_LABEL, halo: isPlane ? "halo" : "ball" };
   const places = sites.map(place);
   const [x, y] = [0, 1].map((k) => places.reduce((sum, at) => sum + at[k], 0) / places.length);
   for (const at of places) seats.takeDot(at, 3);

@@ -8,11 +8,6 @@ import type { Lens, Sight } from "../view/lens.ts";
 import { View } from "../view/view.ts";
 import { wrap } from "../words.ts";
 
-export const CLICKS = ["keep", "add", "remove"] as const;
-
-/** What a click does. */
-export type Click = (typeof CLICKS)[number];
-
 /** Decimals of a degree to which the hand moves sites and the pole: those of sites where nothing is magnified. */
 const HAND_DECIMALS = 3;
 
@@ -29,7 +24,8 @@ export interface SphereState extends Sight {
   readonly step: number | null;
   /** The site that is held. */
   readonly held: number | null;
-  readonly click: Click;
+  /** What a click does. */
+  readonly click: "keep" | "add" | "remove";
 }
 
 export const BEGINNING: SphereState = {
@@ -53,7 +49,7 @@ export function sphereFields(count: number): Fields<SphereState> {
     isPinned: flag("pin"),
     step: whole("step", count),
     held: whole("held", count, 1),
-    click: word("click", CLICKS),
+    click: word("click", ["keep", "add", "remove"]),
   });
 }
 
