@@ -82,7 +82,7 @@ def test_tables_of_a_plane_are_opened_and_asked_about(room, tmp_path):
     file.write_text("x,y\n1,2\n3,four\n")
     page.page.set_input_files(f"{ROOM} input[type=file]", file)
     message.filter(has_text="four").wait_for()
-    told = "plane.csv: 1 of 2 rows cannot be placed. Row 2, on line 3: the y 'four' is not a number. Nothing has"
+    told = "plane.csv: 1 of 2 rows cannot be placed. Row 2: the y is 'four', not a number without"
     assert message.inner_text().startswith(told)
     assert output(page, "sum").startswith("6 facets")
 

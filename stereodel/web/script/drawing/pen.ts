@@ -76,17 +76,20 @@ export abstract class Pen {
 
   /** Draws a path in a style, or in an ink of the data; regions are those about which the path winds. */
   abstract draw(name: StyleName, trace: Trace, ink?: string, style?: Style): void;
-  /** Draws lines by the x and y of their middles and their lengths; those of nets weaker where they are dense. */
-  lines(name: StyleName, lines: Float64Array, lay: (path: Path, k: number) => void, ink?: string): void {
+  /** Draws lines by their ends, x and y in turn, those of nets weaker where they are dense. @param lay Lays what is not straight. */
+  lines(name: StyleName, ends: ArrayLike<number>, lay?: (path: Path, k: number) => void, ink?: string): void {
     const style: Style = STYLES[name];
     const width = (style.width ?? 1) * this.weight;
-    const area = (k: number): number => width * Math.min(SQUARE, lines[3 * k + 2]); // what is longer lies apart
-    this.#ink(name).each(lines, 3, area, style.isNet ? MOST_LINES : Infinity, (part, numbers) => {
+    const end = (at: number): Point => [ends[at], ends[at + 1]];
+    const length = (at: number): number => Math.hypot(ends[at + 2] - ends[at], ends[at + 3] - ends[at + 1]);
+    const area = (k: number): number => width * Math.min(SQUARE, length(4 * k)); // what is longer lies apart
+    const straight = (path: Path, k: number): void => traceSegment(path, end(4 * k), end(4 * k + 2));
+    this.#ink(name).each(ends, 4, area, style.isNet ? MOST_LINES : Infinity, (part, numbers) => {
       const size = Math.max(FINEST, Math.sqrt(part));
       const thin: Style = { ...style, width: size * (style.width ?? 1), strokeOpacity: part / size };
       for (let from = 0; from < numbers.length; from += MOST_ARCS) {
         const those = numbers.slice(from, from + MOST_ARCS);
-        this.draw(name, (path) => those.forEach((k) => lay(path, k)), ink, thin);
+        this.draw(name, (path) => those.forEach((k) => (lay ?? straight)(path, k)), ink, thin);
       }
     });
   }
@@ -148,10 +151,10 @@ export interface Sheet {
   readonly owner?: Owner | null;
 }
 
-/** A whole circle. */
-export function traceDisc(path: Path, { x, y, r }: Disc): void {
+/** A whole circle, clockwise to the eye if it is not said otherwise. */
+export function traceDisc(path: Path, { x, y, r }: Disc, counterclockwise = false): void {
   path.moveTo(x + r, y);
-  path.ellipse(x, y, r, r, 0, 0, 2 * Math.PI);
+  path.ellipse(x, y, r, r, 0, 0, counterclockwise ? -2 * Math.PI : 2 * Math.PI, counterclockwise);
   path.closePath();
 }
 

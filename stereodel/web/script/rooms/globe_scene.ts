@@ -171,7 +171,6 @@ export class GlobeScene {
       {
         layer: "cells",
         isThere: hasPlaces,
-        always: ["geojson"], // the data of the places, whatever is drawn of it
         ...drawn((isMoving) => (isMoving && isMuch ? null : this.#made!.cells)),
         regions: () => this.#made?.regions ?? [],
       },

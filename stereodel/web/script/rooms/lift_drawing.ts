@@ -1,7 +1,7 @@
 /** The picture of the Lift room: a sheet that bends onto a ball, under the plane that it was. */
 
 import { holdsHidden, traceOutlines, traceRegions, type Rings, type Side } from "../drawing/arcs.ts";
-import { ballSurface, drawArcs, drawDots, drawSegments, planeSurface, ridgeArcs } from "../drawing/ball.ts";
+import { ballSurface, drawArcs, drawDots, planeSurface, ridgeArcs } from "../drawing/ball.ts";
 import type { Surface } from "../drawing/ball.ts";
 import { drawParts, type IsOn, type Part } from "../drawing/parts.ts";
 import { cornersOf, traceCorners, traceDisc, traceSegment } from "../drawing/pen.ts";
@@ -243,7 +243,7 @@ export class LiftPicture {
     const { sites, sheet } = this.#scene;
     if (sheet.isFlat) {
       const places = sites.ridges.flatMap((y, k, ends) => (k % 2 === 0 ? [] : this.#flat([ends[k - 1], y])));
-      return drawSegments(pen, "voronoi", places);
+      return pen.lines("voronoi", places);
     }
     const looks = Array.from({ length: sites.count }, (_, site) => this.#look(...sites.place(site)));
     drawArcs(pen, this.#disc, "voronoi", ridgeArcs(new SphericalVoronoi(looks.flat())));

@@ -221,7 +221,8 @@ export abstract class SiteRoom<S> extends TableRoom {
   }
 
   csv(exchange: Exchange): string {
-    return exchange.csv(this.#kind === "plane" ? ["x", "y"] : ["lon", "lat"], this.named);
+    const { places, names, values } = this.named;
+    return exchange.csv(this.#kind === "plane" ? ["x", "y"] : ["lon", "lat"], places, names, values);
   }
 
   /** Where the lines of Python have the sites from. */

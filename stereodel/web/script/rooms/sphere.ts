@@ -527,7 +527,7 @@ class SphereRoom extends SiteRoom<SphereState> implements Room, Magnifiable {
   geojson(exchange: Exchange): string {
     const { step } = this.now;
     if (step !== null) return exchange.geojson(new SphereSites(this.#sites.lonlat.subarray(0, 2 * step)).triangles());
-    return exchange.geojson(regionsOf(sphereParts(this.#scene(false)), this.isOn));
+    return exchange.geojson(regionsOf(sphereParts(this.#scene(false))));
   }
 
   python(exchange: Exchange): string {

@@ -47,7 +47,7 @@ export type BallLayers = Readonly<Record<"edges" | "ridges" | "dots", Layer>>;
 
 export function ballLayers(sites: SphereSites): BallLayers {
   return lazy({
-    edges: () => balls.arcLayer("delaunay", balls.edgeArcs(sites.delaunay)),
+    edges: () => balls.arcLayer("delaunay", balls.arcsBetween(sites.delaunay.points, sites.delaunay.edges)),
     ridges: () => balls.arcLayer("voronoi", balls.ridgeArcs(sites.voronoi)),
     dots: () => balls.dotLayer("site", sites.xyz),
   });
@@ -72,7 +72,6 @@ interface Picture extends Surface {
 export function sphereParts(scene: SphereScene): Part<Picture>[] {
   const { sites, layers, map, named, seeing, bubble, held, step } = scene;
   const isThere = step === null;
-  const whole = { isThere, always: ["geojson"] as const }; // all sites, whatever is drawn of them, at any step
   const isAimed = isThere && bubble !== null;
   return [
     { layer: "seeing", isThere: isThere && seeing.includes(1), draw: (_, on) => on.hatch("hatch", seeing) },
@@ -81,8 +80,8 @@ export function sphereParts(scene: SphereScene): Part<Picture>[] {
       isThere: isThere && sites.hasClosing,
       draw: (_, on) => on.isPlane || on.hatch("closing", sites.delaunay.closing),
     },
-    { layer: "triangles", ...whole, draw: (_, on) => on.triangles(), regions: () => sites.triangles() },
-    { layer: "cells", ...whole, draw: (_, on) => on.cells(), regions: () => sites.cells() },
+    { layer: "triangles", isThere, draw: (_, on) => on.triangles(), regions: () => sites.triangles() },
+    { layer: "cells", isThere, draw: (_, on) => on.cells(), regions: () => sites.cells() },
     { layer: "seeing", isThere, draw: (pen, on) => pen.draw("hull", (path) => on.ring(path, sites.outline(seeing))) },
     { isThere, draw: (_, on) => on.dots() },
     { isThere: !isThere, draw: (pen, on) => drawStep(pen, on, scene, step!) },
@@ -204,7 +203,7 @@ export function planeDrawing(frame: PlaneFrame): Drawing {
         hatch: (style, marked) =>
           pen.draw(style, (path) => surface.region(path, sites.outline(marked).reverse(), true)),
         triangles: () => surface.lines(pen, "delaunay", edgesOf(sites.delaunay, seeing)),
-        cells: () => balls.drawSegments(pen, "voronoi", balls.ridgeSegments(places(), 2 * size)),
+        cells: () => pen.lines("voronoi", balls.ridgeSegments(places(), 2 * size)),
         bubble(bubble) {
           const image = twin.circle(bubble.center, bubble.cosine);
           if (image.isLine) {

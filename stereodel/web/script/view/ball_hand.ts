@@ -2,6 +2,7 @@
 
 import type { Disc } from "../drawing/pen.ts";
 import { Rotation } from "../kernel/api.ts";
+import { DEGREE } from "../space.ts";
 import { distance, isCommand, type Gestures, type Hold, type Place } from "./hand.ts";
 import { holding, magnified, type Sight } from "./lens.ts";
 import { Motion } from "./motion.ts";
@@ -41,20 +42,16 @@ export function lensGestures(ball: Magnifiable, motion: Motion): Required<Pick<G
       motion.stop();
       ball.see(magnified(ball.sight, point, factor, isNorthUp, ball.most));
     },
-    pinch: (middle, spread) => {
+    pinch: (middle, spread, turn) => {
       motion.stop();
       const { disc, sight: start, isNorthUp, most } = ball;
       const from = pointUnder(disc, middle);
-      let turnedBefore: number | null = null;
-      return {
-        move: (now, nowSpread, turn) => {
-          turnedBefore ??= turn;
-          const sight = magnified(start, from, nowSpread / spread, isNorthUp, most);
-          const to = pointUnder(disc, now);
-          let view = holding(sight.view, sight.view.onBall(from), to, isNorthUp);
-          if (!isNorthUp) view = view.turned(Rotation.about(to, ((turnedBefore - turn) * 180) / Math.PI));
-          ball.see({ ...sight, view });
-        },
+      return (now, nowSpread, nowTurn) => {
+        const sight = magnified(start, from, nowSpread / spread, isNorthUp, most);
+        const to = pointUnder(disc, now);
+        const view = holding(sight.view, sight.view.onBall(from), to, isNorthUp);
+        const by = (turn - nowTurn) / DEGREE;
+        ball.see({ ...sight, view: isNorthUp ? view : view.turned(Rotation.about(to, by)) });
       };
     },
   };

@@ -1,7 +1,7 @@
 /** Conformal lenses over a view: the fisheye, magnified about a point, on its way to another one; bubble to bubble. */
 
 import { MoebiusMap, Rotation } from "../kernel/api.ts";
-import { angle, DEGREE, row, unit, type Vector } from "../space.ts";
+import { DEGREE, row, unit, type Vector } from "../space.ts";
 import { wrap } from "../words.ts";
 import { View } from "./view.ts";
 
@@ -82,23 +82,16 @@ export function focused(sight: Sight, focus: Vector, isNorthUp: boolean): Sight 
   return { lens, view: holding(sight.view, focus, point, isNorthUp) };
 }
 
-/**
- * Part of the way from one sight to another: lenses along the geodesic of hyperbolic space, whose points they are, so
- * that the magnification goes down no more than is needed; views the short way.
- */
+/** Part of the way from one sight to another: logarithms of magnifications go straight, views the short way. */
 export function betweenSights(a: Sight, b: Sight, t: number, isNorthUp: boolean): Sight {
   return t === 1 ? b : { lens: betweenLenses(a.lens, b.lens, t), view: betweenViews(a.view, b.view, t, isNorthUp) };
 }
 
 function betweenLenses(a: Lens, b: Lens, t: number): Lens {
-  const [p, q] = [Math.log(a.magnification), Math.log(b.magnification)];
-  const chord = Math.sin((angle(a.focus, b.focus) * DEGREE) / 2);
-  const d = 2 * Math.asinh(Math.sqrt(Math.sinh((p - q) / 2) ** 2 + Math.sinh(p) * Math.sinh(q) * chord ** 2));
-  const share = (u: number): number => (d > 0 ? Math.sinh(u * d) / Math.sinh(d) : u);
-  const [before, after] = [share(1 - t) * Math.sinh(p), share(t) * Math.sinh(q)];
-  const vector = a.focus.map((value, k) => before * value + after * b.focus[k]) as unknown as Vector;
+  const [p, q] = [(1 - t) * Math.log(a.magnification), t * Math.log(b.magnification)];
+  const vector = a.focus.map((value, k) => p * value + q * b.focus[k]) as unknown as Vector;
   const size = Math.hypot(...vector);
-  return { focus: size === 0 ? b.focus : unit(vector), magnification: Math.exp(Math.asinh(size)) };
+  return { focus: size === 0 ? b.focus : unit(vector), magnification: Math.exp(size) };
 }
 
 function betweenViews(a: View, b: View, t: number, isNorthUp: boolean): View {
