@@ -37,7 +37,7 @@ export class Painted {
   readonly #raster: Raster;
   readonly #shader: Shader | null;
   /** Inks of labels that are read on any picture. */
-  readonly letters = { ink: "rgb(255, 255, 255)", accent: "rgb(245, 160, 98)", halo: "rgb(24, 26, 28)" } as const;
+  readonly letters = { ink: "rgb(255, 255, 255)", accent: "rgb(245, 160, 98)", halo: "rgb(24 26 28 / 0.55)" } as const;
 
   constructor(name: string, pixels: ImageData) {
     this.name = name;
