@@ -1,7 +1,8 @@
 /**
  * What the page carries with it: the kernel, land, sets of points, and points that its maker gave.
  *
- * Each is a text by name that `stereodel/web/contents.py` wrote: base64 of deflated bytes.
+ * Each is a text by name that `stereodel/web/contents.py` wrote: base64 of deflated bytes. In the page it stands in an
+ * element `<script type="text/plain" id="block-NAME">`.
  */
 
 import type { Owner } from "./rooms/owner.ts";
@@ -24,16 +25,9 @@ export class Contents {
     this.#blocks = blocks;
   }
 
-  /** What stands in the document's own elements `<script type="text/plain" id="block-NAME">`. */
-  static ofDocument(): Contents {
-    return new Contents((name) => document.getElementById(`block-${name}`)?.textContent ?? null);
-  }
-
   /** The kernel, as bytes of WebAssembly. */
   async kernel(): Promise<Uint8Array<ArrayBuffer>> {
-    const bytes = await this.#bytes("kernel");
-    if (bytes === null) throw new Error("the page has no kernel");
-    return bytes;
+    return (await this.#bytes("kernel"))!;
   }
 
   /** Land for maps of 1 : 50 or 1 : 110 million, lines, or the points of a set, by name; null where the page has none. */
