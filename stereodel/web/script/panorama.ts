@@ -15,9 +15,6 @@ const COARSE = 512;
 const SHARP = 2;
 const ROUGH = 0.3;
 
-/** How much lighter or darker than a picture the halo of labels on it is; brightness, of 255, where that changes. */
-const [CONTRAST, BRIGHT] = [0.6, 120];
-
 /** How far width and height may be from two to one. */
 const RATIO_ERROR = 0.01;
 
@@ -48,22 +45,12 @@ export class Painted {
   readonly name: string;
   /** Each half as wide as the one before. */
   readonly #rasters: readonly Raster[];
-  /** Inks of labels: a halo of the picture's mean tone, and what is read on it. */
-  readonly letters: Readonly<Record<"ink" | "accent" | "halo", `rgb(${string})`>>;
+  /** Inks of labels that are read on any picture. */
+  readonly letters = { ink: "rgb(255, 255, 255)", accent: "rgb(245, 160, 98)", halo: "rgb(24 26 28 / 0.55)" } as const;
 
   constructor(name: string, pictures: readonly ImageData[]) {
     this.name = name;
     this.#rasters = pictures.map(({ data, width }) => new Raster(data, width));
-    const { data } = pictures[pictures.length - 1];
-    const sums = [0, 0, 0];
-    for (let k = 0; k < data.length; ++k) if (k % 4 < 3) sums[k % 4] += data[k];
-    const tone = sums.map((sum) => (4 * sum) / data.length);
-    const isBright = 0.3 * tone[0] + 0.59 * tone[1] + 0.11 * tone[2] > BRIGHT;
-    const halo = tone.map((level) => Math.round(level + CONTRAST * ((isBright ? 255 : 0) - level)));
-    const [ink, accent] = isBright
-      ? (["27, 27, 27", "171, 67, 0"] as const)
-      : (["255, 255, 255", "245, 160, 98"] as const);
-    this.letters = { ink: `rgb(${ink})`, accent: `rgb(${accent})`, halo: `rgb(${halo.join(", ")})` };
   }
 
   draw(pen: Pen, disc: Disc, map: MoebiusMap, isMoving: boolean): void {
