@@ -74,7 +74,6 @@ export class NotebookGlobe implements GlobeHost {
   readonly #changed: Changed;
   readonly #themes: MutationObserver; // notebooks change colours by attributes of the body
   #state = BEGINNING;
-  #look: Partial<Owner> = {};
   #shown: Shown | null = null;
 
   constructor(element: HTMLElement, scene: GlobeScene, changed: Changed) {
@@ -100,8 +99,8 @@ export class NotebookGlobe implements GlobeHost {
     if (isNew("sites") || isNew("names") || isNew("look")) {
       const lonlat = doubles(sites);
       const count = lonlat.length / 2;
-      this.#look = look.ink === undefined || look.ink.length === count ? look : {};
-      const owner = { title: "", source: "", ...this.#look };
+      const fitting = look.ink === undefined || look.ink.length === count ? look : {};
+      const owner = { title: "", source: "", ...fitting };
       this.scene.show({
         name: "",
         lonlat,
@@ -148,7 +147,8 @@ export class NotebookGlobe implements GlobeHost {
     return this.#state.sight.lens.magnification === 1;
   }
 
-  readonly isOn: IsOn = (layer) => layer !== "tissot" && layer !== "fills" && (layer !== "cells" || !this.#look.inks);
+  readonly isOn: IsOn = (layer) =>
+    layer !== "tissot" && layer !== "fills" && (layer !== "cells" || !this.scene.places?.owner?.inks);
 
   /** What a hand has changed is shown as it is told, to the last digit. */
   set(change: Partial<GlobeState>, reason: Reason): void {
