@@ -27,7 +27,9 @@ export class Contents {
 
   /** The kernel, as bytes of WebAssembly. */
   async kernel(): Promise<Uint8Array<ArrayBuffer>> {
-    return (await this.#bytes("kernel"))!;
+    const bytes = await this.#bytes("kernel");
+    if (bytes === null) throw new Error("the page has no kernel");
+    return bytes;
   }
 
   /** Land for maps of 1 : 50 or 1 : 110 million, lines, or the points of a set, by name; null where the page has none. */
