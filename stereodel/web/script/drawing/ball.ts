@@ -1,8 +1,8 @@
 /** What lies on a ball or a plane: layers whose directions stay in the kernel, each drawn as its images under a map are. */
 
 import type { Rings as Places } from "../contents.ts";
-import { Directions, lonlatToXyz } from "../kernel/api.ts";
-import type { MoebiusMap, SphericalVoronoi } from "../kernel/api.ts";
+import { Directions, lonlatToXyz, PlanarVoronoi } from "../kernel/api.ts";
+import type { MoebiusMap, PlanarDelaunay, SphericalVoronoi } from "../kernel/api.ts";
 import { angle, cross, DEGREE, directionOf, dot, row, unit, type Vector } from "../space.ts";
 import { arcThrough, bentRings, holdsHidden, traceArc, traceCap, traceOutlines, traceRegions } from "./arcs.ts";
 import type { Side } from "./arcs.ts";
@@ -154,6 +154,22 @@ export function ridgeArcs(voronoi: SphericalVoronoi): Float64Array {
     }
   }
   return Float64Array.from(arcs);
+}
+
+/** Sides of the cells of a plane as x, y, x, y in turn, none without triangles; those that do not end go on for `far`. */
+export function ridgeSegments(points: ArrayLike<number> | PlanarDelaunay, far: number): number[] {
+  const { points: sites, vertices, ridgePoints, ridgeVertices } = new PlanarVoronoi(points);
+  const place = (places: Float64Array, k: number): Point => [places[2 * k], places[2 * k + 1]];
+  if (vertices.length === 0) return [];
+  return Array.from({ length: ridgePoints.length / 2 }, (_, k) => {
+    const [a, b] = [place(sites, ridgePoints[2 * k]), place(sites, ridgePoints[2 * k + 1])];
+    const ends = [ridgeVertices[2 * k], ridgeVertices[2 * k + 1]];
+    const [x, y] = place(vertices, Math.max(...ends));
+    // Site a is on the left of the way from start to end.
+    const away = (far + Math.hypot(x - a[0], y - a[1])) / Math.hypot(b[0] - a[0], b[1] - a[1]);
+    const [u, v] = [away * (a[1] - b[1]), away * (b[0] - a[0])];
+    return ends.map((end, k) => (end < 0 ? [x + (k ? u : -u), y + (k ? v : -v)] : place(vertices, end)));
+  }).flat(2);
 }
 
 /** A direction turned counterclockwise about one at a right angle to it, radians. */
