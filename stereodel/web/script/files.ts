@@ -42,13 +42,13 @@ interface Elsewhere {
  * @param chosen names of the two columns, where they are known.
  * @throws TableError in words for the reader.
  */
-export async function readPoints(
+export function readPoints(
   file: string,
   content: Uint8Array,
   kind: Kind,
   chosen?: [string, string],
-): Promise<Points | Elsewhere> {
-  const text = decoded(await unpacked(content), file);
+): Points | Elsewhere {
+  const text = decoded(content, file);
   const isJson = /^\s*[{[]/.test(text);
   if (isJson && kind === "plane") return { room: "globe" };
   const read = isJson ? geojsonPoints(text) : ofText(text, kind, chosen);
@@ -96,16 +96,6 @@ function ofText(text: string, kind: Kind, chosen?: [string, string]): Elsewhere 
   return { places, table, axes };
 }
 
-async function unpacked(bytes: Uint8Array): Promise<Uint8Array> {
-  if (!(bytes[0] === 0x1f && bytes[1] === 0x8b)) return bytes;
-  try {
-    const stream = new Blob([bytes.slice()]).stream().pipeThrough(new DecompressionStream("gzip"));
-    return new Uint8Array(await new Response(stream).arrayBuffer());
-  } catch {
-    throw new TableError("the compressed file is damaged");
-  }
-}
-
 /** Text in UTF-8, UTF-16 or, by its letters, windows-1252; all else is for the library. */
 function decoded(bytes: Uint8Array, file: string): string {
   const head = String.fromCharCode(...bytes.subarray(0, 2));
@@ -136,7 +126,7 @@ export async function openPoints(
   const named = `${file.name}:`;
   const unchanged = (said: string): string => `${said}${/[.?!]$/.test(said) ? "" : "."} Nothing has changed.`;
   try {
-    const points = await readPoints(file.name, new Uint8Array(await file.arrayBuffer()), kind, chosen);
+    const points = readPoints(file.name, new Uint8Array(await file.arrayBuffer()), kind, chosen);
     if ("room" in points) return host.pass(points.room, file, points.columns);
     const { leftOut, wrong } = points;
     const open = (): void => {

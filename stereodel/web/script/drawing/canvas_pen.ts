@@ -15,8 +15,8 @@ export class CanvasPen extends Pen {
   readonly #context: Context;
 
   /** @param scale Pixels of the canvas for one of the drawing. */
-  constructor(context: Context, width: number, height: number, scale: number, colours: Colours, weight: number) {
-    super(width, height, colours, weight);
+  constructor(context: Context, width: number, height: number, scale: number, colours: Colours) {
+    super(width, height, colours);
     this.#context = context;
     context.setTransform(scale, 0, 0, scale, 0, 0);
     context.lineCap = context.lineJoin = "round";
@@ -122,7 +122,7 @@ export class CanvasPen extends Pen {
 
   #line(style: Style, ink = this.colours[style.stroke ?? "ink"]): void {
     this.#context.strokeStyle = ink;
-    this.#context.lineWidth = (style.width ?? 1) * this.weight;
+    this.#context.lineWidth = style.width ?? 1;
     this.#context.setLineDash([...(style.dash ?? [])]);
   }
 

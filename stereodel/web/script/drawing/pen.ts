@@ -64,14 +64,12 @@ export abstract class Pen {
   readonly width: number;
   readonly height: number;
   protected readonly colours: Colours;
-  protected readonly weight: number;
   /** How densely nets and dots lie, by their styles; what is drawn of a part of a picture takes what is known of the whole. */
   readonly inks = new Map<string, Ink>();
   known: ReadonlyMap<string, Ink> | null = null;
 
-  /** @param weight Factor of the widths of lines. */
-  constructor(width: number, height: number, colours: Colours, weight: number) {
-    [this.width, this.height, this.colours, this.weight] = [width, height, colours, weight];
+  constructor(width: number, height: number, colours: Colours) {
+    [this.width, this.height, this.colours] = [width, height, colours];
   }
 
   /** Draws a path in a style, or in an ink of the data; regions are those about which the path winds. */
@@ -90,7 +88,7 @@ export abstract class Pen {
   /** Draws lines by their ends, x and y in turn, those of nets weaker where they are dense. @param lay Lays what is not straight. */
   lines(name: StyleName, ends: ArrayLike<number>, lay?: (path: Path, k: number) => void, ink?: string): void {
     const style: Style = STYLES[name];
-    const width = (style.width ?? 1) * this.weight;
+    const { width = 1 } = style;
     const end = (at: number): Point => [ends[at], ends[at + 1]];
     const length = (at: number): number => Math.hypot(ends[at + 2] - ends[at], ends[at + 3] - ends[at + 1]);
     const area = (k: number): number => width * Math.min(SQUARE, length(4 * k)); // what is longer lies apart
@@ -102,7 +100,7 @@ export abstract class Pen {
     }
     this.#ink(name).each(middles, area, style.isNet ? MOST_LINES : Infinity, (part, numbers) => {
       const size = Math.max(FINEST, Math.sqrt(part));
-      const thin: Style = { ...style, width: size * (style.width ?? 1), strokeOpacity: part / size };
+      const thin: Style = { ...style, width: size * width, strokeOpacity: part / size };
       for (let from = 0; from < numbers.length; from += MOST_ARCS) {
         const those = numbers.slice(from, from + MOST_ARCS);
         this.draw(name, (path) => those.forEach((k) => (lay ?? straight)(path, k)), ink, thin);
@@ -160,8 +158,6 @@ export interface Sheet {
   readonly title: string;
   readonly width: number;
   readonly height: number;
-  /** Factor of the widths of lines. */
-  readonly weight: number;
   readonly paint: (pen: Pen) => void;
   /** What the owner of the data says, to be written round it. */
   readonly owner?: Owner | null;

@@ -95,8 +95,7 @@ export class SvgPen extends Pen {
 
   #line(style: Style, ink = this.colours[style.stroke ?? "ink"]): string {
     const dash = style.dash === undefined ? "" : ` stroke-dasharray="${style.dash.join(" ")}"`;
-    const width = number((style.width ?? 1) * this.weight);
-    return `${paint("stroke", ink, style.strokeOpacity)} stroke-width="${width}"${dash}`;
+    return `${paint("stroke", ink, style.strokeOpacity)} stroke-width="${number(style.width ?? 1)}"${dash}`;
   }
 
   /** Places of a gradient are those of the square round a disc, of side 1. */

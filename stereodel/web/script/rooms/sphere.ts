@@ -506,7 +506,6 @@ class SphereRoom extends SiteRoom<SphereState> implements Room, Magnifiable {
       title: this.title,
       width: 2 * size + GAP,
       height: size,
-      weight: 1,
       paint: (pen) => {
         for (const drawing of [ballDrawing(disc), planeDrawing(frame)])
           for (const stratum of ["ground", "over"] as const) drawing.draw(pen, scene, stratum);
