@@ -246,7 +246,7 @@ export class LiftPicture {
   #drawRidges(pen: Pen): void {
     const { sites, sheet } = this.#scene;
     if (sheet.isFlat) {
-      const places = sites.ridges.flatMap((y, k, ends) => (k % 2 === 0 ? [] : this.#flat([ends[k - 1], y])));
+      const places = sites.ridges().flatMap((y, k, ends) => (k % 2 === 0 ? [] : this.#flat([ends[k - 1], y])));
       return pen.lines("voronoi", places);
     }
     const looks = Array.from({ length: sites.count }, (_, site) => this.#look(...sites.place(site)));

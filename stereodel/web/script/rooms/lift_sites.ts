@@ -2,6 +2,7 @@
 
 import { ridgeSegments } from "../drawing/ball.ts";
 import { PlanarDelaunay, SphericalDelaunay } from "../kernel/api.ts";
+import { once } from "../kernel/lazy.ts";
 import type { SiteSet } from "../sets.ts";
 import { angle, DEGREES, type Vector } from "../space.ts";
 import { counted, fixed } from "../words.ts";
@@ -20,7 +21,6 @@ export class LiftSites {
    * power of two, so that a grid of small whole numbers is lifted without rounding and its squares stay squares.
    */
   readonly closing: Int32Array;
-  #ridges: number[] | null = null;
 
   /** @param sides Width and height of the sheet, where it is not the smallest rectangle round the sites. */
   constructor(places: Float64Array, sides?: readonly [number, number]) {
@@ -44,9 +44,9 @@ export class LiftSites {
   }
 
   /** Sides of the cells of the plane as x, y, x, y in turn. */
-  get ridges(): number[] {
-    return (this.#ridges ??= ridgeSegments(this.delaunay, 2 * Math.hypot(this.rectangle.width, this.rectangle.height)));
-  }
+  readonly ridges = once(() =>
+    ridgeSegments(this.delaunay, 2 * Math.hypot(this.rectangle.width, this.rectangle.height)),
+  );
 
   /**
    * The sheet, bent so that its corners stand at `corner` degrees from the point of contact: 0 is the plane, 90 the

@@ -143,7 +143,7 @@ class SphereRoom extends SiteRoom<SphereState> implements Room, Magnifiable {
     this.show(named, {
       count: sites.count,
       heads: ["Latitude", "Longitude", "Neighbours"],
-      cells: (site) => [...sites.words(site), String(sites.neighborCounts[site])],
+      cells: (site) => [...sites.words(site), String(sites.neighborCounts()[site])],
     });
     find(this.section, "[data-show=closing]").hidden = !sites.hasClosing;
     const label = `Sphere with ${counted(sites.count)} ${sites.count === 1 ? "site" : "sites"}`;

@@ -48,7 +48,7 @@ export type BallLayers = Readonly<Record<"edges" | "ridges" | "dots", Layer>>;
 export function ballLayers(sites: SphereSites): BallLayers {
   return lazy({
     edges: () => balls.arcLayer("delaunay", balls.arcsBetween(sites.delaunay.points, sites.delaunay.edges)),
-    ridges: () => balls.arcLayer("voronoi", balls.ridgeArcs(sites.voronoi)),
+    ridges: () => balls.arcLayer("voronoi", balls.ridgeArcs(sites.voronoi())),
     dots: () => balls.dotLayer("site", sites.xyz),
   });
 }

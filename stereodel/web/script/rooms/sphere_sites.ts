@@ -2,6 +2,7 @@
 
 import { cellOf, type Region } from "../drawing/parts.ts";
 import { inBubble, lonlatToXyz, SphericalDelaunay, SphericalVoronoi } from "../kernel/api.ts";
+import { once } from "../kernel/lazy.ts";
 import { boundaryOf } from "../kernel/topology.ts";
 import { angle, dot, lonLatOf, row, type Vector } from "../space.ts";
 import { counted, latitude, longitude, scale, several, sized } from "../words.ts";
@@ -17,8 +18,7 @@ export class SphereSites {
   /** Directions. */
   readonly xyz: Float64Array;
   readonly delaunay: SphericalDelaunay;
-  #voronoi: SphericalVoronoi | null = null;
-  #neighborCounts: Int32Array | null = null;
+  readonly voronoi = once(() => new SphericalVoronoi(this.delaunay));
 
   constructor(lonlat: Float64Array) {
     this.lonlat = lonlat;
@@ -34,10 +34,6 @@ export class SphereSites {
     return this.delaunay.simplices.length / 3;
   }
 
-  get voronoi(): SphericalVoronoi {
-    return (this.#voronoi ??= new SphericalVoronoi(this.delaunay));
-  }
-
   /** A site's direction. */
   site(k: number): Vector {
     return row(this.xyz, k);
@@ -49,14 +45,13 @@ export class SphereSites {
   }
 
   /** How many cells lie beside that of each site: across edges, or across the ridges of sites on one great circle. */
-  get neighborCounts(): Int32Array {
-    if (this.#neighborCounts !== null) return this.#neighborCounts;
+  readonly neighborCounts = once(() => {
     const { simplices, dimension } = this.delaunay;
-    this.#neighborCounts = new Int32Array(this.count);
+    const counts = new Int32Array(this.count);
     // As many facets meet at a site as edges do, where there are any; on one circle it has the two next to it.
-    for (const k of dimension === 1 ? this.voronoi.ridgePoints : simplices) ++this.#neighborCounts[k];
-    return this.#neighborCounts;
-  }
+    for (const k of dimension === 1 ? this.voronoi().ridgePoints : simplices) ++counts[k];
+    return counts;
+  });
 
   /** The facet that holds a direction, or null. */
   facetAt(direction: Vector): number | null {
@@ -96,11 +91,11 @@ export class SphereSites {
 
   /** The sites' cells; that of a site alone is all of the sphere. */
   cells(): Region[] {
-    const areas = this.count > 0 ? this.voronoi.areas() : [];
+    const areas = this.count > 0 ? this.voronoi().areas() : [];
     return Array.from(areas, (area, site) => {
       const properties = { kind: "cell", point: site, area };
       const isAlone = this.delaunay.dimension === 0 && area > 0;
-      return isAlone ? [{ properties, corners: [] }] : cellOf(this.voronoi, site, properties);
+      return isAlone ? [{ properties, corners: [] }] : cellOf(this.voronoi(), site, properties);
     }).flat();
   }
 
@@ -225,5 +220,5 @@ export function ofDuplicates({ delaunay }: SphereSites): string {
 /** A site for those who do not see it: its number, its name, its place, how many neighbours it has. */
 export function ofSite(sites: SphereSites, site: number, name?: string): string {
   const words = [`Site ${site + 1}`, ...(name ? [name] : []), ...sites.words(site)];
-  return `${words.join(", ")}, ${sites.neighborCounts[site]} neighbours`;
+  return `${words.join(", ")}, ${sites.neighborCounts()[site]} neighbours`;
 }
