@@ -82,7 +82,7 @@ export function sphereParts(scene: SphereScene): Part<Picture>[] {
     },
     { layer: "triangles", isThere, draw: (_, on) => on.triangles(), regions: () => sites.triangles() },
     { layer: "cells", isThere, draw: (_, on) => on.cells(), regions: () => sites.cells() },
-    { layer: "seeing", isThere, draw: (pen, on) => pen.draw("hull", (path) => on.ring(path, sites.outline(seeing))) },
+    { layer: "seeing", isThere, draw: (pen, on) => on.lines(pen, "hull", balls.sidesOf(sites.outline(seeing))) },
     { isThere, draw: (_, on) => on.dots() },
     { isThere: !isThere, draw: (pen, on) => drawStep(pen, on, scene, step!) },
     { layer: "bubble", isThere: isAimed, isOver: true, draw: (_, on) => on.bubble(bubble!) },
@@ -162,7 +162,7 @@ export function ballDrawing(disc: Disc): Drawing {
           if (rim === null) return;
           pen.draw("seen", (path) => traceCap(path, disc, rim));
           pen.draw("bubble-open", (path) => traceCircle(path, disc, rim));
-          pen.draw("triangle", (path) => surface.ring(path, bubble.sites));
+          surface.lines(pen, "triangle", balls.sidesOf(bubble.sites));
         },
         dots: () => balls.drawLayers(pen, disc, map, [layers.dots]),
         facet(path, sites) {
@@ -216,20 +216,16 @@ export function planeDrawing(frame: PlaneFrame): Drawing {
           }
           const [x, y] = frame.place(image.middle);
           const r = image.radius * frame.scale;
-          const ring = (path: Path): void => {
-            path.moveTo(x + r, y);
-            path.ellipse(x, y, r, r, 0, 2 * Math.PI, 0, true);
-            path.closePath();
-          };
+          const ring = (path: Path): void => traceDisc(path, { x, y, r }, true);
           pen.draw("seen", (path) => {
             if (image.holdsPole) whole(path);
             ring(path);
           });
           pen.draw("bubble-open", ring);
-          if (!image.holdsPole) pen.draw("triangle", (path) => surface.ring(path, bubble.sites));
+          if (!image.holdsPole) surface.lines(pen, "triangle", balls.sidesOf(bubble.sites));
         },
         dots: () => balls.drawDots(pen, surface, "site", Array(sites.count).keys()),
-        facet: surface.ring,
+        facet: (path, sites) => surface.region(path, sites, false),
       };
       pen.within({ region: whole }, () => drawStratum(pen, plane, scene, stratum));
       if (stratum === "ground") pen.draw("frame", whole);
@@ -270,10 +266,10 @@ function drawStep(pen: Pen, on: Picture, { sites, twin }: SphereScene, step: Ins
   const isThere = (k: number): boolean => !fanSeeing[(k + outline.length) % outline.length];
   pen.draw("seen", (path) => outline.forEach((_, k) => isThere(k) && on.facet(path, row(fan, k))));
   on.lines(pen, "delaunay", edgesOf(before, beforeSeeing));
-  pen.draw("fan", (path) => outline.forEach((a, k) => (isThere(k) || isThere(k - 1)) && on.line(path, site, a)));
-  pen.draw("horizon", (path) =>
-    outline.forEach((a, k) => isThere(k) && on.line(path, a, outline[(k + 1) % outline.length])),
-  );
+  const spokes = outline.flatMap((a, k) => (isThere(k) || isThere(k - 1) ? [site, a] : []));
+  const rim = balls.sidesOf(outline).filter((_, k) => isThere(k >> 1));
+  on.lines(pen, "fan", spokes);
+  on.lines(pen, "horizon", rim);
   balls.drawDots(pen, on, "site", Array(site + 1).keys());
   balls.drawDots(pen, on, "held", [site]);
 }
