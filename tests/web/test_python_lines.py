@@ -43,6 +43,8 @@ STATES = {
         "sites=",
         "sites=10,20",
         "sites=20,-30,10,20,120,0,-110,10,-160,-50,60,70&pole-lon=20&pole-lat=-30&on=triangles,cells,seeing",
+        "sites=20,-30,10,20,60,0,-50,10,0,80&pole-lon=20&pole-lat=-30&on=triangles,cells,seeing",
+        "sites=-15,35,-55,75,50,-45,70,-55,40,55&pole-lon=55&pole-lat=50&view-lon=20&view-lat=30&on=triangles,seeing",
         "sites=0,0,180,0&on=cells",
         "sites=10,20,60,0,20,-30,10,20,-50,10&on=triangles,cells,seeing",
         "sites=0,0,40,0,80,0,120,0,-160,0,-90,0&on=triangles,cells",

@@ -46,9 +46,8 @@ export class LiftSites {
   /** Sites of the convex hull, counterclockwise. */
   get hull(): number[] {
     const { convexHull } = this.delaunay;
-    return chained(
-      new Map(Array.from({ length: convexHull.length / 2 }, (_, k) => [convexHull[2 * k], convexHull[2 * k + 1]])),
-    );
+    const sides = Array.from({ length: convexHull.length / 2 }, (_, k) => convexHull.subarray(2 * k));
+    return chained(sides.map(([a, b]): [number, number] => [a, b]))[0];
   }
 
   isInHull([x, y]: Point): boolean {

@@ -90,20 +90,13 @@ export class SphereSites {
   }
 
   /** The sites around the facets that are marked, such as those that see the pole, which are on the left. */
-  outline(marked: Uint8Array): number[] {
-    return outlineOf(this.delaunay.simplices, (facet) => marked[facet] === 1);
+  rings(marked: Uint8Array): number[][] {
+    return ringsOf(this.delaunay.simplices, (facet) => marked[facet] === 1);
   }
 
   /** Whether all sites lie in a hemisphere, so that some facets are no spherical triangles. */
   get hasClosing(): boolean {
     return this.delaunay.closing.includes(1);
-  }
-
-  /** Whether the region of the facets that are marked holds a direction. */
-  regionHolds(marked: Uint8Array, direction: Vector): boolean {
-    const facet = this.facetAt(direction);
-    if (facet !== null) return marked[facet] === 1;
-    return this.delaunay.closing.some((isClosing, k) => isClosing === 1 && marked[k] === 1);
   }
 
   /** The sites' cells; that of a site alone is all of the sphere. */
@@ -131,7 +124,7 @@ export class SphereSites {
   insertion(site: number): Insertion {
     const before = new SphericalDelaunay(this.xyz.subarray(0, 3 * site)).simplices;
     const signs = bubbleSigns(this.xyz, before, this.site(site));
-    const outline = outlineOf(before, (facet) => signs[facet] > 0);
+    const [outline] = ringsOf(before, (facet) => signs[facet] > 0);
     const fan = Int32Array.from(outline.flatMap((corner, k) => [corner, outline[(k + 1) % outline.length], site]));
     return { site, before, seeing: [...signs.keys()].filter((facet) => signs[facet] > 0), outline, fan };
   }
@@ -166,27 +159,27 @@ export interface Insertion {
   readonly fan: Int32Array;
 }
 
-/** The one closed line around some facets, on their left: their sides without a facet of theirs across. */
-function outlineOf(facets: Int32Array, isChosen: (facet: number) => boolean): number[] {
+/** The closed lines around some facets, on their left: their sides without a facet of theirs across. */
+function ringsOf(facets: Int32Array, isChosen: (facet: number) => boolean): number[][] {
   const sides = new Map<string, [number, number]>();
   facets.forEach((a, at) => {
     if (!isChosen(Math.floor(at / 3))) return;
     const b = facets[following(at)];
     if (!sides.delete(`${b} ${a}`)) sides.set(`${a} ${b}`, [a, b]);
   });
-  return chained(new Map(sides.values()));
+  return chained(sides.values());
 }
 
-/** The closed line that begins with the first key: from each number to its value. */
-export function chained(next: Map<number, number>): number[] {
-  const outline: number[] = [];
-  for (let at = next.keys().next().value; at !== undefined && next.has(at);) {
-    outline.push(at);
-    const to: number = next.get(at)!;
-    next.delete(at);
-    at = to;
-  }
-  return outline;
+/** The closed lines that sides make, each from one number to another; without any an empty one. */
+export function chained(sides: Iterable<readonly [number, number]>): number[][] {
+  const next = new Map<number, number[]>();
+  for (const [a, b] of sides) next.set(a, [...(next.get(a) ?? []), b]);
+  const lines = [...next.keys()].map((begin) => {
+    const line: number[] = [];
+    for (let at = begin, to; (to = next.get(at)!.pop()) !== undefined; at = to) line.push(at);
+    return line;
+  });
+  return lines.length === 0 ? [[]] : lines.filter((line) => line.length > 0);
 }
 
 /** What there is to say of sites without triangles; null where there are triangles. */
