@@ -167,7 +167,7 @@ def test_many_places_come_from_the_table_that_the_page_exports(room, visit, tmp_
     (tmp_path / "places.csv").unlink()
     file, content = downloaded(page, "csv")
     lines = python_lines(page)
-    named = re.search(r'"([^"]*\.csv)"', lines)[1]
+    named = re.search(r'"([^"]*\.csv)".*  # the page draws over 1000 lines weaker', lines)[1]
     assert named in (file, "places.csv")
     (tmp_path / named).write_bytes(content)
     page.page.click(".foot summary")
