@@ -23,20 +23,20 @@ function download(name: string, content: Blob | string): void {
 
 /** The picture as SVG, in the colours of the screen. */
 async function sheetSvg(sheet: Sheet): Promise<string> {
-  const { title, width, height, weight, paint } = await framed(sheet, colours().ink);
-  const pen = new SvgPen(width, height, colours(), weight);
+  const { title, width, height, paint } = await framed(sheet, colours().ink);
+  const pen = new SvgPen(width, height, colours());
   paint(pen);
   return pen.text(title);
 }
 
 /** The picture as PNG with so many pixels for one of the screen. */
 async function sheetPng(sheet: Sheet, scale: number): Promise<Blob> {
-  const { width, height, weight, paint } = await framed(sheet, colours().ink);
+  const { width, height, paint } = await framed(sheet, colours().ink);
   const canvas = make("canvas", { width: Math.round(width * scale), height: Math.round(height * scale) });
   const context = canvas.getContext("2d")!;
   context.fillStyle = colours().paper;
   context.fillRect(0, 0, canvas.width, canvas.height);
-  paint(new CanvasPen(context, width, height, scale, colours(), weight));
+  paint(new CanvasPen(context, width, height, scale, colours()));
   return new Promise((resolve, reject) => {
     canvas.toBlob((blob) => (blob === null ? reject(new Error("the picture is too large")) : resolve(blob)));
   });

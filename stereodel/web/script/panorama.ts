@@ -12,9 +12,6 @@ const WIDEST = 4096;
 const SHARP = 2;
 const ROUGH = 0.25;
 
-/** How much lighter or darker than a picture the halo of labels on it is; brightness, of 255, where that changes. */
-const [CONTRAST, BRIGHT] = [0.6, 120];
-
 /** How far width and height may be from two to one. */
 const RATIO_ERROR = 0.01;
 
@@ -39,22 +36,13 @@ export class Painted {
   readonly name: string;
   readonly #raster: Raster;
   readonly #shader: Shader | null;
-  /** Inks of labels: a halo of the picture's mean tone, and what is read on it. */
-  readonly letters: Readonly<Record<"ink" | "accent" | "halo", `rgb(${string})`>>;
+  /** Inks of labels that are read on any picture. */
+  readonly letters = { ink: "rgb(255, 255, 255)", accent: "rgb(245, 160, 98)", halo: "rgb(24 26 28 / 0.55)" } as const;
 
   constructor(name: string, pixels: ImageData) {
     this.name = name;
     this.#raster = new Raster(pixels.data, pixels.width);
     this.#shader = shaderOf(pixels);
-    const sums = [0, 0, 0];
-    for (let k = 0; k < pixels.data.length; ++k) if (k % 4 < 3) sums[k % 4] += pixels.data[k];
-    const tone = sums.map((sum) => (4 * sum) / pixels.data.length);
-    const isBright = 0.3 * tone[0] + 0.59 * tone[1] + 0.11 * tone[2] > BRIGHT;
-    const halo = tone.map((level) => Math.round(level + CONTRAST * ((isBright ? 255 : 0) - level)));
-    const [ink, accent] = isBright
-      ? (["27, 27, 27", "171, 67, 0"] as const)
-      : (["255, 255, 255", "245, 160, 98"] as const);
-    this.letters = { ink: `rgb(${ink})`, accent: `rgb(${accent})`, halo: `rgb(${halo.join(", ")})` };
   }
 
   draw(pen: Pen, disc: Disc, map: MoebiusMap, isMoving: boolean): void {

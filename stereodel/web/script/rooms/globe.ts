@@ -193,12 +193,13 @@ export class GlobeRoom extends TableRoom implements Room, GlobeHost {
 
   geojson(exchange: Exchange): string | null {
     const { places, parts, latitude } = this.scene;
-    return places === null ? this.#noPlaces() : exchange.geojson(regionsOf(parts, this.isOn), latitude);
+    return places === null ? this.#noPlaces() : exchange.geojson(regionsOf(parts), latitude);
   }
 
   csv(exchange: Exchange): string | null {
     const { places } = this.scene;
-    return places === null ? this.#noPlaces() : exchange.csv(["lon", "lat"], { ...places, places: places.lonlat });
+    if (places === null) return this.#noPlaces();
+    return exchange.csv(["lon", "lat"], places.lonlat, places.names, places.values);
   }
 
   #noPlaces(): null {

@@ -100,7 +100,7 @@ export class GlobeScene {
     return this.#made?.areas[place] ?? 0;
   }
 
-  /** A style of labels, on a picture in inks for its tone. */
+  /** A style of labels, on a picture in its inks. */
   lettered(style: LabelStyle): LabelStyle {
     if (this.picture === null) return style;
     const { ink, accent, halo } = this.picture.letters;
@@ -171,7 +171,6 @@ export class GlobeScene {
       {
         layer: "cells",
         isThere: hasPlaces,
-        always: ["geojson"], // the data of the places, whatever is drawn of it
         ...drawn((isMoving) => (isMoving && isMuch ? null : this.#made!.cells)),
         regions: () => this.#made?.regions ?? [],
       },
