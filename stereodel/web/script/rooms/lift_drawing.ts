@@ -1,7 +1,7 @@
 /** The picture of the Lift room: a sheet that bends onto a ball, under the plane that it was. */
 
 import { holdsHidden, traceOutlines, traceRegions, type Rings, type Side } from "../drawing/arcs.ts";
-import { ballSurface, drawArcs, drawDots, planeSurface, ridgeArcs } from "../drawing/ball.ts";
+import { arcsBetween, ballSurface, drawArcs, drawDots, planeSurface } from "../drawing/ball.ts";
 import type { Surface } from "../drawing/ball.ts";
 import { drawParts, type IsOn, type Part } from "../drawing/parts.ts";
 import { cornersOf, traceCorners, traceDisc, traceSegment } from "../drawing/pen.ts";
@@ -121,7 +121,11 @@ export class LiftPicture {
       { layer: "seeing", draw: (pen, on) => on.#drawSeeing(pen) },
       { isThere: isBent, draw: (pen, on) => on.#drawBehind(pen, isOn("triangles") && !isMoving) },
       { layer: "triangles", draw: (pen, on) => on.surface.lines(pen, "delaunay", sites.delaunay.edges) },
-      { layer: "cells", draw: (pen, on) => pen.within({ region: on.#region }, () => on.#drawRidges(pen)) },
+      {
+        layer: "cells",
+        isThere: sites.delaunay.dimension === 2,
+        draw: (pen, on) => pen.within({ region: on.#region }, () => on.#drawRidges(pen)),
+      },
       {
         draw: (pen, on) =>
           pen.draw("side", isFlat ? on.#region : (path) => traceOutlines(path, on.#disc, on.#border("front"))),
@@ -246,7 +250,8 @@ export class LiftPicture {
       return pen.lines("voronoi", places);
     }
     const looks = Array.from({ length: sites.count }, (_, site) => this.#look(...sites.place(site)));
-    drawArcs(pen, this.#disc, "voronoi", ridgeArcs(new SphericalVoronoi(looks.flat())));
+    const { vertices, ridgeVertices } = new SphericalVoronoi(looks.flat());
+    drawArcs(pen, this.#disc, "voronoi", arcsBetween(vertices, ridgeVertices));
   }
 }
 

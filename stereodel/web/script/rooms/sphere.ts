@@ -306,14 +306,13 @@ class SphereRoom extends SiteRoom<SphereState> implements Room, Magnifiable {
     const near = Math.min(reach, REACH_OF_SITES, spacing / 3);
     const site = this.now.step === null ? this.#siteNear(this.#onBall, at, near) : null;
     if (site === null) return grabBall(this, this.#motion, at);
-    let isFirst = true;
+    const before = this.named;
     return {
-      move: (to) => {
-        if (isFirst) this.#history.push(this.named);
-        isFirst = false;
-        this.host.guarded(() => this.#moveSite(site, this.#onBall.under(to), "pointer"));
+      move: (to) => this.host.guarded(() => this.#place(site, this.#onBall.under(to), "pointer")),
+      end: () => {
+        this.#history.push(before);
+        this.#rest();
       },
-      end: () => this.#rest(),
     };
   }
 
@@ -400,46 +399,38 @@ class SphereRoom extends SiteRoom<SphereState> implements Room, Magnifiable {
     if (this.#bubble !== null) this.host.announcer.say(ofBubble(this.#bubble, this.#sites, this.#twin));
   }
 
-  /** Shows what a hand has made of the sites, and says it. */
-  #edit(named: NamedSites, held: number | null, words: () => string, reason: Reason = "state"): void {
-    this.now = { ...this.now, held };
-    this.#take(named, reason);
-    this.changed(words());
+  /** Places a site elsewhere, or one more, or without a place takes it out; and says so. */
+  #edit(site: number, place: Place | null, reason: Reason = "state"): void {
+    if (reason === "state") this.#history.push(this.named);
+    this.now = { ...this.now, held: place && site };
+    this.#take(edited(this.named, site, place), reason);
+    this.changed(place === null ? `Site ${site + 1} removed` : ofSite(this.#sites, site, this.named.names?.[site]));
   }
 
-  #moveSite(site: number, direction: Vector, reason: Reason = "state"): void {
-    const [lon, lat] = handPlace(lonLatOf(direction), this.now.lens.magnification);
+  #place(site: number, direction: Vector, reason?: Reason): void {
     this.put({ aim: direction });
-    const words = (): string => `Site ${site + 1}: ${latitude(lat)}, ${longitude(lon)}`;
-    this.#edit(edited(this.named, site, [lon, lat]), site, words, reason);
+    this.#edit(site, handPlace(lonLatOf(direction), this.now.lens.magnification), reason);
   }
 
   #moveHeld(place: Place): void {
-    if (this.now.held === null) return;
-    this.#history.push(this.named);
-    this.#moveSite(this.now.held, directionAt(place));
+    if (this.now.held !== null) this.#place(this.now.held, directionAt(place));
   }
 
   #add(direction: Vector): void {
-    const { count } = this.#sites;
-    this.#history.push(this.named);
-    this.#edit(
-      edited(this.named, count, handPlace(lonLatOf(direction), this.now.lens.magnification)),
-      count,
-      () => `Site ${count + 1} added, ${this.#sites.neighborCounts[count]} neighbours`,
-    );
-    this.table.reveal(count);
+    this.#place(this.count, direction);
+    this.table.reveal(this.count - 1);
   }
 
   #remove(site: number | null): void {
-    if (site === null) return;
-    this.#history.push(this.named);
-    this.#edit(edited(this.named, site, null), null, () => `Site ${site + 1} removed`);
+    if (site !== null) this.#edit(site, null);
   }
 
   #undo(): void {
     const before = this.#history.pop();
-    if (before !== undefined) this.host.guarded(() => this.#edit(before, null, () => "Undone"));
+    if (before === undefined) return;
+    this.now = { ...this.now, held: null };
+    this.host.guarded(() => this.#take(before));
+    this.changed("Undone");
   }
 
   /** Brings a site to the middle of the ball, and holds it. */

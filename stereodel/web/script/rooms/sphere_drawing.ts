@@ -87,7 +87,7 @@ export function sphereParts(scene: SphereScene): Part<Picture>[] {
     { isThere: !isThere, draw: (pen, on) => drawStep(pen, on, scene, step!) },
     { layer: "bubble", isThere: isAimed, isOver: true, draw: (_, on) => on.bubble(bubble!) },
     { isThere, isOver: true, draw: (pen, on) => balls.drawDots(pen, on, "held", [...(bubble?.sites ?? []), ...held]) },
-    // Then names: they stay while the bubble follows the pointer.
+    // The pole and names before numbers: they stay while the bubble follows the pointer.
     { isOver: true, draw: (pen, on) => on.isPlane || drawPole(pen, on, scene) },
     {
       layer: "names",
