@@ -82,7 +82,7 @@ export function sphereParts(scene: SphereScene): Part<Picture>[] {
     },
     { layer: "triangles", isThere, draw: (_, on) => on.triangles(), regions: () => sites.triangles() },
     { layer: "cells", isThere, draw: (_, on) => on.cells(), regions: () => sites.cells() },
-    { layer: "seeing", isThere, draw: (pen, on) => on.lines(pen, "hull", balls.sidesOf(sites.outline(seeing))) },
+    { layer: "seeing", isThere, draw: (pen, on) => on.lines(pen, "hull", balls.sidesOf(sites.rings(seeing)[0])) },
     { isThere, draw: (_, on) => on.dots() },
     { isThere: !isThere, draw: (pen, on) => drawStep(pen, on, scene, step!) },
     { layer: "bubble", isThere: isAimed, isOver: true, draw: (_, on) => on.bubble(bubble!) },
@@ -151,8 +151,14 @@ export function ballDrawing(disc: Disc): Drawing {
         ...surface,
         isPlane: false,
         seats,
-        hatch(style, marked) {
-          pen.draw(style, (path) => surface.region(path, sites.outline(marked), sites.regionHolds(marked, hidden)));
+        hatch(style, facets) {
+          // What lies beyond all triangles is one region: that of all facets that close the hull, if one is marked.
+          const { closing } = sites.delaunay;
+          const beyond = facets.find((mark, k) => mark === 1 && closing[k] === 1) ?? 0;
+          const marked = facets.map((mark, k) => (closing[k] ? beyond : mark));
+          const holds = marked[sites.facetAt(hidden) ?? closing.indexOf(1)] === 1;
+          const rings = sites.rings(marked);
+          pen.draw(style, (path) => rings.forEach((ring, k) => surface.region(path, ring, holds && k === 0)));
         },
         triangles: () => balls.drawLayers(pen, disc, map, [layers.edges]),
         cells: () => balls.drawLayers(pen, disc, map, [layers.ridges]),
@@ -201,7 +207,7 @@ export function planeDrawing(frame: PlaneFrame): Drawing {
         seats: new Seats(pen),
         // The outline runs clockwise on the picture, as the frame does: turned round, the path winds once between them.
         hatch: (style, marked) =>
-          pen.draw(style, (path) => surface.region(path, sites.outline(marked).reverse(), true)),
+          pen.draw(style, (path) => surface.region(path, sites.rings(marked)[0].reverse(), true)),
         triangles: () => surface.lines(pen, "delaunay", edgesOf(sites.delaunay, seeing)),
         cells: () => pen.lines("voronoi", balls.ridgeSegments(places(), 2 * size)),
         bubble(bubble) {
