@@ -9,7 +9,7 @@ import type { Messages } from "./messages.ts";
 const WIDEST = 4096;
 
 /** Width of the picture that is enough for a globe without a lens while it moves. */
-const COARSE = 512;
+const COARSE = 384;
 
 /** Pixels of the drawing for one of the screen, at rest and while it moves. */
 const SHARP = 2;

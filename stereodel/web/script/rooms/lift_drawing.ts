@@ -1,7 +1,7 @@
 /** The picture of the Lift room: a sheet that bends onto a ball, under the plane that it was. */
 
 import { holdsHidden, traceOutlines, traceRegions, type Rings, type Side } from "../drawing/arcs.ts";
-import { arcsBetween, ballSurface, drawArcs, drawDots, planeSurface } from "../drawing/ball.ts";
+import { arcsBetween, ballSurface, drawArcs, drawDots, planeSurface, sidesOf } from "../drawing/ball.ts";
 import type { Surface } from "../drawing/ball.ts";
 import { drawParts, type IsOn, type Part } from "../drawing/parts.ts";
 import { cornersOf, traceCorners, traceDisc, traceSegment } from "../drawing/pen.ts";
@@ -134,7 +134,7 @@ export class LiftPicture {
       { isThere: isBent, draw: (pen, on) => on.#drawPlane(pen) },
       {
         isThere: p !== null && q !== null && p !== q,
-        draw: (pen, on) => pen.draw("span", (path) => sides.forEach((side) => on.surface.line(path, p!, q!, side))),
+        draw: (pen, on) => sides.forEach((side) => on.surface.lines(pen, "span", [p!, q!], side)),
       },
       ...letters.flat(),
       { isThere: isBent, draw: (pen, on) => on.#drawPole(pen) },
@@ -172,14 +172,11 @@ export class LiftPicture {
     const ring = (): Rings => ringOf(hull.map((site) => this.#look(...sites.place(site))));
     const holds = sheet.isFlat || !holdsHidden(ring(), this.#away, false);
     pen.draw("hatch", (path) => this.surface.region(path, [...hull].reverse(), holds));
-    pen.draw("hull", (path) => {
-      if (sheet.isFlat) this.surface.ring(path, hull);
-      else
-        closing.forEach((a, k) => {
-          const b = closing[following(k)];
-          if (a < b || hull.includes(a)) this.surface.line(path, a, b);
-        });
-    });
+    const edge = (a: number, k: number): number[] => {
+      const b = closing[following(k)];
+      return a < b || hull.includes(a) ? [a, b] : [];
+    };
+    this.surface.lines(pen, "hull", sheet.isFlat ? sidesOf(hull) : [...closing].flatMap(edge));
   }
 
   /** The plane over the bent sheet, and the point of contact. */

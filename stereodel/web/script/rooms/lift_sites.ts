@@ -40,7 +40,7 @@ export class LiftSites {
 
   /** Sites of the convex hull, counterclockwise. */
   get hull(): number[] {
-    return chained(this.delaunay.convexHull);
+    return chained(this.delaunay.convexHull)[0];
   }
 
   /** Sides of the cells of the plane as x, y, x, y in turn. */

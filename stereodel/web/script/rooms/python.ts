@@ -152,7 +152,7 @@ function filled(text: string, values: Values, marks: Marks, isOn: IsOn): string 
 
 /** Pairs of coordinates as an array (n, 2) of Python, in lines of at most 88 letters; of many what reads their file. */
 function coordinates(values: Float64Array, file: string): string {
-  if (values.length > 2 * MOST_WRITTEN) return file;
+  if (values.length > 2 * MOST_WRITTEN) return `${file}  # the page draws over 1000 lines weaker where dense`;
   const rows = Array.from({ length: values.length / 2 }, (_, k) => `[${values[2 * k]}, ${values[2 * k + 1]}]`);
   const lines = rows.join(", ").replace(/(.{1,82}\],) /g, "$1\n    ");
   return rows.length === 0 ? "np.zeros((0, 2))" : `np.array([\n    ${lines},\n])`;

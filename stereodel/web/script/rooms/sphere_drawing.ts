@@ -82,7 +82,7 @@ export function sphereParts(scene: SphereScene): Part<Picture>[] {
     },
     { layer: "triangles", isThere, draw: (_, on) => on.triangles(), regions: () => sites.triangles() },
     { layer: "cells", isThere, draw: (_, on) => on.cells(), regions: () => sites.cells() },
-    { layer: "seeing", isThere, draw: (pen, on) => pen.draw("hull", (path) => on.ring(path, sites.outline(seeing))) },
+    { layer: "seeing", isThere, draw: (pen, on) => on.lines(pen, "hull", balls.sidesOf(sites.rings(seeing)[0])) },
     { isThere, draw: (_, on) => on.dots() },
     { isThere: !isThere, draw: (pen, on) => drawStep(pen, on, scene, step!) },
     { layer: "bubble", isThere: isAimed, isOver: true, draw: (_, on) => on.bubble(bubble!) },
@@ -151,8 +151,14 @@ export function ballDrawing(disc: Disc): Drawing {
         ...surface,
         isPlane: false,
         seats,
-        hatch(style, marked) {
-          pen.draw(style, (path) => surface.region(path, sites.outline(marked), sites.regionHolds(marked, hidden)));
+        hatch(style, facets) {
+          // What lies beyond all triangles is one region: that of all facets that close the hull, if one is marked.
+          const { closing } = sites.delaunay;
+          const beyond = facets.find((mark, k) => mark === 1 && closing[k] === 1) ?? 0;
+          const marked = facets.map((mark, k) => (closing[k] ? beyond : mark));
+          const holds = marked[sites.facetAt(hidden) ?? closing.indexOf(1)] === 1;
+          const rings = sites.rings(marked);
+          pen.draw(style, (path) => rings.forEach((ring, k) => surface.region(path, ring, holds && k === 0)));
         },
         triangles: () => balls.drawLayers(pen, disc, map, [layers.edges]),
         cells: () => balls.drawLayers(pen, disc, map, [layers.ridges]),
@@ -162,7 +168,7 @@ export function ballDrawing(disc: Disc): Drawing {
           if (rim === null) return;
           pen.draw("seen", (path) => traceCap(path, disc, rim));
           pen.draw("bubble-open", (path) => traceCircle(path, disc, rim));
-          pen.draw("triangle", (path) => surface.ring(path, bubble.sites));
+          surface.lines(pen, "triangle", balls.sidesOf(bubble.sites));
         },
         dots: () => balls.drawLayers(pen, disc, map, [layers.dots]),
         facet(path, sites) {
@@ -201,7 +207,7 @@ export function planeDrawing(frame: PlaneFrame): Drawing {
         seats: new Seats(pen),
         // The outline runs clockwise on the picture, as the frame does: turned round, the path winds once between them.
         hatch: (style, marked) =>
-          pen.draw(style, (path) => surface.region(path, sites.outline(marked).reverse(), true)),
+          pen.draw(style, (path) => surface.region(path, sites.rings(marked)[0].reverse(), true)),
         triangles: () => surface.lines(pen, "delaunay", edgesOf(sites.delaunay, seeing)),
         cells: () => pen.lines("voronoi", balls.ridgeSegments(places(), 2 * size)),
         bubble(bubble) {
@@ -216,20 +222,16 @@ export function planeDrawing(frame: PlaneFrame): Drawing {
           }
           const [x, y] = frame.place(image.middle);
           const r = image.radius * frame.scale;
-          const ring = (path: Path): void => {
-            path.moveTo(x + r, y);
-            path.ellipse(x, y, r, r, 0, 2 * Math.PI, 0, true);
-            path.closePath();
-          };
+          const ring = (path: Path): void => traceDisc(path, { x, y, r }, true);
           pen.draw("seen", (path) => {
             if (image.holdsPole) whole(path);
             ring(path);
           });
           pen.draw("bubble-open", ring);
-          if (!image.holdsPole) pen.draw("triangle", (path) => surface.ring(path, bubble.sites));
+          if (!image.holdsPole) surface.lines(pen, "triangle", balls.sidesOf(bubble.sites));
         },
         dots: () => balls.drawDots(pen, surface, "site", Array(sites.count).keys()),
-        facet: surface.ring,
+        facet: (path, sites) => surface.region(path, sites, false),
       };
       pen.within({ region: whole }, () => drawStratum(pen, plane, scene, stratum));
       if (stratum === "ground") pen.draw("frame", whole);
@@ -270,10 +272,10 @@ function drawStep(pen: Pen, on: Picture, { sites, twin }: SphereScene, step: Ins
   const isThere = (k: number): boolean => !fanSeeing[(k + outline.length) % outline.length];
   pen.draw("seen", (path) => outline.forEach((_, k) => isThere(k) && on.facet(path, row(fan, k))));
   on.lines(pen, "delaunay", edgesOf(before, beforeSeeing));
-  pen.draw("fan", (path) => outline.forEach((a, k) => (isThere(k) || isThere(k - 1)) && on.line(path, site, a)));
-  pen.draw("horizon", (path) =>
-    outline.forEach((a, k) => isThere(k) && on.line(path, a, outline[(k + 1) % outline.length])),
-  );
+  const spokes = outline.flatMap((a, k) => (isThere(k) || isThere(k - 1) ? [site, a] : []));
+  const rim = balls.sidesOf(outline).filter((_, k) => isThere(k >> 1));
+  on.lines(pen, "fan", spokes);
+  on.lines(pen, "horizon", rim);
   balls.drawDots(pen, on, "site", Array(site + 1).keys());
   balls.drawDots(pen, on, "held", [site]);
 }

@@ -72,21 +72,15 @@ export class SphereSites {
     return Uint8Array.from(bubbleSigns(this.xyz, facets, pole), (sign) => (sign >= 0 ? 1 : 0));
   }
 
-  /** The sites around the facets that are marked, such as those that see the pole, which are on the left. */
-  outline(marked: Uint8Array): number[] {
-    return outlineOf(this.delaunay, (facet) => marked[facet] === 1);
+  /** The closed lines of sites around the facets that are marked, such as those that see the pole: on their left. */
+  rings(marked: Uint8Array): number[][] {
+    const { simplices, neighbors } = this.delaunay;
+    return chained(boundaryOf(simplices, neighbors, (facet) => marked[facet] === 1));
   }
 
   /** Whether all sites lie in a hemisphere, so that some facets are no spherical triangles. */
   get hasClosing(): boolean {
     return this.delaunay.closing.includes(1);
-  }
-
-  /** Whether the region of the facets that are marked holds a direction. */
-  regionHolds(marked: Uint8Array, direction: Vector): boolean {
-    const facet = this.facetAt(direction);
-    if (facet !== null) return marked[facet] === 1;
-    return this.delaunay.closing.some((isClosing, k) => isClosing === 1 && marked[k] === 1);
   }
 
   /** The sites' cells; that of a site alone is all of the sphere. */
@@ -118,7 +112,7 @@ export class SphereSites {
   insertion(site: number) {
     const before = new SphericalDelaunay(this.xyz.subarray(0, 3 * site));
     const signs = bubbleSigns(this.xyz, before.simplices, this.site(site));
-    const outline = outlineOf(before, (facet) => signs[facet] > 0);
+    const [outline] = chained(boundaryOf(before.simplices, before.neighbors, (facet) => signs[facet] > 0));
     const fan = Int32Array.from(outline.flatMap((corner, k) => [corner, outline[(k + 1) % outline.length], site]));
     return { site, before, seeing: [...signs.keys()].filter((facet) => signs[facet] > 0), outline, fan };
   }
@@ -139,17 +133,16 @@ export function bubbleSigns(xyz: Float64Array, simplices: Int32Array, point: Vec
   return inBubble(corner(0), corner(1), corner(2), point);
 }
 
-/** The one closed line around some facets, on their left: their sides without a facet of theirs across. */
-function outlineOf({ simplices, neighbors }: SphericalDelaunay, isChosen: (facet: number) => boolean): number[] {
-  return chained(boundaryOf(simplices, neighbors, isChosen));
-}
-
-/** The closed line of directed edges, two points each, from the first one on. */
-export function chained(edges: Int32Array): number[] {
-  const next = new Map(Array.from({ length: edges.length / 2 }, (_, k) => [edges[2 * k], edges[2 * k + 1]]));
-  const outline = [...edges.subarray(0, 1)];
-  while (outline.length < next.size) outline.push(next.get(outline[outline.length - 1])!);
-  return outline;
+/** The closed lines of directed edges, two points each; without any an empty one. */
+export function chained(edges: Int32Array): number[][] {
+  const next = new Map<number, number[]>();
+  for (let k = 0; k < edges.length; k += 2) next.set(edges[k], [...(next.get(edges[k]) ?? []), edges[k + 1]]);
+  const lines = [...next.keys()].map((begin) => {
+    const line: number[] = [];
+    for (let at = begin, to; (to = next.get(at)!.pop()) !== undefined; at = to) line.push(at);
+    return line;
+  });
+  return lines.length === 0 ? [[]] : lines.filter((line) => line.length > 0);
 }
 
 /** What there is to say of sites without triangles, by their dimension. */
