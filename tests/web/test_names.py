@@ -12,7 +12,6 @@ ask = asking(f"""
 const context = {{ measureText: (text) => ({{ width: 6 * text.length }}) }};
 globalThis.document = {{ createElement: () => ({{ append() {{}}, getContext: () => context }}) }};
 const {{ drawNames, Seats }} = await import("{SCRIPT}/drawing/names.ts");
-const {{ drawSegments }} = await import("{SCRIPT}/drawing/ball.ts");
 const {{ Pen }} = await import("{SCRIPT}/drawing/pen.ts");
 """)
 
@@ -76,7 +75,7 @@ def test_lines_and_dots_are_weaker_only_where_they_are_dense(node):
       };
       const [found, dots] = [[], []];
       class Found extends Pen {
-        draw(_, trace, ink, { width, strokeOpacity }) {
+        path(_, trace, ink, { width, strokeOpacity }) {
           const count = [[0, 0], [0, 0]];
           trace({ moveTo: (x) => ++count[0][x < 300 ? 0 : 1], lineTo: (x) => ++count[1][x < 302 ? 0 : 1] });
           found.push([width * strokeOpacity / 1.1, ...count]);
@@ -86,7 +85,7 @@ def test_lines_and_dots_are_weaker_only_where_they_are_dense(node):
       const pen = new Found(600, 300, {}, 1);
       const [ends, places] = [[], []];
       each((x, y) => { ends.push(x, y, x + 2, y); places.push(x, y); });
-      drawSegments(pen, "delaunay", ends);
+      pen.lines("delaunay", ends);
       pen.dots("site", places);
       return { found, dots };
     })()"""

@@ -150,7 +150,7 @@ def test_the_insertion_goes_step_by_step(room):
 WITHOUT_TRIANGLES = {
     "": "No sites yet. Click the ball, or open a file.",
     "0,0": "All sites lie at one place: its cell is the whole sphere, and there are no triangles.",
-    "0,0,90,0": "Two sites: each has half of the sphere, and there are no triangles.",
+    "0,0,90,0": "All sites lie on one great circle: there are no triangles.",
 }
 
 
@@ -163,12 +163,12 @@ def test_without_triangles_the_sentence_says_so(room, sites):
 
 
 HATCHED, CELLS = "Hatched is where the facets go that see P.", "Cells differ: centres are not sent to centres."
-STRONG = "Delaunay triangles in strong lines, Voronoi cells in thin ones."
+TRIANGLES, THIN = "Delaunay triangles.", "Voronoi cells in thin lines."
 CAPTIONS = {
-    "on=triangles,seeing": ("Delaunay triangles.", f"The same triangles. {HATCHED}"),
-    "on=triangles,cells,seeing": (STRONG, f"The same triangles. {HATCHED} {CELLS}"),
-    "on=cells": ("Voronoi cells.", CELLS),
-    "on=cells&step=34": ("Delaunay triangles, new ones dashed.", "The same triangles."),
+    "on=triangles,seeing": (TRIANGLES, f"The same triangles. {HATCHED}"),
+    "on=triangles,cells,seeing": (f"{TRIANGLES} {THIN}", f"The same triangles. {CELLS} {HATCHED}"),
+    "on=cells": (THIN, CELLS),
+    "on=cells&step=34": (f"{TRIANGLES} New ones are dashed.", "The same triangles."),
     "on=cells&sites=0,0": ("", ""),
 }
 
