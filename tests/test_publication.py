@@ -259,10 +259,15 @@ def test_versions_of_the_documentation_are_listed_newest_first(tmp_path):
         (tmp_path / name).mkdir()
         if name != "other":
             (tmp_path / name / "index.html").touch()
-    subprocess.run(write, check=True)
+    for _ in range(2):  # upon what is there
+        subprocess.run(write, check=True)
     page = (tmp_path / "index.html").read_text(encoding="utf-8")
     assert re.findall(r'href="([\w.]+)/"', page) == ["1.0", "0.10", "0.10rc1", "0.9", "dev"]
     assert "url=1.0/" in page
+    assert (tmp_path / "stable").resolve() == tmp_path / "1.0"
+    newest, *others = json.loads((tmp_path / "versions.json").read_text(encoding="utf-8"))
+    assert newest == {"version": "1.0", "url": "/1.0/", "preferred": True}
+    assert [each["version"] for each in others if "preferred" not in each] == ["0.10", "0.10rc1", "0.9", "dev"]
 
 
 # Pythons

@@ -50,7 +50,6 @@ READABLE = {
     "russian.csv": "имя|Широта|Долгота\nА|55.75|37.62 в.д.\n",
     "coords.csv": "YCOORD,XCOORD,n\n1,2,3\n",
     "ends.csv": "lon,lat\n1,2,,\n3,4\n",
-    "packed.csv.gz": gzip.compress(b"lon,lat\n1,2\n"),
     "point.geojson": geojson(point(10, 48.4, 500)),
     "feature_alone.geojson": json.dumps({"type": "Feature", "geometry": point(1, 2)}),
     "multipoint.geojson": geojson({"type": "MultiPoint", "coordinates": [[1, 2]]}),
@@ -82,7 +81,7 @@ WRONG = {
     "cyrillic.csv": ("lon,lat,имя\n1,2,Москва\n".encode("cp1251"), "neither a picture nor a table in text"),
     "my book.xlsx": (b"PK\x03\x04\x14\0\x06\0", 'to make a page of it, type: stereodel web "my book.xlsx"'),
     "walk.gpx": ("<?xml version='1.0'?>\n<gpx></gpx>", "to make a page of it, type: stereodel web walk.gpx"),
-    "torn.csv.gz": (gzip.compress(b"lon,lat\n1,2\n")[:-9], "the compressed file is damaged"),
+    "packed.csv.gz": (gzip.compress(b"lon,lat\n1,2\n"), "type: stereodel web packed.csv.gz"),
     "torn.geojson": ('{"features":[1,', "the file is not JSON: "),
     "list.json": ("[1,2]", "the file is not a GeoJSON FeatureCollection of points"),
     "number.geojson": ('{"features":[3]}', "Row 1: a Point is needed, not no geometry"),
@@ -122,7 +121,7 @@ const answers = {{}};
 for (const [name, content] of Object.entries(files)) {{
   const bytes = new Uint8Array(Buffer.from(content, "base64"));
   try {{
-    const found = await readPoints(name, bytes, kind, chosen ?? undefined);
+    const found = readPoints(name, bytes, kind, chosen ?? undefined);
     const values = Object.fromEntries([...found.values].map(([name, all]) => [name, [...all]]));
     answers[name] = {{ ...found, places: [...found.places], values }};
   }} catch (error) {{

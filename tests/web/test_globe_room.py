@@ -141,7 +141,7 @@ def test_keys(globe):
     page.keyboard.press("0")
     assert globe.numbers("viewlon", "viewlat", "s", "focuslon") == (-8.0, 20.0, 3.0, 10.0)
     page.wait_for_timeout(700)
-    assert page.inner_text("#status") == "3.00 times at 48.0°\u202fN, 10.0°\u202fE"
+    assert page.inner_text("#status") == "3.00 times at 48.0°\u202fN 10.0°\u202fE, seen from 20.0°\u202fN 8.0°\u202fW"
 
 
 def test_the_pointer_is_followed_and_five_sides_are_drawn_with_the_lens_alone(globe):
@@ -186,7 +186,7 @@ def test_bubble_to_bubble(room):
     carry = bubble_to_bubble(taken, filled)
     middle, rim = (float(carry.scale_factor(p)) for p in (lonlat_to_xyz((10, 48)), taken.sample(4)[0]))
     words = f"In the middle of the bubble everything is {middle:.2f} times as large, at its rim {rim:.2f} times."
-    assert page.page.inner_text("[data-out=bubbles]") == words
+    assert page.page.inner_text("#room-globe [data-out=pointer]") == words
     globe = Globe(page, "#globe-before")
     at = partial(globe.seen_at, lens=MoebiusMap.identity(), view=View(10, 42))
     page.drag(at((10, 34)), at((10, 20)))  # the rim, to 28°

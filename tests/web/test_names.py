@@ -75,7 +75,7 @@ def test_lines_and_dots_are_weaker_only_where_they_are_dense(node):
       };
       const [found, dots] = [[], []];
       class Found extends Pen {
-        draw(_, trace, ink, { width, strokeOpacity }) {
+        path(_, trace, ink, { width, strokeOpacity }) {
           const count = [[0, 0], [0, 0]];
           trace({ moveTo: (x) => ++count[0][x < 300 ? 0 : 1], lineTo: (x) => ++count[1][x < 302 ? 0 : 1] });
           found.push([width * strokeOpacity / 1.1, ...count]);

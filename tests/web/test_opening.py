@@ -31,7 +31,7 @@ def table_of(page):
     return download.value.suggested_filename, download.value.path().read_bytes()
 
 
-READ_BY_PYTHON = ["no_rows.csv", "no_features.geojson", "cyrillic.csv", "walk.gpx", "other_system.geojson"]
+READ_BY_PYTHON = ["no_rows.csv", "no_features.geojson", "cyrillic.csv", "walk.gpx", "packed.csv.gz"]
 
 
 @pytest.mark.filterwarnings("ignore::stereodel.io.DataWarning")

@@ -42,6 +42,8 @@ STATES = {
         "sites=",
         "sites=10,20",
         "sites=20,-30,10,20,120,0,-110,10,-160,-50,60,70&pole-lon=20&pole-lat=-30&on=triangles,cells,seeing",
+        "sites=20,-30,10,20,60,0,-50,10,0,80&pole-lon=20&pole-lat=-30&on=triangles,cells,seeing",
+        "sites=-15,35,-55,75,50,-45,70,-55,40,55&pole-lon=55&pole-lat=50&view-lon=20&view-lat=30&on=triangles,seeing",
         "sites=0,0,180,0&on=cells",
         "sites=10,20,60,0,20,-30,10,20,-50,10&on=triangles,cells,seeing",
         "sites=0,0,40,0,80,0,120,0,-160,0,-90,0&on=triangles,cells",
@@ -161,7 +163,7 @@ def test_many_places_come_from_the_table_that_the_page_exports(room, visit, tmp_
     opened(page, name, table("places.csv", "\n".join(lines)))
     file, content = downloaded(page, "csv")
     lines = python_lines(page)
-    named = re.search(r'"([^"]*\.csv)"', lines)[1]
+    named = re.search(r'"([^"]*\.csv)".*  # the page draws over 1000 lines weaker', lines)[1]
     assert named in (file, "places.csv")
     (tmp_path / named).write_bytes(content)
     page.page.click(".foot summary")

@@ -63,17 +63,20 @@ def ring(lat):
 
 
 HATCHED, CELLS = "Hatched is where the facets go that see P.", "Cells differ: centres are not sent to centres."
-STRONG = "Delaunay triangles in strong lines, Voronoi cells in thin ones."
+TRIANGLES, THIN = "Delaunay triangles.", "Voronoi cells in thin lines."
 SAID = {
     "sites=": {"sentence": "No sites yet. Click the ball, or open a file."},
     "sites=0,0": {"sentence": "All sites lie at one place: its cell is the whole sphere, and there are no triangles."},
-    "sites=0,0,90,0": {"sentence": "Two sites: each has half of the sphere, and there are no triangles."},
+    "sites=0,0,90,0": {"sentence": "All sites lie on one great circle: there are no triangles."},
     ring(0): {"sentence": "All sites lie on one great circle: there are no triangles."},
     ring(30): {"sum": "20 facets on the sphere = 10 triangles in the plane + 10 facets that see\u00a0P"},
-    "on=triangles,seeing": {"on-ball": "Delaunay triangles.", "in-plane": f"The same triangles. {HATCHED}"},
-    "on=triangles,cells,seeing": {"on-ball": STRONG, "in-plane": f"The same triangles. {HATCHED} {CELLS}"},
-    "on=cells": {"on-ball": "Voronoi cells.", "in-plane": CELLS},
-    "on=cells&step=34": {"on-ball": "Delaunay triangles, new ones dashed.", "in-plane": "The same triangles."},
+    "on=triangles,seeing": {"on-ball": TRIANGLES, "in-plane": f"The same triangles. {HATCHED}"},
+    "on=triangles,cells,seeing": {
+        "on-ball": f"{TRIANGLES} {THIN}",
+        "in-plane": f"The same triangles. {CELLS} {HATCHED}",
+    },
+    "on=cells": {"on-ball": THIN, "in-plane": CELLS},
+    "on=cells&step=34": {"on-ball": f"{TRIANGLES} New ones are dashed.", "in-plane": "The same triangles."},
     "on=cells&sites=0,0": {"on-ball": "", "in-plane": ""},
 }
 """Sentences and captions."""

@@ -3,9 +3,8 @@
  * Delimited text and GeoJSON, in which `stereodel.io.read_points` finds the same places.
  */
 
-import { make } from "./dom.ts";
+import { find, make } from "./dom.ts";
 import type { RoomName } from "./link.ts";
-import type { Messages } from "./messages.ts";
 import type { RoomHost } from "./room.ts";
 import { findXY, numberColumns, placesOf } from "./tables/coordinates.ts";
 import { readTable, TableError, type PlacedTable, type TextTable } from "./tables/delimited.ts";
@@ -43,13 +42,13 @@ interface Elsewhere {
  * @param chosen names of the two columns, where they are known.
  * @throws TableError in words for the reader.
  */
-export async function readPoints(
+export function readPoints(
   file: string,
   content: Uint8Array,
   kind: Kind,
   chosen?: [string, string],
-): Promise<Points | Elsewhere> {
-  const text = decoded(await unpacked(content), file);
+): Points | Elsewhere {
+  const text = decoded(content, file);
   const isJson = /^\s*[{[]/.test(text);
   if (isJson && kind === "plane") return { room: "globe" };
   const read = isJson ? geojsonPoints(text) : ofText(text, kind, chosen);
@@ -97,16 +96,6 @@ function ofText(text: string, kind: Kind, chosen?: [string, string]): Elsewhere 
   return { places, table, axes };
 }
 
-async function unpacked(bytes: Uint8Array): Promise<Uint8Array> {
-  if (!(bytes[0] === 0x1f && bytes[1] === 0x8b)) return bytes;
-  try {
-    const stream = new Blob([bytes.slice()]).stream().pipeThrough(new DecompressionStream("gzip"));
-    return new Uint8Array(await new Response(stream).arrayBuffer());
-  } catch {
-    throw new TableError("the compressed file is damaged");
-  }
-}
-
 /** Text in UTF-8, UTF-16 or, by its letters, windows-1252; all else is for the library. */
 function decoded(bytes: Uint8Array, file: string): string {
   const head = String.fromCharCode(...bytes.subarray(0, 2));
@@ -137,7 +126,7 @@ export async function openPoints(
   const named = `${file.name}:`;
   const unchanged = (said: string): string => `${said}${/[.?!]$/.test(said) ? "" : "."} Nothing has changed.`;
   try {
-    const points = await readPoints(file.name, new Uint8Array(await file.arrayBuffer()), kind, chosen);
+    const points = readPoints(file.name, new Uint8Array(await file.arrayBuffer()), kind, chosen);
     if ("room" in points) return host.pass(points.room, file, points.columns);
     const { leftOut, wrong } = points;
     const open = (): void => {
@@ -149,27 +138,17 @@ export async function openPoints(
     messages.show(named, unchanged(wrong), { words: `Open without ${rows}`, act: open });
   } catch (error) {
     if (!(error instanceof TableError)) throw error;
-    const again = (...both: [string, string]): Promise<void> => openPoints(file, kind, host, opened, both);
-    if (error.columns.length > 1) askColumns(file.name, error.columns, kind, messages, again);
-    else messages.show(named, unchanged(error.message));
+    const { message, columns } = error;
+    if (columns.length < 2) return messages.show(named, unchanged(message));
+    const labels = (kind === "lonlat" ? ["Longitude", "Latitude"] : ["x", "y"]).map((axis, k) => {
+      const select = make("select", "", ...columns.map((name) => make("option", "", name)));
+      select.selectedIndex = k;
+      return make("label", "field column", `${axis} `, select);
+    });
+    const open = (): Promise<void> => {
+      const [first, second] = labels.map((label) => find<HTMLSelectElement>(label, "select").value);
+      return openPoints(file, kind, host, opened, [first, second]);
+    };
+    messages.show(`Which columns of ${file.name}?`, "", { words: "Open", act: () => void open() }, labels);
   }
-}
-
-/** Asks which columns of a file are meant; `chosen` gets two names. */
-function askColumns(
-  file: string,
-  names: readonly string[],
-  kind: Kind,
-  messages: Messages,
-  chosen: (first: string, second: string) => void,
-): void {
-  const kinds = kind === "lonlat" ? ["Longitude", "Latitude"] : ["x", "y"];
-  const selects = kinds.map((_, k) => {
-    const select = make("select", "", ...names.map((name) => make("option", "", name)));
-    select.selectedIndex = Math.min(k, names.length - 1);
-    return select;
-  });
-  const open = { words: "Open", act: () => chosen(selects[0].value, selects[1].value) };
-  const inputs = kinds.map((kind, k) => make("label", "field column", `${kind} `, selects[k]));
-  messages.show(`Which columns of ${file}?`, "", open, inputs);
 }

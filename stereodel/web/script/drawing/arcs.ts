@@ -278,40 +278,33 @@ const MOST_PIECES = 128;
  */
 export function bentRings(source: Float64Array, rings: Rings, map: MoebiusMap, radius: number): Rings {
   const { points: p, offsets } = rings;
-  const sides: { from: number; to: number }[] = [];
+  const sides: [from: number, to: number][] = [];
   const least = (SHORT / radius) ** 2;
   for (let ring = 0; ring + 1 < offsets.length; ++ring) {
     for (let from = offsets[ring]; from < offsets[ring + 1]; ++from) {
       const to = from + 1 < offsets[ring + 1] ? from + 1 : offsets[ring];
       const [i, j] = [3 * from, 3 * to];
       const [x, y, z] = [p[j] - p[i], p[j + 1] - p[i + 1], p[j + 2] - p[i + 2]];
-      if (x * x + y * y + z * z > least) sides.push({ from, to });
+      if (x * x + y * y + z * z > least) sides.push([from, to]);
     }
   }
-  const on = ({ from, to }: (typeof sides)[0], t: number): number[] =>
+  const on = ([from, to]: (typeof sides)[0], t: number): number[] =>
     [0, 1, 2].map((k) => (1 - t) * source[3 * from + k] + t * source[3 * to + k]);
-  const middles = map.apply(Float64Array.from(sides.flatMap((side) => on(side, 0.5))));
-  const between = sides.map((side, at): number[] => {
-    const three = [...row(p, side.from), ...row(middles, at), ...row(p, side.to)];
-    const pieces = Math.ceil(Math.sqrt((radius * bow(three)) / LEAST_BOW));
-    const count = Math.max(1, Math.min(MOST_PIECES, pieces));
+  const middles = map.apply(sides.flatMap((side) => on(side, 0.5)));
+  const shift = new Uint32Array(p.length / 3 + 1); // how many points more there are before each
+  const between = sides.flatMap((side, at) => {
+    const [from, to] = side;
+    const bent = (radius * bow([...row(p, from), ...row(middles, at), ...row(p, to)])) / LEAST_BOW;
+    const count = Math.max(1, Math.min(MOST_PIECES, Math.ceil(Math.sqrt(bent))));
+    shift[from + 1] = count - 1;
     return Array.from({ length: count - 1 }, (_, k) => on(side, (k + 1) / count)).flat();
   });
-  const images = map.apply(Float64Array.from(between.flat()));
-  if (images.length === 0) return rings;
-  const bent = new Float64Array(p.length + images.length);
-  const moved = Uint32Array.from(offsets);
-  let [ring, done, taken] = [0, 0, 0];
-  const follow = (end: number): void => {
-    bent.set(p.subarray(done, end), done + taken);
-    for (done = end; 3 * offsets[ring] < end; ++ring) moved[ring] += taken / 3;
-  };
-  sides.forEach(({ from }, at) => {
-    follow(3 * from + 3);
-    const more = images.subarray(taken, taken + between[at].length);
-    bent.set(more, done + taken);
-    taken += more.length;
-  });
-  follow(p.length + 1); // the last offset, too
-  return { points: bent, offsets: moved };
+  if (between.length === 0) return rings;
+  for (let k = 1; k < shift.length; ++k) shift[k] += shift[k - 1];
+  const images = map.apply(between);
+  const points = new Float64Array(p.length + images.length);
+  for (let i = 0; i < p.length; ++i) points[i + 3 * shift[Math.floor(i / 3)]] = p[i];
+  for (const [from] of sides)
+    points.set(images.subarray(3 * shift[from], 3 * shift[from + 1]), 3 * (from + 1 + shift[from]));
+  return { points, offsets: Uint32Array.from(offsets, (offset) => offset + shift[offset]) };
 }

@@ -67,19 +67,14 @@ export function magnified(sight: Sight, point: Vector, factor: number, isNorthUp
   }
   const source = sourceOf(sightMap(sight), point);
   const weaker = { focus: lens.focus, magnification: Math.max(1, lens.magnification * factor) };
-  return { lens: weaker, view: holding(view, imageOf(lensMap(weaker), source), point, isNorthUp) };
-}
-
-/** The view that has a direction of the ball at a point of the view, from the one before by the shortest way. */
-export function holding(view: View, direction: Vector, point: Vector, isNorthUp: boolean): View {
-  return isNorthUp ? view.holding(direction, point) : view.dragged(view.seen(direction), point);
+  return { lens: weaker, view: view.holding(imageOf(lensMap(weaker), source), point, isNorthUp) };
 }
 
 /** With another focus, while a direction of the Earth stays where it is seen. */
 export function focused(sight: Sight, focus: Vector, isNorthUp: boolean): Sight {
   const lens = { ...sight.lens, focus };
   const point = imageOf(sightMap(sight), focus);
-  return { lens, view: holding(sight.view, focus, point, isNorthUp) };
+  return { lens, view: sight.view.holding(focus, point, isNorthUp) };
 }
 
 /** Part of the way from one sight to another: logarithms of magnifications go straight, views the short way. */
