@@ -94,6 +94,13 @@ def test_a_database_with_a_changed_definition(tmp_path):
         read_points(tmp_path / "a.gpkg")
 
 
+def test_columns_of_one_name():
+    doubled = frame().assign(other=1.0)
+    doubled.columns = [{"other": "name"}.get(name, name) for name in doubled.columns]
+    with pytest.raises(ValueError, match="there are several columns with the name 'name'"):
+        read_points(doubled)
+
+
 def test_shapefiles_with_a_cut_table(tmp_path):
     """GDAL reads no column where the header is cut."""
     frame().to_file(tmp_path / "a.shp")

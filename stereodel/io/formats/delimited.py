@@ -5,7 +5,6 @@ from __future__ import annotations
 import csv
 import io
 import re
-from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from itertools import islice
 from types import SimpleNamespace
@@ -19,7 +18,7 @@ from stereodel.constants import MOST_COLUMNS, MOST_LINE
 from stereodel.io.formats import Content, FileFormat, Wanted
 from stereodel.io.formats.columns import NUMBER, OTHER, blanked, check_held, decoded, fields, readings, texts, why_not
 from stereodel.io.formats.foreign import SourceFile
-from stereodel.io.formats.names import has_lonlat, left_out, listed, note
+from stereodel.io.formats.names import check_different, has_lonlat, left_out, listed, note
 from stereodel.io.formats.notation import angle, is_place
 
 SEPARATORS = ",;\t|"
@@ -191,8 +190,7 @@ def _header(top: Lines, wanted: Wanted) -> tuple[int, list[str], Lines]:
     if header not in places and 2 * sum(map(bool, map(NUMBER.fullmatch, names))) > sum(map(bool, names)):
         numbered = [f"column_{k + 1}" for k in range(len(names))]
         return 0, ["lon", "lat"] if len(names) == 2 and known.isdisjoint(numbered) else numbered, top[header:]
-    if repeated := sorted(name for name, times in Counter(names).items() if name and times > 1):
-        raise ValueError(f"there are several columns with the name {listed(repeated)}; give each another one")
+    check_different(filter(None, names))
     return header + 1, names, top[header + 1 :]
 
 

@@ -17,7 +17,7 @@ from stereodel._extras import OnUse, optional
 from stereodel._tasks.progress import Progress
 from stereodel.io.formats import Content, wkb
 from stereodel.io.formats.columns import as_text, column, of_objects, plain_cells
-from stereodel.io.formats.names import NoPointError, beside, index_columns, left_out
+from stereodel.io.formats.names import NoPointError, beside, check_different, index_columns, left_out
 
 shapely: Any = OnUse(lambda: optional("shapely", "geo"))
 arrow: Any = OnUse(lambda: optional("pyarrow", "geo"))
@@ -166,10 +166,12 @@ class Frame(Content):
 
     def columns(self) -> dict[str, Column]:
         """The columns that are not geometries, and the index if that is more than row numbers."""
-        names = [name for name in getattr(self.frame, "columns", ()) if self.frame[name].dtype != "geometry"]
+        every = getattr(self.frame, "columns", ())
+        check_different(map(str, every))
+        names = [name for name in every if self.frame[name].dtype != "geometry"]
         columns = {str(name): self.frame[name] for name in names}
-        every = beside(columns, index_columns(self.frame)) | columns
-        return {name: of_objects(values.to_numpy()) for name, values in every.items()}
+        all_columns = beside(columns, index_columns(self.frame)) | columns
+        return {name: of_objects(values.to_numpy()) for name, values in all_columns.items()}
 
     def places(self, *, skip_missing: bool) -> tuple[Column, Column] | None:
         """Both coordinates in degrees of rows that are points, NaN where one is missing."""

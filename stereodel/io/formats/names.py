@@ -6,6 +6,7 @@ import json
 import os
 import re
 import warnings
+from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from contextvars import ContextVar
@@ -168,6 +169,12 @@ def _find(names: Sequence[str], kind: str, given: str | None) -> str:
 def words(name: str) -> set[str]:
     """Words of a column name in lower case, split at punctuation and where a capital follows a small letter."""
     return set(re.split(r"[\W\d_]+", re.sub(r"(?<=[a-z])(?=[A-Z])", " ", name).casefold())) - {""}
+
+
+def check_different(names: Iterable[str]) -> None:
+    """A ValueError for a name that several columns have."""
+    if repeated := sorted(name for name, times in Counter(names).items() if times > 1):
+        raise ValueError(f"there are several columns with the name {listed(repeated)}; give each another one")
 
 
 def listed(names: Sequence[str]) -> str:

@@ -28,7 +28,8 @@ def read(file: SourceFile, _: Wanted) -> Content:
         # Text that repeats is read as it is packed, each once.
         names = [field.name for field in parquet.read_schema(io.BytesIO(content)) if field.type in ("string", "binary")]
         table = parquet.read_table(io.BytesIO(content), read_dictionary=names)
-    check_size(sum(_letters(table[name]) for name in names), len(content))
+        letters = sum(_letters(table[name]) for name in names)
+    check_size(letters, len(content))
     with told():
         if b"geo" not in (table.schema.metadata or {}):
             return Content({name: of_arrow(table[name]) for name in table.column_names})
