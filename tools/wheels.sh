@@ -90,11 +90,7 @@ if [[ " ${machines[*]} " == *" $(uname -m) "* ]]; then
     done
     if ((tried < 2)); then said+=("the wheel of Python 3.12 was tried on fewer than two"); fi
 fi
-if [[ " ${machines[*]} " == *" aarch64 "* && $(uname -m) != aarch64 ]]; then
-    if [[ -n ${AARCH64_ROOT:-} ]]; then
-        tools/emulated.sh "$AARCH64_ROOT" dist/*-cp312-abi3-*aarch64.whl
-    else
-        said+=("aarch64: compiled and checked, not run; AARCH64_ROOT may name a root folder with its Python (tools/emulated.sh)")
-    fi
-fi
+for machine in "${machines[@]}"; do
+    [[ $machine == "$(uname -m)" ]] || said+=("$machine: compiled and checked, not run; tools/emulated.sh tries such a wheel")
+done
 if [[ ${#said[@]} -gt 0 ]]; then printf '%s\n' "${said[@]}"; fi
