@@ -44,8 +44,7 @@ tag=$(git tag --points-at HEAD 'v*')
 for file in CITATION.cff conda/recipe.yaml stereodel/web/script/package.json; do
     grep -qE "version\"?: \"?$version\"?,?$" "$file" || die "the version of $file is not $version, that of stereodel/__init__.py"
 done
-notes=Unreleased
-[[ -z $tag ]] || notes=$version
+if [[ -z $tag ]] && ! grep -qF "## [$version]" CHANGELOG.md; then notes=Unreleased; else notes=$version; fi
 tools/release_notes.sh "$notes" >/dev/null
 
 archives() {
@@ -70,7 +69,7 @@ wheels=("$dist"/*.whl)
 for archive in "$source_archive" "$npm_archive" "${wheels[@]}"; do
     [[ ${archive##*/} == stereodel-"$version"[-.]* ]] || die "${archive##*/} is not of version $version"
 done
-for wheel in "${wheels[@]}"; do python tools/archives.py "$source_archive" "$wheel"; done
+python tools/archives.py "$source_archive" "${wheels[@]}" || die "the archives do not hold what they must"
 
 roots() {
     local wheel tag versions each interpreter log said

@@ -20,6 +20,7 @@ said=()
 
 rm -rf dist "$build/source" "$build/raw"
 archive=$(tools/source_archive.sh "$venv" dist)
+python tools/archives.py "$archive" # before minutes of compiling
 mkdir -p "$build/source"
 tar -xzmf "$archive" -C "$build/source" --strip-components=1 # with times of today: what is compiled is never older
 
@@ -68,8 +69,8 @@ echo "Checking" >&2
 quietly tools/check_archives.sh "$venv"
 for wheel in dist/*.whl; do
     [[ $wheel == *-manylinux* ]] || die "$wheel is not for manylinux"
-    python tools/archives.py "$archive" "$wheel"
 done
+python tools/archives.py "$archive" dist/*.whl
 
 if [[ " ${machines[*]} " == *" $(uname -m) "* ]]; then
     tried=0
