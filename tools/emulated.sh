@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Usage: tools/emulated.sh WHEEL
-# Try a wheel for another machine under emulation, with that machine's C library and Python, as Debian's packages unpack (by
-# mmdebstrap, once), and NumPy for it from the package index. Says what is missing, if it cannot.
+# Try a wheel for another machine under emulation, with a root of Debian's packages of its C library, Python and what NumPy
+# is linked with (by mmdebstrap, once), and NumPy for it from the package index. Says what is missing, if it cannot.
 source "$(dirname "${BASH_SOURCE[0]}")/shell.sh"
 wheel=$1
 machine=$(sed -E 's/.*_([a-z]+[0-9]+(_64)?)\.whl$/\1/' <<<"$wheel")
@@ -18,7 +18,7 @@ if [[ ! -e $root/usr/bin/python3 ]]; then
     mkdir -p "$build"
     # A mirror may be older than the dates in it allow.
     quietly mmdebstrap --variant=extract --architectures="${machine/aarch64/arm64}" \
-        --aptopt='Acquire::Check-Valid-Until "false"' --include=python3-minimal,libpython3-stdlib stable "$root"
+        --aptopt='Acquire::Check-Valid-Until "false"' --include=python3-minimal,libpython3-stdlib,libstdc++6 stable "$root"
 fi
 # Where the loader is looked for; distributions have this link in a package of their own.
 [[ -e $root/lib ]] || ln -s usr/lib "$root/lib"
