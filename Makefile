@@ -112,6 +112,8 @@ lint: $(VENV)/installed-lint ## what check does, without the documentation
 	$(BIN)/python tools/tracked_text.py
 	PATH=$(CURDIR)/$(BIN):$$PATH npm --prefix stereodel/web/script --silent run check
 	$(BIN)/zizmor --offline --quiet --strict-collection .github
+	PATH=$(CURDIR)/$(BIN):$$PATH actionlint
+	$(BIN)/check-jsonschema --builtin-schema vendor.citation-file-format CITATION.cff
 
 web: $(VENV)/installed-web ## build the interactive page's kernel and scripts into stereodel/web/built
 	@tools/build_web.sh $(VENV)

@@ -1,9 +1,14 @@
 """Sphinx configuration. The gallery runs the figure scripts through the library's own rendering; nothing is fetched."""
 
+import os
 import re
 import sys
 import warnings
+from html import escape
 from pathlib import Path
+
+from docutils import nodes
+from sphinx.util.images import get_image_size
 
 import stereodel
 from stereodel.web import web
@@ -17,7 +22,9 @@ from javascript_api import write_javascript_api  # noqa: E402
 project = "stereodel"
 author = "The stereodel developers"
 copyright = "the stereodel developers, MIT licence"
-version = release = stereodel.__version__
+# The workflow builds a tag, as v1.2.0, or "dev", to lie beside other versions on one site.
+among_others = os.environ.get("STEREODEL_DOCUMENTATION", "").removeprefix("v")
+version = release = among_others or stereodel.__version__
 
 extensions = [
     "sphinx.ext.autodoc",
@@ -49,9 +56,11 @@ html_theme = "pydata_sphinx_theme"
 html_static_path = ["_static"]
 html_css_files = ["stereodel.css"]
 html_title = "stereodel"
+html_context = {"default_mode": "auto"}
 html_show_sourcelink = False
 html_copy_source = False
 html_theme_options = {
+    "logo": {"text": f"stereodel {release}"},
     "navigation_with_keys": False,
     "show_prev_next": False,
     "navbar_align": "left",
@@ -61,6 +70,13 @@ html_theme_options = {
     "footer_end": [],
     "secondary_sidebar_items": {"**": ["page-toc"], "index": [], "paper": []},
 }
+if among_others:  # tools/documentation_versions.sh writes the list
+    html_theme_options |= {
+        "switcher": {"json_url": "../versions.json", "version_match": release},
+        "check_switcher": False,
+        "navbar_end": ["version-switcher", "theme-switcher", "navbar-icon-links"],
+        "show_version_warning_banner": True,
+    }
 html_sidebars = {
     "**": ["sidebar-nav-bs"],
     # The first page has no section; the widest tables want its room.
@@ -102,8 +118,12 @@ def write_interactive_page(app, problem):
 
 
 def break_between_words(_app, _page, _template, context, _doctree):
-    """Long names, as of files and tests, break after a slash, colon or underscore; copied they are as before."""
+    """Long names, as of files and tests, break after a slash, colon or underscore; copied they are as before.
+
+    The corner of a table heads nothing.
+    """
     if "body" in context:
+        context["body"] = re.sub(r'<th class="head[^"]*"><p></p></th>', "<td></td>", context["body"])
         context["body"] = re.sub(
             r'(?<=<span class="pre">)[^<]{16,}',
             lambda name: re.sub(r"(/|::|_(?=[^_<]))(?=\w)", r"\1<wbr>", name[0]),
@@ -111,9 +131,34 @@ def break_between_words(_app, _page, _template, context, _doctree):
         )
 
 
+def describe_page(_app, _page, _template, context, doctree):
+    """What a search engine says of a page: its first paragraph."""
+    paragraphs = doctree.findall(nodes.paragraph) if doctree else ()
+    first = next((each.astext() for each in paragraphs if not isinstance(each.parent, nodes.Admonition)), "")
+    if first:
+        text = escape(" ".join(first.split()))
+        context["metatags"] = context.get("metatags", "") + f'<meta name="description" content="{text}"/>'
+
+
+def size_pictures(app, _page, _template, context, _doctree):
+    """Room is kept for pictures until they come, and those below come when they are near."""
+    sources = {name: source for source, name in app.builder.images.items()}
+
+    def sized(picture):
+        source = sources.get(picture[1], f"gallery/images/{picture[1]}")  # the gallery has a way of its own
+        width, height = get_image_size(Path(app.srcdir, source)) or (0, 0)
+        first = picture.start() == context["body"].index("<img ")
+        room = f'width="{width}" height="{height}" ' if width else ""
+        return picture[0].replace("<img ", f"<img {room}" + ("" if first else 'loading="lazy" '))
+
+    if "body" in context:
+        context["body"] = re.sub(r'<img [^>]*src="[^"]*_images/([^"]+)"', sized, context["body"])
+
+
 def setup(app):
     """After numpydoc, which listens at the default priority."""
     app.connect("builder-inited", write_javascript_api)
-    app.connect("html-page-context", break_between_words)
+    for change in (break_between_words, describe_page, size_pictures):
+        app.connect("html-page-context", change)
     app.connect("autodoc-process-docstring", escape_bars, priority=900)
     app.connect("build-finished", write_interactive_page)

@@ -4,6 +4,7 @@ import os
 import shutil
 from pathlib import Path
 
+from PIL import Image
 from sphinx_gallery.scrapers import figure_rst
 
 WRITE_TO = Path(__file__).resolve().parent / "_build" / "gallery-figures"
@@ -34,6 +35,10 @@ def written_pictures(block, block_vars, gallery_conf):
         if source.is_file():
             target = Path(next(block_vars["image_path_iterator"])).with_suffix(source.suffix)
             shutil.move(source, target)
+            if target.suffix == ".gif":  # in the overview stands a picture of the film: five films would be 10 MB
+                with Image.open(target) as film:
+                    film.seek(film.n_frames // 2)
+                    film.convert("RGB").save(target.with_suffix(".png"))
             targets.append(str(target))
     return figure_rst(targets, gallery_conf["src_dir"])
 

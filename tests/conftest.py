@@ -8,6 +8,7 @@ from collections import Counter
 from contextlib import suppress
 from pathlib import Path
 
+import numpy as np
 import pytest
 from hypothesis import settings
 
@@ -20,6 +21,12 @@ sys.path.insert(0, str(ROOT))
 for profile, examples in {"quick": 25, "thorough": 500}.items():
     settings.register_profile(profile, deadline=None, max_examples=examples, derandomize=bool(os.environ.get("CI")))
 settings.load_profile("quick")  # `make test-thorough` takes the other by --hypothesis-profile
+
+
+@pytest.fixture
+def rng():
+    """Random numbers, in every test from the beginning."""
+    return np.random.default_rng(7)
 
 
 @pytest.fixture

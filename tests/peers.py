@@ -25,10 +25,6 @@ def node(code, folder):
     return ["node", "lines.mjs"], f"console.log({NEXT!r});"
 
 
-def shell(code, folder):
-    return ["bash", "-euc", code], f"echo '{NEXT}'"
-
-
 def compiled(code, folder):
     """Lines of C++ are those of one function; what they include and name stands before it."""
     head, body = [], []
@@ -46,7 +42,7 @@ RUNS = {
     "stripy": python_of("python_numpy1"),
     "cartopy": python_of("cartopy"),
     "d3_geo_voronoi": node,
-    "gmt": shell,
+    "gmt": lambda code, folder: (["bash", "-euc", code], f"echo '{NEXT}'"),
     "cgal": compiled,
 }
 """How the neighbour's lines are run, where `benchmarks/install_peers.sh` can install it. ESMF comes by no index."""

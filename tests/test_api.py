@@ -13,7 +13,6 @@ import stereodel
 from stereodel._docs import shared
 from tools import names
 
-DOCS = Path(__file__).resolve().parent.parent / "docs"
 PUBLIC = {name: getattr(stereodel, name) for name in stereodel.__all__}
 PACKAGES = {name: importlib.import_module(name) for name in ("stereodel", *names.PACKAGES)}
 # Further points, the angle that goes with an axis, the parts of a value: no options, though they may be left out.
@@ -35,7 +34,7 @@ def test_names_are_listed_once_and_in_order():
 
 def reference(module):
     """Names that the API reference lists under a module."""
-    text = (DOCS / "api" / "index.rst").read_text(encoding="utf-8")
+    text = ((Path(__file__).resolve().parent.parent / "docs") / "api" / "index.rst").read_text(encoding="utf-8")
     parts = re.split(r"^\.\. currentmodule:: (\S+)$", text, flags=re.MULTILINE)
     sections = zip(parts[1::2], parts[2::2], strict=True)
     return {

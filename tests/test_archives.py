@@ -83,6 +83,17 @@ def test_what_is_compiled_in_has_its_notice():
     assert [line for line in rights if line not in notices] == []
 
 
+def test_scripts_and_styles_of_the_page_bring_nothing_of_others():
+    """No package of npm and no font; what is compiled in and what is data is checked above and below."""
+    web = ROOT / "stereodel" / "web"
+    sources = [path for path in web.glob("script/**/*.[tc]s*") if "node_modules" not in path.parts]
+    texts = [path.read_text(encoding="utf-8") for path in [*sources, *web.glob("built/*.css")]]
+    named = {name for text in texts for name in re.findall(r'^(?:import|export|\}).* from "([^.][^"]*)";$', text, re.M)}
+    assert named <= {"stereodel", "page:shared"}  # our own, by the names that users and the bundler have for them
+    assert len(texts) > 50
+    assert "@font-face" not in "".join(texts)
+
+
 def test_a_wheel_whose_data_are_not_those_of_its_bill_is_refused(tmp_path):
     bill = (ROOT / "NOTICES.cdx.json").read_bytes()
     listed = [part["name"] for part in json.loads(bill)["components"] if part.get("type") == "data"]

@@ -20,8 +20,6 @@ ROOT = Path(__file__).resolve().parent.parent
 LEDGER = (ROOT / "docs" / "paper.md").read_text(encoding="utf-8")
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 ROWS = dict(re.findall(r"^\| (P\d+) \|(.*)$", LEDGER, re.MULTILINE))
-NAMES = sorted(set(re.findall(r"\{py:\w+\}`~([\w.]+)`", LEDGER)))
-TESTS = sorted(set(re.findall(r"`(tests/[\w/.]+\.py)(?:::(\w+))?`", LEDGER)))
 FIGURES = sorted(set(re.findall(r"gallery/(\w+)", LEDGER)))
 
 
@@ -40,7 +38,7 @@ def test_row_names_function_test_and_figure_or_says_why_not(row):
     assert figures
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", sorted(set(re.findall(r"\{py:\w+\}`~([\w.]+)`", LEDGER))))
 def test_named_object_exists(name):
     parts = name.split(".")
     for split in range(len(parts), 0, -1):
@@ -53,7 +51,7 @@ def test_named_object_exists(name):
         found = getattr(found, part)
 
 
-@pytest.mark.parametrize(("path", "name"), TESTS)
+@pytest.mark.parametrize(("path", "name"), sorted(set(re.findall(r"`(tests/[\w/.]+\.py)(?:::(\w+))?`", LEDGER))))
 def test_named_test_exists(path, name):
     tree = ast.parse((ROOT / path).read_text(encoding="utf-8"))
     defined = {node.name for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)}
@@ -163,7 +161,6 @@ def test_the_gallery_runs_every_script():
 
 # Commands that pages show run, and print what is said.
 
-SHOWN = ["docs/command_line.md", "docs/recipes.md", "docs/start.md", "README.md"]
 BY_DAY = [
     ("README.md", "stereodel voronoi cities.csv -o -"),
     ("docs/recipes.md", "stereodel voronoi stations.csv -o - | cut -d, -f3,5 | head -4"),
@@ -176,7 +173,7 @@ SHELL = f"stereodel() {{ '{sys.executable}' -c 'from stereodel.cli import app; a
 
 
 def pages():
-    for page in SHOWN:
+    for page in ["docs/command_line.md", "docs/recipes.md", "docs/start.md", "README.md"]:
         for command, printed in sessions((ROOT / page).read_text(encoding="utf-8")):
             day = (page, command) in BY_DAY
             yield pytest.param(page, command, printed, id=command, marks=[] if day else pytest.mark.thorough)

@@ -157,18 +157,20 @@ def test_actions_are_pinned_by_commits_and_the_same_everywhere():
     assert len({pin.partition("@")[0] for pin in pins}) == len(pins) > 5
 
 
+NEWEST = workflow("tests")["jobs"]["newest"]["strategy"]["matrix"]["python"]
+"""Those whose kernel is tried, as they are without a lock or younger than libraries of files and pictures."""
+
+
 def test_workflows_run_every_python():
     matrix = workflow("tests")["jobs"]["python"]["strategy"]["matrix"]["python"]
     first = workflow("tests")["jobs"]["change"]["steps"][1]["with"]["python-version"]
     assert [first, *matrix] == PYTHONS
-    lockless = workflow("tests")["jobs"]["free-threads"]["steps"][1]["with"]["python-version"]
-    assert lockless == f"{PYTHONS[-1]}t"
+    assert NEWEST[0] == f"{PYTHONS[-1]}t"
 
 
 def test_wheels_are_built_for_every_system_and_python():
     settings = PROJECT["tool"]["cibuildwheel"]
-    built = [f"cp{version.replace('.', '')}-*" for version in PYTHONS]
-    assert settings["build"].split() == [*built, built[-1].replace("-", "t-")]
+    assert settings["build"].split() == [f"cp{version.replace('.', '')}-*" for version in [*PYTHONS, *NEWEST]]
     systems = [entry["system"] for entry in workflow("wheels")["jobs"]["wheels"]["strategy"]["matrix"]["include"]]
     assert {system.partition("-")[0] for system in systems} == {"linux", "macos", "windows", "pyodide"}
     assert "musllinux" in str(settings["linux"])
@@ -203,10 +205,12 @@ def test_a_called_job_asks_for_no_more_than_its_caller_has(name):
 
 def test_only_the_job_that_publishes_may_prove_who_it_is():
     asking = {name for path in WORKFLOWS for name, asked, _ in called_jobs(path.stem) if "id-token" in asked}
-    assert asking == {"documentation.deploy", "release.publish"}
+    assert asking == {"documentation.deploy", "release.publish", "release.npm"}
     jobs = workflow("release")["jobs"]
     assert workflow("release")[True] == {"push": {"tags": ["v*"]}}
-    assert jobs["publish"]["if"] == "startsWith(github.ref, 'refs/tags/v')"
+    for name in ("publish", "npm"):
+        assert jobs[name]["if"] == "startsWith(github.ref, 'refs/tags/v')"
+        assert jobs[name]["environment"] == "publication"
     assert jobs["publish"]["steps"][-1]["with"] == {"attestations": True}
     assert not re.search(r"secrets\.|password|token:", read(".github/workflows/release.yml").replace("id-token:", ""))
 
@@ -214,8 +218,8 @@ def test_only_the_job_that_publishes_may_prove_who_it_is():
 def test_publication_waits_for_the_tests_and_asks_for_texts_fit_for_it():
     jobs = workflow("release")["jobs"]
     before = {"version", "archives", "tests", "wheels"}
-    assert set(wanted(jobs["publish"])) == set(jobs) - {"publish", "page"} == before
-    assert wanted(jobs["page"]) == ["publish"]
+    assert set(wanted(jobs["publish"])) == set(jobs) - {"publish", "npm", "page"} == before
+    assert wanted(jobs["npm"]) == wanted(jobs["page"]) == ["publish"]
     assert jobs["wheels"]["with"] == {"publication": True}
     assert workflow("wheels")["env"] == {"STEREODEL_PUBLICATION": "${{ inputs.publication && '1' || '' }}"}
     # Of Linux the wheels are built in a container, which gets what is named.
@@ -255,10 +259,15 @@ def test_versions_of_the_documentation_are_listed_newest_first(tmp_path):
         (tmp_path / name).mkdir()
         if name != "other":
             (tmp_path / name / "index.html").touch()
-    subprocess.run(write, check=True)
+    for _ in range(2):  # upon what is there
+        subprocess.run(write, check=True)
     page = (tmp_path / "index.html").read_text(encoding="utf-8")
     assert re.findall(r'href="([\w.]+)/"', page) == ["1.0", "0.10", "0.10rc1", "0.9", "dev"]
     assert "url=1.0/" in page
+    assert (tmp_path / "stable").resolve() == tmp_path / "1.0"
+    newest, *others = json.loads((tmp_path / "versions.json").read_text(encoding="utf-8"))
+    assert newest == {"version": "1.0", "url": "/1.0/", "preferred": True}
+    assert [each["version"] for each in others if "preferred" not in each] == ["0.10", "0.10rc1", "0.9", "dev"]
 
 
 # Pythons

@@ -2,7 +2,7 @@
 # Usage: tools/try_wheel.sh PYTHON WHEEL|INDEX
 # Try a wheel, or what an index at an address has, as users get it, in a new environment of PYTHON and with no compiler to
 # be found: with NumPy alone, with the command line, then by the README's first line, after which all its commands and
-# pictures must come out.
+# pictures must come out, and the examples of documentation and docstrings.
 source "$(dirname "${BASH_SOURCE[0]}")/shell.sh"
 python=$1
 if [[ $2 == http* ]]; then
@@ -29,7 +29,7 @@ for compiler in cc c++ gcc g++ clang clang++ cmake ninja make; do
 done
 install() {
     bare python -m pip --disable-pip-version-check -qq install --only-binary :all: --constraint "$pins" \
-        "${where[@]}" "$1"
+        "${where[@]}" "$@"
 }
 refused() { if bare "$@" >said 2>&1; then die "$* should fail"; fi; }
 advice() { bare python -c 'import sys; from stereodel._extras import installing; print(installing(sys.argv[1]))' "$1"; } # EXTRA
@@ -94,8 +94,14 @@ bare python modules.py vtk
 bare stereodel doctor >said || cat said # the machine may have no OpenGL
 if grep ' lacks ' said | grep -v '^  vtk '; then exit 1; fi
 # The scripts without the package beside them: it is the wheel's that they import.
-mkdir repository
-cp -r "$root"/{README.md,tools,figures} repository
+mkdir -p repository/{docs,tests}
+cp -r "$root"/{README.md,pyproject.toml,tools,figures} repository
+cp "$root"/docs/*.md repository/docs
+cp "$root"/tests/{conftest,tiers,test_docs}.py repository/tests
 cd repository
 bare python -m tools.page_commands README.md "$work/readme"
 bare python -m tools.pictures readme "$work/pictures"
+install pytest hypothesis duckdb distributed # these two are what pages show beside
+examples() { PATH=$bin:$PATH python -m pytest -q -p no:cacheprovider -m "not large" --durations=0 --durations-min=20 "$@"; }
+examples tests/test_docs.py -k "page_runs or dialogues or commands_print or readme_example"
+examples --pyargs stereodel -k "not to_polydata" # of docstrings, as it has no tests; that one needs the extra vtk, 580 MB

@@ -6,7 +6,7 @@ import glob
 import json
 import os
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final, Literal
@@ -228,12 +228,11 @@ def slices(content: Any, names: Sequence[str], first: int, last: int) -> Iterato
 
 @contextmanager
 def unchanged(file: PointFile) -> Iterator[Any]:
-    """A file, open, that is as it was before and after it is read; messages say which it is."""
-    with naming(file.path):
+    """A file, open, that is as it was before and after it is read, also where that errs; messages say which it is."""
+    with naming(file.path), ExitStack() as after:
         file.check()
-        with opened(file.path) as content:
-            yield content
-        file.check()
+        after.callback(file.check)
+        yield after.enter_context(opened(file.path))
 
 
 def _groups(content: Any, first: int, last: int) -> Iterator[tuple[int, int, int]]:

@@ -34,8 +34,10 @@ from stereodel.partitioned.store import (
     RESULTS,
     SCRATCH,
     Columns,
+    Left,
     Store,
     damaged,
+    do,
     load,
     load_json,
     load_plan,
@@ -245,11 +247,10 @@ def _clear(store: Store) -> None:
         own.rmdir()
 
 
-def align(store: Store, output: int) -> None:
+def align(store: Store, output: int) -> Left:
     """The files of some shares of the input."""
     pieces = groupby(_pieces(store, output), lambda piece: piece[0].file)
-    paths = [write_file(store, file, found) for file, found in pieces]
-    store.notes.keep("align", {}, paths, task=output)
+    return {}, [write_file(store, file, found) for file, found in pieces]
 
 
 def _pieces(store: Store, output: int) -> Iterator[tuple[RowRange, Columns]]:
@@ -349,12 +350,12 @@ class Passes:
         numbers = {"statistics": statistics | {"compact": compact}, "partitions": partitions}
         save_json(store.made / REPORT, plan.metadata | numbers)
 
-    def do(self, name: str, function: Callable[..., None], tasks: Sequence[int], **options: Any) -> list[Note]:
+    def do(self, name: str, function: Callable[..., Left], tasks: Sequence[int], **options: Any) -> list[Note]:
         """The notes of the tasks of a pass, in order; noted at the end, as what they wrote may be deleted then.
 
         What counts is what they left on the disk: a task whose files are gone is done again.
         """
-        work = partial(function, self.store, **options)
+        work = partial(do, function, name, self.store, **options)
         return list(self.store.notes.once(name, lambda: {"notes": self._done(name, work, tasks)})["notes"])
 
     def _done(self, name: str, work: Callable[[int], None], tasks: Sequence[int]) -> list[Note]:

@@ -27,7 +27,7 @@ from stereodel.partitioned.passes import Execution, Passes, Results, execute, to
 from stereodel.partitioned.plan import Plan, Question, source_of
 from stereodel.partitioned.rounds import Index, Mesh, Rounds, Sample, Verdict, clock, measured, triangulation
 from stereodel.partitioned.stars import distances, write_rows
-from stereodel.partitioned.store import KEPT, Columns, Store, load_plan
+from stereodel.partitioned.store import KEPT, Columns, Left, Store, load_plan
 from stereodel.triangulation import SphericalDelaunay
 
 ROOM: Final = 1_000_000
@@ -201,7 +201,7 @@ def points_of(question: Question) -> Store:
     return Store.ended(Path(question.run))
 
 
-def take_values(store: Store, share: int) -> None:
+def take_values(store: Store, share: int) -> Left:
     """Values of a share of the points, in their order, as an array that later tasks map."""
     question = question_of(store.plan)
     plan, names = points_of(question).plan, question.values
@@ -211,10 +211,10 @@ def take_values(store: Store, share: int) -> None:
             for low, table in slices(content, names, first, last):
                 rows = range(low + 1, low + 1 + table.num_rows)
                 values.append(np.column_stack([doubles_of(table[name], name, rows, gaps=True) for name in names]))
-    store.notes.keep("values", {}, store.save("values", share, {"values": np.concatenate(values)}), task=share)
+    return {}, store.save("values", share, {"values": np.concatenate(values)})
 
 
-def answer(store: Store, part: int, limit: int) -> None:
+def answer(store: Store, part: int, limit: int) -> Left:
     """The answers at a partition's targets."""
     began, plan, question = clock(), store.plan, question_of(store.plan)
     points, numbers = (np.array(store.load("points", part, name)) for name in ("points", "numbers"))
@@ -228,7 +228,7 @@ def answer(store: Store, part: int, limit: int) -> None:
                 columns[name][rows] = column
     order = np.argsort(numbers)
     files = write_rows(store, part, {name: column[order] for name, column in columns.items()})
-    store.notes.keep("answer", {"points": len(numbers)} | measured(sizes, began), files, task=part)
+    return {"points": len(numbers)} | measured(sizes, began), files
 
 
 def indexed(folder: Path) -> Plan:

@@ -107,10 +107,11 @@ class Index:
             for low, high in _runs(own - np.arange(len(own))):
                 here = own[low:high]
                 starts = np.append(self.first[here], self.last[here[-1]])
-                check(self.sums[here], sums(starts, place, number), self._store.path("points", part, "points"))
                 rows = slice(int(starts[0]), int(starts[-1]))
-                points.append(place[rows])
-                numbers.append(number[rows])
+                points.append(np.array(place[rows]))  # in memory: what is checked stays so
+                numbers.append(np.array(number[rows]))
+                found = sums(starts - rows.start, points[-1], numbers[-1])
+                check(self.sums[here], found, self._store.path("points", part, "points"))
         block = np.concatenate([np.repeat(blocks, self.sizes[blocks]), alone])
         row = np.concatenate([*numbers, self.numbers[alone]])
         return Sample(np.concatenate([*points, self.points[alone]]), row.astype(np.int64), block)

@@ -15,7 +15,7 @@ from stereodel._arrays import FloatArray, IntArray, LongArray
 from stereodel._spaces import space_of, surface_of
 from stereodel.partitioned.files import read, sampled
 from stereodel.partitioned.plan import Plan, RowRange
-from stereodel.partitioned.store import Store, load, save, starts_of, sums
+from stereodel.partitioned.store import Left, Store, load, save, starts_of, sums
 from stereodel.sphere.vectors import units
 
 GROUPS: Final = 512
@@ -76,20 +76,17 @@ def is_compact(sample: FloatArray, parts: IntArray) -> bool:
     return bool(across <= COMPACT * usual)
 
 
-def sample(store: Store, part: int) -> None:
+def sample(store: Store, part: int) -> Left:
     """Points of some rows, evenly spread over those that would be a partition."""
     plan = store.plan
-    ranges = plan.parts[part]
-    rows = sum(last - first for _, first, last in ranges)
     total = max(SAMPLE, 64 * len(plan.parts))
     groups = -(-GROUPS // len(plan.parts))
     found: list[FloatArray] = []
-    for file, first, last in ranges:
+    for file, first, last in plan.parts[part]:
         count = -(-total * (last - first) // plan.size)
         found += sampled(plan.files[file], plan.columns, first, last, count, groups)
     points = np.concatenate(found)
-    files = store.save("sample", part, {"points": points if plan.columns.width == 2 else units(points)})
-    store.notes.keep("sample", {"points": len(points), "rows": rows}, files, task=part)
+    return {}, store.save("sample", part, {"points": points if plan.columns.width == 2 else units(points)})
 
 
 def is_laid_out(store: Store) -> bool:
@@ -117,7 +114,7 @@ def points_of(plan: Plan, ranges: Sequence[RowRange]) -> FloatArray:
     return points
 
 
-def spread(store: Store, share: int) -> None:
+def spread(store: Store, share: int) -> Left:
     """Points of a share of the input in the order of partitions; where each of these begins, and its CRC-32."""
     plan, tree = store.plan, load(store.scratch / "splits")
     points, first = points_of(plan, plan.shares[share]), plan.share_firsts[share]
@@ -126,27 +123,25 @@ def spread(store: Store, share: int) -> None:
     numbers = (order + first).astype(plan.number_type)
     points, bounds = points[order], np.cumsum(np.bincount(parts, minlength=leaves))
     starts = starts_of(np.append(0, bounds), points, numbers)
-    files = store.save("spread", share, {"points": points, "numbers": numbers, "starts": starts})
-    store.notes.keep("spread", {"points": len(points)}, files, task=share)
+    return {}, store.save("spread", share, {"points": points, "numbers": numbers, "starts": starts})
 
 
-def collect(store: Store, part: int) -> None:
+def collect(store: Store, part: int) -> Left:
     """Points of a partition in blocks, out of the shares that were spread."""
-    plan = store.plan
     found = [slices for _, slices in store.slices("spread", part, "points", "numbers")]
-    points = np.concatenate([np.empty((0, plan.columns.width)), *(each[0] for each in found)])
-    numbers = np.concatenate([np.empty(0, plan.number_type), *(each[1] for each in found)])
-    _keep(store, part, points, numbers)
+    points = np.concatenate([np.empty((0, store.plan.columns.width)), *(each[0] for each in found)])
+    numbers = np.concatenate([np.empty(0, store.plan.number_type), *(each[1] for each in found)])
+    return _keep(store, part, points, numbers)
 
 
-def take(store: Store, part: int) -> None:
+def take(store: Store, part: int) -> Left:
     """Points of a partition in blocks, out of the files that are one."""
     points = points_of(store.plan, store.plan.parts[part])
     first = store.plan.first_of(store.plan.parts[part])
-    _keep(store, part, points, np.arange(first, first + len(points)))
+    return _keep(store, part, points, np.arange(first, first + len(points)))
 
 
-def _keep(store: Store, part: int, points: FloatArray, numbers: LongArray) -> None:
+def _keep(store: Store, part: int, points: FloatArray, numbers: LongArray) -> Left:
     """Write a partition: its points in blocks, and of each block its box, its rows, one of its points, and CRC-32."""
     plan, width = store.plan, store.plan.columns.width
     order, starts, lows, highs = space_of(points).blocks(points, plan.block)
@@ -159,4 +154,4 @@ def _keep(store: Store, part: int, points: FloatArray, numbers: LongArray) -> No
     blocks["point"], blocks["number"] = points[starts[:-1]], numbers[starts[:-1]]
     blocks["sum"] = sums(starts, points, numbers)
     arrays = {"points": points, "numbers": numbers, "blocks": blocks}
-    store.notes.keep("collect", {"points": len(points)}, store.save("points", part, arrays), task=part)
+    return {"points": len(points)}, store.save("points", part, arrays)

@@ -17,7 +17,7 @@ from stereodel.io.formats.map_rows import MapRows
 from stereodel.io.formats.parquet import write_parquet
 from stereodel.io.rows_of import rows_of
 from stereodel.partitioned.rounds import Index, Mesh, Rounds, Sample, Verdict, clock, measured, triangulation
-from stereodel.partitioned.store import Columns, Store, starts_of
+from stereodel.partitioned.store import Columns, Left, Store, starts_of
 from stereodel.sphere import angular_distance
 from stereodel.triangulation import PlanarDelaunay, PlanarVoronoi, SphericalVoronoi
 
@@ -169,7 +169,7 @@ def distances(a: FloatArray, b: FloatArray) -> FloatArray:
     return np.hypot(*(a - b).T) if a.shape[1] == 2 else np.radians(angular_distance(a, b))
 
 
-def solve(store: Store, part: int, limit: int) -> None:
+def solve(store: Store, part: int, limit: int) -> Left:
     """The stars of a partition's points, in files."""
     began, plan = clock(), store.plan
     stars = StarRounds(Index(store), limit, store, part)
@@ -205,7 +205,7 @@ def solve(store: Store, part: int, limit: int) -> None:
         with replacing(path) as temporary:
             write_parquet(whole, temporary, metadata=plan.metadata)
         files.append(path)
-    store.notes.keep("solve", summary | measured(stars.sizes, began), files, task=part)
+    return summary | measured(stars.sizes, began), files
 
 
 def write_rows(store: Store, part: int, columns: Columns, **more: Any) -> list[Path]:

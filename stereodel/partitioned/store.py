@@ -19,7 +19,8 @@ from __future__ import annotations
 import hashlib
 import json
 import shutil
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextvars import ContextVar
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import pairwise
@@ -32,7 +33,7 @@ import numpy.typing as npt
 
 from stereodel._arrays import LongArray
 from stereodel._extras import optional
-from stereodel._tasks.kept import Kept
+from stereodel._tasks.kept import Kept, Note
 from stereodel._tasks.whole_files import replacing
 from stereodel.io.formats.names import anew
 from stereodel.partitioned.plan import NAME, Plan
@@ -55,7 +56,13 @@ RESULTS: Final = ("rows", "triangles", "cells")
 ALIGNMENT: Final = 64
 """Bytes of which the header of an array is a multiple."""
 
+MAPPED: Final[ContextVar[set[Path]]] = ContextVar("MAPPED")
+"""Files whose bytes the task of this thread uses where they lie."""
+
 Columns = dict[str, npt.NDArray[Any]]
+
+Left = tuple[Note, list[Path]]
+"""What a task has to say, and the files that it wrote."""
 
 
 @dataclass(frozen=True)
@@ -135,6 +142,17 @@ class Store:
             shutil.rmtree(self.folder(folder), ignore_errors=True)
 
 
+def do(function: Callable[..., Left], name: str, store: Store, task: int, **options: Any) -> None:
+    """Do a task of a pass. If a file that it mapped has changed since, that is the error, whatever it found there."""
+    MAPPED.set(mapped := set[Path]())
+    try:
+        content, files = function(store, task, **options)
+    finally:
+        for path in mapped:
+            load(path)
+    store.notes.keep(name, content, files, task=task)
+
+
 def load_plan(folder: Path) -> Plan:
     """The plan of a folder; of equal files the one that was read before."""
     path = folder / NAME
@@ -168,6 +186,7 @@ def load(path: Path, *, checked: bool = True) -> npt.NDArray[Any]:
     """
     array, total = _mapped(path)
     if checked:
+        MAPPED.get(set()).add(path)
         state = path.stat()
         _check(path, total, state.st_mtime_ns, state.st_ino)
     return array

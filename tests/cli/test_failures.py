@@ -12,8 +12,6 @@ from stereodel._tasks.interrupts import signals
 from stereodel.cli import app
 from stereodel.cli.application import Commands, reporting
 
-COMMANDS = [command.name for command in app.registered_commands]
-
 
 def of_a_codec():
     """An interruption while text was decoded."""
@@ -99,7 +97,7 @@ def test_an_interruption_that_was_lost_stops_the_work_at_its_next_sign_of_progre
     assert done == ["begun"]
 
 
-@pytest.mark.parametrize("command", COMMANDS)
+@pytest.mark.parametrize("command", [command.name for command in app.registered_commands])
 def test_help_shows_an_example_and_names_what_is_given(command):
     """In capitals or as choices, never as types of Python; at most twenty options, and then those under headings."""
     ran = CliRunner().invoke(app, [command, "--help"], env={"COLUMNS": "100"})

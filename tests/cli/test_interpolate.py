@@ -73,8 +73,7 @@ def test_a_grid_across_the_180th_meridian(values, run, rows):
 
 
 @pytest.mark.parametrize("kind", ["tif", "nc", "csv"])
-def test_a_grid_of_the_plane(folder, run, rows, kind):
-    rng = np.random.default_rng(4)
+def test_a_grid_of_the_plane(rng, folder, run, rows, kind):
     points = np.column_stack([rng.uniform(3_410_000, 3_553_000, 90), rng.uniform(5_300_000, 5_422_000, 90)])
     points = np.concatenate([points, [[3_410_000, 5_300_000], [3_553_001, 5_422_000]]])
     values = 2 * points[:, 0] - points[:, 1]

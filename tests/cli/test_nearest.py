@@ -62,9 +62,8 @@ def test_geodetic_latitudes_can_change_the_answer(folder, run, rows):
 @pytest.mark.parametrize("exclude_self", [True, False])
 @pytest.mark.parametrize("max_distance", [None, 30.0])
 @pytest.mark.parametrize("count", [1, 3, 40, 100])
-def test_pairs_are_those_of_brute_force(planar, exclude_self, max_distance, count):
+def test_pairs_are_those_of_brute_force(rng, planar, exclude_self, max_distance, count):
     """Sites of which several are at one place, and queries at some of these places and beside them."""
-    rng = np.random.default_rng(5)
     places = rng.uniform(-80, 80, (12, 2))
     sites, queries = places[rng.integers(0, 12, 60)], np.concatenate([places[:8], rng.uniform(-80, 80, (6, 2))])
     sites, queries = (sites, queries) if planar else (lonlat_to_xyz(sites), lonlat_to_xyz(queries))
@@ -108,7 +107,6 @@ SQUARES = """{"type": "FeatureCollection", "features": [
 {"type": "Feature", "properties": {"name": "mark", "size": null}, "geometry": {"type": "Point", "coordinates": [5, 5]}},
 {"type": "Feature", "properties": {"name": "road", "size": 1}, "geometry":
  {"type": "LineString", "coordinates": [[3, 0], [3, 2]]}}]}"""
-INNER = "lon,lat,name\n1,1,in\n2.9,1,near\n5,6,north\n"
 
 
 @pytest.fixture
@@ -116,7 +114,7 @@ def shapes(folder):
     """Shapes in two formats, and a table of points; distances are on a sphere, with plain latitudes."""
     geopandas.read_file(io.StringIO(SQUARES)).to_crs("EPSG:3857").to_file(folder / "shapes.gpkg")
     (folder / "shapes.geojson").write_text(SQUARES, encoding="utf-8")
-    (folder / "inner.csv").write_text(INNER, encoding="utf-8")
+    (folder / "inner.csv").write_text("lon,lat,name\n1,1,in\n2.9,1,near\n5,6,north\n", encoding="utf-8")
     return ("--of", "inner.csv", "--latitude", "spherical", "-o", "-")
 
 

@@ -15,9 +15,8 @@ from stereodel.partitioned import Run
 
 
 @pytest.fixture
-def points(folder):
+def points(rng, folder):
     """Two files of points and one of the plane; the places of the first two."""
-    rng = np.random.default_rng(8)
     (folder / "points").mkdir()
     lonlat = np.column_stack([rng.uniform(-180, 180, 300), rng.uniform(-80, 80, 300)])
     for number, rows in enumerate((slice(0, 200), slice(200, 300))):

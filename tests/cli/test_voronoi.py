@@ -170,8 +170,7 @@ def test_values_of_other_points_by_cells(regions, run, rows):
     assert cells["sum_turnover"].to_dict() == {name: float(said[name][0]) for name in cells.index}
 
 
-def test_sums_by_cells_are_those_of_numpy(folder, run, rows):
-    rng = np.random.default_rng(8)
+def test_sums_by_cells_are_those_of_numpy(rng, folder, run, rows):
     sites, points = rng.uniform(-50, 50, (40, 2)), rng.uniform(-60, 60, (2000, 2))
     values = rng.normal(size=2000)
     for name, header, table in (("sites", "x,y", sites), ("of", "x,y,v", np.column_stack([points, values]))):

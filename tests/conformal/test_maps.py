@@ -11,11 +11,10 @@ from tests.conformal.test_moebius import turn_at
 from tests.examples import examples
 from tests.strategies import BETWEEN_POLES, decades
 
-MAGNIFICATIONS = decades(-3, 3)
 POINTS = np.random.default_rng(12).normal(size=(30, 3))
 
 
-@given(BETWEEN_POLES, MAGNIFICATIONS)
+@given(BETWEEN_POLES, decades(-3, 3))
 def test_p18_stretch_of_the_colatitude(focus, s):
     lens, center = fisheye(focus, magnification=s), lonlat_to_xyz(focus)
     chi = np.radians(angular_distance(POINTS, center))

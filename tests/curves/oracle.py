@@ -1,4 +1,4 @@
-"""What the tests of curves compare with: winding numbers by counting, stars told in a gnomonic plane, whole circles."""
+"""What the tests of curves compare with: distances from lines, stars told in a gnomonic plane, whole circles."""
 
 import numpy as np
 
@@ -7,29 +7,13 @@ from stereodel.curves import clip
 from stereodel.curves.borders import Cap
 from stereodel.curves.ragged import Ragged, offsets_of
 from stereodel.curves.trace import exact, great
+from tests.globe.sights import distance, winding
 from tests.sets import unit as units
-
-
-def winding(loops, places):
-    """Winding numbers of closed loops about places (n, 2)."""
-    total = np.zeros(len(places), dtype=int)
-    for loop in loops:
-        (x0, y0), (x1, y1) = (ends.T[:, None] for ends in (loop[:-1], loop[1:]))
-        x, y = places.T[:, :, None]
-        left = (x1 - x0) * (y - y0) - (x - x0) * (y1 - y0)
-        total += ((y0 <= y) & (y1 > y) & (left > 0)).sum(axis=1) - ((y0 > y) & (y1 <= y) & (left < 0)).sum(axis=1)
-    return total
 
 
 def off_lines(points, lines):
     """How far points (n, d) are from the nearest chord of lines."""
-    best = np.full(len(points), np.inf)
-    for line in lines:
-        start, chord = line[:-1], np.diff(line, axis=0)
-        share = np.einsum("ijk,jk->ij", points[:, None] - start, chord) / np.maximum(np.sum(chord**2, axis=1), 1e-300)
-        nearest = start + np.clip(share, 0, 1)[:, :, None] * chord
-        best = np.minimum(best, np.linalg.norm(points[:, None] - nearest, axis=2).min(axis=1))
-    return best
+    return np.min([np.full(len(points), np.inf), *(distance(points, line) for line in lines)], axis=0)
 
 
 def ring(points):

@@ -99,9 +99,8 @@ def test_an_end_on_the_plane_is_where_it_crosses():
 
 
 @pytest.mark.parametrize("view", [View(20, 30), StereographicView(-60, 10, angular_radius=130.0)])
-def test_pieces_of_circles_in_sight(view):
+def test_pieces_of_circles_in_sight(rng, view):
     """Ends against the closed form: where the circle's plane meets the plane of the rim."""
-    rng = np.random.default_rng(4)
     circles = [SphereCircle.around(rng.uniform((-180, -90), (180, 90)), rng.uniform(1, 179)) for _ in range(200)]
     arcs, _ = whole_circles(circles)
     arcs = arcs.turned(view.matrix)
@@ -164,9 +163,8 @@ def test_points_within_rounding_of_the_border_are_on_it(off):
     assert border.flat(below)[1, 0] == -180
 
 
-def test_rounding_along_180_cuts_nothing():
+def test_rounding_along_180_cuts_nothing(rng):
     """Arcs along the meridian but for rounding, which has them cross it twice by 1e-16: one piece each."""
-    rng = np.random.default_rng(7)
     lat = np.radians(np.sort(rng.uniform(-60, 60, (300, 2)), axis=1))
     ends = np.stack([-np.cos(lat), 4e-16 * rng.uniform(-1, 1, lat.shape), np.sin(lat)], axis=-1)
     pieces, flat = chains(great(ends[:, 0], ends[:, 1]), Antimeridian())

@@ -86,8 +86,7 @@ def test_a_line_that_begins_in_sight_and_a_closed_one():
     assert line.tolist() == [0]
 
 
-def test_lines_run_backwards_have_the_same_points():
-    rng = np.random.default_rng(2)
+def test_lines_run_backwards_have_the_same_points(rng):
     points = units(rng.normal(size=(9, 3)))
     cap = Cap(FRONT, 1e-3)
     pieces = cap.cut(great(points[:-1], points[1:]).turned(FRONT.matrix))
@@ -165,9 +164,8 @@ def test_cells_tile_the_disc(seed, size, view, tolerance):
     assert (deep[off_lines(places, loops) > 3 * tolerance] == 1).all()
 
 
-def test_the_rim_is_finer_than_the_chains():
+def test_the_rim_is_finer_than_the_chains(rng):
     """A rim as coarse as the chains crosses them, and ears then cover 1.8e-3 too much."""
-    rng = np.random.default_rng(3)
     for _ in range(10):
         circle = SphereCircle.around((rng.uniform(40, 140), rng.uniform(-60, 60)), rng.uniform(20, 80))
         loops, owner = in_sight(*whole_circles([circle]), FRONT, 1e-3)

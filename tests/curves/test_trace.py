@@ -40,9 +40,8 @@ def test_images_of_great_arcs_lie_on_their_arcs(seed):
     assert off_lines(images, [samples.values]).max() < tolerance * (1 + 1e-6) + 1e-9
 
 
-def test_half_turns_keep_their_angle():
+def test_half_turns_keep_their_angle(rng):
     """Rounding makes of a half turn's sine a tiny negative number, whose arc tangent is −π: no arc at all."""
-    rng = np.random.default_rng(8)
     start = units(rng.normal(size=(2000, 3)))
     normal = units(np.cross(start, rng.normal(size=(2000, 3))))
     arcs = great(start, -start, normal)
@@ -114,8 +113,7 @@ def test_sides_of_lines_and_longitudes_that_go_on():
     assert unwrapped(seam) is seam
 
 
-def test_some_edges_have_the_arcs_that_they_have_among_all():
-    rng = np.random.default_rng(4)
+def test_some_edges_have_the_arcs_that_they_have_among_all(rng):
     a = np.stack([rng.uniform(-180, 180, 40), rng.uniform(-90, 90, 40)], axis=1)
     b = a + rng.uniform(-60, 60, (40, 2))
     b[:, 1] = np.where(np.arange(40) % 4, np.clip(b[:, 1], -90, 90), a[:, 1])
@@ -129,9 +127,8 @@ def test_some_edges_have_the_arcs_that_they_have_among_all():
         assert np.bincount(part.edge).tolist() == np.bincount(arcs.edge)[some].tolist()
 
 
-def test_edges_stay_within_their_length():
+def test_edges_stay_within_their_length(rng):
     """No point of an edge is farther from its start; so no edge that comes near a place is left out."""
-    rng = np.random.default_rng(5)
     a = np.stack([rng.uniform(-180, 180, 200), rng.uniform(-90, 90, 200)], axis=1)
     b = a + rng.uniform(-150, 150, (200, 2))
     b[:, 1] = np.clip(b[:, 1], -90, 90)

@@ -20,7 +20,6 @@ from tools.data_sets import dump
 FOLDER = Path(stored.__file__).parent
 OTHERS = {"countries_50m", "countries_110m", "blue_marble"}
 """Stored as lines that several sets share (tests/data/test_natural_earth.py), or as a picture (below)."""
-SETS = sorted(data.sources().keys() - OTHERS)
 
 
 def loaded(name):
@@ -50,7 +49,7 @@ def test_another_file_is_refused(monkeypatch):
         stored.load("stars")
 
 
-@pytest.mark.parametrize("name", SETS)
+@pytest.mark.parametrize("name", sorted(data.sources().keys() - OTHERS))
 def test_columns_are_of_one_length_and_nobody_can_change_them(name):
     table = loaded(name)
     assert len(table.lonlat) == data.sources()[name]["rows"]

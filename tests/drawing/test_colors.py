@@ -10,8 +10,6 @@ from stereodel.drawing import ColorScale, DotStyle, LineStyle
 from stereodel.drawing.page.colors import as_color, as_colors
 from tests.refused import refused
 
-shares = st.floats(0, 1)
-
 
 @pytest.mark.parametrize(
     "value",
@@ -21,7 +19,7 @@ def test_words_are_matplotlibs(value):
     assert as_color(value) == to_rgba(value)
 
 
-@given(st.lists(shares, min_size=3, max_size=4))
+@given(st.lists(st.floats(0, 1), min_size=3, max_size=4))
 def test_numbers_are_taken_as_they_are_and_are_opaque_by_default(numbers):
     expected = (*numbers, 1.0)[:4]
     for given_as in (tuple(numbers), numbers, np.array(numbers)):

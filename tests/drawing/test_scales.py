@@ -123,12 +123,6 @@ def test_own_colours_and_missing_values():
     assert ColorScale(["red"], 0, 1)([0.3]).tolist() == [[1, 0, 0, 1]]
 
 
-def partitions(values, count):
-    """All ways to divide numbers in order into so many runs."""
-    for ends in combinations(range(1, len(values)), count - 1):
-        yield np.split(values, ends)
-
-
 def spread(runs):
     """The sum of squared deviations from the means, exactly."""
     exact = [[Fraction(float(value)) for value in run] for run in runs]
@@ -145,7 +139,8 @@ def test_natural_breaks_are_the_best_of_all_divisions(values, count):
     runs = np.split(ordered, np.searchsorted(ordered, begins))
     assert len(runs) == count
     assert all(map(len, runs))
-    assert spread(runs) == min(map(spread, partitions(ordered, count)))
+    others = (np.split(ordered, ends) for ends in combinations(range(1, len(ordered)), count - 1))
+    assert spread(runs) == min(map(spread, others))
 
 
 @given(st.lists(st.floats(-1e6, 1e6), min_size=2, max_size=40), st.sampled_from(get_args(Scheme)), st.integers(1, 8))

@@ -10,8 +10,7 @@ from tests.figures.scripts import FOLDER, arc_points, geometry
 from tests.figures.test_captions import hidden_up_to
 from tests.tiers import by_day
 
-PAGE = (FOLDER.parent / "docs" / "exercises.md").read_text(encoding="utf-8")
-QUESTIONS, ANSWERS = PAGE.split("## Answers")
+QUESTIONS, ANSWERS = (FOLDER.parent / "docs" / "exercises.md").read_text(encoding="utf-8").split("## Answers")
 
 
 def strays(g):

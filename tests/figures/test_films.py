@@ -11,7 +11,6 @@ from stereodel.sphere import graticule_patch
 from stereodel.triangulation import check_delaunay
 from tests.figures.scripts import FOLDER, script
 
-FILMS = tuple(path.stem for path in sorted(FOLDER.glob("anim_*.py")))
 SHORTEST = 2.0  # seconds for a line of words
 
 
@@ -25,7 +24,7 @@ def centers(page, *names):
     return found[np.lexsort(found.T)]
 
 
-@pytest.mark.parametrize("name", FILMS)
+@pytest.mark.parametrize("name", tuple(path.stem for path in sorted(FOLDER.glob("anim_*.py"))))
 def test_a_film_stands_still_for_its_words_and_begins_with_a_picture_that_does(name):
     film = script(name)["film"]()
     assert film.times[0] >= SHORTEST

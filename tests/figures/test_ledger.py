@@ -15,8 +15,11 @@ from stereodel.sphere import SphereCircle, angular_distance, great_circle_points
 from stereodel.triangulation import PlanarDelaunay, PlanarVoronoi, SphericalDelaunay, SphericalVoronoi, planar_part
 from stereodel.triangulation.sites import GHOST, PlaneSites, RaySites
 from tests import sets
+from tests.exact import unit, volume
 from tests.figures.scripts import script
 from tests.kernel.stages import OPEN
+from tests.reference import incircle_integer, orient2d_integer
+from tests.strategies import BETWEEN_POLES
 
 
 def triangles(simplices):
@@ -65,13 +68,6 @@ def recorded(monkeypatch, kind, name):
     return calls
 
 
-def bubble(*four):
-    """det(b̂−â, ĉ−â, p̂−â) in the digits of the context."""
-    exact = [[mpf(float(x)) for x in vector] for vector in four]
-    a, *others = [[x / mp.sqrt(mp.fsum(y * y for y in vector)) for x in vector] for vector in exact]
-    return mp.det(mp.matrix([[x - y for x, y in zip(v, a, strict=True)] for v in others]))
-
-
 def open_in_doubles(predicate, points, numbers):
     """Which of the tests of four points by number the kernel's filter leaves open."""
     rows = np.array(numbers, dtype=int).reshape(-1, 4)
@@ -85,7 +81,7 @@ def test_the_engine_counts_exact_ties_on_the_sphere(monkeypatch, rays):
     engine.run()
     left_open = open_in_doubles(probe.bubble, points, asked)
     with workdps(120):
-        ties = sum(abs(bubble(*points[four])) < mpf("1e-100") for four in left_open)
+        ties = sum(abs(volume(*map(unit, points[four]))) < mpf("1e-100") for four in left_open)
     assert engine.inconclusive == {"exact": ties}
     assert len(left_open) or rays.traits & {"random"}
     assert ties > 0 or not rays.traits & {"ties"}
@@ -99,30 +95,18 @@ def test_the_engine_counts_exact_ties_in_the_plane(monkeypatch, sites):
     engine.run()
     exact = [tuple(map(Fraction, row)) for row in points.tolist()]
     circles = open_in_doubles(probe.incircle, points, [four for four in asked if GHOST not in four])
-    ties = sum(incircle(*(exact[i] for i in four)) == 0 for four in circles)
-    ties += sum(orientation(*(exact[i] for i in four if i != GHOST)) == 0 for four in asked if GHOST in four)
+    ties = sum(incircle_integer(*(exact[i] for i in four)) == 0 for four in circles)
+    ties += sum(orient2d_integer(*(exact[i] for i in four if i != GHOST)) == 0 for four in asked if GHOST in four)
     assert engine.inconclusive == {"exact": ties}
     assert (ties > 0) == ("ties" in sites.traits)
-
-
-def orientation(a, b, c):
-    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
-
-
-def incircle(a, b, c, d):
-    rows = [(p[0] - d[0], p[1] - d[1]) for p in (a, b, c)]
-    (ax, ay), (bx, by), (cx, cy) = rows
-    a2, b2, c2 = (x * x + y * y for x, y in rows)
-    return ax * (by * c2 - cy * b2) - ay * (bx * c2 - cx * b2) + a2 * (bx * cy - cx * by)
 
 
 # P6: curvature makes the test conclusive.
 
 
 @pytest.mark.parametrize("size", [1e-4, 1e-6, 1e-8, 1e-10])
-def test_curvature_decides_the_exact_sign_in_a_flat_region(size):
+def test_curvature_decides_the_exact_sign_in_a_flat_region(rng, size):
     """Four points next to one small circle: the curvature form has the exact sign, the plain one guesses."""
-    rng = np.random.default_rng(9)
     fours, plain, signs, decided = [], [], [], []
     for _ in range(200):
         axis, u, v = np.linalg.qr(rng.normal(size=(3, 3)))[0]
@@ -134,7 +118,7 @@ def test_curvature_decides_the_exact_sign_in_a_flat_region(size):
         a, *others = four / np.linalg.norm(four, axis=1)[:, None]
         plain.append(np.sign(np.linalg.det(np.array(others) - a)))
         with workdps(120):
-            signs.append(int(mp.sign(bubble(*four))))
+            signs.append(int(mp.sign(volume(*map(unit, four)))))
     decided, plain, signs = map(np.array, (decided, plain, signs))
     assert (decided != 0).mean() > 0.9
     assert (decided == signs)[decided != 0].all()
@@ -236,10 +220,7 @@ def broken_in_plane(points, image):
     return len(triangles(PlanarDelaunay(points).simplices) ^ triangles(PlanarDelaunay(image).simplices))
 
 
-SIMILITUDES = [[[3, -4], [4, 3]], [[3, 4], [4, -3]], [[-2, 0], [0, -2]], [[0, 1], [1, 0]]]
-
-
-@pytest.mark.parametrize("matrix", SIMILITUDES)
+@pytest.mark.parametrize("matrix", [[[3, -4], [4, 3]], [[3, 4], [4, -3]], [[-2, 0], [0, -2]], [[0, 1], [1, 0]]])
 def test_similitudes_of_the_plane_keep_triangles(matrix):
     points = np.random.default_rng(8).integers(-(2**20), 2**20, size=(200, 2)).astype(float)
     assert broken_in_plane(points, points @ np.array(matrix, dtype=float).T + [5.0, -7.0]) == 0
@@ -271,10 +252,9 @@ def test_maps_that_keep_lines_or_triangles_but_not_both():
     assert len(triangles(PlanarDelaunay(points).simplices) & triangles(PlanarDelaunay(inverted).simplices)) > 300
 
 
-def test_from_the_sphere_to_the_plane_nothing_keeps_edges_and_triangles():
+def test_from_the_sphere_to_the_plane_nothing_keeps_edges_and_triangles(rng):
     points = sites_of_a_cap()
     arcs = [great_circle_points(points[i], points[i + 1], 9) for i in range(40)]
-    rng = np.random.default_rng(10)
     for _ in range(5):
         after = rng.normal(size=(2, 2))
         images = [Gnomonic(PLACE).forward(arc) @ after for arc in arcs]
@@ -304,10 +284,8 @@ def test_from_the_sphere_to_itself_only_rotations_and_inversions():
 
 # P25: conformal maps are rigid.
 
-LONLAT = st.tuples(st.floats(-180, 180), st.floats(-89, 89))
 
-
-@given(LONLAT, LONLAT, st.floats(1.5, 8), st.floats(0, 360), st.floats(0.1, 2))
+@given(BETWEEN_POLES, BETWEEN_POLES, st.floats(1.5, 8), st.floats(0, 360), st.floats(0.1, 2))
 def test_agreement_near_a_point_is_agreement_everywhere(focus, place, magnification, turn, size):
     """Three points of a neighbourhood, `size` degrees wide, and their images determine the map on the whole sphere."""
     lens = fisheye(focus, magnification=magnification) @ MoebiusMap.rotation(place, turn)

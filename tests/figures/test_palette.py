@@ -16,10 +16,9 @@ from stereodel.drawing.page.style import DOTS, LINES, MAP_LINES, fainter
 from tests.figures.scripts import FIGURES, FOLDER, page, path_points, script
 from tests.tiers import by_day
 
-MAPS = ("globe_europe", "globe_tissot")
 SCRIPTS = sorted(path.stem for kind in ("earth", "globe", "sky") for path in FOLDER.glob(f"{kind}_*.py"))
 by_name = pytest.mark.parametrize(
-    "name", by_day([*FIGURES, *MAPS], "fig03_bubbles", "fig06_sphere_size", "globe_tissot")
+    "name", by_day([*FIGURES, "globe_europe", "globe_tissot"], "fig03_bubbles", "fig06_sphere_size", "globe_tissot")
 )
 
 TEXT = 4.5

@@ -17,15 +17,13 @@ from stereodel.film import Film, Flight, Spin, Stop, standing
 from stereodel.globe import Globe
 from tests.tiers import by_day
 
-PARIS = (2.35, 48.86)
-
 
 @pytest.fixture(scope="module")
 def globe():
     globe = Globe()
     globe.add_land(resolution="110m")
     globe.add_coastlines(resolution="110m")
-    globe.add_points([PARIS])
+    globe.add_points([(2.35, 48.86)])
     return globe
 
 

@@ -18,7 +18,6 @@ from tests.refused import refused
 
 PARIS, NEW_YORK, TOKYO = (2.35, 48.86), (-74.0, 40.7), (139.7, 35.7)
 PLACES = st.tuples(st.floats(-180, 180), st.floats(-89, 89))
-STILL = GroupPath(MoebiusMap.identity(), MoebiusMap.identity())
 STOPS = st.builds(Stop, PLACES, st.floats(1, 50), st.floats(0, 3))
 
 
@@ -128,5 +127,5 @@ test_bad_motions_are_refused = refused(
     (lambda: Stop((48.86, 235.0)), "focus"),
     (lambda: Stop(PARIS, hold=-1.0), "hold"),
     *((lambda wrong=wrong: Spin(seconds=wrong), "seconds") for wrong in (0.0, np.nan)),
-    (lambda: Morph(STILL, View(0, 0), seconds=0.0), "seconds"),
+    (lambda: Morph(GroupPath(MoebiusMap.identity(), MoebiusMap.identity()), View(0, 0), seconds=0.0), "seconds"),
 )

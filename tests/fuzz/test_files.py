@@ -16,14 +16,12 @@ from stereodel.io import read_points
 from stereodel.io.reading import shapes_of
 from tests.fuzz.files import DOORS, REFUSED, seeds, wrong
 
-ROOT = Path(__file__).resolve().parent.parent.parent
-
 
 @pytest.mark.parametrize(("count", "seed"), [(69, 5), pytest.param(2000, 7, marks=pytest.mark.thorough, id="thorough")])
 def test_changed_files_are_read_or_refused_in_one_line(count, seed):
     """In a process of its own, as a crash would end it."""
     command = [sys.executable, "-m", "tests.fuzz.files", str(count), str(seed)]
-    ran = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
+    ran = subprocess.run(command, cwd=Path(__file__).resolve().parents[2], capture_output=True, text=True)
     assert ran.returncode == 0, ran.stdout + ran.stderr
     assert f"{count} changed files" in ran.stdout
 

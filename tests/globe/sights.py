@@ -6,23 +6,18 @@ from hypothesis import strategies as st
 from stereodel import MoebiusMap
 from stereodel.curves.view import StereographicView, View
 
-places = st.tuples(st.floats(-180, 180), st.floats(-90, 90))
 views = st.one_of(
     st.builds(View, st.floats(-180, 180), st.floats(-90, 90)),
     st.builds(StereographicView, st.floats(-180, 180), st.floats(-90, 90), angular_radius=st.floats(20, 150)),
 )
 
 
-def sizes(low, high):
-    """Magnifications between two powers of ten."""
-    return st.floats(low, high).map(lambda exponent: 10.0**exponent)
-
-
 def distance(points, line):
     """Of points (n, d) from a line through points (m, d)."""
-    a, way = line[:-1], np.diff(line, axis=0)
-    share = np.sum((points[:, None] - a) * way, axis=-1) / np.maximum(np.sum(way**2, axis=-1), 1e-300)
-    return np.linalg.norm(points[:, None] - a - np.clip(share, 0, 1)[..., None] * way, axis=-1).min(axis=1)
+    start, way = line[:-1], np.diff(line, axis=0)
+    share = np.einsum("ijk,jk->ij", points[:, None] - start, way) / np.maximum(np.sum(way**2, axis=1), 1e-300)
+    nearest = start + np.clip(share, 0, 1)[..., None] * way
+    return np.linalg.norm(points[:, None] - nearest, axis=-1).min(axis=1)
 
 
 def winding(loops, places):

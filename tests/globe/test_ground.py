@@ -12,8 +12,6 @@ from stereodel.drawing.page.sheets import GROUND, dark_color
 from stereodel.drawing.page.style import HALO_OPACITY, MAP_FILLS
 from stereodel.globe import Globe, Raster
 
-LENS = fisheye((10.0, 50.0), magnification=3.0)
-
 
 @pytest.mark.parametrize("layers", ["land", "cells", "raster"])
 def test_what_is_painted_is_what_is_drawn(layers):
@@ -28,7 +26,7 @@ def test_what_is_painted_is_what_is_drawn(layers):
         pixels = np.zeros((18, 36, 4), dtype=np.uint8)
         pixels[..., 0], pixels[..., 1], pixels[..., 3] = np.arange(36) * 7, 90, 255
         globe.add_raster(Raster(pixels), opacity=0.5)
-    page = globe.page(LENS, View(10, 40))
+    page = globe.page(fisheye((10.0, 50.0), magnification=3.0), View(10, 40))
     size = 1000
     picture = page.pixels(size=size, renderer="agg") / 255
     places = np.random.default_rng(4).uniform(0.1, 1.9, size=(300, 2))

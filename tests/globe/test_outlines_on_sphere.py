@@ -15,7 +15,8 @@ from stereodel.globe.outlines_on_sphere import SphereLines, SphereRegions
 from stereodel.sphere import SphereArc, SphereCircle
 from stereodel.sphere.vectors import turned
 from tests.examples import examples
-from tests.globe.sights import distance, length, places, sampled, sizes, views, winding
+from tests.globe.sights import distance, length, sampled, views, winding
+from tests.strategies import LONLAT, decades
 from tests.tiers import by_day
 
 NONE = MoebiusMap.identity()
@@ -50,7 +51,7 @@ def near_to(loops, xy):
 
 @examples(0.4)
 @example(focus=(0.0, -66.0), size=1e5, view=View(0.0, 0.0), name="south as in files")
-@given(focus=places, size=sizes(-3, 6), view=views, name=st.sampled_from(sorted(BOXES)))
+@given(focus=LONLAT, size=decades(-3, 6), view=views, name=st.sampled_from(sorted(BOXES)))
 def test_boxes_hold_what_they_should_under_every_lens(focus, size, view, name):
     """Winding numbers of the loops on the page against the box itself, at places all over the disc."""
     ring, (west, south, east, north) = BOXES[name]
@@ -112,7 +113,7 @@ def test_a_cell_may_hold_all_that_is_seen():
 # Far larger than the view, through a strong lens: its border is behind the globe, and no larger than a point there.
 @examples(0.4)
 @example(focus=(0.0, 0.0), size=1e4, view=View(0.0, 0.0), radius=152.0, at=(0.0, 0.0))
-@given(focus=places, size=sizes(-2, 4), view=views, radius=st.floats(1, 179), at=places)
+@given(focus=LONLAT, size=decades(-2, 4), view=views, radius=st.floats(1, 179), at=LONLAT)
 def test_the_insides_of_circles(focus, size, view, radius, at):
     circle = SphereCircle.around(at, radius)
     lens = fisheye(focus, magnification=size)
@@ -122,7 +123,7 @@ def test_the_insides_of_circles(focus, size, view, radius, at):
     np.testing.assert_array_equal(winding(loops, xy)[clear] > 0, circle.contains(xyz)[clear])
 
 
-@given(focus=places, size=sizes(-2, 4), view=views, name=st.sampled_from(sorted(BOXES)))
+@given(focus=LONLAT, size=decades(-2, 4), view=views, name=st.sampled_from(sorted(BOXES)))
 def test_edges_that_are_left_out_are_out_of_sight(focus, size, view, name):
     chart = Chart(fisheye(focus, magnification=size), view)
     regions = SphereRegions.of_lonlat([[BOXES[name][0]]])
@@ -162,7 +163,7 @@ def test_jumps_across_the_antimeridian_go_the_short_way():
     assert length(SphereLines.straight_in_lonlat([[(180, 10), (-180, 10), (-170, 10)]])) < np.radians(10)
 
 
-@given(start=places, end=places, focus=places, size=sizes(-2, 6), view=views)
+@given(start=LONLAT, end=LONLAT, focus=LONLAT, size=decades(-2, 6), view=views)
 def test_what_is_seen_of_an_arc_is_on_its_exact_image(start, end, focus, size, view):
     """All of the image in the disc is near what is drawn, and what is drawn is near the image."""
     a, b = lonlat_to_xyz([start, end])

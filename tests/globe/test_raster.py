@@ -10,9 +10,10 @@ from stereodel import _kernel_probe as probe
 from stereodel.curves.view import StereographicView, View
 from stereodel.globe import Raster
 from tests.examples import examples
-from tests.globe.sights import disc, places, sizes
+from tests.globe.sights import disc
 from tests.globe.supersampling import checkerboard, grid, noise, psnr, reference, zone_plate
 from tests.refused import refused
+from tests.strategies import LONLAT, decades
 
 PLAIN = MoebiusMap.identity()
 MILD, STRONG = (fisheye((20.0, 40.0), magnification=size) for size in (4.0, 20.0))
@@ -67,7 +68,7 @@ def test_no_seam(columns, lat, magnification):
     assert psnr(there.astype(float), turned.astype(float)) > (60 if columns % 16 == 0 else 32)
 
 
-@given(st.integers(0, 255), sizes(-3, 3), places)
+@given(st.integers(0, 255), decades(-3, 3), LONLAT)
 def test_one_colour_stays_one_colour(level, size, focus):
     raster = Raster(np.full((9, 18, 3), level, dtype=np.uint8))
     found = raster.warp(fisheye(focus, magnification=size), View(0, 0), 40)

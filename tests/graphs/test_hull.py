@@ -113,8 +113,7 @@ def test_cluster(space, spread):
 # Area and perimeter --------------------------------------------------------------------------------------------------
 
 
-def test_measures_of_the_plane_are_those_of_scipy():
-    rng = np.random.default_rng(1)
+def test_measures_of_the_plane_are_those_of_scipy(rng):
     for size in (3, 10, 500):
         points = rng.normal(size=(size, 2)) + [3, -1]
         theirs = scipy.spatial.ConvexHull(points)

@@ -85,9 +85,8 @@ def test_uneven_clusters_in_the_plane(size):
     prove(centres[rng.integers(0, size, 26)] + 1e-3 * rng.normal(size=(26, 2)))
 
 
-def test_hub():
+def test_hub(rng):
     """Points around one: half of the spokes are edges of the Urquhart graph, few have empty lunes."""
-    rng = np.random.default_rng(2)
     angle = rng.uniform(0, 2 * np.pi, 3000)
     radius = rng.uniform(1, 1 + 1e-9, 3000)
     points = np.vstack([[0, 0], radius[:, None] * np.column_stack([np.cos(angle), np.sin(angle)])])
@@ -100,8 +99,7 @@ def test_hub():
 
 @BOTH
 @pytest.mark.parametrize("graph", FROM_THE_INSIDE)
-def test_order_of_points_and_threads_change_nothing(graph, space):
-    rng = np.random.default_rng(3)
+def test_order_of_points_and_threads_change_nothing(rng, graph, space):
     points = space.lattice(rng, 12, 600)
     order, names = rng.permutation(len(points)), space.names(points)
 

@@ -1,12 +1,6 @@
 """What the tests of the interpolators share: random points of both spaces."""
 
-import numpy as np
 import pytest
-
-
-@pytest.fixture
-def rng():
-    return np.random.default_rng(7)
 
 
 @pytest.fixture(params=["plane", "sphere"])

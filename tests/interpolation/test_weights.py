@@ -180,7 +180,6 @@ def test_one_place_and_none(rng):
     assert np.isnan(NearestInterpolator(np.zeros((0, 2)), []).weights([[1, 2], [3, 4]]) @ []).all()
 
 
-GRID_POINT = st.tuples(st.integers(-4, 4), st.integers(-4, 4))
 INNER_POINT = st.tuples(st.integers(-15, 15), st.integers(-15, 15)).map(lambda p: (p[0] / 8, p[1] / 8))
 CORNERS = [(-4, -5), (5, -4), (4, 5), (-5, 4)]
 
@@ -201,7 +200,7 @@ def sibson(points, query):
     return [a / sum(areas) for a in areas]
 
 
-@given(st.lists(GRID_POINT, max_size=7, unique=True), INNER_POINT)
+@given(st.lists(st.tuples(st.integers(-4, 4), st.integers(-4, 4)), max_size=7, unique=True), INNER_POINT)
 def test_weights_are_those_of_exact_areas(points, query):
     """Whole points, many on common circles, within four that keep the query's cell small."""
     points = CORNERS + [p for p in points if max(map(abs, p)) < 4 and p != query]

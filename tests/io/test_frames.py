@@ -21,7 +21,6 @@ SPHERE = sets.sphere("random").drawn(40)
 PLANE = sets.plane("random").drawn(40) * (3, 2)
 BOUNDS = (0.5, 0.25, 2.5, 1.5)
 MESHES = [SphericalVoronoi(SPHERE), SphericalDelaunay(SPHERE), PlanarVoronoi(PLANE), PlanarDelaunay(PLANE)]
-PLANES = sets.of("plane", without=["sizes"])[1:]
 
 
 def test_columns_of_each_kind():
@@ -141,7 +140,7 @@ def assert_fills(frame, box):
     assert shapely.is_ccw(shapely.get_exterior_ring(shapely.get_parts(frame.geometry.values))).all()
 
 
-@pytest.mark.parametrize("one", PLANES)
+@pytest.mark.parametrize("one", sets.of("plane", without=["sizes"])[1:])
 def test_cells_of_the_plane_fill_the_bounds(one):
     """Of those that are asked for, and of the usual ones, which hold all points."""
     points, diagram = one.drawn(60), PlanarVoronoi(one.drawn(60))

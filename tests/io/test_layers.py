@@ -95,9 +95,8 @@ def test_progress_of_reading(monkeypatch):
     assert told[-1] == ("reading", 8008, 8008)
 
 
-def test_cells_are_the_same_in_blocks_of_any_size(monkeypatch):
+def test_cells_are_the_same_in_blocks_of_any_size(rng, monkeypatch):
     """And by any number of threads; also where chords are halved, since cells are narrow."""
-    rng = np.random.default_rng(9)
     lonlat = np.concatenate([rng.uniform(-85, 85, (60, 2)), [[10, 89.9999], [170, 89.9998], [20, 0], [20, 1e-7]]])
     diagram = SphericalVoronoi.from_lonlat(lonlat)
     told = []

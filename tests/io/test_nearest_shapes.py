@@ -81,7 +81,6 @@ ISLAND = [(4, 4), (6, 4), (6, 6), (4, 6), (4, 4)]
 COUNTRY = shapely.MultiPolygon([shapely.Polygon([(0, 0), (10, 0), (10, 10), (0, 10)], [LAKE]), shapely.Polygon(ISLAND)])
 ACROSS = [[[170, -10], [190, -10], [190, 10], [170, 10], [170, -10]]]
 CUT = shapely.MultiPolygon([shapely.box(170, -10, 180, 10), shapely.box(-180, -10, -170, 10)])
-CAP = shapely.box(-180, 60, 180, 90)
 
 
 KNOWN = [
@@ -89,7 +88,7 @@ KNOWN = [
     (shapely.Polygon(COUNTRY.geoms[0].exterior, [LAKE]), [(5, 2.5, 0.5)]),
     ({"type": "Polygon", "coordinates": ACROSS}, [(-175, 0, 0), (180, 0, 0), (-169, 0, 1)]),
     (CUT, [(180, 0, 0), (-180, 12, 2), (168, 0, 2)]),
-    (CAP, [(0, 90, 0), (123, 89, 0), (-60, 59, 1), (0, -90, 150)]),
+    (shapely.box(-180, 60, 180, 90), [(0, 90, 0), (123, 89, 0), (-60, 59, 1), (0, -90, 150)]),
     (shapely.LineString([(175, 0), (-175, 0)]), [(180, 1, 1)]),
     (shapely.LineString([(0, 80), (0, 90)]), [(180, 85, 5)]),
     (shapely.LineString([(-180, 60), (180, 60)]), [(17, 90, 30)]),

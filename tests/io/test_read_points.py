@@ -14,7 +14,6 @@ from stereodel.io import DataWarning, PointTable, RenamedColumnWarning, read_poi
 from stereodel.io.formats.names import find_lonlat
 
 CITIES = [("Quito", -78.5, -0.2, 1763000), ("Ulm", 10.0, 48.4, 129000), ("Perth", 115.9, -32.0, 2309000)]
-LONLAT = [[lon, lat] for _, lon, lat, _ in CITIES]
 
 
 def frame():
@@ -25,7 +24,7 @@ def frame():
 
 
 def assert_cities(table):
-    assert np.allclose(table.lonlat, LONLAT, atol=1e-12)
+    assert np.allclose(table.lonlat, [[lon, lat] for _, lon, lat, _ in CITIES], atol=1e-12)
     assert table.columns["name"].tolist() == [name for name, *_ in CITIES]
     assert table.columns["people"].tolist() == [people for *_, people in CITIES]
     assert table.columns["people"].dtype == np.int64

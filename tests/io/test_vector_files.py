@@ -86,6 +86,14 @@ def test_what_is_cut_is_named(tmp_path):
             shapes_of(path)
 
 
+def test_a_database_with_a_changed_definition(tmp_path):
+    written(tmp_path / "a.gpkg", ".gpkg")
+    whole = (tmp_path / "a.gpkg").read_bytes()
+    (tmp_path / "a.gpkg").write_bytes(whole.replace(b"pixel_y_size DOUBLE", b"pixel_y_size DOUB\xccE"))
+    with pytest.raises(ValueError, match=r"a\.gpkg: the database is damaged: "):
+        read_points(tmp_path / "a.gpkg")
+
+
 def test_shapefiles_with_a_cut_table(tmp_path):
     """GDAL reads no column where the header is cut."""
     frame().to_file(tmp_path / "a.shp")

@@ -36,9 +36,8 @@ def test_angles_near_breakpoints():
     assert_close(close * (1 / 3), np.full(len(close), 1 / 3))
 
 
-def test_angles_where_the_error_is_largest():
+def test_angles_where_the_error_is_largest(rng):
     """Beside 3/32, which is not a power of two, far from it: the product with it rounds beside the smallest angle."""
-    rng = np.random.default_rng(3)
     greater = rng.uniform(4 / 3, 1.34, 3000)
     assert_close(greater * rng.uniform(0.0781, 0.0785, 3000), greater)
 

@@ -48,9 +48,8 @@ def test_polynomials_lie_in_their_balls(formula, data):
 
 
 @pytest.mark.parametrize("formula", FORMULAS)
-def test_balls_are_small(formula):
+def test_balls_are_small(rng, formula):
     """Of numbers of one size, up to what cancels: thirty operations lose no more than a few units of the last place."""
-    rng = np.random.default_rng(1)
     for values in rng.uniform(1, 2, size=(40, formula.count("v"))) * 2.0 ** rng.integers(-1000, 1000, size=(40, 1)):
         permanent = evaluate(abs(values), formula.replace("-", "+"))
         assert ball(values, formula)[1] <= permanent * Fraction(2) ** -97
@@ -74,9 +73,8 @@ def test_a_quotient_by_what_may_be_zero_tells_nothing():
     assert radius > 2**1000
 
 
-def test_zero_is_proved_by_exact_products():
+def test_zero_is_proved_by_exact_products(rng):
     """p q - q p and the like of doubles: no radius is left, whatever the exponents."""
-    rng = np.random.default_rng(2)
     for a, b in rng.normal(size=(50, 2)) * 10.0 ** rng.uniform(-300, 300, size=(50, 2)):
         assert ball([a, b, b, a], "vv*vv*-") == (0, 0)
         assert ball([a, b, a, np.nextafter(b, 1e308)], "vv*vv*-")[1] > 0

@@ -67,9 +67,8 @@ def test_blocks_are_halves():
 
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("leaves", [1, 2, 5, 8, 13])
-def test_parts_of_a_tree(kind, leaves):
+def test_parts_of_a_tree(rng, kind, leaves):
     points = kind.points
-    rng = np.random.default_rng(6)
     width = points.shape[1]
     axis, value = rng.integers(0, width, leaves - 1).astype(np.int32), rng.uniform(-0.5, 0.5, leaves - 1)
     if kind.name == "lattice":

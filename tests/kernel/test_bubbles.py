@@ -72,9 +72,8 @@ def counterclockwise(points):
     return points
 
 
-def test_a_million_pairs_of_integers_in_the_plane():
+def test_a_million_pairs_of_integers_in_the_plane(rng):
     """Near the origin and far from it, large and tiny: circles through a corner or along a side of a box are many."""
-    rng = np.random.default_rng(1)
     for scale, offset in ((1.0, 0.0), (1.0, 2.0**40), (2.0**-300, 2.0**40), (2.0**300, 0.0)):
         corners = counterclockwise(rng.integers(-30, 31, (500, 3, 2)))
         faces = np.arange(1500, dtype=np.int32).reshape(-1, 3)
@@ -129,9 +128,8 @@ def beside(rng, center, radius, outside, size):
 
 
 @pytest.mark.parametrize("size", [1.0, 1e-3, 1e-7, 1e-11, 1e-15])
-def test_boxes_beside_bubbles_of_the_sphere(size):
+def test_boxes_beside_bubbles_of_the_sphere(rng, size):
     """The answer is that of exact numbers; vectors of other lengths have the same."""
-    rng = np.random.default_rng(2)
     found, truth = [], []
     for corners in triangles_on_sphere(rng, 150, size):
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -149,8 +147,7 @@ def test_boxes_beside_bubbles_of_the_sphere(size):
 
 
 @pytest.mark.parametrize("scale", [1.0, 1e-120, 1e100])
-def test_boxes_beside_circles_of_the_plane(scale):
-    rng = np.random.default_rng(3)
+def test_boxes_beside_circles_of_the_plane(rng, scale):
     found, truth = [], []
     for size in 10.0 ** rng.uniform(-12, 3, 400):
         corners = counterclockwise(rng.normal(size=(1, 2)) + size * rng.normal(size=(1, 3, 2)))[0] * scale
@@ -176,8 +173,7 @@ def test_boxes_beyond_the_range_of_products():
 
 
 @pytest.mark.parametrize("size", [1.0, 1e-5, 1e-12])
-def test_boxes_beside_discs_of_the_sphere(size):
-    rng = np.random.default_rng(7)
+def test_boxes_beside_discs_of_the_sphere(rng, size):
     found, truth = [], []
     for center, rim in triangles_on_sphere(rng, 150, size)[:, :2]:
         low, high = beside(rng, center, np.linalg.norm(rim - center), True, size)
@@ -217,9 +213,8 @@ def test_faces_of_points_that_do_not_matter_are_not_looked_at():
 
 @pytest.mark.parametrize("kind", [LinearInterpolator, NaturalNeighborInterpolator])
 @spaces.BOTH
-def test_a_hidden_point_changes_open_targets_alone(space, kind):
+def test_a_hidden_point_changes_open_targets_alone(rng, space, kind):
     """That parts agree with all points, on every set, tests/partitioned shows; here, that little else is told open."""
-    rng = np.random.default_rng(20261122)
     points, queries, values = space.random(rng, 30), space.random(rng, 40), rng.normal(size=31)
     mesh = space.delaunay(points)
     before, changed, told = kind(mesh, values[:30])(queries), 0, 0

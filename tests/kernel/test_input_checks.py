@@ -99,10 +99,10 @@ def flat_calls():
 
 
 CALLS = dict(calls())
+EACH = pytest.mark.parametrize(("name", "right"), CALLS.items(), ids=CALLS)
 ORDERED = dict(flat_calls()) | {name: right for name, right in CALLS.items() if "order" in right}
 UNCHECKED = {"values", "value", "lows", "highs"}  # boxes that are not finite touch all bubbles
 VECTORS = {*"abcp", "points", "centers", "rims", "queries", "units", "query_units", "xyz"}
-NUMBERS = {"simplices", "neighbors", "vertices", "triangles", "edges", "numbers", "order"}
 ANSWERED = {"moebius_images", "moebius_scales"}  # which tell by a flag that a row has no image
 
 
@@ -116,9 +116,8 @@ def with_entry(array, place, value):
     return changed
 
 
-@pytest.mark.parametrize("name", CALLS)
-def test_right_arguments_are_accepted_and_numbers_that_are_not_finite_refused(name):
-    right = CALLS[name]
+@EACH
+def test_right_arguments_are_accepted_and_numbers_that_are_not_finite_refused(name, right):
     call(name, right)
     for key, array in right.items():
         answered = key == "xyz" and name in ANSWERED
@@ -131,9 +130,8 @@ def test_right_arguments_are_accepted_and_numbers_that_are_not_finite_refused(na
                 call(name, right | {key: with_entry(array, place, value)})
 
 
-@pytest.mark.parametrize("name", CALLS)
-def test_vectors_without_a_direction_are_refused(name):
-    right = CALLS[name]
+@EACH
+def test_vectors_without_a_direction_are_refused(name, right):
     for key, array in right.items():
         if key in VECTORS and array.shape[1] == 3 and name not in {*ANSWERED, "orient3d"}:
             with pytest.raises(ValueError, match=rf"{key}\[2\] is the zero vector"):
@@ -143,11 +141,10 @@ def test_vectors_without_a_direction_are_refused(name):
                 call(name, right | {key: with_entry(array, 2, small)})
 
 
-@pytest.mark.parametrize("name", CALLS)
-def test_numbers_of_what_is_not_there_are_refused(name):
-    right = CALLS[name]
+@EACH
+def test_numbers_of_what_is_not_there_are_refused(name, right):
     for key, array in right.items():
-        if key not in NUMBERS:
+        if key not in {"simplices", "neighbors", "vertices", "triangles", "edges", "numbers", "order"}:
             continue
         open_border = key == "neighbors" and "plane" in name.lower() and "offsets" not in right
         least = -2 if open_border or key == "vertices" else -1
@@ -187,10 +184,9 @@ def test_triangles_and_neighbors_that_do_not_fit_are_refused(name):
             call(name, right | {key: right[key][::-1].copy()})
 
 
-@pytest.mark.parametrize("name", CALLS)
-def test_arrays_of_other_lengths_are_refused(name):
+@EACH
+def test_arrays_of_other_lengths_are_refused(name, right):
     """Each array that has to fit others, shortened: it is refused for its length or for what it no longer holds."""
-    right = CALLS[name]
     alone = {"queries", "duplicates", "edges", "numbers", "triangles", "xyz", "lonlat", "faces", "rows", "vectors"}
     keys = [k for k, a in right.items() if isinstance(a, np.ndarray) and k not in alone]
     if "simplices" in keys and "neighbors" not in keys:

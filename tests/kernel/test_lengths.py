@@ -24,8 +24,7 @@ def prove(points, numbers=None, seed=0, rows=300):
 
 @BOTH
 @pytest.mark.parametrize("spread", [1.0, 1e-4, 1e-8, 1e-12, 1e-15])
-def test_clusters(space, spread):
-    rng = np.random.default_rng(1)
+def test_clusters(rng, space, spread):
     points = space.cluster(rng, spread, 40)
     prove(points)
     if space is SPHERE:
@@ -48,9 +47,8 @@ def test_extreme_coordinates(space, exponent):
     prove(np.ldexp(space.lattice(np.random.default_rng(4), 9, 40), exponent))
 
 
-def test_nearly_right_angles():
+def test_nearly_right_angles(rng):
     """Third points on the diametral circle, rounded."""
-    rng = np.random.default_rng(5)
     circle = sets.on_circle(rng, 60)
     points = np.concatenate([circle, -circle])
     numbers = np.column_stack([np.arange(60), np.arange(60, 120), rng.permutation(60)]).astype(np.int32)

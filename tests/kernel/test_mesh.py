@@ -96,9 +96,8 @@ def test_changes_of_small_integers_in_turn(space, data):
 
 
 @pytest.mark.parametrize("one", [case for case in sets.of(without=("flat",)) if len(case.values[0].drawn(40)) < 70])
-def test_every_set_comes_and_goes(one):
+def test_every_set_comes_and_goes(rng, one):
     """Half of the points inserted, then removed a few at a time, to the last triangle."""
-    rng = np.random.default_rng(6)
     points = rng.permutation(one.drawn(40))
     first = next(k for k in range(len(points) // 2, len(points) + 1) if spanning(points[:k]))
     mesh = start(points[:first], by_readable=True)
@@ -141,9 +140,8 @@ def test_the_last_point_beside_a_line_and_a_great_circle():
     assert state(mesh).dimension < 2
 
 
-def test_finer_points_and_other_lengths_than_before():
+def test_finer_points_and_other_lengths_than_before(rng):
     """What doubles tell of integers they do not of those inserted, which lie on a circle but for their rounding."""
-    rng = np.random.default_rng(20)
     circle = 5 * sets.on_circle(rng, 80)
     coarse = np.array([[9.0, 9], [-9, 9], [0, -9]])
     mesh = start(coarse)
@@ -154,9 +152,8 @@ def test_finer_points_and_other_lengths_than_before():
 
 
 @BOTH
-def test_many_points_into_few(space):
+def test_many_points_into_few(rng, space):
     """More than one round of insertion; removal of most of them again."""
-    rng = np.random.default_rng(10)
     points = space.random(rng, 9010)
     points[5000:5100] = points[:100]
     mesh = start(points[:10])
@@ -167,8 +164,7 @@ def test_many_points_into_few(space):
 
 
 @BOTH
-def test_duplicates_of_one_batch_keep_the_lowest(space):
-    rng = np.random.default_rng(11)
+def test_duplicates_of_one_batch_keep_the_lowest(rng, space):
     points, distinct = space.random(rng, 50), space.random(rng, 2000)
     distinct[:, 0] = np.where(rng.random(2000) < 0.3, 0.0, distinct[:, 0])
     added = np.repeat(distinct, 3, axis=0)[rng.permutation(6000)]
@@ -178,9 +174,8 @@ def test_duplicates_of_one_batch_keep_the_lowest(space):
     assert np.array_equal(state(mesh).duplicates, space.kernel.triangulate(both)[2])
 
 
-def test_equal_directions_of_different_length():
+def test_equal_directions_of_different_length(rng):
     """A third of 3 v is not v in doubles; the directions are still the same."""
-    rng = np.random.default_rng(12)
     points = rng.integers(-(2**50), 2**50, size=(20, 3)).astype(float)
     mesh = start(points)
     both = insert(mesh, points, np.vstack([7 * points, points * 2.0**-300, points[:5]])[rng.permutation(45)])
@@ -211,9 +206,8 @@ def test_rows_are_given_in_any_rotation():
 
 
 @BOTH
-def test_a_state_stays_what_it_was(space):
+def test_a_state_stays_what_it_was(rng, space):
     """All who ask share its arrays, which nobody can write to; changes make new ones."""
-    rng = np.random.default_rng(16)
     mesh = start(space.random(rng, 20))
     first, again = mesh.read(), mesh.read()
     assert all(a.ctypes.data == b.ctypes.data for a, b in zip(first[1:4], again[1:4], strict=True))
@@ -247,9 +241,8 @@ def test_changes_anew_and_of_what_is_there(space):
 
 @pytest.mark.parametrize("seconds", [0.5, pytest.param(2.0, marks=pytest.mark.thorough)])
 @BOTH
-def test_readers_beside_a_writer(space, seconds):
+def test_readers_beside_a_writer(rng, space, seconds):
     """Each state that was read is one that the writer made, whole, and none comes before an older one."""
-    rng = np.random.default_rng(21)
     mesh = start(space.random(rng, 300))
     made, seen = {0: state(mesh).points.copy()}, [{} for _ in range(4)]
     numbers = itertools.count(1)
@@ -285,8 +278,7 @@ def test_readers_beside_a_writer(space, seconds):
 
 
 @BOTH
-def test_writers_wait_for_each_other(space):
-    rng = np.random.default_rng(22)
+def test_writers_wait_for_each_other(rng, space):
     blocks = space.random(rng, 8 * 600).reshape(8, 600, -1)
     mesh = start(space.random(rng, 500))
     first = {}

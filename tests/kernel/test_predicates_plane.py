@@ -15,7 +15,6 @@ from tests.kernel.stages import Predicates, third_by_day
 from tests.reference import incircle_integer, incircle_tie, orient2d_integer, sign, to_integers
 from tests.spaces import PLANE
 
-SPREADS = [1.0, 1e-3, 1e-6, 1e-9, 1e-12, 1e-14, 1e-15]
 FINITE = st.floats(allow_nan=False, allow_infinity=False)
 
 
@@ -69,9 +68,8 @@ OWN = {"orient2d": on_a_line, "incircle": on_a_circle, "distances": around_a_poi
 
 
 @EVERY
-@pytest.mark.parametrize("spread", SPREADS)
-def test_clusters(name, spread):
-    rng = np.random.default_rng(1)
+@pytest.mark.parametrize("spread", [1.0, 1e-3, 1e-6, 1e-9, 1e-12, 1e-14, 1e-15])
+def test_clusters(rng, name, spread):
     shares, _ = check(name, rng.uniform(-1, 1, size=2) + spread * rng.normal(size=(4, 400, 2)))
     assert shares["filter"] < (0.01 if spread > 1e-13 else 0.7)
 
@@ -86,9 +84,8 @@ def test_near_degenerate(name, near):
 
 
 @EVERY
-def test_around_a_tie(name):
+def test_around_a_tie(rng, name):
     """Neighbours of an exactly degenerate position by the last bits, at every scale of the last bits."""
-    rng = np.random.default_rng(4)
     base = np.array([[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]] if name == "incircle" else [[12.0, 12.0]] * 4)
     if name == "orient2d":
         base = base + np.array([[0, 0], [4, 4], [12, 12], [0, 0]])
@@ -119,17 +116,15 @@ def test_at_another_scale(name, near, scale):
 
 @EVERY
 @pytest.mark.parametrize("per", [1, 2])
-def test_coordinates_of_any_size(name, per):
+def test_coordinates_of_any_size(rng, name, per):
     """Points or coordinates of their own sizes; whole multiples have ties."""
-    rng = np.random.default_rng(11)
     check(name, rng.normal(size=(4, 300, 2)) * 10.0 ** rng.uniform(-300, 300, size=(4, 300, per)))
     sizes = rng.choice([2.0**-1074, 1e-310, 1e-200, 1e-100, 1e-16, 1.0, 3.0, 1e16, 1e100, 1e200, 1e307], (4, 700, per))
     check(name, sizes * rng.integers(-3, 4, size=(4, 700, 2)))
 
 
-def test_two_pairs_far_apart():
+def test_two_pairs_far_apart(rng):
     """Pairs that are 1e-200 close: cocircular but for one bit."""
-    rng = np.random.default_rng(12)
     a, c = rng.normal(size=(2, 200, 2)) * 1e-200
     far = np.array([0.0, 1.0])
     points = np.stack([a, a * [-1, 1], c * [1, 0] + far, c * [-1, 0] + far])
@@ -171,9 +166,8 @@ GRIDS = {
 
 
 @pytest.mark.parametrize("grid", GRIDS)
-def test_by_number_with_ties(grid):
+def test_by_number_with_ties(rng, grid):
     points = np.array(GRIDS[grid], dtype=float)
-    rng = np.random.default_rng(8)
     numbers = rng.integers(len(points), size=(1500, 4)).astype(np.int32)
     numbers = numbers[[len(set(row[:3])) == 3 for row in numbers.tolist()]]
     numbers = numbers[probe.orient_numbered(points, numbers[:, :3].copy())[0] > 0]

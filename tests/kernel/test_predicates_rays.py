@@ -192,9 +192,8 @@ def test_two_that_are_the_same_turn_nowhere():
 
 
 @pytest.mark.parametrize("steps", [1, 4])
-def test_lengths_decide(steps):
+def test_lengths_decide(rng, steps):
     """On a circle about an axis, so small that the squares of the lengths' differences decide the sign."""
-    rng = np.random.default_rng(10)
     angle = rng.uniform(0, 2 * np.pi, size=(4, 800))
     radius = 2.0 ** rng.integers(-60, -44, size=800) * (1 + 2.0**-30 * rng.normal(size=(4, 800)))
     long = 1 + 2.0**-52 * rng.integers(-steps, steps + 1, size=(4, 800))
@@ -236,9 +235,8 @@ def test_components_of_any_size_four_on_a_circle():
 
 
 @pytest.mark.parametrize("bits", [10, 17, 30, 43, 50])
-def test_great_circles_of_integers(bits):
+def test_great_circles_of_integers(rng, bits):
     """Three and four directions of one plane, and one of them moved by one unit."""
-    rng = np.random.default_rng(21)
     multiples = rng.integers(-(2 ** (bits - 3)), 2 ** (bits - 3), size=(4, 120, 2))
     vectors = (multiples @ np.array([[1, 2, 3], [3, -1, 1]])).astype(float)
     for name in ("turn", "bubble"):
@@ -249,9 +247,8 @@ def test_great_circles_of_integers(bits):
         assert (check(name, vectors)[1] != 0).mean() > 0.8
 
 
-def test_almost_integers():
+def test_almost_integers(rng):
     """All components but one are multiples of a unit; that one is off by half of it, or by any less."""
-    rng = np.random.default_rng(23)
     vectors = rng.integers(-(2**15), 2**15, size=(4, 200, 3)).astype(float)
     vectors[0] = vectors[1] + vectors[2]
     vectors[3] = vectors[1] - vectors[2]
@@ -285,8 +282,7 @@ def pythagorean():
     return np.concatenate([vectors * s for s in ([1, 1, 1], [-1, 1, 1], [1, -1, 1], [1, 1, -1], [-1, -1, 1])])
 
 
-def test_by_number_and_the_tally():
-    rng = np.random.default_rng(14)
+def test_by_number_and_the_tally(rng):
     vectors = np.concatenate([normalised(pythagorean()), on_a_circle(1e-3, 20).reshape(-1, 3)])
     numbers = np.array([rng.choice(len(vectors), 4, replace=False) for _ in range(1500)], dtype=np.int32)
     rows = [np.ascontiguousarray(vectors[numbers[:, k]]) for k in range(4)]
@@ -303,8 +299,7 @@ def test_by_number_and_the_tally():
 
 @pytest.mark.parametrize("length", [1e-300, 1e-3, 0.6, 1.0, 1.9, 1e3, 1e300])
 @pytest.mark.parametrize("unit", [True, False])
-def test_queries_of_any_length(length, unit):
-    rng = np.random.default_rng(15)
+def test_queries_of_any_length(rng, length, unit):
     vectors = on_a_circle(1e-6, 100).reshape(-1, 3) * (1 if unit else 3)
     numbers = np.array([rng.choice(len(vectors), 2, replace=False) for _ in range(300)], dtype=np.int32)
     steps = 1e-16 * rng.normal(size=(300, 3)) * rng.integers(0, 2, size=(300, 1))
@@ -315,12 +310,11 @@ def test_queries_of_any_length(length, unit):
     assert probe.turn_queries(vectors, numbers, queries).tolist() == truth
 
 
-def test_the_order_of_directions():
+def test_the_order_of_directions(rng):
     vectors = np.concatenate(
         [pythagorean(), 7 * pythagorean(), np.eye(3), -np.eye(3), [[1, 1e-200, 0], [1, 0, 5e-324]]]
     )
     vectors = np.concatenate([vectors, normalised(vectors), np.nextafter(normalised(vectors), 1)])
-    rng = np.random.default_rng(16)
     a, b = vectors[rng.integers(len(vectors), size=(2, 2000))]
     b[::2] = a[::2] * rng.choice([[1, 1, 1], [1, -1, 1], [1, 1, -1], [2, 2, 2]], size=1000)
     truth = [of_rays(compare_directions)(u, v) for u, v in zip(a.tolist(), b.tolist(), strict=True)]

@@ -59,10 +59,9 @@ def assert_promised(points, axis, sign, digits):
 
 
 @EVERY_POLE
-def test_the_promised_errors(axis, sign):
+def test_the_promised_errors(rng, axis, sign):
     """Where exponents leave the range the answer is NaN or keeps the promise."""
     assert assert_promised(vectors(), axis, sign, 120) == (0, 0)
-    rng = np.random.default_rng(1)
     sizes = rng.choice([5e-324, 1e-310, 1e-280, 1e-200, 1e-130, 1e-100, 1.0, 1e100, 1e300], size=(200, 3))
     points = sizes * rng.integers(-3, 4, size=(200, 3))
     points[(points == 0).all(axis=1)] = 1.0
@@ -70,9 +69,8 @@ def test_the_promised_errors(axis, sign):
 
 
 @EVERY_POLE
-def test_orientation_is_kept(axis, sign):
+def test_orientation_is_kept(rng, axis, sign):
     """Counterclockwise in the plane is so from outside: minus the bubble test of the three and the pole."""
-    rng = np.random.default_rng(2)
     a, b, c = rng.normal(size=(3, 300, 3))
     pole = np.zeros((300, 3))
     pole[:, axis] = sign
@@ -110,9 +108,8 @@ def check_line(p, axis, sign, coordinate, hi, lo):
 
 @EVERY_POLE
 @pytest.mark.parametrize("coordinate", [0, 1])
-def test_order_of_projected_coordinates(axis, sign, coordinate):
+def test_order_of_projected_coordinates(rng, axis, sign, coordinate):
     p = vectors()
-    rng = np.random.default_rng(3)
     q = p * (1 + 10.0 ** rng.uniform(-17, 0, size=(len(p), 1)) * rng.normal(size=p.shape))
     q[::7] = p[::7] * [[2.0]] * rng.choice([-1, 1], size=(len(q[::7]), 1))
     assert check_order(p, q, axis, sign, coordinate)["double_double"] < 0.3
@@ -132,9 +129,8 @@ def test_multiples_of_a_vector_project_alike(axis, sign, coordinate):
 
 @EVERY_POLE
 @pytest.mark.parametrize("coordinate", [0, 1])
-def test_coordinates_and_lines(axis, sign, coordinate):
+def test_coordinates_and_lines(rng, axis, sign, coordinate):
     p = vectors()
-    rng = np.random.default_rng(5)
     fine = probe.project_double_double(p, axis, sign)[:, 2 * coordinate : 2 * coordinate + 2]
     low = fine[:, 1] * (1 + 10.0 ** rng.uniform(-17, 17, size=len(p)) * rng.integers(-1, 2, size=len(p)))
     shares = check_line(p, axis, sign, coordinate, np.ascontiguousarray(fine[:, 0]), low)
@@ -157,8 +153,7 @@ def test_small_integers(p, q, pole, coordinate, exponent, numerator):
 
 
 @EVERY_POLE
-def test_extreme_components(axis, sign):
-    rng = np.random.default_rng(6)
+def test_extreme_components(rng, axis, sign):
     sizes = rng.choice([5e-324, 1e-310, 1e-200, 1e-100, 1e-16, 1.0, 1e100, 1e300], size=(2, 150, 3))
     p, q = sizes * rng.choice([-3, -2, -1, 1, 2, 3], size=(2, 150, 3))
     for coordinate in (0, 1):

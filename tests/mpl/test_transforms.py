@@ -266,8 +266,7 @@ def test_rings_around_the_earth_hold_the_smaller_side(start):
                 assert not winding(parts(other), np.array([[0.0, 0.0], [0.3, 0.01]])).any()
 
 
-def test_several_regions_at_once_are_those_one_by_one():
-    rng = np.random.default_rng(5)
+def test_several_regions_at_once_are_those_one_by_one(rng):
     rings = Ragged.of([simple_star(rng, rng.uniform((-180, -60), (180, 60)), 30) for _ in range(12)])
     for globe in (LonLatToPage(LENSES[1], VIEWS[0]), LonLatToPage(LENSES[2], VIEWS[1], "straight")):
         owner = np.arange(12) // 2

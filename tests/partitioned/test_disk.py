@@ -10,9 +10,8 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
-from stereodel.partitioned import Run
+from stereodel.partitioned import Run, files, rounds, stars
 from stereodel.partitioned import passes as passes_of
-from stereodel.partitioned.files import PointFile
 from tests.partitioned import answers
 from tests.partitioned.answers import PASSES, executed, meanwhile, stop
 from tests.tiers import by_day
@@ -239,7 +238,7 @@ def test_a_source_that_changes_while_it_is_read(tmp_path, points, name, done, ha
 
 def test_a_source_with_fewer_rows_than_planned(points, monkeypatch):
     """Should its time stamp say nothing: no row is what happened to be in memory."""
-    monkeypatch.setattr(PointFile, "check", lambda self: None)
+    monkeypatch.setattr(files.PointFile, "check", lambda self: None)
     with pytest.raises(ValueError, match=r"003\.parquet .*have \d+ of \d+ rows"):
         points.run(progress=meanwhile("sample", 10, partial(cut, points.folder / "003.parquet")))
 
@@ -310,6 +309,21 @@ def test_what_changes_under_processes(tmp_path, points, name, done, pattern, har
     points.check(jobs=2, resume=False)
 
 
+HALFWAY = [(files, "_group", "*.parquet"), (rounds, "check", "0.points"), (stars.StarRounds, "decide", "blocks/*")]
+
+
+@pytest.mark.parametrize(("owner", "name", "pattern"), HALFWAY)
+def test_what_changes_while_a_task_reads_it(tmp_path, points, monkeypatch, owner, name, pattern):
+    """Whatever the task errs with then, if it does: the error is that of the file, which a run that goes on finds."""
+    once = getattr(owner, name)
+    harm = harmed(tmp_path, f"**/{pattern}", lambda path: path.write_bytes(bytes(path.stat().st_size - 1)))
+    with monkeypatch.context() as patch:
+        patch.setattr(owner, name, lambda *given: [harm(), patch.undo(), once(*given)].pop())
+        for match in (r"changed (after it was written|since the run began); begin anew", "changed|not a Parquet file"):
+            with pytest.raises(ValueError, match=match):
+                points.run()
+
+
 def test_nothing_is_left_of_an_earlier_run_with_other_arguments(tmp_path, points):
     """Neither in the folder of results nor in scratch elsewhere, which runs of other folders may share."""
     scratch = tmp_path / "scratch"
@@ -329,7 +343,7 @@ def test_late_tasks_of_a_run_that_is_dead(tmp_path, points, monkeypatch):
 
     def dying(self, name, function, tasks, **options):
         if name == "solve":
-            late.extend(partial(function, self.store, task, **options) for task in tasks)
+            late.extend(partial(passes_of.do, function, name, self.store, task, **options) for task in tasks)
             raise KeyboardInterrupt
         return once(self, name, function, tasks, **options)
 

@@ -139,8 +139,9 @@ def test_soak(tmp_path, points, seed):
         there = [name for name in ("driver", "driver", "driver", "worker", "worker", "helper") if victims[name]]
         name, number = chance.choice(there), chance.choice(SIGNALS)
         if process.poll() is None:
-            os.kill(chance.choice(victims[name]), number)
-            counts.update(["killed", f"{name} {number.name}", "resumed" if resume else "begun anew"])
+            with suppress(ProcessLookupError):  # it has ended meanwhile
+                os.kill(chance.choice(victims[name]), number)
+                counts.update(["killed", f"{name} {number.name}", "resumed" if resume else "begun anew"])
         if name == "driver" and process.wait(timeout=120):
             continue  # at once: its workers may be there still
         said = process.communicate(timeout=120)[0]

@@ -23,7 +23,7 @@ from tests.tiers import by_day
 
 def killed_once(marker, name, function, task):
     """What the function returns; the first process that calls it for that pass is ended by the system."""
-    if function.func.__name__ == name and not marker.exists():
+    if function.args[1] == name and not marker.exists():
         marker.touch()
         os.kill(os.getpid(), signal.SIGKILL)
     return function(task)

@@ -16,7 +16,6 @@ from tests.reference import bubble_ray, bubble_tie, compare_directions, incircle
 from tests.spaces import SPHERE
 
 COEFFICIENT = st.integers(-(10**20), 10**20)
-TERMS = st.lists(st.tuples(COEFFICIENT, st.integers(1, 10**30)), max_size=4)
 FINITE = st.floats(allow_nan=False, allow_infinity=False)
 
 
@@ -27,7 +26,7 @@ def sign_by_digits(terms):
         return 0 if abs(total) < mpf(10) ** -290 else int(mp.sign(total))
 
 
-@given(TERMS)
+@given(st.lists(st.tuples(COEFFICIENT, st.integers(1, 10**30)), max_size=4))
 def test_sums_of_roots(terms):
     assert sign_of_roots(terms) == sign_by_digits(terms)
 

@@ -28,15 +28,11 @@ def points_for(name, count, seed=0):
     return np.random.default_rng(seed).integers(1, 6, size=(len(names), count, width)).astype(float)
 
 
-def one_by_one(predicate, points):
-    return [predicate(*row) for row in zip(*(p.tolist() for p in points), strict=True)]
-
-
 @EACH
 def test_rows_and_single_points_agree(name):
     predicate, kernel, _, _ = PREDICATES[name]
     points = points_for(name, 60)
-    expected = one_by_one(predicate, points)
+    expected = [predicate(*row) for row in zip(*(p.tolist() for p in points), strict=True)]
     assert {-1, 0, 1} == set(expected)
     assert all(type(sign) is int for sign in expected)
     assert predicate(*points).tolist() == kernel(*points).tolist() == expected
@@ -78,9 +74,8 @@ def test_any_doubles(four):
 
 
 @pytest.mark.parametrize("spread", [1.0, 1e-3, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14])
-def test_the_curvature_form_decides_where_flatness_defeats_the_plain_one(spread):
+def test_the_curvature_form_decides_where_flatness_defeats_the_plain_one(rng, spread):
     """Row P6: the filter leaves next to nothing open, while below 1e-8 the plain determinant is a coin."""
-    rng = np.random.default_rng(0)
     a, b, c, p = rng.normal(size=3) + spread * rng.normal(size=(4, 2000, 3))
     signs = probe.bubble(a, b, c, p, stage="filter" if spread > 1e-14 else "double_double")
     assert (signs == OPEN).mean() < 2e-3
@@ -111,8 +106,7 @@ def stages(points):
 
 @pytest.mark.parametrize("exponent", [-1074, -700, -400, -30, 0, 300, 900])
 @pytest.mark.parametrize("flatness", [1.0, 1e-8, 1e-14, 1e-17, 1e-25, 1e-33, 0.0])
-def test_no_stage_of_orient3d_is_wrong(exponent, flatness):
-    rng = np.random.default_rng(6)
+def test_no_stage_of_orient3d_is_wrong(rng, exponent, flatness):
     a, b, c = rng.normal(size=(3, 25, 3))
     s, t = rng.random((2, 25, 1))
     d = a + (b - a) * s + (c - a) * t + flatness * rng.normal(size=(25, 3))
@@ -121,8 +115,7 @@ def test_no_stage_of_orient3d_is_wrong(exponent, flatness):
     shares_of(truth, lambda stage: probe.orient3d(*points, stage=stage), ORIENT3D)
 
 
-def test_the_stages_of_orient3d_decide_what_is_theirs():
-    rng = np.random.default_rng(7)
+def test_the_stages_of_orient3d_decide_what_is_theirs(rng):
     points = rng.normal(size=(4, 2000, 3))
     assert (stages(points)["filter"] == OPEN).mean() < 0.001
     flat = points.copy()
@@ -131,9 +124,8 @@ def test_the_stages_of_orient3d_decide_what_is_theirs():
     assert (stages(flat)["double_double"] == OPEN).mean() < 0.01
 
 
-def test_double_double_leaves_exact_zeros_to_integers():
+def test_double_double_leaves_exact_zeros_to_integers(rng):
     """Whole numbers of 40 to 53 bits: the last digits of products of three are rounded away."""
-    rng = np.random.default_rng(8)
     a, u, v = rng.integers(-(2**40), 2**40, size=(3, 300, 3))
     k, m = rng.integers(-(2**10), 2**10, size=(2, 300, 1))
     signs = stages([p.astype(float) for p in (a, a + u, a + v, a + k * u + m * v)])

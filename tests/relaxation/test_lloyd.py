@@ -67,8 +67,7 @@ def test_energy_never_grows(bounds, factor, data):
 
 
 @pytest.mark.parametrize("spread", [1.0, 1e-3, 1e-9, 1e-12])
-def test_clusters_spread_over_the_sphere(spread):
-    rng = np.random.default_rng(1)
+def test_clusters_spread_over_the_sphere(rng, spread):
     relaxed = lloyd(np.array([0.6, 0.0, 0.8]) + spread * rng.normal(size=(40, 3)), steps=60)
     assert never_grows(relaxed)
     # Forty caps of equal area have this energy; no cells have less.
@@ -121,9 +120,8 @@ def test_density_on_the_sphere():
 
 
 @pytest.mark.parametrize("bounds", [None, (0, 0, 1, 1)])
-def test_constant_density_is_that_of_none(bounds):
+def test_constant_density_is_that_of_none(rng, bounds):
     """Of any size, from the smallest of doubles to the largest."""
-    rng = np.random.default_rng(5)
     points = rng.random((60, 2)) if bounds else rng.normal(size=(60, 3))
     one = lloyd(points, steps=4, bounds=bounds)
     for size in (5e-324, 1e-320, 1e-165, 3.0, 1e155, 1e308):
@@ -133,9 +131,8 @@ def test_constant_density_is_that_of_none(bounds):
 
 
 @pytest.mark.parametrize("bounds", [None, (-2, -2, 2, 2)])
-def test_densities_of_different_size_move_every_point(bounds):
+def test_densities_of_different_size_move_every_point(rng, bounds):
     """Each cell has the centroid of its own density, however small that is beside the others'."""
-    rng = np.random.default_rng(7)
     points = rng.normal(size=(40, 3)) / 3 if bounds is None else rng.random((40, 2))
     densities = [lambda x, a=a: a * 10 ** (300 * x[:, 0].clip(-1, 1)) for a in (1, 1e5)]
     steep = [lloyd(points, steps=1, bounds=bounds, density=density) for density in densities]

@@ -19,7 +19,6 @@ render, rasterize = Page.pixels, partial(Page.pixels, renderer="agg")
 
 
 BLACK = (0.0, 0.0, 0.0, 1.0)
-GRAY = (0.5, 0.5, 0.5, 1.0)
 EXTENT = (0.0, 4.0, 0.0, 2.0)
 SHADER = (Path(rendering.__file__).parent / "shaders" / "flat.frag").read_text(encoding="utf-8")
 LIGHT = np.array([float(n) for n in re.search(r"LIGHT = normalize\(vec3\(([^)]*)\)\)", SHADER)[1].split(",")])
@@ -111,7 +110,7 @@ def test_the_light_of_a_ball_is_that_of_its_normals(shape):
         "a rectangle": [box(0, 4, 0, 2)],
         "needles": [box(a, b, 0, 2) for a, b in pairwise(cuts)],
     }[shape]
-    plain = Fill((box(3.5, 4, 0, 2),), GRAY)
+    plain = Fill((box(3.5, 4, 0, 2),), (0.5, 0.5, 0.5, 1.0))
     picture = render(Page(EXTENT, (*(Fill((path,), color, ball=ball) for path in paths), plain)), size=401)
     assert (picture[:, 360:] == 128).all()
     height, width = picture.shape[:2]

@@ -84,8 +84,7 @@ def test_windows_leave_no_seam(monkeypatch):
 
 
 @pytest.mark.parametrize("far", [(8192, 0), (12000, 30), (3 * 8192 + 5, 8192), (90_001, 60_007)])
-def test_pixels_far_from_the_corner_are_those_near_it(far):
-    rng = np.random.default_rng(6)
+def test_pixels_far_from_the_corner_are_those_near_it(rng, far):
     corners, colors = rng.uniform(2, 38, (60, 3, 2)), np.repeat(rng.integers(0, 256, (60, 1, 4)) / 255, 3, axis=1)
     pieces, moved = (
         Batches(enumerate(Batch(c[None] + move, k[None]) for c, k in zip(corners, colors, strict=True)))

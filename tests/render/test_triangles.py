@@ -98,10 +98,9 @@ def triangle_set(triangles):
 
 
 # Few places, so that neighbours repeat, lines close and lines meet others.
-LINES = st.lists(st.lists(st.tuples(st.integers(0, 3), st.integers(0, 3)), max_size=7), max_size=6)
 
 
-@given(LINES, st.floats(0.1, 2))
+@given(st.lists(st.lists(st.tuples(st.integers(0, 3), st.integers(0, 3)), max_size=7), max_size=6), st.floats(0.1, 2))
 def test_many_ribbons_are_the_ribbons_of_each(lines, width):
     runs = [np.array(line, dtype=float).reshape(-1, 2) for line in lines]
     offsets = np.cumsum([0, *map(len, runs)])

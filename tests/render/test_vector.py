@@ -241,9 +241,8 @@ def test_numbers_have_no_exponent(tmp_path):
     assert sheet.extract_text(orientations=90) == "turned"
 
 
-def test_many_dots_and_lines_are_small_files_of_paths_that_programs_open(tmp_path):
+def test_many_dots_and_lines_are_small_files_of_paths_that_programs_open(rng, tmp_path):
     """Ten thousand dots in half a megabyte, in parts that no program refuses; an opaque line as well."""
-    rng = np.random.default_rng(1)
     places, corners = rng.uniform(0, 4, (10_000, 2)), rng.uniform(0, 4, (60_000, 2))
     offsets = np.arange(0, 60_001, 2)
     dots, lines = Dots(places, 0.4, BLACK, name="dots"), Polylines(corners, offsets, BLACK, 0.1, "lines")

@@ -14,7 +14,6 @@ import scipy.spatial._qhull
 
 import stereodel.spatial
 
-CLASSES = (stereodel.spatial.Delaunay, stereodel.spatial.Voronoi, stereodel.spatial.SphericalVoronoi)
 made = []
 errors = {}
 
@@ -30,7 +29,7 @@ def _counted(init):
 
 def pytest_configure():
     """Replace SciPy's classes; not at import, which collecting doctests does too."""
-    for cls in CLASSES:
+    for cls in (stereodel.spatial.Delaunay, stereodel.spatial.Voronoi, stereodel.spatial.SphericalVoronoi):
         cls.__init__ = _counted(cls.__init__)
         setattr(scipy.spatial, cls.__name__, cls)
         if hasattr(scipy.spatial._qhull, cls.__name__):

@@ -74,8 +74,7 @@ def test_arrays_can_be_written_to_and_keep_what_is_written():
     assert len(tri.simplices) == (~long).sum()
 
 
-def test_transforms_are_missing_where_scipys_are():
-    rng = np.random.default_rng(4)
+def test_transforms_are_missing_where_scipys_are(rng):
     corners = rng.normal(size=(3000, 3, 2)) * [1.0, 7.0]
     share, aside = rng.random((3000, 1)), 10.0 ** rng.uniform(-13.5, -10.5, (3000, 1))
     corners[:, 2] = share * corners[:, 0] + (1 - share) * corners[:, 1] + aside * rng.normal(size=(3000, 2))
@@ -89,9 +88,8 @@ def test_transforms_are_missing_where_scipys_are():
     np.testing.assert_allclose(ours[both], theirs[both], rtol=0.02)
 
 
-def test_planes_of_slivers_point_down():
+def test_planes_of_slivers_point_down(rng):
     """Also where the area, which is exactly positive, is zero or negative as rounded."""
-    rng = np.random.default_rng(5)
     ends = rng.random((4000, 2, 2)) * [[1, 1], [30, 30]]
     share = rng.random((4000, 1, 1))
     corners = np.concatenate([ends, share * ends[:, :1] + (1 - share) * ends[:, 1:]], axis=1)

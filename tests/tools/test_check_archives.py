@@ -49,21 +49,19 @@ def test_texts_of_all_and_the_interface_of_those_for_several_pythons(check):
     assert audited == sorted(f"abi3audit --strict --report dist/stereodel-1-{tag}.whl" for tag in OF_ALL)
 
 
-@pytest.mark.parametrize("tag", ["cp312-cp312-manylinux2014_x86_64", "py3-none-any"])
-def test_a_wheel_of_another_kind_is_named(check, tag):
-    """As one without the stable interface, which a build tool may leave out without a word."""
-    ran, _ = check("stereodel-1.tar.gz", f"stereodel-1-{tag}.whl")
+OTHER = "is neither for Python 3.12 and all later ones nor"
+REFUSED = {
+    # As one without the stable interface, which a build tool may leave out without a word.
+    "stereodel-1-cp312-cp312-manylinux2014_x86_64.whl": f"cp312-manylinux2014_x86_64.whl {OTHER}",
+    "stereodel-1-py3-none-any.whl": f"dist/stereodel-1-py3-none-any.whl {OTHER}",
+    "wrong-1-cp311-cp311-linux_x86_64.whl": "",  # by the programs
+    "stereodel-2.tar.gz": "there is no wheel in dist/",
+}
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_wheels_of_another_kind_and_none_are_refused(check, name):
+    ran, called = check("stereodel-1.tar.gz", name)
     assert ran.returncode == 1
-    assert f"dist/stereodel-1-{tag}.whl is neither for Python 3.12 and all later ones nor" in ran.stderr
-
-
-def test_what_the_programs_refuse_is_refused(check):
-    ran, _ = check("wrong-1.tar.gz", "stereodel-1-cp311-cp311-linux_x86_64.whl")
-    assert ran.returncode == 1
-
-
-def test_no_wheel_is_an_error(check):
-    ran, called = check("stereodel-1.tar.gz")
-    assert ran.returncode == 1
-    assert "there is no wheel in dist/" in ran.stderr
-    assert called == []
+    assert REFUSED[name] in ran.stderr
+    assert called == [] or name.endswith(".whl")

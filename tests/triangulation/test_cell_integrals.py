@@ -258,8 +258,7 @@ def assert_cells_of_the_plane(points, digits=12):
 @pytest.mark.parametrize(
     ("size", "flat"), [(1e150, 1), (1.0, 1), (1e-6, 1), (1e-12, 1), (1e-14, 1), (1.0, 1e-9), (1e-6, 1e-6)]
 )
-def test_cells_of_the_plane_against_fractions(size, flat):
-    rng = np.random.default_rng(2)
+def test_cells_of_the_plane_against_fractions(rng, size, flat):
     assert assert_cells_of_the_plane([0.6, 0.8] + size * rng.normal(size=(40, 2)) * [1, flat], digits=13) > 5
 
 

@@ -108,8 +108,7 @@ def hard_directions(rng):
     return np.array([1.0, 0, 0]) + noise * 10.0 ** rng.uniform(-320, -10, (3, 3))
 
 
-def test_hard_triangles_of_the_sphere():
-    rng = np.random.default_rng(7)
+def test_hard_triangles_of_the_sphere(rng):
     for _ in range(150):
         triangle = np.asarray(hard_directions(rng), dtype=float)
         if triangle.any(axis=1).all() and len(set(SPHERE.names(triangle))) == 3:
@@ -199,8 +198,7 @@ def hard_points(rng):
     return noise[0] * (1 + noise * 2.0 ** -rng.integers(1, 53))
 
 
-def test_hard_triangles_of_the_plane():
-    rng = np.random.default_rng(3)
+def test_hard_triangles_of_the_plane(rng):
     for _ in range(2000):
         assert_right(hard_points(rng)[rng.permutation(3)])
 
@@ -212,9 +210,8 @@ def test_any_triangle_of_the_plane(a, b, c):
     assert_right([a, b, c])
 
 
-def test_what_integers_decide_is_rounded_once():
+def test_what_integers_decide_is_rounded_once(rng):
     """Flat to the last bits, of a size that doubles hold."""
-    rng = np.random.default_rng(11)
     for _ in range(200):
         triangle = rng.normal(size=(3, 2))
         triangle[2] = triangle[0] + (triangle[1] - triangle[0]) * rng.random()

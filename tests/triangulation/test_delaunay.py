@@ -24,7 +24,6 @@ from tests.spaces import BOTH, PLANE, SPHERE, asked, readable, rows, space_of
 
 FIXTURES = sorted((Path(__file__).parent.parent / "fixtures" / "delaunator").glob("*.json"))
 POLES = list(itertools.product(range(3), (-1, 1)))
-FINITE = st.floats(allow_nan=False, allow_infinity=False)
 GRID = sets.grid(7, 6)
 EQUATOR = np.array([[s * x, r * y, 0] for x, y in ((3, 4), (4, 3), (12, 5)) for s in (1, -1) for r in (1, -1)]) / 1.0
 # Exact rotations: signed permutations of the axes with determinant 1.
@@ -69,10 +68,9 @@ def assert_shuffled_the_same(triangulation, order, pole=POLES[0]):
 
 
 @pytest.mark.parametrize("one", sets.of())
-def test_of_every_set_from_every_pole_in_any_order(one):
+def test_of_every_set_from_every_pole_in_any_order(rng, one):
     points = one.drawn(min(one.size, 150)) if "grows" in one.traits else one.points
     triangulation = assert_as_the_readable_engine(points, POLES)
-    rng = np.random.default_rng(7)
     for pole in POLES:
         assert_shuffled_the_same(triangulation, rng.permutation(len(points)), pole)
 
@@ -80,9 +78,8 @@ def test_of_every_set_from_every_pole_in_any_order(one):
 @BOTH
 @pytest.mark.parametrize("unit", [False, True])
 @pytest.mark.parametrize("spread", [1e-3, 1e-6, 1e-8, 1e-10, 1e-12, 1e-13, 1e-14, 1e-15])
-def test_clusters(space, spread, unit):
+def test_clusters(rng, space, spread, unit):
     """Hulls of rounded vectors lose points below 1e-8; rays lose none. Alone, and seen from elsewhere."""
-    rng = np.random.default_rng(1)
     cluster = space.cluster(rng, spread, 120)
     triangulation = assert_as_the_readable_engine(sets.unit(cluster) if unit else cluster, POLES[::5])
     if not unit and space is SPHERE:
@@ -104,7 +101,7 @@ def test_small_integers(space, data):
 @BOTH
 @given(data=st.data())
 def test_any_doubles(space, data):
-    place = st.tuples(*[FINITE] * space.width)
+    place = st.tuples(*[st.floats(allow_nan=False, allow_infinity=False)] * space.width)
     space.triangulated(space.array(data.draw(st.lists(place.filter(any), max_size=8))))
 
 
@@ -155,8 +152,7 @@ def test_the_nearest_doubles_are_different_points():
     assert len(SPHERE.triangulated(np.vstack([points, -points])).duplicates) == 0
 
 
-def test_closing_facets_of_a_cap():
-    rng = np.random.default_rng(4)
+def test_closing_facets_of_a_cap(rng):
     cap = [0, 0, 1] + 0.3 * rng.normal(size=(50, 3)) * [1, 1, 0]
     triangulation = SPHERE.triangulated(cap)
     assert np.array_equal(triangulation.closing, np.linalg.det(cap[triangulation.simplices]) <= 0)
@@ -382,8 +378,7 @@ def test_refused_changes_change_nothing():
 
 @BOTH
 @pytest.mark.parametrize("duplicate", [copy.copy, copy.deepcopy, lambda t: pickle.loads(pickle.dumps(t))])
-def test_copies_are_the_same_and_independent(space, duplicate):
-    rng = np.random.default_rng(2)
+def test_copies_are_the_same_and_independent(rng, space, duplicate):
     triangulation = space.delaunay(space.random(rng, 200))
     triangulation.insert(space.random(rng, 50))
     triangulation.remove([3, 5, 201])

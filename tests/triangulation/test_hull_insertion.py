@@ -20,11 +20,6 @@ SOME = [
 FEW = sets.named("sphere", "octahedron", "cube", "rim and pole", "rim and poles", "tilted rim and pole", "two circles")
 
 
-def distinct(one):
-    points = one.drawn(60)
-    return points[np.unique(space_of(points).names(points), return_index=True)[1]]
-
-
 def rows(facets):
     return {tuple(row) for row in canonical(np.asarray(facets)).tolist()}
 
@@ -57,7 +52,8 @@ def inserted(points):
 @pytest.mark.parametrize("one", FEW)
 def test_against_all_triples(one):
     """The facets are the triples that no other point sees: closed, 2n − 4, without any engine."""
-    points = distinct(one)
+    points = one.drawn(60)
+    points = points[np.unique(space_of(points).names(points), return_index=True)[1]]
     sites, numbers = asked(points), range(len(points))
     facets = [
         triple
@@ -90,9 +86,8 @@ def papers_rule(points, facet, p):
     return (normal @ points[p] - normal @ a) * (-normal @ a) < 0
 
 
-def test_the_sign_of_d_is_not_enough():
+def test_the_sign_of_d_is_not_enough(rng):
     """Row P14: a rectangle lifted to a hemisphere leaves the centre outside the hull; the paper's test goes wrong."""
-    rng = np.random.default_rng(3)
     points = RectangleLift(3.0, 2.0).forward(rng.uniform([-1.5, -1.0], [1.5, 1.0], size=(40, 2)))
     expected = {frozenset(f) for f in ConvexHull(points).simplices.tolist()}
     assert {frozenset(f) for f in naive_hull(points, seen_from_outside)} == expected

@@ -11,7 +11,6 @@ from stereodel.triangulation.topology import neighbors_of
 from tests import sets
 from tests.spaces import BOTH, PLANE, SPHERE, readable, space_of, turn
 
-HOLDING = [case for case in sets.of("few") if case.id not in ("plane none", "sphere none")]
 FINITE = st.floats(allow_nan=False, allow_infinity=False)
 
 
@@ -80,7 +79,7 @@ def test_nearest_with_ties_and_duplicates(space, data):
     prove_nearest(space.triangulated(points), data.draw(space.queries(4, min_size=1, max_size=8)))
 
 
-@pytest.mark.parametrize("one", HOLDING)
+@pytest.mark.parametrize("one", [case for case in sets.of("few") if case.id not in ("plane none", "sphere none")])
 def test_awkward_sets(one):
     points = one.points
     if one.space == "plane":
@@ -93,16 +92,14 @@ def test_awkward_sets(one):
 
 @BOTH
 @pytest.mark.parametrize("spread", [1e-3, 1e-6, 1e-9, 1e-12, 1e-15])
-def test_clusters(space, spread):
-    rng = np.random.default_rng(3)
+def test_clusters(rng, space, spread):
     points = np.vstack([space.cluster(rng, spread, 60), space.random(rng, 3)])
     prove(points, np.vstack([space.cluster(rng, spread, 40), space.random(rng, 10), -points[:5]]))
 
 
 @pytest.mark.parametrize("lift", [0.0, 0.3, -0.2])
-def test_sets_within_a_hemisphere_or_nearly(lift):
+def test_sets_within_a_hemisphere_or_nearly(rng, lift):
     """Queries around the rim, beyond it and at the antipodes; with lift 0 some points lie on a great circle."""
-    rng = np.random.default_rng(4)
     points = rng.integers(-4, 5, size=(50, 3)).astype(float)
     points[:, 2] = np.abs(points[:, 2]) + 10 * lift
     points = points[points.any(axis=1)]
@@ -113,8 +110,7 @@ def test_sets_within_a_hemisphere_or_nearly(lift):
 
 @BOTH
 @pytest.mark.parametrize("size", [5e-324, 1e-310, 1e-150, 1e150, 1e307])
-def test_coordinates_of_any_size(space, size):
-    rng = np.random.default_rng(5)
+def test_coordinates_of_any_size(rng, space, size):
     points = space.lattice(rng, 9, 40) * size
     prove(points, np.vstack([points, space.lattice(rng, 11, 30) * size]))
 
@@ -140,9 +136,8 @@ def test_nearest_below_the_error_of_the_unit_vectors(length):
 @pytest.mark.parametrize("radius", [3.0, 0.3, 1e-6])
 @pytest.mark.parametrize("of_length_one", [False, True])
 @BOTH
-def test_nearest_on_a_circle_of_rounded_points(space, radius, of_length_one):
+def test_nearest_on_a_circle_of_rounded_points(rng, space, radius, of_length_one):
     """Their distances from the middle differ by less than those are rounded."""
-    rng = np.random.default_rng(12)
     for query in rng.normal(size=(4, space.width)):
         angle = rng.random(150) * 2 * np.pi
         circle = radius * np.column_stack([np.cos(angle), np.sin(angle)])
@@ -154,9 +149,8 @@ def test_nearest_on_a_circle_of_rounded_points(space, radius, of_length_one):
         prove_first(points, [q * (1 if of_length_one else 3) for q in (axis, axis + 1e-16, np.nextafter(axis, 2))])
 
 
-def test_unit_vectors_that_are_almost_equally_near():
+def test_unit_vectors_that_are_almost_equally_near(rng):
     """Points mirrored in a plane, and queries on it or an ulp beside it."""
-    rng = np.random.default_rng(7)
     points = sets.directions(rng, 30)
     queries = rng.normal(size=(60, 3))
     queries[:, 2] = rng.choice([0.0, 1e-17, -1e-17, 1e-300], size=60)
@@ -178,9 +172,8 @@ def test_the_center_of_many_cocircular_points(space):
 @BOTH
 @pytest.mark.parametrize("ring", [5, pytest.param(60, marks=pytest.mark.thorough), 400])
 @pytest.mark.parametrize("size", [1.0, 1e-5, 1e-11])
-def test_around_a_hub(space, ring, size):
+def test_around_a_hub(rng, space, ring, size):
     """A point with many neighbours; queries nearest to it, to the ring, and between."""
-    rng = np.random.default_rng(13)
     angle = rng.random(ring) * 2 * np.pi
     circle = size * np.column_stack([np.cos(angle), np.sin(angle)]) * (1 + 0.1 * rng.random((ring, 1)))
     queries = size * rng.normal(size=(60, 2))
@@ -205,8 +198,7 @@ def test_nearest_where_squares_underflow():
 
 
 @BOTH
-def test_many_against_a_tree(space):
-    rng = np.random.default_rng(2)
+def test_many_against_a_tree(rng, space):
     points, queries = rng.normal(size=(2, 5000, space.width))
     if space is SPHERE:
         points, queries = sets.unit(points), sets.unit(queries)
@@ -258,9 +250,8 @@ def test_rounded_directions_of_one_great_circle(size, seed, is_short):
 
 
 @BOTH
-def test_many_equal_points_take_no_time(space):
+def test_many_equal_points_take_no_time(rng, space):
     """Comparing all of them would take minutes: at one place, at two each of a line, at four."""
-    rng = np.random.default_rng(4)
     equal = space.delaunay(np.ones((100_000, space.width)))
     assert (equal.nearest(rng.normal(size=(20_000, space.width)), k=8) == np.arange(8)).all()
     places = np.arange(100_000) % 50_000
@@ -281,9 +272,8 @@ def test_many_equal_points_take_no_time(space):
     assert triangulation.nearest(queries[0], k=3008)[:3000].tolist() == rest.tolist()
 
 
-def test_after_changes():
+def test_after_changes(rng):
     """Of a triangulation, and of a line, whose order is that of the points that are there."""
-    rng = np.random.default_rng(3)
     triangulation = PlanarDelaunay(rng.integers(0, 12, size=(60, 2)))
     triangulation.insert(rng.integers(0, 12, size=(3, 2)))
     triangulation.remove([5, 17, 30])

@@ -14,8 +14,6 @@ from tests import sets
 from tests.graphs.test_proximity import FROM_THE_INSIDE
 from tests.interpolation.known import KINDS as INTERPOLATORS
 
-MADE = [SphericalDelaunay.from_lonlat, SphericalVoronoi.from_lonlat]
-
 
 def places(n, seed=0):
     """Uniform on the sphere, degrees."""
@@ -30,7 +28,7 @@ def same(told, given):
 
 
 @pytest.mark.parametrize("latitude", KINDS)
-@pytest.mark.parametrize("make", MADE)
+@pytest.mark.parametrize("make", [SphericalDelaunay.from_lonlat, SphericalVoronoi.from_lonlat])
 def test_sites_are_remembered(make, latitude):
     lonlat = places(50)
     made = make(lonlat, latitude=latitude)

@@ -96,9 +96,8 @@ def test_changes_that_come_upon_a_change_wait_for_it(space, in_change):
 
 @pytest.mark.parametrize("seconds", [0.5, pytest.param(2.0, marks=pytest.mark.thorough)])
 @BOTH
-def test_queries_beside_changes(space, seconds):
+def test_queries_beside_changes(rng, space, seconds):
     """Whatever is asked is that of some state: what threads find of one state fits together, and fits its points."""
-    rng = np.random.default_rng(4)
     triangulation = space.delaunay(points_of(space, 200))
     queries = points_of(space, 50, seed=5)
     changes, seen = [], []

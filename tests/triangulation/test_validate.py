@@ -126,7 +126,6 @@ def a_fold_that_nothing_else_sees():
 
 TRIANGLE = [[0, 0], [1, 0], [0, 1]]
 BOW_TIE = [[0, 0], [1, 0], [1, 1], [-1, 0], [-1, -1]]
-ONE_MORE = np.vstack([GOOD, unit_normal(1, 9)])
 TWICE = [[0, 1, 4], [0, 4, 2], [0, 2, 3], [0, 3, 1], [1, 3, 2], [1, 2, 4]]
 OTHER_NUMBER = np.where(TRIANGLES == 7, 60, TRIANGLES)
 PENTAGRAM = np.vstack([STAR[:, :2], [[0, 0]]]), [[k, (k + 1) % 5, 5] for k in range(5)]
@@ -156,7 +155,7 @@ WRONG = {
     "two sides meet twice in one point": (RING[:5], TWICE, "do not meet in one convex polygon"),
     "duplicate used": (*a_duplicate_beside_its_original(), "point 60 is used by a simplex although"),
     "duplicate for its original": (np.vstack([GOOD, GOOD[7]]), OTHER_NUMBER, "point 7 is used by no simplex"),
-    "unused point": (ONE_MORE, TRIANGLES, "point 60 is used by no simplex"),
+    "unused point": (np.vstack([GOOD, unit_normal(1, 9)]), TRIANGLES, "point 60 is used by no simplex"),
     # A pentagram's star of triangles around the centre covers it twice.
     "boundary run through twice": (*PENTAGRAM, "turns once"),
     "nonconvex boundary": ([[0, 0], [4, 0], [2, 1], [2, 4]], [[0, 1, 2], [0, 2, 3]], "not convex at point 2"),

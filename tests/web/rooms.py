@@ -2,6 +2,8 @@
 
 import re
 
+from axe_playwright_python.sync_playwright import Axe
+
 DRAWINGS = {"sphere": "#sphere-ball", "lift": "#lift-plate", "globe": "#globe-plate"}
 """Rooms, and their first drawing."""
 
@@ -31,9 +33,14 @@ def link(page):
     return dict(part.split("=", 1) for part in page.link.split("&") if "=" in part)
 
 
+def table(name, text):
+    """A file of the reader's that need not lie in a folder."""
+    return {"name": name, "mimeType": "text/csv", "buffer": text.encode()}
+
+
 def opened(page, room, file):
     """Open a file of the reader's in a room."""
-    page.page.set_input_files(f"#room-{room} input[type=file]", str(file))
+    page.page.set_input_files(f"#room-{room} input[type=file]", file)
     page.page.wait_for_timeout(200)
     page.rest()
 
@@ -50,6 +57,18 @@ def python_lines(page):
     page.page.click(".foot summary")
     page.page.wait_for_timeout(500)
     return page.page.locator("#python").inner_text()
+
+
+EXPERIMENTAL = ["css-orientation-lock", "focus-order-semantics", "label-content-name-mismatch", "p-as-heading"]
+EXPERIMENTAL += ["table-fake-caption", "td-has-header"]
+"""Rules that axe leaves out unless they are asked for."""
+
+
+def barriers(page):
+    """What axe finds of a page that keeps readers out."""
+    found = Axe().run(page.page, options={"rules": {rule: {"enabled": True} for rule in EXPERIMENTAL}}).response
+    assert len(found["passes"]) > 20
+    return [f"{each['id']}: {each['nodes'][0]['html'][:120]}" for each in found["violations"]]
 
 
 def numbers(text):

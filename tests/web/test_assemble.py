@@ -40,17 +40,15 @@ const run = (code) => {
   };
 })();
 """
-SECOND = "document.currentScript.told = `${document.currentScript.given} and after`;"
 BUILT = {
     "page.html": TEMPLATE,
     "page.js": SCRIPT,
-    "exchange.js": SECOND,
+    "exchange.js": "document.currentScript.told = `${document.currentScript.given} and after`;",
     "lift.js": "",
     "page.css": '#said { color: rgb(1, 2, 3); } #said::after { content: "</style>"; }',
     "stereodel.wasm": b"\0asm\1\0\0\0",
     "widget.js": "export default {};",
 }
-REFUSED = ("Content Security Policy", "unsafe-eval")
 
 
 @pytest.fixture
@@ -75,7 +73,7 @@ def built(monkeypatch):
 
 def test_a_page_runs_by_itself(built, visit, tmp_path):
     file = web(tmp_path / "page.html", lonlat=[(10, 48.4)], name='</script><script>alert("x")</script>')
-    page = visit(file, complaints=REFUSED)
+    page = visit(file, complaints=("Content Security Policy", "unsafe-eval"))
     page.until("window.report")
     expected = dict.fromkeys(("eval", "function", "third", "fetch"), "refused")
     expected |= {"end": "</script><!--<script>", "module": True, "name": '</script><script>alert("x")</script>'}

@@ -1,22 +1,18 @@
 """The module of WebAssembly as it is tracked: what it asks of its host, and what it offers."""
 
-import json
-from pathlib import Path
-
-WEB = Path(__file__).resolve().parents[2] / "stereodel" / "web"
-MODULE = WEB / "built" / "stereodel.wasm"
+from .conftest import SCRIPT
 
 
 def test_it_asks_for_one_function_and_offers_what_is_called(node):
     imports, exports = node(
         'import { readFileSync } from "node:fs";'
-        f"const module = await WebAssembly.compile(readFileSync({json.dumps(str(MODULE))}));"
+        f'const module = await WebAssembly.compile(readFileSync("{SCRIPT.parent}/built/stereodel.wasm"));'
         "export default [WebAssembly.Module.imports(module), WebAssembly.Module.exports(module)];"
     )
     assert imports == [{"module": "page", "name": "fail", "kind": "function"}]
     names = {export["name"] for export in exports}
     assert {"memory", "_initialize", "allocate", "release", "discard"} <= names
-    sources = " ".join(path.read_text(encoding="utf-8") for path in (WEB / "script" / "kernel").glob("*.ts"))
+    sources = " ".join(path.read_text(encoding="utf-8") for path in (SCRIPT / "kernel").glob("*.ts"))
     for name in names - {"memory", "_initialize"}:
         space, _, rest = name.partition("_")
         # Those of a space are called by the space that a class has.

@@ -81,12 +81,15 @@ def test_land_is_that_of_the_package_without_seams(node, resolution):
     assert 0.28 < area(rings) / (4 * np.pi) < 0.30
 
 
+def read_set(node, name):
+    found = read(node, f"contents.rings('{name}').then((s) => [...s.lonlat])", {name: contents.sites(name)})
+    return np.reshape(found, (-1, 2))
+
+
 @pytest.mark.parametrize("name", ["cities", "airports", "stars"])
 def test_the_sets_are_places_of_the_package(node, name):
     whole = getattr(data, name)().lonlat
-    found = np.reshape(
-        read(node, f"contents.rings('{name}').then((s) => [...s.lonlat])", {name: contents.sites(name)}), (-1, 2)
-    )
+    found = read_set(node, name)
     assert 100 < len(found) < 300
     assert {tuple(place) for place in found.tolist()} <= {tuple(place) for place in whole.tolist()}
     assert len(np.unique(found, axis=0)) == len(found)
@@ -94,8 +97,7 @@ def test_the_sets_are_places_of_the_package(node, name):
 
 @pytest.mark.parametrize(("name", "places"), contents.scattered().items())
 def test_the_sets_that_rooms_begin_with(node, name, places):
-    found = read(node, f"contents.rings('{name}').then((s) => [...s.lonlat])", {name: contents.sites(name)})
-    assert found == places.ravel().tolist()
+    assert read_set(node, name).tolist() == places.tolist()
 
 
 def test_too_many_points():

@@ -144,15 +144,14 @@ ASKED = """({
 })"""
 """Every method of `geo`, the triangulation, and of generators made for the sites or for values at them."""
 
+OF_TRIANGLES = {"edges", "triangles", "centers", "neighbors", "polygons", "mesh", "delaunay.triangles", "urquhart"}
+OF_TRIANGLES |= {f"geoVoronoi.{name}" for name in ("polygons", "links", "mesh", "cellMesh")}
+OF_TRIANGLES |= {"contours", "contour", "isobands"}
 DIFFER = {
     # Exactly equal heights: both choose diagonals of their own, and all orders follow from the triangles.
-    "grid": {"edges", "triangles", "centers", "neighbors", "polygons", "mesh", "hull", "delaunay.triangles", "urquhart"}
-    | {f"geoVoronoi.{name}" for name in ("polygons", "triangles", "links", "mesh", "cellMesh", "hull")}
-    | {"contours", "contour", "isobands"},
+    "grid": {*OF_TRIANGLES, "hull", "geoVoronoi.triangles", "geoVoronoi.hull"},
     # It makes triangles of rounding errors; here there are none.
-    "great circle": {"edges", "triangles", "centers", "neighbors", "polygons", "mesh", "delaunay.triangles", "urquhart"}
-    | {f"geoVoronoi.{name}" for name in ("polygons", "links", "mesh", "cellMesh")}
-    | {"contours", "contour", "isobands"},
+    "great circle": OF_TRIANGLES,
     # It leaves out features of equal places at the end, and has holes instead of no neighbours.
     "twins": {"neighbors", "polygons", "geoVoronoi.polygons"},
     # Edges of equal length: which one is the longest of a triangle, rounding decides.

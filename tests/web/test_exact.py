@@ -179,8 +179,7 @@ def test_signs_at_ties(web):
         assert made[name] == digest(signs, np.int8), name
 
 
-def test_latitudes_of_the_ellipsoid(web):
-    rng = np.random.default_rng(23)
+def test_latitudes_of_the_ellipsoid(rng, web):
     lonlat = np.column_stack([rng.uniform(-400, 400, 4000), rng.uniform(-90, 90, 4000)])
     lonlat[:7, 1] = [90, -90, 0, -0.0, 45, 5e-324, 89.99999999999999]
     made = web("web.ellipsoid(web.doubles(given))", text(lonlat))
@@ -188,8 +187,7 @@ def test_latitudes_of_the_ellipsoid(web):
         assert made[kind] == digest(stereodel.lonlat_to_xyz(lonlat, latitude=kind), np.float64)
 
 
-def test_maps_of_all_magnifications(web):
-    rng = np.random.default_rng(19)
+def test_maps_of_all_magnifications(rng, web):
     lonlat = np.column_stack([rng.uniform(-180, 180, 3000), rng.uniform(-90, 90, 3000)])
     lonlat[:6] = [[0, 90], [0, -90], [0, 0], [180, 0], [-90, 45], [12.5, 41.9]]
     sizes = [float(10.0**k) for k in range(-9, 10)] + [1.0, 1 / 3, 7.25]

@@ -4,6 +4,7 @@ import json
 import subprocess
 import sys
 import time
+from functools import partial
 from urllib.parse import parse_qs
 
 import numpy as np
@@ -11,10 +12,10 @@ import pytest
 import shapely
 from PIL import Image
 
-from stereodel import SphereCircle, bubble_to_bubble, fisheye, lonlat_to_xyz
+from stereodel import MoebiusMap, SphereCircle, bubble_to_bubble, fisheye, lonlat_to_xyz
 from stereodel.drawing import View
 
-from .rooms import downloaded, opened, pixels, python_lines, said
+from .rooms import downloaded, opened, pixels, python_lines, said, table
 
 pytestmark = pytest.mark.thorough  # what is asked once of each room by day stands in test_page.py
 
@@ -27,7 +28,7 @@ class Globe:
 
     def __init__(self, page, selector="#globe-plate"):
         self.page, self.selector = page, selector
-        box = page.page.locator(selector).bounding_box()
+        box = page.page.locator(selector).first.bounding_box()
         self.middle = np.array([box["x"] + box["width"] / 2, box["y"] + box["height"] / 2])
         self.radius = box["width"] / 2 - MARGIN
 
@@ -55,9 +56,9 @@ class Globe:
     def view(self):
         return View(*self.numbers("viewlon", "viewlat", "viewroll"))
 
-    def seen_at(self, lonlat):
-        """Where a place is in the window."""
-        x, y, z = self.view.matrix @ self.lens(lonlat_to_xyz(lonlat))
+    def seen_at(self, lonlat, lens=None, view=None):
+        """Where a place is in the window, by the link or by what is given."""
+        x, y, z = (view or self.view).matrix @ (lens or self.lens)(lonlat_to_xyz(lonlat))
         assert z > 0
         return self.middle + self.radius * np.array([x, -y])
 
@@ -140,7 +141,7 @@ def test_keys(globe):
     page.keyboard.press("0")
     assert globe.numbers("viewlon", "viewlat", "s", "focuslon") == (-8.0, 20.0, 3.0, 10.0)
     page.wait_for_timeout(700)
-    assert page.inner_text("#status") == "3.00 times at 48.0°\u202fN, 10.0°\u202fE"
+    assert page.inner_text("#status") == "3.00 times at 48.0°\u202fN 10.0°\u202fE, seen from 20.0°\u202fN 8.0°\u202fW"
 
 
 def test_the_pointer_is_followed_and_five_sides_are_drawn_with_the_lens_alone(globe):
@@ -185,19 +186,13 @@ def test_bubble_to_bubble(room):
     carry = bubble_to_bubble(taken, filled)
     middle, rim = (float(carry.scale_factor(p)) for p in (lonlat_to_xyz((10, 48)), taken.sample(4)[0]))
     words = f"In the middle of the bubble everything is {middle:.2f} times as large, at its rim {rim:.2f} times."
-    assert page.page.inner_text("[data-out=bubbles]") == words
+    assert page.page.inner_text("#room-globe [data-out=pointer]") == words
     globe = Globe(page, "#globe-before")
-    view = View(10, 42)
-
-    def at(lon, lat):
-        x, y, _ = view.matrix @ lonlat_to_xyz((lon, lat))
-        return globe.middle + globe.radius * np.array([x, -y])
-
-    page.drag(at(10, 34), at(10, 20))  # the rim, to 28°
+    at = partial(globe.seen_at, lens=MoebiusMap.identity(), view=View(10, 42))
+    page.drag(at((10, 34)), at((10, 20)))  # the rim, to 28°
     assert globe.numbers("fromradius") == (pytest.approx(28, abs=0.3),)
-    page.drag(at(10, 48), at(25, 40))  # the inside
-    lon, lat = globe.numbers("fromlon", "fromlat")
-    assert np.linalg.norm(at(lon, lat) - at(25, 40)) < 1
+    page.drag(at((10, 48)), at((25, 40)))  # the inside
+    assert np.linalg.norm(at(globe.numbers("fromlon", "fromlat")) - at((25, 40))) < 1
     assert globe.numbers("toradius") == (72.0,)
     page.page.fill("input[name=to-radius]", "30")
     page.page.keyboard.press("Enter")
@@ -205,12 +200,11 @@ def test_bubble_to_bubble(room):
     assert page.ink("#globe-after") > 0.3
 
 
-def test_the_readers_places_stand_in_a_table(globe, tmp_path):
-    file, page = tmp_path / "towns.csv", globe.page
-    file.write_text("name,lon,lat\nA,10,48.4\nB,-78.5,-0.2\nC,3.4,6.5\n")
+def test_the_readers_places_stand_in_a_table(globe):
+    page = globe.page
     assert not page.page.is_visible("#room-globe .sites")
     before = page.picture("#globe-plate").astype(int)
-    opened(page, "globe", file)
+    opened(page, "globe", table("towns.csv", "name,lon,lat\nA,10,48.4\nB,-78.5,-0.2\nC,3.4,6.5\n"))
     changed = np.abs(page.picture("#globe-plate") - before).max(axis=-1)
     assert (changed > 60).mean() > 0.002  # the cells, too, and not the places alone
     assert said(page, "globe", "places") == "The 3 places of towns.csv"
@@ -232,8 +226,7 @@ def test_the_readers_places_stand_in_a_table(globe, tmp_path):
 
 
 @pytest.mark.parametrize("kind", ["authalic", "geodetic", "spherical"])
-def test_a_page_and_the_command_agree_about_the_cells_of_a_table(room, tmp_path, kind):
-    rng = np.random.default_rng(8)
+def test_a_page_and_the_command_agree_about_the_cells_of_a_table(rng, room, tmp_path, kind):
     lonlat = np.round(rng.uniform((-180, -90), (180, 90), (40, 2)), 2)
     table, cells = tmp_path / "towns.csv", tmp_path / "cells.geojson"
     np.savetxt(table, lonlat, "%.2f", delimiter=",", header="lon,lat", comments="")
@@ -286,6 +279,7 @@ def test_a_panorama_is_taken_along_and_named_by_the_link(room, tmp_path):
     page.rest(still=0.4)
     painted = page.digest("#globe-plate")
     assert painted != water
+    assert not page.page.is_visible("#room-globe input[name=land]")
     assert downloaded(page, "svg")[1].count(b'href="data:image/png;base64,') == 1
     lines = python_lines(page)
     assert 'globe.add_raster("rooms.png")' in lines
@@ -300,6 +294,19 @@ def test_a_panorama_is_taken_along_and_named_by_the_link(room, tmp_path):
         assert page.digest("#globe-plate") == drawn
     told = room(link).page.inner_text("[role=alert]")
     assert told.startswith("rooms.png is named by this link, which does not hold its pixels. Open the file here.")
+    page.page.click("text=Back to land and coasts")
+    page.rest(still=0.4)
+    assert page.digest("#globe-plate") == water
+    assert page.page.is_checked("#room-globe input[name=land]")
+
+
+def test_a_preset_forgets_the_pointer(room):
+    pages, presets = [room("globe"), room("globe")], "document.querySelector('[value=new-york]').click()"
+    pages[0].page.mouse.move(*np.add(pages[0].middle("#globe-plate"), 60))
+    for page in pages:
+        page.page.evaluate(presets)
+        page.rest(still=0.4)
+    assert pages[0].digest("#globe-before") == pages[1].digest("#globe-before")
 
 
 STROKE = "CanvasRenderingContext2D.prototype.stroke"

@@ -16,7 +16,6 @@ const attempt = (body) => {{
 
 
 READ = "given.map((hash) => attempt(() => { const { room, values } = readLink(hash); return [room, [...values]]; }))"
-PACKED = "given.map((places) => tableValues({ places: Float64Array.from(places) }, true).sites)"
 UNPACKED = "given.map((sites) => attempt(() => [...tableOf(new Map([['sites', sites]]), 'plane').places]))"
 
 
@@ -56,7 +55,7 @@ def test_sites_come_back_to_the_bit(node, rng):
     decimals = np.round(rng.uniform((-180, -90), (180, 90), size=(2000, 2)), 7)
     sets = [[], [0.0, 0.0], decimals.ravel().tolist(), rng.normal(scale=50, size=200).tolist()]
     sets += [[4.5e6 + 0.123, 5.3e6 - 1.001, 4.5e6, -5.3e6], [1 / 3, 1e-12]]
-    packed = ask(node, PACKED, sets)
+    packed = ask(node, "given.map((places) => tableValues({ places: Float64Array.from(places) }, true).sites)", sets)
     assert packed[:2] == ["", "0,0"]
     assert len(packed[2]) < 26 * 2000
     assert ask(node, UNPACKED, packed) == sets

@@ -6,13 +6,12 @@ import pytest
 from stereodel.web import web
 
 from .conftest import SCRIPT, asking
-from .rooms import downloaded, opened
+from .rooms import downloaded, opened, table
 
 ask = asking(f"""
 const context = {{ measureText: (text) => ({{ width: 6 * text.length }}) }};
 globalThis.document = {{ createElement: () => ({{ append() {{}}, getContext: () => context }}) }};
 const {{ drawNames, Seats }} = await import("{SCRIPT}/drawing/names.ts");
-const {{ drawSegments }} = await import("{SCRIPT}/drawing/ball.ts");
 const {{ Pen }} = await import("{SCRIPT}/drawing/pen.ts");
 """)
 
@@ -76,7 +75,7 @@ def test_lines_and_dots_are_weaker_only_where_they_are_dense(node):
       };
       const [found, dots] = [[], []];
       class Found extends Pen {
-        draw(_, trace, ink, { width, strokeOpacity }) {
+        path(_, trace, ink, { width, strokeOpacity }) {
           const count = [[0, 0], [0, 0]];
           trace({ moveTo: (x) => ++count[0][x < 300 ? 0 : 1], lineTo: (x) => ++count[1][x < 302 ? 0 : 1] });
           found.push([width * strokeOpacity / 1.1, ...count]);
@@ -86,7 +85,7 @@ def test_lines_and_dots_are_weaker_only_where_they_are_dense(node):
       const pen = new Found(600, 300, {}, 1);
       const [ends, places] = [[], []];
       each((x, y) => { ends.push(x, y, x + 2, y); places.push(x, y); });
-      drawSegments(pen, "delaunay", ends);
+      pen.lines("delaunay", ends);
       pen.dots("site", places);
       return { found, dots };
     })()"""
@@ -103,13 +102,12 @@ def test_lines_and_dots_are_weaker_only_where_they_are_dense(node):
     assert answer["dots"][-1] == [1, 25]
 
 
-def test_names_are_drawn_taken_along_and_switched_off(room, tmp_path):
-    file = tmp_path / "towns.csv"
-    file.write_text("name,lon,lat\nOslo,10.8,59.9\n*Lagos*,3.4,6.5\nPerth,115.9,-31.9\n<i>Rome,12.5,41.9\n")
+def test_names_are_drawn_taken_along_and_switched_off(room):
+    towns = "name,lon,lat\nOslo,10.8,59.9\n*Lagos*,3.4,6.5\nPerth,115.9,-31.9\n<i>Rome,12.5,41.9\n"
     page = room("globe")
     switch = page.page.locator("#room-globe [name=names]")
     assert not switch.is_visible()
-    opened(page, "globe", file)
+    opened(page, "globe", table("towns.csv", towns))
     page.page.click("#room-globe button[value=figure-10]")  # seen from 40° N 0° E, with Perth behind
     page.rest()
     svg = downloaded(page, "svg")[1].decode()

@@ -24,10 +24,11 @@ def table(tmp_path_factory):
     return path
 
 
-@pytest.fixture
-def towns(table, tmp_path, room):
-    """The page that `stereodel web towns.csv` makes, as it opens."""
-    return room("", file=web(tmp_path / "towns.html", lonlat=LONLAT, names=NAMES, name=table.name, resolution="110m"))
+@pytest.fixture(scope="module")
+def file(table):
+    """The page that `stereodel web towns.csv` makes."""
+    file = table.with_suffix(".html")
+    return web(file, lonlat=LONLAT, names=NAMES, name=table.name, resolution="110m")
 
 
 def test_open_my_table(room, table):
@@ -37,7 +38,8 @@ def test_open_my_table(room, table):
     assert "40" in page.page.locator("[data-out=count]:visible, [data-out=places]:visible").inner_text()
 
 
-def test_find_the_cell_of_a_place(towns):
+def test_find_the_cell_of_a_place_and_magnify_it(room, file):
+    towns = room(file=file)
     towns.page.click("#room-globe tbody tr[data-site='7'] button")  # one: its row
     towns.rest()
     area = SphericalVoronoi.from_lonlat(LONLAT, latitude="authalic").areas(radius=AUTHALIC_RADIUS_KM)[7]
@@ -46,10 +48,7 @@ def test_find_the_cell_of_a_place(towns):
     assert "Town 7" in sentence
     assert min(abs(number / area - 1) for number in numbers if number > 0) < 1e-3
 
-
-def test_magnify_my_city(towns):
-    towns.page.click("#room-globe tbody tr[data-site='7'] button")  # its row brings it to the middle
-    towns.rest()
+    # Its row has brought it to the middle.
     before = float(said(towns, "globe", "mag"))
     towns.page.locator("#globe-plate").scroll_into_view_if_needed()
     x, y = towns.middle("#globe-plate")
@@ -62,7 +61,8 @@ def test_magnify_my_city(towns):
     assert np.hypot(lon - LONLAT[7, 0], lat - LONLAT[7, 1]) < 0.2
 
 
-def test_send_it_to_a_friend(towns, visit):
+def test_send_it_to_a_friend_and_get_it_into_a_paper(room, visit, file):
+    towns = room(file=file)
     towns.page.context.grant_permissions(["clipboard-read", "clipboard-write"])
     towns.page.click("[data-export=link]")  # one
     towns.page.wait_for_timeout(200)
@@ -73,8 +73,6 @@ def test_send_it_to_a_friend(towns, visit):
     assert CANNOT_BE_READ not in friend.page.locator("#messages").inner_text()
     assert pixels(friend, "globe") == pixels(towns, "globe")
 
-
-def test_get_it_into_a_paper(towns):
     name, svg = downloaded(towns, "svg")  # one
     assert name.endswith(".svg")
     assert svg.count(b"Town ") > 3

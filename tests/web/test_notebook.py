@@ -10,15 +10,18 @@ import time
 import urllib.error
 import urllib.request
 from contextlib import suppress
+from functools import partial
 
 import numpy as np
 import pytest
 
-from stereodel import fisheye, lonlat_to_xyz
+from stereodel import fisheye
 from stereodel.drawing import View
 from stereodel.io import PointTable
 from stereodel.web import GlobeWidget
 from tools.browser import Visit
+
+from .test_globe_room import Globe
 
 FIRST = """
 from pathlib import Path
@@ -239,26 +242,17 @@ await widget.render({ model, el: document.querySelector("#here") });
 window.isShown = true;
 </script>"""
 
-SHOWN = ("sites", "names", "look", "layers", "lens", "view", "selection")
-
 
 def alone(visit, tmp_path, widget):
     """A page of a widget's traits, and where places of the Earth are on it."""
-    state = {name: getattr(widget, name) for name in SHOWN}
+    state = {name: getattr(widget, name) for name in ("sites", "names", "look", "layers", "lens", "view", "selection")}
     text = json.dumps(state, default=lambda value: {"doubles": np.frombuffer(value).tolist()})
     file = tmp_path / "alone.html"
     file.write_text(ALONE % (widget._css, json.dumps(text), json.dumps(widget._esm)), encoding="utf-8")
     page = visit(file, height=1000)
     page.until("window.isShown")
     page.rest()
-    box = page.page.locator("canvas").first.bounding_box()
-    middle, radius = np.array([box["x"], box["y"]]) + box["width"] / 2, box["width"] / 2 - 7
-
-    def at(lon, lat):
-        x, y, _ = View(**widget.view).matrix @ fisheye(**widget.lens)(lonlat_to_xyz((lon, lat)))
-        return middle + radius * np.array([x, -y])
-
-    return page, at
+    return page, partial(Globe(page, "canvas").seen_at, lens=fisheye(**widget.lens), view=View(**widget.view))
 
 
 def test_places_layers_and_the_hand(visit, tmp_path):
@@ -273,19 +267,19 @@ def test_places_layers_and_the_hand(visit, tmp_path):
     pixels = page.picture().astype(int)
 
     def redness(*place):
-        x, y = np.rint(at(*place)).astype(int)
+        x, y = np.rint(at(place)).astype(int)
         return (pixels[y, x] - pixels[y, x].mean()).tolist()[0]
 
     assert redness(-12, 10) > 100 < redness(12, 3)
     assert redness(0, 10) < 40 > redness(30, 10)
-    x, y = np.rint(at(30, 60)).astype(int)  # on the parallel and not on the great circle
+    x, y = np.rint(at((30, 60))).astype(int)  # on the parallel and not on the great circle
     assert (pixels[y - 2 : y + 3, x, 1] - pixels[y - 2 : y + 3, x, 0]).max() > 60
     assert "a region" in page.page.locator(".legend").inner_text()
 
-    page.page.mouse.move(*at(3.4, 6.5))
+    page.page.mouse.move(*at((3.4, 6.5)))
     said = page.page.locator("[role=status]").inner_text().replace("\u202f", " ")
     assert said.startswith("Lagos, 6.50° N 3.40° E, people 15.5 M")
-    page.page.mouse.click(*at(3.4, 6.5))
+    page.page.mouse.click(*at((3.4, 6.5)))
     assert page.page.evaluate("model.get('selection')") == [1]
     page.page.mouse.wheel(0, -100)
     page.until("model.get('lens').magnification > 1.1")

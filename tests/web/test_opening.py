@@ -12,7 +12,7 @@ from stereodel.io import read_points
 from tests.tiers import by_day
 
 from .rooms import downloaded, said
-from .test_files_of_points import ROW, WRONG
+from .test_files_of_points import WRONG
 
 EXACT = [0.1 + 0.2, -1e-7, 5e-324, -0.0, 1 / 3, 89.99999999999999, -179.99999999999997, 45.0]
 ALERT = "[role=alert]"
@@ -31,9 +31,7 @@ def table_of(page):
     return download.value.suggested_filename, download.value.path().read_bytes()
 
 
-OTHER_WORDS = ["infinite.csv", "list.json", "number.geojson", "null.geojson", "my book.xlsx", "cities.xyz"]
-"""Where the library says something else."""
-READ_BY_PYTHON = ["no_rows.csv", "no_features.geojson", "cyrillic.csv", "walk.gpx", "other_system.geojson"]
+READ_BY_PYTHON = ["no_rows.csv", "no_features.geojson", "cyrillic.csv", "walk.gpx", "packed.csv.gz"]
 
 
 @pytest.mark.filterwarnings("ignore::stereodel.io.DataWarning")
@@ -51,10 +49,10 @@ def test_a_broken_table_opens_with_one_click_or_says_why_not(room, tmp_path, nam
         assert told.startswith(f"{name}: "), name
         assert told.endswith("Nothing has changed."), told
         assert not re.search(r"\w=|skip_", told), told
-        assert answer in ROW.sub(r"row \1", told), told
+        assert answer in told, told
         assert said(page, "sphere", "count") == before, name
-        if name not in OTHER_WORDS + READ_BY_PYTHON:
-            with pytest.raises(ValueError, match=re.escape(answer.partition(": ")[2] or answer)):
+        if name not in READ_BY_PYTHON + ["cities.xyz", "my book.xlsx"]:
+            with pytest.raises(ValueError):
                 read_points(path)
         buttons = page.page.locator(f"{ALERT} button").all_inner_texts()
         assert buttons[-1] == "Close"
@@ -140,11 +138,3 @@ def test_a_step_of_the_insertion_is_taken_along_as_its_triangles(room):
     features = json.loads(downloaded(page, "geojson")[1])["features"]
     assert {each["properties"]["kind"] for each in features} == {"triangle"}
     assert {each["properties"][corner] for each in features for corner in "abc"} == set(range(9))
-
-
-@pytest.mark.parametrize("lat", [0, 30])
-def test_sites_on_a_circle_have_triangles_unless_it_is_a_great_one(room, lat):
-    sites = ",".join(f"{lon},{lat}" for lon in range(0, 360, 30))
-    page = room(f"v=1&room=sphere&sites={sites}")
-    alone = "All sites lie on one great circle: there are no triangles."
-    assert (said(page, "sphere", "sentence") == alone) == (lat == 0)

@@ -5,10 +5,10 @@ import io
 import json
 import re
 import zlib
+from functools import partial
 
 import numpy as np
 import pytest
-from axe_playwright_python.sync_playwright import Axe
 from PIL import Image
 
 from stereodel import SphericalDelaunay, SphericalVoronoi, angular_distance, lonlat_to_xyz
@@ -19,7 +19,7 @@ from stereodel.globe import Globe as Picture
 from stereodel.web import web
 from stereodel.web.looks import Looks
 
-from .rooms import downloaded, link, opened, said
+from .rooms import barriers, downloaded, link, opened, said, table
 from .test_globe_room import Globe
 
 LONLAT = cities().lonlat
@@ -71,16 +71,9 @@ def towns(tmp_path_factory):
 
 
 @pytest.fixture
-def page(towns, visit):
+def page(towns, room):
     """Open it as a reader does, without a room in the address."""
-
-    def shown(query="", **how):
-        page = visit(f"{towns.as_uri()}{query}", **how)
-        page.until("document.documentElement.dataset.ready")
-        page.rest(still=0.3)
-        return page
-
-    return shown
+    return partial(room, file=towns)
 
 
 def seen_in(page, lonlat):
@@ -133,7 +126,9 @@ def test_it_opens_fitted_and_says_everything_of_a_place(page):
     assert "people" in shown.page.inner_text("#room-globe .sites thead")
 
 
-def test_pictures_have_title_legend_and_source_and_no_handle(page):
+def test_files_and_a_print_of_one_sheet_have_title_legend_and_source_and_no_handle(page, tmp_path):
+    import pypdfium2
+
     shown = page()
     svg = downloaded(shown, "svg")[1].decode()
     assert svg.count('class="spot"') >= len(LONLAT)
@@ -148,12 +143,6 @@ def test_pictures_have_title_legend_and_source_and_no_handle(page):
     assert height > disc + 100
     foot = np.asarray(image.convert("L"))[int(2 * disc) + 100 :]
     assert (foot < 100).sum() > 500  # letters of the legend and of the source
-
-
-def test_a_print_is_one_sheet_with_the_legend(page, tmp_path):
-    import pypdfium2
-
-    shown = page()
     shown.page.pdf(path=tmp_path / "towns.pdf")
     with pypdfium2.PdfDocument(tmp_path / "towns.pdf") as document:
         assert len(document) == 1
@@ -191,7 +180,7 @@ def test_a_frame_has_the_drawing_alone(towns, visit, tmp_path, size):
 
 @pytest.mark.thorough
 def test_cells_and_lines_by_value(page):
-    shown = page("#v=1&room=globe&on=land,fills,north")
+    shown = page("v=1&room=globe&on=land,fills,north")
     pairs = np.random.default_rng(3).integers(0, len(LONLAT), (500, 2))
     asked = LONLAT[pairs].mean(axis=1)
     seen = seen_in(shown, np.vstack([LONLAT, asked]))[1]
@@ -209,10 +198,9 @@ def test_cells_and_lines_by_value(page):
 
 
 @pytest.mark.thorough
-def test_the_owner_is_silent_about_other_places(page, tmp_path):
+def test_the_owner_is_silent_about_other_places(page):
     shown = page()
-    (tmp_path / "two.csv").write_text("lon,lat,height\n100,10,5\n101,11,-1234.5\n", encoding="utf-8")
-    opened(shown, "globe", tmp_path / "two.csv")
+    opened(shown, "globe", table("two.csv", "lon,lat,height\n100,10,5\n101,11,-1234.5\n"))
     assert shown.page.inner_text("#room-globe h1") == "Every angle true, every size your choice"
     assert not shown.page.is_visible(".legend")
     shown.page.hover("#room-globe .sites tr[data-site='1'] td:nth-child(2)")
@@ -226,27 +214,4 @@ def test_the_owner_is_silent_about_other_places(page, tmp_path):
 @pytest.mark.parametrize("query", ["", "?frame"])
 @pytest.mark.parametrize("colours", ["light", "dark"])
 def test_axe_finds_nothing(page, query, colours):
-    found = Axe().run(page(query, colours=colours).page).response
-    assert [f"{each['id']}: {each['nodes'][0]['html'][:120]}" for each in found["violations"]] == []
-
-
-@pytest.mark.thorough
-def test_a_panorama_has_a_way_back_and_a_preset_forgets_the_pointer(room, tmp_path):
-    shown = room("globe")
-    Image.new("RGB", (256, 128), (200, 30, 60)).save(tmp_path / "red.png")
-    earth = shown.digest("#globe-plate")
-    shown.page.set_input_files("#room-globe input[type=file]", str(tmp_path / "red.png"))
-    shown.until("location.hash.includes('picture=red.png')")
-    shown.rest(still=0.4)
-    assert not shown.page.is_visible("#room-globe input[name=land]")
-    shown.page.click("text=Back to land and coasts")
-    shown.rest(still=0.4)
-    assert shown.digest("#globe-plate") == earth
-    assert shown.page.is_checked("#room-globe input[name=land]")
-    x, y = shown.middle("#globe-plate")
-    fresh = room("globe")
-    shown.page.mouse.move(x + 60, y + 60)
-    for each in (shown, fresh):
-        each.page.evaluate("document.querySelector('[value=new-york]').click()")
-        each.rest(still=0.4)
-    assert shown.digest("#globe-before") == fresh.digest("#globe-before")
+    assert barriers(page(query=query, colours=colours)) == []

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from playwright.sync_api import expect
 
 from stereodel import fisheye, lonlat_to_xyz
 from stereodel.drawing import View
@@ -55,6 +56,40 @@ def test_a_dragged_site_is_drawn_as_a_fresh_page_draws_it(room, rng, sites):
     again = room(page.link)
     assert said(again, "sphere", "sentence") == said(page, "sphere", "sentence") == sentence
     assert [again.digest(drawing) for drawing in (BALL, PLANE)] == [page.digest(drawing) for drawing in (BALL, PLANE)]
+
+
+def ring(lat):
+    return "sites=" + ",".join(f"{lon},{lat}" for lon in range(0, 360, 30))
+
+
+HATCHED, CELLS = "Hatched is where the facets go that see P.", "Cells differ: centres are not sent to centres."
+TRIANGLES, THIN = "Delaunay triangles.", "Voronoi cells in thin lines."
+SAID = {
+    "sites=": {"sentence": "No sites yet. Click the ball, or open a file."},
+    "sites=0,0": {"sentence": "All sites lie at one place: its cell is the whole sphere, and there are no triangles."},
+    "sites=0,0,90,0": {"sentence": "All sites lie on one great circle: there are no triangles."},
+    ring(0): {"sentence": "All sites lie on one great circle: there are no triangles."},
+    ring(30): {"sum": "20 facets on the sphere = 10 triangles in the plane + 10 facets that see\u00a0P"},
+    "on=triangles,seeing": {"on-ball": TRIANGLES, "in-plane": f"The same triangles. {HATCHED}"},
+    "on=triangles,cells,seeing": {
+        "on-ball": f"{TRIANGLES} {THIN}",
+        "in-plane": f"The same triangles. {CELLS} {HATCHED}",
+    },
+    "on=cells": {"on-ball": THIN, "in-plane": CELLS},
+    "on=cells&step=34": {"on-ball": f"{TRIANGLES} New ones are dashed.", "in-plane": "The same triangles."},
+    "on=cells&sites=0,0": {"on-ball": "", "in-plane": ""},
+}
+"""Sentences and captions."""
+
+
+def test_what_is_said_follows_what_is_drawn(room):
+    page = room("sphere")
+    for state, outputs in SAID.items():
+        page.page.evaluate("(state) => void (location.hash = state)", f"v=1&room=sphere&{state}")
+        for output, words in outputs.items():
+            expect(page.page.locator(f"#room-sphere [data-out={output}]")).to_have_text(words)
+        assert page.page.locator("#messages").inner_text() == ""
+        assert "on=" in state or page.ink(BALL) > 0.001
 
 
 @pytest.mark.thorough

@@ -7,11 +7,10 @@ from stereodel import SphericalDelaunay, lonlat_to_xyz
 from stereodel.triangulation import planar_part
 from stereodel.web.contents import scattered
 
-from .rooms import link, opened, python_lines, said
+from .rooms import link, opened, python_lines, said, table
 
 pytestmark = pytest.mark.thorough  # what is asked once of each room by day stands in test_page.py
 
-GAP = scattered()["gap"]
 
 ROOM = "#room-sphere"
 BALL = "#sphere-ball"
@@ -63,7 +62,7 @@ def test_the_pole_is_dragged_over_the_limb(room):
     assert "lies in front" in page.page.inner_text("#sphere-desc")
     front = lonlat_to_xyz([float(link(page)[f"pole-{axis}"]) for axis in ("lon", "lat")])
     np.testing.assert_allclose(radius * front[1:], [-40, 60], atol=1)
-    planar = len(planar_part(SphericalDelaunay.from_lonlat(GAP), front))
+    planar = len(planar_part(SphericalDelaunay.from_lonlat(scattered()["gap"]), front))
     assert output(page, "sum").startswith(
         f"104 facets on the sphere = {planar} triangles in the plane + {104 - planar} "
     )
@@ -147,43 +146,10 @@ def test_the_insertion_goes_step_by_step(room):
     assert link(page)["step"] == "34"
 
 
-WITHOUT_TRIANGLES = {
-    "": "No sites yet. Click the ball, or open a file.",
-    "0,0": "All sites lie at one place: its cell is the whole sphere, and there are no triangles.",
-    "0,0,90,0": "Two sites: each has half of the sphere, and there are no triangles.",
-}
-
-
-@pytest.mark.parametrize("sites", WITHOUT_TRIANGLES)
-def test_without_triangles_the_sentence_says_so(room, sites):
-    page = room(f"v=1&room=sphere&sites={sites}")
-    assert output(page, "sentence") == WITHOUT_TRIANGLES[sites]
-    assert page.page.locator("#messages").inner_text() == ""
-    assert page.ink(BALL) > 0.001
-
-
-HATCHED, CELLS = "Hatched is where the facets go that see P.", "Cells differ: centres are not sent to centres."
-STRONG = "Delaunay triangles in strong lines, Voronoi cells in thin ones."
-CAPTIONS = {
-    "on=triangles,seeing": ("Delaunay triangles.", f"The same triangles. {HATCHED}"),
-    "on=triangles,cells,seeing": (STRONG, f"The same triangles. {HATCHED} {CELLS}"),
-    "on=cells": ("Voronoi cells.", CELLS),
-    "on=cells&step=34": ("Delaunay triangles, new ones dashed.", "The same triangles."),
-    "on=cells&sites=0,0": ("", ""),
-}
-
-
-@pytest.mark.parametrize("state", CAPTIONS)
-def test_captions_follow_what_is_drawn(room, state):
-    page = room(f"v=1&room=sphere&{state}")
-    assert (output(page, "on-ball"), output(page, "in-plane")) == CAPTIONS[state]
-
-
-def test_names_stand_in_the_table_are_said_and_follow_the_hand_and_undo(room, tmp_path):
-    file = tmp_path / "towns.csv"
-    file.write_text("name,lat,lon\nUlm,48.4,10\nQuito,-0.2,-78.5\n<b>Lagos</b>,6.5,3.4\nPerth,-31.9,115.9\n")
+def test_names_stand_in_the_table_are_said_and_follow_the_hand_and_undo(room):
+    towns = "name,lat,lon\nUlm,48.4,10\nQuito,-0.2,-78.5\n<b>Lagos</b>,6.5,3.4\nPerth,-31.9,115.9\n"
     page, names = room("sphere"), ["Ulm", "Quito", "<b>Lagos</b>", "Perth"]
-    opened(page, "sphere", file)
+    opened(page, "sphere", table("towns.csv", towns))
     shown = page.page.locator(f"{ROOM} td.name")
     page.page.press(BALL, ".")
     page.page.wait_for_timeout(800)

@@ -18,7 +18,7 @@ import {{ SphereSites }} from "{SCRIPT}/rooms/sphere_sites.ts";
 import {{ Twin }} from "{SCRIPT}/rooms/twin.ts";
 import {{ sphereSets }} from "{SCRIPT}/sets.ts";
 const facetsAfter = ({{ before, seeing, fan }}) =>
-  [...before.filter((_, k) => !seeing.includes(Math.floor(k / 3))), ...fan];
+  [...before.simplices.filter((_, k) => !seeing.includes(Math.floor(k / 3))), ...fan];
 const sitesOf = (lonlat) => new SphereSites(Float64Array.from(lonlat.flat()));
 """)
 
@@ -90,7 +90,8 @@ def test_a_circle_through_the_pole_becomes_a_line(node):
 
 
 def test_inserting_one_site_after_another_ends_with_the_kernels_facets(node, lonlat):
-    taken = "(_, k) => { const step = sites.insertion(k + 4); return { ...step, after: facetsAfter(step) }; }"
+    told = "({ before, ...step }) => ({ ...step, after: facetsAfter({ before, ...step }) })"
+    taken = f"(_, k) => ({told})(sites.insertion(k + 4))"
     expression = f"((sites) => Array.from({{ length: sites.count - 4 }}, {taken}))(sitesOf(given))"
     steps = ask(node, expression, lonlat.tolist())
     assert len(steps) == len(lonlat) - 4

@@ -234,21 +234,23 @@ def _kind_of_folder(path: Path) -> str:
 
 def _check_tables(path: Path) -> None:
     """A ValueError for a database with a table that is kept elsewhere."""
-    try:
-        with _base(path) as base:
-            tables = base.execute(f"SELECT name, sql FROM sqlite_master WHERE {MADE}").fetchall()
-            for (name,) in base.execute(f"SELECT name FROM sqlite_master WHERE {STORED}").fetchall():
-                check_crs(" ".join(map(str, base.execute(f"SELECT * FROM {name}").fetchall())))
-    except (sqlite3.Error, UnicodeError) as error:
-        raise ValueError(f"the database is damaged: {error}") from error
+    with _base(path) as base:
+        tables = base.execute(f"SELECT name, sql FROM sqlite_master WHERE {MADE}").fetchall()
+        for (name,) in base.execute(f"SELECT name FROM sqlite_master WHERE {STORED}").fetchall():
+            check_crs(" ".join(map(str, base.execute(f"SELECT * FROM {name}").fetchall())))
     for name, sql in tables:
         if not INDEX.fullmatch(sql):
             raise ValueError(f"the table {name!r} is not stored in the file, but made, and could be any other file")
 
 
-def _base(path: Path) -> closing[sqlite3.Connection]:
-    """A database, only to be read."""
-    return closing(sqlite3.connect(f"{path.absolute().as_uri()}?mode=ro&immutable=1", uri=True))
+@contextmanager
+def _base(path: Path) -> Iterator[sqlite3.Connection]:
+    """A database, only to be read; a ValueError where it is damaged."""
+    try:
+        with closing(sqlite3.connect(f"{path.absolute().as_uri()}?mode=ro&immutable=1", uri=True)) as base:
+            yield base
+    except (sqlite3.Error, UnicodeError) as error:
+        raise ValueError(f"the database is damaged: {error}") from error
 
 
 def check_stored(path: Path, layers: Iterable[str]) -> None:

@@ -1,7 +1,8 @@
 /**
  * What the page carries with it: the kernel, land, sets of points, and points that its maker gave.
  *
- * Each is a text by name that `stereodel/web/contents.py` wrote: base64 of deflated bytes.
+ * Each is a text by name that `stereodel/web/contents.py` wrote: base64 of deflated bytes. In the page it stands in an
+ * element `<script type="text/plain" id="block-NAME">`.
  */
 
 import type { Owner } from "./rooms/owner.ts";
@@ -22,11 +23,6 @@ export class Contents {
   /** @param blocks gets the text of a name, or null where the page does not have it. */
   constructor(blocks: (name: string) => string | null) {
     this.#blocks = blocks;
-  }
-
-  /** What stands in the document's own elements `<script type="text/plain" id="block-NAME">`. */
-  static ofDocument(): Contents {
-    return new Contents((name) => document.getElementById(`block-${name}`)?.textContent ?? null);
   }
 
   /** The kernel, as bytes of WebAssembly. */

@@ -10,7 +10,6 @@ import { geojson } from "./geojson.ts";
 import { openPanorama } from "./panorama.ts";
 import { framed } from "./rooms/framed.ts";
 import { globePython, liftPython, spherePython } from "./rooms/python.ts";
-import { savedPage } from "./saved_page.ts";
 import { writeTable } from "./tables/delimited.ts";
 
 /** Saves a file under the reader's downloads. */
@@ -23,23 +22,37 @@ function download(name: string, content: Blob | string): void {
 
 /** The picture as SVG, in the colours of the screen. */
 async function sheetSvg(sheet: Sheet): Promise<string> {
-  const { title, width, height, weight, paint } = await framed(sheet, colours().ink);
-  const pen = new SvgPen(width, height, colours(), weight);
+  const { title, width, height, paint } = await framed(sheet, colours().ink);
+  const pen = new SvgPen(width, height, colours());
   paint(pen);
   return pen.text(title);
 }
 
 /** The picture as PNG with so many pixels for one of the screen. */
 async function sheetPng(sheet: Sheet, scale: number): Promise<Blob> {
-  const { width, height, weight, paint } = await framed(sheet, colours().ink);
+  const { width, height, paint } = await framed(sheet, colours().ink);
   const canvas = make("canvas", { width: Math.round(width * scale), height: Math.round(height * scale) });
   const context = canvas.getContext("2d")!;
   context.fillStyle = colours().paper;
   context.fillRect(0, 0, canvas.width, canvas.height);
-  paint(new CanvasPen(context, width, height, scale, colours(), weight));
+  paint(new CanvasPen(context, width, height, scale, colours()));
   return new Promise((resolve, reject) => {
     canvas.toBlob((blob) => (blob === null ? reject(new Error("the picture is too large")) : resolve(blob)));
   });
+}
+
+/**
+ * The page as a file with a state in it: its own source, in which the state of any length is one more text.
+ * @param source The document as it was before its script ran. @param state As a link without its `#`.
+ */
+async function savedPage(source: Node, state: string): Promise<Blob> {
+  const page = source.cloneNode(true) as HTMLElement;
+  page.querySelector("#block-state")?.remove();
+  const stream = new Blob([state]).stream().pipeThrough(new CompressionStream("deflate"));
+  const bytes = new Uint8Array(await new Response(stream).arrayBuffer());
+  const text = btoa(Array.from(bytes, (byte) => String.fromCharCode(byte)).join("")); // as `Contents` reads it
+  page.querySelector("#block-kernel")!.before(make("script", { type: "text/plain", id: "block-state" }, text), "\n");
+  return new Blob(["<!doctype html>\n", page.outerHTML, "\n"], { type: "text/html" });
 }
 
 const exchange = {

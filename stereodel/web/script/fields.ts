@@ -50,12 +50,12 @@ export function number(name: string, low: number, high: number, digits = DIGITS)
   };
 }
 
-/** A whole number from 1 on, or null where the link has none. @param shift What is added to it in links. */
+/** A whole number from 1 on, or null. @param shift What is added to it in links. */
 export function whole(name: string, most: number, shift = 0): Field<number | null> {
   return {
     write: (value) => (value === null ? {} : { [name]: String(value + shift) }),
-    read: (values) => {
-      if (!values.has(name)) return null;
+    read: (values, otherwise) => {
+      if (!values.has(name)) return otherwise;
       const value = number(name, 1, most).read(values, 1);
       if (!Number.isInteger(value)) throw new LinkError(`${name} is not a whole number`);
       return value - shift;

@@ -3,11 +3,10 @@
  * Delimited text and GeoJSON, in which `stereodel.io.read_points` finds the same places.
  */
 
-import { make } from "./dom.ts";
+import { find, make } from "./dom.ts";
 import type { RoomName } from "./link.ts";
-import type { Messages } from "./messages.ts";
 import type { RoomHost } from "./room.ts";
-import { findXY, lonLatPlaces, numberColumns, planePlaces } from "./tables/coordinates.ts";
+import { findXY, numberColumns, placesOf } from "./tables/coordinates.ts";
 import { readTable, TableError, type PlacedTable, type TextTable } from "./tables/delimited.ts";
 import { geojsonPoints } from "./tables/geojson.ts";
 import { findLonLat, NOT_WESTERN } from "./tables/words.ts";
@@ -27,8 +26,6 @@ export interface Points {
   /** How many rows are left out, and in words what is wrong with the first. */
   readonly leftOut: number;
   readonly wrong: string;
-  /** The encoding, where it is a guess. */
-  readonly guess: string | null;
 }
 
 /** Which coordinates are wanted: of the Earth or of a plane. */
@@ -45,13 +42,13 @@ interface Elsewhere {
  * @param chosen names of the two columns, where they are known.
  * @throws TableError in words for the reader.
  */
-export async function readPoints(
+export function readPoints(
   file: string,
   content: Uint8Array,
   kind: Kind,
   chosen?: [string, string],
-): Promise<Points | Elsewhere> {
-  const { text, guess } = decoded(await unpacked(content), file);
+): Points | Elsewhere {
+  const text = decoded(content, file);
   const isJson = /^\s*[{[]/.test(text);
   if (isJson && kind === "plane") return { room: "globe" };
   const read = isJson ? geojsonPoints(text) : ofText(text, kind, chosen);
@@ -75,17 +72,14 @@ export async function readPoints(
     values: numberColumns(columns, new Set([...axes, name])),
     leftOut: wrong.size,
     wrong: said,
-    guess,
   };
 }
 
 /** How many rows are wrong, and why the first is. */
-function wrongWords({ count, lines, wrong }: TextTable): string {
+function wrongWords({ count, wrong }: TextTable): string {
   const first = [...wrong.keys()].reduce((least, row) => Math.min(least, row));
-  const many = wrong.size === count ? "No row" : `${counted(wrong.size)} of ${counted(count)} rows`;
-  const where = lines.length === 0 ? "" : `, on line ${counted(lines[first])}`;
-  const can = wrong.size === count ? "can" : "cannot";
-  return `${many} ${can} be placed. Row ${counted(first + 1)}${where}: ${wrong.get(first)}`;
+  const many = wrong.size === count ? "No row can" : `${counted(wrong.size)} of ${counted(count)} rows cannot`;
+  return `${many} be placed. Row ${counted(first + 1)}: ${wrong.get(first)}`;
 }
 
 function ofText(text: string, kind: Kind, chosen?: [string, string]): Elsewhere | PlacedTable {
@@ -95,39 +89,25 @@ function ofText(text: string, kind: Kind, chosen?: [string, string]): Elsewhere 
   const axes = chosen ?? (kind === "lonlat" ? findLonLat(all) : findXY(all));
   if (axes === null && sure !== null) return { room: "globe" };
   if (axes === null) throw new TableError("the table has no two columns of coordinates", all);
-  const places = (kind === "lonlat" ? lonLatPlaces : planePlaces)(table, ...axes);
+  const places = placesOf(table, kind, axes);
   // Numbers of a plane, where no name says that they are degrees.
   const beyond = [...table.wrong.keys()].filter((row) => Number.isFinite(places[2 * row] + places[2 * row + 1]));
   if (kind === "lonlat" && sure === null && 2 * beyond.length > table.count) return { room: "lift", columns: axes };
   return { places, table, axes };
 }
 
-async function unpacked(bytes: Uint8Array): Promise<Uint8Array> {
-  if (!(bytes[0] === 0x1f && bytes[1] === 0x8b)) return bytes;
-  try {
-    const stream = new Blob([bytes.slice()]).stream().pipeThrough(new DecompressionStream("gzip"));
-    return new Uint8Array(await new Response(stream).arrayBuffer());
-  } catch {
-    throw new TableError("the compressed file is damaged");
-  }
-}
-
 /** Text in UTF-8, UTF-16 or, by its letters, windows-1252; all else is for the library. */
-function decoded(bytes: Uint8Array, file: string): { text: string; guess: string | null } {
+function decoded(bytes: Uint8Array, file: string): string {
   const head = String.fromCharCode(...bytes.subarray(0, 2));
   const utf16 = /^(\xff\xfe|[^\0]\0)/.test(head) ? "utf-16le" : /^(\xfe\xff|\0)/.test(head) ? "utf-16be" : null;
-  const read = (encoding: string, wrong: RegExp): string | null => {
+  const tried = utf16 === null ? ["utf-8", "windows-1252"] : [utf16];
+  for (const encoding of tried) {
     try {
       const text = new TextDecoder(encoding, { fatal: true }).decode(bytes);
-      return /^\s*</.test(text) || wrong.test(text) ? null : text; // XML, or no text
-    } catch {
-      return null;
-    }
-  };
-  const text = read(utf16 ?? "utf-8", /\0/);
-  if (text !== null) return { text, guess: null };
-  const guess = utf16 === null ? read("windows-1252", NOT_WESTERN) : null;
-  if (guess !== null) return { text: guess, guess: "windows-1252" };
+      const isGuess = encoding === "windows-1252";
+      if (!/\0|^\s*</.test(text) && !(isGuess && NOT_WESTERN.test(text))) return text; // XML, or no text
+    } catch {} // not in this encoding
+  }
   const typed = /^[\w.-]+$/.test(file) ? file : `"${file}"`;
   const what = "neither a picture nor a table in text that the page can read";
   throw new TableError(`${what}; to make a page of it, type: stereodel web ${typed}`);
@@ -146,40 +126,29 @@ export async function openPoints(
   const named = `${file.name}:`;
   const unchanged = (said: string): string => `${said}${/[.?!]$/.test(said) ? "" : "."} Nothing has changed.`;
   try {
-    const points = await readPoints(file.name, new Uint8Array(await file.arrayBuffer()), kind, chosen);
+    const points = readPoints(file.name, new Uint8Array(await file.arrayBuffer()), kind, chosen);
     if ("room" in points) return host.pass(points.room, file, points.columns);
-    const { leftOut, wrong, guess } = points;
+    const { leftOut, wrong } = points;
     const open = (): void => {
       messages.close();
       opened(points);
-      if (guess !== null) messages.show(named, `it does not say its encoding; read as ${guess}.`);
     };
     if (leftOut === 0) return open();
     const rows = leftOut === 1 ? "this row" : `these ${counted(leftOut)} rows`;
     messages.show(named, unchanged(wrong), { words: `Open without ${rows}`, act: open });
   } catch (error) {
     if (!(error instanceof TableError)) throw error;
-    const again = (...both: [string, string]): Promise<void> => openPoints(file, kind, host, opened, both);
-    if (error.columns.length > 1) askColumns(file.name, error.columns, kind, messages, again);
-    else messages.show(named, unchanged(error.message));
+    const { message, columns } = error;
+    if (columns.length < 2) return messages.show(named, unchanged(message));
+    const labels = (kind === "lonlat" ? ["Longitude", "Latitude"] : ["x", "y"]).map((axis, k) => {
+      const select = make("select", "", ...columns.map((name) => make("option", "", name)));
+      select.selectedIndex = k;
+      return make("label", "field column", `${axis} `, select);
+    });
+    const open = (): Promise<void> => {
+      const [first, second] = labels.map((label) => find<HTMLSelectElement>(label, "select").value);
+      return openPoints(file, kind, host, opened, [first, second]);
+    };
+    messages.show(`Which columns of ${file.name}?`, "", { words: "Open", act: () => void open() }, labels);
   }
-}
-
-/** Asks which columns of a file are meant; `chosen` gets two names. */
-function askColumns(
-  file: string,
-  names: readonly string[],
-  kind: Kind,
-  messages: Messages,
-  chosen: (first: string, second: string) => void,
-): void {
-  const kinds = kind === "lonlat" ? ["Longitude", "Latitude"] : ["x", "y"];
-  const selects = kinds.map((_, k) => {
-    const select = make("select", "", ...names.map((name) => make("option", "", name)));
-    select.selectedIndex = Math.min(k, names.length - 1);
-    return select;
-  });
-  const open = { words: "Open", act: () => chosen(selects[0].value, selects[1].value) };
-  const inputs = kinds.map((kind, k) => make("label", "field column", `${kind} `, selects[k]));
-  messages.show(`Which columns of ${file}?`, "", open, inputs);
 }

@@ -40,9 +40,10 @@ function sphericalPolygon(corners: readonly Vector[], kind: Latitude): Geometry 
     kind,
   );
   const turn = Math.round((ring[ring.length - 1][0] - ring[0][0]) / 360);
-  const closed = turn === 0 ? ring : aroundPole(ring, turn);
   const digits = (degrees: number): number => Number(degrees.toFixed(DECIMALS));
-  const pieces = windows(closed).map((polygon): Polygon => [polygon.map(([lon, lat]) => [digits(lon), digits(lat)])]);
+  const pieces = windows(ring, turn).map((polygon): Polygon => [
+    polygon.map(([lon, lat]) => [digits(lon), digits(lat)]),
+  ]);
   return pieces.length === 1
     ? { type: "Polygon", coordinates: pieces[0] }
     : { type: "MultiPolygon", coordinates: pieces };
@@ -59,29 +60,23 @@ function unwrapped(points: readonly Vector[], kind: Latitude): Position[] {
   return ring;
 }
 
-/** A ring that goes once round the Earth, from −180 to 180, closed along the pole that lies inside. */
-function aroundPole(ring: readonly Position[], turn: number): Position[] {
-  const pole = turn > 0 ? 90 : -90; // eastward with the region on the left: the North Pole
-  const east = turn > 0 ? [...ring] : [...ring].reverse();
-  const begin = 360 * Math.ceil((east[0][0] - 180) / 360) + 180; // the first ±180° on the way
-  const k = east.findIndex(([lon]) => lon >= begin);
-  const at = crossing(east[Math.max(0, k - 1)], east[k === -1 ? east.length - 1 : k], begin);
-  const rest = east.slice(Math.max(k, 0), -1).map(([lon, lat]): Position => [lon - begin - 180, lat]);
-  const first = east.slice(0, Math.max(k, 0)).map(([lon, lat]): Position => [lon - begin + 180, lat]);
-  const across: Position[] = [[-180, at], ...rest, ...first, [180, at]];
-  const line = turn > 0 ? across : across.reverse();
-  return [...line, [line[line.length - 1][0], pole], [line[0][0], pole], line[0]];
-}
-
 function crossing(a: Position, b: Position, lon: number): number {
   return a[0] === b[0] ? a[1] : a[1] + ((lon - a[0]) / (b[0] - a[0])) * (b[1] - a[1]);
 }
 
-/** The parts of a closed ring in each window of 360°, each moved to [−180, 180]. */
-function windows(ring: readonly Position[]): Position[][] {
-  const longitudes = ring.map(([lon]) => lon);
-  const low = Math.floor((Math.min(...longitudes) + 180) / 360);
-  const high = Math.ceil((Math.max(...longitudes) + 180) / 360);
+/**
+ * The parts of a ring in each window of 360°, each moved to [−180, 180]. One that goes round the Earth is followed twice
+ * and closed along the pole on its left, eastward the North Pole, so that there is one window which it fills.
+ */
+function windows(once: readonly Position[], turn: number): Position[][] {
+  const again = once.slice(1).map(([lon, lat]): Position => [lon + 360 * turn, lat]);
+  const [[begin], pole] = [once[0], 90 * turn];
+  const ring: readonly Position[] =
+    turn === 0 ? once : [...once, ...again, [begin + 720 * turn, pole], [begin, pole], once[0]];
+  const ends = turn === 0 ? once.map(([lon]) => lon) : [begin, begin + 720 * turn];
+  const least = (Math.min(...ends) + 180) / 360;
+  const low = turn === 0 ? Math.floor(least) : Math.ceil(least);
+  const high = turn === 0 ? Math.ceil((Math.max(...ends) + 180) / 360) : low + 1;
   const parts: Position[][] = [];
   for (let window = low; window < Math.max(high, low + 1); ++window) {
     const moved = ring.slice(0, -1).map(([lon, lat]): Position => [lon - 360 * window, lat]);

@@ -7,18 +7,16 @@ import { shared } from "page:shared";
 export function laterScript<T>(contents: Contents, name: string): () => Promise<T> {
   let loaded: Promise<T> | null = null;
   return () => {
-    loaded ??= contents.text(name).then((code) => run<T>(code, name));
+    loaded ??= contents.text(name).then((code) => {
+      // Code that the policy of the page allows by its hash.
+      const element: HTMLScriptElement & { offers?: T } = document.createElement("script");
+      Object.assign(element, { shared, textContent: code });
+      document.head.append(element); // runs it, to its end
+      element.remove();
+      if (element.offers === undefined) throw new Error(`the page's script ${name} did not run`);
+      return element.offers;
+    });
     loaded.catch(() => (loaded = null));
     return loaded;
   };
-}
-
-/** Runs code that the policy of the page allows by its hash. */
-function run<T>(code: string | null, name: string): T {
-  const element: HTMLScriptElement & { offers?: T } = document.createElement("script");
-  Object.assign(element, { shared, textContent: code });
-  document.head.append(element); // runs it, to its end
-  element.remove();
-  if (element.offers === undefined) throw new Error(`the page's script ${name} did not run`);
-  return element.offers;
 }

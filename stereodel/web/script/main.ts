@@ -10,7 +10,7 @@ import { load } from "./kernel/instance.ts";
 import { laterScript } from "./later_script.ts";
 import type { LiftRoomMaker } from "./lift.ts";
 import { LinkError, readLink, ROOMS, writeLink, type Link, type LinkValues, type RoomName } from "./link.ts";
-import { Announcer, Messages } from "./messages.ts";
+import { announcerIn, messagesIn } from "./messages.ts";
 import type { Room, RoomHost } from "./room.ts";
 import { Choice, NAMED, NumberField } from "./rooms/controls.ts";
 import { GlobeRoom } from "./rooms/globe.ts";
@@ -32,8 +32,8 @@ class Page implements RoomHost {
   readonly contents: Contents;
   readonly #makers: Makers;
   readonly exchange: () => Promise<Exchange>;
-  readonly messages = new Messages(find(document, "#messages"));
-  readonly announcer = new Announcer(find(document, "#status"));
+  readonly messages = messagesIn(find(document, "#messages"));
+  readonly announcer = announcerIn(find(document, "#status"));
   readonly #rooms = new Map<RoomName, Room>();
   readonly #colours = new Choice<Colours>(document, "colours", () => {
     this.#paint(this.#colours.value);
@@ -183,13 +183,9 @@ class Page implements RoomHost {
       addEventListener(type, (event) => {
         if (!event.dataTransfer?.types.includes("Files")) return;
         event.preventDefault();
-        document.body.classList.toggle("dropping", type === "dragover");
         if (type === "drop") this.#open(event.dataTransfer.files[0]);
       });
     }
-    addEventListener("dragleave", (event) => {
-      if (event.relatedTarget === null) document.body.classList.remove("dropping");
-    });
     for (const input of document.querySelectorAll<HTMLInputElement>("input[type=file]")) {
       input.addEventListener("change", () => {
         this.#open(input.files?.[0]);
@@ -242,12 +238,12 @@ class Page implements RoomHost {
     } else {
       const state = room.state(false);
       const link = `${location.href.split("#")[0]}#${this.#link(state)}`;
-      const copied = Promise.resolve(link).then((text) => navigator.clipboard.writeText(text));
-      const problem: unknown = await copied.catch(String);
       const what = "file" in state ? "file" : "picture";
-      const left = `The link names the ${what} but does not hold its ${NAMED[what]}; ${what === "file" ? "save the page" : "send the file along"}.`;
-      const words = problem ? "Nothing can be copied here; the link is the page's address." : "Link copied.";
-      this.messages.show("", what in state && !problem ? left : words);
+      const otherwise = what === "file" ? "save the page" : "send the file along";
+      const left = `The link names the ${what} but does not hold its ${NAMED[what]}; ${otherwise}.`;
+      const copied = navigator.clipboard?.writeText(link).then(() => (what in state ? left : "Link copied."));
+      const cannot = "Nothing can be copied here; the link is the page's address.";
+      this.messages.show("", (await copied?.catch(() => cannot)) ?? cannot);
     }
   }
 
@@ -268,7 +264,7 @@ async function main(): Promise<void> {
     mark.style.setProperty("--at", mark.dataset["at"]!);
   // The drawing alone, in a frame of another page.
   if (new URLSearchParams(location.search).has("frame")) document.documentElement.classList.add("framed");
-  const contents = Contents.ofDocument();
+  const contents = new Contents((name) => document.getElementById(`block-${name}`)?.textContent ?? null);
   const loaded = contents.kernel().then(load);
   const stored: Record<string, Float64Array> = {}; // before the rooms are made, so that links can name them
   for (const name of ["gap", "everywhere", "hemisphere", "cities", "airports", "stars", "sheet"])

@@ -8,54 +8,45 @@ export interface Action {
   readonly act: () => void;
 }
 
-export class Messages {
-  readonly #place: Element;
+export type Messages = ReturnType<typeof messagesIn>;
 
-  constructor(place: Element) {
-    this.#place = place;
-  }
-
+export function messagesIn(place: Element) {
+  const close = (): void => place.replaceChildren();
   /**
    * Shows a line, instead of the one before.
    * @param what begins the line in the colour of what is held: a file, a row. May be empty.
    * @param text the words, which are never taken for HTML.
    * @param inputs stand before the buttons: what the action asks for.
    */
-  show(what: string, text: string, action?: Action, inputs: readonly Node[] = []): void {
+  const show = (what: string, text: string, action?: Action, inputs: readonly Node[] = []): void => {
     const line = make("p", "", ...(what ? [make("b", "", what), " "] : []), text);
     const buttons = [...(action ? [action] : []), { words: "Close", act: () => {} }].map(({ words, act }) => {
       const button = make("button", { className: "quiet", type: "button" }, words);
       button.addEventListener("click", () => {
-        this.close();
+        close();
         act();
       });
       return button;
     });
-    this.#place.replaceChildren(
+    place.replaceChildren(
       make("div", { className: "message", role: "alert" }, line, make("span", "line", ...inputs, ...buttons)),
     );
-  }
-
-  close(): void {
-    this.#place.replaceChildren();
-  }
+  };
+  return { show, close };
 }
 
 /** Milliseconds without a change after which a sentence is spoken. */
 const REST = 600;
 
-export class Announcer {
-  readonly #region: Element;
-  #timer: ReturnType<typeof setTimeout> | undefined;
+export type Announcer = ReturnType<typeof announcerIn>;
 
-  /** `region` is an element with `role="status"`. */
-  constructor(region: Element) {
-    this.#region = region;
-  }
-
+/** @param region An element with `role="status"`. */
+export function announcerIn(region: Element) {
+  let timer: ReturnType<typeof setTimeout> | undefined;
   /** Says a sentence after a while without another; marks of `say` are taken out. */
-  say(sentence: string): void {
-    clearTimeout(this.#timer);
-    this.#timer = setTimeout(() => (this.#region.textContent = plain(sentence)), REST);
-  }
+  const say = (sentence: string): void => {
+    clearTimeout(timer);
+    timer = setTimeout(() => (region.textContent = plain(sentence)), REST);
+  };
+  return { say };
 }

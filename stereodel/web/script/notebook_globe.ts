@@ -7,11 +7,11 @@ import type { Reason } from "./drawing/plate.ts";
 import { lonlatToXyz } from "./kernel/api.ts";
 import { FisheyeGlobe, type GlobeHost } from "./rooms/globe_plates.ts";
 import type { GlobeScene } from "./rooms/globe_scene.ts";
-import { BEGINNING, sightWords, type GlobeState } from "./rooms/globe_state.ts";
+import { BEGINNING, sightField, sightWords, type GlobeState } from "./rooms/globe_state.ts";
 import { placeSentence, type Owner } from "./rooms/owner.ts";
 import { directionOf, lonLatOf } from "./space.ts";
-import { isCommand, type Gestures } from "./view/hand.ts";
-import { imageOf, lensMap, MOST, type Sight } from "./view/lens.ts";
+import { isCommand } from "./view/hand.ts";
+import { imageOf, lensMap, MOST } from "./view/lens.ts";
 import { View } from "./view/view.ts";
 import { counted } from "./words.ts";
 
@@ -52,32 +52,6 @@ const POINT = 3;
 const KEYS = "arrows turn, + and − magnify, F sets the focus, comma and full stop walk the sites, Enter selects";
 const HINT = "Drag to turn; after a click the wheel magnifies; a double click sets the focus.";
 
-/** The globe whose places can be selected. */
-class SelectingGlobe extends FisheyeGlobe {
-  declare protected readonly room: NotebookGlobe;
-
-  /** That of the page, or what Python asks for beyond it. */
-  override get most(): number {
-    return Math.max(MOST, this.sight.lens.magnification);
-  }
-
-  protected override gestures(): Gestures {
-    const { click, doubleClick, key, ...others } = super.gestures();
-    return {
-      ...others,
-      click: (at, reach) => {
-        click?.(at, reach);
-        this.room.press();
-      },
-      doubleClick: (at, reach) => {
-        this.room.press(); // back to what it was before the first of the two
-        doubleClick?.(at, reach);
-      },
-      key: (event) => this.room.key(event) || key?.(event) === true,
-    };
-  }
-}
-
 export class NotebookGlobe implements GlobeHost {
   readonly scene: GlobeScene;
   readonly place = make("div", "stereodel-globe");
@@ -96,18 +70,17 @@ export class NotebookGlobe implements GlobeHost {
   });
   readonly #status = make("p", { role: "status" });
   readonly #legend = make("div", "legend");
-  readonly #globe: SelectingGlobe;
+  readonly #globe: FisheyeGlobe;
   readonly #changed: Changed;
   readonly #themes: MutationObserver; // notebooks change colours by attributes of the body
   #state = BEGINNING;
-  #look: Partial<Owner> = {};
   #shown: Shown | null = null;
 
   constructor(element: HTMLElement, scene: GlobeScene, changed: Changed) {
     [this.scene, this.#changed] = [scene, changed];
     this.place.append(this.#canvas, this.#status, this.#legend, make("p", "hint", HINT));
     element.append(this.place);
-    this.#globe = new SelectingGlobe(this.#canvas, this);
+    this.#globe = new FisheyeGlobe(this.#canvas, this);
     this.#themes = new MutationObserver(() => this.#globe.plate.redraw("colours"));
     this.#themes.observe(document.body, { attributes: true });
     this.#canvas.addEventListener("pointerdown", (event) => {
@@ -126,8 +99,8 @@ export class NotebookGlobe implements GlobeHost {
     if (isNew("sites") || isNew("names") || isNew("look")) {
       const lonlat = doubles(sites);
       const count = lonlat.length / 2;
-      this.#look = look.ink === undefined || look.ink.length === count ? look : {};
-      const owner = { title: "", source: "", ...this.#look };
+      const fitting = look.ink === undefined || look.ink.length === count ? look : {};
+      const owner = { title: "", source: "", ...fitting };
       this.scene.show({
         name: "",
         lonlat,
@@ -174,22 +147,21 @@ export class NotebookGlobe implements GlobeHost {
     return this.#state.sight.lens.magnification === 1;
   }
 
-  readonly isOn: IsOn = (layer) => layer !== "tissot" && layer !== "fills" && (layer !== "cells" || !this.#look.inks);
+  readonly isOn: IsOn = (layer) =>
+    layer !== "tissot" && layer !== "fills" && (layer !== "cells" || !this.scene.places?.owner?.inks);
 
   /** What a hand has changed is shown as it is told, to the last digit. */
   set(change: Partial<GlobeState>, reason: Reason): void {
-    const before = this.#state.sight;
-    this.#state = { ...this.#state, ...change };
-    const { lens, view } = this.#state.sight;
-    const [lon, lat, roll] = [...view.middle, view.roll].map(rounded);
-    const [east, north] = lonLatOf(lens.focus).map(rounded);
-    const sight: Sight = {
-      lens: lens === before.lens ? lens : { ...lens, focus: directionOf(east, north) },
-      view: view === before.view ? view : View.above(lon, lat, roll),
-    };
-    this.#state = { ...this.#state, sight };
-    if (sight.lens !== before.lens) this.#changed("lens", { focus: [east, north], magnification: lens.magnification });
-    if (sight.view !== before.view) this.#changed("view", { lon, lat, roll });
+    const { sight: before } = this.#state;
+    const asked = { ...before, ...change.sight };
+    const field = sightField(Math.min(1, before.lens.magnification), Math.max(MOST, before.lens.magnification));
+    this.#state = { ...this.#state, ...change, sight: field.settle(asked) };
+    const told = field.write(asked);
+    const number = (name: string): number => Number(told[name] ?? 0);
+    const focus = [number("focuslon"), number("focuslat")] as const;
+    if (asked.lens !== before.lens) this.#changed("lens", { focus, magnification: number("s") });
+    const view = { lon: number("viewlon"), lat: number("viewlat"), roll: number("viewroll") };
+    if (asked.view !== before.view) this.#changed("view", view);
     if (reason !== "pointer") this.#update(reason);
   }
 
@@ -258,9 +230,4 @@ function layerOf({ kind, ink, lonlat, offsets, place, inside }: Shapes): Layer {
 
 function doubles({ buffer, byteOffset, byteLength }: DataView): Float64Array {
   return new Float64Array(buffer.slice(byteOffset, byteOffset + byteLength));
-}
-
-/** Degrees without the last digits of arithmetic: to 0.1 mm on the Earth. */
-function rounded(degrees: number): number {
-  return Math.round(degrees * 1e9) / 1e9 + 0;
 }

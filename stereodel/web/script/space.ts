@@ -14,6 +14,10 @@ export function cross(a: Vector, b: Vector): Vector {
   return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 }
 
+export function minus(a: Vector, b: Vector): Vector {
+  return [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
+}
+
 /** The direction of a vector. */
 export function unit(a: Vector): Vector {
   const length = Math.hypot(a[0], a[1], a[2]);

@@ -30,8 +30,8 @@ export class SiteTable {
   readonly #body = make("tbody");
   #rows: Rows = { count: 0, heads: [], cells: () => [] };
   #held: ReadonlySet<number> = new Set();
-  #begin = 0;
-  #height = 0;
+  /** The first row that is made; none of other sites. */
+  #begin = NaN;
 
   /**
    * @param place scrolls: an element of the class `sites`.
@@ -47,11 +47,8 @@ export class SiteTable {
       const site = siteOf(event.target);
       if (site !== null && (event.target as Element).closest("button")) chosen(site);
     });
-    for (const type of ["pointerover", "focusin"] as const) {
-      this.#body.addEventListener(type, (event) => pointed(siteOf(event.target)));
-    }
-    for (const type of ["pointerleave", "focusout"] as const) {
-      this.#body.addEventListener(type, () => pointed(null));
+    for (const type of ["pointerover", "focusin", "pointerleave", "focusout"] as const) {
+      this.#body.addEventListener(type, ({ target }) => pointed(/(over|in)$/.test(type) ? siteOf(target) : null));
     }
   }
 
@@ -61,8 +58,8 @@ export class SiteTable {
     this.#rows = rows;
     if (rows.heads === before.heads && rows.count === before.count && rows.names === before.names) {
       // As while a site is dragged: cells change in a fraction of the time in which rows are made.
-      for (const row of this.#body.querySelectorAll<HTMLElement>("tr[data-site]")) {
-        const cells = [...row.querySelectorAll("td:not(.name)")];
+      for (const row of this.#made) {
+        const cells = row.querySelectorAll("td:not(.name)");
         rows.cells(Number(row.dataset["site"])).forEach((words, k) => {
           if (cells[k].textContent !== words) cells[k].textContent = words;
         });
@@ -77,7 +74,8 @@ export class SiteTable {
       return cell;
     });
     this.#head.replaceChildren(make("tr", "", ...heads));
-    this.#fill(true);
+    this.#begin = NaN;
+    this.#fill();
   }
 
   /** Marks the sites that are held, by a dot and by colour. */
@@ -85,40 +83,39 @@ export class SiteTable {
     const held = new Set(sites);
     if (held.size === this.#held.size && [...held].every((site) => this.#held.has(site))) return;
     this.#held = held;
-    for (const row of this.#body.querySelectorAll<HTMLElement>("tr[data-site]")) {
-      row.className = held.has(Number(row.dataset["site"])) ? "on" : "";
-    }
+    for (const row of this.#made) row.className = held.has(Number(row.dataset["site"])) ? "on" : "";
   }
 
   /** Brings a row into sight. */
   reveal(site: number): void {
-    const [top, height] = [site * this.#rowHeight(), this.#rowHeight()];
+    const [top, height] = [site * this.#height, this.#height];
     const least = top + height - this.#place.clientHeight + this.#head.offsetHeight;
     this.#place.scrollTop = Math.min(top, Math.max(least, this.#place.scrollTop));
     this.#fill();
   }
 
-  #rowHeight(): number {
-    if (this.#height === 0) this.#height = this.#body.querySelector<HTMLElement>("tr[data-site]")?.offsetHeight ?? 0;
-    return this.#height || 28;
+  get #made(): HTMLElement[] {
+    return [...this.#body.querySelectorAll<HTMLElement>("tr[data-site]")];
   }
 
-  /** Makes the rows that can be seen; `anew` also where they are there already. */
-  #fill(anew = false): void {
-    const height = this.#rowHeight();
+  get #height(): number {
+    return this.#made[0]?.offsetHeight || 28;
+  }
+
+  /** Makes the rows that can be seen. */
+  #fill(): void {
+    const [height, { count }] = [this.#height, this.#rows];
     const visible = Math.ceil((this.#place.clientHeight || 250) / height);
     const first = Math.floor(this.#place.scrollTop / height) - AROUND;
-    const begin = Math.max(0, Math.min(first, this.#rows.count - visible));
-    if (!anew && Math.abs(begin - this.#begin) < AROUND / 2) return;
+    const begin = Math.max(0, Math.min(first, count - visible));
+    if (Math.abs(begin - this.#begin) < AROUND / 2) return;
     this.#begin = begin;
-    const end = Math.min(this.#rows.count, begin + visible + 2 * AROUND);
-    const focused = anew ? null : siteOf(document.activeElement);
-    const rows: HTMLElement[] = [];
-    for (let site = begin; site < end; ++site) rows.push(this.#row(site));
+    const end = Math.min(count, begin + visible + 2 * AROUND);
+    const focused = siteOf(document.activeElement);
+    const rows = Array.from({ length: end - begin }, (_, k) => this.#row(begin + k));
     const width = this.#head.querySelectorAll("th").length;
-    this.#body.replaceChildren(gap(begin * height, width), ...rows, gap((this.#rows.count - end) * height, width));
-    const button = this.#body.querySelector<HTMLElement>(`tr[data-site="${focused}"] button`);
-    button?.focus({ preventScroll: true });
+    this.#body.replaceChildren(gap(begin * height, width), ...rows, gap((count - end) * height, width));
+    this.#body.querySelector<HTMLElement>(`tr[data-site="${focused}"] button`)?.focus({ preventScroll: true });
   }
 
   #row(site: number): HTMLElement {

@@ -7,7 +7,7 @@
  */
 
 import type { MoebiusMap } from "../kernel/api.ts";
-import { row, type Vector } from "../space.ts";
+import { cross, dot, minus, row, unit, type Vector } from "../space.ts";
 import { traceDisc, type Disc, type Path } from "./pen.ts";
 
 /** The half of the ball that is drawn: that in front, or that behind. */
@@ -19,23 +19,26 @@ const UNSEEN_BOW = 0.1;
 /** Product of two sides of a triangle, ball radii, below which its corners are one point, told apart by rounding alone. */
 const ONE_POINT = 1e-24;
 
-/** Points c + r (cos t e + sin t f) of a circle of the ball, t from `from` to `to`, counterclockwise about n. */
+const TURN = 2 * Math.PI;
+
+/** Points d n + r (cos t e + sin t f) of a circle of the ball, t from `from` to `to`, counterclockwise about n. */
 export interface Circle {
   readonly n: Vector;
   /** Distance of its plane from the ball's middle, along n. */
   readonly d: number;
   readonly r: number;
-  /** Long axis of its image, level. */
-  readonly e: readonly [number, number];
+  /** Long axis of its image, level; and that of its plane at a right angle, which rises toward the reader. */
+  readonly e: Vector;
+  readonly f: Vector;
   readonly from: number;
   readonly to: number;
 }
 
-/** The circle n·x = d, n of length 1, all of it. */
+/** The circle n·x = d, n of length 1, all of it, from its lowest point on: what is in front is one part. */
 export function circle(n: Vector, d: number): Circle {
   const h = Math.hypot(n[0], n[1]);
-  const e = h > 0 ? ([-n[1] / h, n[0] / h] as const) : ([1, 0] as const);
-  return { n, d, r: Math.sqrt(Math.max(0, 1 - d * d)), e, from: 0, to: 2 * Math.PI };
+  const e: Vector = h > 0 ? [-n[1] / h, n[0] / h, 0] : [1, 0, 0];
+  return { n, d, r: Math.sqrt(Math.max(0, 1 - d * d)), e, f: cross(n, e), from: -TURN / 4, to: (3 * TURN) / 4 };
 }
 
 /**
@@ -43,52 +46,35 @@ export function circle(n: Vector, d: number): Circle {
  * @param whole The whole circle through the three.
  */
 export function arcThrough(p: ArrayLike<number>, a = 0, whole = false): Circle | null {
-  const [i, j, k] = [3 * a, 3 * a + 3, 3 * a + 6];
-  const [ux, uy, uz] = [p[j] - p[i], p[j + 1] - p[i + 1], p[j + 2] - p[i + 2]];
-  const [vx, vy, vz] = [p[k] - p[i], p[k + 1] - p[i + 1], p[k + 2] - p[i + 2]];
-  const [nx, ny, nz] = [uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx];
-  const length = Math.hypot(nx, ny, nz);
-  if (length === 0) return null;
-  const n: Vector = [nx / length, ny / length, nz / length];
-  const all = circle(n, n[0] * p[i] + n[1] * p[i + 1] + n[2] * p[i + 2]);
-  const from = angleOf(all, p, i);
-  if (whole) return { ...all, from, to: from + 2 * Math.PI };
-  const to = angleOf(all, p, k);
-  return { ...all, from, to: to > from ? to : to + 2 * Math.PI };
-}
-
-/** The angle t of a point of the circle, whose coordinates begin at i. */
-function angleOf({ n, d, e }: Circle, p: ArrayLike<number>, i: number): number {
-  const [x, y, z] = [p[i] - d * n[0], p[i + 1] - d * n[1], p[i + 2] - d * n[2]];
-  return Math.atan2(-n[2] * e[1] * x + n[2] * e[0] * y + (n[0] * e[1] - n[1] * e[0]) * z, e[0] * x + e[1] * y);
+  const [begin, middle, end] = [row(p, a), row(p, a + 1), row(p, a + 2)];
+  const normal = cross(minus(middle, begin), minus(end, begin));
+  if (Math.hypot(...normal) === 0) return null;
+  const n = unit(normal);
+  const all = circle(n, dot(n, begin));
+  if (whole) return all;
+  const [from, to] = [begin, end].map((x) => Math.atan2(dot(all.f, x), dot(all.e, x)));
+  return { ...all, from, to: to > from ? to : to + TURN };
 }
 
 /** The parts on one side of the ball, as pairs of angles. */
-function partsOf(arc: Circle, side: Side = "front"): number[] {
-  const { n, d, r, e, from, to } = arc;
-  const sign = side === "front" ? 1 : -1;
-  const [middle, reach] = [sign * d * n[2], sign * r * (n[0] * e[1] - n[1] * e[0])]; // z = middle + reach sin t
-  if (middle >= Math.abs(reach)) return [from, to];
-  if (middle <= -Math.abs(reach)) return [];
-  const rise = Math.asin(-middle / Math.abs(reach));
-  const [low, high] = reach > 0 ? [rise, Math.PI - rise] : [Math.PI + rise, 2 * Math.PI - rise];
+function partsOf({ n, d, r, f, from, to }: Circle, side: Side = "front"): number[] {
+  const isFront = side === "front";
+  const sine = (-d * n[2]) / (r * f[2]); // of the angle at which z = d n_z + r f_z sin t is zero
+  if (!(Math.abs(sine) < 1)) return (isFront ? d * n[2] : -d * n[2]) >= 0 ? [from, to] : [];
+  const rise = Math.asin(sine);
+  const [low, high] = isFront ? [rise, Math.PI - rise] : [Math.PI - rise, TURN + rise];
   const parts: number[] = [];
-  const turn = 2 * Math.PI;
-  for (let k = Math.floor((from - high) / turn); low + turn * k < to; ++k) {
-    const [begin, end] = [Math.max(from, low + turn * k), Math.min(to, high + turn * k)];
+  for (let k = Math.floor((from - high) / TURN); low + TURN * k < to; ++k) {
+    const [begin, end] = [Math.max(from, low + TURN * k), Math.min(to, high + TURN * k)];
     if (begin < end) parts.push(begin, end);
   }
   return parts;
 }
 
 /** The point at an angle, axes of the view. */
-export function pointAt({ n, d, r, e }: Circle, t: number): Vector {
+export function pointAt({ n, d, r, e, f }: Circle, t: number): Vector {
   const [c, s] = [r * Math.cos(t), r * Math.sin(t)];
-  return [
-    d * n[0] + c * e[0] - s * n[2] * e[1],
-    d * n[1] + c * e[1] + s * n[2] * e[0],
-    d * n[2] + s * (n[0] * e[1] - n[1] * e[0]),
-  ];
+  return [d * n[0] + c * e[0] + s * f[0], d * n[1] + c * e[1] + s * f[1], d * n[2] + s * f[2]];
 }
 
 /** Lays a part of a circle into a path. */
@@ -162,8 +148,6 @@ export function traceOutlines(path: Path, disc: Disc, { points, offsets }: Rings
     traceRing(path, disc, points, offsets[ring], offsets[ring + 1], false);
 }
 
-const TURN = 2 * Math.PI;
-
 /**
  * Lays regions into a path.
  * What is hidden is pushed outward to the limb: the disc is then the sphere without its hidden pole M, the middle of the
@@ -178,19 +162,19 @@ export function traceRegions(path: Path, disc: Disc, rings: Rings, holdsHidden: 
     discs += traceRing(path, disc, rings.points, rings.offsets[ring], rings.offsets[ring + 1]);
   }
   // About the whole disc: with the rings' own sense, counterclockwise to the eye, or against it.
-  for (; discs > 0; --discs) traceWhole(path, disc, false);
-  for (; discs < 0; ++discs) traceWhole(path, disc, true);
+  for (let k = 0; k < Math.abs(discs); ++k) traceDisc(path, disc, discs > 0);
 }
 
 /** One ring, filled or as a line; one that is filled and all hidden is not drawn, and its turns about M are returned. */
 function traceRing(path: Path, disc: Disc, p: Float64Array, begin: number, end: number, isFilled = true): number {
-  let first = begin;
-  while (first < end && p[3 * first + 2] < 0) ++first;
-  if (first === end) return isFilled ? Math.round(turnsOf(p, begin, end) / TURN) : 0;
-  let [x, y] = [disc.x + disc.r * p[3 * first], disc.y - disc.r * p[3 * first + 1]];
-  path.moveTo(x, y);
-  let [from, turn] = [0, 0]; // along the limb, while the ring is hidden
-  let i = 3 * first;
+  let i = 3 * begin;
+  while (i < 3 * end && p[i + 2] < 0) i += 3;
+  const isHidden = i === 3 * end;
+  if (isHidden) i = 3 * begin;
+  if (isHidden && !isFilled) return 0;
+  let [x, y] = [disc.x + disc.r * p[i], disc.y - disc.r * p[i + 1]];
+  if (!isHidden) path.moveTo(x, y);
+  let [from, turn] = [Math.atan2(p[i + 1], p[i]), 0]; // along the limb, while the ring is hidden
   for (let n = end - begin; n > 0; --n) {
     const j = i + 3 === 3 * end ? 3 * begin : i + 3;
     const [z, w] = [p[i + 2], p[j + 2]];
@@ -210,28 +194,13 @@ function traceRing(path: Path, disc: Disc, p: Float64Array, begin: number, end: 
     }
     i = j;
   }
+  if (isHidden) return Math.round(turn / TURN);
   if (isFilled) path.closePath();
   return 0;
 }
 
-/** How far a ring turns about the view's axis, counterclockwise from the front. */
-function turnsOf(p: Float64Array, begin: number, end: number): number {
-  let sum = 0;
-  for (let k = begin; k < end; ++k) {
-    const [i, j] = [3 * k, k + 1 === end ? 3 * begin : 3 * k + 3];
-    sum += wrapped(Math.atan2(p[j + 1], p[j]) - Math.atan2(p[i + 1], p[i]));
-  }
-  return sum;
-}
-
 function wrapped(angle: number): number {
   return angle - TURN * Math.round(angle / TURN);
-}
-
-function traceWhole(path: Path, { x, y, r }: Disc, clockwise: boolean): void {
-  path.moveTo(x + r, y);
-  path.ellipse(x, y, r, r, 0, 0, clockwise ? TURN : -TURN, !clockwise);
-  path.closePath();
 }
 
 /**
@@ -264,25 +233,22 @@ export function holdsHidden({ points: p, offsets }: Rings, place: Vector, inside
 
 /** Lays the cap n·x > d into a path, with its hidden part pushed to the limb. */
 export function traceCap(path: Path, disc: Disc, cap: Circle): void {
-  const { n, d, from } = cap;
-  const parts = partsOf({ ...cap, to: from + TURN });
-  if (parts.length === 0) {
-    if (n[2] > d) traceDisc(path, disc);
-    return;
-  }
-  // A part that goes on over the circle's beginning is one.
-  if (parts.length === 4) parts.splice(0, 4, parts[2], parts[1] + TURN);
-  tracePart(path, disc, cap, parts[0], parts[1]);
-  if (parts[1] - parts[0] < TURN) {
+  const { n, d } = cap;
+  const parts = partsOf(cap);
+  if (parts.length === 0 && n[2] > d) traceDisc(path, disc);
+  if (parts.length === 0) return;
+  const [begin, end] = parts;
+  tracePart(path, disc, cap, begin, end);
+  if (end < cap.to) {
     // Its hidden part, along the limb.
-    const [from, middle, to] = [parts[1], (parts[0] + parts[1] + TURN) / 2, parts[0] + TURN].map((t) => {
+    const [from, middle, to] = [end, (begin + end + TURN) / 2, begin].map((t) => {
       const [x, y] = pointAt(cap, t);
       return Math.atan2(y, x);
     });
     traceLimb(path, disc, from, wrapped(middle - from) + wrapped(to - middle));
   }
   path.closePath();
-  if (-n[2] > d) traceWhole(path, disc, false);
+  if (-n[2] > d) traceDisc(path, disc, true);
 }
 
 /** Goes on along the limb, counterclockwise for positive turns; a canvas forgets all turns of an arc but one. */
@@ -312,40 +278,33 @@ const MOST_PIECES = 128;
  */
 export function bentRings(source: Float64Array, rings: Rings, map: MoebiusMap, radius: number): Rings {
   const { points: p, offsets } = rings;
-  const sides: { from: number; to: number }[] = [];
+  const sides: [from: number, to: number][] = [];
   const least = (SHORT / radius) ** 2;
   for (let ring = 0; ring + 1 < offsets.length; ++ring) {
     for (let from = offsets[ring]; from < offsets[ring + 1]; ++from) {
       const to = from + 1 < offsets[ring + 1] ? from + 1 : offsets[ring];
       const [i, j] = [3 * from, 3 * to];
       const [x, y, z] = [p[j] - p[i], p[j + 1] - p[i + 1], p[j + 2] - p[i + 2]];
-      if (x * x + y * y + z * z > least) sides.push({ from, to });
+      if (x * x + y * y + z * z > least) sides.push([from, to]);
     }
   }
-  const on = ({ from, to }: (typeof sides)[0], t: number): number[] =>
+  const on = ([from, to]: (typeof sides)[0], t: number): number[] =>
     [0, 1, 2].map((k) => (1 - t) * source[3 * from + k] + t * source[3 * to + k]);
-  const middles = map.apply(Float64Array.from(sides.flatMap((side) => on(side, 0.5))));
-  const between = sides.map((side, at): number[] => {
-    const three = [...row(p, side.from), ...row(middles, at), ...row(p, side.to)];
-    const pieces = Math.ceil(Math.sqrt((radius * bow(three)) / LEAST_BOW));
-    const count = Math.max(1, Math.min(MOST_PIECES, pieces));
+  const middles = map.apply(sides.flatMap((side) => on(side, 0.5)));
+  const shift = new Uint32Array(p.length / 3 + 1); // how many points more there are before each
+  const between = sides.flatMap((side, at) => {
+    const [from, to] = side;
+    const bent = (radius * bow([...row(p, from), ...row(middles, at), ...row(p, to)])) / LEAST_BOW;
+    const count = Math.max(1, Math.min(MOST_PIECES, Math.ceil(Math.sqrt(bent))));
+    shift[from + 1] = count - 1;
     return Array.from({ length: count - 1 }, (_, k) => on(side, (k + 1) / count)).flat();
   });
-  const images = map.apply(Float64Array.from(between.flat()));
-  if (images.length === 0) return rings;
-  const bent = new Float64Array(p.length + images.length);
-  const moved = Uint32Array.from(offsets);
-  let [ring, done, taken] = [0, 0, 0];
-  const follow = (end: number): void => {
-    bent.set(p.subarray(done, end), done + taken);
-    for (done = end; 3 * offsets[ring] < end; ++ring) moved[ring] += taken / 3;
-  };
-  sides.forEach(({ from }, at) => {
-    follow(3 * from + 3);
-    const more = images.subarray(taken, taken + between[at].length);
-    bent.set(more, done + taken);
-    taken += more.length;
-  });
-  follow(p.length + 1); // the last offset, too
-  return { points: bent, offsets: moved };
+  if (between.length === 0) return rings;
+  for (let k = 1; k < shift.length; ++k) shift[k] += shift[k - 1];
+  const images = map.apply(between);
+  const points = new Float64Array(p.length + images.length);
+  for (let i = 0; i < p.length; ++i) points[i + 3 * shift[Math.floor(i / 3)]] = p[i];
+  for (const [from] of sides)
+    points.set(images.subarray(3 * shift[from], 3 * shift[from + 1]), 3 * (from + 1 + shift[from]));
+  return { points, offsets: Uint32Array.from(offsets, (offset) => offset + shift[offset]) };
 }

@@ -1,12 +1,12 @@
 /** What lies on a ball or a plane: layers whose directions stay in the kernel, each drawn as its images under a map are. */
 
 import type { Rings as Places } from "../contents.ts";
-import { Directions, lonlatToXyz } from "../kernel/api.ts";
-import type { MoebiusMap, SphericalDelaunay, SphericalVoronoi } from "../kernel/api.ts";
+import { Directions, lonlatToXyz, PlanarVoronoi } from "../kernel/api.ts";
+import type { MoebiusMap, PlanarDelaunay, SphericalVoronoi } from "../kernel/api.ts";
 import { angle, cross, DEGREE, directionOf, dot, row, unit, type Vector } from "../space.ts";
 import { arcThrough, bentRings, holdsHidden, traceArc, traceCap, traceOutlines, traceRegions } from "./arcs.ts";
 import type { Side } from "./arcs.ts";
-import { traceCorners, traceDisc, traceSegment } from "./pen.ts";
+import { traceCorners, traceDisc } from "./pen.ts";
 import type { Disc, Path, Pen, Point, Trace } from "./pen.ts";
 import type { DotName, StyleName } from "./styles.ts";
 
@@ -49,29 +49,16 @@ export function drawArcs(
   side: Side = "front",
   ink?: string,
 ): void {
-  const [sign, half] = [side === "front" ? 1 : -1, disc.r / 2];
-  const lines = new Float64Array(p.length / 3);
-  for (let i = 0, at = 0; i < p.length; i += 9, at += 3) {
-    lines[at] = disc.x + half * (p[i] + p[i + 6]);
-    lines[at + 1] = disc.y - half * (p[i + 1] + p[i + 7]);
-    // What is hidden has no ink.
-    const isSeen = sign * p[i + 2] >= 0 || sign * p[i + 8] >= 0;
-    lines[at + 2] = isSeen ? disc.r * Math.hypot(p[i + 6] - p[i], p[i + 7] - p[i + 1]) : 0;
+  const sign = side === "front" ? 1 : -1;
+  const ends = new Float64Array((4 * p.length) / 9);
+  for (let i = 0, at = 0; i < p.length; i += 9, at += 4) {
+    const j = sign * p[i + 2] >= 0 || sign * p[i + 8] >= 0 ? i + 6 : i; // what is hidden has no ink
+    ends[at] = disc.x + disc.r * p[i];
+    ends[at + 1] = disc.y - disc.r * p[i + 1];
+    ends[at + 2] = disc.x + disc.r * p[j];
+    ends[at + 3] = disc.y - disc.r * p[j + 1];
   }
-  pen.lines(style, lines, (path, k) => traceArc(path, disc, p, 3 * k, side), ink);
-}
-
-/** Draws lines as they are. @param ends x, y, x, y in turn. */
-export function drawSegments(pen: Pen, style: StyleName, ends: readonly number[]): void {
-  const lines = new Float64Array((3 * ends.length) / 4);
-  for (let at = 0; at < ends.length; at += 4) {
-    const [x, y, u, v] = ends.slice(at, at + 4);
-    lines.set([(x + u) / 2, (y + v) / 2, Math.hypot(u - x, v - y)], (3 * at) / 4);
-  }
-  pen.lines(style, lines, (path, k) => {
-    path.moveTo(ends[4 * k], ends[4 * k + 1]);
-    path.lineTo(ends[4 * k + 2], ends[4 * k + 3]);
-  });
+  pen.lines(style, ends, (path, k) => traceArc(path, disc, p, 3 * k, side), ink);
 }
 
 /** Caps by three points of each circle, counterclockwise about the cap. */
@@ -144,11 +131,12 @@ export function landLayer({ lonlat, offsets }: Places): Layer {
   return regionLayer("land", "coast", lonlatToXyz(lonlat), offsets, AT_SEA, false);
 }
 
-/** Edges of a triangulation as arcs. */
-export function edgeArcs({ points, edges }: SphericalDelaunay): Float64Array {
+/** The shorter arcs between points, two of them by their numbers for each. */
+export function arcsBetween(points: Float64Array, pairs: ArrayLike<number>): Float64Array {
   const arcs: number[] = [];
-  for (let k = 0; k < edges.length; k += 2) {
-    pushAll(arcs, ...arcBetween(unit(row(points, edges[k])), unit(row(points, edges[k + 1]))));
+  for (let k = 0; k < pairs.length; k += 2) {
+    const [a, b] = [row(points, pairs[k]), row(points, pairs[k + 1])];
+    pushAll(arcs, a, unit([a[0] + b[0], a[1] + b[1], a[2] + b[2]]), b);
   }
   return Float64Array.from(arcs);
 }
@@ -168,6 +156,22 @@ export function ridgeArcs(voronoi: SphericalVoronoi): Float64Array {
     }
   }
   return Float64Array.from(arcs);
+}
+
+/** Sides of the cells of a plane as x, y, x, y in turn, none without triangles; those that do not end go on for `far`. */
+export function ridgeSegments(points: ArrayLike<number> | PlanarDelaunay, far: number): number[] {
+  const { points: sites, vertices, ridgePoints, ridgeVertices } = new PlanarVoronoi(points);
+  const place = (places: Float64Array, k: number): Point => [places[2 * k], places[2 * k + 1]];
+  if (vertices.length === 0) return [];
+  return Array.from({ length: ridgePoints.length / 2 }, (_, k) => {
+    const [a, b] = [place(sites, ridgePoints[2 * k]), place(sites, ridgePoints[2 * k + 1])];
+    const ends = [ridgeVertices[2 * k], ridgeVertices[2 * k + 1]];
+    const [x, y] = place(vertices, Math.max(...ends));
+    // Site a is on the left of the way from start to end.
+    const away = (far + Math.hypot(x - a[0], y - a[1])) / Math.hypot(b[0] - a[0], b[1] - a[1]);
+    const [u, v] = [away * (a[1] - b[1]), away * (b[0] - a[0])];
+    return ends.map((end, k) => (end < 0 ? [x + (k ? u : -u), y + (k ? v : -v)] : place(vertices, end)));
+  }).flat(2);
 }
 
 /** A direction turned counterclockwise about one at a right angle to it, radians. */
@@ -209,14 +213,10 @@ export function circlePoints(center: Vector, radius: number): Vector[] {
 
 /** Lines through places, rows of longitude and latitude in degrees, as arcs. */
 export function lineArcs({ lonlat, offsets }: Places): Float64Array {
-  const points = lonlatToXyz(lonlat);
-  const arcs: number[] = [];
-  for (let line = 0; line + 1 < offsets.length; ++line) {
-    for (let k = offsets[line] + 1; k < offsets[line + 1]; ++k) {
-      pushAll(arcs, ...arcBetween(row(points, k - 1), row(points, k)));
-    }
-  }
-  return Float64Array.from(arcs);
+  const pairs: number[] = [];
+  for (let line = 0; line + 1 < offsets.length; ++line)
+    for (let k = offsets[line] + 1; k < offsets[line + 1]; ++k) pairs.push(k - 1, k);
+  return arcsBetween(lonlatToXyz(lonlat), pairs);
 }
 
 /** Where a direction is on the picture. */
@@ -224,67 +224,50 @@ export function placeOf(disc: Disc, point: Vector): [number, number] {
   return [disc.x + disc.r * point[0], disc.y - disc.r * point[1]];
 }
 
-/** The shorter great-circle arc between two directions, as three points. */
-export function arcBetween(a: Vector, b: Vector): Vector[] {
-  return [a, unit([a[0] + b[0], a[1] + b[1], a[2] + b[2]]), b];
-}
-
 /** Where a picture has sites, and lines and regions between them. */
 export interface Surface {
   place(site: number): Point;
   isSeen(site: number): boolean;
-  /** From one site to another. */
-  line(path: Path, a: number, b: number, side?: Side): void;
-  /** All that are drawn in a style, a and b in turn. */
+  /** From sites to others, in turn. */
   lines(pen: Pen, style: StyleName, sites: ArrayLike<number>, side?: Side): void;
-  /** A closed line through sites. */
-  ring(path: Path, sites: readonly number[]): void;
-  /** The region on the left of such a line. @param holds Whether it holds the middle of the far side, or infinity. */
+  /** The region on the left of a closed line. @param holds Whether it holds the middle of the far side, or infinity. */
   region(path: Path, sites: readonly number[], holds: boolean): void;
+}
+
+/** The sites of a closed line, as lines have them. */
+export function sidesOf(sites: readonly number[]): number[] {
+  return sites.flatMap((a, k) => [a, sites[(k + 1) % sites.length]]);
 }
 
 /** A ball. @param look Directions of the sites, before `map`, which takes them to the axes of the view; without one there. */
 export function ballSurface(disc: Disc, look: (site: number) => Vector, map: MoebiusMap | null = null): Surface {
-  const seen = (points: readonly Vector[]): Float64Array => {
-    const directions = Float64Array.from(points.flat());
-    return map?.apply(directions) ?? directions;
-  };
-  const image = (site: number): Vector => (map === null ? look(site) : row(seen([look(site)]), 0));
-  const sides = (sites: readonly number[]): [number, number][] =>
-    sites.map((a, k) => [a, sites[(k + 1) % sites.length]]);
-  const line = (path: Path, a: number, b: number, side?: Side): void =>
-    traceArc(path, disc, seen(arcBetween(look(a), look(b))), 0, side);
+  const seen = (directions: Float64Array): Float64Array => map?.apply(directions) ?? directions;
+  const image = (site: number): Vector => (map === null ? look(site) : row(map.apply(look(site)), 0));
   return {
     place: (site) => placeOf(disc, image(site)),
     isSeen: (site) => image(site)[2] >= 0,
-    line,
     lines(pen, style, sites, side) {
-      const arcs: Vector[] = [];
-      for (let k = 0; k < sites.length; k += 2) arcs.push(...arcBetween(look(sites[k]), look(sites[k + 1])));
-      drawArcs(pen, disc, style, seen(arcs), side);
+      const points = Float64Array.from(Array.from(sites, look).flat());
+      drawArcs(pen, disc, style, seen(arcsBetween(points, [...Array(sites.length).keys()])), side);
     },
-    ring: (path, sites) => sides(sites).forEach(([a, b]) => line(path, a, b)),
     region(path, sites, holds) {
-      const points = sides(sites).flatMap(([a, b]) => along(look(a), look(b)));
-      const rings = { points: seen(points), offsets: [0, points.length] };
-      const bent = map === null ? rings : bentRings(Float64Array.from(points.flat()), rings, map, disc.r);
-      traceRegions(path, disc, bent, holds);
+      const points = sites.flatMap((a, k) => along(look(a), look(sites[(k + 1) % sites.length])));
+      const directions = Float64Array.from(points.flat());
+      const rings = { points: seen(directions), offsets: [0, points.length] };
+      traceRegions(path, disc, map === null ? rings : bentRings(directions, rings, map, disc.r), holds);
     },
   };
 }
 
 /** A plane, as far as its frame goes. @param place Of the sites on the picture. */
 export function planeSurface(place: (site: number) => Point, frame: Trace): Surface {
-  const ring = (path: Path, sites: readonly number[]): void => traceCorners(path, sites.map(place));
   return {
     place,
     isSeen: () => true,
-    line: (path, a, b) => traceSegment(path, place(a), place(b)),
-    lines: (pen, style, sites) => drawSegments(pen, style, Array.from(sites).flatMap(place)),
-    ring,
+    lines: (pen, style, sites) => pen.lines(style, Array.from(sites).flatMap(place)),
     region(path, sites, holds) {
       if (holds) frame(path);
-      ring(path, sites);
+      traceCorners(path, sites.map(place));
     },
   };
 }

@@ -1,5 +1,6 @@
 /** The pen of the screen: a canvas with two dimensions. */
 
+import type { Vector } from "../space.ts";
 import { LIGHT, MOST_ARCS, Pen, textParts, traceDisc } from "./pen.ts";
 import type { Bounds, Disc, Gradient, Picture, Trace } from "./pen.ts";
 import * as styles from "./styles.ts";
@@ -14,19 +15,18 @@ export class CanvasPen extends Pen {
   readonly #context: Context;
 
   /** @param scale Pixels of the canvas for one of the drawing. */
-  constructor(context: Context, width: number, height: number, scale: number, colours: Colours, weight: number) {
-    super(width, height, colours, weight);
+  constructor(context: Context, width: number, height: number, scale: number, colours: Colours) {
+    super(width, height, colours);
     this.#context = context;
     context.setTransform(scale, 0, 0, scale, 0, 0);
     context.lineCap = context.lineJoin = "round";
     context.imageSmoothingQuality = "high";
   }
 
-  draw(name: StyleName, trace: Trace, ink?: string, style: Style = styles.STYLES[name]): void {
+  protected path(_: StyleName, trace: Trace, ink: string | undefined, style: Style): void {
     const context = this.#context;
     context.beginPath();
     trace(context);
-    if (style.hatch !== undefined) this.#hatch(style.hatch === "crossed");
     if (style.fill !== undefined) {
       context.fillStyle = ink ?? this.colours[style.fill];
       this.within({ opacity: style.fillOpacity }, () => context.fill());
@@ -61,39 +61,37 @@ export class CanvasPen extends Pen {
           context.fillRect(places[k] - side / 2, places[k + 1] - side / 2, side, side);
         return;
       }
-      this.#discs(places, r + rimWidth / 2, this.colours[rim]);
-      this.#discs(places, r - rimWidth / 2, this.colours[fill]);
+      const circles = (ink: string, size: number): void =>
+        this.#circles(ink, 0, places.length / 2, (k) => [places[2 * k], places[2 * k + 1], size]);
+      circles(this.colours[rim], r + rimWidth / 2);
+      circles(this.colours[fill], r - rimWidth / 2);
     });
-  }
-
-  /** Discs about places; some at a time, as a call for each takes longer than the discs. */
-  #discs(places: ArrayLike<number>, r: number, colour: string): void {
-    const context = this.#context;
-    context.fillStyle = colour;
-    for (let begin = 0; begin < places.length; begin += 2 * MOST_ARCS) {
-      context.beginPath();
-      for (let k = begin; k < Math.min(places.length, begin + 2 * MOST_ARCS); k += 2) {
-        context.moveTo(places[k] + r, places[k + 1]);
-        context.arc(places[k], places[k + 1], r, 0, 2 * Math.PI);
-      }
-      context.fill();
-    }
   }
 
   spots(places: ArrayLike<number>, inks: readonly string[]): void {
-    const context = this.#context;
     this.#line(styles.STYLES["spot-line"]);
-    inks.forEach((ink, k) => {
-      // Of one opaque ink some at a time, as dots() has them.
-      if (k % MOST_ARCS === 0 || ink !== inks[k - 1] || !ink.endsWith("/ 1)")) context.beginPath();
-      const [x, y, r] = [places[3 * k], places[3 * k + 1], places[3 * k + 2]];
-      context.moveTo(x + r, y);
-      context.arc(x, y, r, 0, 2 * Math.PI);
-      if ((k + 1) % MOST_ARCS !== 0 && inks[k + 1] === ink && ink.endsWith("/ 1)")) return;
-      context.fillStyle = ink;
+    const spot = (k: number): Vector => [places[3 * k], places[3 * k + 1], places[3 * k + 2]];
+    for (let from = 0, to = 0; from < inks.length; from = to) {
+      do ++to;
+      while (inks[to] === inks[from] && inks[from].endsWith("/ 1)")); // of an ink that is seen through, one alone
+      this.#circles(inks[from], from, to, spot, true);
+    }
+  }
+
+  /** Circles by x, y and radius; some at a time, as a call for each takes longer than the circles. */
+  #circles(ink: string, from: number, to: number, at: (k: number) => Vector, isRimmed = false): void {
+    const context = this.#context;
+    context.fillStyle = ink;
+    for (let begin = from; begin < to; begin += MOST_ARCS) {
+      context.beginPath();
+      for (let k = begin; k < Math.min(to, begin + MOST_ARCS); ++k) {
+        const [x, y, r] = at(k);
+        context.moveTo(x + r, y);
+        context.arc(x, y, r, 0, 2 * Math.PI);
+      }
       context.fill();
-      context.stroke();
-    });
+      if (isRimmed) context.stroke();
+    }
   }
 
   label(text: string, x: number, y: number, style: LabelStyle): void {
@@ -124,29 +122,8 @@ export class CanvasPen extends Pen {
 
   #line(style: Style, ink = this.colours[style.stroke ?? "ink"]): void {
     this.#context.strokeStyle = ink;
-    this.#context.lineWidth = (style.width ?? 1) * this.weight;
+    this.#context.lineWidth = style.width ?? 1;
     this.#context.setLineDash([...(style.dash ?? [])]);
-  }
-
-  /** Lines over the path that stands, 45° steep. */
-  #hatch(crossed: boolean): void {
-    this.within({}, () => {
-      const context = this.#context;
-      const { width, height } = this;
-      context.clip();
-      this.#line({ stroke: "hatch" });
-      context.lineWidth = styles.HATCH_WIDTH;
-      context.beginPath();
-      const step = styles.HATCH_PITCH * Math.SQRT2;
-      for (let x = step / 2; x < width + height; x += step) {
-        context.moveTo(x, 0);
-        context.lineTo(x - height, height);
-        if (!crossed) continue;
-        context.moveTo(x - height, 0);
-        context.lineTo(x, height);
-      }
-      context.stroke();
-    });
   }
 
   protected fillDisc(disc: Disc, fill: string | Gradient): void {

@@ -19,22 +19,21 @@ export class Ink {
 
   /**
    * Calls back with things by the parts of their ink that they keep, the weakest first; what came first is measured.
-   * @param places x, y of each, in so long rows.
+   * @param places x, y of each.
    * @param area Their ink, square pixels.
    * @param most Part of the ground that they may cover.
    */
   each(
     places: ArrayLike<number>,
-    row: number,
     area: (k: number) => number,
     most: number,
     visit: (part: number, numbers: readonly number[]) => void,
   ): void {
     const groups: number[][] = [];
-    const steps = (this.#steps ??= this.#measured(places, row, area, places.length > row * FEW ? most : Infinity));
-    for (let k = 0; row * k < places.length; ++k) {
+    const steps = (this.#steps ??= this.#measured(places, area, places.length > 2 * FEW ? most : Infinity));
+    for (let k = 0; 2 * k < places.length; ++k) {
       // Between the middles of four squares, so that these are not seen.
-      const [u, v] = [places[row * k] / SQUARE - 0.5, places[row * k + 1] / SQUARE - 0.5];
+      const [u, v] = [places[2 * k] / SQUARE - 0.5, places[2 * k + 1] / SQUARE - 0.5];
       const [s, t] = [u - Math.floor(u), v - Math.floor(v)];
       const upper = (1 - s) * steps[this.#at(u, v)] + s * steps[this.#at(u + 1, v)];
       const lower = (1 - s) * steps[this.#at(u, v + 1)] + s * steps[this.#at(u + 1, v + 1)];
@@ -44,10 +43,10 @@ export class Ink {
   }
 
   /** The mean of nine squares counts, of those with ink, as beyond the limb there is none. */
-  #measured(places: ArrayLike<number>, row: number, area: (k: number) => number, most: number): Float64Array {
+  #measured(places: ArrayLike<number>, area: (k: number) => number, most: number): Float64Array {
     const [columns, ink] = [this.#columns, new Float64Array(this.#columns * this.#rows)];
-    for (let k = 0; row * k < places.length; ++k) {
-      const [u, v] = [places[row * k] / SQUARE, places[row * k + 1] / SQUARE];
+    for (let k = 0; 2 * k < places.length; ++k) {
+      const [u, v] = [places[2 * k] / SQUARE, places[2 * k + 1] / SQUARE];
       if (u >= 0 && v >= 0 && u < columns - 2 && v < this.#rows - 2) ink[this.#at(u, v)] += area(k);
     }
     return ink.map((_, at) => {

@@ -42,13 +42,12 @@ const widths = new Map<string, number>();
 export function widthOf(text: string, style: LabelStyle): number {
   const font = fontOf(style, style.italic ?? false);
   const key = `${font} ${text}`;
-  let width = widths.get(key);
-  if (width === undefined) {
+  if (!widths.has(key)) {
     context ??= make("canvas").getContext("2d")!;
     context.font = font;
-    widths.set(key, (width = context.measureText(text.replaceAll("*", "")).width));
+    widths.set(key, context.measureText(text.replaceAll("*", "")).width);
   }
-  return width;
+  return widths.get(key)!;
 }
 
 /** The room for names in a drawing, and what is taken of it. */
@@ -122,16 +121,16 @@ export function drawNames(
 ): void {
   const { disc } = seats;
   const place = (k: number): Point => [disc.x + disc.r * images[3 * k], disc.y - disc.r * images[3 * k + 1]];
-  const front = Array.from(names.keys()).filter((k) => images[3 * k + 2] >= LEAST_HEIGHT);
+  const isSeen = (k: number): boolean => images[3 * k + 2] >= LEAST_HEIGHT;
+  const front = Array.from(names.keys()).filter(isSeen);
   const size = Math.PI * disc.r * disc.r;
   const radius = (k: number): number => Math.max(USUAL, radii?.[k] ?? 0);
   if (front.length * CROWD < size) for (const k of front) seats.takeDot(place(k), radius(k));
   const before = new Map(isMoving ? standing : []);
   standing.clear();
   const rest = front.filter((k) => names[k] !== "" && !before.has(k)).slice(0, isMoving ? TRIED_MOVING : TRIED);
-  for (const k of [...before.keys(), ...rest]) {
+  for (const k of [...before.keys()].filter(isSeen).concat(rest)) {
     if (standing.size * ROOM > size) break;
-    if (!(images[3 * k + 2] >= LEAST_HEIGHT)) continue;
     const name = names[k].length > LONGEST ? `${names[k].slice(0, LONGEST - 1)}…` : names[k];
     const sides = before.has(k) ? [before.get(k)!, ...SIDES] : SIDES;
     const side = seats.set(name.replaceAll("*", "∗"), place(k), style, sides, radius(k));

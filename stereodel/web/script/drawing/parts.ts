@@ -4,22 +4,9 @@ import type { SphericalVoronoi } from "../kernel/api.ts";
 import { row, type Vector } from "../space.ts";
 import type { Pen } from "./pen.ts";
 
-/** What the reader can switch on and off. */
-export type Switch =
-  | "bubble"
-  | "cells"
-  | "closing"
-  | "fills"
-  | "graticule"
-  | "isolines"
-  | "land"
-  | "names"
-  | "rays"
-  | "seeing"
-  | "tissot"
-  | "triangles";
-
-type Outlet = "picture" | "geojson";
+/** What the reader can switch on and off: of sites, and of globes. */
+type OfSites = "bubble" | "cells" | "closing" | "fills" | "isolines" | "names" | "rays" | "seeing" | "triangles";
+export type Switch = OfSites | "graticule" | "land" | "tissot";
 
 export type IsOn = (layer: Switch) => boolean;
 
@@ -37,27 +24,23 @@ export interface Part<Surface> {
   readonly isThere?: boolean;
   /** Whether it lies over all others and follows the pointer, so that it is drawn alone. */
   readonly isOver?: boolean;
-  /** Where it is written although the picture does not show it. */
-  readonly always?: readonly Outlet[];
   draw?(pen: Pen, surface: Surface): void;
+  /** Of GeoJSON, whatever the picture shows. */
   regions?(): readonly Region[];
 }
 
 export function drawParts<S>(pen: Pen, surface: S, parts: readonly Part<S>[], isOn: IsOn): void {
-  for (const part of shown(parts, isOn, "picture")) part.draw?.(pen, surface);
+  for (const { layer, isThere = true, draw } of parts) {
+    if (isThere && (layer === undefined || isOn(layer))) draw?.(pen, surface);
+  }
 }
 
 /** Regions for GeoJSON, those of the topmost part first. */
-export function regionsOf(parts: readonly Part<never>[], isOn: IsOn): Region[] {
-  const regions = shown(parts, isOn, "geojson").map((part) => part.regions?.() ?? []);
-  return regions.reverse().flat();
-}
-
-function shown<P extends Part<never>>(parts: readonly P[], isOn: IsOn, outlet: Outlet): P[] {
-  return parts.filter(
-    ({ layer, isThere = true, always }) =>
-      always?.includes(outlet) || (isThere && (layer === undefined || isOn(layer))),
-  );
+export function regionsOf(parts: readonly Part<never>[]): Region[] {
+  return parts
+    .flatMap((part) => (part.regions ? [part.regions()] : []))
+    .reverse()
+    .flat();
 }
 
 /** The cell of a site; none where it has no corners. */

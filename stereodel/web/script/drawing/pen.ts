@@ -2,7 +2,7 @@
 
 import type { Owner } from "../rooms/owner.ts";
 import { Ink, SQUARE } from "./density.ts";
-import { DOTS, STYLES } from "./styles.ts";
+import { DOTS, HATCH_STEP, STYLES } from "./styles.ts";
 import type { Colours, DotName, DotStyle, LabelStyle, Style, StyleName, Token } from "./styles.ts";
 
 /** What a trace is laid into: a part of the canvas's own interface. */
@@ -64,29 +64,46 @@ export abstract class Pen {
   readonly width: number;
   readonly height: number;
   protected readonly colours: Colours;
-  protected readonly weight: number;
   /** How densely nets and dots lie, by their styles; what is drawn of a part of a picture takes what is known of the whole. */
   readonly inks = new Map<string, Ink>();
   known: ReadonlyMap<string, Ink> | null = null;
 
-  /** @param weight Factor of the widths of lines. */
-  constructor(width: number, height: number, colours: Colours, weight: number) {
-    [this.width, this.height, this.colours, this.weight] = [width, height, colours, weight];
+  constructor(width: number, height: number, colours: Colours) {
+    [this.width, this.height, this.colours] = [width, height, colours];
   }
 
   /** Draws a path in a style, or in an ink of the data; regions are those about which the path winds. */
-  abstract draw(name: StyleName, trace: Trace, ink?: string, style?: Style): void;
-  /** Draws lines by the x and y of their middles and their lengths; those of nets weaker where they are dense. */
-  lines(name: StyleName, lines: Float64Array, lay: (path: Path, k: number) => void, ink?: string): void {
+  draw(name: StyleName, trace: Trace, ink?: string, style: Style = STYLES[name]): void {
+    if (style.hatch === undefined) return this.path(name, trace, ink, style);
+    const { width, height } = this;
+    const lines = (path: Path): void => {
+      for (let x = HATCH_STEP / 2; x < width + height; x += HATCH_STEP) {
+        traceSegment(path, [x, 0], [x - height, height]);
+        if (style.hatch === "crossed") traceSegment(path, [x - height, 0], [x, height]);
+      }
+    };
+    this.within({ region: trace }, () => this.path(name, lines, ink, style));
+  }
+  protected abstract path(name: StyleName, trace: Trace, ink: string | undefined, style: Style): void;
+  /** Draws lines by their ends, x and y in turn, those of nets weaker where they are dense. @param lay Lays what is not straight. */
+  lines(name: StyleName, ends: ArrayLike<number>, lay?: (path: Path, k: number) => void, ink?: string): void {
     const style: Style = STYLES[name];
-    const width = (style.width ?? 1) * this.weight;
-    const area = (k: number): number => width * Math.min(SQUARE, lines[3 * k + 2]); // what is longer lies apart
-    this.#ink(name).each(lines, 3, area, style.isNet ? MOST_LINES : Infinity, (part, numbers) => {
+    const { width = 1 } = style;
+    const end = (at: number): Point => [ends[at], ends[at + 1]];
+    const length = (at: number): number => Math.hypot(ends[at + 2] - ends[at], ends[at + 3] - ends[at + 1]);
+    const area = (k: number): number => width * Math.min(SQUARE, length(4 * k)); // what is longer lies apart
+    const straight = (path: Path, k: number): void => traceSegment(path, end(4 * k), end(4 * k + 2));
+    const middles = new Float64Array(ends.length / 2);
+    for (let at = 0; at < middles.length; ++at) {
+      const from = 2 * at - (at & 1);
+      middles[at] = (ends[from] + ends[from + 2]) / 2;
+    }
+    this.#ink(name).each(middles, area, style.isNet ? MOST_LINES : Infinity, (part, numbers) => {
       const size = Math.max(FINEST, Math.sqrt(part));
-      const thin: Style = { ...style, width: size * (style.width ?? 1), strokeOpacity: part / size };
+      const thin: Style = { ...style, width: size * width, strokeOpacity: part / size };
       for (let from = 0; from < numbers.length; from += MOST_ARCS) {
         const those = numbers.slice(from, from + MOST_ARCS);
-        this.draw(name, (path) => those.forEach((k) => lay(path, k)), ink, thin);
+        this.draw(name, (path) => those.forEach((k) => (lay ?? straight)(path, k)), ink, thin);
       }
     });
   }
@@ -96,7 +113,7 @@ export abstract class Pen {
   dots(name: DotName, places: ArrayLike<number>): void {
     const { radius, rimWidth, ...inks }: DotStyle = DOTS[name];
     const area = (): number => Math.PI * radius * radius;
-    this.#ink(name).each(places, 2, area, MOST_DOTS, (part, numbers) => {
+    this.#ink(name).each(places, area, MOST_DOTS, (part, numbers) => {
       const size = Math.max(SMALLEST, Math.sqrt(part));
       const style = { ...inks, radius: size * radius, rimWidth: size * rimWidth, opacity: part / size ** 2 };
       const those = new Float64Array(2 * numbers.length);
@@ -141,17 +158,15 @@ export interface Sheet {
   readonly title: string;
   readonly width: number;
   readonly height: number;
-  /** Factor of the widths of lines. */
-  readonly weight: number;
   readonly paint: (pen: Pen) => void;
   /** What the owner of the data says, to be written round it. */
   readonly owner?: Owner | null;
 }
 
-/** A whole circle. */
-export function traceDisc(path: Path, { x, y, r }: Disc): void {
+/** A whole circle, clockwise to the eye if it is not said otherwise. */
+export function traceDisc(path: Path, { x, y, r }: Disc, counterclockwise = false): void {
   path.moveTo(x + r, y);
-  path.ellipse(x, y, r, r, 0, 0, 2 * Math.PI);
+  path.ellipse(x, y, r, r, 0, 0, counterclockwise ? -2 * Math.PI : 2 * Math.PI, counterclockwise);
   path.closePath();
 }
 

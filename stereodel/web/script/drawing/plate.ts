@@ -81,7 +81,7 @@ export class Plate {
       this.#paint(pen, false);
       if (!isBare) this.#overlay?.(pen, false);
     };
-    return { title, width: this.width, height: this.height, weight: this.#weight, paint };
+    return { title, width: this.width, height: this.height, paint };
   }
 
   dispose(): void {
@@ -89,10 +89,6 @@ export class Plate {
     clearTimeout(this.#resting);
     this.#observer.disconnect();
     this.#forget();
-  }
-
-  get #weight(): number {
-    return matchMedia("(max-width: 43.75rem)").matches ? 0.8 : 1; // lines are finer in a narrow window
   }
 
   #resize(): void {
@@ -142,7 +138,7 @@ export class Plate {
   }
 
   #pen(canvas: HTMLCanvasElement, scale: number): CanvasPen {
-    return new CanvasPen(canvas.getContext("2d")!, this.width, this.height, scale, colours(this.#place), this.#weight);
+    return new CanvasPen(canvas.getContext("2d")!, this.width, this.height, scale, colours(this.#place));
   }
 }
 

@@ -11,7 +11,7 @@ export interface Style {
   readonly dash?: readonly number[];
   readonly fill?: Token;
   readonly fillOpacity?: number;
-  /** Lines 45° steep in place of an even ground; crossed ones for facets that only close the hull. */
+  /** A region is filled with lines, 45° steep; with crossed ones facets that only close the hull. */
   readonly hatch?: "plain" | "crossed";
   /** Lines of a triangulation: many of them are weaker, as `density.ts` has it. */
   readonly isNet?: boolean;
@@ -31,8 +31,8 @@ export const STYLES = {
   voronoi: { stroke: "voronoi", width: 0.9, isNet: true },
   cell: { stroke: "ink", width: 1.1, isNet: true },
   hull: { stroke: "hull", width: 1.3 },
-  hatch: { hatch: "plain" },
-  closing: { hatch: "crossed" },
+  hatch: { stroke: "hatch", width: 0.8, hatch: "plain" },
+  closing: { stroke: "hatch", width: 0.8, hatch: "crossed" },
   bubble: { stroke: "accent", width: 1.8, fill: "accent-wash" },
   "bubble-open": { stroke: "accent", width: 1.8 },
   triangle: { stroke: "accent", width: 1.2 },
@@ -91,9 +91,8 @@ export interface LabelStyle {
 /** Width of the halo round letters, pixels. */
 export const HALO_WIDTH = 4;
 
-/** Distance of hatching lines, pixels. */
-export const HATCH_PITCH = 6;
-export const HATCH_WIDTH = 0.8;
+/** Distance of hatching lines along an edge of the picture, pixels. */
+export const HATCH_STEP = 6 * Math.SQRT2;
 
 /** What lies behind. */
 export const FAINT = { opacity: 0.38 };

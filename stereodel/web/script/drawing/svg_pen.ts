@@ -2,7 +2,7 @@
 
 import { writeNumber } from "../link.ts";
 import { LIGHT, Pen, textParts, type Bounds, type Disc, type Gradient, type Picture, type Trace } from "./pen.ts";
-import { HALO_WIDTH, HATCH_PITCH, HATCH_WIDTH, SERIF, STYLES } from "./styles.ts";
+import { HALO_WIDTH, SERIF, STYLES } from "./styles.ts";
 import type { DotName, DotStyle, LabelStyle, Style, StyleName } from "./styles.ts";
 
 /** Decimals of a coordinate, pixels of the screen. */
@@ -29,11 +29,10 @@ export class SvgPen extends Pen {
     return `${lines.join("\n")}\n</g>\n</svg>\n`;
   }
 
-  draw(name: StyleName, trace: Trace, ink?: string, style: Style = STYLES[name]): void {
+  protected path(name: StyleName, trace: Trace, ink: string | undefined, style: Style): void {
     const d = pathData(trace);
     if (d === "") return;
     const looks: string[] = [];
-    if (style.hatch !== undefined) looks.push(`fill="url(#${this.#hatch(style.hatch)})"`);
     if (style.fill !== undefined) looks.push(paint("fill", ink ?? this.colours[style.fill], style.fillOpacity));
     if (style.stroke !== undefined) looks.push(this.#line(style, ink));
     this.#parts.push(`<path class="${name}" ${looks.join(" ")} d="${d}"/>`);
@@ -96,33 +95,18 @@ export class SvgPen extends Pen {
 
   #line(style: Style, ink = this.colours[style.stroke ?? "ink"]): string {
     const dash = style.dash === undefined ? "" : ` stroke-dasharray="${style.dash.join(" ")}"`;
-    const width = number((style.width ?? 1) * this.weight);
-    return `${paint("stroke", ink, style.strokeOpacity)} stroke-width="${width}"${dash}`;
+    return `${paint("stroke", ink, style.strokeOpacity)} stroke-width="${number(style.width ?? 1)}"${dash}`;
   }
 
+  /** Places of a gradient are those of the square round a disc, of side 1. */
   protected fillDisc({ x, y, r }: Disc, fill: string | Gradient): void {
-    const looks = typeof fill === "string" ? paint("fill", fill) : `fill="url(#${this.#gradient(fill)})"`;
+    const looks = typeof fill === "string" ? paint("fill", fill) : `fill="url(#${fill.id})"`;
     this.#parts.push(`<circle ${looks} cx="${number(x)}" cy="${number(y)}" r="${number(r)}"/>`);
-  }
-
-  /** Its places are those of the square round a disc, of side 1. */
-  #gradient({ id, stops }: Gradient): string {
-    const rows = stops.map(([at, ink]) => `<stop offset="${at}" ${paint("stop-color", ink, 1, "stop-opacity")}/>`);
+    if (typeof fill === "string") return;
+    const rows = fill.stops.map(([at, ink]) => `<stop offset="${at}" ${paint("stop-color", ink, 1, "stop-opacity")}/>`);
     const places = Object.entries(LIGHT).map(([name, at]) => `${name}="${number((at + (name === "r" ? 0 : 1)) / 2)}"`);
-    return this.#define(id, `<radialGradient id="${id}" ${places.join(" ")}>${rows.join("")}</radialGradient>`);
-  }
-
-  #hatch(kind: "plain" | "crossed"): string {
-    const [id, p] = [`hatch-${kind}`, HATCH_PITCH];
-    const lines = `M0 ${p / 2}H${p}${kind === "crossed" ? `M${p / 2} 0V${p}` : ""}`;
-    const line = `${paint("stroke", this.colours.hatch)} stroke-width="${HATCH_WIDTH}"`;
-    const place = `width="${p}" height="${p}" patternUnits="userSpaceOnUse" patternTransform="rotate(-45)"`;
-    return this.#define(id, `<pattern id="${id}" ${place}><path ${line} d="${lines}"/></pattern>`);
-  }
-
-  #define(id: string, text: string): string {
+    const text = `<radialGradient id="${fill.id}" ${places.join(" ")}>${rows.join("")}</radialGradient>`;
     if (!this.#definitions.includes(text)) this.#definitions.push(text);
-    return id;
   }
 }
 

@@ -376,16 +376,11 @@ export function geoVoronoi<Datum = Place>(data?: GeoData<Datum>): GeoVoronoi<Dat
   const [first, second]: Accessor<Datum>[] = [(datum) => placeOf(datum)[0], (datum) => placeOf(datum)[1]];
 
   const diagram = ((given: GeoData<Datum>) => {
-    const items = "features" in given ? given.features : given;
+    const items: readonly Datum[] = "features" in given ? given.features : given;
     const [x, y] = [diagram.x(), diagram.y()];
-    const [points, valid]: [Place[], Datum[]] = [[], []];
-    for (const datum of items) {
-      const place: Place = x === first && y === second ? placeOf(datum) : [x(datum), y(datum)];
-      if (!Number.isFinite(place[0]) || !Number.isFinite(place[1])) continue;
-      points.push(place);
-      valid.push(datum);
-    }
-    Object.assign(diagram, { points, valid });
+    const places = items.map((datum): Place => (x === first && y === second ? placeOf(datum) : [x(datum), y(datum)]));
+    const isValid = (_: unknown, k: number): boolean => Number.isFinite(places[k][0]) && Number.isFinite(places[k][1]);
+    Object.assign(diagram, { points: places.filter(isValid), valid: items.filter(isValid) });
     diagram.delaunay = geoDelaunay(diagram.points);
     return diagram;
   }) as GeoVoronoi<Datum>;
@@ -406,7 +401,7 @@ export function geoVoronoi<Datum = Place>(data?: GeoData<Datum>): GeoVoronoi<Dat
   diagram.polygons = method(({ delaunay }) => {
     const { points, valid } = diagram;
     const { centers, neighbors, starts, ring } = delaunay.cells;
-    return collection(points.length, (k) => {
+    const features = points.map((sitecoordinates, k) => {
       const [start, size] = [starts[k], starts[k + 1] - starts[k]];
       let geometry: Geometry | null = delaunay.dimension === 0 && k === 0 ? { type: "Sphere" } : null;
       if (size > 0) {
@@ -415,24 +410,25 @@ export function geoVoronoi<Datum = Place>(data?: GeoData<Datum>): GeoVoronoi<Dat
         places[size] = places[0];
         geometry = { type: "Polygon", coordinates: [places] };
       }
-      return [geometry, { site: valid[k], sitecoordinates: points[k], neighbours: neighbors[k] }];
+      return feature(geometry, { site: valid[k], sitecoordinates, neighbours: neighbors[k] });
     });
+    return collection(features);
   });
   diagram.triangles = method(({ triangles, centers, delaunay: { closing } }) => {
-    const shown = Array.from(triangles.keys()).filter((t) => closing[t] === 0);
-    return collection(shown.length, (k) => {
-      return [polygon(triangles[shown[k]].map((site) => diagram.points[site])), { circumcenter: centers[shown[k]] }];
-    });
+    const features = triangles.map((corners, t) =>
+      feature(polygon(corners.map((site) => diagram.points[site])), { circumcenter: centers[t] }),
+    );
+    return collection(features.filter((_, t) => closing[t] === 0));
   });
   diagram.links = method(({ edges, urquhart: kept, delaunay: { points: xyz } }) => {
     const { points, valid } = diagram;
     const lengths = edges.map(([i, j]) => angle(vector(xyz, i), vector(xyz, j)));
     const urquhart = kept(lengths);
-    return collection(edges.length, (k) => {
-      const [i, j] = edges[k];
-      const geometry: Geometry = { type: "LineString", coordinates: [points[i], points[j]] };
-      return [geometry, { source: valid[i], target: valid[j], length: lengths[k], urquhart: urquhart[k] }];
+    const features = edges.map(([i, j], k) => {
+      const properties = { source: valid[i], target: valid[j], length: lengths[k], urquhart: urquhart[k] };
+      return feature({ type: "LineString", coordinates: [points[i], points[j]] }, properties);
     });
+    return collection(features);
   });
   diagram.mesh = method(({ edges }) => mesh(edges, diagram.points));
   diagram.cellMesh = method((made) => mesh(made.mesh, made.centers));
@@ -450,14 +446,13 @@ export function geoVoronoi<Datum = Place>(data?: GeoData<Datum>): GeoVoronoi<Dat
   return data === undefined ? diagram : diagram(data);
 }
 
-function collection<T>(size: number, make: (k: number) => [Geometry | null, T]): Collection<T> {
-  const features: Feature<T>[] = new Array(size);
-  for (let k = 0; k < size; ++k) {
-    const [geometry, properties] = make(k);
-    features[k] = { type: "Feature", geometry, properties };
-  }
-  return { type: "FeatureCollection", features };
-}
+const collection = <T>(features: Feature<T>[]): Collection<T> => ({ type: "FeatureCollection", features });
+
+const feature = <T>(geometry: Geometry | null, properties: T): Feature<T> => ({
+  type: "Feature",
+  geometry,
+  properties,
+});
 
 const polygon = (ring: Place[]) => ({ type: "Polygon" as const, coordinates: [[...ring, ring[0]]] });
 

@@ -15,18 +15,9 @@ import { capToCap, lensMap, scaleAt } from "../view/lens.ts";
 import { View } from "../view/view.ts";
 import { counted, latitude, longitude, scale } from "../words.ts";
 import { Choice, mark, NumberField, PlaceFields, tellNamed } from "./controls.ts";
-import { BubbleGlobe, FisheyeGlobe, FiveViews, type GlobeHost } from "./globe_plates.ts";
+import { BubbleGlobe, FisheyeGlobe, fiveViews, type GlobeHost } from "./globe_plates.ts";
 import { GlobeScene, type Places } from "./globe_scene.ts";
-import {
-  BEGINNING,
-  beginningOf,
-  GLOBE,
-  magnificationWords,
-  placeWords,
-  PRESETS,
-  sideView,
-  sightWords,
-} from "./globe_state.ts";
+import { BEGINNING, beginningOf, GLOBE, placeWords, PRESETS, sideView, sightWords } from "./globe_state.ts";
 import type { GlobeState } from "./globe_state.ts";
 import { area, placeSentence, toldOf, valueWords } from "./owner.ts";
 import { TableRoom, tableOf, tableValues } from "./site_room.ts";
@@ -50,18 +41,16 @@ export class GlobeRoom extends TableRoom implements Room, GlobeHost {
   readonly #heading: string;
   #state = BEGINNING;
   #globe!: FisheyeGlobe;
-  #views!: FiveViews;
+  #views!: ReturnType<typeof fiveViews>;
   #bubbles!: readonly BubbleGlobe[];
   #lens!: Choice<GlobeState["lens"]>;
   /** The focus, or the middle of the bubble. */
   #focus!: PlaceFields;
-  #radii!: { readonly from: NumberField; readonly to: NumberField };
+  #radii!: readonly NumberField[];
   readonly #given: Places | null;
   /** The places and the picture that were opened last: a step back is one without, the next one forward shows them. */
   #opened: Places | null = null;
   #picture: Painted | null = null;
-  /** The lens that was announced last. */
-  #said = JSON.stringify(BEGINNING.sight.lens);
 
   /** @param given The points that the page was made for. */
   constructor(host: RoomHost, given: Places | null, latitude: Latitude) {
@@ -70,9 +59,10 @@ export class GlobeRoom extends TableRoom implements Room, GlobeHost {
     this.#heading = find(document, "#globe-title").textContent ?? "";
   }
 
-  /** Whether anybody has pointed at the globe. */
+  /** Over bubbles and places of the reader's own, only once anybody has pointed at the globe. */
   get hasPointed(): boolean {
-    return angle(this.#state.pointer, BEGINNING.pointer) > UNMOVED;
+    const { lens, pointer } = this.#state;
+    return (lens === "fisheye" && this.scene.places === null) || angle(pointer, BEGINNING.pointer) > UNMOVED;
   }
 
   get isNorthUp(): boolean {
@@ -89,7 +79,7 @@ export class GlobeRoom extends TableRoom implements Room, GlobeHost {
     const canvas = (id: string): HTMLCanvasElement => find(section, `#${id}`);
     this.#globe = new FisheyeGlobe(canvas("globe-plate"), this);
     const views = [...section.querySelectorAll<HTMLButtonElement>(".views button")];
-    this.#views = new FiveViews(views, this);
+    this.#views = fiveViews(views, this);
     this.#bubbles = (["before", "after"] as const).map(
       (which) => new BubbleGlobe(canvas(`globe-${which}`), which, this),
     );
@@ -97,21 +87,16 @@ export class GlobeRoom extends TableRoom implements Room, GlobeHost {
     this.#lens = new Choice(section, "lens", () => guarded(lens));
     const center = (place: readonly [number, number]): void => this.#center(directionOf(...place));
     this.#focus = new PlaceFields(section, "focus", (place) => guarded(() => center(place)), "change");
-    const radius = (which: "from" | "to"): NumberField => {
+    this.#radii = (["from", "to"] as const).map((which) => {
       const set = (radius: number): void => this.set({ [which]: { ...this.#state[which], radius } }, "state");
       return new NumberField(section, `${which}-radius`, 1, (value) => guarded(() => set(value)), "change");
-    };
-    this.#radii = { from: radius("from"), to: radius("to") };
+    });
     const on = (target: Element, act: () => void, type = "click"): void =>
       target.addEventListener(type, () => guarded(act));
     const slider = field(section, "mag");
     const magnify = (): void => {
       const { lens, view } = this.#state.sight;
-      this.#globe.motion.stop();
-      this.set(
-        { sight: { lens: { ...lens, magnification: 10 ** (slider.valueAsNumber / SLIDER_TEN) }, view } },
-        "hand",
-      );
+      this.#globe.see({ lens: { ...lens, magnification: 10 ** (slider.valueAsNumber / SLIDER_TEN) }, view });
     };
     on(slider, magnify, "input");
     for (const button of section.querySelectorAll<HTMLButtonElement>(".presets button")) {
@@ -127,7 +112,6 @@ export class GlobeRoom extends TableRoom implements Room, GlobeHost {
       on(button, () => {
         const { lens } = this.#state.sight;
         this.#globe.fly({ lens, view: sideView(Number(button.value), lens.focus) });
-        this.host.announcer.say(button.textContent?.trim().replace(/^\d\s*/, "") ?? "");
       });
     }
     this.#show(this.#given);
@@ -168,7 +152,7 @@ export class GlobeRoom extends TableRoom implements Room, GlobeHost {
     if (this.#state.lens === "bubble") for (const bubble of this.#bubbles) bubble.plate.redraw(reason);
     else {
       this.#globe.plate.redraw(reason);
-      if (reason !== "pointer") this.#views.redraw(reason);
+      if (reason !== "pointer") this.#views(reason);
     }
   }
 
@@ -193,12 +177,13 @@ export class GlobeRoom extends TableRoom implements Room, GlobeHost {
 
   geojson(exchange: Exchange): string | null {
     const { places, parts, latitude } = this.scene;
-    return places === null ? this.#noPlaces() : exchange.geojson(regionsOf(parts, this.isOn), latitude);
+    return places === null ? this.#noPlaces() : exchange.geojson(regionsOf(parts), latitude);
   }
 
   csv(exchange: Exchange): string | null {
     const { places } = this.scene;
-    return places === null ? this.#noPlaces() : exchange.csv(["lon", "lat"], { ...places, places: places.lonlat });
+    if (places === null) return this.#noPlaces();
+    return exchange.csv(["lon", "lat"], places.lonlat, places.names, places.values);
   }
 
   #noPlaces(): null {
@@ -207,9 +192,8 @@ export class GlobeRoom extends TableRoom implements Room, GlobeHost {
   }
 
   python(exchange: Exchange): string {
-    const globes = this.#state.lens === "bubble" ? this.#bubbles : [this.#globe];
-    const isPointed = globes.some((globe) => globe.isPointed);
-    return exchange.globePython(this.#state, this.scene, this.isOn, 2 * globes[0].disc.r, isPointed);
+    const { disc } = this.#state.lens === "bubble" ? this.#bubbles[0] : this.#globe;
+    return exchange.globePython(this.#state, this.scene, this.isOn, 2 * disc.r, this.hasPointed);
   }
 
   /** A picture covers the Earth, or no longer. */
@@ -293,7 +277,8 @@ export class GlobeRoom extends TableRoom implements Room, GlobeHost {
     this.redraw(reason);
     this.#write();
     this.host.changed(isStep);
-    if (reason !== "pointer") this.#announce(change);
+    const { lens, sight } = this.#state;
+    if (reason !== "pointer") this.host.announcer.say(lens === "bubble" ? this.#words : sightWords(sight));
   }
 
   /** Something is drawn, or no longer; north is up again, or may turn. */
@@ -305,86 +290,54 @@ export class GlobeRoom extends TableRoom implements Room, GlobeHost {
   }
 
   #write(): void {
-    const { sight, from, to } = this.#state;
-    const { magnification } = sight.lens;
-    this.#lens.value = this.#state.lens;
-    field(this.section, "mag").value = String(SLIDER_TEN * Math.log10(magnification));
-    this.out("mag").textContent = scale(magnification);
-    field(this.section, "mag").ariaValueText = `${scale(magnification)} times`;
-    this.#focus.value = lonLatOf(this.#state.lens === "bubble" ? from.center : sight.lens.focus);
-    [this.#radii.from.value, this.#radii.to.value] = [from.radius, to.radius];
+    const { lens, sight, pointer, from, to } = this.#state;
+    const { magnification, focus } = sight.lens;
+    const strength = scale(magnification);
+    this.#lens.value = lens;
+    const slider = field(this.section, "mag");
+    slider.value = String(SLIDER_TEN * Math.log10(magnification));
+    slider.ariaValueText = `${strength} times`;
+    this.out("mag").textContent = strength;
+    this.#focus.value = lonLatOf(lens === "bubble" ? from.center : focus);
+    [from, to].forEach(({ radius }, k) => (this.#radii[k].value = radius));
     this.out("tissot").hidden = !this.switches.isOn("tissot");
     find(this.section, "[data-show=picture]").hidden = this.scene.picture === null;
     this.switches.offer("land", this.scene.picture === null);
-    if (this.#state.lens === "bubble") {
-      const [middle, rim] = this.#bubbleScales();
-      const words = `In the middle of the bubble everything is _${middle}_ times as large, at its rim _${rim}_ times.`;
-      this.#say("bubbles", words);
-    } else this.#writeFisheye();
-    find(this.section, "#globe-plate").setAttribute("aria-label", this.#label());
-  }
-
-  /** A sentence below the globe: that of the place which is lit, if there is one. */
-  #say(name: string, words: string): void {
-    const { lit } = this.scene;
-    const told = lit === null ? words : placeSentence(this.scene, lit);
-    say(this.out(name), told);
-    // In a frame there is no room for it but where the pointer is.
-    if (this.isFramed) find(this.section, ".globe-spread canvas").title = lit === null ? "" : plain(told);
-  }
-
-  #writeFisheye(): void {
-    const { pointer, sight } = this.#state;
-    const { magnification, focus } = sight.lens;
-    const map = lensMap(sight.lens);
-    const [here, there] = [scaleAt(map, pointer), scaleAt(map, [-focus[0], -focus[1], -focus[2]])];
-    const [plain, far] = ["times as large as on a plain globe", `on the far side _${scale(there)}_ times`];
-    const strength = scale(magnification);
-    const words =
-      magnification === 1
-        ? "Nothing is magnified: every place has its size on a plain globe."
-        : this.scene.places === null || this.hasPointed
-          ? `At the pointer, _${placeWords(pointer)}_, everything is _${scale(here)}_ ${plain}; at the focus _${strength}_ times, ${far}.`
-          : `At the focus, _${placeWords(focus)}_, everything is _${strength}_ ${plain}, ${far}.`;
-    this.#say("pointer", words);
-    const ruler = this.out("scale");
+    const [ruler, here] = [this.out("scale"), scaleAt(lensMap(sight.lens), pointer)];
     const share = magnification > 1 ? Math.log(here) / Math.log(magnification) : 0;
     mark(ruler, ".mark-at.first", magnification > 1 ? scale(1 / magnification) : "");
     mark(ruler, ".mark-at.last", magnification > 1 ? strength : "");
     mark(ruler, ".needle", `${scale(here)}×`, 50 * (share + 1));
+    find(this.section, "#globe-plate").setAttribute("aria-label", this.#label());
+    const { lit } = this.scene;
+    const told = lit === null ? this.#words : placeSentence(this.scene, lit);
+    say(this.out("pointer"), told);
+    // In a frame there is no room for it but where the pointer is.
+    if (this.isFramed) find(this.section, ".globe-spread canvas").title = lit === null ? "" : plain(told);
   }
 
-  /** In the middle of the bubble and at its rim, as words. */
-  #bubbleScales(): [string, string] {
-    const { from, to } = this.#state;
-    const map = capToCap(from, to);
-    // Where the scale is S in the middle, it is that of the circles' own sizes at the rim.
-    const rim = Math.sin((to.radius * Math.PI) / 180) / Math.sin((from.radius * Math.PI) / 180);
-    return [scale(map.magnification), scale(rim)];
+  /** How large everything is, in the middle and at the rim of the bubble or where the pointer is. */
+  get #words(): string {
+    const { lens, sight, pointer, from, to } = this.#state;
+    if (lens === "bubble") {
+      // Where the scale is S in the middle, it is that of the circles' own sizes at the rim.
+      const rim = Math.sin((to.radius * Math.PI) / 180) / Math.sin((from.radius * Math.PI) / 180);
+      const middle = scale(capToCap(from, to).magnification);
+      return `In the middle of the bubble everything is _${middle}_ times as large, at its rim _${scale(rim)}_ times.`;
+    }
+    const { magnification, focus } = sight.lens;
+    if (magnification === 1) return "Nothing is magnified: every place has its size on a plain globe.";
+    const [where, at] = this.hasPointed ? ["pointer", pointer] : ["focus", focus];
+    const here = `_${scale(scaleAt(lensMap(sight.lens), at))}_ times as large as on a plain globe`;
+    const there = this.hasPointed ? `; at the focus _${scale(magnification)}_ times` : "";
+    const far = `on the far side _${scale(1 / magnification)}_ times`;
+    return `At the ${where}, _${placeWords(at)}_, everything is ${here}${there}, ${far}.`;
   }
 
   #label(): string {
     const { sight, lens, from, to } = this.#state;
-    if (lens === "bubble") {
-      return `Globe with the bubble of ${from.radius.toFixed(1)}° sent onto one of ${to.radius.toFixed(1)}°`;
-    }
-    return `Globe through a fisheye, ${sightWords(sight)}`;
-  }
-
-  #announce(change: Partial<GlobeState>): void {
-    const { announcer } = this.host;
-    const { sight } = this.#state;
-    if (change.from || change.to) {
-      const [middle, rim] = this.#bubbleScales();
-      announcer.say(`${middle} times in the middle, ${rim} times at the rim`);
-    } else if (change.sight && JSON.stringify(sight.lens) !== this.#said) {
-      announcer.say(magnificationWords(sight));
-    } else if (change.sight || change.before || change.after) {
-      const view = change.before ?? change.after ?? sight.view;
-      const [lon, lat] = view.middle;
-      announcer.say(`Seen from ${latitude(lat, 0)}, ${longitude(lon, 0)}`);
-    }
-    this.#said = JSON.stringify(sight.lens);
+    if (lens === "fisheye") return `Globe through a fisheye, ${sightWords(sight)}`;
+    return `Globe with the bubble of ${from.radius.toFixed(1)}° sent onto one of ${to.radius.toFixed(1)}°`;
   }
 }
 

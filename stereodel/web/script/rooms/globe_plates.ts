@@ -23,8 +23,7 @@ import { BEGINNING, sideView, type GlobeState } from "./globe_state.ts";
 /** Pixels beyond a dot within which the pointer is on it. */
 const REACHED = 8;
 
-const LABEL: LabelStyle = { ink: "accent-text", halo: "halo", size: 14 };
-const LETTER: LabelStyle = { ...LABEL, size: 15, italic: true };
+const LABEL: LabelStyle = { ink: "accent-text", halo: "halo", size: 15 };
 
 /** Who has globes: the room, or the output of a notebook's cell. */
 export interface GlobeHost {
@@ -35,6 +34,7 @@ export interface GlobeHost {
   readonly isNorthUp: boolean;
   /** Nothing is drawn that only a hand needs. */
   readonly isFramed: boolean;
+  /** There is a circle at the pointer. */
   readonly hasPointed: boolean;
   readonly isOn: IsOn;
   readonly host: Pick<RoomHost, "guarded">;
@@ -43,9 +43,19 @@ export interface GlobeHost {
   set(change: Partial<GlobeState>, reason: Reason, isStep?: boolean): void;
   /** The pointer is on a place, or on none. */
   hover(place: number | null): void;
+  /** A click, and a key that is one of the host's own. */
+  press?(): void;
+  key?(event: KeyboardEvent): boolean;
 }
 
-/** What the globes have in common: what is drawn of the Earth, the circle at the pointer, the hand. */
+/** What there is to drag: a handle where it is seen, axes of the view, and the words beside it. */
+interface Handle {
+  readonly at: Vector;
+  readonly kind: "front" | "behind" | "rim";
+  readonly words: string;
+}
+
+/** What the globes have in common: what is drawn of the Earth, the circle at the pointer, a handle, the hand. */
 abstract class GlobePlate implements Turnable {
   readonly plate: Plate;
   readonly motion = new Motion();
@@ -55,34 +65,36 @@ abstract class GlobePlate implements Turnable {
     this.room = room;
     const standing = new Map();
     const paint = (pen: Pen, isMoving: boolean): void => {
-      const { disc, map, taken } = this;
+      const [{ disc, map }, held] = [this, this.#held];
+      const taken = held === null ? [] : [held.box];
       drawParts(pen, { disc, map, isMoving, standing, taken }, room.scene.parts, room.isOn);
-      pen.draw("limb", (path) => traceDisc(path, this.disc));
+      pen.draw("limb", (path) => traceDisc(path, disc));
     };
     const overlay = (pen: Pen): void => {
       drawLayers(pen, this.disc, this.map, [room.scene.held]);
       if (room.isFramed) return;
       this.#paintPointer(pen);
-      this.paintHeld(pen);
+      this.paintRim(pen);
+      const held = this.#held;
+      if (held === null) return;
+      drawHandle(pen, held.x, held.y, held.kind);
+      pen.label(held.words, held.x + (held.isRight ? 9 : -9), held.y - 7, held.style);
     };
     this.plate = new Plate(canvas, paint, room.host.guarded, room.place, overlay);
-    follow(this.plate, { hover: (at) => this.point(at), ...this.gestures() });
+    follow(this.plate, this.gestures());
   }
 
   abstract get view(): View;
-  abstract turn(view: View, reason: Reason): void;
 
   /** From the Earth to the axes of the view. */
   protected abstract get map(): MoebiusMap;
-  /** What there is at the pointer: a circle, with its scale where scales differ from those of a plain globe. */
-  protected abstract get pointed(): "scale" | "circle" | null;
-  /** What there is to drag. */
-  protected abstract paintHeld(pen: Pen): void;
-  /** Where that keeps names away. */
-  protected get taken(): readonly Box[] {
-    return [];
-  }
-  protected abstract gestures(): Gestures;
+  protected abstract get handle(): Handle | null;
+  /** What is another from another view. */
+  protected abstract seenFrom(view: View): Partial<GlobeState>;
+  /** What a press drags that is not the globe itself. */
+  protected abstract dragged(at: Place, reach: number): Hold["move"] | null;
+  /** What a key changes, but for the arrows. */
+  protected abstract keyed(key: string): Partial<GlobeState> | null;
 
   get disc(): Disc {
     return this.plate.disc;
@@ -92,9 +104,8 @@ abstract class GlobePlate implements Turnable {
     return this.room.isNorthUp;
   }
 
-  /** Whether there is a circle at the pointer. */
-  get isPointed(): boolean {
-    return this.pointed !== null && lenses.imageOf(this.map, this.room.shown.pointer)[2] > 0;
+  turn(view: View, reason: Reason): void {
+    this.room.set(this.seenFrom(view), reason);
   }
 
   protected change(change: Partial<GlobeState>): void {
@@ -110,6 +121,28 @@ abstract class GlobePlate implements Turnable {
     return distance(at, [this.disc.x, this.disc.y]) <= this.disc.r;
   }
 
+  protected paintRim(_pen: Pen): void {}
+
+  protected gestures(): Gestures {
+    return {
+      hover: (at) => this.point(at),
+      take: (at, reach) => {
+        const move = this.dragged(at, reach);
+        if (move === null) return grabBall(this, this.motion, at);
+        this.motion.stop();
+        return { move };
+      },
+      key: (event) => {
+        if (this.room.key?.(event)) return true;
+        const view = arrowed(this, event);
+        const change = view === null ? this.keyed(event.key.toLowerCase()) : this.seenFrom(view);
+        if (change === null || isCommand(event)) return false;
+        this.change(change);
+        return true;
+      },
+    };
+  }
+
   /** The circle goes to the pointer. */
   protected point(at: Place | null): void {
     if (at === null || !this.isOnBall(at)) return this.room.hover(null);
@@ -120,18 +153,29 @@ abstract class GlobePlate implements Turnable {
     this.room.hover(isOver ? near.place : null);
   }
 
+  /** The handle in the drawing, with its words, where they keep names away. */
+  get #held() {
+    const { handle } = this;
+    if (handle === null) return null;
+    const [x, y] = placeOf(this.disc, handle.at);
+    const isRight = handle.kind !== "rim" && handle.at[0] <= 0.75; // those of a rim are inside it
+    const style: LabelStyle = { ...this.room.scene.lettered(LABEL), align: isRight ? "left" : "right" };
+    const width = widthOf(handle.words, style) + 11;
+    const box: Box = [x - (isRight ? 7 : width), y - 20, x + (isRight ? width : 7), y + 7];
+    return { ...handle, x, y, isRight, style, box };
+  }
+
   /** The circle at the pointer; its scale stands below it, or above it near the lower limb. */
   #paintPointer(pen: Pen): void {
-    const { disc, map, pointed } = this;
-    if (pointed === null) return;
+    const { disc, map } = this;
     const { pointer } = this.room.shown;
     const images = map.apply(Float64Array.from(circlePoints(pointer, CIRCLE_RADIUS).flat()));
     const rim = arcThrough(images, 0, true);
     const at = lenses.imageOf(map, pointer);
-    if (rim === null || at[2] <= 0) return;
+    if (!this.room.hasPointed || rim === null || at[2] <= 0) return;
     pen.draw("seen", (path) => traceCap(path, disc, rim));
     pen.draw("bubble-open", (path) => traceCircle(path, disc, rim));
-    if (pointed === "circle") return;
+    if (map.magnification === 1) return; // all sizes are those of a plain globe
     const [x, y] = placeOf(disc, at);
     const away = rim.r * disc.r;
     const isBelow = y + away + 20 < disc.y + disc.r * Math.sqrt(Math.max(0, 1 - at[0] ** 2));
@@ -145,13 +189,9 @@ abstract class GlobePlate implements Turnable {
 
 /** The large globe through the fisheye: turned, magnified and focused by hand. */
 export class FisheyeGlobe extends GlobePlate implements Magnifiable {
+  /** That of the page, or what a model asks for beyond it. */
   get most(): number {
-    return lenses.MOST;
-  }
-
-  /** Over places of the reader's own, nothing before anybody has pointed. */
-  protected get pointed(): "scale" | null {
-    return this.room.scene.places === null || this.room.hasPointed ? "scale" : null;
+    return Math.max(lenses.MOST, this.sight.lens.magnification);
   }
 
   get view(): View {
@@ -170,8 +210,8 @@ export class FisheyeGlobe extends GlobePlate implements Magnifiable {
     this.change({ sight });
   }
 
-  turn(view: View, reason: Reason): void {
-    this.room.set({ sight: { ...this.sight, view } }, reason);
+  protected seenFrom(view: View): Partial<GlobeState> {
+    return { sight: { ...this.sight, view } };
   }
 
   /** Goes to another sight, on the way that a flight takes. */
@@ -183,43 +223,23 @@ export class FisheyeGlobe extends GlobePlate implements Magnifiable {
     });
   }
 
-  get #focus() {
-    const { focus } = this.sight.lens;
-    const seen = this.view.seen(focus);
-    const [isFront, isRight, [x, y]] = [seen[2] >= 0, seen[0] <= 0.75, placeOf(this.disc, seen)];
-    const style: LabelStyle = { ...this.room.scene.lettered(LETTER), align: isRight ? "left" : "right" };
-    return { x, y, isFront, isRight, words: isFront ? "focus" : "focus*, behind*", style };
+  protected get handle(): Handle {
+    const at = this.view.seen(this.sight.lens.focus);
+    return at[2] >= 0 ? { at, kind: "front", words: "*focus*" } : { at, kind: "behind", words: "*focus*, behind" };
   }
 
-  protected override get taken(): Box[] {
-    const { x, y, isRight, words, style } = this.#focus;
-    const width = widthOf(words, style) + 11;
-    return [[x - (isRight ? 7 : width), y - 20, x + (isRight ? width : 7), y + 7]];
-  }
-
-  protected paintHeld(pen: Pen): void {
-    const { x, y, isFront, isRight, words, style } = this.#focus;
-    drawHandle(pen, x, y, isFront ? "front" : "behind");
-    pen.label(words, x + (isRight ? 9 : -9), y - 7, style);
-  }
-
-  protected gestures(): Gestures {
+  protected override gestures(): Gestures {
     return {
-      take: (at, reach) => this.#take(at, reach),
+      ...super.gestures(),
+      ...lensGestures(this, this.motion),
       click: (at) => {
         this.motion.stop();
         this.point(at);
+        this.room.press?.();
       },
       doubleClick: (at) => {
+        this.room.press?.(); // back to what it was before the first of the two
         if (this.isOnBall(at)) this.fly(this.#focusedAt(this.under(at)));
-      },
-      ...lensGestures(this, this.motion),
-      key: (event) => {
-        const view = arrowed(this, event);
-        const sight = view === null ? this.#keyed(event.key) : { ...this.sight, view };
-        if (sight === null || isCommand(event)) return false;
-        this.change({ sight });
-        return true;
       },
     };
   }
@@ -228,21 +248,19 @@ export class FisheyeGlobe extends GlobePlate implements Magnifiable {
     return lenses.focused(this.sight, lenses.sourceOf(this.map, point), this.isNorthUp);
   }
 
-  #take(at: Place, reach: number): Hold | null {
+  protected dragged(at: Place, reach: number): Hold["move"] | null {
     const { lens, view } = this.sight;
-    const away = distance(at, placeOf(this.disc, view.seen(lens.focus)));
-    if (this.room.isFramed || away > reach) return grabBall(this, this.motion, at);
-    this.motion.stop();
+    if (this.room.isFramed || distance(at, placeOf(this.disc, this.handle.at)) > reach) return null;
     // The fisheye leaves its focus where it is: the ring is at the pointer where the view stays as it is.
-    return { move: (to) => this.change({ sight: { lens: { ...lens, focus: view.onBall(this.under(to)) }, view } }) };
+    return (to) => this.change({ sight: { lens: { ...lens, focus: view.onBall(this.under(to)) }, view } });
   }
 
-  #keyed(key: string): Sight | null {
+  protected keyed(key: string): Partial<GlobeState> | null {
     const { lens, view } = this.sight;
     const factor = keyFactor(key);
-    if (factor !== null) return { lens: { ...lens, magnification: lens.magnification * factor }, view };
-    if (key === "0") return this.room.beginning.sight;
-    return key === "f" || key === "F" ? this.#focusedAt([0, 0, 1]) : null;
+    if (factor !== null) return { sight: { lens: { ...lens, magnification: lens.magnification * factor }, view } };
+    if (key === "0") return { sight: this.room.beginning.sight };
+    return key === "f" ? { sight: this.#focusedAt([0, 0, 1]) } : null;
   }
 }
 
@@ -255,10 +273,11 @@ const POINTS = 180;
 /** The bubble that is taken, or the one that it fills; rims and insides are dragged in either. */
 export class BubbleGlobe extends GlobePlate {
   readonly #which: "before" | "after";
+  readonly #end: "from" | "to";
 
   constructor(canvas: HTMLCanvasElement, which: "before" | "after", room: GlobeHost) {
     super(canvas, room);
-    this.#which = which;
+    [this.#which, this.#end] = [which, which === "before" ? "from" : "to"];
   }
 
   get view(): View {
@@ -270,18 +289,8 @@ export class BubbleGlobe extends GlobePlate {
     return lenses.seenThrough(this.#which === "after" ? lenses.capToCap(from, to) : MoebiusMap.identity(), this.view);
   }
 
-  /** Nothing before anybody has pointed. */
-  protected get pointed(): "scale" | "circle" | null {
-    if (!this.room.hasPointed) return null;
-    return this.#which === "after" ? "scale" : "circle";
-  }
-
-  turn(view: View, reason: Reason): void {
-    this.room.set({ [this.#which]: view }, reason);
-  }
-
-  get #end(): "from" | "to" {
-    return this.#which === "before" ? "from" : "to";
+  protected seenFrom(view: View): Partial<GlobeState> {
+    return { [this.#which]: view };
   }
 
   get #cap(): Cap {
@@ -294,31 +303,10 @@ export class BubbleGlobe extends GlobePlate {
     return circle(this.view.seen(center), Math.cos((radius * Math.PI) / 180));
   }
 
-  #setCap(cap: Cap): void {
-    this.change({ [this.#end]: cap });
-  }
-
-  protected paintHeld(pen: Pen): void {
-    const { disc } = this;
-    const rim = this.#rim;
+  protected override paintRim(pen: Pen): void {
+    const [{ disc }, rim] = [this, this.#rim];
     if (this.#which === "before") pen.draw("seen", (path) => traceCap(path, disc, rim));
     pen.draw("bubble-open", (path) => traceCircle(path, disc, rim));
-    const handle = this.#handle();
-    if (handle === null) return;
-    const [x, y] = placeOf(disc, handle);
-    drawHandle(pen, x, y, "rim");
-    const isRight = handle[0] < 0.55;
-    // Near the lower limb the label stands above its handle: below there is no drawing.
-    const isLow = handle[1] < -0.5 && handle[2] < 0.4;
-    const style: LabelStyle = { ...this.room.scene.lettered(LABEL), align: isRight ? "left" : "right" };
-    pen.label(`${fixed(this.#cap.radius, 1)}°`, x + (isRight ? 9 : -9), y + (isLow ? -6 : 14), style);
-  }
-
-  protected override get taken(): Box[] {
-    const handle = this.#handle();
-    if (handle === null) return [];
-    const [x, y] = placeOf(this.disc, handle);
-    return [[x - 48, y - 20, x + 48, y + 18]]; // on either side
   }
 
   /** Points of the rim in front. */
@@ -328,39 +316,27 @@ export class BubbleGlobe extends GlobePlate {
     return points.filter((point) => point[2] >= 0);
   }
 
-  /** The handle's point of the view, or null while the rim is behind. */
-  #handle(): Vector | null {
+  /** None while the rim is behind. */
+  protected get handle(): Handle | null {
     const toward = ([x, y]: Vector): number => TOWARD[0] * x + TOWARD[1] * y;
-    return this.#seen.reduce<Vector | null>((a, b) => (a === null || toward(b) > toward(a) ? b : a), null);
+    const [at] = this.#seen.sort((a, b) => toward(b) - toward(a));
+    return at === undefined ? null : { at, kind: "rim", words: `${fixed(this.#cap.radius, 1)}°` };
   }
 
-  protected gestures(): Gestures {
-    return {
-      take: (at, reach) => this.#take(at, reach),
-      key: (event) => {
-        const view = event.key === "0" ? BEGINNING[this.#which] : arrowed(this, event);
-        if (view !== null) this.change({ [this.#which]: view });
-        return view !== null;
-      },
-    };
+  protected keyed(key: string): Partial<GlobeState> | null {
+    return key === "0" ? this.seenFrom(BEGINNING[this.#which]) : null;
   }
 
-  #take(at: Place, reach: number): Hold | null {
-    if (!this.isOnBall(at)) return null;
-    const start = this.#cap;
-    const point = this.under(at);
+  protected dragged(at: Place, reach: number): Hold["move"] | null {
+    const [start, point] = [this.#cap, this.under(at)];
     const center = this.view.seen(start.center);
     // In the drawing: one degree of the rim is not so many pixels everywhere.
     const isRim = this.#seen.some((place) => distance(at, placeOf(this.disc, place)) <= reach);
-    if (!isRim && angle(center, point) > start.radius) return grabBall(this, this.motion, at);
-    this.motion.stop();
-    return {
-      move: (to) => {
-        const now = this.under(to);
-        if (isRim) return this.#setCap({ ...start, radius: angle(center, now) });
-        const moved = row(Rotation.between(point, now).apply(center), 0);
-        this.#setCap({ ...start, center: this.view.onBall(moved) });
-      },
+    if (!this.isOnBall(at) || (!isRim && angle(center, point) > start.radius)) return null;
+    return (to) => {
+      const now = this.under(to);
+      const moved = (): Vector => this.view.onBall(row(Rotation.between(point, now).apply(center), 0));
+      this.change({ [this.#end]: isRim ? { ...start, radius: angle(center, now) } : { ...start, center: moved() } });
     };
   }
 }
@@ -373,36 +349,27 @@ const REACH_TIMES_S = 32;
 const MARGIN = 1;
 
 /** Five small globes: the lens from five sides, as the panels of Figures 10 to 12, with the surroundings of the focus. */
-export class FiveViews {
-  readonly #room: GlobeHost;
-  readonly #plates: Plate[];
-  readonly #graticule = arcLayer("graticule", graticuleArcs(STEP));
-  #shown = "";
-
-  constructor(buttons: readonly HTMLButtonElement[], room: GlobeHost) {
-    this.#room = room;
-    this.#plates = buttons.map((button) => {
-      const paint = (pen: Pen): void => this.#paint(pen, Number(button.value));
-      return new Plate(button.querySelector("canvas")!, paint, room.host.guarded);
-    });
-  }
-
-  /** Draws what has changed: while the ball turns under a lens that stays, nothing has. */
-  redraw(reason: Reason): void {
-    const lens = JSON.stringify(this.#room.shown.sight.lens);
+export function fiveViews(buttons: readonly HTMLButtonElement[], room: GlobeHost): (reason: Reason) => void {
+  const graticule = arcLayer("graticule", graticuleArcs(STEP));
+  const plates = buttons.map((button) => {
+    const paint = (pen: Pen): void => {
+      const { lens } = room.shown.sight;
+      const disc = { x: pen.width / 2, y: pen.height / 2, r: Math.max(pen.width / 2 - MARGIN, 1) };
+      const map = lenses.seenThrough(lenses.lensMap(lens), sideView(Number(button.value), lens.focus));
+      pen.ball(disc, "ball");
+      const around = circlePoints(lens.focus, Math.min(REACH, REACH_TIMES_S / lens.magnification));
+      drawLayers(pen, disc, map, [capLayer("patch", Float64Array.from(around.flat())), graticule]);
+      pen.draw("limb-small", (path) => traceDisc(path, disc));
+    };
+    return new Plate(button.querySelector("canvas")!, paint, room.host.guarded);
+  });
+  let shown = "";
+  // While the ball turns under a lens that stays, nothing changes.
+  return (reason) => {
+    const lens = JSON.stringify(room.shown.sight.lens);
     const isMoving = reason === "hand" || reason === "flight";
-    if (isMoving && this.#shown === lens) return;
-    this.#shown = lens;
-    for (const plate of this.#plates) plate.redraw(isMoving ? "state" : reason);
-  }
-
-  #paint(pen: Pen, panel: number): void {
-    const { lens } = this.#room.shown.sight;
-    const disc = { x: pen.width / 2, y: pen.height / 2, r: Math.max(pen.width / 2 - MARGIN, 1) };
-    const map = lenses.seenThrough(lenses.lensMap(lens), sideView(panel, lens.focus));
-    pen.ball(disc, "ball");
-    const around = circlePoints(lens.focus, Math.min(REACH, REACH_TIMES_S / lens.magnification));
-    drawLayers(pen, disc, map, [capLayer("patch", Float64Array.from(around.flat())), this.#graticule]);
-    pen.draw("limb-small", (path) => traceDisc(path, disc));
-  }
+    if (isMoving && shown === lens) return;
+    shown = lens;
+    for (const plate of plates) plate.redraw(isMoving ? "state" : reason);
+  };
 }

@@ -4,21 +4,20 @@ import type { Contents, Rings } from "../contents.ts";
 import * as balls from "../drawing/ball.ts";
 import type { Layer } from "../drawing/ball.ts";
 import { drawNames, Seats, type Box, type Named } from "../drawing/names.ts";
-import { cellOf, type Part, type Region } from "../drawing/parts.ts";
+import { cellOf, type Part } from "../drawing/parts.ts";
 import type { Disc } from "../drawing/pen.ts";
 import type { LabelStyle } from "../drawing/styles.ts";
 import { Directions, lonlatToXyz, SphericalDelaunay, SphericalVoronoi, xyzToLonlat } from "../kernel/api.ts";
 import type { Latitude, MoebiusMap } from "../kernel/api.ts";
 import { tableLonlat } from "../kernel/coordinates.ts";
-import { lazy } from "../kernel/lazy.ts";
+import { lazy, once } from "../kernel/lazy.ts";
 import type { Painted } from "../panorama.ts";
 import { angle, directionOf, lonLatOf, row, type Vector } from "../space.ts";
 import type { Column, Owner } from "./owner.ts";
 
-/** The radius of the equal circles on Earth, kilometres, and in degrees of a sphere with the Earth's mean radius. */
-const CIRCLE_KILOMETRES = 150;
+/** The Earth's mean radius, kilometres, and the radius of the equal circles of 150 kilometres on it, degrees. */
 const EARTH = 6371.0088;
-export const CIRCLE_RADIUS = ((CIRCLE_KILOMETRES / EARTH) * 180) / Math.PI;
+export const CIRCLE_RADIUS = ((150 / EARTH) * 180) / Math.PI;
 
 /** The radius of the sphere with the area of the ellipsoid, kilometres. */
 const OF_EQUAL_AREA = 6371.007180918474;
@@ -77,7 +76,7 @@ export class GlobeScene {
   readonly #tissot = balls.capLayer("tissot", equalCircles());
   #coarse: Layer | null = null;
   #fine: Layer | null = null;
-  #made: Made | null = null;
+  #made: ReturnType<typeof madeOf> | null = null;
 
   /** Unpacks the land that the page carries. */
   async load(contents: Contents): Promise<void> {
@@ -100,7 +99,7 @@ export class GlobeScene {
     return this.#made?.areas[place] ?? 0;
   }
 
-  /** A style of labels, on a picture in inks for its tone. */
+  /** A style of labels, on a picture in its inks. */
   lettered(style: LabelStyle): LabelStyle {
     if (this.picture === null) return style;
     const { ink, accent, halo } = this.picture.letters;
@@ -109,13 +108,14 @@ export class GlobeScene {
 
   /** What lies around a place: how many cells share a side with its own, and which place is nearest. */
   around(place: number): { neighbours: number; nearest: number | null; kilometres: number } {
-    const { voronoi, points } = this.#made!;
+    const { voronoi, delaunay } = this.#made!;
+    const { points } = delaunay;
     const { regionOffsets, regionNeighbors } = voronoi;
     const kept = regionOffsets[place + 1] > regionOffsets[place] ? place : voronoi.pointRegion[place];
     const beyond = regionNeighbors.subarray(regionOffsets[kept], regionOffsets[kept + 1]);
     const neighbours = new Set(beyond).size;
     const at = row(points, place);
-    const two = points.length > 3 ? this.#made!.delaunay.nearest(at, 2) : [];
+    const two = points.length > 3 ? delaunay.nearest(at, 2) : [];
     const nearest = [...two].find((site) => site !== place) ?? null;
     const kilometres = nearest === null ? 0 : (angle(at, row(points, nearest)) * Math.PI * EARTH) / 180;
     return { neighbours, nearest, kilometres };
@@ -143,11 +143,10 @@ export class GlobeScene {
     const { picture, places } = this;
     const lonlat = places?.lonlat ?? new Float64Array(0);
     const [hasPicture, hasPlaces] = [picture !== null, places !== null];
-    const drawn = (layer: (isMoving: boolean) => Layer | null): Pick<Part<Ball>, "draw"> => ({
-      draw: (pen, { disc, map, isMoving }) => balls.drawLayers(pen, disc, map, [layer(isMoving)]),
+    const drawn = (layers: (isMoving: boolean) => readonly (Layer | null)[]): Pick<Part<Ball>, "draw"> => ({
+      draw: (pen, { disc, map, isMoving }) => balls.drawLayers(pen, disc, map, layers(isMoving)),
     });
     const land = (isMoving: boolean): Layer | null => (isMoving ? this.#coarse : (this.#fine ?? this.#coarse));
-    const hasInks = hasPlaces && places?.owner?.inks !== undefined;
     const isMuch = lonlat.length > 2 * MANY_PLACES;
     return [
       { draw: (pen, { disc }) => pen.ball(disc, "ocean") },
@@ -155,32 +154,23 @@ export class GlobeScene {
         isThere: hasPicture,
         draw: (pen, { disc, map, isMoving }) => picture!.draw(pen, disc, map, isMoving),
       },
-      { layer: "land", isThere: !hasPicture, ...drawn(land) },
+      { layer: "land", isThere: !hasPicture, ...drawn((isMoving) => [land(isMoving)]) },
       {
         layer: "fills",
-        isThere: hasInks,
-        draw: (pen, { disc, map, isMoving }) => {
-          if (isMoving && isMuch) return;
-          balls.drawLayers(pen, disc, map, this.#made!.fills);
-          balls.drawLayers(pen, disc, map, [land(isMoving)?.outlines ?? null]);
-        },
+        isThere: places?.owner?.inks !== undefined,
+        ...drawn((isMoving) => (isMoving && isMuch ? [] : [...this.#made!.fills, land(isMoving)?.outlines ?? null])),
       },
-      { draw: (pen, { disc, map }) => balls.drawLayers(pen, disc, map, this.layers) },
-      { layer: "graticule", ...drawn(() => this.#graticule) },
-      { layer: "tissot", ...drawn(() => this.#tissot) },
+      drawn(() => this.layers),
+      { layer: "graticule", ...drawn(() => [this.#graticule]) },
+      { layer: "tissot", ...drawn(() => [this.#tissot]) },
       {
         layer: "cells",
         isThere: hasPlaces,
-        always: ["geojson"], // the data of the places, whatever is drawn of it
-        ...drawn((isMoving) => (isMoving && isMuch ? null : this.#made!.cells)),
+        ...drawn((isMoving) => (isMoving && isMuch ? [] : [this.#made!.cells])),
         regions: () => this.#made?.regions ?? [],
       },
-      {
-        layer: "isolines",
-        isThere: !!places?.isolines,
-        draw: (pen, { disc, map }) => balls.drawLayers(pen, disc, map, this.#made!.isolines),
-      },
-      { isThere: hasPlaces, ...drawn((isMoving) => this.#made![isMoving ? "sparse" : "dots"]) },
+      { layer: "isolines", isThere: !!places?.isolines, ...drawn(() => this.#made!.isolines) },
+      { isThere: hasPlaces, ...drawn((isMoving) => [this.#made![isMoving ? "sparse" : "dots"]]) },
       { draw: (pen, { disc }) => pen.shade(disc) },
       {
         layer: "names",
@@ -196,44 +186,28 @@ export class GlobeScene {
 }
 
 /** What is made of places when it is first asked for: their dots, their cells, the areas of these. */
-interface Made {
-  readonly dots: Layer;
-  /** Those that are drawn while the globe moves. */
-  readonly sparse: Layer;
-  readonly named: Pick<Named, "names" | "radii"> & { readonly directions: Directions };
-  /** Of the cells' sphere. */
-  readonly points: Float64Array;
-  readonly delaunay: SphericalDelaunay;
-  readonly voronoi: SphericalVoronoi;
-  readonly fills: readonly Layer[];
-  readonly isolines: readonly Layer[];
-  readonly cells: Layer;
-  readonly areas: Float64Array;
-  readonly regions: readonly Region[];
-}
-
-function madeOf({ lonlat, names, values, owner, isolines }: Places, latitude: Latitude): Made {
+function madeOf({ lonlat, names, values, owner, isolines }: Places, latitude: Latitude) {
+  const delaunay = once(() => new SphericalDelaunay(lonlatToXyz(lonlat, latitude)));
+  const voronoi = once(() => new SphericalVoronoi(delaunay()));
   // Points of the cells' sphere are where the globe shows them: at the latitudes of a table.
   const drawn = (xyz: Float64Array): Float64Array =>
     latitude === "spherical" ? xyz : lonlatToXyz(tableLonlat(xyzToLonlat(xyz), latitude));
   /** The cells of one ink, as one region. */
   const tint = (ink: string, number: number): Layer[] => {
-    const { voronoi } = made;
-    const sites = [...voronoi.pointRegion.keys()].filter(
-      (k) => owner?.ink?.[k] === number && voronoi.region(k).length > 2,
-    );
+    const { pointRegion, vertices } = voronoi();
+    const sites = [...pointRegion.keys()].filter((k) => owner?.ink?.[k] === number && voronoi().region(k).length > 2);
     if (sites.length === 0) return [];
     const offsets = [0];
     const corners = sites.flatMap((site) => {
-      const region = [...voronoi.region(site)];
+      const region = [...voronoi().region(site)];
       offsets.push(offsets[offsets.length - 1] + region.length);
-      return region.flatMap((vertex) => row(voronoi.vertices, vertex));
+      return region.flatMap((vertex) => row(vertices, vertex));
     });
     const place = row(lonlatToXyz(lonlat.subarray(2 * sites[0], 2 * sites[0] + 2)), 0);
     return [balls.regionLayer("tint", null, drawn(Float64Array.from(corners)), offsets, place, true, ink)];
   };
   /** Dots of one place of so many. */
-  const dots = (of: number): Layer => {
+  const dotsOf = (of: number): Layer => {
     const { inks, ink = [], radii = [] } = owner ?? {};
     const some = <T>(all: readonly T[]): readonly T[] => all.filter((_, k) => k % of === 0);
     const xyz = lonlatToXyz(lonlat.filter((_, k) => (k >> 1) % of === 0));
@@ -244,9 +218,13 @@ function madeOf({ lonlat, names, values, owner, isolines }: Places, latitude: La
       some(ink).map((number) => inks[number]),
     );
   };
-  const made: Made = lazy({
-    dots: () => dots(1),
-    sparse: () => (lonlat.length > 2 * MOST_MOVING ? dots(Math.ceil(lonlat.length / (2 * MOST_MOVING))) : made.dots),
+  const dots = once(() => dotsOf(1));
+  return lazy({
+    delaunay,
+    voronoi,
+    dots,
+    /** Those that are drawn while the globe moves. */
+    sparse: () => (lonlat.length > 2 * MOST_MOVING ? dotsOf(Math.ceil(lonlat.length / (2 * MOST_MOVING))) : dots()),
     named: () => {
       const radii = owner?.radii ?? [];
       const order = [...(names ?? []).keys()].filter((k) => radii[k] !== 0);
@@ -255,25 +233,21 @@ function madeOf({ lonlat, names, values, owner, isolines }: Places, latitude: La
       const of = <T>(all: ArrayLike<T>): T[] => order.map((k) => all[k]);
       return { names: of(names ?? []), radii: of(radii), directions: new Directions(Float64Array.from(points)) };
     },
-    points: () => lonlatToXyz(lonlat, latitude),
-    delaunay: () => new SphericalDelaunay(made.points),
-    voronoi: () => new SphericalVoronoi(made.delaunay),
     fills: () => (owner?.inks ?? []).flatMap((ink, number) => tint(ink, number)),
     isolines: () => {
       const arcs = balls.lineArcs(isolines!);
       return [balls.arcLayer("isoline-halo", arcs), balls.arcLayer("isoline", arcs)];
     },
-    cells: () => balls.arcLayer("cell", drawn(balls.ridgeArcs(made.voronoi))),
-    areas: () => made.voronoi.areas(OF_EQUAL_AREA),
+    cells: () => balls.arcLayer("cell", drawn(balls.ridgeArcs(voronoi()))),
+    areas: () => voronoi().areas(OF_EQUAL_AREA),
     regions: () =>
       Array.from({ length: lonlat.length / 2 }, (_, site) => {
         const [longitude, latitude] = lonlat.subarray(2 * site, 2 * site + 2);
         const own = Object.fromEntries([...(values ?? [])].map(([title, column]) => [title, column[site]]));
         const name = names ? { name: names[site] } : {};
-        return cellOf(made.voronoi, site, { site: site + 1, ...name, longitude, latitude, ...own });
+        return cellOf(voronoi(), site, { site: site + 1, ...name, longitude, latitude, ...own });
       }).flat(),
   });
-  return made;
 }
 
 /** Three points of each circle, about places some distance apart on parallels that are as far apart. */
@@ -282,8 +256,7 @@ function equalCircles(): Float64Array {
   for (let lat = -90; lat <= 90; lat += STEP) {
     const count = Math.max(1, Math.round((360 / STEP) * Math.cos((lat * Math.PI) / 180)));
     for (let k = 0; k < count; ++k) {
-      for (const point of balls.circlePoints(directionOf((360 * k) / count - 180, lat), CIRCLE_RADIUS))
-        points.push(...point);
+      points.push(...balls.circlePoints(directionOf((360 * k) / count - 180, lat), CIRCLE_RADIUS).flat());
     }
   }
   return Float64Array.from(points);

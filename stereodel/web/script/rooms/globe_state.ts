@@ -1,6 +1,6 @@
 /** The state of the Globe room, and how links hold it. */
 
-import { direction, fields, number, view, word, type Field } from "../fields.ts";
+import { direction, fields, number, view, word, type Field, type Fields } from "../fields.ts";
 import { directionOf, lonLatOf, type Vector } from "../space.ts";
 import { MOST, type Cap, type Lens, type Sight } from "../view/lens.ts";
 import { View } from "../view/view.ts";
@@ -78,12 +78,15 @@ export function sideView(panel: number, focus: Vector): View {
 const cap = (name: string): Field<Cap> =>
   fields({ center: direction(name), radius: number(`${name}radius`, LEAST_RADIUS, MOST_RADIUS) });
 
+/** @param least Magnification, and the largest. */
+export function sightField(least: number, most: number): Fields<Sight> {
+  const lens = fields<Lens>({ magnification: number("s", least, most), focus: direction("focus") });
+  return fields<Sight>({ lens, view: view("view") });
+}
+
 export const GLOBE = fields<GlobeState>({
   lens: word("lens", ["fisheye", "bubble"]),
-  sight: fields<Sight>({
-    lens: fields<Lens>({ magnification: number("s", 1, MOST), focus: direction("focus") }),
-    view: view("view"),
-  }),
+  sight: sightField(1, MOST),
   pointer: direction("pointer"),
   from: cap("from"),
   to: cap("to"),
@@ -91,17 +94,13 @@ export const GLOBE = fields<GlobeState>({
   after: view("after"),
 });
 
-export function magnificationWords({ lens }: Sight): string {
-  const [lon, lat] = lonLatOf(lens.focus);
-  return `${scale(lens.magnification)} times at ${latitude(lat)}, ${longitude(lon)}`;
-}
-
 export function placeWords(direction: Vector): string {
   const [lon, lat] = lonLatOf(direction);
   return `${latitude(lat)} ${longitude(lon)}`;
 }
 
 /** What is seen, for those who do not see it. */
-export function sightWords(sight: Sight): string {
-  return `${magnificationWords(sight)}, seen from ${placeWords(sight.view.onBall([0, 0, 1]))}`;
+export function sightWords({ lens, view }: Sight): string {
+  const seen = placeWords(view.onBall([0, 0, 1]));
+  return `${scale(lens.magnification)} times at ${placeWords(lens.focus)}, seen from ${seen}`;
 }

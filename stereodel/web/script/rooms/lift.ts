@@ -5,7 +5,6 @@ import type { Pen, Point, Sheet } from "../drawing/pen.ts";
 import { Plate, type Reason } from "../drawing/plate.ts";
 import type { Exchange } from "../exchange.ts";
 import { fields, number, whole, type Fields } from "../fields.ts";
-import type { LinkValues } from "../link.ts";
 import type { Room, RoomHost } from "../room.ts";
 import { arrowStep } from "../view/ball_hand.ts";
 import { distance, follow, isCommand, type Hold } from "../view/hand.ts";
@@ -13,8 +12,8 @@ import { View } from "../view/view.ts";
 import { counted, fixed, ofFacets, wrap } from "../words.ts";
 import { mark, NumberField } from "./controls.ts";
 import { LiftPicture, type LiftScene } from "./lift_drawing.ts";
-import { LiftSites, SHEET_SIDES, sheetSets, type Sheet as BentSheet } from "./lift_sites.ts";
-import { measured, ofBend, ofBounds, ofPair, separation, withoutTriangles } from "./lift_sites.ts";
+import { LiftSites, SHEET_SIDES, sheetSets, type Separation, type Sheet as BentSheet } from "./lift_sites.ts";
+import { measured, ofBend, ofBounds, ofPair, separation, WITHOUT_TRIANGLES } from "./lift_sites.ts";
 import { SiteRoom, type NamedSites } from "./site_room.ts";
 
 /** How the room begins: corners of the sheet, height and side of the view, degrees; P and Q by their indices. */
@@ -48,12 +47,12 @@ export function liftRoom(host: RoomHost, sheet: Float64Array): Room {
   return new LiftRoom(host, sheetSets(sheet), "plane");
 }
 
-class LiftRoom extends SiteRoom implements Room {
+class LiftRoom extends SiteRoom<LiftState> implements Room {
   #plate!: Plate;
   #fields!: Record<"height" | "side" | Letter, NumberField>;
 
   #sites = new LiftSites(new Float64Array(0));
-  #state = BEGINNING;
+  protected override now = BEGINNING;
   #next: Letter = "p";
 
   override attach(section: HTMLElement): void {
@@ -62,8 +61,8 @@ class LiftRoom extends SiteRoom implements Room {
     this.#plate = new Plate(find(section, "#lift-plate"), paint, this.host.guarded);
     const number = (name: string, typed: (value: number) => void) => new NumberField(section, name, 0, typed);
     this.#fields = {
-      height: number("view-height", (height) => this.#turn(this.#state.side, height)),
-      side: number("view-side", (side) => this.#turn(side, this.#state.height)),
+      height: number("view-height", (height) => this.#turn(this.now.side, height)),
+      side: number("view-side", (side) => this.#turn(side, this.now.height)),
       p: number("p", (site) => this.#setPair("p", site - 1)),
       q: number("q", (site) => this.#setPair("q", site - 1)),
     };
@@ -81,27 +80,18 @@ class LiftRoom extends SiteRoom implements Room {
 
   // State
 
-  state(isWhole: boolean): Record<string, string> {
-    return { ...this.siteValues(isWhole), ...liftFields(this.#sites.count).write(this.#state) };
-  }
-
-  override restore(values: LinkValues): void {
-    const named = this.sitesOf(values);
-    const state = liftFields(named.places.length / 2).read(values, BEGINNING);
-    super.restore(values);
-    this.begin(named);
-    const { p, q } = this.#state;
-    this.#state = { ...state, p: state.p ?? p, q: state.q ?? q };
-    this.#update();
-  }
+  protected readonly fields = liftFields;
 
   /** P and Q are those of the first picture, or the first and the last site. */
+  protected override beginning({ places, set }: NamedSites, before = BEGINNING): LiftState {
+    const count = places.length / 2;
+    const ends = count < 2 ? { p: null, q: null } : { p: 0, q: count - 1 };
+    return { ...before, ...(set === this.sets[0].name ? PAIR : ends) };
+  }
+
   protected override begin(named: NamedSites): void {
-    const isFirst = named.set === this.sets[0].name;
     this.#sites = new LiftSites(named.places, SHEET_SIDES[named.set]);
     const { count } = this.#sites;
-    const ends = count < 2 ? { p: null, q: null } : { p: 0, q: count - 1 };
-    this.#state = { ...this.#state, ...(isFirst ? PAIR : ends) };
     const label = `Sheet with ${counted(count)} ${count === 1 ? "site" : "sites"}, and ball`;
     this.#plate.canvas.setAttribute("aria-label", label);
     for (const letter of ["p", "q"] as const) {
@@ -117,11 +107,11 @@ class LiftRoom extends SiteRoom implements Room {
   }
 
   get #bent(): BentSheet {
-    return this.#sites.sheet(this.#state.bend);
+    return this.#sites.sheet(this.now.bend);
   }
 
   #scene(isMoving: boolean): LiftScene {
-    const { height, side, p, q } = this.#state;
+    const { height, side, p, q } = this.now;
     const isOn = this.shown(isMoving, MANY);
     const view = View.above(side - 90, height);
     return { sites: this.#sites, sheet: this.#bent, view, isOn, isMoving, p, q, lit: this.lit };
@@ -133,97 +123,73 @@ class LiftRoom extends SiteRoom implements Room {
 
   /** Everything that is said and drawn, after the state has changed. */
   #update(reason: Reason = "state", named = this.named): void {
-    this.#showBend();
-    this.#showPair();
-    this.#showSites(named);
-    const alone = withoutTriangles(this.#sites);
-    const { simplices } = this.#sites.delaunay;
-    say(this.out("sum"), alone ?? ofFacets(simplices.length / 3, this.#sites.closing.length / 3, SUM));
-    this.#showView();
-    this.redraw(reason);
-  }
-
-  #showView(): void {
-    [this.#fields.height.value, this.#fields.side.value] = [this.#state.height, this.#state.side];
-  }
-
-  #showBend(): void {
-    const slider = field(this.section, "bend");
-    const words = ofBend(this.#bent);
-    slider.value = String(this.#state.bend);
-    slider.setAttribute("aria-valuetext", `corners at ${fixed(this.#state.bend, 0)}°: ${words}`);
+    const [slider, sheet, words] = [field(this.section, "bend"), this.#bent, ofBend(this.#bent)];
+    slider.value = String(this.now.bend);
+    slider.setAttribute("aria-valuetext", `corners at ${fixed(this.now.bend, 0)}°: ${words}`);
     this.out("bend").textContent = words;
-  }
-
-  /** The sentence, and the ruler with the bounds and the angle of the moment. */
-  #showPair(): void {
-    const bounds = find(this.section, ".bounds");
-    const { p, q } = this.#state;
-    const isEnd = this.#state.bend === HEMISPHERE;
-    bounds.classList.toggle("flat", !isEnd);
-    bounds.classList.toggle("plane", this.#state.bend === 0);
-    const ruler = this.out("scale");
-    ruler.hidden = p === null || q === null;
-    [this.#fields.p.value, this.#fields.q.value] = [p, q].map((site) => (p === null || q === null ? null : site! + 1));
-    if (p === null || q === null) {
-      say(this.out("separation"), "Two sites are needed.");
-      say(this.out("promise"), "");
-      return;
-    }
-    const now = separation(this.#sites, this.#bent, p, q);
-    say(this.out("separation"), ofPair(now, this.#state.bend));
-    say(this.out("promise"), ofBounds(now));
-    const [low, high] = [`${fixed(now.low, 1)}°`, `${fixed(now.high, 1)}°`];
-    const angle = now.angle === null ? "" : `${fixed(now.angle, 1)}°`;
-    mark(bounds, ".needle", angle, (now.angle ?? 0) / 1.8).hidden = now.angle === null;
-    const span = find(bounds, ".span");
-    for (const [name, degrees] of Object.entries({ "--from": now.low, "--to": now.high })) {
-      span.style.setProperty(name, `${fixed(degrees / 1.8, 2)}%`);
-    }
-    // Bounds whose marks would stand in each other's way share one.
-    const isNarrow = now.high - now.low < CLOSE;
-    mark(bounds, ".low", isNarrow ? `${low} to ${high}` : low, (isNarrow ? (now.low + now.high) / 2 : now.low) / 1.8);
-    mark(bounds, ".high", isNarrow ? "" : high, now.high / 1.8);
-    // The bounds come before the ends of the ruler.
-    const room = isNarrow ? 2 * CLOSE : CLOSE;
-    find(bounds, ".first").classList.toggle("bare", isEnd && now.low < room);
-    find(bounds, ".last").classList.toggle("bare", isEnd && now.high > 180 - room);
-    bounds.classList.toggle("narrow", isNarrow);
-    const label = angle === "" ? "No separation in the plane" : `Separation ${angle}`;
-    ruler.setAttribute("aria-label", isEnd ? `${label}; it must lie between ${low} and ${high}` : label);
-  }
-
-  /** What the sites are called, and the table, whose scales change with the sheet. */
-  #showSites(named: NamedSites): void {
-    const { count } = this.#sites;
-    const sheet = this.#bent;
+    this.#showPair();
     this.show(named, {
-      count,
+      count: this.#sites.count,
       heads: ["*x*", "*y*", "Scale"],
       cells: (site) => {
         const [x, y] = this.#sites.place(site);
         return [measured(x, sheet.diagonal), measured(y, sheet.diagonal), fixed(sheet.scale(x, y), 3)];
       },
-      mark: (site) => (site === this.#state.p ? "P" : site === this.#state.q ? "Q" : ""),
+      mark: (site) => (site === this.now.p ? "P" : site === this.now.q ? "Q" : ""),
     });
-    this.table.hold([this.#state.p, this.#state.q].filter((site) => site !== null));
+    this.table.hold([this.now.p, this.now.q].filter((site) => site !== null));
+    const { simplices, dimension } = this.#sites.delaunay;
+    const sum = (): string => ofFacets(simplices.length / 3, this.#sites.closing.length / 3, SUM);
+    say(this.out("sum"), WITHOUT_TRIANGLES[dimension] ?? sum());
+    this.#showView();
+    this.redraw(reason);
+  }
+
+  #showView(): void {
+    [this.#fields.height.value, this.#fields.side.value] = [this.now.height, this.now.side];
+  }
+
+  get #pair(): Separation | null {
+    const { p, q } = this.now;
+    return p === null || q === null ? null : separation(this.#sites, this.#bent, p, q);
+  }
+
+  /** The sentence, and the ruler with the bounds and the angle of the moment. */
+  #showPair(): void {
+    const [bounds, ruler, pair, { bend }] = [find(this.section, ".bounds"), this.out("scale"), this.#pair, this.now];
+    bounds.classList.toggle("flat", bend < HEMISPHERE);
+    for (const letter of ["p", "q"] as const) this.#fields[letter].value = pair && this.now[letter]! + 1;
+    ruler.hidden = pair === null;
+    say(this.out("separation"), pair === null ? "Two sites are needed." : ofPair(pair, bend));
+    say(this.out("promise"), pair === null ? "" : ofBounds(pair));
+    if (pair === null) return;
+    const angle = pair.angle === null ? "" : `${fixed(pair.angle, 1)}°`;
+    mark(bounds, ".needle", angle, (pair.angle ?? 0) / 1.8).hidden = pair.angle === null;
+    const span = `${fixed(pair.low, 1)}° to ${fixed(pair.high, 1)}°`;
+    mark(bounds, ".low", span, (pair.low + pair.high) / 3.6);
+    for (const [name, degrees] of [
+      ["--from", pair.low],
+      ["--to", pair.high],
+    ] as const) {
+      find(bounds, ".span").style.setProperty(name, `${fixed(degrees / 1.8, 2)}%`);
+    }
+    const label = angle === "" ? "No separation in the plane" : `Separation ${angle}`;
+    ruler.setAttribute("aria-label", bend < HEMISPHERE ? label : `${label}; it must lie between ${span}`);
   }
 
   // What can be done
 
   #bend(bend: number): void {
-    this.#state = liftFields(this.#sites.count).settle({ ...this.#state, bend });
+    this.put({ bend });
     this.#update("hand");
     this.changed(ofBend(this.#bent));
   }
 
   #turn(side: number, height: number, reason: Reason = "state"): void {
-    this.#state = liftFields(this.#sites.count).settle({ ...this.#state, side: wrap(side), height });
+    this.put({ side: wrap(side), height });
     this.#showView();
     this.redraw(reason);
-    this.changed(
-      `Seen from ${fixed(this.#state.height, 0)}° above the sheet, turned by ${fixed(this.#state.side, 0)}°`,
-    );
+    this.changed(`Seen from ${fixed(this.now.height, 0)}° above the sheet, turned by ${fixed(this.now.side, 0)}°`);
   }
 
   protected override switched(): void {
@@ -239,43 +205,36 @@ class LiftRoom extends SiteRoom implements Room {
 
   #setPair(letter: Letter, site: number): void {
     if (!Number.isInteger(site) || site < 0 || site >= this.#sites.count) return;
-    this.#state = { ...this.#state, [letter]: site };
+    this.now = { ...this.now, [letter]: site };
     this.host.guarded(() => this.#update());
     this.host.changed();
-    const { p, q } = this.#state;
-    if (p === null || q === null) return;
-    const now = separation(this.#sites, this.#bent, p, q);
-    this.host.announcer.say(plain(`${letter.toUpperCase()} is site ${site + 1}. ${ofPair(now, this.#state.bend)}`));
+    const words = this.#pair && ofPair(this.#pair, this.now.bend);
+    if (words !== null) this.host.announcer.say(plain(`${letter.toUpperCase()} is site ${site + 1}. ${words}`));
   }
 
   // The hand
 
-  /** P or Q, by its name, its place or its image; or the picture, to turn it. */
+  /** P or Q, by its place or its image; or the picture, to turn it. */
   #grab(at: Point, reach: number): Hold {
+    const picture = this.#picture();
     for (const letter of ["q", "p"] as const) {
-      const site = this.#state[letter];
-      if (site === null || !this.#placesOf(site).some((place) => distance(place, at) <= reach)) continue;
+      const site = this.now[letter];
+      const places = site === null ? [] : [picture.surface.place(site), picture.above(site)];
+      if (!places.some((place) => distance(place, at) <= reach)) continue;
       return {
         move: (to) => {
           const nearest = this.#siteAt(to, Infinity);
-          if (nearest !== null && nearest !== this.#state[letter]) this.#setPair(letter, nearest);
+          if (nearest !== null && nearest !== this.now[letter]) this.#setPair(letter, nearest);
         },
       };
     }
-    const { side, height } = this.#state;
+    const { side, height } = this.now;
     return {
       move: ([x, y]) => {
         const [right, down] = [x - at[0], y - at[1]];
         this.#turn(side - DEGREES_PER_PIXEL * right, height + DEGREES_PER_PIXEL * down, "hand");
       },
     };
-  }
-
-  /** Where a held site is to be seen: its image, its place in the plane, its name. */
-  #placesOf(site: number): Point[] {
-    const picture = this.#picture();
-    const above = picture.above(site);
-    return [picture.surface.place(site), above, [above[0], above[1] - 14]];
   }
 
   #siteAt(at: Point, reach: number): number | null {
@@ -296,7 +255,7 @@ class LiftRoom extends SiteRoom implements Room {
       ",": () => this.#walk(-1),
       ".": () => this.#walk(1),
     };
-    const turn = step && ((): void => this.#turn(this.#state.side + step[0], this.#state.height + step[1]));
+    const turn = step && ((): void => this.#turn(this.now.side + step[0], this.now.height + step[1]));
     const action = turn ?? actions[event.key];
     if (action !== undefined) this.host.guarded(action);
     return action !== undefined;
@@ -305,7 +264,7 @@ class LiftRoom extends SiteRoom implements Room {
   /** The next site becomes Q. */
   #walk(by: number): void {
     const { count } = this.#sites;
-    if (this.#state.q !== null) this.#setPair("q", (this.#state.q + by + count) % count);
+    if (this.now.q !== null) this.#setPair("q", (this.now.q + by + count) % count);
   }
 
   // Files and what can be taken along
@@ -324,6 +283,3 @@ class LiftRoom extends SiteRoom implements Room {
     return exchange.liftPython(this.#scene(false), this.#picture(), this.origin, SHEET_SIDES[this.named.set]);
   }
 }
-
-/** Degrees within which two marks of the ruler stand in each other's way. */
-const CLOSE = 27;

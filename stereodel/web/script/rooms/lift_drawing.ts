@@ -1,14 +1,15 @@
 /** The picture of the Lift room: a sheet that bends onto a ball, under the plane that it was. */
 
-import { traceArc, traceRegions, type Side } from "../drawing/arcs.ts";
-import { arcBetween, ballSurface, drawArcs, drawDots, drawSegments, planeSurface } from "../drawing/ball.ts";
+import { holdsHidden, traceOutlines, traceRegions, type Rings, type Side } from "../drawing/arcs.ts";
+import { arcsBetween, ballSurface, drawArcs, drawDots, planeSurface, sidesOf } from "../drawing/ball.ts";
 import type { Surface } from "../drawing/ball.ts";
 import { drawParts, type IsOn, type Part } from "../drawing/parts.ts";
 import { cornersOf, traceCorners, traceDisc, traceSegment } from "../drawing/pen.ts";
 import type { Disc, Path, Pen, Point } from "../drawing/pen.ts";
 import { FAINT, type LabelStyle } from "../drawing/styles.ts";
+import { SphericalVoronoi } from "../kernel/api.ts";
 import { following } from "../kernel/topology.ts";
-import { cross, DEGREE, unit, type Vector } from "../space.ts";
+import { DEGREE, type Vector } from "../space.ts";
 import type { View } from "../view/view.ts";
 import type { LiftSites, Sheet } from "./lift_sites.ts";
 
@@ -54,7 +55,9 @@ export class LiftPicture {
   readonly #disc: Disc;
   /** Corners of the sheet, counterclockwise. */
   readonly #corners: readonly Point[];
+  /** Where the sites are, and where they were in the plane. */
   readonly surface: Surface;
+  readonly #before: Surface;
 
   constructor(scene: LiftScene, width: number, height: number) {
     const { sheet, sites, view } = scene;
@@ -68,8 +71,9 @@ export class LiftPicture {
     const { middle, width: w, height: h } = sites.rectangle;
     this.#corners = cornersOf(middle[0] - w / 2, middle[1] - h / 2, middle[0] + w / 2, middle[1] + h / 2);
     const looks: Vector[] = [];
+    this.#before = planeSurface((site) => this.above(site), this.#plane);
     this.surface = sheet.isFlat
-      ? planeSurface((site) => this.above(site), this.#plane)
+      ? this.#before
       : ballSurface(this.#disc, (k) => (looks[k] ??= view.seen(sheet.direction(...sites.place(k)))));
   }
 
@@ -116,14 +120,21 @@ export class LiftPicture {
       { isThere: isFlat, draw: (pen, on) => pen.draw("sheet", on.#region) },
       { layer: "seeing", draw: (pen, on) => on.#drawSeeing(pen) },
       { isThere: isBent, draw: (pen, on) => on.#drawBehind(pen, isOn("triangles") && !isMoving) },
-      { layer: "triangles", draw: (pen, on) => on.#drawEdges(pen) },
-      { layer: "cells", draw: (pen, on) => pen.within({ region: on.#region }, () => on.#drawRidges(pen)) },
-      { draw: (pen, on) => pen.draw("side", isFlat ? on.#region : (path) => on.#traceBorder(path, "front")) },
+      { layer: "triangles", draw: (pen, on) => on.surface.lines(pen, "delaunay", sites.delaunay.edges) },
+      {
+        layer: "cells",
+        isThere: sites.delaunay.dimension === 2,
+        draw: (pen, on) => pen.within({ region: on.#region }, () => on.#drawRidges(pen)),
+      },
+      {
+        draw: (pen, on) =>
+          pen.draw("side", isFlat ? on.#region : (path) => traceOutlines(path, on.#disc, on.#border("front"))),
+      },
       { draw: (pen, on) => drawDots(pen, on.surface, "site", Array(sites.count).keys()) },
       { isThere: isBent, draw: (pen, on) => on.#drawPlane(pen) },
       {
         isThere: p !== null && q !== null && p !== q,
-        draw: (pen, on) => pen.draw("span", (path) => sides.forEach((side) => on.surface.line(path, p!, q!, side))),
+        draw: (pen, on) => sides.forEach((side) => on.surface.lines(pen, "span", [p!, q!], side)),
       },
       ...letters.flat(),
       { isThere: isBent, draw: (pen, on) => on.#drawPole(pen) },
@@ -134,32 +145,22 @@ export class LiftPicture {
   /** The sheet on the ball, or the plane's rectangle. */
   readonly #region = (path: Path): void => {
     if (this.#scene.sheet.isFlat) this.#plane(path);
-    else traceRegions(path, this.#disc, ringOf(this.#border()), this.#holds([0, 0, -1]));
+    else this.#traceSheet(path, "front");
   };
 
-  #drawEdges(pen: Pen, side?: Side | "flat"): void {
-    const { edges } = this.#scene.sites.delaunay;
-    if (side === "flat")
-      drawSegments(
-        pen,
-        "delaunay",
-        [...edges].flatMap((site) => this.above(site)),
-      );
-    else this.surface.lines(pen, "delaunay", edges, side);
+  /** The bent sheet, which does not hold the pole. */
+  #traceSheet(path: Path, side: Side): void {
+    const [rings, [x, y, z]] = [this.#border(side), this.#away];
+    traceRegions(path, this.#disc, rings, holdsHidden(rings, [x, y, side === "front" ? z : -z], false));
   }
 
   /** The bent sheet and what is faint of it, with the far side of its triangles. */
   #drawBehind(pen: Pen, hasTriangles: boolean): void {
-    // Seen from behind the ball is its mirror image: rings run the other way.
-    const border = this.#border().map(([x, y, z]): Vector => [x, y, -z]);
-    const mirrored = ringOf(border.reverse());
-    pen.within(FAINT, () =>
-      pen.draw("sheet", (path) => traceRegions(path, this.#disc, mirrored, this.#holds([0, 0, 1]))),
-    );
+    pen.within(FAINT, () => pen.draw("sheet", (path) => this.#traceSheet(path, "back")));
     pen.draw("sheet", this.#region);
     pen.within(FAINT, () => {
-      pen.draw("side", (path) => this.#traceBorder(path, "back"));
-      if (hasTriangles) this.#drawEdges(pen, "back");
+      pen.draw("side", (path) => traceOutlines(path, this.#disc, this.#border("back")));
+      if (hasTriangles) this.surface.lines(pen, "delaunay", this.#scene.sites.delaunay.edges, "back");
     });
   }
 
@@ -168,16 +169,14 @@ export class LiftPicture {
     const { sites, sheet } = this.#scene;
     const { hull, closing } = sites;
     if (!sheet.isFlat && hull.length < 3) return;
-    const holds = sheet.isFlat || !sites.isInHull(this.#flatOf([0, 0, -1]));
+    const ring = (): Rings => ringOf(hull.map((site) => this.#look(...sites.place(site))));
+    const holds = sheet.isFlat || !holdsHidden(ring(), this.#away, false);
     pen.draw("hatch", (path) => this.surface.region(path, [...hull].reverse(), holds));
-    pen.draw("hull", (path) => {
-      if (sheet.isFlat) this.surface.ring(path, hull);
-      else
-        closing.forEach((a, k) => {
-          const b = closing[following(k)];
-          if (a < b || hull.includes(a)) this.surface.line(path, a, b);
-        });
-    });
+    const edge = (a: number, k: number): number[] => {
+      const b = closing[following(k)];
+      return a < b || hull.includes(a) ? [a, b] : [];
+    };
+    this.surface.lines(pen, "hull", sheet.isFlat ? sidesOf(hull) : [...closing].flatMap(edge));
   }
 
   /** The plane over the bent sheet, and the point of contact. */
@@ -185,7 +184,9 @@ export class LiftPicture {
     const [x, y] = this.contact;
     pen.draw("sheet-plane", this.#plane);
     // The triangles as they were: "behind" is as weak as what lies beyond the ball.
-    if (this.#scene.isOn("triangles") && !this.#scene.isMoving) pen.within(FAINT, () => this.#drawEdges(pen, "flat"));
+    const { sites, isOn, isMoving } = this.#scene;
+    const edges = isOn("triangles") && !isMoving ? sites.delaunay.edges : [];
+    pen.within(FAINT, () => this.#before.lines(pen, "delaunay", edges));
     pen.draw("touch", (path) => {
       traceSegment(path, [x - 4.5, y], [x + 4.5, y]);
       traceSegment(path, [x, y - 3.5], [x, y + 3.5]);
@@ -223,65 +224,34 @@ export class LiftPicture {
     return this.#scene.view.seen(this.#scene.sheet.direction(x, y));
   }
 
-  get #sides(): [Point, Point][] {
-    return this.#corners.map((a, k) => [a, this.#corners[(k + 1) % 4]]);
-  }
-
-  /** Directions along the sheet's sides, axes of the view. */
-  #border(): Vector[] {
+  /** The sides of the bent sheet; from the back those of the mirror image that is seen there, which run the other way. */
+  #border(side: Side): Rings {
     const parts = Array.from({ length: PER_SIDE }, (_, j) => j / PER_SIDE);
-    return this.#sides.flatMap(([[ax, ay], [bx, by]]) =>
-      parts.map((t) => this.#look(ax + t * (bx - ax), ay + t * (by - ay))),
-    );
+    const points = this.#corners.flatMap(([ax, ay], k) => {
+      const [bx, by] = this.#corners[(k + 1) % 4];
+      return parts.map((t) => this.#look(ax + t * (bx - ax), ay + t * (by - ay)));
+    });
+    return ringOf(side === "front" ? points : points.reverse().map(([x, y, z]) => [x, y, -z]));
   }
 
-  /** The sheet's sides: arcs of circles through the pole. */
-  #traceBorder(path: Path, side: Side): void {
-    for (const [[ax, ay], [bx, by]] of this.#sides) {
-      const rows = [...this.#look(ax, ay), ...this.#look((ax + bx) / 2, (ay + by) / 2), ...this.#look(bx, by)];
-      traceArc(path, this.#disc, rows, 0, side);
-    }
+  /** The direction of the pole, axes of the view. */
+  get #away(): Vector {
+    return this.#scene.view.seen([0, 0, -1]);
   }
 
-  /** The place of the plane, in its units, whose image is a direction in the axes of the view. */
-  #flatOf(seen: Vector): Point {
-    const { sheet, sites, view } = this.#scene;
-    const [x, y, z] = view.onBall(seen);
-    const stretch = (2 * sheet.radius * sheet.diagonal) / (1 + z);
-    return [sites.rectangle.middle[0] + stretch * x, sites.rectangle.middle[1] + stretch * y];
-  }
-
-  /** Whether the bent sheet holds a direction in the axes of the view. */
-  #holds(seen: Vector): boolean {
-    const { middle, width, height } = this.#scene.sites.rectangle;
-    const [x, y] = this.#flatOf(seen);
-    return Math.abs(x - middle[0]) <= width / 2 && Math.abs(y - middle[1]) <= height / 2;
-  }
-
-  /** Sides of the cells; on the ball from the centre of a facet's circle to those of the facets across its edges. */
+  /** Sides of the cells, which on the ball are not the images of those in the plane. */
   #drawRidges(pen: Pen): void {
     const { sites, sheet } = this.#scene;
-    if (sheet.isFlat) return drawSegments(pen, "voronoi", sites.ridges.flat().flatMap(this.#flat));
-    const arcs: number[] = [];
-    const facets = [...sites.delaunay.simplices, ...sites.closing];
-    const looks = facets.map((site) => this.#look(...sites.place(site)));
-    const centers = new Map<string, Vector>();
-    facets.forEach((from, at) => {
-      const [first, to] = [at - (at % 3), facets[following(at)]];
-      const center = facetCenter(looks[first], looks[first + 1], looks[first + 2]);
-      const beyond = centers.get(`${to} ${from}`);
-      if (beyond === undefined) centers.set(`${from} ${to}`, center);
-      else arcs.push(...arcBetween(center, beyond).flat());
-    });
-    drawArcs(pen, this.#disc, "voronoi", arcs);
+    if (sheet.isFlat) {
+      const places = sites.ridges().flatMap((y, k, ends) => (k % 2 === 0 ? [] : this.#flat([ends[k - 1], y])));
+      return pen.lines("voronoi", places);
+    }
+    const looks = Array.from({ length: sites.count }, (_, site) => this.#look(...sites.place(site)));
+    const { vertices, ridgeVertices } = new SphericalVoronoi(looks.flat());
+    drawArcs(pen, this.#disc, "voronoi", arcsBetween(vertices, ridgeVertices));
   }
 }
 
-function ringOf(points: readonly Vector[]): { points: Float64Array; offsets: number[] } {
+function ringOf(points: readonly Vector[]): Rings {
   return { points: Float64Array.from(points.flat()), offsets: [0, points.length] };
-}
-
-/** The middle of a facet's circle on the ball, on the outer side of its plane. */
-function facetCenter(a: Vector, b: Vector, c: Vector): Vector {
-  return unit(cross([b[0] - a[0], b[1] - a[1], b[2] - a[2]], [c[0] - a[0], c[1] - a[1], c[2] - a[2]]));
 }

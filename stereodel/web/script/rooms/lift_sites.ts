@@ -1,7 +1,8 @@
 /** Sites of the Lift room: the sheet that bends onto a ball (P10, P13), what the kernel and the room say of them, the sets. */
 
-import type { Point } from "../drawing/pen.ts";
-import { PlanarDelaunay, PlanarVoronoi, SphericalDelaunay } from "../kernel/api.ts";
+import { ridgeSegments } from "../drawing/ball.ts";
+import { PlanarDelaunay, SphericalDelaunay } from "../kernel/api.ts";
+import { once } from "../kernel/lazy.ts";
 import type { SiteSet } from "../sets.ts";
 import { angle, DEGREES, type Vector } from "../space.ts";
 import { counted, fixed } from "../words.ts";
@@ -12,7 +13,7 @@ type Place = [number, number];
 export class LiftSites {
   /** x and y in turn, in any unit. */
   readonly places: Float64Array;
-  readonly rectangle: Rectangle;
+  readonly rectangle: ReturnType<typeof rectangleAround>;
   readonly delaunay: PlanarDelaunay;
   /**
    * The facets of the lifted sites that see the pole, (m, 3): those whose circle in the plane has no site outside, of the
@@ -20,7 +21,6 @@ export class LiftSites {
    * power of two, so that a grid of small whole numbers is lifted without rounding and its squares stay squares.
    */
   readonly closing: Int32Array;
-  #ridges: [Place, Place][] | null = null;
 
   /** @param sides Width and height of the sheet, where it is not the smallest rectangle round the sites. */
   constructor(places: Float64Array, sides?: readonly [number, number]) {
@@ -34,28 +34,54 @@ export class LiftSites {
     return this.places.length / 2;
   }
 
-  /** The sheet bent so that its corners stand at so many degrees from the point of contact. */
-  sheet(corner: number): Sheet {
-    return sheetOf(this.rectangle, corner);
-  }
-
   place(site: number): Place {
     return [this.places[2 * site], this.places[2 * site + 1]];
   }
 
   /** Sites of the convex hull, counterclockwise. */
   get hull(): number[] {
-    const { convexHull } = this.delaunay;
-    return chained(
-      new Map(Array.from({ length: convexHull.length / 2 }, (_, k) => [convexHull[2 * k], convexHull[2 * k + 1]])),
-    );
+    return chained(this.delaunay.convexHull)[0];
   }
 
-  isInHull([x, y]: Point): boolean {
-    return this.hull.every((site, k, hull) => {
-      const [[ax, ay], [bx, by]] = [this.place(site), this.place(hull[(k + 1) % hull.length])];
-      return (bx - ax) * (y - ay) - (by - ay) * (x - ax) >= 0;
-    });
+  /** Sides of the cells of the plane as x, y, x, y in turn. */
+  readonly ridges = once(() =>
+    ridgeSegments(this.delaunay, 2 * Math.hypot(this.rectangle.width, this.rectangle.height)),
+  );
+
+  /**
+   * The sheet, bent so that its corners stand at `corner` degrees from the point of contact: 0 is the plane, 90 the
+   * hemisphere. Lengths are in diagonals of the rectangle; the point of contact is on top, at the origin.
+   */
+  sheet(corner: number) {
+    const { middle, width, height } = this.rectangle;
+    const isFlat = corner === 0;
+    /** In units of the plane; 1 where all places are one. */
+    const diagonal = Math.hypot(width, height) || 1;
+    /** Of the ball, in diagonals. */
+    const radius = isFlat ? Infinity : 1 / (4 * Math.tan((corner * Math.PI) / 360));
+    const pole: Vector = [0, 0, -2 * radius];
+    /** A place of the plane in the sheet before it is bent, in diagonals. */
+    const flat = (x: number, y: number): Vector => [(x - middle[0]) / diagonal, (y - middle[1]) / diagonal, 0];
+    /** The direction from the ball's centre to the image of a place; straight up in the plane. */
+    const direction = (x: number, y: number): Vector => {
+      const [u, v] = flat(x, y);
+      const [s, t] = [u / (2 * radius), v / (2 * radius)];
+      const square = s * s + t * t;
+      return [(2 * s) / (1 + square), (2 * t) / (1 + square), (1 - square) / (1 + square)];
+    };
+    /** Where the image of a place is in space, in diagonals. */
+    const image = (x: number, y: number): Vector => {
+      if (isFlat) return flat(x, y);
+      const [u, v, w] = direction(x, y);
+      return [radius * u, radius * v, radius * (w - 1)];
+    };
+    /** Length on the ball over length in the sheet at a place: 1 at the middle, least at the corners. */
+    const scale = (x: number, y: number): number => {
+      const [u, v] = flat(x, y);
+      return 1 / (1 + (u * u + v * v) / (4 * radius * radius));
+    };
+    const leastScale = 1 / (1 + 1 / (16 * radius * radius));
+    return { corner, isFlat, diagonal, radius, pole, flat, direction, image, scale, leastScale };
   }
 
   #facetsThatSee(): Int32Array {
@@ -70,29 +96,7 @@ export class LiftSites {
     const signs = bubbleSigns(rays, simplices, [0, 0, -1]);
     return simplices.filter((_, k) => signs[Math.floor(k / 3)] >= 0);
   }
-
-  /** Sides of the cells of the plane, each from end to end; those without an end go on far beyond the sheet. */
-  get ridges(): [Place, Place][] {
-    if (this.#ridges !== null) return this.#ridges;
-    if (this.count < 2) return [];
-    const { vertices, ridgeVertices, ridgePoints } = new PlanarVoronoi(this.delaunay);
-    const far = 4 * Math.hypot(this.rectangle.width, this.rectangle.height);
-    this.#ridges = Array.from({ length: ridgeVertices.length / 2 }, (_, k): [Place, Place] => {
-      const [[ax, ay], [bx, by]] = [this.place(ridgePoints[2 * k]), this.place(ridgePoints[2 * k + 1])];
-      // Site a is on the left of the way from start to end.
-      const size = Math.hypot(bx - ax, by - ay);
-      const [u, v] = [(far * (ay - by)) / size, (far * (bx - ax)) / size];
-      const [start, end] = [ridgeVertices[2 * k], ridgeVertices[2 * k + 1]].map((vertex): Place | null =>
-        vertex < 0 ? null : [vertices[2 * vertex], vertices[2 * vertex + 1]],
-      );
-      const [x, y] = start ?? end ?? [(ax + bx) / 2, (ay + by) / 2];
-      return [start ?? [x - u, y - v], end ?? [x + u, y + v]];
-    });
-    return this.#ridges;
-  }
 }
-
-export type Rectangle = ReturnType<typeof rectangleAround>;
 
 /** The smallest rectangle along the axes around places (n, 2), or one about the origin with given sides. */
 function rectangleAround(places: Float64Array, sides?: readonly [number, number]) {
@@ -105,43 +109,7 @@ function rectangleAround(places: Float64Array, sides?: readonly [number, number]
   return { middle: [left + width / 2, low + height / 2], width, height };
 }
 
-/**
- * The sheet, bent so that its corners stand at `corner` degrees from the point of contact: 0 is the plane, 90 the
- * hemisphere. Lengths are in diagonals of the rectangle; the point of contact is on top, at the origin.
- */
-export function sheetOf(rectangle: Rectangle, corner: number) {
-  const { middle, width, height } = rectangle;
-  const isFlat = corner === 0;
-  /** In units of the plane; 1 where all places are one. */
-  const diagonal = Math.hypot(width, height) || 1;
-  /** Of the ball, in diagonals. */
-  const radius = isFlat ? Infinity : 1 / (4 * Math.tan((corner * Math.PI) / 360));
-  const pole: Vector = [0, 0, -2 * radius];
-  /** A place of the plane in the sheet before it is bent, in diagonals. */
-  const flat = (x: number, y: number): Vector => [(x - middle[0]) / diagonal, (y - middle[1]) / diagonal, 0];
-  /** The direction from the ball's centre to the image of a place; straight up in the plane. */
-  const direction = (x: number, y: number): Vector => {
-    const [u, v] = flat(x, y);
-    const [s, t] = [u / (2 * radius), v / (2 * radius)];
-    const square = s * s + t * t;
-    return [(2 * s) / (1 + square), (2 * t) / (1 + square), (1 - square) / (1 + square)];
-  };
-  /** Where the image of a place is in space, in diagonals. */
-  const image = (x: number, y: number): Vector => {
-    if (isFlat) return flat(x, y);
-    const [u, v, w] = direction(x, y);
-    return [radius * u, radius * v, radius * (w - 1)];
-  };
-  /** Length on the ball over length in the sheet at a place: 1 at the middle, least at the corners. */
-  const scale = (x: number, y: number): number => {
-    const [u, v] = flat(x, y);
-    return 1 / (1 + (u * u + v * v) / (4 * radius * radius));
-  };
-  const leastScale = 1 / (1 + 1 / (16 * radius * radius));
-  return { rectangle, corner, isFlat, diagonal, radius, pole, flat, direction, image, scale, leastScale };
-}
-
-export type Sheet = ReturnType<typeof sheetOf>;
+export type Sheet = ReturnType<LiftSites["sheet"]>;
 
 /**
  * Between which angles images on the hemisphere lie of two points whose distance is this fraction of the diagonal:
@@ -195,18 +163,15 @@ export function measured(value: number, diagonal: number): string {
   const size = diagonal || Math.abs(value) || 1;
   const decimals = Math.max(0, 3 - Math.floor(Math.log10(size)));
   if (decimals > MOST_DECIMALS || Math.abs(value) >= 1e15) return value.toPrecision(4).replace(/-/g, "\u2212");
-  const [whole, rest] = fixed(Math.abs(value), decimals).split(".");
-  const text = rest === undefined ? counted(Number(whole)) : `${counted(Number(whole))}.${rest}`;
-  return value < 0 && /[1-9]/.test(text) ? `\u2212${text}` : text;
+  return fixed(value, decimals).replace(/\d+/, (whole) => counted(Number(whole)));
 }
 
-/** What there is to say of sites without triangles; null where there are triangles. */
-export function withoutTriangles(sites: LiftSites): string | null {
-  if (sites.delaunay.dimension === 2) return null;
-  if (sites.count === 0) return "No sites yet. Open a file.";
-  if (sites.delaunay.dimension === 0) return "All sites lie at one place: there are no triangles.";
-  return "All sites lie on one line: there are no triangles.";
-}
+/** What there is to say of sites without triangles, by their dimension. */
+export const WITHOUT_TRIANGLES: Readonly<Record<number, string>> = {
+  [-1]: "No sites yet. Open a file.",
+  0: "All sites lie at one place: there are no triangles.",
+  1: "All sites lie on one line: there are no triangles.",
+};
 
 export function ofBend(sheet: Sheet): string {
   if (sheet.isFlat) return "flat: an infinite radius";

@@ -10,7 +10,7 @@ import type { View } from "../view/view.ts";
 import type { GlobeScene } from "./globe_scene.ts";
 import type { GlobeState } from "./globe_state.ts";
 import type { LiftPicture, LiftScene } from "./lift_drawing.ts";
-import type { SphereScene } from "./sphere_drawing.ts";
+import { poleSeen, type SphereScene } from "./sphere_drawing.ts";
 import type { SphereState } from "./sphere_state.ts";
 
 /** Sites beyond which the lines name a file in place of the places. */
@@ -35,24 +35,19 @@ type Values = Readonly<Record<string, string | number>>;
 type Marks = Readonly<Record<string, unknown>>;
 
 /** Lines that draw the ball and the plane. @param sizes Of both pictures, as the text names them. */
-export function spherePython(
-  scene: SphereScene,
-  state: SphereState,
-  poleSeen: Vector | null,
-  origin: Origin,
-  sizes: Values,
-): string {
+export function spherePython(scene: SphereScene, state: SphereState, origin: Origin, sizes: Values): string {
   const { sites, view, bubble, aim, step } = scene;
+  const pole = poleSeen(scene.map, scene.twin);
   const isOn = (layer: Switch): boolean => step === null && scene.isOn(layer);
   const held = [...((isOn("bubble") && bubble?.sites) || []), ...(step === null ? scene.held : [step.site])];
   const marks = {
     facets: sites.facetCount > 0,
     hemisphere: sites.hasClosing,
-    step: step !== null && step.before.length > 0,
+    step: step !== null && step.before.dimension === 2,
     aimed: bubble !== null,
     held: held.length > 0,
-    pole: poleSeen !== null,
-    front: poleSeen !== null && poleSeen[2] >= 0,
+    pole: pole !== null,
+    front: pole !== null && pole[2] >= 0,
     hatched: isOn("seeing") || (isOn("closing") && sites.hasClosing),
   };
   const values = {
@@ -157,7 +152,7 @@ function filled(text: string, values: Values, marks: Marks, isOn: IsOn): string 
 
 /** Pairs of coordinates as an array (n, 2) of Python, in lines of at most 88 letters; of many what reads their file. */
 function coordinates(values: Float64Array, file: string): string {
-  if (values.length > 2 * MOST_WRITTEN) return file;
+  if (values.length > 2 * MOST_WRITTEN) return `${file}  # the page draws over 1000 lines weaker where dense`;
   const rows = Array.from({ length: values.length / 2 }, (_, k) => `[${values[2 * k]}, ${values[2 * k + 1]}]`);
   const lines = rows.join(", ").replace(/(.{1,82}\],) /g, "$1\n    ");
   return rows.length === 0 ? "np.zeros((0, 2))" : `np.array([\n    ${lines},\n])`;

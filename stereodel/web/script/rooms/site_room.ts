@@ -5,7 +5,7 @@ import type { IsOn, Switch } from "../drawing/parts.ts";
 import type { Reason } from "../drawing/plate.ts";
 import type { Exchange } from "../exchange.ts";
 import type { Points } from "../files.ts";
-import { word, type Place } from "../fields.ts";
+import { word, type Fields, type Place } from "../fields.ts";
 import { LETTERS, LinkError, MOST_SITES, numbersOf, type LinkValues } from "../link.ts";
 import type { RoomHost } from "../room.ts";
 import type { SiteSet } from "../sets.ts";
@@ -27,7 +27,7 @@ export interface Table {
   /** Of the table: that of its file, whatever a hand has done to it since. */
   readonly name: string | null;
   /** Its columns of numbers, NaN where one is missing. */
-  readonly values?: ReadonlyMap<string, Float64Array>;
+  readonly values?: ReadonlyMap<string, Column>;
 }
 
 /** Sites, the set that they are, and the file that has them as they are. */
@@ -46,10 +46,7 @@ function ofSet(set: SiteSet): NamedSites {
 }
 
 /** What a link says of a table: all of it, or where it is too long for one and need not be whole the name of its file. */
-export function tableValues(
-  { places, names, name, values }: Omit<Table, "values"> & { readonly values?: ReadonlyMap<string, Column> },
-  isWhole: boolean,
-): Record<string, string> {
+export function tableValues({ places, names, name, values }: Table, isWhole: boolean): Record<string, string> {
   const named = { file: name ?? "sites" };
   if (!isWhole && places.length > 2 * MOST_SITES) return named;
   const lines = (texts: readonly string[]): string => texts.map((text) => text.replaceAll("\n", " ")).join("\n");
@@ -128,8 +125,10 @@ export abstract class TableRoom {
   }
 }
 
-/** A room of sites, which come with the page, from a file or by hand. */
-export abstract class SiteRoom extends TableRoom {
+/** A room of sites, which come with the page, from a file or by hand, in a state of a kind. */
+export abstract class SiteRoom<S> extends TableRoom {
+  /** The state, as its link tells it. */
+  protected abstract now: S;
   protected readonly sets: readonly SiteSet[];
   /** What the sites are called. */
   protected named = ownSites({ places: new Float64Array(0), names: null, name: null });
@@ -144,7 +143,11 @@ export abstract class SiteRoom extends TableRoom {
     [this.sets, this.#kind] = [sets, kind];
   }
 
-  /** Other sites are there: a set of the list, or a file. */
+  /** The state of so many sites. */
+  protected abstract fields(count: number): Fields<S>;
+  /** The state in which sites are shown first, after that of others. */
+  protected abstract beginning(named: NamedSites, before?: S): S;
+  /** Other sites are there: a set of the list, a file, or those of a link. */
   protected abstract begin(named: NamedSites): void;
   abstract redraw(reason?: Reason): void;
 
@@ -163,31 +166,39 @@ export abstract class SiteRoom extends TableRoom {
     });
   }
 
-  /** What a link says of the sites and of the switches. */
-  protected siteValues(isWhole: boolean): Record<string, string> {
-    const { set } = this.named;
-    return { ...(set === OWN ? tableValues(this.named, isWhole) : { set }), ...this.switches.values };
+  protected get count(): number {
+    return this.named.places.length / 2;
+  }
+
+  protected put(change: Partial<S>): void {
+    this.now = this.fields(this.count).settle({ ...this.now, ...change });
+  }
+
+  state(isWhole: boolean): Record<string, string> {
+    const sites = this.named.set === OWN ? tableValues(this.named, isWhole) : { set: this.named.set };
+    return { ...sites, ...this.switches.values, ...this.fields(this.count).write(this.now) };
   }
 
   /** The sites of a link; nothing is shown yet. @throws LinkError where they cannot be read. */
-  protected sitesOf(values: LinkValues): NamedSites {
+  #sitesOf(values: LinkValues): NamedSites {
     const name = word("set", [...this.sets.map((set) => set.name), OWN]).read(values, this.sets[0].name);
     const table = tableOf(values, this.#kind);
     if (table !== null) return ownSites(table);
     return ofSet(this.sets.find((set) => set.name === name) ?? this.sets[0]);
   }
 
-  /** Turns the switches as a link says, and tells what it names and does not hold. */
   restore(values: LinkValues): void {
+    const named = this.#sitesOf(values);
+    this.now = this.fields(named.places.length / 2).read(values, this.beginning(named));
     this.switches.restore(values);
     tellNamed(this.host.messages, values, "file");
+    this.begin(named);
   }
 
   /** Whether something is drawn. @param cells Sites beyond which cells are left out while the picture moves. */
   protected shown(isMoving: boolean, cells: number): IsOn {
-    const count = this.named.places.length / 2;
     const most: Partial<Record<Switch, number>> = { cells, bubble: Infinity };
-    return (name) => this.isOn(name) && !(isMoving && count > (most[name] ?? VERY_MANY));
+    return (name) => this.isOn(name) && !(isMoving && this.count > (most[name] ?? VERY_MANY));
   }
 
   /** Shows what the sites are called, how many there are, and the table. */
@@ -210,7 +221,8 @@ export abstract class SiteRoom extends TableRoom {
   }
 
   csv(exchange: Exchange): string {
-    return exchange.csv(this.#kind === "plane" ? ["x", "y"] : ["lon", "lat"], this.named);
+    const { places, names, values } = this.named;
+    return exchange.csv(this.#kind === "plane" ? ["x", "y"] : ["lon", "lat"], places, names, values);
   }
 
   /** Where the lines of Python have the sites from. */
@@ -226,6 +238,7 @@ export abstract class SiteRoom extends TableRoom {
 
   #begin(named: NamedSites): void {
     this.host.guarded(() => {
+      this.now = this.fields(named.places.length / 2).settle(this.beginning(named, this.now));
       this.begin(named);
       this.host.changed(true);
     });
@@ -242,7 +255,7 @@ export function edited(table: NamedSites, site: number, place: Place | null): Na
   const edit = <T>(all: ArrayLike<T>, added: T): T[] =>
     place ? [...Array.from(all), added] : Array.from(all).filter((_, k) => k !== site);
   const places = place ? [...table.places, ...place] : table.places.filter((_, k) => k >> 1 !== site);
-  const values = [...(table.values ?? [])].map(([title, all]) => [title, Float64Array.from(edit(all, NaN))] as const);
+  const values = [...(table.values ?? [])].map(([title, all]) => [title, edit(all, NaN)] as const);
   const names = table.names && edit(table.names, "");
   return ownSites({ places: Float64Array.from(places), names, name: table.name, values: new Map(values) });
 }

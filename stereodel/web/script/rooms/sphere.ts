@@ -10,24 +10,23 @@ import { Plate, type Reason } from "../drawing/plate.ts";
 import type { Exchange } from "../exchange.ts";
 import type { Place } from "../fields.ts";
 import type { MoebiusMap } from "../kernel/api.ts";
-import type { LinkValues } from "../link.ts";
 import type { Room, RoomHost } from "../room.ts";
 import { sphereSets, type Stored } from "../sets.ts";
 import { lonLatOf, type Vector } from "../space.ts";
 import { arrowed, arrowStep, grabBall, keyFactor, lensGestures, type Magnifiable } from "../view/ball_hand.ts";
 import { distance, follow, isCommand, type Gestures, type Hold, type Place as Point } from "../view/hand.ts";
-import { imageOf, lensMap, magnified, scaleAt, sightMap, sourceOf, type Sight } from "../view/lens.ts";
+import { betweenSights, imageOf, lensMap, magnified, scaleAt, sightMap, sourceOf, type Sight } from "../view/lens.ts";
 import { Motion } from "../view/motion.ts";
 import { pointUnder, View } from "../view/view.ts";
-import { counted, latitude, longitude, ofFacets, wrap } from "../words.ts";
+import { counted, latitude, longitude, ofFacets } from "../words.ts";
 import { Choice, PlaceFields, siteForm, stepControl } from "./controls.ts";
 import { edited, SiteRoom, type NamedSites } from "./site_room.ts";
 import { ballDrawing, ballLayers, drawMoved, planeDrawing, poleSeen, sphereParts } from "./sphere_drawing.ts";
 import type { Drawing, Ground, SphereScene } from "./sphere_drawing.ts";
 import { ofBubble, ofDuplicates, ofLens, ofPictures, ofSite, ofStep } from "./sphere_sites.ts";
-import { SphereSites, withoutTriangles, type Bubble, type Insertion } from "./sphere_sites.ts";
+import { SphereSites, WITHOUT_TRIANGLES, type Bubble, type Insertion } from "./sphere_sites.ts";
 import { BEGINNING, directionAt, handPlace, MOST, sightOf, sphereFields } from "./sphere_state.ts";
-import type { Click, SphereState } from "./sphere_state.ts";
+import type { SphereState } from "./sphere_state.ts";
 import { planeFrame, reachAround, Twin, type Around, type PlaneFrame } from "./twin.ts";
 
 /** Sites from which on cells are left out while something moves. */
@@ -47,17 +46,13 @@ export function sphereRoom(host: RoomHost, stored: Stored, given: Places | null)
   return new SphereRoom(host, sphereSets(stored, given), "lonlat");
 }
 
-/** What the hand finds on one of the pictures. */
+/** What the hand finds on one of the pictures: the direction under a place, and where one is that is not behind. */
 interface Picture {
-  /** The direction under a place. */
   under(at: Point): Vector;
-  /** Where a direction is, or null while it is behind. */
   place(direction: Vector): Point | null;
-  take(at: Point, reach: number): Hold | null;
-  isOn(at: Point, reach?: number): boolean;
 }
 
-class SphereRoom extends SiteRoom implements Room, Magnifiable {
+class SphereRoom extends SiteRoom<SphereState> implements Room, Magnifiable {
   /** Sites as they were before the changes by hand. */
   #history: NamedSites[] = [];
   readonly #motion = new Motion();
@@ -65,13 +60,13 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
   readonly most = MOST;
   #ball!: Plate;
   #plane!: Plate;
-  #click!: Choice<Click>;
+  #click!: Choice<SphereState["click"]>;
   #showStep!: ReturnType<typeof stepControl>;
   #showSite!: ReturnType<typeof siteForm>;
   #poleFields!: PlaceFields;
   #viewFields!: PlaceFields;
 
-  #state = BEGINNING;
+  protected override now = BEGINNING;
   #around: Around = { reach: 1, middle: [0, 0], outside: 0 };
 
   // What follows from the state; made anew when it changes.
@@ -90,18 +85,20 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
     this.#plane = this.#plate("plane", () => planeDrawing(this.#frame));
     this.#poleFields = new PlaceFields(section, "pole", (place) => guarded(() => this.#movePole(place)));
     this.#viewFields = new PlaceFields(section, "view", (place) => guarded(() => this.turn(View.above(...place))));
-    this.#click = new Choice(section, "click", () => this.host.changed());
+    this.#click = new Choice(section, "click", () => {
+      this.put({ click: this.#click.value });
+      this.host.changed();
+    });
     this.#showStep = stepControl(section, (count) => guarded(() => this.#setStep(count)));
     this.#showSite = siteForm(section, {
       add: (place) => guarded(() => this.#add(directionAt(place))),
       move: (place) => guarded(() => this.#moveHeld(place)),
-      remove: () => guarded(() => this.#remove(this.#state.held)),
+      remove: () => guarded(() => this.#remove(this.now.held)),
     });
     find(section, "[data-do=undo]").addEventListener("click", () => this.#undo());
     const under = (at: Point): Vector => this.#twin.inverse(...this.#frame.point(at));
     const place = (point: Vector): Point => this.#frame.place(this.#twin.forward(point));
-    const take = (): Hold => ({ move: () => {} });
-    follow(this.#plane, this.#gestures({ under, place, take, isOn: () => true }));
+    follow(this.#plane, { ...this.#gestures({ under, place }), take: () => ({ move: () => {} }) });
     follow(this.#ball, { ...this.#gestures(this.#onBall), ...lensGestures(this, this.#motion) });
   }
 
@@ -115,7 +112,7 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
     };
     const over = (pen: Pen, isMoving: boolean): void => {
       const scene = this.#scene(isMoving);
-      if (ground.scene.sites !== scene.sites) drawMoved(pen, drawing(), scene, ground, this.#state.held!);
+      if (ground.scene.sites !== scene.sites) drawMoved(pen, drawing(), scene, ground, this.now.held!);
       drawing().draw(pen, scene, "over");
     };
     const canvas = find<HTMLCanvasElement>(this.section, `#sphere-${which}`);
@@ -124,30 +121,16 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
 
   // State
 
-  state(isWhole: boolean): Record<string, string> {
-    const state = { ...this.#state, click: this.#click.value };
-    return { ...this.siteValues(isWhole), ...sphereFields(this.#sites.count).write(state) };
+  protected readonly fields = sphereFields;
+
+  /** Seen as the last ones were, or magnified. */
+  protected override beginning({ places }: NamedSites, before = BEGINNING): SphereState {
+    return { ...before, step: null, held: null, lens: BEGINNING.lens, ...sightOf(places) };
   }
 
-  /** The state goes on, as a link tells it. */
-  #put(change: Partial<SphereState>): void {
-    this.#state = sphereFields(this.#sites.count).settle({ ...this.#state, ...change });
-  }
-
-  override restore(values: LinkValues): void {
-    const named = this.sitesOf(values);
-    const begin = values.has("view-lon") ? {} : sightOf(named.places);
-    this.#state = sphereFields(named.places.length / 2).read(values, { ...BEGINNING, ...begin });
-    this.#history = [];
-    this.#click.value = this.#state.click;
-    super.restore(values);
-    this.#take(named);
-  }
-
-  /** Other sites, seen as the last ones were, or magnified. */
   protected override begin(named: NamedSites): void {
     this.#history = [];
-    this.#put({ step: null, held: null, lens: BEGINNING.lens, ...sightOf(named.places) });
+    this.#click.value = this.now.click;
     this.#take(named);
   }
 
@@ -156,11 +139,11 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
     const sites = new SphereSites(named.places);
     this.#sites = sites;
     this.#layers = ballLayers(sites);
-    if (this.#state.step !== null && this.#state.step >= sites.count) this.#put({ step: null });
+    if (this.now.step !== null && this.now.step >= sites.count) this.now = { ...this.now, step: null };
     this.show(named, {
       count: sites.count,
       heads: ["Latitude", "Longitude", "Neighbours"],
-      cells: (site) => [...sites.words(site), String(sites.neighborCounts[site])],
+      cells: (site) => [...sites.words(site), String(sites.neighborCounts()[site])],
     });
     find(this.section, "[data-show=closing]").hidden = !sites.hasClosing;
     const label = `Sphere with ${counted(sites.count)} ${sites.count === 1 ? "site" : "sites"}`;
@@ -171,7 +154,7 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
 
   /** The pole has moved, or the sites. The frame of the plane holds nearly all of these; it changes when the hand rests. */
   #project(rests: boolean): void {
-    const pole = directionAt(this.#state.pole);
+    const pole = directionAt(this.now.pole);
     this.#twin = new Twin(pole);
     this.#seeing = this.#sites.seeing(pole);
     if (!rests) return;
@@ -194,16 +177,12 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
 
   /** Everything that is said and drawn, after the state has changed. */
   #update(reason: Reason = "state"): void {
-    this.#bubble = this.#findBubble();
-    this.#step = this.#state.step === null ? null : this.#sites.insertion(this.#state.step - 1);
+    const { step, aim } = this.now;
+    const facet = step === null && this.isOn("bubble") ? this.#sites.facetAt(aim) : null;
+    this.#bubble = facet === null ? null : this.#sites.bubble(facet);
+    this.#step = step === null ? null : this.#sites.insertion(step - 1);
     this.#say();
     this.redraw(reason);
-  }
-
-  #findBubble(): Bubble | null {
-    if (!this.switches.isOn("bubble") || this.#state.step !== null) return null;
-    const facet = this.#sites.facetAt(this.#state.aim);
-    return facet === null ? null : this.#sites.bubble(facet);
   }
 
   #scene(isMoving: boolean): SphereScene {
@@ -217,29 +196,26 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
       seeing: this.#seeing,
       isOn: this.shown(isMoving, MANY),
       bubble: this.#bubble,
-      aim: this.#state.aim,
-      held: [this.#state.held, this.lit].filter((site) => site !== null && site < this.#sites.count) as number[],
+      aim: this.now.aim,
+      held: [this.now.held, this.lit].filter((site) => site !== null && site < this.#sites.count) as number[],
       step: this.#step,
     };
   }
 
   #say(): void {
-    const [sites, step, held] = [this.#sites, this.#step, this.#state.held];
-    const alone = withoutTriangles(sites);
-    const ofAll =
-      alone ??
-      (this.#bubble === null
-        ? "Point at a triangle for the circle round it."
-        : ofBubble(this.#bubble, sites, this.#twin));
-    const words = step === null ? [ofAll, ofDuplicates(sites)] : [ofStep(step)];
+    const [sites, step, bubble, { held }] = [this.#sites, this.#step, this.#bubble, this.now];
+    const { dimension } = sites.delaunay;
+    const aimed =
+      bubble === null ? "Point at a triangle for the circle round it." : ofBubble(bubble, sites, this.#twin);
+    const words = step === null ? [WITHOUT_TRIANGLES[dimension] ?? aimed, ofDuplicates(sites)] : [ofStep(step)];
     say(this.out("sentence"), words.filter(Boolean).join(" "));
-    say(this.out("sum"), alone === null ? ofFacets(sites.facetCount - this.#seeingCount, this.#seeingCount, SUM) : "");
-    this.out("sum").hidden = step !== null || alone !== null;
-    const isDrawn = (layer: Switch): boolean => alone === null && step === null && this.isOn(layer);
-    const steps = step !== null && step.before.length > 0;
+    say(this.out("sum"), ofFacets(sites.facetCount - this.#seeingCount, this.#seeingCount, SUM));
+    this.out("sum").hidden = step !== null || dimension < 2;
+    const isDrawn = (layer: Switch, least = 2): boolean => dimension >= least && step === null && this.isOn(layer);
+    const steps = step !== null && step.before.dimension === 2;
     const [onBall, inPlane] = ofPictures({
       triangles: steps || isDrawn("triangles"),
-      cells: isDrawn("cells") || (sites.delaunay.dimension === 1 && step === null && this.isOn("cells")),
+      cells: isDrawn("cells", 1),
       seeing: isDrawn("seeing") && this.#seeingCount > 0,
       steps,
     });
@@ -247,11 +223,11 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
     say(this.out("in-plane"), inPlane);
     const side = imageOf(this.#map, this.#twin.pole)[2] < 0 ? "behind" : "in front";
     say(this.out("pole-side"), `*P*, the pole of projection, lies ${side}.`);
-    say(this.out("lens"), ofLens(this.#state.lens));
-    this.#showStep(this.#state.step, sites.count);
-    this.#poleFields.value = this.#state.pole;
-    this.#viewFields.value = this.#state.view;
-    this.table.hold([...(this.#bubble?.sites ?? []), ...(held === null ? [] : [held])]);
+    say(this.out("lens"), ofLens(this.now.lens));
+    this.#showStep(this.now.step, sites.count);
+    this.#poleFields.value = this.now.pole;
+    this.#viewFields.value = this.view.middle;
+    this.table.hold([...(bubble?.sites ?? []), ...(held === null ? [] : [held])]);
     find<HTMLButtonElement>(this.section, "[data-do=undo]").disabled = this.#history.length === 0;
     this.#showSite(held === null ? null : [sites.lonlat[2 * held], sites.lonlat[2 * held + 1]]);
   }
@@ -267,11 +243,11 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
   }
 
   get view(): View {
-    return View.above(...this.#state.view);
+    return this.now.view;
   }
 
   get sight(): Sight {
-    return { lens: this.#state.lens, view: this.view };
+    return this.now;
   }
 
   /** Through the lens, to the axes of the view. */
@@ -284,24 +260,22 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
   }
 
   /** Turns the ball, and says it. */
-  turn({ middle: [lon, lat] }: View, reason: Reason = "state"): void {
-    this.#see([lon, lat], reason);
+  turn(view: View, reason: Reason = "state"): void {
+    this.#see({ view }, reason);
+    const [lon, lat] = view.middle;
     this.host.announcer.say(`Seen from ${latitude(lat, 0)}, ${longitude(lon, 0)}`);
   }
 
   see({ lens, view }: Sight, reason: Reason = "hand"): void {
-    this.#see(view.middle, reason, lens);
+    this.#see({ lens, view }, reason);
     this.host.announcer.say(plain(ofLens(lens)));
   }
 
   #gestures(picture: Picture): Gestures {
-    const { under } = picture;
     return {
-      take: picture.take,
-      hover: (at) => {
-        if (at !== null && picture.isOn(at)) this.#hover(under(at));
-      },
-      click: (at, reach) => this.#press(under(at), this.#siteNear(picture, at, reach)),
+      take: (at, reach) => this.#grab(at, reach),
+      hover: (at) => at && this.#hover(picture.under(at)),
+      click: (at, reach) => this.#press(picture.under(at), this.#siteNear(picture, at, reach)),
       key: (event) => this.#key(event),
     };
   }
@@ -312,8 +286,6 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
       const point = imageOf(this.#map, direction);
       return point[2] >= 0 ? placeOf(this.disc, point) : null;
     },
-    take: (at, reach) => this.#grab(at, reach),
-    isOn: (at, reach = 0) => distance(at, [this.disc.x, this.disc.y]) <= this.disc.r + reach,
   };
 
   /** The site nearest to what is under a place of a picture, where it is within reach. */
@@ -326,23 +298,21 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
 
   /** Takes hold of the pole's handle, a site, or the ball; null beside them. */
   #grab(at: Point, reach: number): Hold | null {
-    if (!this.#onBall.isOn(at, reach)) return null;
     const pole = poleSeen(this.#map, this.#twin);
     if (pole !== null && distance(placeOf(this.disc, pole), at) <= reach) return this.#grabPole(pole[2] < 0);
     // Where sites lie close, evenly spread, the ball can still be turned between them.
     const times = scaleAt(this.#map, this.#onBall.under(at));
     const spacing = times * this.disc.r * Math.sqrt((4 * Math.PI) / this.#sites.count);
     const near = Math.min(reach, REACH_OF_SITES, spacing / 3);
-    const site = this.#state.step === null ? this.#siteNear(this.#onBall, at, near) : null;
+    const site = this.now.step === null ? this.#siteNear(this.#onBall, at, near) : null;
     if (site === null) return grabBall(this, this.#motion, at);
-    let isFirst = true;
+    const before = this.named;
     return {
-      move: (to) => {
-        if (isFirst) this.#history.push(this.named);
-        isFirst = false;
-        this.host.guarded(() => this.#moveSite(site, this.#onBall.under(to), "pointer"));
+      move: (to) => this.host.guarded(() => this.#place(site, this.#onBall.under(to), "pointer")),
+      end: () => {
+        this.#history.push(before);
+        this.#rest();
       },
-      end: () => this.#rest(),
     };
   }
 
@@ -351,7 +321,7 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
     let [behind, wasOut] = [isBehind, false];
     return {
       move: (to) => {
-        const isOut = !this.#onBall.isOn(to);
+        const isOut = distance(to, [this.disc.x, this.disc.y]) > this.disc.r;
         if (!isOut && wasOut) behind = !behind;
         wasOut = isOut;
         const [x, y, z] = pointUnder(this.disc, to);
@@ -364,17 +334,17 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
 
   /** The bubble follows the pointer, unless one is kept. */
   #hover(direction: Vector): void {
-    if (this.#state.isPinned || this.#state.step !== null) return;
+    if (this.now.isPinned || this.now.step !== null) return;
     const before = this.#bubble?.facet ?? null;
-    this.#put({ aim: direction });
-    if (this.#sites.facetAt(this.#state.aim) === before) return;
+    this.put({ aim: direction });
+    if (this.#sites.facetAt(this.now.aim) === before) return;
     this.host.guarded(() => this.#update("pointer"));
     this.host.changed();
   }
 
   /** A click. @param site The one within reach. */
   #press(direction: Vector, site: number | null): void {
-    const mode = this.#state.step === null ? this.#click.value : "keep";
+    const mode = this.now.step === null ? this.#click.value : "keep";
     this.host.guarded(() => {
       if (mode === "add") this.#add(direction);
       else if (mode === "remove") this.#remove(site);
@@ -393,25 +363,22 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
 
   // What can be done
 
-  /** Shows another view. */
-  #see(place: Place, reason: Reason, lens = this.#state.lens): void {
-    this.#put({ view: place, lens });
+  #see(sight: Partial<Sight>, reason: Reason): void {
+    this.put(sight);
     this.#say();
     this.#ball.redraw(reason);
     this.host.changed();
   }
 
   /** Flies to another view; why is for others to say. */
-  #fly(to: Place): void {
-    const from = this.#state.view;
-    const east = wrap(to[0] - from[0]);
-    this.#motion.fly((t) =>
-      this.#see([from[0] + t * east, from[1] + t * (to[1] - from[1])], t < 1 ? "flight" : "state"),
-    );
+  #fly(view: View): void {
+    const from = this.sight;
+    const to = { lens: from.lens, view };
+    this.#motion.fly((t) => this.#see(betweenSights(from, to, t, true), t < 1 ? "flight" : "state"));
   }
 
   #movePole(place: Place, rests = true): void {
-    this.#put({ pole: place });
+    this.put({ pole: place });
     this.#project(rests);
     this.#update(rests ? "state" : "hand");
     this.host.changed();
@@ -420,65 +387,56 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
   }
 
   #set(change: Partial<SphereState>, held: number | null): void {
-    this.#put({ ...change, held });
+    this.put({ ...change, held });
     this.#update();
     this.host.changed();
   }
 
   /** The bubble there stays, or follows the pointer again where it is the one that was kept. */
   #keep(aim: Vector, site: number | null): void {
-    const isPinned = !this.#state.isPinned || this.#sites.facetAt(aim) !== this.#bubble?.facet;
+    const isPinned = !this.now.isPinned || this.#sites.facetAt(aim) !== this.#bubble?.facet;
     this.#set({ isPinned, aim }, site);
     if (this.#bubble !== null) this.host.announcer.say(ofBubble(this.#bubble, this.#sites, this.#twin));
   }
 
-  /** Shows what a hand has made of the sites, and says it. */
-  #edit(named: NamedSites, held: number | null, words: () => string, reason: Reason = "state"): void {
-    this.#state = { ...this.#state, held };
-    this.#take(named, reason);
-    this.changed(words());
+  /** Places a site elsewhere, or one more, or without a place takes it out; and says so. */
+  #edit(site: number, place: Place | null, reason: Reason = "state"): void {
+    if (reason === "state") this.#history.push(this.named);
+    this.now = { ...this.now, held: place && site };
+    this.#take(edited(this.named, site, place), reason);
+    this.changed(place === null ? `Site ${site + 1} removed` : ofSite(this.#sites, site, this.named.names?.[site]));
   }
 
-  #moveSite(site: number, direction: Vector, reason: Reason = "state"): void {
-    const [lon, lat] = handPlace(lonLatOf(direction), this.#state.lens.magnification);
-    this.#put({ aim: direction });
-    const words = (): string => `Site ${site + 1}: ${latitude(lat)}, ${longitude(lon)}`;
-    this.#edit(edited(this.named, site, [lon, lat]), site, words, reason);
+  #place(site: number, direction: Vector, reason?: Reason): void {
+    this.put({ aim: direction });
+    this.#edit(site, handPlace(lonLatOf(direction), this.now.lens.magnification), reason);
   }
 
   #moveHeld(place: Place): void {
-    if (this.#state.held === null) return;
-    this.#history.push(this.named);
-    this.#moveSite(this.#state.held, directionAt(place));
+    if (this.now.held !== null) this.#place(this.now.held, directionAt(place));
   }
 
   #add(direction: Vector): void {
-    const { count } = this.#sites;
-    this.#history.push(this.named);
-    this.#edit(edited(this.named, count, handPlace(lonLatOf(direction), this.#state.lens.magnification)), count, () => {
-      const same = this.#sites.sameAs(count);
-      return same === null
-        ? `Site ${count + 1} added, ${this.#sites.neighborCounts[count]} neighbours`
-        : `Site ${count + 1} lies exactly on site ${same + 1} and counts once.`;
-    });
-    this.table.reveal(count);
+    this.#place(this.count, direction);
+    this.table.reveal(this.count - 1);
   }
 
   #remove(site: number | null): void {
-    if (site === null) return;
-    this.#history.push(this.named);
-    this.#edit(edited(this.named, site, null), null, () => `Site ${site + 1} removed`);
+    if (site !== null) this.#edit(site, null);
   }
 
   #undo(): void {
     const before = this.#history.pop();
-    if (before !== undefined) this.host.guarded(() => this.#edit(before, null, () => "Undone"));
+    if (before === undefined) return;
+    this.now = { ...this.now, held: null };
+    this.host.guarded(() => this.#take(before));
+    this.changed("Undone");
   }
 
   /** Brings a site to the middle of the ball, and holds it. */
   protected override chosen(site: number): void {
-    this.#put({ held: site, aim: this.#sites.site(site) });
-    this.#fly(lonLatOf(imageOf(lensMap(this.#state.lens), this.#sites.site(site))));
+    this.put({ held: site, aim: this.#sites.site(site) });
+    this.#fly(View.above(...lonLatOf(imageOf(lensMap(this.now.lens), this.#sites.site(site)))));
     this.host.guarded(() => this.#update());
     this.changed(ofSite(this.#sites, site, this.named.names?.[site]));
   }
@@ -509,13 +467,13 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
     const factor = keyFactor(key);
     if (factor !== null) return () => this.see(magnified(this.sight, [0, 0, 1], factor, true, MOST), "state");
     const middle = sourceOf(this.#map, [0, 0, 1]);
-    if (key === "0") return () => this.see({ ...BEGINNING, view: View.above(...BEGINNING.view) }, "state");
+    if (key === "0") return () => this.see(BEGINNING, "state");
     if (key === "n") return () => this.#add(middle);
     const withSites: Record<string, () => void> = {
       ",": () => this.#walk(-1),
       ".": () => this.#walk(1),
-      Delete: () => this.#remove(this.#state.held),
-      Backspace: () => this.#remove(this.#state.held),
+      Delete: () => this.#remove(this.now.held),
+      Backspace: () => this.#remove(this.now.held),
       Enter: () => this.#press(middle, null),
       Escape: () => this.#set({ isPinned: false }, null),
     };
@@ -524,14 +482,14 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
 
   /** Moves the site that is held by degrees. */
   #nudge(east: number, north: number): void {
-    if (this.#state.held === null) return;
-    const [lon, lat] = this.#sites.lonlat.subarray(2 * this.#state.held);
+    if (this.now.held === null) return;
+    const [lon, lat] = this.#sites.lonlat.subarray(2 * this.now.held);
     this.#moveHeld([lon + east, Math.max(-90, Math.min(90, lat + north))]);
   }
 
   #walk(by: number): void {
     const { count } = this.#sites;
-    const site = this.#state.held === null ? (by > 0 ? 0 : count - 1) : (this.#state.held + by + count) % count;
+    const site = this.now.held === null ? (by > 0 ? 0 : count - 1) : (this.now.held + by + count) % count;
     this.chosen(site);
     this.table.reveal(site);
   }
@@ -548,7 +506,6 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
       title: this.title,
       width: 2 * size + GAP,
       height: size,
-      weight: 1,
       paint: (pen) => {
         for (const drawing of [ballDrawing(disc), planeDrawing(frame)])
           for (const stratum of ["ground", "over"] as const) drawing.draw(pen, scene, stratum);
@@ -558,18 +515,14 @@ class SphereRoom extends SiteRoom implements Room, Magnifiable {
 
   /** Of a step of the insertion, its triangles. */
   geojson(exchange: Exchange): string {
-    const { step } = this.#state;
+    const { step } = this.now;
     if (step !== null) return exchange.geojson(new SphereSites(this.#sites.lonlat.subarray(0, 2 * step)).triangles());
-    return exchange.geojson(regionsOf(sphereParts(this.#scene(false)), this.isOn));
+    return exchange.geojson(regionsOf(sphereParts(this.#scene(false))));
   }
 
   python(exchange: Exchange): string {
-    const sizes = { size: this.#ball.width, ball: this.disc.r, gap: GAP, ...this.#around };
-    const scene = this.#scene(false);
-    const pole = poleSeen(this.#map, this.#twin);
-    return exchange.spherePython(scene, this.#state, pole, this.origin, {
-      ...sizes,
-      middle: this.#around.middle.join(", "),
-    });
+    const { reach, middle } = this.#around;
+    const sizes = { size: this.#ball.width, ball: this.disc.r, gap: GAP, reach, middle: middle.join(", ") };
+    return exchange.spherePython(this.#scene(false), this.now, this.origin, sizes);
   }
 }

@@ -1,17 +1,17 @@
 /** The two pictures of the Sphere room: the ball, and the plane that its sites are projected to. */
 
-import { arcThrough, traceCap, traceCircle, type Circle } from "../drawing/arcs.ts";
+import { arcThrough, traceCap, traceCircle } from "../drawing/arcs.ts";
 import * as balls from "../drawing/ball.ts";
 import type { Layer, Surface } from "../drawing/ball.ts";
-import { drawNames, Seats, sidesToward, widthOf, type Box, type Named } from "../drawing/names.ts";
+import { drawNames, Seats, sidesToward, type Named } from "../drawing/names.ts";
 import { drawParts, type IsOn, type Part } from "../drawing/parts.ts";
 import { cornersOf, drawHandle, traceCorners, traceDisc, traceSegment } from "../drawing/pen.ts";
 import type { Disc, Path, Pen, Point } from "../drawing/pen.ts";
 import type { LabelStyle, StyleName } from "../drawing/styles.ts";
-import type { MoebiusMap } from "../kernel/api.ts";
+import type { MoebiusMap, SphericalDelaunay } from "../kernel/api.ts";
 import { lazy } from "../kernel/lazy.ts";
 import { following } from "../kernel/topology.ts";
-import { cross, dot, type Vector } from "../space.ts";
+import { cross, dot, row, type Vector } from "../space.ts";
 import { imageOf, sourceOf } from "../view/lens.ts";
 import type { View } from "../view/view.ts";
 import type { Bubble, Insertion, SphereSites } from "./sphere_sites.ts";
@@ -42,19 +42,13 @@ export interface SphereScene {
 const BALL_LABEL: LabelStyle = { ink: "accent-text", halo: "ball", size: 15 };
 const NAME: LabelStyle = { ink: "ink", halo: "ball", size: 13 };
 
-/** Height above the picture, ball radii, below which a site's number would be cut by the limb. */
-const LEAST_HEIGHT = 0.2;
-
-/** Radius of a circle of the plane, px, below which the numbers of its sites would lie on each other. */
-const LEAST_CIRCLE = 12;
-
 /** What is drawn of sites on the ball, whose directions stay in the kernel while the ball turns. */
 export type BallLayers = Readonly<Record<"edges" | "ridges" | "dots", Layer>>;
 
 export function ballLayers(sites: SphereSites): BallLayers {
   return lazy({
-    edges: () => balls.arcLayer("delaunay", balls.edgeArcs(sites.delaunay)),
-    ridges: () => balls.arcLayer("voronoi", balls.ridgeArcs(sites.voronoi)),
+    edges: () => balls.arcLayer("delaunay", balls.arcsBetween(sites.delaunay.points, sites.delaunay.edges)),
+    ridges: () => balls.arcLayer("voronoi", balls.ridgeArcs(sites.voronoi())),
     dots: () => balls.dotLayer("site", sites.xyz),
   });
 }
@@ -62,7 +56,6 @@ export function ballLayers(sites: SphereSites): BallLayers {
 /** The ball or the plane: a surface, and what is drawn on it in its own way. */
 interface Picture extends Surface {
   readonly isPlane: boolean;
-  readonly label: LabelStyle;
   /** Where numbers and names are set. */
   readonly seats: Seats;
   /** The region of the facets that are marked. */
@@ -71,18 +64,14 @@ interface Picture extends Surface {
   cells(): void;
   bubble(bubble: Bubble): void;
   dots(): void;
-  names?(named: Named): void;
-  /** The side of its dot on which the number of a bubble's site stands, y up; null where it is left out. */
-  side(bubble: Bubble, site: number): Point | null;
-  /** The facets that see the new site of a step, or those of its fan. */
-  opening(path: Path, insertion: Insertion, isThere: (k: number) => boolean): void;
+  /** A facet, unless it is none of the triangles there. */
+  facet(path: Path, sites: Vector): void;
 }
 
 /** What both pictures show. */
 export function sphereParts(scene: SphereScene): Part<Picture>[] {
-  const { sites, named, seeing, bubble, held, step } = scene;
+  const { sites, layers, map, named, seeing, bubble, held, step } = scene;
   const isThere = step === null;
-  const whole = { isThere, always: ["geojson"] as const }; // all sites, whatever is drawn of them, at any step
   const isAimed = isThere && bubble !== null;
   return [
     { layer: "seeing", isThere: isThere && seeing.includes(1), draw: (_, on) => on.hatch("hatch", seeing) },
@@ -91,16 +80,22 @@ export function sphereParts(scene: SphereScene): Part<Picture>[] {
       isThere: isThere && sites.hasClosing,
       draw: (_, on) => on.isPlane || on.hatch("closing", sites.delaunay.closing),
     },
-    { layer: "triangles", ...whole, draw: (_, on) => on.triangles(), regions: () => sites.triangles() },
-    { layer: "cells", ...whole, draw: (_, on) => on.cells(), regions: () => sites.cells() },
-    { layer: "seeing", isThere, draw: (pen, on) => pen.draw("hull", (path) => on.ring(path, sites.outline(seeing))) },
+    { layer: "triangles", isThere, draw: (_, on) => on.triangles(), regions: () => sites.triangles() },
+    { layer: "cells", isThere, draw: (_, on) => on.cells(), regions: () => sites.cells() },
+    { layer: "seeing", isThere, draw: (pen, on) => on.lines(pen, "hull", balls.sidesOf(sites.rings(seeing)[0])) },
     { isThere, draw: (_, on) => on.dots() },
     { isThere: !isThere, draw: (pen, on) => drawStep(pen, on, scene, step!) },
     { layer: "bubble", isThere: isAimed, isOver: true, draw: (_, on) => on.bubble(bubble!) },
     { isThere, isOver: true, draw: (pen, on) => balls.drawDots(pen, on, "held", [...(bubble?.sites ?? []), ...held]) },
-    // Names first: they stay while the bubble follows the pointer.
-    { layer: "names", isThere: isThere && named !== null, isOver: true, draw: (_, on) => on.names?.(named!) },
-    { layer: "bubble", isThere: isAimed, isOver: true, draw: (_, on) => drawNumbers(on, bubble!) },
+    // The pole and names before numbers: they stay while the bubble follows the pointer.
+    { isOver: true, draw: (pen, on) => on.isPlane || drawPole(pen, on, scene) },
+    {
+      layer: "names",
+      isThere: isThere && named !== null,
+      isOver: true,
+      draw: (_, on) => on.isPlane || drawNames(on.seats, named!, map.apply(layers.dots.directions), NAME),
+    },
+    { layer: "bubble", isThere: isAimed, isOver: true, draw: (_, on) => drawNumbers(on, bubble!.sites) },
   ];
 }
 
@@ -151,48 +146,41 @@ export function ballDrawing(disc: Disc): Drawing {
       const site = (k: number): Vector => sites.site(k);
       const surface = isPlain ? balls.ballSurface(disc, (k) => view.seen(site(k))) : balls.ballSurface(disc, site, map);
       const hidden = sourceOf(map, [0, 0, -1]);
-      // Through its sites: of a small circle a centre and a radius say less.
-      const rimOf = (bubble: Bubble): Circle | null =>
-        arcThrough(map.apply(bubble.sites.flatMap((k) => [...site(k)])), 0, true);
-      const pole = poleLabel(disc, scene);
-      const seats = new Seats(pen, disc, pole === null ? [] : [pole.box]);
+      const seats = new Seats(pen, disc);
       const ball: Picture = {
         ...surface,
         isPlane: false,
-        label: BALL_LABEL,
         seats,
-        hatch(style, marked) {
-          pen.draw(style, (path) => surface.region(path, sites.outline(marked), sites.regionHolds(marked, hidden)));
+        hatch(style, facets) {
+          // What lies beyond all triangles is one region: that of all facets that close the hull, if one is marked.
+          const { closing } = sites.delaunay;
+          const beyond = facets.find((mark, k) => mark === 1 && closing[k] === 1) ?? 0;
+          const marked = facets.map((mark, k) => (closing[k] ? beyond : mark));
+          const holds = marked[sites.facetAt(hidden) ?? closing.indexOf(1)] === 1;
+          const rings = sites.rings(marked);
+          pen.draw(style, (path) => rings.forEach((ring, k) => surface.region(path, ring, holds && k === 0)));
         },
         triangles: () => balls.drawLayers(pen, disc, map, [layers.edges]),
         cells: () => balls.drawLayers(pen, disc, map, [layers.ridges]),
         bubble(bubble) {
-          const rim = rimOf(bubble);
+          // Through its sites: of a small circle a centre and a radius say less.
+          const rim = arcThrough(map.apply(bubble.sites.flatMap((k) => [...site(k)])), 0, true);
           if (rim === null) return;
           pen.draw("seen", (path) => traceCap(path, disc, rim));
           pen.draw("bubble-open", (path) => traceCircle(path, disc, rim));
-          pen.draw("triangle", (path) => surface.ring(path, bubble.sites));
+          surface.lines(pen, "triangle", balls.sidesOf(bubble.sites));
         },
         dots: () => balls.drawLayers(pen, disc, map, [layers.dots]),
-        names: (named) => drawNames(seats, named, map.apply(layers.dots.directions), NAME),
-        side(bubble, site) {
-          const [point, rim] = [imageOf(map, sites.site(site)), rimOf(bubble)];
-          if (rim === null || point[2] < LEAST_HEIGHT) return null;
-          return [point[0] - rim.n[0], point[1] - rim.n[1]];
+        facet(path, sites) {
+          const [a, b, c] = sites.map(site);
+          const normals = [cross(a, b), cross(b, c), cross(c, a)];
+          const holds = normals.every((n) => dot(n, hidden) >= 0);
+          if (dot(normals[0], c) > 0) surface.region(path, sites, holds); // others only close the hull
         },
-        opening: (path, { before, seeing }) =>
-          seeing.forEach((facet) => {
-            const three = [...before.subarray(3 * facet, 3 * facet + 3)];
-            const [a, b, c] = three.map(site);
-            const normals = [cross(a, b), cross(b, c), cross(c, a)];
-            const holds = normals.every((n) => dot(n, hidden) >= 0);
-            if (dot(normals[0], c) > 0) surface.region(path, three, holds); // others only close the hull
-          }),
       };
       if (stratum === "ground") pen.ball(disc, "ball");
       drawStratum(pen, ball, scene, stratum);
       if (stratum === "ground") pen.draw("limb", (path) => traceDisc(path, disc));
-      else pole?.draw(pen);
     },
     round: ({ sites, layers, map }) =>
       roundFacets(map.apply(layers.dots.directions), sites, (center, cosine) => {
@@ -211,17 +199,17 @@ export function planeDrawing(frame: PlaneFrame): Drawing {
       const { x, y, size } = frame;
       const flat = (k: number): Point => frame.place(twin.forward(sites.site(k)));
       const whole = (path: Path): void => traceCorners(path, cornersOf(x, y, x + size, y + size));
+      const places = (): number[] => Array.from({ length: sites.count }, (_, site) => flat(site)).flat();
       const surface = balls.planeSurface(flat, whole);
       const plane: Picture = {
         ...surface,
         isPlane: true,
-        label: { ...BALL_LABEL, halo: "halo" },
         seats: new Seats(pen),
         // The outline runs clockwise on the picture, as the frame does: turned round, the path winds once between them.
         hatch: (style, marked) =>
-          pen.draw(style, (path) => surface.region(path, sites.outline(marked).reverse(), true)),
-        triangles: () => surface.lines(pen, "delaunay", edgesOf(sites.delaunay.simplices, seeing)),
-        cells: () => balls.drawSegments(pen, "voronoi", planeRidges(frame, scene)),
+          pen.draw(style, (path) => surface.region(path, sites.rings(marked)[0].reverse(), true)),
+        triangles: () => surface.lines(pen, "delaunay", edgesOf(sites.delaunay, seeing)),
+        cells: () => pen.lines("voronoi", balls.ridgeSegments(places(), 2 * size)),
         bubble(bubble) {
           const image = twin.circle(bubble.center, bubble.cosine);
           if (image.isLine) {
@@ -234,31 +222,16 @@ export function planeDrawing(frame: PlaneFrame): Drawing {
           }
           const [x, y] = frame.place(image.middle);
           const r = image.radius * frame.scale;
-          const ring = (path: Path): void => {
-            path.moveTo(x + r, y);
-            path.ellipse(x, y, r, r, 0, 2 * Math.PI, 0, true);
-            path.closePath();
-          };
+          const ring = (path: Path): void => traceDisc(path, { x, y, r }, true);
           pen.draw("seen", (path) => {
             if (image.holdsPole) whole(path);
             ring(path);
           });
           pen.draw("bubble-open", ring);
-          if (!image.holdsPole) pen.draw("triangle", (path) => surface.ring(path, bubble.sites));
+          if (!image.holdsPole) surface.lines(pen, "triangle", balls.sidesOf(bubble.sites));
         },
         dots: () => balls.drawDots(pen, surface, "site", Array(sites.count).keys()),
-        side(bubble, site) {
-          const image = twin.circle(bubble.center, bubble.cosine);
-          if (image.isLine || image.radius * frame.scale < LEAST_CIRCLE) return null;
-          const [u, v] = twin.forward(sites.site(site));
-          const sign = image.holdsPole ? -1 : 1;
-          return [sign * (u - image.middle[0]), sign * (v - image.middle[1])];
-        },
-        opening(path, { outline, site }, isThere) {
-          outline.forEach((a, k) => {
-            if (isThere(k)) surface.ring(path, [a, outline[(k + 1) % outline.length], site]);
-          });
-        },
+        facet: (path, sites) => surface.region(path, sites, false),
       };
       pen.within({ region: whole }, () => drawStratum(pen, plane, scene, stratum));
       if (stratum === "ground") pen.draw("frame", whole);
@@ -276,14 +249,15 @@ function drawStratum(pen: Pen, on: Picture, scene: SphereScene, stratum: Stratum
   drawParts(pen, on, parts, scene.isOn);
 }
 
-/** The numbers of a bubble's sites. */
-function drawNumbers(on: Picture, bubble: Bubble): void {
-  for (const site of bubble.sites) on.seats.takeDot(on.place(site), 3);
-  for (const site of bubble.sites) {
-    const out = on.side(bubble, site);
-    if (out === null) continue;
-    on.seats.set(String(site + 1), on.place(site), on.label, sidesToward(out[0], -out[1]));
-  }
+/** The numbers of sites, on the sides that point away from their middle. */
+function drawNumbers({ seats, place, isSeen, isPlane }: Picture, sites: Vector): void {
+  const label: LabelStyle = { ...BALL_LABEL, halo: isPlane ? "halo" : "ball" };
+  const places = sites.map(place);
+  const [x, y] = [0, 1].map((k) => places.reduce((sum, at) => sum + at[k], 0) / places.length);
+  for (const at of places) seats.takeDot(at, 3);
+  places.forEach((at, k) => {
+    if (isSeen(sites[k])) seats.set(String(sites[k] + 1), at, label, sidesToward(at[0] - x, at[1] - y));
+  });
 }
 
 const NONE = new Int32Array(0);
@@ -291,18 +265,23 @@ const NONE = new Int32Array(0);
 /** A step of the insertion. */
 function drawStep(pen: Pen, on: Picture, { sites, twin }: SphereScene, step: Insertion): void {
   const { site, before, outline, fan } = step;
-  const [beforeSeeing, fanSeeing] = [before, fan].map((facets) => sites.seeing(twin.pole, on.isPlane ? facets : NONE));
+  const [beforeSeeing, fanSeeing] = [before.simplices, fan].map((facets) =>
+    sites.seeing(twin.pole, on.isPlane ? facets : NONE),
+  );
   // Facets of the fan that see the pole are no triangles of the plane, nor are sides between two of them its sides.
   const isThere = (k: number): boolean => !fanSeeing[(k + outline.length) % outline.length];
-  if (outline.length > 0) pen.draw("seen", (path) => on.opening(path, step, isThere));
+  pen.draw("seen", (path) => outline.forEach((_, k) => isThere(k) && on.facet(path, row(fan, k))));
   on.lines(pen, "delaunay", edgesOf(before, beforeSeeing));
-  pen.draw("fan", (path) => outline.forEach((a, k) => (isThere(k) || isThere(k - 1)) && on.line(path, site, a)));
-  pen.draw("horizon", (path) =>
-    outline.forEach((a, k) => isThere(k) && on.line(path, a, outline[(k + 1) % outline.length])),
-  );
+  const spokes = outline.flatMap((a, k) => (isThere(k) || isThere(k - 1) ? [site, a] : []));
+  const rim = balls.sidesOf(outline).filter((_, k) => isThere(k >> 1));
+  on.lines(pen, "fan", spokes);
+  on.lines(pen, "horizon", rim);
   balls.drawDots(pen, on, "site", Array(site + 1).keys());
   balls.drawDots(pen, on, "held", [site]);
 }
+
+/** Radius of the pole's handle, px. */
+const HANDLE = 7;
 
 /** Magnification up to which the pole is shown behind: above it all that is behind is one point. */
 const BEHIND_UP_TO = 10;
@@ -313,56 +292,22 @@ export function poleSeen(map: MoebiusMap, twin: Twin): Vector | null {
   return pole[2] < 0 && map.magnification > BEHIND_UP_TO ? null : pole;
 }
 
-/** The pole's handle and its name, beside it towards the middle, where there is room; the box of both, and what draws them. */
-function poleLabel(disc: Disc, { map, twin }: SphereScene) {
+/** The pole's handle and its name, beside it towards the middle. */
+function drawPole(pen: Pen, { seats }: Picture, { map, twin }: SphereScene): void {
   const pole = poleSeen(map, twin);
-  if (pole === null) return null;
-  const [isFront, [x, y]] = [pole[2] >= 0, balls.placeOf(disc, pole)];
-  const [text, isLeft] = [isFront ? "*P*" : "*P*, behind", x > disc.x];
-  const width = 11 + widthOf(text, BALL_LABEL);
-  const box: Box = [x - (isLeft ? width : 7), y - 7, x + (isLeft ? 7 : width), y + 9];
-  const draw = (pen: Pen): void => {
-    drawHandle(pen, x, y, isFront ? "front" : "behind");
-    pen.label(text, x + (isLeft ? -11 : 11), y + 5, { ...BALL_LABEL, align: isLeft ? "right" : "left" });
-  };
-  return { box, draw };
-}
-
-/** Ridges between the triangles of the plane, and rays where one has no neighbour: the centres are those of its circles. */
-function planeRidges(frame: PlaneFrame, { sites, twin, seeing }: SphereScene): number[] {
-  const { simplices, neighbors } = sites.delaunay;
-  const middles = Array.from(seeing, (_, facet): Point => {
-    const { center, cosine } = sites.bubble(facet);
-    return twin.circle(center, cosine).middle;
-  });
-  const ends: number[] = [];
-  for (let at = 0; at < neighbors.length; ++at) {
-    const facet = Math.floor(at / 3);
-    const beyond = neighbors[at];
-    if (seeing[facet] || (!seeing[beyond] && beyond < facet)) continue;
-    if (!seeing[beyond]) {
-      ends.push(...frame.place(middles[facet]), ...frame.place(middles[beyond]));
-      continue;
-    }
-    // The side opposite the corner runs counterclockwise: outward is to its right.
-    const [a, b] = [1, 2].map((k) => twin.forward(sites.site(simplices[3 * facet + ((at + k) % 3)])));
-    const length = Math.hypot(b[0] - a[0], b[1] - a[1]);
-    const [u, v] = middles[facet];
-    const far = (4 * frame.reach + Math.hypot(u - frame.middle[0], v - frame.middle[1])) / length;
-    ends.push(...frame.place([u, v]), ...frame.place([u + far * (b[1] - a[1]), v - far * (b[0] - a[0])]));
-  }
-  return ends;
+  if (pole === null) return;
+  const [isFront, at] = [pole[2] >= 0, balls.placeOf(seats.disc, pole)];
+  drawHandle(pen, ...at, isFront ? "front" : "behind");
+  seats.takeDot(at, HANDLE);
+  seats.set(isFront ? "*P*" : "*P*, behind", at, BALL_LABEL, sidesToward(-pole[0], 0), HANDLE);
 }
 
 /** Every edge once of facets of which one at least does not see the pole. */
-function edgesOf(facets: Int32Array, seeing: Uint8Array): number[] {
-  const [drawn, edges] = [new Set<number>(), [] as number[]];
-  for (let k = 0; k < facets.length; ++k) {
-    const [a, b] = [facets[k], facets[following(k)]];
-    const name = Math.min(a, b) * 2 ** 26 + Math.max(a, b);
-    if (seeing[Math.floor(k / 3)] || drawn.has(name)) continue;
-    drawn.add(name);
-    edges.push(a, b);
-  }
+function edgesOf({ simplices, neighbors }: SphericalDelaunay, seeing: Uint8Array): number[] {
+  const edges: number[] = [];
+  neighbors.forEach((beyond, at) => {
+    const [a, b] = [following(at), following(following(at))].map((k) => simplices[k]);
+    if (!seeing[Math.floor(at / 3)] && (a < b || seeing[beyond])) edges.push(a, b);
+  });
   return edges;
 }

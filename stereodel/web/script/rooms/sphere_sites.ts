@@ -2,19 +2,15 @@
 
 import { cellOf, type Region } from "../drawing/parts.ts";
 import { inBubble, lonlatToXyz, SphericalDelaunay, SphericalVoronoi } from "../kernel/api.ts";
-import { following } from "../kernel/topology.ts";
+import { once } from "../kernel/lazy.ts";
+import { boundaryOf } from "../kernel/topology.ts";
 import { angle, dot, lonLatOf, row, type Vector } from "../space.ts";
 import { counted, latitude, longitude, scale, several, sized } from "../words.ts";
 import type { Lens } from "../view/lens.ts";
 import type { Twin } from "./twin.ts";
 
-/** The circle round a facet: its centre on the outer side, the cosine of its angular radius, its three sites. */
-export interface Bubble {
-  readonly facet: number;
-  readonly sites: readonly [number, number, number];
-  readonly center: Vector;
-  readonly cosine: number;
-}
+export type Bubble = ReturnType<SphereSites["bubble"]>;
+export type Insertion = ReturnType<SphereSites["insertion"]>;
 
 export class SphereSites {
   /** Longitude and latitude in turn, degrees. */
@@ -22,8 +18,7 @@ export class SphereSites {
   /** Directions. */
   readonly xyz: Float64Array;
   readonly delaunay: SphericalDelaunay;
-  #voronoi: SphericalVoronoi | null = null;
-  #neighborCounts: Int32Array | null = null;
+  readonly voronoi = once(() => new SphericalVoronoi(this.delaunay));
 
   constructor(lonlat: Float64Array) {
     this.lonlat = lonlat;
@@ -39,10 +34,6 @@ export class SphereSites {
     return this.delaunay.simplices.length / 3;
   }
 
-  get voronoi(): SphericalVoronoi {
-    return (this.#voronoi ??= new SphericalVoronoi(this.delaunay));
-  }
-
   /** A site's direction. */
   site(k: number): Vector {
     return row(this.xyz, k);
@@ -54,21 +45,13 @@ export class SphereSites {
   }
 
   /** How many cells lie beside that of each site: across edges, or across the ridges of sites on one great circle. */
-  get neighborCounts(): Int32Array {
-    if (this.#neighborCounts !== null) return this.#neighborCounts;
+  readonly neighborCounts = once(() => {
     const { simplices, dimension } = this.delaunay;
-    this.#neighborCounts = new Int32Array(this.count);
+    const counts = new Int32Array(this.count);
     // As many facets meet at a site as edges do, where there are any; on one circle it has the two next to it.
-    for (const k of dimension === 1 ? this.voronoi.ridgePoints : simplices) ++this.#neighborCounts[k];
-    return this.#neighborCounts;
-  }
-
-  /** The site that a duplicate repeats, or null. */
-  sameAs(site: number): number | null {
-    const { duplicates } = this.delaunay;
-    for (let k = 0; k < duplicates.length; k += 2) if (duplicates[k] === site) return duplicates[k + 1];
-    return null;
-  }
+    for (const k of dimension === 1 ? this.voronoi().ridgePoints : simplices) ++counts[k];
+    return counts;
+  });
 
   /** The facet that holds a direction, or null. */
   facetAt(direction: Vector): number | null {
@@ -77,11 +60,11 @@ export class SphereSites {
     return found < 0 ? null : found;
   }
 
-  /** The circle round a facet. */
-  bubble(facet: number): Bubble {
-    const [a, b, c] = this.delaunay.simplices.subarray(3 * facet, 3 * facet + 3);
+  /** The circle round a facet: its three sites, its centre on the outer side, the cosine of its angular radius. */
+  bubble(facet: number) {
+    const sites = row(this.delaunay.simplices, facet);
     const center = row(this.delaunay.circumcenters, facet);
-    return { facet, sites: [a, b, c], center, cosine: dot(center, this.site(a)) };
+    return { facet, sites, center, cosine: dot(center, this.site(sites[0])) };
   }
 
   /** One byte a facet: 1 where its closed bubble holds the pole, so that the plane does not have it. */
@@ -89,9 +72,10 @@ export class SphereSites {
     return Uint8Array.from(bubbleSigns(this.xyz, facets, pole), (sign) => (sign >= 0 ? 1 : 0));
   }
 
-  /** The sites around the facets that are marked, such as those that see the pole, which are on the left. */
-  outline(marked: Uint8Array): number[] {
-    return outlineOf(this.delaunay.simplices, (facet) => marked[facet] === 1);
+  /** The closed lines of sites around the facets that are marked, such as those that see the pole: on their left. */
+  rings(marked: Uint8Array): number[][] {
+    const { simplices, neighbors } = this.delaunay;
+    return chained(boundaryOf(simplices, neighbors, (facet) => marked[facet] === 1));
   }
 
   /** Whether all sites lie in a hemisphere, so that some facets are no spherical triangles. */
@@ -99,20 +83,13 @@ export class SphereSites {
     return this.delaunay.closing.includes(1);
   }
 
-  /** Whether the region of the facets that are marked holds a direction. */
-  regionHolds(marked: Uint8Array, direction: Vector): boolean {
-    const facet = this.facetAt(direction);
-    if (facet !== null) return marked[facet] === 1;
-    return this.delaunay.closing.some((isClosing, k) => isClosing === 1 && marked[k] === 1);
-  }
-
   /** The sites' cells; that of a site alone is all of the sphere. */
   cells(): Region[] {
-    const areas = this.count > 0 ? this.voronoi.areas() : [];
+    const areas = this.count > 0 ? this.voronoi().areas() : [];
     return Array.from(areas, (area, site) => {
-      if (this.sameAs(site) !== null) return [];
       const properties = { kind: "cell", point: site, area };
-      return this.delaunay.dimension === 0 ? [{ properties, corners: [] }] : cellOf(this.voronoi, site, properties);
+      const isAlone = this.delaunay.dimension === 0 && area > 0;
+      return isAlone ? [{ properties, corners: [] }] : cellOf(this.voronoi(), site, properties);
     }).flat();
   }
 
@@ -127,11 +104,15 @@ export class SphereSites {
     });
   }
 
-  /** What it does to insert a site into those before it. One that lies on the bubble of a facet displaces nothing there. */
-  insertion(site: number): Insertion {
-    const before = new SphericalDelaunay(this.xyz.subarray(0, 3 * site)).simplices;
-    const signs = bubbleSigns(this.xyz, before, this.site(site));
-    const outline = outlineOf(before, (facet) => signs[facet] > 0);
+  /**
+   * What it does to insert a site into those before it, which have no facets where they lie on one great circle: which of
+   * their facets see the site, the outline of these, empty where none does, and the facets that close the hole. One that
+   * lies on the bubble of a facet displaces nothing there.
+   */
+  insertion(site: number) {
+    const before = new SphericalDelaunay(this.xyz.subarray(0, 3 * site));
+    const signs = bubbleSigns(this.xyz, before.simplices, this.site(site));
+    const [outline] = chained(boundaryOf(before.simplices, before.neighbors, (facet) => signs[facet] > 0));
     const fan = Int32Array.from(outline.flatMap((corner, k) => [corner, outline[(k + 1) % outline.length], site]));
     return { site, before, seeing: [...signs.keys()].filter((facet) => signs[facet] > 0), outline, fan };
   }
@@ -152,67 +133,36 @@ export function bubbleSigns(xyz: Float64Array, simplices: Int32Array, point: Vec
   return inBubble(corner(0), corner(1), corner(2), point);
 }
 
-/** What inserting a site does to the facets before. */
-export interface Insertion {
-  /** Index of the new site. */
-  readonly site: number;
-  /** Facets of the sites before, (m, 3) flat; none where these lie on one great circle. */
-  readonly before: Int32Array;
-  /** Indices of those that see the site. */
-  readonly seeing: readonly number[];
-  /** Sites of their outline, counterclockwise seen from outside; empty where nothing sees the site. */
-  readonly outline: readonly number[];
-  /** The facets that close the hole, (k, 3) flat. */
-  readonly fan: Int32Array;
-}
-
-/** The one closed line around some facets, on their left: their sides without a facet of theirs across. */
-function outlineOf(facets: Int32Array, isChosen: (facet: number) => boolean): number[] {
-  const sides = new Map<string, [number, number]>();
-  facets.forEach((a, at) => {
-    if (!isChosen(Math.floor(at / 3))) return;
-    const b = facets[following(at)];
-    if (!sides.delete(`${b} ${a}`)) sides.set(`${a} ${b}`, [a, b]);
+/** The closed lines of directed edges, two points each; without any an empty one. */
+export function chained(edges: Int32Array): number[][] {
+  const next = new Map<number, number[]>();
+  for (let k = 0; k < edges.length; k += 2) next.set(edges[k], [...(next.get(edges[k]) ?? []), edges[k + 1]]);
+  const lines = [...next.keys()].map((begin) => {
+    const line: number[] = [];
+    for (let at = begin, to; (to = next.get(at)!.pop()) !== undefined; at = to) line.push(at);
+    return line;
   });
-  return chained(new Map(sides.values()));
+  return lines.length === 0 ? [[]] : lines.filter((line) => line.length > 0);
 }
 
-/** The closed line that begins with the first key: from each number to its value. */
-export function chained(next: Map<number, number>): number[] {
-  const outline: number[] = [];
-  for (let at = next.keys().next().value; at !== undefined && next.has(at);) {
-    outline.push(at);
-    const to: number = next.get(at)!;
-    next.delete(at);
-    at = to;
-  }
-  return outline;
-}
-
-/** What there is to say of sites without triangles; null where there are triangles. */
-export function withoutTriangles(sites: SphereSites): string | null {
-  const { dimension } = sites.delaunay;
-  if (dimension === 2) return null;
-  if (sites.count === 0) return "No sites yet. Click the ball, or open a file.";
-  if (dimension === 0) return "All sites lie at one place: its cell is the whole sphere, and there are no triangles.";
-  return sites.count === 2
-    ? "Two sites: each has half of the sphere, and there are no triangles."
-    : "All sites lie on one great circle: there are no triangles.";
-}
+/** What there is to say of sites without triangles, by their dimension. */
+export const WITHOUT_TRIANGLES: Readonly<Record<number, string>> = {
+  [-1]: "No sites yet. Click the ball, or open a file.",
+  0: "All sites lie at one place: its cell is the whole sphere, and there are no triangles.",
+  1: "All sites lie on one great circle: there are no triangles.",
+};
 
 /** What the pictures show, below each: of the ball, and of the plane. */
-export function ofPictures(
-  has: Readonly<Record<"triangles" | "cells" | "seeing" | "steps", boolean>>,
-): [string, string] {
-  const strong = "Delaunay triangles in strong lines, Voronoi cells in thin ones.";
-  const lines = ["", "Voronoi cells.", "Delaunay triangles.", strong][2 * Number(has.triangles) + Number(has.cells)];
-  const ball = has.steps ? "Delaunay triangles, new ones dashed." : lines;
-  const plane = [
-    has.triangles && "The same triangles.",
-    has.seeing && "Hatched is where the facets go that see *P*.",
-    has.cells && "Cells differ: centres are not sent to centres.",
-  ];
-  return [ball, plane.filter(Boolean).join(" ")];
+const PICTURES = {
+  triangles: ["Delaunay triangles.", "The same triangles."],
+  steps: ["New ones are dashed.", ""],
+  cells: ["Voronoi cells in thin lines.", "Cells differ: centres are not sent to centres."],
+  seeing: ["", "Hatched is where the facets go that see *P*."],
+} as const;
+
+export function ofPictures(has: Readonly<Record<keyof typeof PICTURES, boolean>>): string[] {
+  const shown = Object.entries(PICTURES).filter(([name]) => has[name as keyof typeof PICTURES]);
+  return [0, 1].map((k) => shown.flatMap(([, words]) => words[k] || []).join(" "));
 }
 
 /** What the circle round a triangle is on the sphere and in the plane. */
@@ -243,24 +193,25 @@ export function ofLens({ focus, magnification }: Lens): string {
 /** What inserting a site does. */
 export function ofStep({ site, before, seeing, outline }: Insertion): string {
   const name = `Site _${site + 1}_`;
-  if (before.length === 0)
+  if (before.dimension < 2)
     return `${name} is one of the first: all before it lie on one great circle and have no facets.`;
   if (seeing.length === 0) return `${name} sees no facet: it lies exactly on one before it, or on their bubbles.`;
   const words = `They make room: their outline has _${outline.length}_ sides, and as many new facets meet at the site.`;
   return `${name} sees ${several(seeing.length, "facet")}. ${words}`;
 }
 
-/** The first duplicate, if there is one. */
-export function ofDuplicates(sites: SphereSites): string {
-  const { duplicates } = sites.delaunay;
-  if (duplicates.length === 0) return "";
-  const first = `Site _${duplicates[0] + 1}_ lies exactly on site _${duplicates[1] + 1}_ and counts once.`;
-  const others = duplicates.length / 2 - 1;
-  return others > 0 ? `${first} There ${others === 1 ? "is" : "are"} ${several(others, "more such site")}.` : first;
+/** Nothing where there are no duplicates. */
+export function ofDuplicates({ delaunay }: SphereSites): string {
+  const same = delaunay.duplicates.length / 2;
+  const words = [
+    "site lies exactly on another and counts once.",
+    "sites lie exactly on others and count once.",
+  ] as const;
+  return same === 0 ? "" : several(same, ...words);
 }
 
 /** A site for those who do not see it: its number, its name, its place, how many neighbours it has. */
 export function ofSite(sites: SphereSites, site: number, name?: string): string {
   const words = [`Site ${site + 1}`, ...(name ? [name] : []), ...sites.words(site)];
-  return `${words.join(", ")}, ${sites.neighborCounts[site]} neighbours`;
+  return `${words.join(", ")}, ${sites.neighborCounts()[site]} neighbours`;
 }

@@ -1,16 +1,12 @@
 /** The state of the Sphere room but for its sites, and how a link tells it. */
 
-import { direction, fields, flag, number, place, whole, word, type Fields, type Place } from "../fields.ts";
+import { direction, fields, flag, number, place, view, whole, word, type Fields, type Place } from "../fields.ts";
 import { lonlatToXyz } from "../kernel/api.ts";
 import { directionOf, row, type Vector } from "../space.ts";
 import { fitted } from "../view/fit.ts";
-import type { Lens } from "../view/lens.ts";
+import type { Lens, Sight } from "../view/lens.ts";
+import { View } from "../view/view.ts";
 import { wrap } from "../words.ts";
-
-export const CLICKS = ["keep", "add", "remove"] as const;
-
-/** What a click does. */
-export type Click = (typeof CLICKS)[number];
 
 /** Decimals of a degree to which the hand moves sites and the pole: those of sites where nothing is magnified. */
 const HAND_DECIMALS = 3;
@@ -19,10 +15,8 @@ const HAND_DECIMALS = 3;
 export const MOST = 1e6;
 const FOCUS_DECIMALS = 12;
 
-export interface SphereState {
+export interface SphereState extends Sight {
   readonly pole: Place;
-  readonly view: Place;
-  readonly lens: Lens;
   /** Where the pointer was last, and whether the bubble there is kept. */
   readonly aim: Vector;
   readonly isPinned: boolean;
@@ -30,12 +24,13 @@ export interface SphereState {
   readonly step: number | null;
   /** The site that is held. */
   readonly held: number | null;
-  readonly click: Click;
+  /** What a click does. */
+  readonly click: "keep" | "add" | "remove";
 }
 
 export const BEGINNING: SphereState = {
   pole: [-150, 53.1],
-  view: [0, 0],
+  view: View.above(0, 0),
   lens: { focus: [1, 0, 0], magnification: 1 },
   aim: directionOf(-9.94, 3.49),
   isPinned: false,
@@ -48,13 +43,13 @@ export const BEGINNING: SphereState = {
 export function sphereFields(count: number): Fields<SphereState> {
   return fields<SphereState>({
     pole: place("pole-", HAND_DECIMALS),
-    view: place("view-"),
+    view: view("view-"),
     lens: fields<Lens>({ magnification: number("s", 1, MOST), focus: direction("focus-", FOCUS_DECIMALS) }),
     aim: direction("aim-"),
     isPinned: flag("pin"),
     step: whole("step", count),
     held: whole("held", count, 1),
-    click: word("click", CLICKS),
+    click: word("click", ["keep", "add", "remove"]),
   });
 }
 
@@ -62,9 +57,9 @@ export function sphereFields(count: number): Fields<SphereState> {
 const CLOSE = 6;
 
 /** How sites are seen that lie close together; nothing for others. */
-export function sightOf(lonlat: Float64Array): Pick<SphereState, "view" | "lens"> | null {
+export function sightOf(lonlat: Float64Array): Sight | null {
   const sight = lonlat.length > 2 ? fitted(lonlat, MOST, FOCUS_DECIMALS) : null;
-  return sight !== null && sight.lens.magnification > CLOSE ? { ...sight, view: sight.view.middle } : null;
+  return sight !== null && sight.lens.magnification > CLOSE ? sight : null;
 }
 
 /** The direction of a place, as the kernel and Python have it. */

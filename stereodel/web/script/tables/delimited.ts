@@ -23,8 +23,6 @@ export interface TextTable {
   readonly count: number;
   /** Whether a row names the columns. */
   readonly isHeaded: boolean;
-  /** Lines of the file on which rows begin, where it has any. */
-  readonly lines: readonly number[];
   /** What is wrong with rows, by their indices. */
   readonly wrong: Map<number, string>;
 }
@@ -36,21 +34,15 @@ export interface PlacedTable {
   readonly axes?: [string, string];
 }
 
-interface Row {
-  readonly cells: readonly string[];
-  readonly line: number;
-}
+type Row = readonly string[];
 
 /** @throws TableError where the text is no table; wrong rows are noted. */
 export function readTable(given: string): TextTable {
-  const comments = COMMENTS.exec(given)?.[0] ?? "";
-  const text = given.slice(comments.length);
+  const text = given.replace(COMMENTS, "");
   const separator = separatorOf(text);
-  const begin = comments.split(LINE_END).length;
-  const all = separator === null ? blankRows(text, begin) : markedRows(text, separator, begin);
-  const rows = [...all].filter(({ cells }) => cells.some((cell) => cell.trim() !== ""));
-  if (rows.length === 0)
-    throw new TableError("the table is empty: there is not even a line with the names of the columns");
+  const all = separator === null ? text.split(LINE_END).map(words) : [...markedRows(text, separator)];
+  const rows = all.filter((cells) => cells.some((cell) => cell.trim() !== ""));
+  if (rows.length === 0) throw new TableError("the table is empty");
   const { names, data } = headed(rows);
   const isHeaded = data.length < rows.length;
   const repeated = names.find((name, k) => name !== "" && names.indexOf(name) !== k);
@@ -58,15 +50,14 @@ export function readTable(given: string): TextTable {
   const columns = names.map((): string[] => []);
   const wrong = new Map<number, string>();
   const least = names.reduce((most, name, k) => (name === "" ? most : k + 1), 0);
-  data.forEach(({ cells }, row) => {
+  data.forEach((cells, row) => {
     const isWhole = cells.length >= least && cells.slice(names.length).every((cell) => cell === "");
-    const [fields, there] = [`${cells.length} field${cells.length === 1 ? "" : "s"}`, `${names.length} columns`];
-    if (!isWhole) wrong.set(row, `has ${fields}, but there are ${there}`);
+    if (!isWhole) wrong.set(row, `it has ${cells.length} in place of ${names.length} fields`);
     columns.forEach((column, k) => column.push(cells[k] ?? ""));
   });
   const named = names.map((name, k): [string, string[]] => [name || `column_${k + 1}`, columns[k]]);
   const shown = named.filter(([, cells], k) => names[k] !== "" || cells.some((cell) => cell !== ""));
-  return { columns: new Map(shown), count: data.length, isHeaded, lines: data.map(({ line }) => line), wrong };
+  return { columns: new Map(shown), count: data.length, isHeaded, wrong };
 }
 
 /** The mark that splits most of the first lines into one number of fields, the largest; null for blanks. */
@@ -76,35 +67,33 @@ function separatorOf(text: string): string | null {
   const all = SEPARATORS.map((mark) => ({ mark, widths: bare.map((line) => line.split(mark).length) }));
   const several = all.filter(({ widths }) => Math.max(0, ...widths) > 1);
   const even = several.filter(({ widths }) => new Set(widths).size === 1);
-  const blanks = [...new Set(lines.map((line) => line.trim().split(/\s+/).length))];
+  const blanks = [...new Set(lines.map((line) => words(line).length))];
   if (several.length === 0 || (even.length === 0 && blanks.length === 1 && blanks[0] > 1)) return null;
   const score = ({ widths }: (typeof all)[0]): number =>
     Math.max(...widths.map((n) => (n > 1 ? 1e6 * widths.filter((each) => each === n).length + n : 0)));
   return (even.length > 0 ? even : several).reduce((best, each) => (score(each) > score(best) ? each : best)).mark;
 }
 
-function* blankRows(text: string, begin: number): Generator<Row> {
-  for (const [k, line] of text.split(LINE_END).entries()) yield { cells: line.trim().split(/\s+/), line: begin + k };
-}
+const words = (line: string): Row => line.trim().split(/\s+/);
 
 /** Fields may stand in quotation marks, with those inside written twice, and then hold separators and ends of lines. */
-function* markedRows(text: string, mark: string, begin: number): Generator<Row> {
+function* markedRows(text: string, mark: string): Generator<Row> {
   const plain = `[^"\\${mark}\\r\\n][^\\${mark}\\r\\n]*`;
   const field = new RegExp(`(?:"([^"]*(?:""[^"]*)*)"|(${plain})?)(\\${mark}|\\r\\n|\\n|\\r|$)`, "y");
-  let [cells, line, next] = [[] as string[], begin, begin];
+  let cells: string[] = [];
   while (field.lastIndex < text.length) {
+    const begin = field.lastIndex;
     const found = field.exec(text);
-    if (found === null) {
-      const words = "a field begins with a quotation mark but does not end with one";
-      throw new TableError(`line ${line}: ${words}; inside such a field write it twice`);
-    }
-    if (found[1] !== undefined) next += found[1].split(LINE_END).length - 1;
+    if (found === null)
+      throw new TableError(
+        `in ${text.slice(begin, begin + 20)}… a quotation mark does not end a field; write it twice`,
+      );
     cells.push(found[1]?.replaceAll('""', '"') ?? found[2] ?? "");
     if (found[3] === mark) continue;
-    yield { cells, line };
-    [cells, line] = [[], ++next];
+    yield cells;
+    cells = [];
   }
-  if (cells.length > 0) yield { cells: [...cells, ""], line };
+  if (cells.length > 0) yield [...cells, ""];
 }
 
 /**
@@ -113,7 +102,7 @@ function* markedRows(text: string, mark: string, begin: number): Generator<Row> 
  * columns without names are longitude and latitude.
  */
 function headed(rows: readonly Row[]): { names: string[]; data: readonly Row[] } {
-  const top = rows.slice(0, TITLES).map(({ cells }) => cells.map((cell) => cell.trim()));
+  const top = rows.slice(0, TITLES).map((cells) => cells.map((cell) => cell.trim()));
   const filled = top.map((cells) => cells.filter((cell) => cell !== ""));
   const isNumber = (cell: string): boolean => NUMBER.test(cell);
   const worded = filled.findIndex((cells, k) => findLonLat(cells) !== null && (k === 0 || !cells.some(isNumber)));
@@ -126,24 +115,22 @@ function headed(rows: readonly Row[]): { names: string[]; data: readonly Row[] }
 }
 
 /** Places, names and columns as a table, with all digits of all numbers. */
-export function writeTable(axes: readonly [string, string], { places, names, values }: Columned): string {
+export function writeTable(
+  axes: readonly [string, string],
+  places: Float64Array,
+  names: readonly string[] | null = null,
+  values: ReadonlyMap<string, Column> = new Map(),
+): string {
   const cell = (value: number | string | null): string => {
     if (typeof value === "string") return /[",\r\n]/.test(value) ? `"${value.replaceAll('"', '""')}"` : value;
     return Object.is(value, -0) ? "-0.0" : Number.isFinite(value) ? String(value) : "";
   };
-  const columns: (readonly [string, Column])[] = [...(names ? [["name", names] as const] : []), ...(values ?? [])];
-  const head = [...axes, ...columns.map(([title]) => title)];
+  const columns = new Map([...(names ? [["name", names] as const] : []), ...values]);
+  const head = [...axes, ...columns.keys()];
   const rows = Array.from({ length: places.length / 2 }, (_, row) => {
-    return [places[2 * row], places[2 * row + 1], ...columns.map(([, column]) => column[row])];
+    return [places[2 * row], places[2 * row + 1], ...Array.from(columns.values(), (column) => column[row])];
   });
   return [head, ...rows].map((row) => `${row.map(cell).join()}\n`).join("");
-}
-
-/** A table to write. */
-interface Columned {
-  readonly places: Float64Array;
-  readonly names?: readonly string[] | null;
-  readonly values?: ReadonlyMap<string, Column>;
 }
 
 /** A table that cannot be read; the message begins with the row where there is one. */

@@ -18,7 +18,7 @@ export function geojsonPoints(text: string): PlacedTable {
   const properties = features.map((feature) => member(feature, "properties"));
   const names = new Set(properties.flatMap((each) => Object.keys(each ?? {})));
   const columns = new Map([...names].map((name) => [name, properties.map((each) => cell(member(each, name)))]));
-  return { places, table: { columns, count: features.length, isHeaded: true, lines: [], wrong } };
+  return { places, table: { columns, count: features.length, isHeaded: true, wrong } };
 }
 
 function cell(value: unknown): string {

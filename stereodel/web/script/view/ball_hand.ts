@@ -2,8 +2,9 @@
 
 import type { Disc } from "../drawing/pen.ts";
 import { Rotation } from "../kernel/api.ts";
+import { DEGREE } from "../space.ts";
 import { distance, isCommand, type Gestures, type Hold, type Place } from "./hand.ts";
-import { holding, magnified, type Sight } from "./lens.ts";
+import { magnified, type Sight } from "./lens.ts";
 import { Motion } from "./motion.ts";
 import { pointUnder, View } from "./view.ts";
 
@@ -41,20 +42,16 @@ export function lensGestures(ball: Magnifiable, motion: Motion): Required<Pick<G
       motion.stop();
       ball.see(magnified(ball.sight, point, factor, isNorthUp, ball.most));
     },
-    pinch: (middle, spread) => {
+    pinch: (middle, spread, turn) => {
       motion.stop();
       const { disc, sight: start, isNorthUp, most } = ball;
       const from = pointUnder(disc, middle);
-      let turnedBefore: number | null = null;
-      return {
-        move: (now, nowSpread, turn) => {
-          turnedBefore ??= turn;
-          const sight = magnified(start, from, nowSpread / spread, isNorthUp, most);
-          const to = pointUnder(disc, now);
-          let view = holding(sight.view, sight.view.onBall(from), to, isNorthUp);
-          if (!isNorthUp) view = view.turned(Rotation.about(to, ((turnedBefore - turn) * 180) / Math.PI));
-          ball.see({ ...sight, view });
-        },
+      return (now, nowSpread, nowTurn) => {
+        const sight = magnified(start, from, nowSpread / spread, isNorthUp, most);
+        const to = pointUnder(disc, now);
+        const view = sight.view.holding(sight.view.onBall(from), to, isNorthUp);
+        const by = (turn - nowTurn) / DEGREE;
+        ball.see({ ...sight, view: isNorthUp ? view : view.turned(Rotation.about(to, by)) });
       };
     },
   };
@@ -71,13 +68,12 @@ export function grabBall(ball: Turnable, motion: Motion, at: Place): Hold | null
   if (Math.hypot(at[0] - disc.x, at[1] - disc.y) > disc.r) return null;
   motion.stop();
   const start = ball.view;
-  const grabbed = pointUnder(disc, at);
-  const direction = start.onBall(grabbed);
+  const direction = start.onBall(pointUnder(disc, at));
   let last = at;
   const turnTo = (to: Place, reason: "hand" | "flight"): void => {
-    const point = pointUnder(disc, to);
     // Step by step, so that north up follows through the poles as it is the nearest view.
-    ball.turn(ball.isNorthUp ? ball.view.holding(direction, point) : start.dragged(grabbed, point), reason);
+    const { view, isNorthUp } = ball;
+    ball.turn((isNorthUp ? view : start).holding(direction, pointUnder(disc, to), isNorthUp), reason);
     last = to;
   };
   return {
@@ -97,13 +93,8 @@ export function arrowed(ball: Turnable, event: KeyboardEvent): View | null {
 
 /** Degrees east and north of an arrow key, or null for other keys. */
 export function arrowStep({ key, shiftKey }: KeyboardEvent): Place | null {
-  const step = shiftKey ? STEP.fine : STEP.wide;
-  return key in ARROWS ? [ARROWS[key][0] * step, ARROWS[key][1] * step] : null;
+  const at = ["ArrowLeft", "ArrowDown", "ArrowRight", "ArrowUp"].indexOf(key);
+  if (at < 0) return null;
+  const step = (at < 2 ? -1 : 1) * (shiftKey ? STEP.fine : STEP.wide);
+  return at % 2 === 0 ? [step, 0] : [0, step];
 }
-
-const ARROWS: Readonly<Record<string, Place>> = {
-  ArrowLeft: [-1, 0],
-  ArrowRight: [1, 0],
-  ArrowUp: [0, 1],
-  ArrowDown: [0, -1],
-};

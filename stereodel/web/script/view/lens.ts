@@ -1,7 +1,7 @@
 /** Conformal lenses over a view: the fisheye, magnified about a point, on its way to another one; bubble to bubble. */
 
 import { MoebiusMap, Rotation } from "../kernel/api.ts";
-import { angle, DEGREE, row, unit, type Vector } from "../space.ts";
+import { DEGREE, row, unit, type Vector } from "../space.ts";
 import { wrap } from "../words.ts";
 import { View } from "./view.ts";
 
@@ -67,38 +67,26 @@ export function magnified(sight: Sight, point: Vector, factor: number, isNorthUp
   }
   const source = sourceOf(sightMap(sight), point);
   const weaker = { focus: lens.focus, magnification: Math.max(1, lens.magnification * factor) };
-  return { lens: weaker, view: holding(view, imageOf(lensMap(weaker), source), point, isNorthUp) };
-}
-
-/** The view that has a direction of the ball at a point of the view, from the one before by the shortest way. */
-export function holding(view: View, direction: Vector, point: Vector, isNorthUp: boolean): View {
-  return isNorthUp ? view.holding(direction, point) : view.dragged(view.seen(direction), point);
+  return { lens: weaker, view: view.holding(imageOf(lensMap(weaker), source), point, isNorthUp) };
 }
 
 /** With another focus, while a direction of the Earth stays where it is seen. */
 export function focused(sight: Sight, focus: Vector, isNorthUp: boolean): Sight {
   const lens = { ...sight.lens, focus };
   const point = imageOf(sightMap(sight), focus);
-  return { lens, view: holding(sight.view, focus, point, isNorthUp) };
+  return { lens, view: sight.view.holding(focus, point, isNorthUp) };
 }
 
-/**
- * Part of the way from one sight to another: lenses along the geodesic of hyperbolic space, whose points they are, so
- * that the magnification goes down no more than is needed; views the short way.
- */
+/** Part of the way from one sight to another: logarithms of magnifications go straight, views the short way. */
 export function betweenSights(a: Sight, b: Sight, t: number, isNorthUp: boolean): Sight {
   return t === 1 ? b : { lens: betweenLenses(a.lens, b.lens, t), view: betweenViews(a.view, b.view, t, isNorthUp) };
 }
 
 function betweenLenses(a: Lens, b: Lens, t: number): Lens {
-  const [p, q] = [Math.log(a.magnification), Math.log(b.magnification)];
-  const chord = Math.sin((angle(a.focus, b.focus) * DEGREE) / 2);
-  const d = 2 * Math.asinh(Math.sqrt(Math.sinh((p - q) / 2) ** 2 + Math.sinh(p) * Math.sinh(q) * chord ** 2));
-  const share = (u: number): number => (d > 0 ? Math.sinh(u * d) / Math.sinh(d) : u);
-  const [before, after] = [share(1 - t) * Math.sinh(p), share(t) * Math.sinh(q)];
-  const vector = a.focus.map((value, k) => before * value + after * b.focus[k]) as unknown as Vector;
+  const [p, q] = [(1 - t) * Math.log(a.magnification), t * Math.log(b.magnification)];
+  const vector = a.focus.map((value, k) => p * value + q * b.focus[k]) as unknown as Vector;
   const size = Math.hypot(...vector);
-  return { focus: size === 0 ? b.focus : unit(vector), magnification: Math.exp(Math.asinh(size)) };
+  return { focus: size === 0 ? b.focus : unit(vector), magnification: Math.exp(size) };
 }
 
 function betweenViews(a: View, b: View, t: number, isNorthUp: boolean): View {

@@ -71,10 +71,11 @@ export class View {
   }
 
   /**
-   * The view with north up that has a held direction of the ball at a point of the view, or as near to it as there is one:
-   * a place at latitude β is never farther than cos β from the axis.
+   * The view that has a held direction of the ball at a point of the view, from this one by the shortest way; with north
+   * up as near to it as there is one: a place at latitude β is never farther than cos β from the axis.
    */
-  holding(direction: Vector, to: Vector): View {
+  holding(direction: Vector, to: Vector, isNorthUp = true): View {
+    if (!isNorthUp) return this.dragged(this.seen(direction), to);
     const [lon, lat] = lonLatOf(direction);
     const reach = Math.cos(lat * DEGREE);
     const sine = Math.max(-1, Math.min(1, to[0] / reach));
