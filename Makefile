@@ -20,7 +20,7 @@ BIN := $(VENV)/bin
 PYTEST = $(BIN)/python -m pytest -n $(JOBS) $(PYTEST_ARGS)
 BUILD := $(BIN)/python -m tools.build --scripts figures --out $(OUT) $(if $(STYLE),--style $(STYLE))
 
-.PHONY: help install system opengl browser librsvg inkscape figures poster animations test test-thorough test-large long-run mutations coverage \
+.PHONY: help install system opengl browser librsvg inkscape emulator figures poster animations test test-thorough test-large long-run mutations coverage \
 	test-source test-pythons test-lowest sanitize fuzz fuzz-files check \
 	lint web built stub bench peers dist dist-again source check-archives rehearse wheels cross baselines names readme-images web-images docs clean
 
@@ -50,6 +50,9 @@ browser: # what shows the interactive page to its tests
 
 librsvg: # what shows vector files to their tests
 	@tools/system_packages.sh librsvg
+
+emulator: # what runs wheels of another processor
+	@tools/system_packages.sh emulator
 
 inkscape: # what opens and changes them
 	@tools/system_packages.sh inkscape
@@ -142,7 +145,7 @@ source: $(VENV)/installed-wheels ## the source archive into dist/
 check-archives: $(VENV)/installed-wheels ## check the archives in dist/: their texts, and the interface of wheels for several Pythons
 	tools/check_archives.sh $(VENV)
 
-rehearse: $(VENV)/installed-wheels opengl ## a release as if it were published: bare roots, a local index and a local registry; ends with a table of what was tried
+rehearse: $(VENV)/installed-wheels opengl emulator ## a release as if it were published: bare roots, a local index and a local registry; ends with a table of what was tried
 	tools/rehearse.sh $(VENV)
 
 MACHINES := x86_64 aarch64

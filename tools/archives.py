@@ -4,7 +4,7 @@ The archive: every tracked file but stored pictures, without which its tests do.
 its compiled kernel, what was built for the interactive page, the licences and the bill of materials, which names each
 file of data by its checksum, and no source of either.
 
-    python tools/archives.py ARCHIVE WHEEL
+    python tools/archives.py ARCHIVE [WHEEL…]
 """
 
 from __future__ import annotations
@@ -60,15 +60,19 @@ def bill_problems(wheel: zipfile.ZipFile) -> list[str]:
     return [f"not as the bill of materials says: {name}" for name, _ in sorted(listed.items() ^ found.items())]
 
 
-def main(archive: str, wheel: str) -> None:
+def main(archive: str, *wheels: str) -> None:
     """Report; end with 1 where something is wrong."""
     listing = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, capture_output=True, text=True, check=True)
     tracked = {name for name in listing.stdout.split("\0") if name}
-    with tarfile.open(archive) as source, zipfile.ZipFile(wheel) as built:
+    with tarfile.open(archive) as source:
         members = {member.name.partition("/")[2] for member in source.getmembers() if member.isfile()}
-        packed = {member.filename for member in built.infolist() if not member.is_dir()}
-        found = archive_problems(members, tracked) + wheel_problems(packed, tracked) + bill_problems(built)
-    print(f"{len(members)} files in {archive}, {len(packed)} in {wheel}")
+    print(f"{len(members)} files in {archive}")
+    found = [f"{archive}: {problem}" for problem in archive_problems(members, tracked)]
+    for wheel in wheels:
+        with zipfile.ZipFile(wheel) as built:
+            packed = {member.filename for member in built.infolist() if not member.is_dir()}
+            found += [f"{wheel}: {problem}" for problem in wheel_problems(packed, tracked) + bill_problems(built)]
+        print(f"{len(packed)} files in {wheel}")
     sys.exit("\n".join(found) or 0)
 
 

@@ -9,7 +9,7 @@ use() { # VENV: its python, cmake, ninja, node and npm come first
 
 die() { echo "tools/${0##*/}: $*" >&2; exit 1; }
 
-quietly() { "$@" >"$build/log" 2>&1 || { cat "$build/log" >&2; exit 1; }; } # what it says, only if it fails
+quietly() { local said; said=$("$@" 2>&1) || { printf '%s\n' "$said" >&2; exit 1; }; } # what it says, only if it fails
 
 files_digest() { find "$@" -type f -print0 | LC_ALL=C sort -z | xargs -0 sha256sum | sha256sum; } # of files and folders
 

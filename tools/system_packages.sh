@@ -7,6 +7,7 @@
 #   browser   Chromium, for the tests and pictures of the interactive page
 #   librsvg   rsvg-convert, for the tests of SVG files
 #   inkscape  opens, changes and saves them in tests of the thorough tier (135 MB)
+#   emulator  of aarch64, and what unpacks a system for it, for `make rehearse`
 #   cgal      CGAL's headers, for the benchmarks; gmt for them, too
 set -euo pipefail
 
@@ -30,6 +31,9 @@ if sys.base_prefix == "/usr": print("python%d.%d-dev" % sys.version_info[:2])'; 
             command -v chromium chromium-browser google-chrome-stable google-chrome >/dev/null || echo chromium ;;
         librsvg) command -v rsvg-convert >/dev/null || echo librsvg2-bin ;;
         inkscape) command -v inkscape >/dev/null || echo inkscape ;;
+        emulator)
+            command -v qemu-aarch64-static qemu-aarch64 >/dev/null || echo qemu-user-static
+            command -v mmdebstrap >/dev/null || echo mmdebstrap ;;
         gmt) command -v gmt >/dev/null || echo gmt ;;
         cgal) [[ -f /usr/include/CGAL/version.h ]] || echo libcgal-dev ;;
         *) echo "tools/system_packages.sh: there is no $1" >&2; exit 2 ;;

@@ -45,9 +45,10 @@ megabytes=$(find "$site" -type f ! -name '*.pyc' ! -path '*/pip/*' ! -path '*/se
 ((megabytes <= 80)) || die "NumPy and stereodel take $megabytes MB; more than 80"
 echo "NumPy and stereodel alone: $megabytes MB"
 bare python -W error "$root/tools/try_kernel.py"
-bare python -W error - <<'PYTHON'
+cat >modules.py <<'PYTHON'
 import importlib
 import pkgutil
+import sys
 
 import stereodel
 from stereodel._extras import EXTRAS, MissingExtraError, installing
@@ -59,9 +60,12 @@ for name in names:
         importlib.import_module(name)
     except MissingExtraError as error:
         advice.append(str(error).partition("': ")[2])
-assert set(advice) <= set(map(installing, EXTRAS)), advice
-print(f"{len(names) - len(advice)} modules work on NumPy alone, {len(advice)} name an extra")
+    except ModuleNotFoundError as error:
+        sys.exit(f"{name} imports {error.name}, which is neither a dependency nor in an extra that the message names")
+assert set(advice) <= set(map(installing, sys.argv[1:] or EXTRAS)), advice
+print(f"{len(names) - len(advice)} modules work on what is installed, {len(advice)} name an extra")
 PYTHON
+bare python -W error modules.py
 [[ $(advice cli) == 'pip install "typer>='*'" "rich>='*'"' ]] || die "$(advice cli): not for an environment without a checkout"
 bare stereodel --version
 bare stereodel --help >said
@@ -86,6 +90,7 @@ refused stereodel doctor
 expect said "$(advice render)"
 
 install 'stereodel[all]'
+bare python modules.py vtk
 bare stereodel doctor >said || cat said # the machine may have no OpenGL
 if grep ' lacks ' said | grep -v '^  vtk '; then exit 1; fi
 # The scripts without the package beside them: it is the wheel's that they import.

@@ -20,6 +20,7 @@ said=()
 
 rm -rf dist "$build/source" "$build/raw"
 archive=$(tools/source_archive.sh "$venv" dist)
+python tools/archives.py "$archive" # before minutes of compiling
 mkdir -p "$build/source"
 tar -xzmf "$archive" -C "$build/source" --strip-components=1 # with times of today: what is compiled is never older
 
@@ -68,8 +69,8 @@ echo "Checking" >&2
 quietly tools/check_archives.sh "$venv"
 for wheel in dist/*.whl; do
     [[ $wheel == *-manylinux* ]] || die "$wheel is not for manylinux"
-    python tools/archives.py "$archive" "$wheel"
 done
+python tools/archives.py "$archive" dist/*.whl
 
 if [[ " ${machines[*]} " == *" $(uname -m) "* ]]; then
     tried=0
@@ -90,11 +91,7 @@ if [[ " ${machines[*]} " == *" $(uname -m) "* ]]; then
     done
     if ((tried < 2)); then said+=("the wheel of Python 3.12 was tried on fewer than two"); fi
 fi
-if [[ " ${machines[*]} " == *" aarch64 "* && $(uname -m) != aarch64 ]]; then
-    if [[ -n ${AARCH64_ROOT:-} ]]; then
-        tools/emulated.sh "$AARCH64_ROOT" dist/*-cp312-abi3-*aarch64.whl
-    else
-        said+=("aarch64: compiled and checked, not run; AARCH64_ROOT may name a root folder with its Python (tools/emulated.sh)")
-    fi
-fi
+for machine in "${machines[@]}"; do
+    [[ $machine == "$(uname -m)" ]] || said+=("$machine: compiled and checked, not run; tools/emulated.sh tries such a wheel")
+done
 if [[ ${#said[@]} -gt 0 ]]; then printf '%s\n' "${said[@]}"; fi
