@@ -154,6 +154,7 @@ class Run(Results):
         Values are those in memory, bitwise. One case is apart: at a target exactly on an edge or at a point, linear
         values are those of one of the triangles there, in memory the one of lowest index, here perhaps another. On
         an edge the two differ by rounding alone, at a point not at all, but one may be NaN where a value is missing.
+        Natural values on an edge begin their sum at one of these triangles: the last digits may differ.
 
         Beside the targets, `scratch` takes 8 bytes a point and column.
 
