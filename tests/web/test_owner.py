@@ -18,6 +18,7 @@ from stereodel.earth import AUTHALIC_RADIUS_KM, MEAN_RADIUS_KM
 from stereodel.globe import Globe as Picture
 from stereodel.web import web
 from stereodel.web.looks import Looks
+from tests.tiers import by_day
 
 from .rooms import barriers, downloaded, link, opened, said, table
 from .test_globe_room import Globe
@@ -153,10 +154,9 @@ def test_files_and_a_print_of_one_sheet_have_title_legend_and_source_and_no_hand
     assert (sheet[140:190, -235:-50].std(axis=2) > 20).mean() > 0.04  # the bar of the legend, on the right
 
 
-@pytest.mark.parametrize("size", [(900, 500), pytest.param((360, 640), marks=pytest.mark.thorough)])
-def test_a_frame_has_the_drawing_alone(towns, visit, tmp_path, size):
+@pytest.mark.parametrize(("width", "height"), by_day([(900, 500), (640, 480), (360, 640)], (640, 480)))
+def test_a_frame_has_the_drawing_alone(towns, visit, tmp_path, width, height):
     host = tmp_path / "host.html"
-    width, height = size
     host.write_text(f'<iframe src="{towns.as_uri()}?frame" width="{width}" height="{height}"></iframe>')
     outer = visit(host)
     frame = outer.page.frames[1]
@@ -170,7 +170,7 @@ def test_a_frame_has_the_drawing_alone(towns, visit, tmp_path, size):
         assert box["y"] >= frame_box["y"]
         assert box["y"] + box["height"] <= frame_box["y"] + height + 3
         assert box["x"] + box["width"] <= frame_box["x"] + width + 3
-    assert box["height"] > 0.5 * min(size)
+    assert box["height"] > 0.65 * min(width, height)
     for x, y in np.random.default_rng(2).uniform(0.2, 0.8, (400, 2)):
         outer.page.mouse.move(box["x"] + x * box["width"], box["y"] + y * box["height"])
         if title := frame.get_attribute("#globe-plate", "title"):
