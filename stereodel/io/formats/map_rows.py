@@ -166,12 +166,11 @@ class Frame(Content):
 
     def columns(self) -> dict[str, Column]:
         """The columns that are not geometries, and the index if that is more than row numbers."""
-        every = getattr(self.frame, "columns", ())
-        check_different(map(str, every))
-        names = [name for name in every if self.frame[name].dtype != "geometry"]
-        columns = {str(name): self.frame[name] for name in names}
-        all_columns = beside(columns, index_columns(self.frame)) | columns
-        return {name: of_objects(values.to_numpy()) for name, values in all_columns.items()}
+        names = getattr(self.frame, "columns", ())
+        check_different(map(str, names))
+        columns = {str(name): self.frame[name] for name in names if self.frame[name].dtype != "geometry"}
+        every = beside(columns, index_columns(self.frame)) | columns
+        return {name: of_objects(values.to_numpy()) for name, values in every.items()}
 
     def places(self, *, skip_missing: bool) -> tuple[Column, Column] | None:
         """Both coordinates in degrees of rows that are points, NaN where one is missing."""
