@@ -78,7 +78,7 @@ test-thorough: $(VENV)/installed-test system inkscape ## the same for more cases
 test-large: $(VENV)/installed-test ## the tests that take minutes or gigabytes
 	$(BIN)/python -m pytest -m large -o faulthandler_timeout=3600 $(PYTEST_ARGS)
 
-long-run: $(VENV)/installed-test system inkscape ## two to three hours of what shows only after long: kills, damaged files, random bytes, millions of points, mistakes, memory, long films
+long-run: $(VENV)/installed-test system inkscape ## an hour and a half of what shows only after long: kills, damaged files, random bytes, millions of points, mistakes, memory, long films
 	tools/long_run.sh $(VENV)
 
 mutations: $(VENV)/installed-test system ## change the library at one place after another: the tests named for each must fail

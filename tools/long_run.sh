@@ -14,7 +14,7 @@ part() { # NAME COMMAND…
     shift
     echo "$name" >&2
     "$@" >"$build/$name.log" 2>&1 || { how=FAILED && tail -n 30 "$build/$name.log" >&2; }
-    printf '%-12s %-6s %5d s   %s\n' "$name" "$how" $((SECONDS - begun)) "$(grep -E '[0-9]+ (passed|failed|mistakes|files)|units|runs$' "$build/$name.log" | tail -n 1)" >>"$build/said"
+    printf '%-12s %-6s %5d s   %s\n' "$name" "$how" $((SECONDS - begun)) "$(grep -E '[0-9]+ (passed|failed|mutations|changed files)|units|runs$' "$build/$name.log" | tail -n 1)" >>"$build/said"
 }
 tests() { python -m pytest -q -o faulthandler_timeout=7200 "$@"; }
 {

@@ -272,6 +272,12 @@ class _OpenGL:
             from OpenGL import GL
 
             self._gl = GL
+            if platform == "osmesa":
+                from OpenGL.raw.osmesa import _types
+
+                # PyOpenGL makes a new handle of the context each time, equal to no other, and keeps what is bound to
+                # the context by its handle, so all of it for ever: 5 kB per picture. Pyrender would keep its programs.
+                _types.OSMesaContext.__eq__ = lambda one, other: one.address == other.address
             try:
                 device = str(_software_device()) if platform == "egl" else "0"
                 with _environment(EGL_DEVICE_ID=device):
@@ -328,15 +334,6 @@ def mend_offscreen(offscreen: Any, opengl: Any) -> None:
     # OSMesa has framebuffer objects, which multisampling needs, though pyrender denies it.
     offscreen._platform.supports_framebuffers = lambda: True
     renderer = offscreen._renderer
-    make, programs = renderer._program_cache.get_program, {}
-
-    def program(**names: Any) -> Any:
-        # PyOpenGL returns a different handle for OSMesa's context each time, and pyrender, which caches programs by
-        # that handle, compiles them for each picture and keeps them all: 0.9 MB of memory per picture.
-        key = repr(names)
-        if key not in programs:
-            programs[key] = make(**names)
-        return programs[key]
 
     def colors(scene: Any, flags: int) -> tuple[Pixels, None]:
         # pyrender would also read the depths and turn them into lengths, which takes longer than drawing.
@@ -349,7 +346,6 @@ def mend_offscreen(offscreen: Any, opengl: Any) -> None:
         data = opengl.glReadPixels(*box, opengl.GL_RGB, opengl.GL_UNSIGNED_BYTE)
         return np.frombuffer(data, dtype=np.uint8).reshape(height, width, 3)[::-1], None
 
-    renderer._program_cache.get_program = program
     renderer._read_main_framebuffer = colors
     # pyrender draws meshes in the order of a set, and transparent ones by the positions of their nodes.
     renderer._sorted_mesh_nodes = lambda scene: sorted(scene.mesh_nodes, key=lambda node: node.name or "")

@@ -124,13 +124,16 @@ def test_describe_tells_of_what_dies_while_it_draws(monkeypatch):
     assert describe().problem.endswith("gives an OpenGL context but cannot draw (RuntimeError: no shader)")
 
 
-def test_shaders_are_compiled_once(monkeypatch):
+def test_shaders_are_compiled_once_and_nothing_else_is_kept_of_a_picture(monkeypatch):
     shape = triangles([[[0, 0], [3, 0], [0, 3]]], [[0, 0, 1, 1]], [0])
     draw(shape, 4, 4)
+    from OpenGL.contextdata import storedPointers
     from OpenGL.GL import shaders
 
+    kept = len(storedPointers)
     monkeypatch.setattr(shaders, "compileShader", lambda *source: pytest.fail("a shader is compiled again"))
     draw(shape, 5, 5)
+    assert len(storedPointers) == kept
 
 
 EARLIER = ".*imported OpenGL with OSMesaPlatform and cannot change to egl.*"
