@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Usage: tools/long_run.sh VENV
-# Hours of what shows only after long, in two rows on two cores: partitions whose processes are killed at random, damaged
+# What shows only after long, in two rows on two cores: partitions whose processes are killed at random, damaged
 # files, all sets that were made to go wrong with a million points, random bytes for the kernel; beside them ten thousand
 # pictures of each kind in one process, a film of 24 000 frames, every mistake of tests/mutations. It goes on after a
 # failure, and ends with what was done in which time, and with 1 if anything failed.
@@ -14,7 +14,7 @@ part() { # NAME COMMAND…
     shift
     echo "$name" >&2
     "$@" >"$build/$name.log" 2>&1 || { how=FAILED && tail -n 30 "$build/$name.log" >&2; }
-    printf '%-12s %-6s %5d s   %s\n' "$name" "$how" $((SECONDS - begun)) "$(grep -E '[0-9]+ (passed|failed|mutations|changed files)|units|runs$' "$build/$name.log" | tail -n 1)" >>"$build/said"
+    printf '%-12s %-6s %5d s   %s\n' "$name" "$how" $((SECONDS - begun)) "$(tail -n 1 "$build/$name.log")" >>"$build/said"
 }
 tests() { python -m pytest -q -o faulthandler_timeout=7200 "$@"; }
 {

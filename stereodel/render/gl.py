@@ -272,12 +272,6 @@ class _OpenGL:
             from OpenGL import GL
 
             self._gl = GL
-            if platform == "osmesa":
-                from OpenGL.raw.osmesa import _types
-
-                # PyOpenGL makes a new handle of the context each time, equal to no other, and keeps what is bound to
-                # the context by its handle, so all of it for ever: 5 kB per picture. Pyrender would keep its programs.
-                _types.OSMesaContext.__eq__ = lambda one, other: one.address == other.address
             try:
                 device = str(_software_device()) if platform == "egl" else "0"
                 with _environment(EGL_DEVICE_ID=device):
@@ -334,6 +328,11 @@ def mend_offscreen(offscreen: Any, opengl: Any) -> None:
     # OSMesa has framebuffer objects, which multisampling needs, though pyrender denies it.
     offscreen._platform.supports_framebuffers = lambda: True
     renderer = offscreen._renderer
+    from OpenGL.raw.osmesa import _types
+
+    # PyOpenGL makes a new handle of OSMesa's context each time, equal to no other, and keeps what is bound to a context
+    # by its handle: 5 kB per picture, for ever. By that handle pyrender caches programs, which it would compile anew.
+    _types.OSMesaContext.__eq__ = lambda one, other: one.address == other.address
 
     def colors(scene: Any, flags: int) -> tuple[Pixels, None]:
         # pyrender would also read the depths and turn them into lengths, which takes longer than drawing.
